@@ -1,0 +1,33 @@
+// The command `edmill run` for one scalar: build, simulate, write, print.
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "edmill/casefile/case_spec.hpp"
+
+namespace edmill::app {
+
+/// Exit codes of the program; docs/usage.md explains them.
+enum ExitCode : int {
+  ok = 0,
+  internal_error = 1,
+  bad_input = 2,
+  inelastic_collapse = 3,
+  undecided = 4,
+};
+
+struct RunOptions {
+  std::string folder;  ///< of the outputs
+  bool quiet = false;
+  const std::atomic<bool>* interrupt = nullptr;
+};
+
+/// @return an exit code; `ok` for an interrupted run too, whose signal the caller knows
+template <class Real>
+int run_case(const casefile::CaseSpec& spec, const RunOptions& options);
+
+/// The case in SI with its derived numbers, for `edmill check`.
+std::string describe_case(const casefile::CaseSpec& spec);
+
+}  // namespace edmill::app

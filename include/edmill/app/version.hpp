@@ -1,0 +1,12 @@
+// What this build is.
+#pragma once
+
+#include <string>
+
+namespace edmill::app {
+
+std::string version();   ///< "0.1.0"
+std::string commit();    ///< short commit, "-dirty" when files were changed, "unknown" outside a checkout
+std::string compiler();  ///< "GNU 12.2.0, Release"
+
+}  // namespace edmill::app

@@ -1,0 +1,51 @@
+// Quantities with units, read exactly: "4.76 mm" is the rational 476/100000 m, "15 deg" is pi/12.
+#pragma once
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace edmill::casefile {
+
+enum class Dimension { none, length, mass, time, angle, energy, speed, angular_speed, acceleration, density };
+
+/// "a length (mm, cm, m, in, ft, ...)", for messages.
+std::string describe(Dimension dimension);
+
+/// An exact SI value: `value` times pi^`pi_power`.
+struct Quantity {
+  boost::multiprecision::cpp_rational value{0};
+  int pi_power = 0;
+
+  bool positive() const { return value > 0; }
+  bool negative() const { return value < 0; }
+  bool zero() const { return value == 0; }
+
+  /// Nearest scalar; no value passes through double on its way to a wider one.
+  template <class Real>
+  Real to() const;
+
+  /// Canonical text, "119/25000" or "1/12*pi", for digests.
+  std::string text() const;
+};
+
+/// What is wrong with a text that is not a quantity.
+struct QuantityProblem {
+  std::string found;  ///< "\"4.76 mn\": unknown unit 'mn'"
+};
+
+using QuantityResult = std::variant<Quantity, QuantityProblem>;
+
+/// Number and unit, e.g. "1054 rpm", "8 g/cm^3", "-9.8 m/s²". A unit is needed unless the dimension is
+/// `none`.
+QuantityResult parse_quantity(std::string_view text, Dimension dimension);
+
+/// The same where a plain number is taken as SI.
+QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension);
+
+/// Exact value of a decimal number; nothing for anything else, nan and inf included.
+std::optional<boost::multiprecision::cpp_rational> parse_decimal(std::string_view text);
+
+}  // namespace edmill::casefile

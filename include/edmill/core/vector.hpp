@@ -1,0 +1,37 @@
+// Three-vectors with a fixed order of operations, so that sums have the same bits in every build.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace edmill {
+
+template <class Real>
+using Vec3 = Eigen::Matrix<Real, 3, 1>;
+
+template <class Real>
+inline Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class Real>
+inline Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+template <class Real>
+inline Real squared_norm(const Vec3<Real>& a) {
+  return dot(a, a);
+}
+
+template <class Real>
+inline Real norm(const Vec3<Real>& a) {
+  using std::sqrt;
+  return sqrt(dot(a, a));
+}
+
+template <class To, class From>
+inline Vec3<To> vector_cast(const Vec3<From>& a) {
+  return {static_cast<To>(a[0]), static_cast<To>(a[1]), static_cast<To>(a[2])};
+}
+
+}  // namespace edmill

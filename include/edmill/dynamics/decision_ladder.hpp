@@ -1,0 +1,98 @@
+// Escalation: what one scalar cannot decide, the next wider one does, for the state as stored.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "edmill/dynamics/pair_search.hpp"
+#include "edmill/dynamics/wall_search.hpp"
+
+namespace edmill::dynamics {
+
+/// Decisions that were passed up to one wider scalar.
+struct Escalations {
+  std::string scalar;
+  std::uint64_t wall = 0;
+  std::uint64_t pair = 0;
+  std::uint64_t order = 0;  ///< which of two contacts of one ball comes first
+};
+
+/// A predicted contact with what it was predicted from, so that a wider scalar can time it anew.
+template <class Real>
+struct Contact {
+  bool with_wall;
+  Flight<Real> flight;   ///< of the ball; for a pair the one of the two flights that started later
+  Flight<Real> partner;  ///< of a pair
+  Real radius;           ///< of the ball, or the sum of both radii
+  Instant<Real> time;    ///< as predicted
+};
+
+/// The searches of one mill in one scalar, with the rung above them.
+template <class Real>
+class DecisionLadder {
+ public:
+  /// @param smallest_sum  least sum of two radii in the case [m]
+  /// @param top_speed     no ball is faster [m/s]; `raise_top_speed` mends it
+  DecisionLadder(const model::Mill<Real>& mill, const Real& smallest_sum, const Real& top_speed);
+  ~DecisionLadder();
+  DecisionLadder(DecisionLadder&&) noexcept;
+
+  /// Certified answer for a wall query; `first` is the sample at its begin.
+  /// @throws UndecidedError when the widest scalar cannot decide; its text reproduces the state
+  WallAnswer<Real> wall(const GapFunctions<Real>& functions, const GapSample<Real>& first,
+                        const WallQuery<Real>& query) {
+    const auto answer = walls_.search(functions, first, query);
+    return answer.verdict == Verdict::undecided ? wall_above(query) : answer;
+  }
+  WallAnswer<Real> wall(const WallQuery<Real>& query) {
+    const auto answer = walls_(query);
+    return answer.verdict == Verdict::undecided ? wall_above(query) : answer;
+  }
+
+  /// Certified answer for two balls from `now` on; see PairSearch.
+  /// @throws UndecidedError as above
+  PairAnswer<Real> pair(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
+                        const Real& radius_sum) {
+    return pair(pairs_.seen(i, now), i, j, now, radius_sum);
+  }
+  PairAnswer<Real> pair(const typename PairSearch<Real>::Seen& seen, const Flight<Real>& i,
+                        const Flight<Real>& j, const Instant<Real>& now, const Real& radius_sum) {
+    const auto answer = pairs_(seen, j, now, radius_sum);
+    return answer.verdict == Verdict::undecided ? pair_above(i, j, now, radius_sum) : answer;
+  }
+
+  /// Which of two contacts that share a ball comes first: negative `a`, positive `b`, zero when no rung of
+  /// the ladder can tell them apart.
+  int order(const Contact<Real>& a, const Contact<Real>& b);
+
+  /// Times closer than this [s] are handed to `order`.
+  Real time_resolution() const { return 16 * epsilon<Real>() * pairs_.clock().period(); }
+
+  void raise_top_speed(const Real& speed);
+
+  const WallSearch<Real>& walls() const { return walls_; }
+  const PairSearch<Real>& pairs() const { return pairs_; }
+
+  /// One entry for each wider scalar, narrowest first.
+  std::vector<Escalations> escalations() const;
+
+ private:
+  WallAnswer<Real> wall_above(const WallQuery<Real>& query);
+  PairAnswer<Real> pair_above(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
+                              const Real& radius_sum);
+  Instant<Real> contact_time(const Contact<Real>& contact);
+
+  struct Above;  // the next rung
+  Above& above();
+
+  model::Mill<Real> mill_;
+  Real smallest_sum_;
+  WallSearch<Real> walls_;
+  PairSearch<Real> pairs_;
+  Escalations passed_up_;
+  std::unique_ptr<Above> above_;
+};
+
+}  // namespace edmill::dynamics

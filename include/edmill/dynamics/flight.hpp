@@ -1,0 +1,50 @@
+// Free flight of a ball between impacts. (2.1)
+#pragma once
+
+#include "edmill/core/instant.hpp"
+#include "edmill/core/scalar.hpp"
+#include "edmill/core/vector.hpp"
+
+namespace edmill::dynamics {
+
+/// A ball's path from `start` on; its spin does not change in flight.
+template <class Real>
+struct Flight {
+  Vec3<Real> position;  ///< at `start` [m]
+  Vec3<Real> velocity;  ///< at `start` [m/s]
+  Instant<Real> start;
+};
+
+template <class Real>
+inline Vec3<Real> position_after(const Flight<Real>& f, const Vec3<Real>& gravity, const Real& dt) {
+  const Real half = dt / 2;
+  return {f.position[0] + dt * (f.velocity[0] + half * gravity[0]),
+          f.position[1] + dt * (f.velocity[1] + half * gravity[1]),
+          f.position[2] + dt * (f.velocity[2] + half * gravity[2])};
+}
+
+template <class Real>
+inline Vec3<Real> velocity_after(const Flight<Real>& f, const Vec3<Real>& gravity, const Real& dt) {
+  return {f.velocity[0] + dt * gravity[0], f.velocity[1] + dt * gravity[1], f.velocity[2] + dt * gravity[2]};
+}
+
+template <class Real>
+inline void fly_to(Flight<Real>& f, const Vec3<Real>& gravity, const DriveClock<Real>& clock,
+                   const Instant<Real>& when) {
+  const Real dt = clock.elapsed(f.start, when);
+  f.position = position_after(f, gravity, dt);
+  f.velocity = velocity_after(f, gravity, dt);
+  f.start = when;
+}
+
+template <class To, class From>
+inline Instant<To> instant_cast(const Instant<From>& t) {
+  return {t.period, static_cast<To>(t.offset)};
+}
+
+template <class To, class From>
+inline Flight<To> flight_cast(const Flight<From>& f) {
+  return {vector_cast<To>(f.position), vector_cast<To>(f.velocity), instant_cast<To>(f.start)};
+}
+
+}  // namespace edmill::dynamics

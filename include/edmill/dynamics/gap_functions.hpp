@@ -1,0 +1,114 @@
+// The gaps of a flying ball to the walls of the moving vessel, their rates, and how well a scalar knows them.
+// Equations: (2.17'), (2.19'), (2.21'), (2.22') of docs/theory.md.
+#pragma once
+
+#include <array>
+
+#include "edmill/dynamics/flight.hpp"
+#include "edmill/model/case.hpp"
+
+namespace edmill::dynamics {
+
+/// Gaps at one time. For the caps the gap is a length [m]; for the cylinder it is q = (R_v-R)^2 - x^2 - z^2
+/// [m^2], smooth on the axis, with the sign of the gap.
+template <class Real>
+struct GapSample {
+  Real offset;  ///< [s] from the start of the window's drive period
+  std::array<Real, model::wall_count> gap;
+  std::array<Real, model::wall_count> rate;
+};
+
+/// Bounds on the rounding errors of a sample.
+template <class Real>
+struct GapErrors {
+  std::array<Real, model::wall_count> gap;
+  std::array<Real, model::wall_count> rate;
+};
+
+/// The gap functions of one flight, over offsets of one drive period.
+template <class Real>
+class GapFunctions {
+ public:
+  /// Constants of a mill, shared by all flights.
+  struct Constants {
+    explicit Constants(const model::Mill<Real>& m)
+        : mill(m),
+          clock(m.motion.period),
+          angular_speed(m.motion.angular_speed()),
+          frequency(1 / m.motion.period) {
+      using std::sqrt;
+      const Real& R = m.vessel.radius;
+      const Real& h = m.vessel.half_height;
+      reach = m.motion.arm + sqrt(R * R + h * h);
+      gravity = norm<Real>(m.gravity);
+      amplitudes = m.motion.theta_max + m.motion.gamma_max;
+    }
+    model::Mill<Real> mill;
+    DriveClock<Real> clock;
+    Real angular_speed, frequency;
+    Real reach;       ///< largest distance of a ball from the fulcrum [m]
+    Real gravity;     ///< [m/s^2]
+    Real amplitudes;  ///< theta_max + gamma_max [rad]
+  };
+
+  /// @param period  offsets count from the start of this drive period
+  GapFunctions(const Constants& constants, const Flight<Real>& flight, const Real& radius,
+               std::int64_t period)
+      : c_(constants),
+        flight_(flight),
+        cap_(constants.mill.vessel.half_height - radius),
+        cylinder_(constants.mill.vessel.radius - radius),
+        lag_(period == flight.start.period
+                 ? Real(0)
+                 : Real(Real(period - flight.start.period) * constants.clock.period())) {}
+
+  /// Time since the start of the flight [s].
+  Real elapsed(const Real& offset) const { return lag_ + (offset - flight_.start.offset); }
+
+  Real cap() const { return cap_; }
+  Real cylinder() const { return cylinder_; }
+
+  GapSample<Real> operator()(const Real& offset) const {
+    const Real dt = elapsed(offset);
+    const auto pose = model::pose_at<Real>(c_.mill.motion, c_.angular_speed, c_.frequency, offset);
+    return sample(offset, model::to_vessel_frame<Real>(pose, c_.mill.motion.arm,
+                                                       position_after(flight_, c_.mill.gravity, dt),
+                                                       velocity_after(flight_, c_.mill.gravity, dt)));
+  }
+
+  /// The sample that a state in the vessel frame gives.
+  GapSample<Real> sample(const Real& offset, const model::VesselFrameState<Real>& state) const {
+    const auto& p = state.position;
+    const auto& u = state.velocity;
+    return {offset,
+            {cap_ + p[1], cap_ - p[1], cylinder_ * cylinder_ - (p[0] * p[0] + p[2] * p[2])},
+            {u[1], -u[1], -2 * (p[0] * u[0] + p[2] * u[2])}};
+  }
+
+  /// Rounding bounds for every sample up to `elapsed` [s] after the start of the flight with inertial speeds
+  /// up to `speed` [m/s]. The constants are counted in docs/theory.md, section 4; a test compares them with
+  /// measured errors.
+  GapErrors<Real> errors(const Real& elapsed, const Real& speed) const {
+    const Real u = epsilon<Real>() / 2;
+    const Real angle = 10 + 16 * c_.amplitudes;  // ulps of 1 that the pose and the products leave
+    const Real time = elapsed + 3 * (lag_ < 0 ? Real(-lag_) : lag_);
+    const Real position = 6 * c_.reach + 4 * (c_.gravity * elapsed * elapsed) + speed * time;
+    const Real turning = c_.amplitudes * c_.angular_speed;
+    const Real y = u * (angle * c_.reach + 2 * position);
+    const Real y_rate = u * ((angle + 4) * speed + 28 * turning * c_.reach + 2 * turning * position +
+                             4 * c_.gravity * elapsed);
+    const Real frame_speed = speed + turning * c_.reach;
+    const Real& R = c_.mill.vessel.radius;
+    const Real q = 3 * R * y + 4 * u * R * R;
+    const Real q_rate = 3 * R * y_rate + 3 * frame_speed * y + 6 * u * R * frame_speed;
+    return {{y, y, q}, {y_rate, y_rate, q_rate}};
+  }
+
+ private:
+  const Constants& c_;
+  Flight<Real> flight_;
+  Real cap_, cylinder_;
+  Real lag_;
+};
+
+}  // namespace edmill::dynamics

@@ -1,0 +1,125 @@
+// First contact of two balls in free flight, as a certified decision. Equation (3.1) of the thesis.
+#pragma once
+
+#include "edmill/dynamics/flight.hpp"
+#include "edmill/dynamics/wall_search.hpp"
+
+namespace edmill::dynamics {
+
+template <class Real>
+struct PairAnswer {
+  Verdict verdict = Verdict::none;
+  Real delay{0};  ///< of a contact: time from now [s], >= 0
+};
+
+/// Both balls fall alike, so their relative motion is a straight line and the time is closed:
+/// with r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2:  dt = c / (-b + sqrt(b^2 - v.v c)). (3.1)
+/// Balls that overlap by rounding collide at once if they approach and never if they part.
+template <class Real>
+class PairSearch {
+ public:
+  /// @param smallest_sum  least sum of two radii [m]
+  /// @param reach         largest distance of a ball from the origin [m]
+  /// @param top_speed     no ball is faster [m/s]; see `raise_top_speed`
+  PairSearch(const model::Mill<Real>& mill, const Real& smallest_sum, const Real& reach,
+             const Real& top_speed)
+      : gravity_(mill.gravity), clock_(mill.motion.period), smallest_sum_(smallest_sum), reach_(reach) {
+    gravity_size_ = norm<Real>(gravity_);
+    raise_top_speed(top_speed);
+  }
+
+  const Real& top_speed() const { return top_speed_; }
+  const DriveClock<Real>& clock() const { return clock_; }
+
+  void raise_top_speed(const Real& top_speed) {
+    const Real u = epsilon<Real>() / 2;
+    top_speed_ = top_speed;
+    position_error_ = u * (24 * reach_ + 16 * top_speed_ * clock_.period());
+    relative_ = 4096 * (8 * position_error_ / smallest_sum_ + 16 * u);
+    const Real slowest = 64 * u * (top_speed_ + gravity_size_ * clock_.period()) / relative_;
+    slowest_squared_ = slowest * slowest;
+    touching_ = 16 * position_error_ * smallest_sum_;
+  }
+
+  /// A ball's flight seen from one instant, for questions about many partners.
+  struct Seen {
+    Vec3<Real> position;  ///< now [m]
+    Vec3<Real> velocity;  ///< at the start of the flight [m/s]
+    Real age;             ///< time since the start of the flight [s]
+  };
+
+  Seen seen(const Flight<Real>& flight, const Instant<Real>& now) const {
+    const Real age = clock_.elapsed(flight.start, now);
+    return {position_after(flight, gravity_, age), flight.velocity, age};
+  }
+
+  /// First contact from `now` on; both flights started before or at `now`.
+  PairAnswer<Real> operator()(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
+                              const Real& radius_sum) const {
+    return (*this)(seen(i, now), j, now, radius_sum);
+  }
+
+  PairAnswer<Real> operator()(const Seen& i, const Flight<Real>& j, const Instant<Real>& now,
+                              const Real& radius_sum) const {
+    const Real age = clock_.elapsed(j.start, now);
+    const Vec3<Real> r = i.position - position_after(j, gravity_, age);
+    const Real dt = i.age - age;  // balls that started together keep their relative velocity exactly
+    const Vec3<Real> v{(i.velocity[0] - j.velocity[0]) + gravity_[0] * dt,
+                       (i.velocity[1] - j.velocity[1]) + gravity_[1] * dt,
+                       (i.velocity[2] - j.velocity[2]) + gravity_[2] * dt};
+    const Real b = dot<Real>(r, v);
+    const Real r2 = dot<Real>(r, r);
+    const Real c = r2 - radius_sum * radius_sum;
+    const Real v2 = dot<Real>(v, v);
+    // The filter: decides nearly all pairs with bounds that hold for the whole run.
+    if (v2 > slowest_squared_ && c > touching_) {
+      if (b >= 0) return {};
+      const Real discriminant = b * b - v2 * c;
+      const Real doubt = relative_ * (v2 * r2);
+      if (discriminant < -doubt) return {};
+      using std::sqrt;
+      if (discriminant > doubt) return {Verdict::contact, c / (sqrt(discriminant) - b)};
+    }
+    return close(b, c, v2, r2, dt, i.age > age ? i.age : age, radius_sum);
+  }
+
+ private:
+  /// The same decision with bounds made for this pair: touching, grazing or slow ones.
+  PairAnswer<Real> close(const Real& b, const Real& c, const Real& v2, const Real& r2, const Real& dt,
+                         const Real& age, const Real& radius_sum) const {
+    using std::sqrt;
+    const Real u = epsilon<Real>() / 2;
+    if (v2 == 0 && (dt == 0 || gravity_size_ == 0)) return {};  // at rest to each other, exactly
+    const Real speed = sqrt(v2), distance = sqrt(r2);
+    const Real position_error =
+        position_error_ + u * (16 * gravity_size_ * age * age + 16 * top_speed_ * age);
+    const Real velocity_error =
+        4 * u * speed + (dt == 0 ? Real(0) : Real(12 * u * gravity_size_ * (age + clock_.period())));
+    const Real c_error = 4 * distance * position_error + 8 * u * (r2 + radius_sum * radius_sum);
+    const Real b_error =
+        2 * speed * position_error + 2 * distance * velocity_error + 8 * u * speed * distance;
+    if (b > b_error) return {};  // parting, overlapped or not
+    if (c < -c_error) {
+      if (b < -b_error) return {Verdict::contact, Real(0)};
+      return {Verdict::undecided};
+    }
+    const Real discriminant = b * b - v2 * c;
+    const Real absolute_b = b < 0 ? Real(-b) : b, absolute_c = c < 0 ? Real(-c) : c;
+    const Real doubt = 3 * absolute_b * b_error + b_error * b_error + 2 * v2 * c_error +
+                       4 * speed * velocity_error * (absolute_c + c_error) +
+                       8 * u * (b * b + v2 * absolute_c);
+    if (discriminant < -doubt) return {};
+    if (discriminant > doubt && b < -b_error) {
+      if (c <= 0) return {Verdict::contact, Real(0)};
+      return {Verdict::contact, c / (sqrt(discriminant) - b)};
+    }
+    return {Verdict::undecided};
+  }
+
+  Vec3<Real> gravity_;
+  DriveClock<Real> clock_;
+  Real smallest_sum_, reach_;
+  Real gravity_size_{}, top_speed_{}, position_error_{}, relative_{}, slowest_squared_{}, touching_{};
+};
+
+}  // namespace edmill::dynamics

@@ -1,0 +1,87 @@
+// First contact of a ball in free flight with the walls of the moving vessel, as a certified decision.
+#pragma once
+
+#include <limits>
+//
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include "edmill/dynamics/gap_functions.hpp"
+#include "edmill/dynamics/motion_bounds.hpp"
+#include "edmill/numerics/hermite.hpp"
+
+namespace edmill::dynamics {
+
+enum class Verdict { none, contact, undecided };
+
+/// The answer of a search over (begin, begin + length].
+template <class Real>
+struct WallAnswer {
+  Verdict verdict = Verdict::none;
+  int wall = -1;         ///< of a contact
+  Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
+  bool tie = false;      ///< two walls at one time at the top of the ladder; the lower id was taken
+};
+
+/// One search: a ball's flight and the window that is asked about.
+template <class Real>
+struct WallQuery {
+  Flight<Real> flight;
+  Real radius;          ///< [m]
+  Instant<Real> begin;  ///< not before the flight's start
+  Real length;          ///< [s], at most WallSearch::longest_window()
+};
+
+/// Decides for a flight as stored: the first time in the window at which a gap is zero or negative and
+/// falling. A ball that starts within rounding of a wall and leaves it is not in contact until it returns;
+/// one that starts overlapped by rounding and approaches is in contact at once. Equations: theory.md
+/// (2.17')-(2.22'); source: Barahona 2011, (2.17)-(2.22), corrected.
+template <class Real>
+class WallSearch {
+ public:
+  explicit WallSearch(const model::Mill<Real>& mill) : constants_(mill), bounds_(mill) {}
+
+  const Real& longest_window() const { return bounds_.longest_window(); }
+
+  /// @pre the ball is inside the vessel at `begin`, up to rounding
+  WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
+    const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+    return search(functions, functions(query.begin.offset), query);
+  }
+
+  /// The same with the sample at `begin` that the caller has already.
+  WallAnswer<Real> search(const GapFunctions<Real>& functions, const GapSample<Real>& first,
+                          const WallQuery<Real>& query) const;
+
+  const typename GapFunctions<Real>::Constants& constants() const { return constants_; }
+
+ private:
+  using Functions = GapFunctions<Real>;
+  using Point = numerics::Point<Real>;
+  using Bounds = numerics::CurveBounds<Real>;
+
+  /// One wall's gap along the flight.
+  struct Curve {
+    const Functions& functions;
+    int wall;
+    Bounds bounds;
+    Point at(const Real& t) const { return of(functions(t)); }
+    Point of(const GapSample<Real>& s) const { return {s.offset, s.gap[wall], s.rate[wall]}; }
+  };
+  /// A root is in [left, right]; left == right when it is at once.
+  struct Bracket {
+    Verdict verdict;
+    Point left{}, right{};
+  };
+
+  Bracket isolate(const Curve& curve, Point left, const Point& right) const;
+  Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
+  Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
+  Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;
+  Real polish(const Curve& curve, Point left, Point right) const;
+  Real resolution() const { return 4 * epsilon<Real>() * constants_.clock.period(); }
+
+  typename Functions::Constants constants_;
+  BoundsTable<Real> bounds_;
+};
+
+}  // namespace edmill::dynamics

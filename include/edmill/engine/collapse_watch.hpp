@@ -1,0 +1,82 @@
+// Recognises inelastic collapse: infinitely many impacts of a ball in finite time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "edmill/core/instant.hpp"
+
+namespace edmill::engine {
+
+/// Where a run could not go on: the exact model has a Zeno point here. (docs/theory.md, section 6)
+template <class Real>
+struct InelasticCollapse {
+  int ball = -1;
+  bool with_wall = false;
+  int partner = -1;
+  Real accumulation_time{};  ///< when the impacts accumulate [s]
+};
+
+/// Follows each ball's recent impacts. A ball whose last `enough` impacts each came after a path shorter than
+/// `smallest_path`, a length well above rounding, is in collapse. The accumulation time extrapolates the
+/// first of these impacts, where rounding matters least: intervals with one partner shrink by the restitution
+/// e, so the rest of them sums to dt e / (1 - e).
+template <class Real>
+class CollapseWatch {
+ public:
+  CollapseWatch(int balls, const Real& smallest_path)
+      : smallest_path_(smallest_path),
+        records_(balls, Record{Instant<Real>::long_ago(), -1, 0, 0, false, Real(0)}) {}
+
+  /// Of the ball's latest impact of any kind.
+  const Instant<Real>& last_impact(int ball) const { return records_[ball].last; }
+
+  /// Time since the ball's latest impact [s]; `now` is the time of the next one.
+  Real since_last(int ball, const Instant<Real>& now, const DriveClock<Real>& clock) const {
+    return clock.elapsed(records_[ball].last, now);
+  }
+
+  /// Takes note of an impact. @param key identifies the partner, @return true when the ball is in collapse
+  bool note(int ball, int key, const Instant<Real>& now, const Real& approach_speed, const Real& restitution,
+            const DriveClock<Real>& clock) {
+    Record& r = records_[ball];
+    const Real interval = clock.elapsed(r.last, now);
+    if (interval * approach_speed < smallest_path_) {
+      if (r.burst == 0) {
+        r.extrapolated = r.partner == key && restitution < 1;
+        if (r.extrapolated) r.accumulation = clock.seconds(now) + interval * restitution / (1 - restitution);
+      }
+      if (r.partner != key) r.extrapolated = false;
+      ++r.burst;
+    } else {
+      r.burst = 0;
+    }
+    r.stuck = interval > 0 ? 0 : r.stuck + 1;
+    r.last = now;
+    r.partner = key;
+    return r.burst >= enough;
+  }
+
+  /// Impacts of the ball without any time between them.
+  bool stuck(int ball) const { return records_[ball].stuck >= 1000; }
+
+  Real accumulation_time(int ball, const DriveClock<Real>& clock) const {
+    const Record& r = records_[ball];
+    return r.extrapolated ? r.accumulation : clock.seconds(r.last);
+  }
+
+ private:
+  static constexpr int enough = 8;
+  struct Record {
+    Instant<Real> last;
+    int partner;
+    int burst;
+    int stuck;
+    bool extrapolated;
+    Real accumulation;
+  };
+  Real smallest_path_;
+  std::vector<Record> records_;
+};
+
+}  // namespace edmill::engine

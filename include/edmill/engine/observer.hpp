@@ -1,0 +1,37 @@
+// What an observer of a run is told.
+#pragma once
+
+#include <cstdint>
+
+#include "edmill/core/instant.hpp"
+#include "edmill/dynamics/impulse.hpp"
+
+namespace edmill::engine {
+
+template <class Real>
+class Simulation;
+
+/// One impact, as observers see it just after it happened.
+template <class Real>
+struct Impact {
+  std::uint64_t index;  ///< counts from 0 since the start of the run
+  Instant<Real> time;
+  int ball;
+  bool with_wall;
+  int partner;  ///< ball or wall id
+  dynamics::ImpactOutcome<Real> outcome;
+  bool collapsing;    ///< within t_c of a previous impact of either ball
+  Real overlap;       ///< how deep the bodies overlap by rounding at the impact [m]; negative for a gap
+  Vec3<Real> normal;  ///< unit, from the partner to the ball
+  Vec3<Real> velocity_before[2];  ///< of the ball and, for balls, the partner [m/s]
+  Vec3<Real> spin_before[2];      ///< [rad/s]
+};
+
+template <class Real>
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void on_impact(const Impact<Real>& impact, Simulation<Real>& simulation) = 0;
+};
+
+}  // namespace edmill::engine

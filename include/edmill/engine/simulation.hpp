@@ -1,0 +1,151 @@
+// The event-driven simulation: next event, propagate, collide, tell, predict.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "edmill/dynamics/decision_ladder.hpp"
+#include "edmill/engine/cell_grid.hpp"
+#include "edmill/engine/collapse_watch.hpp"
+#include "edmill/engine/event_queue.hpp"
+#include "edmill/engine/observer.hpp"
+#include "edmill/model/case.hpp"
+
+namespace edmill::engine {
+
+/// Why a run ended.
+enum class EndReason {
+  end_time,
+  max_collisions,
+  max_milling_dose,
+  max_ball_speed,
+  inelastic_collapse,
+  interrupted,
+};
+
+/// Mechanical energy of all balls [J].
+template <class Real>
+struct Energy {
+  Real kinetic{0};    ///< translation and spin
+  Real potential{0};  ///< -m g.r
+};
+
+/// What the engine counts about itself.
+template <class Real>
+struct EngineCounts {
+  std::uint64_t impacts = 0;
+  std::uint64_t stale_events = 0;
+  std::uint64_t cell_crossings = 0;
+  std::uint64_t wall_searches = 0;
+  std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could tell apart
+  Real deepest_overlap{0};                  ///< by rounding, at any impact [m]
+};
+
+/// A run of one case. Balls are advanced only when they collide; every predicted contact is certified.
+template <class Real>
+class Simulation {
+ public:
+  /// @param states  of the case's balls, in order, at `start`
+  /// @pre no two balls overlap and all are inside the vessel, up to rounding
+  Simulation(const model::Case<Real>& the_case, const std::vector<model::BallState<Real>>& states,
+             const Instant<Real>& start);
+
+  /// Observers are told of every impact, in the order of attachment; they must outlive the run.
+  void attach(Observer<Real>& observer) { observers_.push_back(&observer); }
+
+  /// Processes every event up to `end`, inclusive; returns early when an observer asks for it, on collapse,
+  /// or when `interrupt` becomes true. Can be called again with a later end.
+  EndReason run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt = nullptr);
+
+  /// Asks the loop to return after the present impact.
+  void request_stop(EndReason reason) { stop_ = reason; }
+
+  const Instant<Real>& now() const { return now_; }
+  Real seconds() const { return clock_.seconds(now_); }
+  const DriveClock<Real>& clock() const { return clock_; }
+  int ball_count() const { return static_cast<int>(flights_.size()); }
+  const model::Mill<Real>& mill() const { return mill_; }
+  const model::BallProperties<Real>& ball(int i) const { return balls_[i]; }
+  const dynamics::Flight<Real>& flight(int i) const { return flights_[i]; }
+  const Vec3<Real>& spin(int i) const { return spins_[i]; }
+  model::BallState<Real> state_at(int i, const Instant<Real>& when) const;
+  Energy<Real> energy_at(const Instant<Real>& when) const;
+  const EngineCounts<Real>& counts() const { return counts_; }
+  std::vector<dynamics::Escalations> escalations() const { return ladder_.escalations(); }
+  const std::optional<InelasticCollapse<Real>>& collapse() const { return collapse_; }
+
+ private:
+  /// A predicted contact with another ball; void once the partner's impact count has moved on.
+  struct Candidate {
+    Instant<Real> time;
+    int partner = -1;
+    std::uint32_t partner_impacts = 0;
+  };
+  /// What a ball expects. Its pair contacts are those that it predicted itself, nearest first; for a pair
+  /// that both predicted, the later prediction is the valid one.
+  struct Agenda {
+    static constexpr int capacity = 4;
+    std::array<Candidate, capacity> pairs;
+    int pair_count = 0;
+    bool pairs_dropped = false;  ///< later contacts than the ones kept were forgotten
+    int wall = -1;               ///< a wall id, or -1 when `wall_time` only ends what has been searched
+    Instant<Real> wall_time;
+    Crossing<Real> crossing;
+    Instant<Real> crossing_time = Instant<Real>::never();
+    std::uint32_t impacts = 0;
+  };
+  enum class EventKind { wall_contact, pair_contact, cell_crossing, wall_recheck };
+  struct Event {
+    EventKind kind;
+    Instant<Real> time;
+    int ball;
+    int partner;
+  };
+
+  Event next_of(int ball) const;
+  void requeue(int ball) { queue_.set(ball, next_of(ball).time); }
+  bool is_contact(const Event& e) const {
+    return e.kind == EventKind::wall_contact || e.kind == EventKind::pair_contact;
+  }
+
+  void process(const Event& event);
+  void drop_stale(int ball);
+  void cross_cell(int ball);
+  void collide_with_wall(int ball, int wall);
+  void collide_pair(int ball, int partner);
+  void after_impact(Impact<Real>& impact);
+  void note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall, int partner);
+  Event settle_ties(Event event);
+  dynamics::Contact<Real> contact_of(const Event& event) const;
+
+  void predict_pairs(int ball, int already_done);
+  void predict_pair(int ball, int other, const typename dynamics::PairSearch<Real>::Seen& seen);
+  void predict_crossing(int ball);
+  void predict_wall(int ball, const model::VesselPose<Real>& pose);
+  void continue_wall_search(int ball);
+  Real search_length(int ball, const Instant<Real>& begin) const;
+  void take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer, const Instant<Real>& begin,
+                        const Real& length);
+  void predict_all(int ball, int already_done, const model::VesselPose<Real>& pose);
+
+  model::Mill<Real> mill_;
+  DriveClock<Real> clock_;
+  std::vector<model::BallProperties<Real>> balls_;
+  std::vector<dynamics::Flight<Real>> flights_;
+  std::vector<Vec3<Real>> spins_;
+  std::vector<Agenda> agendas_;
+  dynamics::DecisionLadder<Real> ladder_;
+  CellGrid<Real> grid_;
+  EventQueue<Real> queue_;
+  CollapseWatch<Real> collapse_watch_;
+  std::vector<Observer<Real>*> observers_;
+  EngineCounts<Real> counts_;
+  std::optional<InelasticCollapse<Real>> collapse_;
+  std::optional<EndReason> stop_;
+  Instant<Real> now_;
+  Real top_speed_;
+};
+
+}  // namespace edmill::engine

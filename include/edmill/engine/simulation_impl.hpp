@@ -1,0 +1,455 @@
+// Implementation of Simulation; included by the instantiation files only.
+#pragma once
+
+#include <algorithm>
+
+#include "edmill/core/errors.hpp"
+#include "edmill/engine/simulation.hpp"
+
+namespace edmill::engine {
+
+namespace detail {
+
+template <class Real>
+Real largest_speed(const std::vector<model::BallState<Real>>& states, const model::Mill<Real>& mill) {
+  Real largest{1};
+  for (const auto& s : states) {
+    const Real speed = norm<Real>(s.velocity);
+    if (speed > largest) largest = speed;
+  }
+  const Real wall = (mill.motion.theta_max + mill.motion.gamma_max) * mill.motion.angular_speed() *
+                    (mill.motion.arm + mill.vessel.radius + mill.vessel.half_height);
+  return 2 * (largest + wall);
+}
+
+template <class Real>
+Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
+  Real smallest = balls.front().radius;
+  for (const auto& b : balls) smallest = b.radius < smallest ? b.radius : smallest;
+  return smallest;
+}
+
+/// The region that the vessel sweeps, cut into cells that hold about one ball but are thicker than the
+/// largest.
+template <class Real>
+CellGrid<Real> make_grid(const model::Mill<Real>& mill,
+                         const std::vector<model::BallProperties<Real>>& balls) {
+  using std::sqrt;
+  const Real &R = mill.vessel.radius, &h = mill.vessel.half_height;
+  const Real reach = sqrt(R * R + h * h);
+  const Real swing = mill.motion.theta_max < 1 ? mill.motion.theta_max : Real(1);
+  const Real tilt = mill.motion.gamma_max < 1 ? mill.motion.gamma_max : Real(1);
+  const Real sideways = mill.motion.arm * swing + reach;
+  const Real upright = R + h * tilt;
+  const Real nearest = mill.motion.arm * (1 - swing * swing) - (R + (h + R * tilt) * swing);
+  const Vec3<Real> low{-sideways, nearest, Real(-upright)},
+      high{sideways, Real(mill.motion.arm + R + (h + R * tilt) * swing), upright};
+  Real largest{0};
+  for (const auto& b : balls) largest = b.radius > largest ? b.radius : largest;
+  const double volume = static_cast<double>(R * R * h) * 6.28;
+  Real edge = 2 * largest * (1 + Real(1) / 1024);
+  // Fewer than a few dozen balls are looked at faster than cells are crossed.
+  if (balls.size() <= 32) edge = 4 * sideways;
+  const Real per_ball(volume / static_cast<double>(balls.size()));
+  while (edge * edge * edge < per_ball) edge *= Real(5) / 4;
+  return CellGrid<Real>(low, high, edge, static_cast<int>(balls.size()));
+}
+
+}  // namespace detail
+
+template <class Real>
+Simulation<Real>::Simulation(const model::Case<Real>& the_case,
+                             const std::vector<model::BallState<Real>>& states, const Instant<Real>& start)
+    : mill_(the_case.mill),
+      clock_(the_case.mill.motion.period),
+      balls_(the_case.balls),
+      agendas_(states.size()),
+      ladder_(the_case.mill, 2 * detail::smallest_radius(the_case.balls),
+              detail::largest_speed(states, the_case.mill)),
+      grid_(detail::make_grid(the_case.mill, the_case.balls)),
+      queue_(static_cast<int>(states.size())),
+      collapse_watch_(static_cast<int>(states.size()),
+                      Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach),
+      now_(start),
+      top_speed_(detail::largest_speed(states, the_case.mill)) {
+  EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
+  for (const auto& s : states) {
+    flights_.push_back({s.position, s.velocity, start});
+    spins_.push_back(s.spin);
+  }
+  for (int i = 0; i < ball_count(); ++i) grid_.insert(i, flights_[i].position);
+  const auto pose = model::pose_at<Real>(mill_.motion, start.offset);
+  for (int i = 0; i < ball_count(); ++i) {
+    // Pairs with later balls only: one prediction of a pair is enough.
+    const auto seen = ladder_.pairs().seen(flights_[i], now_);
+    grid_.visit_neighbours(i, [&](int other) {
+      if (other > i) predict_pair(i, other, seen);
+    });
+    predict_crossing(i);
+    predict_wall(i, pose);
+    requeue(i);
+  }
+}
+
+template <class Real>
+EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt) {
+  stop_.reset();
+  while (queue_.time(queue_.top()) <= end) {
+    if (interrupt && interrupt->load(std::memory_order_relaxed)) return EndReason::interrupted;
+    const Event event = next_of(queue_.top());
+    now_ = event.time;
+    process(event);
+    if (stop_) return *stop_;
+  }
+  now_ = end;
+  return EndReason::end_time;
+}
+
+/// The earliest entry of a ball's agenda; at equal times a wall comes before a ball, contacts before the
+/// rest.
+template <class Real>
+auto Simulation<Real>::next_of(int ball) const -> Event {
+  const Agenda& a = agendas_[ball];
+  Event next{a.wall >= 0 ? EventKind::wall_contact : EventKind::wall_recheck, a.wall_time, ball, a.wall};
+  if (a.pair_count > 0) {
+    const Candidate& c = a.pairs[0];
+    if (c.time < next.time || (c.time == next.time && a.wall < 0))
+      next = {EventKind::pair_contact, c.time, ball, c.partner};
+  }
+  if (a.crossing_time < next.time) next = {EventKind::cell_crossing, a.crossing_time, ball, -1};
+  return next;
+}
+
+template <class Real>
+void Simulation<Real>::process(const Event& event) {
+  switch (event.kind) {
+    case EventKind::pair_contact: {
+      const Candidate& c = agendas_[event.ball].pairs[0];
+      if (agendas_[c.partner].impacts != c.partner_impacts) return drop_stale(event.ball);
+      break;
+    }
+    case EventKind::cell_crossing:
+      return cross_cell(event.ball);
+    case EventKind::wall_recheck:
+      return continue_wall_search(event.ball);
+    case EventKind::wall_contact:
+      break;
+  }
+  const Event first = settle_ties(event);
+  if (first.kind == EventKind::wall_contact)
+    collide_with_wall(first.ball, first.partner);
+  else
+    collide_pair(first.ball, first.partner);
+}
+
+/// The nearest pair contact is void: the partner has collided since. The next one takes its place.
+template <class Real>
+void Simulation<Real>::drop_stale(int ball) {
+  ++counts_.stale_events;
+  Agenda& a = agendas_[ball];
+  for (int k = 1; k < a.pair_count; ++k) a.pairs[k - 1] = a.pairs[k];
+  --a.pair_count;
+  if (a.pair_count == 0 && a.pairs_dropped) predict_pairs(ball, -1);
+  requeue(ball);
+}
+
+template <class Real>
+void Simulation<Real>::cross_cell(int ball) {
+  ++counts_.cell_crossings;
+  const Crossing<Real> crossing = agendas_[ball].crossing;
+  grid_.move(ball, crossing.axis, crossing.step);
+  const auto seen = ladder_.pairs().seen(flights_[ball], now_);
+  grid_.visit_new_neighbours(ball, crossing.axis, crossing.step,
+                             [&](int other) { predict_pair(ball, other, seen); });
+  predict_crossing(ball);
+  requeue(ball);
+}
+
+template <class Real>
+void Simulation<Real>::collide_with_wall(int ball, int wall) {
+  auto& flight = flights_[ball];
+  dynamics::fly_to(flight, mill_.gravity, clock_, now_);
+  const auto& constants = ladder_.walls().constants();
+  const auto pose =
+      model::pose_at<Real>(mill_.motion, constants.angular_speed, constants.frequency, now_.offset);
+  const auto local = model::to_vessel_frame<Real>(pose, mill_.motion.arm, flight.position, flight.velocity);
+  const Real radius = balls_[ball].radius;
+
+  Impact<Real> impact{};
+  Vec3<Real>& normal = impact.normal;
+  if (wall == 2) {
+    using std::sqrt;
+    const Real &x = local.position[0], &z = local.position[2];
+    const Real rho = sqrt(x * x + z * z);
+    normal = model::vessel_axis_x(pose) * (-x / rho) + model::vessel_axis_z(pose) * (-z / rho);
+    impact.overlap = rho - (mill_.vessel.radius - radius);
+  } else {
+    const Real side(wall == 0 ? 1 : -1);
+    normal = model::vessel_axis_y(pose) * side;
+    impact.overlap = -side * local.position[1] - (mill_.vessel.half_height - radius);
+  }
+  const Vec3<Real> contact_point = flight.position - normal * radius;
+  const Vec3<Real> wall_velocity = model::wall_velocity<Real>(pose, mill_.motion.arm, contact_point);
+  impact.collapsing = collapse_watch_.since_last(ball, now_, clock_) < mill_.ball_wall.collapse_time;
+  impact.velocity_before[0] = flight.velocity;
+  impact.spin_before[0] = spins_[ball];
+  impact.outcome = dynamics::collide_with_wall<Real>(normal, balls_[ball], wall_velocity, flight.velocity,
+                                                     spins_[ball], mill_.ball_wall, impact.collapsing);
+  impact.ball = ball;
+  impact.with_wall = true;
+  impact.partner = wall;
+  ++agendas_[ball].impacts;
+  after_impact(impact);
+  if (stop_ == EndReason::inelastic_collapse) return;
+  predict_all(ball, -1, pose);
+}
+
+template <class Real>
+void Simulation<Real>::collide_pair(int ball, int partner) {
+  auto &one = flights_[ball], &two = flights_[partner];
+  dynamics::fly_to(one, mill_.gravity, clock_, now_);
+  dynamics::fly_to(two, mill_.gravity, clock_, now_);
+  const Vec3<Real> between = one.position - two.position;
+  const Real distance = norm<Real>(between);
+
+  Impact<Real> impact{};
+  impact.normal = between * (1 / distance);
+  impact.overlap = balls_[ball].radius + balls_[partner].radius - distance;
+  const Real& t_c = mill_.ball_ball.collapse_time;
+  impact.collapsing = collapse_watch_.since_last(ball, now_, clock_) < t_c ||
+                      collapse_watch_.since_last(partner, now_, clock_) < t_c;
+  impact.velocity_before[0] = one.velocity;
+  impact.velocity_before[1] = two.velocity;
+  impact.spin_before[0] = spins_[ball];
+  impact.spin_before[1] = spins_[partner];
+  impact.outcome =
+      dynamics::collide_balls<Real>(impact.normal, balls_[ball], balls_[partner], one.velocity, spins_[ball],
+                                    two.velocity, spins_[partner], mill_.ball_ball, impact.collapsing);
+  impact.ball = ball;
+  impact.with_wall = false;
+  impact.partner = partner;
+  ++agendas_[ball].impacts;
+  ++agendas_[partner].impacts;
+  after_impact(impact);
+  if (stop_ == EndReason::inelastic_collapse) return;
+  const auto& constants = ladder_.walls().constants();
+  const auto pose =
+      model::pose_at<Real>(mill_.motion, constants.angular_speed, constants.frequency, now_.offset);
+  predict_all(ball, -1, pose);
+  predict_all(partner, ball, pose);
+}
+
+template <class Real>
+void Simulation<Real>::after_impact(Impact<Real>& impact) {
+  impact.index = counts_.impacts++;
+  impact.time = now_;
+  if (impact.overlap > counts_.deepest_overlap) counts_.deepest_overlap = impact.overlap;
+  const Real limit = top_speed_ * top_speed_;
+  for (int body = 0; body < (impact.with_wall ? 1 : 2); ++body) {
+    const Real speed_squared =
+        squared_norm<Real>(flights_[body == 0 ? impact.ball : impact.partner].velocity);
+    if (speed_squared > limit) {
+      using std::sqrt;
+      top_speed_ = 2 * sqrt(speed_squared);
+      ladder_.raise_top_speed(top_speed_);
+    }
+  }
+  if (impact.with_wall) {
+    note_collapse(impact, impact.ball, ball_count() + impact.partner, true, impact.partner);
+  } else {
+    note_collapse(impact, impact.ball, impact.partner, false, impact.partner);
+    note_collapse(impact, impact.partner, impact.ball, false, impact.ball);
+  }
+  for (auto* observer : observers_) observer->on_impact(impact, *this);
+}
+
+template <class Real>
+void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall,
+                                     int partner) {
+  const auto& law = with_wall ? mill_.ball_wall : mill_.ball_ball;
+  const bool collapsing = collapse_watch_.note(ball, key, now_, impact.outcome.approach_speed,
+                                               impact.outcome.restitution.normal, clock_);
+  // With t_c the rule itself ends the cascade; only impacts without any time between them cannot go on.
+  if ((collapsing && !(law.collapse_time > 0)) || collapse_watch_.stuck(ball)) {
+    collapse_ =
+        InelasticCollapse<Real>{ball, with_wall, partner, collapse_watch_.accumulation_time(ball, clock_)};
+    stop_ = EndReason::inelastic_collapse;
+  }
+}
+
+/// Contacts of one ball at times within rounding of each other are put in order by wider scalars; a true tie
+/// keeps the order of the queue and is counted.
+template <class Real>
+auto Simulation<Real>::settle_ties(Event event) -> Event {
+  const auto close = [&](const Instant<Real>& t) {
+    return clock_.elapsed(event.time, t) <= ladder_.time_resolution();
+  };
+  const auto shares_ball = [&](const Event& other) {
+    const auto involves = [&](int ball) {
+      return other.ball == ball || (other.kind == EventKind::pair_contact && other.partner == ball);
+    };
+    return involves(event.ball) || (event.kind == EventKind::pair_contact && involves(event.partner));
+  };
+  const auto settle = [&](const Event& other) {
+    const bool same =
+        other.kind == event.kind && ((other.ball == event.ball && other.partner == event.partner) ||
+                                     (other.kind == EventKind::pair_contact && other.ball == event.partner &&
+                                      other.partner == event.ball));
+    if (same || !is_contact(other) || !shares_ball(other)) return;
+    const int order = ladder_.order(contact_of(event), contact_of(other));
+    if (order == 0) ++counts_.simultaneous_contacts;
+    if (order > 0) {
+      event = other;
+      now_ = other.time;
+    }
+  };
+  // The ball's own next contact besides this one.
+  const Agenda& a = agendas_[event.ball];
+  if (event.kind == EventKind::pair_contact && a.wall >= 0 && close(a.wall_time))
+    settle({EventKind::wall_contact, a.wall_time, event.ball, a.wall});
+  const int other_pair = event.kind == EventKind::pair_contact ? 1 : 0;
+  if (a.pair_count > other_pair && close(a.pairs[other_pair].time)) {
+    const Candidate& c = a.pairs[other_pair];
+    if (agendas_[c.partner].impacts == c.partner_impacts)
+      settle({EventKind::pair_contact, c.time, event.ball, c.partner});
+  }
+  const int rival = queue_.runner_up();
+  if (rival >= 0 && close(queue_.time(rival))) {
+    const Event other = next_of(rival);
+    const bool valid = other.kind != EventKind::pair_contact ||
+                       agendas_[other.partner].impacts == agendas_[rival].pairs[0].partner_impacts;
+    if (valid) settle(other);
+  }
+  return event;
+}
+
+template <class Real>
+dynamics::Contact<Real> Simulation<Real>::contact_of(const Event& event) const {
+  const auto& flight = flights_[event.ball];
+  if (event.kind == EventKind::wall_contact)
+    return {true, flight, flight, balls_[event.ball].radius, event.time};
+  const auto& partner = flights_[event.partner];
+  const Real sum = balls_[event.ball].radius + balls_[event.partner].radius;
+  if (flight.start < partner.start) return {false, partner, flight, sum, event.time};
+  return {false, flight, partner, sum, event.time};
+}
+
+template <class Real>
+void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose) {
+  predict_pairs(ball, already_done);
+  predict_crossing(ball);
+  predict_wall(ball, pose);
+  requeue(ball);
+}
+
+template <class Real>
+void Simulation<Real>::predict_pairs(int ball, int already_done) {
+  Agenda& a = agendas_[ball];
+  a.pair_count = 0;
+  a.pairs_dropped = false;
+  const auto seen = ladder_.pairs().seen(flights_[ball], now_);
+  grid_.visit_neighbours(ball, [&](int other) {
+    if (other != ball && other != already_done) predict_pair(ball, other, seen);
+  });
+}
+
+template <class Real>
+void Simulation<Real>::predict_pair(int ball, int other,
+                                    const typename dynamics::PairSearch<Real>::Seen& seen) {
+  const Real sum = balls_[ball].radius + balls_[other].radius;
+  const auto answer = ladder_.pair(seen, flights_[ball], flights_[other], now_, sum);
+  if (answer.verdict == dynamics::Verdict::none) return;
+  Agenda& a = agendas_[ball];
+  const Candidate found{clock_.after(now_, answer.delay), other, agendas_[other].impacts};
+  int place = a.pair_count;
+  while (place > 0 && found.time < a.pairs[place - 1].time) --place;
+  if (a.pair_count == Agenda::capacity) {
+    a.pairs_dropped = true;
+    if (place == a.pair_count) return;
+  } else {
+    ++a.pair_count;
+  }
+  for (int k = a.pair_count - 1; k > place; --k) a.pairs[k] = a.pairs[k - 1];
+  a.pairs[place] = found;
+}
+
+template <class Real>
+void Simulation<Real>::predict_crossing(int ball) {
+  if (grid_.single_cell()) return;
+  Agenda& a = agendas_[ball];
+  const auto& flight = flights_[ball];
+  const Real age = clock_.elapsed(flight.start, now_);
+  a.crossing = grid_.crossing(ball, dynamics::position_after(flight, mill_.gravity, age),
+                              dynamics::velocity_after(flight, mill_.gravity, age), mill_.gravity);
+  a.crossing_time = a.crossing.happens ? clock_.after(now_, a.crossing.delay) : Instant<Real>::never();
+}
+
+/// How far a wall search from `begin` need look: to the ball's nearest pair contact, after which it is moot.
+template <class Real>
+Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const {
+  const Real& longest = ladder_.walls().longest_window();
+  const Agenda& a = agendas_[ball];
+  if (a.pair_count == 0) return longest;
+  const Real until_pair = clock_.elapsed(begin, a.pairs[0].time);
+  const Real shortest = longest / 4096;
+  if (until_pair < shortest) return shortest;
+  return until_pair < longest ? until_pair : longest;
+}
+
+template <class Real>
+void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pose) {
+  ++counts_.wall_searches;
+  const Real length = search_length(ball, now_);
+  const auto& flight = flights_[ball];
+  const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, balls_[ball].radius,
+                                               now_.period);
+  const auto first = functions.sample(
+      now_.offset, model::to_vessel_frame<Real>(pose, mill_.motion.arm, flight.position, flight.velocity));
+  take_wall_answer(ball, ladder_.wall(functions, first, {flight, balls_[ball].radius, now_, length}), now_,
+                   length);
+}
+
+template <class Real>
+void Simulation<Real>::continue_wall_search(int ball) {
+  ++counts_.wall_searches;
+  const Real length = search_length(ball, now_);
+  take_wall_answer(ball, ladder_.wall({flights_[ball], balls_[ball].radius, now_, length}), now_, length);
+  requeue(ball);
+}
+
+template <class Real>
+void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer,
+                                        const Instant<Real>& begin, const Real& length) {
+  Agenda& a = agendas_[ball];
+  if (answer.verdict == dynamics::Verdict::contact) {
+    a.wall = answer.wall;
+    a.wall_time = answer.time;
+    if (answer.tie) ++counts_.simultaneous_contacts;
+  } else {
+    a.wall = -1;
+    a.wall_time = clock_.after(begin, length);
+  }
+}
+
+template <class Real>
+model::BallState<Real> Simulation<Real>::state_at(int i, const Instant<Real>& when) const {
+  const Real dt = clock_.elapsed(flights_[i].start, when);
+  return {dynamics::position_after(flights_[i], mill_.gravity, dt),
+          dynamics::velocity_after(flights_[i], mill_.gravity, dt), spins_[i]};
+}
+
+template <class Real>
+Energy<Real> Simulation<Real>::energy_at(const Instant<Real>& when) const {
+  Energy<Real> energy;
+  for (int i = 0; i < ball_count(); ++i) {
+    const auto state = state_at(i, when);
+    const auto& ball = balls_[i];
+    const Real inertia = ball.reduced_inertia * ball.mass * ball.radius * ball.radius;
+    energy.kinetic +=
+        ball.mass / 2 * squared_norm<Real>(state.velocity) + inertia / 2 * squared_norm<Real>(state.spin);
+    energy.potential -= ball.mass * dot<Real>(mill_.gravity, state.position);
+  }
+  return energy;
+}
+
+}  // namespace edmill::engine

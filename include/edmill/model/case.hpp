@@ -1,0 +1,45 @@
+// A case: everything that a run depends on, as plain SI values of one scalar.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edmill/core/vector.hpp"
+#include "edmill/model/ball.hpp"
+#include "edmill/model/contact_law.hpp"
+#include "edmill/model/mill_motion.hpp"
+#include "edmill/model/vessel.hpp"
+
+namespace edmill::model {
+
+/// The first rule that is met ends the run; at least one is set.
+template <class Real>
+struct StopRules {
+  std::optional<Real> end_time;  ///< [s] on the simulation clock
+  std::optional<std::uint64_t> max_collisions;
+  std::optional<Real> max_milling_dose;  ///< [J] since the start of the run
+  std::optional<Real> max_ball_speed;    ///< [m/s] of a ball just after an impact
+};
+
+/// Where a vessel of this kind is filled: the physical model without the balls' states.
+template <class Real>
+struct Mill {
+  MillMotion<Real> motion;
+  CylinderVessel<Real> vessel;
+  Vec3<Real> gravity;  ///< [m/s^2]
+  ContactLaw<Real> ball_ball;
+  ContactLaw<Real> ball_wall;
+};
+
+template <class Real>
+struct Case {
+  Mill<Real> mill;
+  std::vector<BallProperties<Real>> balls;
+  StopRules<Real> stop;
+  Real initial_time{0};      ///< [s] instant of the initial state
+  Real statistics_start{0};  ///< [s] statistics count from here on
+};
+
+}  // namespace edmill::model

@@ -1,0 +1,131 @@
+// Certified statements about a smooth function on an interval, from its values and slopes at the two ends.
+#pragma once
+
+namespace edmill::numerics {
+
+/// Value and slope of a function at one abscissa.
+template <class Real>
+struct Point {
+  Real t;  ///< abscissa
+  Real value;
+  Real slope;
+};
+
+/// Bounds on a function's derivatives over the interval in question, and on the rounding of its samples.
+template <class Real>
+struct CurveBounds {
+  Real second, third, fourth;  ///< sup |f''|, sup |f'''|, sup |f''''|
+  Real value_error, slope_error;
+};
+
+/// Bernstein coefficients b_1..b_4 of a quartic lower bound of f on [left, right]; b_0 is the left value.
+///
+/// The two-point cubic Hermite interpolant errs by f''''(xi)/24 tau^2 (s-tau)^2. Raised to degree four, that
+/// error lowers the middle coefficient alone, by sup|f''''| s^4 / 144. Where all coefficients are positive
+/// the function is positive: a Bernstein polynomial lies in the hull of its coefficients. (theory.md, section
+/// 3)
+template <class Real>
+struct QuarticLowerBound {
+  Real b1, b2, b3, b4;
+  Real slack;  ///< bound on the rounding error of any coefficient
+
+  QuarticLowerBound(const Point<Real>& left, const Point<Real>& right, const CurveBounds<Real>& bounds) {
+    const Real s = right.t - left.t;
+    const Real s2 = s * s;
+    const Real left_slope = left.slope * s;
+    const Real right_slope = right.slope * s;
+    b1 = left.value + left_slope / 4;
+    b2 = (left.value + right.value) / 2 + (left_slope - right_slope) / 6 - bounds.fourth * (s2 * s2) / 144;
+    b3 = right.value - right_slope / 4;
+    b4 = right.value;
+    const auto size = [](const Real& x) { return x < 0 ? Real(-x) : x; };
+    slack = bounds.value_error + s * bounds.slope_error +
+            8 * std::numeric_limits<Real>::epsilon() *
+                (size(left.value) + size(right.value) + size(left_slope) + size(right_slope));
+  }
+
+  Real least() const {
+    Real least = b1 < b2 ? b1 : b2;
+    if (b3 < least) least = b3;
+    return b4 < least ? b4 : least;
+  }
+};
+
+/// Proven: f > 0 on [left, right]. @pre left.value is proven positive
+template <class Real>
+bool proven_positive(const Point<Real>& left, const Point<Real>& right, const CurveBounds<Real>& bounds) {
+  const QuarticLowerBound<Real> quartic(left, right, bounds);
+  return quartic.least() > quartic.slack;
+}
+
+/// Whether a start within rounding of zero rises fast enough for its departure to be provable.
+template <class Real>
+bool can_depart(const Point<Real>& left, const CurveBounds<Real>& bounds) {
+  return left.slope > bounds.slope_error * 2 &&
+         left.slope * left.slope > 16 * (bounds.second * bounds.value_error);
+}
+
+/// Proven: f, whose left value is zero within rounding and rising, is not positive-to-negative anywhere on
+/// (left, right]: it rises on the first part and is positive on the rest.
+/// @pre |left.value| <= value_error and can_depart(left, bounds)
+template <class Real>
+bool proven_departure(const Point<Real>& left, const Point<Real>& right, const CurveBounds<Real>& bounds) {
+  const QuarticLowerBound<Real> quartic(left, right, bounds);
+  const Real least = quartic.least() - quartic.slack - 2 * bounds.value_error;
+  const Real s = right.t - left.t;
+  // f' > 0 up to the fraction x = f0' / (2 sup|f''| s); from there on the quartic is at least
+  // least * x - value_error.
+  return least > 0 && least * left.slope > 8 * (bounds.value_error * bounds.second) * s;
+}
+
+/// Proven: f' < 0 on [left, right]. Linear interpolation of f' errs by at most sup|f'''| s^2 / 8.
+template <class Real>
+bool proven_decreasing(const Point<Real>& left, const Point<Real>& right, const CurveBounds<Real>& bounds) {
+  const Real s = right.t - left.t;
+  const Real largest = left.slope > right.slope ? left.slope : right.slope;
+  return largest + bounds.third * (s * s) / 8 + bounds.slope_error * 2 < 0;
+}
+
+/// Proven: f' > 0 on [left, right].
+template <class Real>
+bool proven_increasing(const Point<Real>& left, const Point<Real>& right, const CurveBounds<Real>& bounds) {
+  const Real s = right.t - left.t;
+  const Real least = left.slope < right.slope ? left.slope : right.slope;
+  return least - bounds.third * (s * s) / 8 - bounds.slope_error * 2 > 0;
+}
+
+/// Estimate of the last root of the cubic Hermite interpolant as a fraction of [left, right]; outside (0, 1)
+/// when there is none to be had. A hint for where to split, never a decision. @pre right.value < 0
+template <class Real>
+Real last_root_hint(const Point<Real>& left, const Point<Real>& right) {
+  const Real s = right.t - left.t;
+  const Real c0 = left.value, c1 = left.slope * s;
+  const Real rise = right.value - left.value, right_slope = right.slope * s;
+  const Real c2 = 3 * rise - 2 * c1 - right_slope, c3 = c1 + right_slope - 2 * rise;
+  Real x{1};
+  for (int step = 0; step < 12; ++step) {
+    const Real value = c0 + x * (c1 + x * (c2 + x * c3));
+    const Real slope = c1 + x * (2 * c2 + x * (3 * c3));
+    if (!(slope < 0)) return Real(2);
+    const Real next = x - value / slope;
+    if (!(next > 0 && next < 1)) return Real(2);
+    const Real change = next - x;
+    x = next;
+    if (change * change * 4096 < x * x) break;
+  }
+  return x;
+}
+
+/// Estimate of the root between two points of opposite signs, by inverse cubic interpolation.
+/// @pre left.value > 0 > right.value, both slopes negative
+template <class Real>
+Real inverse_cubic_hint(const Point<Real>& left, const Point<Real>& right) {
+  const Real rise = right.value - left.value;
+  const Real w = -left.value / rise;
+  const Real v = 1 - w;
+  const Real w2 = w * w, v2 = v * v;
+  return left.t * (v2 * (1 + 2 * w)) + right.t * (w2 * (1 + 2 * v)) +
+         rise * (w * v2 / left.slope - v * w2 / right.slope);
+}
+
+}  // namespace edmill::numerics

@@ -1,0 +1,89 @@
+// Sine and cosine without the C library in double, so that every machine gives the same bits.
+#pragma once
+
+#include <cmath>
+
+namespace edmill::numerics {
+
+template <class Real>
+struct SinCos {
+  Real sin;
+  Real cos;
+};
+
+template <class Real>
+Real pi();
+
+template <>
+inline double pi<double>() {
+  return 3.141592653589793;
+}
+
+/// sin and cos of an angle [rad]. Error at most 2 ulp of 1.
+template <class Real>
+SinCos<Real> sin_cos(const Real& angle) {
+  using std::cos;
+  using std::sin;
+  return {sin(angle), cos(angle)};
+}
+
+namespace detail {
+
+/// Taylor polynomials of sin and cos on [-pi/4, pi/4], Estrin order: short dependency chains.
+inline SinCos<double> sin_cos_kernel(double x) {
+  const double z = x * x;
+  const double z2 = z * z;
+  const double z4 = z2 * z2;
+  const double s = ((-1.0 / 6) + z * (1.0 / 120)) + z2 * ((-1.0 / 5040) + z * (1.0 / 362880)) +
+                   z4 * (((-1.0 / 39916800) + z * (1.0 / 6227020800)) + z2 * (-1.0 / 1307674368000));
+  const double c = ((1.0 / 24) + z * (-1.0 / 720)) + z2 * ((1.0 / 40320) + z * (-1.0 / 3628800)) +
+                   z4 * (((1.0 / 479001600) + z * (-1.0 / 87178291200)) + z2 * (1.0 / 20922789888000));
+  return {x + x * (z * s), 1.0 - (0.5 * z - z2 * c)};
+}
+
+inline SinCos<double> quarter_turned(const SinCos<double>& v, int quarters) {
+  switch (quarters & 3) {
+    case 0:
+      return v;
+    case 1:
+      return {v.cos, -v.sin};
+    case 2:
+      return {-v.sin, -v.cos};
+    default:
+      return {-v.cos, v.sin};
+  }
+}
+
+/// Nearest integer for |x| < 2^31 without the C library.
+inline int nearest(double x) { return static_cast<int>(x < 0 ? x - 0.5 : x + 0.5); }
+
+}  // namespace detail
+
+/// Amplitudes and angles of a mill are below pi/4 or a few turns; larger angles lose accuracy in proportion.
+template <>
+inline SinCos<double> sin_cos<double>(const double& angle) {
+  constexpr double eighth_turn = 0.785398163397448;
+  if (angle <= eighth_turn && angle >= -eighth_turn) return detail::sin_cos_kernel(angle);
+  constexpr double half_pi_high = 1.5707963267948966;
+  constexpr double half_pi_low = 6.123233995736766e-17;
+  const int quarters = detail::nearest(angle / half_pi_high);
+  return detail::quarter_turned(
+      detail::sin_cos_kernel((angle - quarters * half_pi_high) - quarters * half_pi_low), quarters);
+}
+
+/// sin and cos of 2 pi `turns`, for |turns| below 2^20. Error at most 4 ulp of 1.
+template <class Real>
+SinCos<Real> sin_cos_turns(const Real& turns) {
+  using std::floor;
+  const Real reduced = turns - floor(turns + Real(1) / 2);
+  return sin_cos<Real>(2 * pi<Real>() * reduced);
+}
+
+template <>
+inline SinCos<double> sin_cos_turns<double>(const double& turns) {
+  const int quarters = detail::nearest(4 * turns);
+  const double rest = turns - 0.25 * quarters;  // exact: both are multiples of the same small power of two
+  return detail::quarter_turned(detail::sin_cos_kernel(6.283185307179586 * rest), quarters);
+}
+
+}  // namespace edmill::numerics

@@ -1,0 +1,64 @@
+// Totals of a run from the start of statistics on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "edmill/engine/observer.hpp"
+#include "edmill/model/vessel.hpp"
+#include "edmill/numerics/compensated_sum.hpp"
+
+namespace edmill::observe {
+
+/// Partners: the walls by id, then ball-ball.
+inline constexpr int partner_kinds = model::wall_count + 1;
+inline constexpr int ball_ball = model::wall_count;
+
+template <class Real>
+class RunStatistics : public engine::Observer<Real> {
+ public:
+  struct Totals {
+    std::uint64_t collisions = 0;
+    std::uint64_t collapsing = 0;  ///< with e_n = 1 by the collapse rule
+    numerics::CompensatedSum<Real> milling_dose;
+    numerics::CompensatedSum<Real> collapsing_dose;
+    numerics::CompensatedSum<Real> wall_work;
+  };
+
+  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>&) override {
+    Totals& t = totals_[impact.with_wall ? impact.partner : ball_ball];
+    ++t.collisions;
+    t.milling_dose += impact.outcome.milling_dose;
+    if (impact.with_wall) t.wall_work += impact.outcome.wall_work;
+    if (impact.collapsing) {
+      ++t.collapsing;
+      t.collapsing_dose += impact.outcome.milling_dose;
+    }
+  }
+
+  const std::array<Totals, partner_kinds>& by_partner() const { return totals_; }
+
+  std::uint64_t collisions() const {
+    std::uint64_t sum = 0;
+    for (const auto& t : totals_) sum += t.collisions;
+    return sum;
+  }
+  std::uint64_t collapsing() const {
+    std::uint64_t sum = 0;
+    for (const auto& t : totals_) sum += t.collapsing;
+    return sum;
+  }
+  Real milling_dose() const { return sum(&Totals::milling_dose); }
+  Real collapsing_dose() const { return sum(&Totals::collapsing_dose); }
+  Real wall_work() const { return sum(&Totals::wall_work); }
+
+ private:
+  Real sum(numerics::CompensatedSum<Real> Totals::*part) const {
+    numerics::CompensatedSum<Real> total;
+    for (const auto& t : totals_) total += (t.*part).value();
+    return total.value();
+  }
+  std::array<Totals, partner_kinds> totals_{};
+};
+
+}  // namespace edmill::observe

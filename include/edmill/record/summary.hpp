@@ -1,0 +1,57 @@
+// summary.json: what a run came to. Keys and units: docs/files.md.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edmill/engine/simulation.hpp"
+#include "edmill/observe/run_statistics.hpp"
+
+namespace edmill::record {
+
+/// Where a run came from, as text.
+struct Provenance {
+  std::string case_file, case_digest, precision, version, commit, compiler;
+  std::uint64_t seed = 0;
+};
+
+template <class Real>
+struct Summary {
+  Provenance provenance;
+  std::string end_reason;
+  std::string error;                ///< of a decision that no scalar could make
+  Real start_time{0}, end_time{0};  ///< of the statistics [s]
+  Real period{0};                   ///< of the drive [s]
+  std::array<std::uint64_t, observe::partner_kinds> collisions{};
+  std::array<Real, observe::partner_kinds> dose_by_partner{};
+  Real milling_dose{0}, wall_work{0};  ///< [J]
+  engine::Energy<Real> energy_at_start, energy_at_end;
+  std::uint64_t collapse_impacts = 0;
+  Real collapse_dose{0};
+  std::optional<engine::InelasticCollapse<Real>> collapse;
+  engine::EngineCounts<Real> counts;
+  std::vector<dynamics::Escalations> escalations;
+  std::optional<Real> powder_mass, ball_mass;
+  double cpu_seconds = 0;
+  std::uint64_t total_impacts = 0;  ///< since the start of the run
+
+  Real duration() const { return end_time - start_time; }
+  std::uint64_t total_collisions() const {
+    std::uint64_t sum = 0;
+    for (const auto c : collisions) sum += c;
+    return sum;
+  }
+  /// sum WE - sum MD - change of (KE + PE) [J]; zero but for rounding.
+  Real energy_closure() const {
+    return wall_work - milling_dose -
+           ((energy_at_end.kinetic + energy_at_end.potential) -
+            (energy_at_start.kinetic + energy_at_start.potential));
+  }
+};
+
+template <class Real>
+std::string summary_json(const Summary<Real>& summary);
+
+}  // namespace edmill::record

@@ -1,0 +1,93 @@
+// The command line.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+
+#include "edmill/app/dispatch.hpp"
+#include "edmill/app/version.hpp"
+#include "edmill/core/errors.hpp"
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+volatile std::sig_atomic_t received_signal = 0;
+
+extern "C" void on_signal(int signal) {
+  // A second signal ends the program at once.
+  if (received_signal) std::_Exit(128 + signal);
+  received_signal = signal;
+  interrupted.store(true, std::memory_order_relaxed);
+}
+
+int run(const std::string& case_file, const std::string& folder, const std::string& precision,
+        const std::vector<std::string>& overrides, bool quiet) {
+  using namespace edmill;
+  const auto spec = casefile::read_case(case_file, overrides);
+  app::RunOptions options;
+  options.folder = folder.empty() ? "out/" + std::filesystem::path(case_file).stem().string() : folder;
+  options.quiet = quiet;
+  options.interrupt = &interrupted;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  const int code = app::run_case(precision.empty() ? spec.precision : precision, spec, options);
+  return received_signal && code == app::ok ? 128 + received_signal : code;
+}
+
+std::string version_text() {
+  std::string scalars;
+  for (const auto& name : edmill::casefile::precisions()) scalars += (scalars.empty() ? "" : ", ") + name;
+  return fmt::format("edmill {} ({})\ncompiler {}\nscalars {}", edmill::app::version(), edmill::app::commit(),
+                     edmill::app::compiler(), scalars);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"edmill: event-driven simulation of ball mills, a validated reference solver"};
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done, 2 bad input, 3 ended in inelastic collapse, 4 a decision that no scalar could "
+      "make,\n"
+      "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
+  std::string case_file, folder, precision;
+  std::vector<std::string> overrides;
+  bool quiet = false;
+
+  auto* run_command = app.add_subcommand("run", "simulate a case and write its results");
+  run_command->add_option("case", case_file, "case file (TOML)")->required();
+  run_command->add_option("--out", folder, "folder for the results; out/<case name> unless given");
+  run_command->add_option("--precision", precision, "scalar of the run, over the case's own")
+      ->check(CLI::IsMember(edmill::casefile::precisions()));
+  run_command->add_option("--set", overrides, "section.key=value, over the case file; can be repeated")
+      ->take_all()
+      ->expected(1);
+  run_command->add_flag("--quiet", quiet, "no progress line and no result table");
+
+  auto* check_command =
+      app.add_subcommand("check", "read and check a case; print it in SI with derived numbers");
+  check_command->add_option("case", case_file, "case file (TOML)")->required();
+  check_command->add_option("--set", overrides, "section.key=value, over the case file; can be repeated")
+      ->take_all()
+      ->expected(1);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? edmill::app::ok : edmill::app::bad_input;
+  }
+  try {
+    if (*run_command) return run(case_file, folder, precision, overrides, quiet);
+    fmt::print("{}", edmill::app::describe_case(edmill::casefile::read_case(case_file, overrides)));
+    return edmill::app::ok;
+  } catch (const edmill::InputError& error) {
+    for (const auto& problem : error.problems()) fmt::print(stderr, "edmill: {}\n", problem);
+    return edmill::app::bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "edmill: {}\n", error.what());
+    return edmill::app::internal_error;
+  }
+}

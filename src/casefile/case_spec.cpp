@@ -1,0 +1,354 @@
+#include "edmill/casefile/case_spec.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "edmill/core/digest.hpp"
+#include "edmill/core/errors.hpp"
+#include "section.hpp"
+
+namespace edmill::casefile {
+
+using boost::multiprecision::cpp_rational;
+
+namespace {
+
+void read_run(Section run, CaseSpec& spec) {
+  run.require(run.present(), "end_time", "a section [run] with at least one stop rule");
+  spec.precision = run.choice("precision", precisions());
+  spec.seed = run.count("seed").value_or(1);
+  spec.initial_time = run.quantity("initial_time", Dimension::time, Quantity{0});
+  run.require(!spec.initial_time.negative(), "initial_time", "a time of 0 or more");
+  spec.statistics_start = run.quantity("start_time", Dimension::time, spec.initial_time);
+  run.require(spec.statistics_start.value >= spec.initial_time.value, "start_time",
+              "a time not before the initial time");
+  spec.end_time = run.quantity("end_time", Dimension::time);
+  spec.max_collisions = run.count("max_collisions");
+  spec.max_milling_dose = run.quantity("max_milling_dose", Dimension::energy);
+  spec.max_ball_speed = run.quantity("max_ball_speed", Dimension::speed);
+  if (spec.end_time)
+    run.require(spec.end_time->value > spec.statistics_start.value, "end_time",
+                "a time after the start time");
+  if (spec.max_collisions) run.require(*spec.max_collisions > 0, "max_collisions", "at least 1");
+  if (spec.max_milling_dose)
+    run.require(spec.max_milling_dose->positive(), "max_milling_dose", "a positive energy");
+  if (spec.max_ball_speed) run.require(spec.max_ball_speed->positive(), "max_ball_speed", "a positive speed");
+  const bool stops = run.has("end_time") || run.has("max_collisions") || run.has("max_milling_dose") ||
+                     run.has("max_ball_speed");
+  if (!stops)
+    run.problem("end_time", "no stop rule",
+                "at least one of end_time, max_collisions, max_milling_dose, max_ball_speed");
+  spec.initial_state = run.text("initial_state").value_or("");
+  // Along -Y when one acceleration is given.
+  if (run.has("gravity")) {
+    if (run.is_array("gravity")) {
+      spec.gravity = run.vector("gravity", Dimension::acceleration).value_or(QuantityVector{});
+    } else if (const auto strength = run.quantity("gravity", Dimension::acceleration)) {
+      spec.gravity[1] = Quantity{-strength->value, strength->pi_power};
+    }
+  }
+  run.reject_unknown_keys();
+}
+
+/// A new mill motion is a row here and its pose in model/mill_motion.hpp.
+void read_mill(Section mill, CaseSpec& spec) {
+  MillSpec& m = spec.mill;
+  m.type = mill.choice("type", {"spex8000", "still"});
+  const bool shaken = m.type == "spex8000";
+  const Quantity fifteen_degrees{cpp_rational(1, 12), 1};
+  m.arm = mill.quantity("arm", Dimension::length, shaken ? Quantity{cpp_rational(1, 10)} : Quantity{0});
+  mill.require(!m.arm.negative(), "arm", "a length of 0 or more");
+  if (shaken) {
+    m.theta_max = mill.quantity("theta_max", Dimension::angle, fifteen_degrees);
+    m.gamma_max = mill.quantity("gamma_max", Dimension::angle, fifteen_degrees);
+    for (const auto* key : {"theta_max", "gamma_max"}) {
+      const Quantity& angle = key == std::string("theta_max") ? m.theta_max : m.gamma_max;
+      const cpp_rational limit = angle.pi_power == 1 ? cpp_rational(1, 2) : cpp_rational(157, 100);
+      mill.require(!angle.negative() && angle.value <= limit, key, "an angle from 0 to 90 deg");
+    }
+    const Quantity speed =
+        mill.quantity("speed", Dimension::angular_speed, Quantity{cpp_rational(1098, 30), 1});
+    mill.require(speed.positive(), "speed", "a positive angular speed");
+    // T = 2 pi / w, exact for rpm and Hz.
+    m.period = speed.positive() ? Quantity{2 / speed.value, 1 - speed.pi_power} : Quantity{1};
+  } else {
+    m.period = Quantity{cpp_rational(1, 16)};
+  }
+  mill.reject_unknown_keys();
+}
+
+void read_vessel(Section vessel, CaseSpec& spec) {
+  vessel.choice("type", {"cylinder"});
+  spec.vessel_diameter = vessel.required("diameter", Dimension::length);
+  spec.vessel_height = vessel.required("height", Dimension::length);
+  vessel.require(spec.vessel_diameter.positive(), "diameter", "a positive length");
+  vessel.require(spec.vessel_height.positive(), "height", "a positive length");
+  vessel.reject_unknown_keys();
+}
+
+/// Reads the keys that are there; what is absent keeps the value that `spec` came with.
+/// A new contact law adds its name and its keys here and its formula in model/contact_law.hpp.
+struct ContactKeys {
+  bool restitution = false, tangential = false, friction = false;
+};
+void read_contact_keys(Section& s, ContactSpec& spec, ContactKeys& given) {
+  using model::ContactModel;
+  if (s.has("model"))
+    spec.model = s.choice("model", {"walton-braun", "constant"}) == "constant" ? ContactModel::constant
+                                                                               : ContactModel::walton_braun;
+  else
+    s.choice("model", {"walton-braun", "constant"});
+  const auto take = [&](const std::string& key, const cpp_rational& low, const cpp_rational& high,
+                        Quantity& value, bool& was_given, const std::string& expected) {
+    const bool here = s.has(key);
+    if (const auto found = s.quantity(key, Dimension::none)) {
+      value = *found;
+      s.require(value.value >= low && value.value <= high, key, expected);
+    }
+    was_given = was_given || here;
+  };
+  const cpp_rational large = cpp_rational(1000000);
+  bool ignored = false;
+  if (s.has("restitution") && s.has("restitution_normal"))
+    s.problem("restitution_normal", "both 'restitution' and 'restitution_normal'", "one of them");
+  take("restitution", 0, 1, spec.restitution_normal, given.restitution, "a number from 0 to 1");
+  take("restitution_normal", 0, 1, spec.restitution_normal, given.restitution, "a number from 0 to 1");
+  take("restitution_tangential", -1, 1, spec.restitution_tangential, given.tangential,
+       "a number from -1 to 1");
+  take("friction", 0, large, spec.friction, given.friction, "a number of 0 or more");
+  take("min_tangential", -1, 1, spec.min_tangential, ignored, "a number from -1 to 1");
+  if (const auto t_c = s.quantity("collapse_time", Dimension::time)) {
+    spec.collapse_time = *t_c;
+    s.require(!t_c->negative(), "collapse_time", "a time of 0 or more");
+  }
+}
+
+void read_contact(Section contact, CaseSpec& spec) {
+  ContactSpec base;
+  ContactKeys base_given;
+  read_contact_keys(contact, base, base_given);
+  for (const bool balls : {true, false}) {
+    Section own = contact.section(balls ? "ball_ball" : "ball_wall");
+    ContactSpec& law = balls ? spec.ball_ball : spec.ball_wall;
+    ContactKeys given = base_given;
+    law = base;
+    read_contact_keys(own, law, given);
+    own.reject_unknown_keys();
+    const auto need = [&](bool there, const std::string& key, const std::string& expected) {
+      if (!there) contact.problem(key, "nothing", expected);
+    };
+    need(given.restitution, "restitution", "a number from 0 to 1");
+    if (law.model == model::ContactModel::constant)
+      need(given.tangential, "restitution_tangential", "a number from -1 to 1");
+    else
+      need(given.friction, "friction", "a number of 0 or more");
+  }
+  contact.reject_unknown_keys();
+}
+
+void read_ball_spec(Section& s, BallSpec& ball) {
+  ball.where = s.where();
+  ball.diameter = s.required("diameter", Dimension::length);
+  s.require(ball.diameter.positive(), "diameter", "a positive length");
+  ball.density = s.quantity("density", Dimension::density, ball.density);
+  s.require(ball.density.positive(), "density", "a positive density");
+  ball.reduced_inertia = s.quantity("reduced_inertia", Dimension::none, ball.reduced_inertia);
+  s.require(ball.reduced_inertia.positive() && ball.reduced_inertia.value <= 1, "reduced_inertia",
+            "a number above 0, up to 1");
+  if (const auto velocity = s.vector("velocity", Dimension::speed)) ball.velocity = *velocity;
+}
+
+void read_batch(Section s, CaseSpec& spec) {
+  BallBatch batch;
+  read_ball_spec(s, batch);
+  batch.count = static_cast<int>(std::min<std::uint64_t>(s.count("count").value_or(1), 100000000));
+  s.require(batch.count > 0, "count", "at least 1");
+  batch.diameter_spread = s.quantity("diameter_spread", Dimension::length, Quantity{0});
+  s.require(!batch.diameter_spread.negative() && batch.diameter_spread.value < batch.diameter.value,
+            "diameter_spread", "a length from 0 to less than the diameter");
+  batch.random_speed = s.quantity("random_speed", Dimension::speed);
+  if (batch.random_speed) {
+    s.require(!batch.random_speed->negative(), "random_speed", "a speed of 0 or more");
+    if (s.has("velocity")) s.problem("random_speed", "both 'velocity' and 'random_speed'", "one of them");
+  }
+  batch.gap_ball = s.quantity("gap_ball", Dimension::length, batch.gap_ball);
+  batch.gap_wall = s.quantity("gap_wall", Dimension::length, batch.gap_wall);
+  s.require(!batch.gap_ball.negative(), "gap_ball", "a length of 0 or more");
+  s.require(!batch.gap_wall.negative(), "gap_wall", "a length of 0 or more");
+  batch.max_relocations = s.count("max_relocations").value_or(batch.max_relocations);
+  s.reject_unknown_keys();
+  spec.batches.push_back(std::move(batch));
+}
+
+void read_ball(Section s, CaseSpec& spec) {
+  ExplicitBall ball;
+  read_ball_spec(s, ball);
+  if (const auto position = s.vector("position", Dimension::length))
+    ball.position = *position;
+  else if (spec.initial_state.empty())
+    s.problem("position", s.has("position") ? "no position" : "nothing", "an array of three lengths");
+  if (const auto spin = s.vector("spin", Dimension::angular_speed)) ball.spin = *spin;
+  s.reject_unknown_keys();
+  spec.balls.push_back(std::move(ball));
+}
+
+void read_output(Section s, CaseSpec& spec) {
+  OutputSpec output;
+  if (!s.has("type")) s.problem("type", "nothing", "\"collisions\"");
+  output.type = s.choice("type", {"collisions"});
+  output.file = s.text("file").value_or(output.type + ".csv");
+  s.require(output.file.find('/') == std::string::npos && output.file != "summary.json" &&
+                output.file != "final_state.csv",
+            "file", "a plain file name other than summary.json and final_state.csv");
+  for (const auto& other : spec.outputs)
+    s.require(other.file != output.file, "file", "a file name that no other output has");
+  output.start_time = s.quantity("start_time", Dimension::time);
+  output.end_time = s.quantity("end_time", Dimension::time);
+  if (output.start_time && output.end_time)
+    s.require(output.end_time->value > output.start_time->value, "end_time", "a time after start_time");
+  s.reject_unknown_keys();
+  spec.outputs.push_back(std::move(output));
+}
+
+/// Everything that a run depends on, in one order and exact.
+std::string canonical_text(const CaseSpec& c) {
+  std::ostringstream out;
+  const auto vector = [](const QuantityVector& v) {
+    return v[0].text() + "," + v[1].text() + "," + v[2].text();
+  };
+  const auto optional = [](const auto& q) { return q ? q->text() : std::string("-"); };
+  out << "edmill case 1\nprecision " << c.precision << "\nseed " << c.seed << "\ninitial_time "
+      << c.initial_time.text() << "\nstart_time " << c.statistics_start.text() << "\nend_time "
+      << optional(c.end_time) << "\nmax_milling_dose " << optional(c.max_milling_dose) << "\nmax_ball_speed "
+      << optional(c.max_ball_speed) << "\nmax_collisions "
+      << (c.max_collisions ? std::to_string(*c.max_collisions) : "-") << "\ngravity " << vector(c.gravity)
+      << "\nmill " << c.mill.type << " " << c.mill.arm.text() << " " << c.mill.theta_max.text() << " "
+      << c.mill.gamma_max.text() << " " << c.mill.period.text() << "\nvessel cylinder "
+      << c.vessel_diameter.text() << " " << c.vessel_height.text() << "\n";
+  for (const auto* law : {&c.ball_ball, &c.ball_wall})
+    out << "contact " << (law->model == model::ContactModel::constant ? "constant " : "walton-braun ")
+        << law->restitution_normal.text() << " " << law->restitution_tangential.text() << " "
+        << law->friction.text() << " " << law->min_tangential.text() << " " << law->collapse_time.text()
+        << "\n";
+  for (const auto& b : c.balls)
+    out << "ball " << b.diameter.text() << " " << b.density.text() << " " << b.reduced_inertia.text() << " "
+        << vector(b.position) << " " << vector(b.velocity) << " " << vector(b.spin) << "\n";
+  for (const auto& b : c.batches)
+    out << "balls " << b.count << " " << b.diameter.text() << " " << b.diameter_spread.text() << " "
+        << b.density.text() << " " << b.reduced_inertia.text() << " " << vector(b.velocity) << " "
+        << optional(b.random_speed) << " " << b.gap_ball.text() << " " << b.gap_wall.text() << " "
+        << b.max_relocations << "\n";
+  if (!c.initial_state.empty()) {
+    std::ifstream in(c.initial_state, std::ios::binary);
+    std::ostringstream state;
+    state << in.rdbuf();
+    out << "initial_state " << sha256(state.str()) << "\n";
+  }
+  return out.str();
+}
+
+/// Puts "section.key=value" into the table; indices pick entries of arrays of tables.
+void apply_override(toml::table& root, Document& document, const std::string& text) {
+  const auto equals = text.find('=');
+  const auto complain = [&](const std::string& found) {
+    document.problems.push_back("--set " + text + ": found " + found + ", expected section.key=value");
+  };
+  if (equals == std::string::npos || equals == 0) return complain("no '='");
+  const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
+  toml::table* table = &root;
+  std::istringstream parts(path);
+  std::vector<std::string> keys;
+  for (std::string key; std::getline(parts, key, '.');) keys.push_back(key);
+  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
+    toml::node* next = table->get(keys[k]);
+    if (!next) next = &table->insert(keys[k], toml::table{}).first->second;
+    if (auto* array = next->as_array(); array && k + 2 < keys.size()) {
+      const auto& index = keys[++k];
+      if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos ||
+          std::stoul(index) >= array->size())
+        return complain("no entry '" + index + "' of '" + keys[k - 1] + "'");
+      next = array->get(std::stoul(index));
+    }
+    table = next->as_table();
+    if (!table) return complain("'" + keys[k] + "', which is no section");
+  }
+  document.overrides[path] = value;
+  try {
+    auto parsed = toml::parse("value = " + value);
+    table->insert_or_assign(keys.back(), std::move(*parsed.get("value")));
+  } catch (const toml::parse_error&) {
+    table->insert_or_assign(keys.back(), value);
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& precisions() {
+  static const std::vector<std::string> names{"double", "float128", "mpfr50"};
+  return names;
+}
+
+std::size_t CaseSpec::ball_count() const {
+  std::size_t count = balls.size();
+  for (const auto& batch : batches) count += static_cast<std::size_t>(batch.count);
+  return count;
+}
+
+CaseSpec parse_case(const std::string& text, const std::string& name,
+                    const std::vector<std::string>& overrides) {
+  Document document;
+  document.name = name;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) document.lines.push_back(line);
+  toml::table root;
+  try {
+    root = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(name + ":" + std::to_string(error.source().begin.line) + ": found no valid TOML (" +
+                     std::string(error.description()) + "), expected a case file");
+  }
+  for (const auto& override_text : overrides) apply_override(root, document, override_text);
+
+  CaseSpec spec;
+  spec.file = name;
+  Section top(document, &root, "");
+  read_run(top.section("run"), spec);
+  read_mill(top.section("mill"), spec);
+  read_vessel(top.section("vessel"), spec);
+  read_contact(top.section("contact"), spec);
+  if (Section powder = top.section("powder"); powder.present()) {
+    spec.powder_mass = powder.required("mass", Dimension::mass);
+    powder.require(spec.powder_mass->positive(), "mass", "a positive mass");
+    powder.reject_unknown_keys();
+  }
+  for (const auto& entry : top.sections("ball")) read_ball(entry, spec);
+  for (const auto& entry : top.sections("balls")) read_batch(entry, spec);
+  for (const auto& entry : top.sections("output")) read_output(entry, spec);
+  if (!top.has("ball") && !top.has("balls"))
+    top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
+  top.reject_unknown_keys();
+  if (!spec.initial_state.empty()) {
+    const std::filesystem::path given(spec.initial_state);
+    if (given.is_relative())
+      spec.initial_state = (std::filesystem::path(name).parent_path() / given).string();
+    if (!std::filesystem::is_regular_file(spec.initial_state))
+      document.problems.push_back(name + ": key 'run.initial_state': found no file '" + spec.initial_state +
+                                  "', expected a final_state.csv");
+  }
+  if (!document.problems.empty()) throw InputError(document.problems);
+  spec.digest = sha256(canonical_text(spec));
+  return spec;
+}
+
+CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in || !std::filesystem::is_regular_file(path))
+    throw InputError(path + ": found no readable file, expected a case file (TOML)");
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (in.bad()) throw InputError(path + ": found a file that cannot be read, expected a case file (TOML)");
+  return parse_case(text.str(), path, overrides);
+}
+
+}  // namespace edmill::casefile

@@ -1,0 +1,223 @@
+#include "edmill/casefile/quantity.hpp"
+
+#include <array>
+#include <cctype>
+#include <vector>
+
+namespace edmill::casefile {
+
+using boost::multiprecision::cpp_int;
+using boost::multiprecision::cpp_rational;
+
+namespace {
+
+/// One unit of the thesis's tables D.1 and D.2, or a usual companion: spellings and exact SI factor.
+struct Unit {
+  Dimension dimension;
+  std::vector<std::string_view> spellings;
+  cpp_rational factor;
+  int pi_power = 0;
+};
+
+cpp_rational ratio(long long numerator, long long denominator) {
+  return {cpp_int(numerator), cpp_int(denominator)};
+}
+
+const std::vector<Unit>& units() {
+  using D = Dimension;
+  static const std::vector<Unit> table = {
+      {D::length, {"m", "meter", "meters", "metre", "metres"}, 1},
+      {D::length, {"dm", "decimeter", "decimeters", "decimetre", "decimetres"}, ratio(1, 10)},
+      {D::length, {"cm", "centimeter", "centimeters", "centimetre", "centimetres"}, ratio(1, 100)},
+      {D::length, {"mm", "millimeter", "millimeters", "millimetre", "millimetres"}, ratio(1, 1000)},
+      {D::length, {"um", "micrometer", "micrometers", "micrometre", "micrometres"}, ratio(1, 1000000)},
+      {D::length, {"in", "inch", "inches"}, ratio(254, 10000)},
+      {D::length, {"ft", "foot", "feet"}, ratio(3048, 10000)},
+      {D::mass, {"kg", "kilogram", "kilograms"}, 1},
+      {D::mass, {"g", "gram", "grams"}, ratio(1, 1000)},
+      {D::mass, {"mg", "milligram", "milligrams"}, ratio(1, 1000000)},
+      {D::mass, {"lb", "lbs", "pound", "pounds"}, ratio(45359237, 100000000)},
+      {D::time, {"s", "sec", "second", "seconds"}, 1},
+      {D::time, {"ms", "millisecond", "milliseconds"}, ratio(1, 1000)},
+      {D::time, {"us", "microsecond", "microseconds"}, ratio(1, 1000000)},
+      {D::time, {"ns", "nanosecond", "nanoseconds"}, ratio(1, 1000000000)},
+      {D::time, {"min", "m", "minute", "minutes"}, 60},  // "m" is the thesis's own
+      {D::time, {"h", "hr", "hour", "hours"}, 3600},
+      {D::angle, {"rad", "radian", "radians"}, 1},
+      {D::angle, {"deg", "degree", "degrees"}, ratio(1, 180), 1},
+      {D::angle, {"grad", "gradient", "gradients", "gon"}, ratio(1, 200), 1},
+      {D::energy, {"J", "joule", "joules"}, 1},
+      {D::energy, {"mJ", "millijoule", "millijoules"}, ratio(1, 1000)},
+      {D::energy, {"kJ", "kilojoule", "kilojoules"}, 1000},
+      {D::speed, {"m/s"}, 1},
+      {D::speed, {"cm/s"}, ratio(1, 100)},
+      {D::speed, {"mm/s"}, ratio(1, 1000)},
+      {D::speed, {"in/s"}, ratio(254, 10000)},
+      {D::speed, {"ft/s"}, ratio(3048, 10000)},
+      {D::angular_speed, {"rad/s"}, 1},
+      {D::angular_speed, {"deg/s"}, ratio(1, 180), 1},
+      {D::angular_speed, {"Hz", "hertz"}, 2, 1},
+      {D::angular_speed, {"rpm", "r/min", "rev/min"}, ratio(1, 30), 1},
+      {D::acceleration, {"m/s2", "m/s/s"}, 1},
+      {D::acceleration, {"cm/s2", "cm/s/s"}, ratio(1, 100)},
+      {D::acceleration, {"in/s2", "in/s/s"}, ratio(254, 10000)},
+      {D::acceleration, {"ft/s2", "ft/s/s"}, ratio(3048, 10000)},
+      {D::density, {"kg/m3"}, 1},
+      {D::density, {"g/cm3", "g/cc"}, 1000},
+      {D::density,
+       {"lb/ft3"},
+       ratio(45359237, 100000000) / (ratio(3048, 10000) * ratio(3048, 10000) * ratio(3048, 10000))},
+  };
+  return table;
+}
+
+/// "g/cm³", "g / cm^3" and "g/cm3" are one spelling; "µ" is u, "°" is deg.
+std::string plain_unit(std::string_view text) {
+  static const std::array<std::pair<std::string_view, std::string_view>, 8> replacements = {
+      {{"²", "2"}, {"³", "3"}, {"**", ""}, {"^", ""}, {"µ", "u"}, {"μ", "u"}, {"°", "deg"}, {" ", ""}}};
+  std::string unit(text);
+  for (const auto& [from, to] : replacements)
+    for (auto at = unit.find(from); at != std::string::npos; at = unit.find(from, at + to.size()))
+      unit.replace(at, from.size(), to);
+  return unit;
+}
+
+const Unit* find_unit(std::string_view spelling, Dimension dimension) {
+  for (const auto& unit : units())
+    if (unit.dimension == dimension)
+      for (const auto& s : unit.spellings)
+        if (s == spelling) return &unit;
+  return nullptr;
+}
+
+std::string name(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::none:
+      return "a plain number";
+    case Dimension::length:
+      return "a length";
+    case Dimension::mass:
+      return "a mass";
+    case Dimension::time:
+      return "a time";
+    case Dimension::angle:
+      return "an angle";
+    case Dimension::energy:
+      return "an energy";
+    case Dimension::speed:
+      return "a speed";
+    case Dimension::angular_speed:
+      return "an angular speed";
+    case Dimension::acceleration:
+      return "an acceleration";
+    case Dimension::density:
+      return "a density";
+  }
+  return "?";
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+  return text;
+}
+
+/// Length of the decimal number that `text` begins with; an exponent needs digits ("1e3 m", but not "1 eV").
+std::size_t number_length(std::string_view text) {
+  std::size_t at = 0;
+  const auto digits = [&] {
+    const auto begin = at;
+    while (at < text.size() && std::isdigit(static_cast<unsigned char>(text[at]))) ++at;
+    return at - begin;
+  };
+  if (at < text.size() && (text[at] == '+' || text[at] == '-')) ++at;
+  std::size_t found = digits();
+  if (at < text.size() && text[at] == '.') {
+    ++at;
+    found += digits();
+  }
+  if (found == 0) return 0;
+  const auto mantissa_end = at;
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    ++at;
+    if (at < text.size() && (text[at] == '+' || text[at] == '-')) ++at;
+    if (digits() == 0) at = mantissa_end;
+  }
+  return at;
+}
+
+QuantityResult parse(std::string_view text, Dimension dimension, bool unit_needed) {
+  const std::string quoted = "\"" + std::string(text) + "\"";
+  const std::string_view body = trimmed(text);
+  const auto length = number_length(body);
+  const auto number = parse_decimal(body.substr(0, length));
+  if (length == 0 || !number) return QuantityProblem{quoted + " (not a finite decimal number)"};
+  const std::string unit = plain_unit(trimmed(body.substr(length)));
+  if (unit.empty()) {
+    if (unit_needed && dimension != Dimension::none) return QuantityProblem{quoted + " (no unit)"};
+    return Quantity{*number, 0};
+  }
+  if (const Unit* known = find_unit(unit, dimension))
+    return Quantity{*number * known->factor, known->pi_power};
+  for (const auto& other : units())
+    for (const auto& spelling : other.spellings)
+      if (spelling == unit) return QuantityProblem{quoted + " (" + name(other.dimension) + ")"};
+  return QuantityProblem{quoted + " (unknown unit '" + std::string(trimmed(body.substr(length))) + "')"};
+}
+
+}  // namespace
+
+std::string describe(Dimension dimension) {
+  std::string text = name(dimension);
+  if (dimension == Dimension::none) return text;
+  std::string list;
+  for (const auto& unit : units())
+    if (unit.dimension == dimension) list += (list.empty() ? "" : ", ") + std::string(unit.spellings.front());
+  return text + " (" + list + ")";
+}
+
+std::string Quantity::text() const {
+  return value.str() + (pi_power == 0 ? "" : pi_power == 1 ? "*pi" : "*pi^" + std::to_string(pi_power));
+}
+
+std::optional<cpp_rational> parse_decimal(std::string_view text) {
+  if (text.empty() || number_length(text) != text.size()) return std::nullopt;
+  bool negative = false;
+  std::string digits;
+  long exponent = 0;
+  bool after_point = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '-')
+      negative = true;
+    else if (c == '.')
+      after_point = true;
+    else if (c == 'e' || c == 'E') {
+      const std::string_view rest = text.substr(at + 1);
+      if (rest.size() > 6) return std::nullopt;
+      exponent += std::stol(std::string(rest));
+      break;
+    } else if (c != '+') {
+      digits += c;
+      if (after_point) --exponent;
+    }
+  }
+  // Beyond any physical size, and a guard against numbers that would fill the memory.
+  if (digits.size() > 400 || exponent > 400 || exponent < -800) return std::nullopt;
+  const auto first = digits.find_first_not_of('0');
+  const cpp_int mantissa(first == std::string::npos ? std::string("0") : digits.substr(first));
+  const cpp_int power =
+      boost::multiprecision::pow(cpp_int(10), static_cast<unsigned>(exponent < 0 ? -exponent : exponent));
+  cpp_rational value = exponent < 0 ? cpp_rational(mantissa, power) : cpp_rational(mantissa * power);
+  return negative ? cpp_rational(-value) : value;
+}
+
+QuantityResult parse_quantity(std::string_view text, Dimension dimension) {
+  return parse(text, dimension, true);
+}
+
+QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension) {
+  return parse(text, dimension, false);
+}
+
+}  // namespace edmill::casefile

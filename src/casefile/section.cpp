@@ -1,0 +1,226 @@
+#include "section.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace edmill::casefile {
+
+namespace {
+
+std::string kind_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
+  }
+}
+
+/// Byte position of a column that counts characters.
+std::size_t byte_of_column(const std::string& line, std::size_t column) {
+  std::size_t at = 0;
+  for (std::size_t k = 1; k < column && at < line.size(); ++k) {
+    ++at;
+    while (at < line.size() && (static_cast<unsigned char>(line[at]) & 0xC0) == 0x80) ++at;
+  }
+  return at;
+}
+
+/// Number of edits between two keys, for "did you mean".
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string Document::where(const toml::node* node, const std::string& path) const {
+  for (const auto& [key, text] : overrides)
+    if (key == path) return "--set " + key + "=" + text;
+  if (!node || !node->source().begin) return name;
+  return name + ":" + std::to_string(node->source().begin.line);
+}
+
+std::string Document::raw(const toml::node& node, const std::string& path) const {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto found = overrides.find(path); found != overrides.end()) return found->second;
+  const auto& source = node.source();
+  if (!source.begin || source.begin.line != source.end.line || source.begin.line > lines.size())
+    return kind_of(node);
+  const std::string& line = lines[source.begin.line - 1];
+  const auto first = byte_of_column(line, source.begin.column);
+  std::string text = line.substr(first, byte_of_column(line, source.end.column) - first);
+  std::erase(text, '_');
+  while (!text.empty() && (text.back() == ' ' || text.back() == ',' || text.back() == '\r')) text.pop_back();
+  return text;
+}
+
+void Document::report(const toml::node* node, const std::string& path, const std::string& found,
+                      const std::string& expected) {
+  if (!problem_keys.insert(path).second) return;  // one message a key
+  problems.push_back(where(node, path) + ": key '" + path + "': found " + found + ", expected " + expected);
+}
+
+const toml::node* Section::find(const std::string& key) {
+  known_.insert(key);
+  return table_ ? table_->get(key) : nullptr;
+}
+
+Section Section::section(const std::string& key) {
+  const auto* node = find(key);
+  if (node && !node->as_table())
+    document_->report(node, full(key), kind_of(*node), "a table [" + full(key) + "]");
+  return {*document_, node ? node->as_table() : nullptr, full(key), node ? node : place_};
+}
+
+std::vector<Section> Section::sections(const std::string& key) {
+  std::vector<Section> entries;
+  const auto* node = find(key);
+  if (!node) return entries;
+  const auto* array = node->as_array();
+  if (!array || !array->is_array_of_tables()) {
+    document_->report(node, full(key), kind_of(*node), "entries [[" + full(key) + "]]");
+    return entries;
+  }
+  for (std::size_t k = 0; k < array->size(); ++k)
+    entries.emplace_back(*document_, array->get(k)->as_table(), full(key) + "." + std::to_string(k));
+  return entries;
+}
+
+std::optional<Quantity> Section::quantity(const std::string& key, Dimension dimension) {
+  const auto* node = find(key);
+  if (!node) return std::nullopt;
+  if (!node->is_string() && !node->is_number()) {
+    document_->report(node, full(key), kind_of(*node), describe(dimension));
+    return std::nullopt;
+  }
+  const auto result = parse_quantity(document_->raw(*node, full(key)), dimension);
+  if (const auto* problem = std::get_if<QuantityProblem>(&result)) {
+    document_->report(node, full(key), problem->found, describe(dimension));
+    return std::nullopt;
+  }
+  return std::get<Quantity>(result);
+}
+
+Quantity Section::quantity(const std::string& key, Dimension dimension, const Quantity& fallback) {
+  return quantity(key, dimension).value_or(fallback);
+}
+
+Quantity Section::required(const std::string& key, Dimension dimension) {
+  if (!find(key)) problem(key, "nothing", describe(dimension));
+  // A placeholder that passes later checks: the problem is already reported.
+  return quantity(key, dimension, Quantity{1});
+}
+
+std::optional<QuantityVector> Section::vector(const std::string& key, Dimension dimension) {
+  const auto* node = find(key);
+  if (!node) return std::nullopt;
+  const std::string expected = "an array of three numbers or texts, each " + describe(dimension);
+  const auto* array = node->as_array();
+  if (!array || array->size() != 3) {
+    document_->report(node, full(key),
+                      array ? "an array of " + std::to_string(array->size()) : kind_of(*node), expected);
+    return std::nullopt;
+  }
+  QuantityVector vector;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& item = *array->get(k);
+    const std::string item_path = full(key) + "." + std::to_string(k);
+    if (!item.is_string() && !item.is_number()) {
+      document_->report(&item, item_path, kind_of(item), describe(dimension));
+      return std::nullopt;
+    }
+    const auto result = parse_quantity_or_si(document_->raw(item, item_path), dimension);
+    if (const auto* problem = std::get_if<QuantityProblem>(&result)) {
+      document_->report(&item, item_path, problem->found, describe(dimension));
+      return std::nullopt;
+    }
+    vector[k] = std::get<Quantity>(result);
+  }
+  return vector;
+}
+
+std::optional<std::uint64_t> Section::count(const std::string& key) {
+  const auto* node = find(key);
+  if (!node) return std::nullopt;
+  const auto* integer = node->as_integer();
+  if (!integer || integer->get() < 0) {
+    document_->report(node, full(key), document_->raw(*node, full(key)), "an integer, 0 or more");
+    return std::nullopt;
+  }
+  return static_cast<std::uint64_t>(integer->get());
+}
+
+std::optional<std::string> Section::text(const std::string& key) {
+  const auto* node = find(key);
+  if (!node) return std::nullopt;
+  const auto* string = node->as_string();
+  if (!string || string->get().empty()) {
+    document_->report(node, full(key), string ? "an empty text" : kind_of(*node), "a text");
+    return std::nullopt;
+  }
+  return string->get();
+}
+
+std::string Section::choice(const std::string& key, const std::vector<std::string>& choices) {
+  const auto* node = find(key);
+  if (!node) return choices.front();
+  std::string list;
+  for (const auto& c : choices) list += (list.empty() ? "" : ", ") + ("\"" + c + "\"");
+  const auto* string = node->as_string();
+  if (string && std::find(choices.begin(), choices.end(), string->get()) != choices.end())
+    return string->get();
+  document_->report(node, full(key), string ? "\"" + string->get() + "\"" : kind_of(*node),
+                    (choices.size() > 1 ? "one of " : "") + list);
+  return choices.front();
+}
+
+void Section::problem(const std::string& key, const std::string& found, const std::string& expected) {
+  const auto* node = table_ ? table_->get(key) : nullptr;
+  document_->report(node ? node : place_, full(key), found, expected);
+}
+
+void Section::require(bool good, const std::string& key, const std::string& expected) {
+  if (good) return;
+  const auto* node = table_ ? table_->get(key) : nullptr;
+  problem(key, node ? "\"" + document_->raw(*node, full(key)) + "\"" : "nothing", expected);
+}
+
+void Section::reject_unknown_keys() {
+  if (!table_) return;
+  for (const auto& [key, node] : *table_) {
+    const std::string name(key.str());
+    if (known_.count(name)) continue;
+    std::string list, nearest;
+    std::size_t best = 3;
+    for (const auto& known : known_) {
+      list += (list.empty() ? "" : ", ") + known;
+      const auto distance = edit_distance(name, known);
+      if (distance < best) best = distance, nearest = known;
+    }
+    document_->report(&node, full(name), "an unknown key",
+                      nearest.empty() ? "one of: " + list : "'" + nearest + "', or another of: " + list);
+  }
+}
+
+}  // namespace edmill::casefile

@@ -1,0 +1,79 @@
+// A table of the case file while it is read: typed look-ups that collect problems instead of throwing.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#define TOML_ENABLE_FORMATTERS 0
+#include <toml++/toml.h>
+
+#include "edmill/casefile/case_spec.hpp"
+
+namespace edmill::casefile {
+
+/// The document with what messages need: its name, its lines, and which keys the command line set.
+struct Document {
+  std::string name;
+  std::vector<std::string> lines;
+  std::map<std::string, std::string> overrides;  ///< path -> text as given
+  std::vector<std::string> problems;
+  std::set<std::string> problem_keys;
+
+  /// "case.toml:12" or "--set".
+  std::string where(const toml::node* node, const std::string& path) const;
+  /// Text of a value as it stands in the file, so that decimals stay exact.
+  std::string raw(const toml::node& node, const std::string& path) const;
+  void report(const toml::node* node, const std::string& path, const std::string& found,
+              const std::string& expected);
+};
+
+class Section {
+ public:
+  /// @param table  null for a section that is absent: look-ups then find nothing
+  Section(Document& document, const toml::table* table, std::string path, const toml::node* place = nullptr)
+      : document_(&document), table_(table), path_(std::move(path)), place_(place ? place : table) {}
+
+  bool present() const { return table_ != nullptr; }
+  const std::string& path() const { return path_; }
+  std::string where() const { return document_->where(place_, path_) + ": [" + path_ + "]"; }
+
+  /// A sub-section; a key of another kind is reported.
+  Section section(const std::string& key);
+  /// Entries of an array of tables.
+  std::vector<Section> sections(const std::string& key);
+
+  std::optional<Quantity> quantity(const std::string& key, Dimension dimension);
+  Quantity quantity(const std::string& key, Dimension dimension, const Quantity& fallback);
+  /// Reports the key when it is absent.
+  Quantity required(const std::string& key, Dimension dimension);
+  std::optional<QuantityVector> vector(const std::string& key, Dimension dimension);
+  std::optional<std::uint64_t> count(const std::string& key);
+  std::optional<std::string> text(const std::string& key);
+  /// One of `choices`, or the first when absent.
+  std::string choice(const std::string& key, const std::vector<std::string>& choices);
+
+  bool has(const std::string& key) const { return table_ && table_->contains(key); }
+  bool is_array(const std::string& key) const { return has(key) && table_->get(key)->is_array(); }
+  void problem(const std::string& key, const std::string& found, const std::string& expected);
+  /// Reports a found value unless `good`.
+  void require(bool good, const std::string& key, const std::string& expected);
+  /// Reports every key that no look-up asked for.
+  void reject_unknown_keys();
+
+ private:
+  std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  const toml::node* find(const std::string& key);
+
+  Document* document_;
+  const toml::table* table_;
+  std::string path_;
+  const toml::node* place_;
+  std::set<std::string> known_;
+};
+
+}  // namespace edmill::casefile

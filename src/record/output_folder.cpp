@@ -1,0 +1,48 @@
+#include "edmill/record/output_folder.hpp"
+
+#include <unistd.h>
+
+#include "edmill/core/errors.hpp"
+
+namespace edmill::record {
+
+namespace fs = std::filesystem;
+
+void prepare_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    throw InputError(folder.string() + ": found no folder and none can be made (" + error.message() +
+                     "), expected an output folder");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(folder.string() +
+                     ": found a folder that cannot be written to, expected an output folder");
+}
+
+AtomicFile::AtomicFile(fs::path place)
+    : place_(std::move(place)), temporary_(place_.string() + ".partial-" + std::to_string(::getpid())) {
+  if (fs::is_directory(place_))
+    throw InputError(place_.string() + ": found a folder, expected a place for a file");
+  stream_.open(temporary_, std::ios::binary | std::ios::trunc);
+  if (!stream_)
+    throw InputError(place_.string() + ": found a file that cannot be written, expected a writable place");
+}
+
+AtomicFile::~AtomicFile() {
+  if (committed_) return;
+  stream_.close();
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::commit() {
+  stream_.flush();
+  const bool good = stream_.good();
+  stream_.close();
+  if (!good || stream_.fail())
+    throw std::runtime_error(place_.string() + ": could not be written; the disk may be full");
+  fs::rename(temporary_, place_);
+  committed_ = true;
+}
+
+}  // namespace edmill::record
