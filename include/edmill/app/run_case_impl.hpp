@@ -10,10 +10,10 @@
 #include "edmill/app/run_case.hpp"
 #include "edmill/app/version.hpp"
 #include "edmill/core/errors.hpp"
+#include "edmill/observe/collision_log.hpp"
 #include "edmill/observe/progress.hpp"
 #include "edmill/observe/run_statistics.hpp"
 #include "edmill/observe/stop_rules.hpp"
-#include "edmill/record/collision_log.hpp"
 #include "edmill/record/final_state.hpp"
 #include "edmill/record/summary.hpp"
 #include "edmill/report/result_table.hpp"
@@ -50,13 +50,13 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   const std::filesystem::path folder(options.folder);
   const auto built = setup::build_case<Real>(spec);
   record::prepare_folder(folder);
-  std::vector<std::unique_ptr<record::CollisionLog<Real>>> logs;
+  std::vector<std::unique_ptr<observe::CollisionLog<Real>>> logs;
   const auto time = [](const std::optional<casefile::Quantity>& q) {
     return q ? std::optional<Real>(q->template to<Real>()) : std::nullopt;
   };
   for (const auto& output : spec.outputs)
-    logs.push_back(std::make_unique<record::CollisionLog<Real>>(folder / output.file, time(output.start_time),
-                                                                time(output.end_time)));
+    logs.push_back(std::make_unique<observe::CollisionLog<Real>>(
+        folder / output.file, time(output.start_time), time(output.end_time)));
 
   const double cpu_start = cpu_seconds();
   engine::Simulation<Real> simulation(built.the_case, built.states, built.start);
@@ -101,7 +101,7 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   summary.end_time = simulation.seconds();
   summary.period = clock.period();
   summary.energy_at_end = simulation.energy_at(simulation.now());
-  for (int k = 0; k < observe::partner_kinds; ++k) {
+  for (int k = 0; k < model::partner_kinds; ++k) {
     const auto& totals = statistics.by_partner()[k];
     summary.collisions[k] = totals.collisions;
     summary.dose_by_partner[k] = totals.milling_dose.value();
@@ -111,7 +111,8 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   summary.collapse_impacts = statistics.collapsing();
   summary.collapse_dose = statistics.collapsing_dose();
   summary.collapse = simulation.collapse();
-  summary.counts = simulation.counts();
+  summary.simultaneous_contacts = simulation.counts().simultaneous_contacts;
+  summary.deepest_overlap = simulation.counts().deepest_overlap;
   summary.total_impacts = simulation.counts().impacts;
   summary.escalations = simulation.escalations();
   summary.powder_mass = time(spec.powder_mass);

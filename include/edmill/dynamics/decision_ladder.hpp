@@ -3,21 +3,13 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "edmill/core/escalations.hpp"
 #include "edmill/dynamics/pair_search.hpp"
 #include "edmill/dynamics/wall_search.hpp"
 
 namespace edmill::dynamics {
-
-/// Decisions that were passed up to one wider scalar.
-struct Escalations {
-  std::string scalar;
-  std::uint64_t wall = 0;
-  std::uint64_t pair = 0;
-  std::uint64_t order = 0;  ///< which of two contacts of one ball comes first
-};
 
 /// A predicted contact with what it was predicted from, so that a wider scalar can time it anew.
 template <class Real>

@@ -8,15 +8,6 @@
 
 namespace edmill::engine {
 
-/// Where a run could not go on: the exact model has a Zeno point here. (docs/theory.md, section 6)
-template <class Real>
-struct InelasticCollapse {
-  int ball = -1;
-  bool with_wall = false;
-  int partner = -1;
-  Real accumulation_time{};  ///< when the impacts accumulate [s]
-};
-
 /// Follows each ball's recent impacts. A ball whose last `enough` impacts each came after a path shorter than
 /// `smallest_path`, a length well above rounding, is in collapse. The accumulation time extrapolates the
 /// first of these impacts, where rounding matters least: intervals with one partner shrink by the restitution

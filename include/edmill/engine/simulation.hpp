@@ -12,6 +12,7 @@
 #include "edmill/engine/event_queue.hpp"
 #include "edmill/engine/observer.hpp"
 #include "edmill/model/case.hpp"
+#include "edmill/model/outcome.hpp"
 
 namespace edmill::engine {
 
@@ -23,13 +24,6 @@ enum class EndReason {
   max_ball_speed,
   inelastic_collapse,
   interrupted,
-};
-
-/// Mechanical energy of all balls [J].
-template <class Real>
-struct Energy {
-  Real kinetic{0};    ///< translation and spin
-  Real potential{0};  ///< -m g.r
 };
 
 /// What the engine counts about itself.
@@ -71,10 +65,10 @@ class Simulation {
   const dynamics::Flight<Real>& flight(int i) const { return flights_[i]; }
   const Vec3<Real>& spin(int i) const { return spins_[i]; }
   model::BallState<Real> state_at(int i, const Instant<Real>& when) const;
-  Energy<Real> energy_at(const Instant<Real>& when) const;
+  model::Energy<Real> energy_at(const Instant<Real>& when) const;
   const EngineCounts<Real>& counts() const { return counts_; }
-  std::vector<dynamics::Escalations> escalations() const { return ladder_.escalations(); }
-  const std::optional<InelasticCollapse<Real>>& collapse() const { return collapse_; }
+  std::vector<Escalations> escalations() const { return ladder_.escalations(); }
+  const std::optional<model::InelasticCollapse<Real>>& collapse() const { return collapse_; }
 
  private:
   /// A predicted contact with another ball; void once the partner's impact count has moved on.
@@ -142,7 +136,7 @@ class Simulation {
   CollapseWatch<Real> collapse_watch_;
   std::vector<Observer<Real>*> observers_;
   EngineCounts<Real> counts_;
-  std::optional<InelasticCollapse<Real>> collapse_;
+  std::optional<model::InelasticCollapse<Real>> collapse_;
   std::optional<EndReason> stop_;
   Instant<Real> now_;
   Real top_speed_;

@@ -271,8 +271,8 @@ void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int k
                                                impact.outcome.restitution.normal, clock_);
   // With t_c the rule itself ends the cascade; only impacts without any time between them cannot go on.
   if ((collapsing && !(law.collapse_time > 0)) || collapse_watch_.stuck(ball)) {
-    collapse_ =
-        InelasticCollapse<Real>{ball, with_wall, partner, collapse_watch_.accumulation_time(ball, clock_)};
+    collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner,
+                                               collapse_watch_.accumulation_time(ball, clock_)};
     stop_ = EndReason::inelastic_collapse;
   }
 }
@@ -439,8 +439,8 @@ model::BallState<Real> Simulation<Real>::state_at(int i, const Instant<Real>& wh
 }
 
 template <class Real>
-Energy<Real> Simulation<Real>::energy_at(const Instant<Real>& when) const {
-  Energy<Real> energy;
+model::Energy<Real> Simulation<Real>::energy_at(const Instant<Real>& when) const {
+  model::Energy<Real> energy;
   for (int i = 0; i < ball_count(); ++i) {
     const auto state = state_at(i, when);
     const auto& ball = balls_[i];

@@ -8,6 +8,10 @@ namespace edmill::model {
 /// Wall ids follow the thesis: 0 is the cap at y = -h/2, 1 the cap at y = +h/2, 2 the cylinder.
 inline constexpr int wall_count = 3;
 
+/// What a ball can collide with, as tables count it: the walls by id, then other balls.
+inline constexpr int partner_kinds = wall_count + 1;
+inline constexpr int ball_ball = wall_count;
+
 template <class Real>
 struct CylinderVessel {
   Real radius;       ///< inner radius R_v [m]

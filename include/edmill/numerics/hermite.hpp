@@ -1,6 +1,8 @@
 // Certified statements about a smooth function on an interval, from its values and slopes at the two ends.
 #pragma once
 
+#include <limits>
+
 namespace edmill::numerics {
 
 /// Value and slope of a function at one abscissa.

@@ -10,10 +10,6 @@
 
 namespace edmill::observe {
 
-/// Partners: the walls by id, then ball-ball.
-inline constexpr int partner_kinds = model::wall_count + 1;
-inline constexpr int ball_ball = model::wall_count;
-
 template <class Real>
 class RunStatistics : public engine::Observer<Real> {
  public:
@@ -26,7 +22,7 @@ class RunStatistics : public engine::Observer<Real> {
   };
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>&) override {
-    Totals& t = totals_[impact.with_wall ? impact.partner : ball_ball];
+    Totals& t = totals_[impact.with_wall ? impact.partner : model::ball_ball];
     ++t.collisions;
     t.milling_dose += impact.outcome.milling_dose;
     if (impact.with_wall) t.wall_work += impact.outcome.wall_work;
@@ -36,7 +32,7 @@ class RunStatistics : public engine::Observer<Real> {
     }
   }
 
-  const std::array<Totals, partner_kinds>& by_partner() const { return totals_; }
+  const std::array<Totals, model::partner_kinds>& by_partner() const { return totals_; }
 
   std::uint64_t collisions() const {
     std::uint64_t sum = 0;
@@ -58,7 +54,7 @@ class RunStatistics : public engine::Observer<Real> {
     for (const auto& t : totals_) total += (t.*part).value();
     return total.value();
   }
-  std::array<Totals, partner_kinds> totals_{};
+  std::array<Totals, model::partner_kinds> totals_{};
 };
 
 }  // namespace edmill::observe

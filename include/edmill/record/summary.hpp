@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "edmill/engine/simulation.hpp"
-#include "edmill/observe/run_statistics.hpp"
+#include "edmill/core/escalations.hpp"
+#include "edmill/model/outcome.hpp"
+#include "edmill/model/vessel.hpp"
 
 namespace edmill::record {
 
@@ -24,16 +26,17 @@ struct Summary {
   std::string error;                ///< of a decision that no scalar could make
   Real start_time{0}, end_time{0};  ///< of the statistics [s]
   Real period{0};                   ///< of the drive [s]
-  std::array<std::uint64_t, observe::partner_kinds> collisions{};
-  std::array<Real, observe::partner_kinds> dose_by_partner{};
+  std::array<std::uint64_t, model::partner_kinds> collisions{};
+  std::array<Real, model::partner_kinds> dose_by_partner{};
   Real milling_dose{0}, wall_work{0};  ///< [J]
-  engine::Energy<Real> energy_at_start, energy_at_end;
+  model::Energy<Real> energy_at_start, energy_at_end;
   std::uint64_t collapse_impacts = 0;
   Real collapse_dose{0};
-  std::optional<engine::InelasticCollapse<Real>> collapse;
-  engine::EngineCounts<Real> counts;
-  std::vector<dynamics::Escalations> escalations;
+  std::optional<model::InelasticCollapse<Real>> collapse;
+  std::vector<Escalations> escalations;
   std::optional<Real> powder_mass, ball_mass;
+  std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could tell apart
+  Real deepest_overlap{0};                  ///< by rounding, at any impact [m]
   double cpu_seconds = 0;
   std::uint64_t total_impacts = 0;  ///< since the start of the run
 

@@ -6,8 +6,8 @@
 
 namespace edmill::record {
 
-inline constexpr std::array<std::string_view, observe::partner_kinds> partner_names = {"wall_0", "wall_1",
-                                                                                       "wall_2", "ball_ball"};
+inline constexpr std::array<std::string_view, model::partner_kinds> partner_names = {"wall_0", "wall_1",
+                                                                                     "wall_2", "ball_ball"};
 
 template <class Real>
 std::string summary_json(const Summary<Real>& s) {
@@ -28,7 +28,7 @@ std::string summary_json(const Summary<Real>& s) {
   json.number("duration", s.duration());
 
   json.begin("collisions");
-  for (int k = 0; k < observe::partner_kinds; ++k) json.integer(partner_names[k], s.collisions[k]);
+  for (int k = 0; k < model::partner_kinds; ++k) json.integer(partner_names[k], s.collisions[k]);
   json.integer("total", s.total_collisions());
   json.end();
   const bool timed = s.duration() > 0;
@@ -39,7 +39,7 @@ std::string summary_json(const Summary<Real>& s) {
       json.null(key);
   };
   json.begin("collision_rate");
-  for (int k = 0; k < observe::partner_kinds; ++k)
+  for (int k = 0; k < model::partner_kinds; ++k)
     rate(partner_names[k], Real(static_cast<std::int64_t>(s.collisions[k])));
   rate("total", Real(static_cast<std::int64_t>(s.total_collisions())));
   json.end();
@@ -51,7 +51,7 @@ std::string summary_json(const Summary<Real>& s) {
   else
     json.null("inverse_milling_dose_rate");
   json.begin("milling_dose_by_partner");
-  for (int k = 0; k < observe::partner_kinds; ++k) json.number(partner_names[k], s.dose_by_partner[k]);
+  for (int k = 0; k < model::partner_kinds; ++k) json.number(partner_names[k], s.dose_by_partner[k]);
   json.end();
   if (s.powder_mass) {
     json.number("powder_mass", *s.powder_mass);
@@ -98,8 +98,8 @@ std::string summary_json(const Summary<Real>& s) {
     json.end();
   }
   json.end();
-  json.integer("simultaneous_contacts", s.counts.simultaneous_contacts);
-  json.number("deepest_overlap", s.counts.deepest_overlap);
+  json.integer("simultaneous_contacts", s.simultaneous_contacts);
+  json.number("deepest_overlap", s.deepest_overlap);
   json.integer("impacts_since_start", s.total_impacts);
   json.number("cpu_seconds", s.cpu_seconds);
   json.number("collisions_per_cpu_second",

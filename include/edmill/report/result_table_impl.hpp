@@ -25,8 +25,7 @@ std::string result_table(const record::Summary<Real>& s) {
         duration > 0 ? fmt::format("{:.1f}", static_cast<double>(number) / duration) : "-";
     out += fmt::format("    {:<26}{:>12}{:>14}{:>16.6g}\n", name, number, rate, real(dose));
   };
-  for (int k = 0; k < observe::partner_kinds; ++k)
-    collisions(names[k], s.collisions[k], s.dose_by_partner[k]);
+  for (int k = 0; k < model::partner_kinds; ++k) collisions(names[k], s.collisions[k], s.dose_by_partner[k]);
   collisions("total", s.total_collisions(), s.milling_dose);
   if (duration > 0) {
     row("milling dose rate", fmt::format("{:.6g} W", real(s.milling_dose) / duration));
@@ -51,7 +50,7 @@ std::string result_table(const record::Summary<Real>& s) {
                                           real(s.collapse->accumulation_time)));
   for (const auto& e : s.escalations)
     row("decided by " + e.scalar, fmt::format("{} wall, {} pair, {} order", e.wall, e.pair, e.order));
-  row("deepest overlap", fmt::format("{:.2e} m", real(s.counts.deepest_overlap)));
+  row("deepest overlap", fmt::format("{:.2e} m", real(s.deepest_overlap)));
   row("CPU time",
       fmt::format("{:.3g} s, {:.3g} collisions/s", s.cpu_seconds,
                   s.cpu_seconds > 0 ? static_cast<double>(s.total_impacts) / s.cpu_seconds : 0.0));

@@ -9,7 +9,7 @@
 #include "edmill/engine/simulation.hpp"
 #include "edmill/record/output_folder.hpp"
 
-namespace edmill::record {
+namespace edmill::observe {
 
 /// SI; balls and impacts count from 0; every number in as many digits as round-trip in its scalar.
 inline constexpr const char* collision_log_header =
@@ -39,8 +39,8 @@ class CollisionLog : public engine::Observer<Real> {
   void commit() { file_.commit(); }
 
  private:
-  AtomicFile file_;
+  record::AtomicFile file_;
   std::optional<Real> from_, until_;
 };
 
-}  // namespace edmill::record
+}  // namespace edmill::observe

@@ -1,0 +1,11 @@
+# What keeps the house in order.
+set(architecture ${CMAKE_CURRENT_SOURCE_DIR}/architecture)
+get_target_property(eigen_include Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+add_test(NAME layers_test COMMAND ${architecture}/layers_test.sh)
+add_test(NAME headers_test COMMAND ${architecture}/headers_test.sh ${CMAKE_CXX_COMPILER} -I${eigen_include} -DEIGEN_DONT_VECTORIZE)
+find_program(CLANG_FORMAT clang-format)
+if(CLANG_FORMAT)
+  add_test(NAME format_test COMMAND ${architecture}/format_test.sh)
+endif()
+add_test(NAME same_bits_test COMMAND ${architecture}/same_bits_test.sh ${CMAKE_BINARY_DIR}/same-bits)
+set_tests_properties(same_bits_test PROPERTIES TIMEOUT 1800 RUN_SERIAL TRUE)

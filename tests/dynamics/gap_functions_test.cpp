@@ -1,0 +1,116 @@
+// The bounds that certify decisions: rounding errors of the gaps and derivatives of the gap functions.
+#include "edmill/dynamics/gap_functions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "edmill/setup/random.hpp"
+#include "spex_case.hpp"
+
+namespace edmill::dynamics {
+namespace {
+
+/// A ball of random size somewhere in the vessel at the instant, flying at random.
+struct RandomFlight {
+  Flight<double> flight;
+  double radius;
+  std::int64_t period;
+  double offset;
+
+  RandomFlight(setup::Random& random, const model::Mill<double>& mill, double top_speed) {
+    const auto uniform = [&] { return random.uniform<double>(); };
+    const auto symmetric = [&] { return random.symmetric<double>(); };
+    radius = 0.001 + 0.005 * uniform();
+    const Vec3<double> local{0.7 * mill.vessel.radius * symmetric(), mill.vessel.half_height * symmetric(),
+                             0.7 * mill.vessel.radius * symmetric()};
+    flight.start = {0, uniform() * mill.motion.period};
+    flight.position = model::to_inertial<double>(model::pose_at<double>(mill.motion, flight.start.offset),
+                                                 mill.motion.arm, local);
+    flight.velocity = Vec3<double>(symmetric(), symmetric(), symmetric()) * (top_speed * uniform());
+    // Up to half a period later, often in the next one.
+    const double later = flight.start.offset + 0.1 * mill.motion.period * uniform();
+    period = later < mill.motion.period ? 0 : 1;
+    offset = period ? later - mill.motion.period : later;
+  }
+};
+
+TEST(GapFunctions, RoundingErrorsStayBelowTheirBounds) {
+  const auto mill = testing::spex_mill<double>();
+  const GapFunctions<double>::Constants constants(mill);
+  const model::Mill<mpfr50> wide_mill{
+      {mill.motion.arm, mill.motion.theta_max, mill.motion.gamma_max, mill.motion.period},
+      {mill.vessel.radius, mill.vessel.half_height},
+      vector_cast<mpfr50>(mill.gravity),
+      {},
+      {}};
+  const GapFunctions<mpfr50>::Constants wide_constants(wide_mill);
+  setup::Random random(21);
+  double worst_gap = 0, worst_rate = 0;
+  for (int k = 0; k < 50000; ++k) {
+    const RandomFlight r(random, mill, 10);
+    const GapFunctions<double> narrow(constants, r.flight, r.radius, r.period);
+    const GapFunctions<mpfr50> exact(wide_constants, flight_cast<mpfr50>(r.flight), mpfr50(r.radius),
+                                     r.period);
+    const auto found = narrow(r.offset);
+    const auto truth = exact(mpfr50(r.offset));
+    const double elapsed = narrow.elapsed(r.offset);
+    const double speed = norm<double>(r.flight.velocity) + constants.gravity * elapsed;
+    const auto bound = narrow.errors(elapsed, speed);
+    for (int w = 0; w < model::wall_count; ++w) {
+      worst_gap =
+          std::max(worst_gap, static_cast<double>(abs(mpfr50(found.gap[w]) - truth.gap[w])) / bound.gap[w]);
+      worst_rate = std::max(worst_rate,
+                            static_cast<double>(abs(mpfr50(found.rate[w]) - truth.rate[w])) / bound.rate[w]);
+    }
+  }
+  std::cout << "largest error over its bound: gap " << worst_gap << ", rate " << worst_rate << "\n";
+  EXPECT_LT(worst_gap, 1);
+  EXPECT_LT(worst_rate, 1);
+  // Bounds far above the errors would escalate decisions that double could make.
+  EXPECT_GT(worst_gap, 0.02);
+}
+
+/// Central differences of the gap in 50 digits.
+std::array<mpfr50, 3> derivatives(const GapFunctions<mpfr50>& f, const mpfr50& t, int wall) {
+  const mpfr50 h("1e-8");
+  const auto g = [&](int k) { return f(t + k * h).gap[wall]; };
+  const mpfr50 h2 = h * h;
+  return {(g(1) - 2 * g(0) + g(-1)) / h2, (g(2) - 2 * g(1) + 2 * g(-1) - g(-2)) / (2 * h2 * h),
+          (g(2) - 4 * g(1) + 6 * g(0) - 4 * g(-1) + g(-2)) / (h2 * h2)};
+}
+
+TEST(MotionBounds, DerivativesOfTheGapsStayBelowTheirBounds) {
+  const auto mill = testing::spex_mill<mpfr50>();
+  const auto narrow_mill = testing::spex_mill<double>();
+  const GapFunctions<mpfr50>::Constants constants(mill);
+  const BoundsTable<double> table(narrow_mill);
+  setup::Random random(22);
+  std::array<double, 3> worst_y{}, worst_q{};
+  for (int k = 0; k < 5000; ++k) {
+    const RandomFlight r(random, narrow_mill, 10);
+    const double length = table.longest_window() * (0.01 + 0.99 * random.uniform<double>());
+    const GapFunctions<mpfr50> f(constants, flight_cast<mpfr50>(r.flight), mpfr50(r.radius),
+                                 r.flight.start.period);
+    const double speed = norm<double>(r.flight.velocity) + 9.8 * length;
+    const auto bound = table.at(speed, length);
+    for (int step = 0; step <= 4; ++step) {
+      const mpfr50 t = mpfr50(r.flight.start.offset) + mpfr50(length) * step / 4;
+      const auto y = derivatives(f, t, 0), q = derivatives(f, t, 2);
+      for (int n = 0; n < 3; ++n) {
+        worst_y[n] = std::max(worst_y[n], static_cast<double>(abs(y[n])) / bound.y[n]);
+        worst_q[n] = std::max(worst_q[n], static_cast<double>(abs(q[n])) / bound.q[n]);
+      }
+    }
+  }
+  for (int n = 0; n < 3; ++n) {
+    std::cout << "derivative " << n + 2 << ": largest over its bound " << worst_y[n] << " (y), " << worst_q[n]
+              << " (q)\n";
+    EXPECT_LT(worst_y[n], 1);
+    EXPECT_LT(worst_q[n], 1);
+    EXPECT_GT(worst_y[n], 0.05);  // a bound that is far off would only cost time, but would be a mistake
+  }
+}
+
+}  // namespace
+}  // namespace edmill::dynamics

@@ -1,0 +1,113 @@
+// No ball overlaps a wall or another ball beyond rounding after any event, and late starts are as sharp as
+// early ones. Gaps are taken from the stored flights in float128; a double filter picks the ones that are
+// worth it.
+#include <gtest/gtest.h>
+
+#include "spex_case.hpp"
+
+namespace edmill::engine {
+namespace {
+
+/// After every impact, the deepest overlap of any ball with any wall or ball [m].
+class OverlapCheck : public Observer<double> {
+ public:
+  void on_impact(const Impact<double>& impact, Simulation<double>& simulation) override {
+    const int n = simulation.ball_count();
+    positions_.resize(n);
+    for (int i = 0; i < n; ++i) positions_[i] = simulation.state_at(i, impact.time).position;
+    const auto& mill = simulation.mill();
+    const auto pose = model::pose_at<double>(mill.motion, impact.time.offset);
+    for (int i = 0; i < n; ++i) {
+      const auto p =
+          model::to_vessel_frame<double>(pose, mill.motion.arm, positions_[i], positions_[i]).position;
+      const double r = simulation.ball(i).radius;
+      const double side = mill.vessel.radius - r - std::hypot(p[0], p[2]);
+      const double cap = mill.vessel.half_height - r - std::abs(p[1]);
+      if (side < near || cap < near) exact_wall(simulation, impact.time, i);
+      for (int j = 0; j < i; ++j) {
+        const Vec3<double> d = positions_[i] - positions_[j];
+        const double sum = r + simulation.ball(j).radius + near;
+        if (dot<double>(d, d) < sum * sum) exact_pair(simulation, impact.time, i, j);
+      }
+    }
+    ++events;
+  }
+
+  float128 deepest_wall{0}, deepest_pair{0};
+  std::uint64_t events = 0;
+
+ private:
+  static constexpr double near = 1e-12;  // double gaps err by far less
+
+  static Vec3<float128> position(const Simulation<double>& s, const Instant<double>& t, int i) {
+    const auto flight = dynamics::flight_cast<float128>(s.flight(i));
+    const DriveClock<float128> clock{float128(s.clock().period())};
+    return dynamics::position_after<float128>(
+        flight, vector_cast<float128>(s.mill().gravity),
+        clock.elapsed(flight.start, dynamics::instant_cast<float128>(t)));
+  }
+  void exact_wall(const Simulation<double>& s, const Instant<double>& t, int i) {
+    const auto& m = s.mill();
+    const model::MillMotion<float128> motion{m.motion.arm, m.motion.theta_max, m.motion.gamma_max,
+                                             m.motion.period};
+    const auto pose = model::pose_at<float128>(motion, float128(t.offset));
+    const auto r = position(s, t, i);
+    const auto p = model::to_vessel_frame<float128>(pose, motion.arm, r, r).position;
+    const float128 radius = s.ball(i).radius;
+    const float128 side = sqrt(p[0] * p[0] + p[2] * p[2]) - (float128(m.vessel.radius) - radius);
+    const float128 cap = abs(p[1]) - (float128(m.vessel.half_height) - radius);
+    deepest_wall = std::max({deepest_wall, side, cap});
+  }
+  void exact_pair(const Simulation<double>& s, const Instant<double>& t, int i, int j) {
+    const float128 sum = float128(s.ball(i).radius) + float128(s.ball(j).radius);
+    const float128 distance = norm<float128>(Vec3<float128>(position(s, t, i) - position(s, t, j)));
+    deepest_pair = std::max(deepest_pair, float128(sum - distance));
+  }
+  std::vector<Vec3<double>> positions_;
+};
+
+OverlapCheck deepest_overlap(const std::string& contact, const std::string& balls, double start,
+                             double seconds) {
+  const auto spec = casefile::parse_case(
+      testing::spex_text("initial_time = \"" + std::to_string(start) + " s\"\nend_time = \"" +
+                             std::to_string(start + seconds) + " s\"",
+                         contact, balls),
+      "containment.toml");
+  const auto built = setup::build_case<double>(spec);
+  Simulation<double> simulation(built.the_case, built.states, built.start);
+  OverlapCheck check;
+  simulation.attach(check);
+  EXPECT_EQ(simulation.run_until(simulation.clock().at(start + seconds)), EndReason::end_time);
+  std::cout << check.events << " events from " << start << " s: deepest overlap with a wall "
+            << static_cast<double>(check.deepest_wall) << " m, of two balls "
+            << static_cast<double>(check.deepest_pair) << " m\n";
+  return check;
+}
+
+constexpr const char* demo_contact = "restitution = 0.53\ncollapse_time = \"0.1 ms\"";
+
+TEST(Containment, DemoCaseNeverOverlapsBeyondRounding) {
+  const auto check = deepest_overlap(demo_contact, testing::batch(28, "4.76 mm"), 0, 10);
+  EXPECT_GT(check.events, 100000u);
+  EXPECT_LT(check.deepest_wall, 1e-14);
+  EXPECT_LT(check.deepest_pair, 1e-14);
+}
+
+TEST(Containment, TwoHundredSmallBallsNeverOverlapBeyondRounding) {
+  const auto check = deepest_overlap("restitution = 0.56", testing::batch(200, "2.36 mm"), 0, 1);
+  EXPECT_GT(check.events, 20000u);
+  EXPECT_LT(check.deepest_wall, 1e-14);
+  EXPECT_LT(check.deepest_pair, 1e-14);
+}
+
+TEST(Containment, AStartAtThousandSecondsIsAsPreciseAsOneAtZero) {
+  const auto early = deepest_overlap(demo_contact, testing::batch(28, "4.76 mm"), 0, 1);
+  const auto late = deepest_overlap(demo_contact, testing::batch(28, "4.76 mm"), 1000, 1);
+  // Both are a few ulps of the positions; a clock in plain seconds would make the late one 1e4 times deeper.
+  EXPECT_LT(late.deepest_wall, 4 * early.deepest_wall);
+  EXPECT_LT(late.deepest_pair, 4 * early.deepest_pair);
+  EXPECT_LT(late.deepest_wall, 1e-14);
+}
+
+}  // namespace
+}  // namespace edmill::engine

@@ -1,0 +1,5 @@
+edmill_test(event_queue_test engine/event_queue_test.cpp)
+edmill_test(energy_test engine/energy_test.cpp TIMEOUT 300)
+edmill_test(containment_test engine/containment_test.cpp TIMEOUT 600)
+edmill_test(precisions_test engine/precisions_test.cpp TIMEOUT 300)
+edmill_test(inelastic_collapse_test engine/inelastic_collapse_test.cpp TIMEOUT 120)

@@ -1,0 +1,126 @@
+// The nested motion of the vessel: (2.16'), its velocity and acceleration, and why the printed (2.14) is not
+// it.
+#include "edmill/model/mill_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "edmill/instances.hpp"
+#include "random_physics.hpp"
+#include "spex_case.hpp"
+
+namespace edmill::model {
+namespace {
+
+using testing::draw;
+using testing::draw_vector;
+
+/// Derivative of a function of time by a central difference with two Richardson steps, in 50 digits: error of
+/// order h^6, far below the comparison's tolerance.
+template <class Function>
+Vec3<mpfr50> derivative(Function&& f, const mpfr50& t) {
+  const mpfr50 h("1e-7");
+  const auto central = [&](const mpfr50& step) {
+    return Vec3<mpfr50>((f(t + step) - f(t - step)) * (1 / (2 * step)));
+  };
+  const Vec3<mpfr50> a = central(h), b = central(h / 2), c = central(h / 4);
+  const Vec3<mpfr50> ab = (b * mpfr50(4) - a) * (mpfr50(1) / 3), bc = (c * mpfr50(4) - b) * (mpfr50(1) / 3);
+  return (bc * mpfr50(16) - ab) * (mpfr50(1) / 15);
+}
+
+const MillMotion<mpfr50>& spex() {
+  static const MillMotion<mpfr50> motion = testing::spex_mill<mpfr50>().motion;
+  return motion;
+}
+
+Vec3<mpfr50> wall_point(const mpfr50& t, const Vec3<mpfr50>& p) {
+  return to_inertial<mpfr50>(pose_at<mpfr50>(spex(), t), spex().arm, p);
+}
+
+TEST(MillMotion, WallVelocityIsTheDerivativeOfTheWallPosition) {
+  EXPECT_TRUE(rc::check([] {
+    const Vec3<mpfr50> p = draw_vector<mpfr50>(mpfr50("0.03"));
+    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period);
+    const auto expected = derivative([&](const mpfr50& s) { return wall_point(s, p); }, t);
+    const auto found = wall_velocity<mpfr50>(pose_at<mpfr50>(spex(), t), spex().arm, wall_point(t, p));
+    RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(found - expected)) < mpfr50("1e-30"));
+  }));
+}
+
+TEST(MillMotion, WallAccelerationIsTheDerivativeOfTheWallVelocity) {
+  EXPECT_TRUE(rc::check([] {
+    const Vec3<mpfr50> p = draw_vector<mpfr50>(mpfr50("0.03"));
+    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period);
+    const auto velocity = [&](const mpfr50& s) {
+      return wall_velocity<mpfr50>(pose_at<mpfr50>(spex(), s), spex().arm, wall_point(s, p));
+    };
+    const auto found = wall_acceleration<mpfr50>(pose_at<mpfr50>(spex(), t), spex().arm, wall_point(t, p));
+    RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(found - derivative(velocity, t))) < mpfr50("1e-27"));
+  }));
+}
+
+TEST(MillMotion, VesselFrameRatesAreTheDerivativesOfVesselFramePositions) {
+  EXPECT_TRUE(rc::check([] {
+    const Vec3<mpfr50> r = draw_vector<mpfr50>(mpfr50("0.15")), v = draw_vector<mpfr50>(mpfr50(5));
+    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period);
+    const auto local = [&](const mpfr50& s) {
+      return to_vessel_frame<mpfr50>(pose_at<mpfr50>(spex(), s), spex().arm, Vec3<mpfr50>(r + v * (s - t)), v)
+          .position;
+    };
+    const auto found = to_vessel_frame<mpfr50>(pose_at<mpfr50>(spex(), t), spex().arm, r, v).velocity;
+    RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(found - derivative(local, t))) < mpfr50("1e-30"));
+  }));
+}
+
+TEST(MillMotion, VesselFrameAndInertialFrameAreInverse) {
+  EXPECT_TRUE(rc::check([] {
+    const Vec3<mpfr50> p = draw_vector<mpfr50>(mpfr50("0.03"));
+    const auto pose = pose_at<mpfr50>(spex(), draw<mpfr50>(mpfr50(0), spex().period));
+    const auto back = to_vessel_frame<mpfr50>(pose, spex().arm, to_inertial<mpfr50>(pose, spex().arm, p),
+                                              Vec3<mpfr50>(mpfr50(0), mpfr50(0), mpfr50(0)));
+    RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(back.position - p)) < mpfr50("1e-49"));
+  }));
+}
+
+/// The printed (2.14), R_x(gamma) R_z(theta), about the centre (2.15).
+Vec3<mpfr50> printed_position(const mpfr50& t, const Vec3<mpfr50>& p) {
+  const auto pose = pose_at<mpfr50>(spex(), t);
+  const mpfr50 sin_theta = pose.cos_alpha, cos_theta = -pose.sin_alpha;
+  const mpfr50 &sg = pose.sin_gamma, &cg = pose.cos_gamma, &l = spex().arm;
+  return {l * cos_theta + cos_theta * p[0] - sin_theta * p[1],
+          l * sin_theta + sin_theta * cg * p[0] + cos_theta * cg * p[1] - sg * p[2],
+          sin_theta * sg * p[0] + cos_theta * sg * p[1] + cg * p[2]};
+}
+
+TEST(MillMotionErrata, PrintedVelocityIsNotTheDerivativeOfThePrintedPosition) {
+  const Vec3<mpfr50> p(mpfr50("0.01"), mpfr50("0.02"), mpfr50("0.005"));
+  mpfr50 worst_printed(0), worst_nested(0);
+  for (int k = 0; k < 32; ++k) {
+    const mpfr50 t = spex().period * k / 32;
+    const auto pose = pose_at<mpfr50>(spex(), t);
+    const auto error = [&](auto&& position) {
+      const auto velocity = wall_velocity<mpfr50>(pose, spex().arm, position(t));
+      return norm<mpfr50>(Vec3<mpfr50>(velocity - derivative(position, t)));
+    };
+    const mpfr50 printed = error([&](const mpfr50& s) { return printed_position(s, p); });
+    const mpfr50 nested = error([&](const mpfr50& s) { return wall_point(s, p); });
+    worst_printed = printed > worst_printed ? printed : worst_printed;
+    worst_nested = nested > worst_nested ? nested : worst_nested;
+  }
+  EXPECT_GT(worst_printed, mpfr50("0.1"));  // metres per second
+  EXPECT_LT(worst_nested, mpfr50("1e-30"));
+}
+
+TEST(MillMotion, PoseIsTheThesisAnglesAtKnownPhases) {
+  const auto motion = testing::spex_mill<double>().motion;
+  const auto start = pose_at<double>(motion, 0.0);           // theta = theta_max + pi/2, gamma = 0
+  EXPECT_NEAR(start.sin_alpha, 0.25881904510252074, 1e-15);  // sin 15 deg
+  EXPECT_NEAR(start.cos_alpha, 0.9659258262890683, 1e-15);
+  EXPECT_EQ(start.sin_gamma, 0);
+  const auto quarter = pose_at<double>(motion, motion.period / 4);  // theta = pi/2, gamma = gamma_max
+  EXPECT_NEAR(quarter.sin_alpha, 0, 1e-15);
+  EXPECT_NEAR(quarter.sin_gamma, 0.25881904510252074, 1e-15);
+  EXPECT_NEAR(quarter.theta_rate, -motion.theta_max * motion.angular_speed(), 1e-12);
+}
+
+}  // namespace
+}  // namespace edmill::model

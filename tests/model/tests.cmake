@@ -1,0 +1,1 @@
+edmill_test(mill_motion_test model/mill_motion_test.cpp)

@@ -1,0 +1,2 @@
+edmill_test(trigonometry_test numerics/trigonometry_test.cpp)
+edmill_test(hermite_test numerics/hermite_test.cpp)
