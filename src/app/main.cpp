@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <cctype>
 #include <csignal>
 #include <filesystem>
 
@@ -34,6 +35,16 @@ int run(const std::string& case_file, const std::string& folder, const std::stri
   std::signal(SIGTERM, on_signal);
   const int code = app::run_case(precision.empty() ? spec.precision : precision, spec, options);
   return received_signal && code == app::ok ? 128 + received_signal : code;
+}
+
+/// One line a problem, whatever characters a case file put into it.
+void print_problem(const std::string& problem) {
+  std::string line;
+  for (const char c : problem)
+    line += std::iscntrl(static_cast<unsigned char>(c))
+                ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
+                : std::string(1, c);
+  fmt::print(stderr, "edmill: {}\n", line);
 }
 
 std::string version_text() {
@@ -77,17 +88,19 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? edmill::app::ok : edmill::app::bad_input;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    print_problem(std::string(error.what()) + " (see edmill --help)");
+    return edmill::app::bad_input;
   }
   try {
     if (*run_command) return run(case_file, folder, precision, overrides, quiet);
     fmt::print("{}", edmill::app::describe_case(edmill::casefile::read_case(case_file, overrides)));
     return edmill::app::ok;
   } catch (const edmill::InputError& error) {
-    for (const auto& problem : error.problems()) fmt::print(stderr, "edmill: {}\n", problem);
+    for (const auto& problem : error.problems()) print_problem(problem);
     return edmill::app::bad_input;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "edmill: {}\n", error.what());
+    print_problem(error.what());
     return edmill::app::internal_error;
   }
 }

@@ -78,6 +78,17 @@ void read_mill(Section mill, CaseSpec& spec) {
   mill.reject_unknown_keys();
 }
 
+/// Instants count drive periods, so a run has no more of them than an integer holds.
+void check_times(Section run, const CaseSpec& spec) {
+  const auto within = [&](const Quantity& time) {
+    return time.value < spec.mill.period.value * cpp_rational(1000000000000000);
+  };
+  const std::string expected = "a time of less than 1e15 drive periods";
+  run.require(within(spec.initial_time), "initial_time", expected);
+  run.require(within(spec.statistics_start), "start_time", expected);
+  run.require(!spec.end_time || within(*spec.end_time), "end_time", expected);
+}
+
 void read_vessel(Section vessel, CaseSpec& spec) {
   vessel.choice("type", {"cylinder"});
   spec.vessel_diameter = vessel.required("diameter", Dimension::length);
@@ -159,14 +170,18 @@ void read_ball_spec(Section& s, BallSpec& ball) {
   if (const auto velocity = s.vector("velocity", Dimension::speed)) ball.velocity = *velocity;
 }
 
+constexpr std::uint64_t largest_count = 100000000;
+
 void read_batch(Section s, CaseSpec& spec) {
   BallBatch batch;
   read_ball_spec(s, batch);
-  batch.count = static_cast<int>(std::min<std::uint64_t>(s.count("count").value_or(1), 100000000));
-  s.require(batch.count > 0, "count", "at least 1");
+  const auto count = s.count("count").value_or(1);
+  s.require(count > 0 && count <= largest_count, "count", "from 1 to " + std::to_string(largest_count));
+  batch.count = static_cast<int>(std::min(count, largest_count));
   batch.diameter_spread = s.quantity("diameter_spread", Dimension::length, Quantity{0});
-  s.require(!batch.diameter_spread.negative() && batch.diameter_spread.value < batch.diameter.value,
-            "diameter_spread", "a length from 0 to less than the diameter");
+  const bool narrow = batch.diameter_spread.value < batch.diameter.value || !batch.diameter.positive();
+  s.require(!batch.diameter_spread.negative() && narrow, "diameter_spread",
+            "a length from 0 to less than the diameter");
   batch.random_speed = s.quantity("random_speed", Dimension::speed);
   if (batch.random_speed) {
     s.require(!batch.random_speed->negative(), "random_speed", "a speed of 0 or more");
@@ -186,8 +201,8 @@ void read_ball(Section s, CaseSpec& spec) {
   read_ball_spec(s, ball);
   if (const auto position = s.vector("position", Dimension::length))
     ball.position = *position;
-  else if (spec.initial_state.empty())
-    s.problem("position", s.has("position") ? "no position" : "nothing", "an array of three lengths");
+  else if (!s.has("position") && spec.initial_state.empty())
+    s.problem("position", "nothing", "an array of three lengths");
   if (const auto spin = s.vector("spin", Dimension::angular_speed)) ball.spin = *spin;
   s.reject_unknown_keys();
   spec.balls.push_back(std::move(ball));
@@ -198,8 +213,8 @@ void read_output(Section s, CaseSpec& spec) {
   if (!s.has("type")) s.problem("type", "nothing", "\"collisions\"");
   output.type = s.choice("type", {"collisions"});
   output.file = s.text("file").value_or(output.type + ".csv");
-  s.require(output.file.find('/') == std::string::npos && output.file != "summary.json" &&
-                output.file != "final_state.csv",
+  s.require(output.file.find('/') == std::string::npos && output.file != "." && output.file != ".." &&
+                output.file != "summary.json" && output.file != "final_state.csv",
             "file", "a plain file name other than summary.json and final_state.csv");
   for (const auto& other : spec.outputs)
     s.require(other.file != output.file, "file", "a file name that no other output has");
@@ -254,32 +269,40 @@ void apply_override(toml::table& root, Document& document, const std::string& te
   const auto complain = [&](const std::string& found) {
     document.problems.push_back("--set " + text + ": found " + found + ", expected section.key=value");
   };
-  if (equals == std::string::npos || equals == 0) return complain("no '='");
-  const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
+  if (equals == std::string::npos) return complain("no '='");
+  if (equals == 0) return complain("no key");
+  const std::string value = text.substr(equals + 1);
   toml::table* table = &root;
-  std::istringstream parts(path);
+  std::istringstream parts(text.substr(0, equals));
   std::vector<std::string> keys;
   for (std::string key; std::getline(parts, key, '.');) keys.push_back(key);
   for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
     toml::node* next = table->get(keys[k]);
     if (!next) next = &table->insert(keys[k], toml::table{}).first->second;
     if (auto* array = next->as_array(); array && k + 2 < keys.size()) {
-      const auto& index = keys[++k];
+      auto& index = keys[++k];
       if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos ||
           std::stoul(index) >= array->size())
         return complain("no entry '" + index + "' of '" + keys[k - 1] + "'");
+      index = std::to_string(std::stoul(index));  // "00" is entry 0
       next = array->get(std::stoul(index));
     }
     table = next->as_table();
     if (!table) return complain("'" + keys[k] + "', which is no section");
   }
+  std::string path;
+  for (const auto& key : keys) path += (path.empty() ? "" : ".") + key;
+  std::erase_if(document.overrides, [&](const auto& o) { return o.first.starts_with(path + "."); });
   document.overrides[path] = value;
+  toml::table parsed;
   try {
-    auto parsed = toml::parse("value = " + value);
-    table->insert_or_assign(keys.back(), std::move(*parsed.get("value")));
+    parsed = toml::parse("value = " + value);
   } catch (const toml::parse_error&) {
-    table->insert_or_assign(keys.back(), value);
   }
+  if (parsed.size() == 1)
+    table->insert_or_assign(keys.back(), std::move(*parsed.get("value")));
+  else
+    table->insert_or_assign(keys.back(), value);
 }
 
 }  // namespace
@@ -301,6 +324,8 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
   document.name = name;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) document.lines.push_back(line);
+  if (const std::string mark = "\xEF\xBB\xBF"; text.starts_with(mark))
+    document.lines[0].erase(0, mark.size());
   toml::table root;
   try {
     root = toml::parse(text, name);
@@ -328,13 +353,15 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
   if (!top.has("ball") && !top.has("balls"))
     top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
   top.reject_unknown_keys();
+  check_times(top.section("run"), spec);
   if (!spec.initial_state.empty()) {
     const std::filesystem::path given(spec.initial_state);
     if (given.is_relative())
       spec.initial_state = (std::filesystem::path(name).parent_path() / given).string();
-    if (!std::filesystem::is_regular_file(spec.initial_state))
-      document.problems.push_back(name + ": key 'run.initial_state': found no file '" + spec.initial_state +
-                                  "', expected a final_state.csv");
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(spec.initial_state, ignored))
+      top.section("run").problem("initial_state", "no file '" + spec.initial_state + "'",
+                                 "a final_state.csv");
   }
   if (!document.problems.empty()) throw InputError(document.problems);
   spec.digest = sha256(canonical_text(spec));

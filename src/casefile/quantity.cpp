@@ -146,8 +146,16 @@ std::size_t number_length(std::string_view text) {
   return at;
 }
 
+/// So that squares and cubes neither overflow nor vanish in double.
+bool of_physical_size(const cpp_rational& value) {
+  static const cpp_rational largest(boost::multiprecision::pow(cpp_int(10), 30));
+  const cpp_rational size = abs(value);
+  return size == 0 || (size <= largest && size * largest >= 1);
+}
+
 QuantityResult parse(std::string_view text, Dimension dimension, bool unit_needed) {
   const std::string quoted = "\"" + std::string(text) + "\"";
+  const std::string beyond = " (its size is beyond 1e-30 to 1e30 in SI units)";
   const std::string_view body = trimmed(text);
   const auto length = number_length(body);
   const auto number = parse_decimal(body.substr(0, length));
@@ -155,10 +163,14 @@ QuantityResult parse(std::string_view text, Dimension dimension, bool unit_neede
   const std::string unit = plain_unit(trimmed(body.substr(length)));
   if (unit.empty()) {
     if (unit_needed && dimension != Dimension::none) return QuantityProblem{quoted + " (no unit)"};
+    if (!of_physical_size(*number)) return QuantityProblem{quoted + beyond};
     return Quantity{*number, 0};
   }
-  if (const Unit* known = find_unit(unit, dimension))
-    return Quantity{*number * known->factor, known->pi_power};
+  if (const Unit* known = find_unit(unit, dimension)) {
+    const cpp_rational value = *number * known->factor;
+    if (!of_physical_size(value)) return QuantityProblem{quoted + beyond};
+    return Quantity{value, known->pi_power};
+  }
   for (const auto& other : units())
     for (const auto& spelling : other.spellings)
       if (spelling == unit) return QuantityProblem{quoted + " (" + name(other.dimension) + ")"};

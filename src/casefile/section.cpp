@@ -1,7 +1,8 @@
 #include "section.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cctype>
+#include <sstream>
 
 namespace edmill::casefile {
 
@@ -54,22 +55,42 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+const Document::Override* Document::override_of(std::string path) const {
+  for (;;) {
+    if (const auto found = overrides.find(path); found != overrides.end()) return &*found;
+    const auto dot = path.rfind('.');
+    if (dot == std::string::npos) return nullptr;
+    path.erase(dot);
+  }
+}
+
+std::string Document::line(const std::string& path, std::size_t number) const {
+  const auto* set = override_of(path);
+  if (!set) return number <= lines.size() ? lines[number - 1] : "";
+  std::istringstream text("value = " + set->second);  // as it was parsed
+  std::string line;
+  for (std::size_t k = 0; k < number; ++k)
+    if (!std::getline(text, line)) return "";
+  return line;
+}
+
 std::string Document::where(const toml::node* node, const std::string& path) const {
-  for (const auto& [key, text] : overrides)
-    if (key == path) return "--set " + key + "=" + text;
-  if (!node || !node->source().begin) return name;
+  if (const auto* set = override_of(path)) return "--set " + set->first + "=" + set->second;
+  if (!node || !node->source().begin) {
+    for (const auto& [key, text] : overrides)
+      if (key.starts_with(path + ".")) return "--set " + key + "=" + text;
+    return name;
+  }
   return name + ":" + std::to_string(node->source().begin.line);
 }
 
 std::string Document::raw(const toml::node& node, const std::string& path) const {
   if (const auto* text = node.as_string()) return text->get();
-  if (const auto found = overrides.find(path); found != overrides.end()) return found->second;
   const auto& source = node.source();
-  if (!source.begin || source.begin.line != source.end.line || source.begin.line > lines.size())
-    return kind_of(node);
-  const std::string& line = lines[source.begin.line - 1];
-  const auto first = byte_of_column(line, source.begin.column);
-  std::string text = line.substr(first, byte_of_column(line, source.end.column) - first);
+  if (!source.begin || source.begin.line != source.end.line) return kind_of(node);
+  const std::string whole = line(path, source.begin.line);
+  const auto first = byte_of_column(whole, source.begin.column);
+  std::string text = whole.substr(first, byte_of_column(whole, source.end.column) - first);
   std::erase(text, '_');
   while (!text.empty() && (text.back() == ' ' || text.back() == ',' || text.back() == '\r')) text.pop_back();
   return text;
@@ -77,7 +98,9 @@ std::string Document::raw(const toml::node& node, const std::string& path) const
 
 void Document::report(const toml::node* node, const std::string& path, const std::string& found,
                       const std::string& expected) {
-  if (!problem_keys.insert(path).second) return;  // one message a key
+  for (auto dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1))
+    if (problem_keys.count(path.substr(0, dot))) return;
+  if (!problem_keys.insert(path).second) return;
   problems.push_back(where(node, path) + ": key '" + path + "': found " + found + ", expected " + expected);
 }
 
@@ -165,7 +188,9 @@ std::optional<std::uint64_t> Section::count(const std::string& key) {
   if (!node) return std::nullopt;
   const auto* integer = node->as_integer();
   if (!integer || integer->get() < 0) {
-    document_->report(node, full(key), document_->raw(*node, full(key)), "an integer, 0 or more");
+    document_->report(node, full(key),
+                      node->is_value() ? "\"" + document_->raw(*node, full(key)) + "\"" : kind_of(*node),
+                      "an integer, 0 or more");
     return std::nullopt;
   }
   return static_cast<std::uint64_t>(integer->get());
@@ -177,6 +202,11 @@ std::optional<std::string> Section::text(const std::string& key) {
   const auto* string = node->as_string();
   if (!string || string->get().empty()) {
     document_->report(node, full(key), string ? "an empty text" : kind_of(*node), "a text");
+    return std::nullopt;
+  }
+  const auto control = [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; };
+  if (std::any_of(string->get().begin(), string->get().end(), control)) {
+    document_->report(node, full(key), "a text with control characters", "a text in one line");
     return std::nullopt;
   }
   return string->get();

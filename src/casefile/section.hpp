@@ -28,8 +28,15 @@ struct Document {
   std::string where(const toml::node* node, const std::string& path) const;
   /// Text of a value as it stands in the file, so that decimals stay exact.
   std::string raw(const toml::node& node, const std::string& path) const;
+  /// One message a key, and none for what is inside of a key that is wrong itself.
   void report(const toml::node* node, const std::string& path, const std::string& found,
               const std::string& expected);
+
+ private:
+  using Override = std::pair<const std::string, std::string>;
+  /// The command line's setting of a key or of what the key is in; null for a key of the file.
+  const Override* override_of(std::string path) const;
+  std::string line(const std::string& path, std::size_t number) const;
 };
 
 class Section {

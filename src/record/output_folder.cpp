@@ -14,6 +14,9 @@ void prepare_folder(const fs::path& folder) {
   if (error || !fs::is_directory(folder))
     throw InputError(folder.string() + ": found no folder and none can be made (" + error.message() +
                      "), expected an output folder");
+  for (const auto* name : {"summary.json", "final_state.csv"})
+    if (fs::is_directory(folder / name, error))
+      throw InputError((folder / name).string() + ": found a folder, expected a place for a file");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw InputError(folder.string() +
                      ": found a folder that cannot be written to, expected an output folder");
@@ -21,7 +24,8 @@ void prepare_folder(const fs::path& folder) {
 
 AtomicFile::AtomicFile(fs::path place)
     : place_(std::move(place)), temporary_(place_.string() + ".partial-" + std::to_string(::getpid())) {
-  if (fs::is_directory(place_))
+  std::error_code ignored;
+  if (fs::is_directory(place_, ignored))
     throw InputError(place_.string() + ": found a folder, expected a place for a file");
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!stream_)

@@ -52,10 +52,12 @@ SavedState<Real> read_final_state(const std::string& path) {
       fail(number, "ball '" + fields[0] + "'", "ball " + std::to_string(saved.states.size()));
     const auto real = [&](std::size_t k) {
       try {
-        return from_text<Real>(fields[k]);
+        const Real value = from_text<Real>(fields[k]);
+        using std::isfinite;
+        if (isfinite(value)) return value;
       } catch (const std::invalid_argument&) {
-        fail(number, "'" + fields[k] + "' in field " + std::to_string(k + 1), "a finite number");
       }
+      fail(number, "'" + fields[k] + "' in field " + std::to_string(k + 1), "a finite number");
       return Real(0);
     };
     const auto vector = [&](std::size_t k) { return Vec3<Real>(real(k), real(k + 1), real(k + 2)); };
@@ -63,6 +65,7 @@ SavedState<Real> read_final_state(const std::string& path) {
                        fields[11].find_first_not_of("0123456789") == std::string::npos;
     if (!whole) fail(number, "'" + fields[11] + "' as drive_period", "a whole number");
     const Instant<Real> time{std::stoll(fields[11]), real(12)};
+    if (time.offset < 0) fail(number, "'" + fields[12] + "' as drive_offset", "a time of 0 or more");
     if (saved.states.empty()) saved.time = time;
     if (!(time == saved.time)) fail(number, "another time than in line 2", "one time for all balls");
     saved.states.push_back({vector(1), vector(4), vector(7)});

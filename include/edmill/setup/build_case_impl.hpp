@@ -65,11 +65,9 @@ class PlacedBalls {
   }
 
  private:
-  using Key = std::array<int, 3>;
+  using Key = std::array<double, 3>;  // whole numbers of any size
   Key key(const Vec3<Real>& p, int dx, int dy, int dz) const {
-    const auto cell = [&](const Real& c) {
-      return static_cast<int>(std::floor(static_cast<double>(c) / cell_));
-    };
+    const auto cell = [&](const Real& c) { return std::floor(static_cast<double>(c) / cell_); };
     return {cell(p[0]) + dx, cell(p[1]) + dy, cell(p[2]) + dz};
   }
   struct Entry {
@@ -103,13 +101,14 @@ class Filling {
                    const std::string& where) {
     const auto local =
         model::to_vessel_frame<Real>(pose_, mill_.motion.arm, state.position, state.velocity).position;
+    const std::string own = std::to_string(result_.states.size());
     const Real tolerance = ball.radius / 1000000000;
     if (!inside(local, ball.radius - tolerance))
-      problems_.push_back(where + ": found a ball that lies outside the vessel, expected it inside");
+      problems_.push_back(where + ": found ball " + own + " outside the vessel, expected it inside");
     const int other = placed_.conflict(
         local, [&](int k) { return ball.radius + result_.the_case.balls[k].radius - tolerance; });
     if (other >= 0)
-      problems_.push_back(where + ": found a ball that overlaps ball " + std::to_string(other) +
+      problems_.push_back(where + ": found ball " + own + " overlapping ball " + std::to_string(other) +
                           ", expected balls that do not overlap");
     add(ball, local, state);
   }
@@ -134,12 +133,13 @@ class Filling {
 
  private:
   static double widest_distance(const casefile::CaseSpec& spec) {
-    double widest = 0;
-    for (const auto& b : spec.balls) widest = std::max(widest, b.diameter.to<double>());
-    for (const auto& b : spec.batches)
-      widest = std::max(widest,
-                        b.diameter.to<double>() + b.diameter_spread.to<double>() + b.gap_ball.to<double>());
-    return widest * 1.001;
+    double diameter = 0, gap = 0;
+    for (const auto& b : spec.balls) diameter = std::max(diameter, b.diameter.to<double>());
+    for (const auto& b : spec.batches) {
+      diameter = std::max(diameter, b.diameter.to<double>() + b.diameter_spread.to<double>());
+      gap = std::max(gap, b.gap_ball.to<double>());
+    }
+    return (diameter + gap) * 1.001;
   }
 
   bool inside(const Vec3<Real>& local, const Real& radius) const {
@@ -206,6 +206,14 @@ void fill_from_file(const casefile::CaseSpec& spec, InitialCase<Real>& result) {
   if (saved.states.size() != spec.ball_count())
     throw InputError(spec.initial_state + ": found " + std::to_string(saved.states.size()) +
                      " balls, expected the case's " + std::to_string(spec.ball_count()));
+  const DriveClock<Real> clock(result.the_case.mill.motion.period);
+  if (saved.time.offset >= clock.period())
+    throw InputError(spec.initial_state +
+                     ":2: found a drive_offset of a whole drive period or more, expected " +
+                     "one below the case's period of " + to_text<Real>(clock.period()) + " s");
+  if (spec.end_time && saved.time >= clock.at(*result.the_case.stop.end_time))
+    throw InputError(spec.initial_state + ":2: found a state at " + to_text<Real>(clock.seconds(saved.time)) +
+                     " s, expected one before the case's end_time");
   result.start = saved.time;
   Filling<Real> filling(spec, result);
   Random random(spec.seed);

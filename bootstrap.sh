@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Sets edmill up on Debian 12 and runs it. Every command can be repeated.
+#
+#   ./bootstrap.sh demo    install what is missing, build, run the demo case
+#   ./bootstrap.sh test    install what is missing, build with tests, run them all
+#   ./bootstrap.sh build   install what is missing, build the program: build/release/edmill
+set -euo pipefail
+cd "$(dirname "$0")"
+
+program_packages=(
+  g++ cmake ninja-build git ca-certificates
+  libboost1.81-dev libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
+  libmpfr-dev libgmp-dev libssl-dev
+)
+test_packages=(
+  libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev nlohmann-json3-dev
+  libbenchmark-dev clang clang-format
+)
+
+say() { printf '\n== %s\n' "$*"; }
+
+install_missing() {
+  local missing=()
+  for package in "$@"; do
+    dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+  done
+  if [ ${#missing[@]} = 0 ]; then
+    say "all packages are installed"
+    return
+  fi
+  say "installing ${missing[*]}"
+  local root=()
+  [ "$(id -u)" = 0 ] || root=(sudo)
+  "${root[@]}" apt-get update -qq
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+}
+
+build() { # preset
+  say "configuring and building (preset $1); the first time takes a few minutes"
+  cmake --preset "$1" >/dev/null
+  cmake --build --preset "$1"
+}
+
+case "${1:-}" in
+  build | demo)
+    install_missing "${program_packages[@]}"
+    build release
+    if [ "$1" = demo ]; then
+      say "running docs/examples/demo.toml: 28 balls, 10 s simulated"
+      build/release/edmill run docs/examples/demo.toml
+    fi
+    ;;
+  test)
+    install_missing "${program_packages[@]}" "${test_packages[@]}"
+    build ci
+    say "running the tests"
+    ctest --preset ci
+    ;;
+  *)
+    sed -n '2,6s/^# \{0,1\}//p' "$0"
+    exit 2
+    ;;
+esac
