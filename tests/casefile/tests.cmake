@@ -1,0 +1,3 @@
+find_library(UDUNITS_LIBRARY udunits2 REQUIRED)
+edmill_test(quantity_test casefile/quantity_test.cpp LIBRARIES ${UDUNITS_LIBRARY})
+edmill_test(case_spec_test casefile/case_spec_test.cpp)
