@@ -31,9 +31,9 @@ class DecisionLadder {
   ~DecisionLadder();
   DecisionLadder(DecisionLadder&&) noexcept;
 
-  /// Certified answer for a wall query; `first` is the sample at its begin.
+  /// Certified answer for a wall query; `first` is the start of the search.
   /// @throws UndecidedError when the widest scalar cannot decide; its text reproduces the state
-  WallAnswer<Real> wall(const GapFunctions<Real>& functions, const GapSample<Real>& first,
+  WallAnswer<Real> wall(const GapFunctions<Real>& functions, const GapStart<Real>& first,
                         const WallQuery<Real>& query) {
     const auto answer = walls_.search(functions, first, query);
     return answer.verdict == Verdict::undecided ? wall_above(query) : answer;
@@ -59,8 +59,11 @@ class DecisionLadder {
   /// the ladder can tell them apart.
   int order(const Contact<Real>& a, const Contact<Real>& b);
 
-  /// Times closer than this [s] are handed to `order`.
-  Real time_resolution() const { return 16 * epsilon<Real>() * pairs_.clock().period(); }
+  /// Contacts closer in time than this [s] are handed to `order`: far more than rounding puts between most.
+  Real suspicion() const {
+    using std::sqrt;
+    return sqrt(epsilon<Real>()) * pairs_.clock().period();
+  }
 
   void raise_top_speed(const Real& speed);
 
@@ -74,7 +77,11 @@ class DecisionLadder {
   WallAnswer<Real> wall_above(const WallQuery<Real>& query);
   PairAnswer<Real> pair_above(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                               const Real& radius_sum);
-  Instant<Real> contact_time(const Contact<Real>& contact);
+  struct Timed {
+    Instant<Real> time;
+    Real doubt;  ///< [s]
+  };
+  Timed time_of(const Contact<Real>& contact);
 
   struct Above;  // the next rung
   Above& above();

@@ -104,7 +104,9 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
                                             instant_cast<Wide>(query.begin), Wide(query.length)});
     auto time = detail::rounded_down<Real>(wide.time);
     if (wide.verdict == Verdict::contact && time < query.begin) time = query.begin;
-    return {wide.verdict, wide.wall, time, wide.tie};
+    Real searched = static_cast<Real>(wide.searched);
+    if (Wide(searched) > wide.searched) searched -= searched * epsilon<Real>();
+    return {wide.verdict, wide.wall, time, wide.tie, searched, static_cast<Real>(wide.doubt)};
   }
 }
 
@@ -120,33 +122,36 @@ PairAnswer<Real> DecisionLadder<Real>::pair_above(const Flight<Real>& i, const F
     ++passed_up_.pair;
     const auto wide = above().ladder.pair(flight_cast<Wide>(i), flight_cast<Wide>(j), instant_cast<Wide>(now),
                                           Wide(radius_sum));
-    return {wide.verdict, static_cast<Real>(wide.delay)};
+    return {wide.verdict, static_cast<Real>(wide.delay), static_cast<Real>(wide.doubt)};
   }
 }
 
 template <class Real>
-Instant<Real> DecisionLadder<Real>::contact_time(const Contact<Real>& contact) {
+auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
+  const auto& clock = pairs_.clock();
   if (!contact.with_wall) {
     const auto& now = contact.flight.start;
     const auto answer = pair(contact.flight, contact.partner, now, contact.radius);
-    return answer.verdict == Verdict::contact ? pairs_.clock().after(now, answer.delay) : contact.time;
+    if (answer.verdict == Verdict::contact) return {clock.after(now, answer.delay), answer.doubt};
+    return {contact.time, suspicion()};
   }
   // A window that ends just after the predicted time holds the contact.
   const Real length = walls_.longest_window() / 64;
-  const auto& clock = walls_.constants().clock;
   auto begin = clock.after(contact.time, -length);
   if (begin < contact.flight.start) begin = contact.flight.start;
   const Real window = clock.elapsed(begin, contact.time) + length / 64;
   const auto answer = wall({contact.flight, contact.radius, begin, window});
-  return answer.verdict == Verdict::contact ? answer.time : contact.time;
+  if (answer.verdict == Verdict::contact) return {answer.time, answer.doubt};
+  return {contact.time, suspicion()};
 }
 
 template <class Real>
 int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) {
-  const auto first = contact_time(a), second = contact_time(b);
-  const Real difference = walls_.constants().clock.elapsed(first, second);
-  if (difference > time_resolution()) return -1;
-  if (difference < -time_resolution()) return 1;
+  const Timed first = time_of(a), second = time_of(b);
+  const Real difference = pairs_.clock().elapsed(first.time, second.time);
+  const Real doubt = first.doubt + second.doubt + 16 * epsilon<Real>() * pairs_.clock().period();
+  if (difference > doubt) return -1;
+  if (difference < -doubt) return 1;
   if constexpr (std::is_void_v<Wider<Real>>) {
     return 0;
   } else {

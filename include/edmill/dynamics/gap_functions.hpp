@@ -18,6 +18,12 @@ struct GapSample {
   std::array<Real, model::wall_count> rate;
 };
 
+/// A sample with second derivatives, where a search begins.
+template <class Real>
+struct GapStart : GapSample<Real> {
+  std::array<Real, model::wall_count> curvature;
+};
+
 /// Bounds on the rounding errors of a sample.
 template <class Real>
 struct GapErrors {
@@ -74,6 +80,22 @@ class GapFunctions {
     return sample(offset, model::to_vessel_frame<Real>(pose, c_.mill.motion.arm,
                                                        position_after(flight_, c_.mill.gravity, dt),
                                                        velocity_after(flight_, c_.mill.gravity, dt)));
+  }
+
+  /// The start of a search at `offset`, where the vessel stands at `pose`.
+  GapStart<Real> start(const Real& offset, const model::VesselPose<Real>& pose) const {
+    const Real dt = elapsed(offset);
+    const auto velocity = velocity_after(flight_, c_.mill.gravity, dt);
+    const auto state = model::to_vessel_frame<Real>(pose, c_.mill.motion.arm,
+                                                    position_after(flight_, c_.mill.gravity, dt), velocity);
+    const auto second =
+        model::vessel_frame_acceleration<Real>(pose, c_.mill.motion.arm, state, velocity, c_.mill.gravity);
+    const auto &p = state.position, &u = state.velocity;
+    const Real q_second = -2 * ((u[0] * u[0] + p[0] * second[0]) + (u[2] * u[2] + p[2] * second[2]));
+    return {sample(offset, state), {second[1], -second[1], q_second}};
+  }
+  GapStart<Real> start(const Real& offset) const {
+    return start(offset, model::pose_at<Real>(c_.mill.motion, c_.angular_speed, c_.frequency, offset));
   }
 
   /// The sample that a state in the vessel frame gives.

@@ -10,6 +10,7 @@ template <class Real>
 struct PairAnswer {
   Verdict verdict = Verdict::none;
   Real delay{0};  ///< of a contact: time from now [s], >= 0
+  Real doubt{0};  ///< of a contact: how far off rounding may put it [s]
 };
 
 /// Both balls fall alike, so their relative motion is a straight line and the time is closed:
@@ -71,14 +72,17 @@ class PairSearch {
     const Real r2 = dot<Real>(r, r);
     const Real c = r2 - radius_sum * radius_sum;
     const Real v2 = dot<Real>(v, v);
-    // The filter: decides nearly all pairs with bounds that hold for the whole run.
-    if (v2 > slowest_squared_ && c > touching_) {
-      if (b >= 0) return {};
-      const Real discriminant = b * b - v2 * c;
-      const Real doubt = relative_ * (v2 * r2);
-      if (discriminant < -doubt) return {};
+    // The filter decides nearly all pairs with bounds that hold for the whole run; no branch but the last,
+    // since approaching and parting are a coin toss.
+    const Real discriminant = b * b - v2 * c;
+    const Real doubt = relative_ * (v2 * r2);
+    const bool clear = (v2 > slowest_squared_) & (c > touching_);
+    const bool apart = (b >= 0) | (discriminant < -doubt);
+    if (clear & apart) return {};
+    if (clear & (discriminant > doubt)) {
       using std::sqrt;
-      if (discriminant > doubt) return {Verdict::contact, c / (sqrt(discriminant) - b)};
+      const Real root = sqrt(discriminant);  // v.r at the contact: approach speed times R
+      return {Verdict::contact, c / (root - b), 4 * position_error_ * radius_sum / root};
     }
     return close(b, c, v2, r2, dt, i.age > age ? i.age : age, radius_sum);
   }
@@ -111,7 +115,8 @@ class PairSearch {
     if (discriminant < -doubt) return {};
     if (discriminant > doubt && b < -b_error) {
       if (c <= 0) return {Verdict::contact, Real(0)};
-      return {Verdict::contact, c / (sqrt(discriminant) - b)};
+      const Real root = sqrt(discriminant);
+      return {Verdict::contact, c / (root - b), 4 * position_error * radius_sum / root};
     }
     return {Verdict::undecided};
   }

@@ -7,19 +7,21 @@
 
 #include "edmill/dynamics/gap_functions.hpp"
 #include "edmill/dynamics/motion_bounds.hpp"
-#include "edmill/numerics/hermite.hpp"
+#include "edmill/numerics/taylor.hpp"
 
 namespace edmill::dynamics {
 
 enum class Verdict { none, contact, undecided };
 
-/// The answer of a search over (begin, begin + length].
+/// The answer of a search over (begin, begin + length]; `none` may hold for a shorter window than was asked.
 template <class Real>
 struct WallAnswer {
   Verdict verdict = Verdict::none;
   int wall = -1;         ///< of a contact
   Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
   bool tie = false;      ///< two walls at one time at the top of the ladder; the lower id was taken
+  Real searched{0};      ///< of none: proven from begin for this long [s]
+  Real doubt{0};         ///< of a contact: how far off rounding may put its time [s]
 };
 
 /// One search: a ball's flight and the window that is asked about.
@@ -45,11 +47,11 @@ class WallSearch {
   /// @pre the ball is inside the vessel at `begin`, up to rounding
   WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
     const Functions functions(constants_, query.flight, query.radius, query.begin.period);
-    return search(functions, functions(query.begin.offset), query);
+    return search(functions, functions.start(query.begin.offset), query);
   }
 
   /// The same with the sample at `begin` that the caller has already.
-  WallAnswer<Real> search(const GapFunctions<Real>& functions, const GapSample<Real>& first,
+  WallAnswer<Real> search(const GapFunctions<Real>& functions, const GapStart<Real>& first,
                           const WallQuery<Real>& query) const;
 
   const typename GapFunctions<Real>::Constants& constants() const { return constants_; }
@@ -77,7 +79,13 @@ class WallSearch {
   Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
   Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
   Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;
-  Real polish(const Curve& curve, Point left, Point right) const;
+  /// A root and how well the scalar knows it: the gap's rounding error over its slope.
+  struct Root {
+    Real t;
+    Real doubt;
+  };
+  Root polish(const Curve& curve, Point left, Point right) const;
+  Real polished_root(const Curve& curve, Point& left, Point& right) const;
   Real resolution() const { return 4 * epsilon<Real>() * constants_.clock.period(); }
 
   typename Functions::Constants constants_;

@@ -10,40 +10,66 @@
 namespace edmill::dynamics {
 
 template <class Real>
-WallAnswer<Real> WallSearch<Real>::search(const GapFunctions<Real>& functions, const GapSample<Real>& first,
+WallAnswer<Real> WallSearch<Real>::search(const GapFunctions<Real>& functions, const GapStart<Real>& first,
                                           const WallQuery<Real>& query) const {
   EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
                  "window length out of range");
-  Real end = query.begin.offset + query.length;
-  GapSample<Real> last = functions(end);
-
-  const Vec3<Real> velocity =
-      velocity_after(query.flight, constants_.mill.gravity, functions.elapsed(query.begin.offset));
+  const Real begin = query.begin.offset;
+  const Vec3<Real> velocity = velocity_after(query.flight, constants_.mill.gravity, functions.elapsed(begin));
   const Real speed = norm<Real>(velocity) + constants_.gravity * query.length;
-  const auto derivatives = bounds_.at(speed, query.length);
-  const auto errors = functions.errors(functions.elapsed(end), speed);
-
-  WallAnswer<Real> answer;
-  for (int wall = 0; wall < model::wall_count; ++wall) {
+  const auto errors = functions.errors(functions.elapsed(begin + query.length), speed);
+  const auto curve_of = [&](int wall, const DerivativeBounds<Real>& derivatives) {
     const auto& d = wall == 2 ? derivatives.q : derivatives.y;
-    const Curve curve{functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall]}};
+    return Curve{functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall]}};
+  };
+
+  // Most walls are out of reach by the state at the start alone.
+  const auto whole = bounds_.at(speed, query.length);
+  std::array<bool, model::wall_count> reachable;
+  Real length = query.length;
+  bool any = false;
+  for (int wall = 0; wall < model::wall_count; ++wall) {
+    const Curve curve = curve_of(wall, whole);
+    const Point start = curve.of(first);
+    reachable[wall] = !numerics::proven_clear(start, first.curvature[wall], query.length, curve.bounds);
+    if (!reachable[wall]) continue;
+    any = true;
+    // A little beyond the first suspected contact there is nothing to look for.
+    const Real hint = numerics::first_root_hint(start, first.curvature[wall], query.length) * 9 / 8;
+    if (hint < length && hint > 64 * resolution()) length = hint;
+  }
+  if (!any) return {Verdict::none, -1, {}, false, query.length, Real(0)};
+
+  const auto derivatives = bounds_.at(speed, length);
+  Real end = begin + length;
+  GapSample<Real> last = functions(end);
+  WallAnswer<Real> answer{Verdict::none, -1, {}, false, length, Real(0)};
+  Root best{};
+  for (int wall = 0; wall < model::wall_count; ++wall) {
+    if (!reachable[wall]) continue;
+    const Curve curve = curve_of(wall, derivatives);
     const Bracket found = isolate(curve, curve.of(first), curve.of(last));
     if (found.verdict == Verdict::none) continue;
     if (found.verdict == Verdict::undecided) return {Verdict::undecided};
-    const Real root = found.left.t == found.right.t ? found.left.t : polish(curve, found.left, found.right);
-    if (answer.verdict == Verdict::contact && root >= end - 2 * resolution()) {
-      // Two walls at one time within rounding: a wider scalar decides; at the top the lower id comes first.
-      if constexpr (!std::is_void_v<Wider<Real>>) return {Verdict::undecided};
-      answer.tie = true;
-      continue;
+    const Root root = polish(curve, found.left, found.right);
+    if (answer.verdict == Verdict::contact) {
+      const Real later = root.t - best.t, doubt = root.doubt + best.doubt;
+      if (later > doubt) continue;
+      if (later >= -doubt) {
+        // Two walls at one time within rounding: a wider scalar decides; at the top the lower id comes first.
+        if constexpr (!std::is_void_v<Wider<Real>>) return {Verdict::undecided};
+        answer.tie = true;
+        continue;
+      }
     }
-    answer = {Verdict::contact, wall, constants_.clock.instant(query.begin.period, root)};
-    if (wall + 1 < model::wall_count) {
-      end = root + resolution();  // later walls are of interest up to here
-      if (end > query.begin.offset + query.length) end = query.begin.offset + query.length;
-      if (!(end > query.begin.offset)) break;
-      last = functions(end);
-    }
+    best = root;
+    answer = {Verdict::contact, wall,      constants_.clock.instant(query.begin.period, root.t), false,
+              Real(0),          root.doubt};
+    end = root.t + root.doubt;  // later walls are of interest up to here
+    if (end > begin + length) end = begin + length;
+    const bool more = (wall < 1 && reachable[1]) || (wall < 2 && reachable[2]);
+    if (!more || !(end > begin)) break;
+    last = functions(end);
   }
   return answer;
 }
@@ -162,43 +188,83 @@ auto WallSearch<Real>::follow_overlap(const Curve& curve, const Point& start, co
 }
 
 /// The bracket's root to the last digit of the scalar: its end where the gap is not negative.
+///
+/// Near the root one evaluation gives a quadratic that is as good as the gap itself; toms748 takes the
+/// quadratic's root to adjacent numbers, and the gap's own signs there are checked. Where rounding moves them
+/// by some ulps, the bracket is closed on the gap itself.
 template <class Real>
-Real WallSearch<Real>::polish(const Curve& curve, Point left, Point right) const {
-  // Newton from an inverse cubic estimate narrows the bracket to a few ulps.
-  if (left.slope < 0 && right.slope < 0 && left.value > 0) {
-    Real guess = numerics::inverse_cubic_hint(left, right);
-    Real margin = resolution();
-    for (int step = 0; step < 8; ++step) {
-      if (!(guess > left.t && guess < right.t)) break;
-      const Point at_guess = curve.at(guess);
-      (at_guess.value < 0 ? right : left) = at_guess;
-      if (!(at_guess.slope < 0)) break;
-      const Real correction = -at_guess.value / at_guess.slope;
-      guess += correction;
-      const Real size = correction < 0 ? Real(-correction) : correction;
-      if (size * size * 65536 <
-          margin * constants_.clock.period()) {  // the next correction is below `margin`
-        for (const Real& t : {Real(guess - margin), Real(guess + margin)}) {
-          if (!(t > left.t && t < right.t)) continue;
-          const Point p = curve.at(t);
-          (p.value < 0 ? right : left) = p;
-        }
-        break;
-      }
-    }
-  }
+auto WallSearch<Real>::polish(const Curve& curve, Point left, Point right) const -> Root {
+  const Real t = left.t == right.t ? left.t : polished_root(curve, left, right);
+  // The flatter end of what is left of the bracket; a contact at once has no later root to be mistaken for.
+  const Real slope = left.slope > right.slope ? left.slope : right.slope;
+  return {t, resolution() + (slope < 0 ? Real(-4 * curve.bounds.value_error / slope) : Real(0))};
+}
+
+template <class Real>
+Real WallSearch<Real>::polished_root(const Curve& curve, Point& left, Point& right) const {
   if (left.value <= 0) return left.t;
-  const auto value = [&](const Real& t) { return Real(curve.at(t).value); };
+  const Real ulp = epsilon<Real>() * constants_.clock.period();
   const auto adjacent = [](const Real& a, const Real& b) {
     const Real middle = a + (b - a) / 2;
     return middle <= a || middle >= b;
   };
-  std::uintmax_t iterations = 500;
-  const auto root = boost::math::tools::toms748_solve(value, left.t, right.t, left.value, right.value,
-                                                      adjacent, iterations);
-  EDMILL_REQUIRE(iterations < 500, "root polishing ran out of iterations");
-  EDMILL_REQUIRE(root.first == root.second || (value(root.first) >= 0 && value(root.second) <= 0),
-                 "root polishing lost the sign change");
+  const auto solve = [&](const auto& f, const Point& a, const Point& b) {
+    std::uintmax_t iterations = 500;
+    const auto root = boost::math::tools::toms748_solve(f, a.t, b.t, a.value, b.value, adjacent, iterations);
+    EDMILL_REQUIRE(iterations < 500, "root polishing ran out of iterations");
+    return root;
+  };
+  if (left.slope < 0 && right.slope < 0) {
+    const Real curvature = (right.slope - left.slope) / (right.t - left.t);
+    const Real width = right.t - left.t;
+    Real guess = numerics::inverse_cubic_hint(left, right);
+    for (int step = 0; step < 12 && guess > left.t && guess < right.t; ++step) {
+      const Point near = curve.at(guess);
+      (near.value < 0 ? right : left) = near;
+      if (!(near.slope < 0) || near.value == 0) break;
+      const Real newton = -near.value / near.slope;
+      const Real correction = newton - curvature * (newton * newton) / (2 * near.slope);
+      const Real size = correction < 0 ? Real(-correction) : correction;
+      guess = near.t + correction;
+      // The curvature is off by at most sup|third derivative| times the width of the bracket.
+      if (curve.bounds.third * (size * size) * (width + size) > -near.slope * ulp) continue;
+      const auto quadratic = [&](const Real& t) {
+        const Real d = t - near.t;
+        return Real(near.value + d * (near.slope + d * (curvature / 2)));
+      };
+      Point low{guess - 2 * ulp, Real(0), Real(0)}, high{guess + 2 * ulp, Real(0), Real(0)};
+      if (!(low.t > left.t && high.t < right.t)) break;
+      low.value = quadratic(low.t);
+      high.value = quadratic(high.t);
+      if (!(low.value > 0 && high.value < 0)) break;
+      const auto root = solve(quadratic, low, high);
+      // The quadratic changes sign here, so the gap does within its rounding error; what is left is to find
+      // the side on which the computed gap is not negative.
+      // The bound on that error is several times what it usually is: step back by parts of it.
+      const Real doubt = -curve.bounds.value_error / near.slope;
+      for (const Real& t : {root.first, Real(root.first - (2 * ulp + doubt / 16)),
+                            Real(root.first - (2 * ulp + doubt / 4)), Real(root.first - (2 * ulp + doubt))}) {
+        if (!(t > left.t && t < right.t)) continue;
+        const Point p = curve.at(t);
+        (p.value < 0 ? right : left) = p;
+        if (p.value >= 0) return p.t;
+      }
+      break;
+    }
+  }
+  if (left.value == 0 || adjacent(left.t, right.t)) return left.t;
+  // One end is near, the other may still be far: bring it in by doubling steps.
+  const bool from_left = left.value < -right.value;
+  for (Real step = ulp; step < right.t - left.t; step = 2 * step) {
+    const Point p = curve.at(from_left ? Real(left.t + step) : Real(right.t - step));
+    (p.value < 0 ? right : left) = p;
+    if (from_left == (p.value < 0)) break;
+  }
+  if (left.value == 0 || adjacent(left.t, right.t)) return left.t;
+  const auto root = solve([&](const Real& t) { return Real(curve.at(t).value); }, left, right);
+  EDMILL_REQUIRE(
+      root.first == root.second || (curve.at(root.first).value >= 0 && curve.at(root.second).value <= 0),
+      "root polishing lost the sign change");
   return root.first;
 }
 

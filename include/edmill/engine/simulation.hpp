@@ -120,8 +120,7 @@ class Simulation {
   void predict_wall(int ball, const model::VesselPose<Real>& pose);
   void continue_wall_search(int ball);
   Real search_length(int ball, const Instant<Real>& begin) const;
-  void take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer, const Instant<Real>& begin,
-                        const Real& length);
+  void take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer, const Instant<Real>& begin);
   void predict_all(int ball, int already_done, const model::VesselPose<Real>& pose);
 
   model::Mill<Real> mill_;
@@ -139,6 +138,7 @@ class Simulation {
   std::optional<model::InelasticCollapse<Real>> collapse_;
   std::optional<EndReason> stop_;
   Instant<Real> now_;
+  Real suspicion_;  ///< contacts of one ball closer in time [s] are put in order by the ladder
   Real top_speed_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "edmill/core/errors.hpp"
 #include "edmill/engine/simulation.hpp"
@@ -48,10 +49,11 @@ CellGrid<Real> make_grid(const model::Mill<Real>& mill,
   for (const auto& b : balls) largest = b.radius > largest ? b.radius : largest;
   const double volume = static_cast<double>(R * R * h) * 6.28;
   Real edge = 2 * largest * (1 + Real(1) / 1024);
-  // Fewer than a few dozen balls are looked at faster than cells are crossed.
-  if (balls.size() <= 32) edge = 4 * sideways;
-  const Real per_ball(volume / static_cast<double>(balls.size()));
-  while (edge * edge * edge < per_ball) edge *= Real(5) / 4;
+  static const double kap = getenv("KAPPA") ? atof(getenv("KAPPA")) : 0.5;
+  static const int nmin = getenv("NMIN") ? atoi(getenv("NMIN")) : 32;
+  if ((int)balls.size() <= nmin) edge = 4 * sideways;
+  const double spacing = kap * std::cbrt(volume / static_cast<double>(balls.size()));
+  if (edge < spacing) edge = Real(spacing);
   return CellGrid<Real>(low, high, edge, static_cast<int>(balls.size()));
 }
 
@@ -71,6 +73,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       collapse_watch_(static_cast<int>(states.size()),
                       Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach),
       now_(start),
+      suspicion_(ladder_.suspicion()),
       top_speed_(detail::largest_speed(states, the_case.mill)) {
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
   for (const auto& s : states) {
@@ -281,9 +284,7 @@ void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int k
 /// keeps the order of the queue and is counted.
 template <class Real>
 auto Simulation<Real>::settle_ties(Event event) -> Event {
-  const auto close = [&](const Instant<Real>& t) {
-    return clock_.elapsed(event.time, t) <= ladder_.time_resolution();
-  };
+  const auto close = [&](const Instant<Real>& t) { return clock_.elapsed(event.time, t) <= suspicion_; };
   const auto shares_ball = [&](const Event& other) {
     const auto involves = [&](int ball) {
       return other.ball == ball || (other.kind == EventKind::pair_contact && other.partner == ball);
@@ -403,23 +404,21 @@ void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pos
   const auto& flight = flights_[ball];
   const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, balls_[ball].radius,
                                                now_.period);
-  const auto first = functions.sample(
-      now_.offset, model::to_vessel_frame<Real>(pose, mill_.motion.arm, flight.position, flight.velocity));
-  take_wall_answer(ball, ladder_.wall(functions, first, {flight, balls_[ball].radius, now_, length}), now_,
-                   length);
+  const auto first = functions.start(now_.offset, pose);
+  take_wall_answer(ball, ladder_.wall(functions, first, {flight, balls_[ball].radius, now_, length}), now_);
 }
 
 template <class Real>
 void Simulation<Real>::continue_wall_search(int ball) {
   ++counts_.wall_searches;
   const Real length = search_length(ball, now_);
-  take_wall_answer(ball, ladder_.wall({flights_[ball], balls_[ball].radius, now_, length}), now_, length);
+  take_wall_answer(ball, ladder_.wall({flights_[ball], balls_[ball].radius, now_, length}), now_);
   requeue(ball);
 }
 
 template <class Real>
 void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer,
-                                        const Instant<Real>& begin, const Real& length) {
+                                        const Instant<Real>& begin) {
   Agenda& a = agendas_[ball];
   if (answer.verdict == dynamics::Verdict::contact) {
     a.wall = answer.wall;
@@ -427,7 +426,7 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
     if (answer.tie) ++counts_.simultaneous_contacts;
   } else {
     a.wall = -1;
-    a.wall_time = clock_.after(begin, length);
+    a.wall_time = clock_.after(begin, answer.searched);
   }
 }
 

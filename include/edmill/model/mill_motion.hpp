@@ -94,6 +94,32 @@ inline VesselFrameState<Real> to_vessel_frame(const VesselPose<Real>& pose, cons
   return {{a - arm, y, z}, {a_rate, y_rate, z_rate}};
 }
 
+/// Second time derivative of a body's vessel-frame position while it falls freely.
+/// @param state  of to_vessel_frame for the same body and pose
+template <class Real>
+inline Vec3<Real> vessel_frame_acceleration(const VesselPose<Real>& pose, const Real& arm,
+                                            const VesselFrameState<Real>& state, const Vec3<Real>& velocity,
+                                            const Vec3<Real>& gravity) {
+  const auto &p = state.position, &u = state.velocity;
+  const Real &sa = pose.sin_alpha, &ca = pose.cos_alpha, &sg = pose.sin_gamma, &cg = pose.cos_gamma;
+  const Real a = p[0] + arm, b = p[1] * cg - p[2] * sg;
+  const Real velocity_a = velocity[1] * ca - velocity[0] * sa,
+             velocity_b = -(velocity[0] * ca + velocity[1] * sa);
+  const Real gravity_a = gravity[1] * ca - gravity[0] * sa, gravity_b = -(gravity[0] * ca + gravity[1] * sa);
+  const Real b_rate = velocity_b - pose.theta_rate * a;
+  const Real a_second =
+      gravity_a + pose.theta_rate * velocity_b + (pose.theta_acceleration * b + pose.theta_rate * b_rate);
+  const Real b_second =
+      gravity_b - pose.theta_rate * velocity_a - (pose.theta_acceleration * a + pose.theta_rate * u[0]);
+  // y' = b' cos + V_Z sin + gamma' z and z' = V_Z cos - b' sin - gamma' y, once more.
+  const Real turned = velocity[2] * cg - b_rate * sg, raised = b_rate * cg + velocity[2] * sg;
+  const Real y_second = (b_second * cg + gravity[2] * sg) + pose.gamma_rate * turned +
+                        (pose.gamma_acceleration * p[2] + pose.gamma_rate * u[2]);
+  const Real z_second = (gravity[2] * cg - b_second * sg) - pose.gamma_rate * raised -
+                        (pose.gamma_acceleration * p[1] + pose.gamma_rate * u[1]);
+  return {a_second, y_second, z_second};
+}
+
 /// Inertial angular velocity of the vessel: theta' about Z plus gamma' about x'.
 template <class Real>
 inline Vec3<Real> vessel_angular_velocity(const VesselPose<Real>& pose) {

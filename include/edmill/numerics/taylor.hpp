@@ -1,0 +1,63 @@
+// Certified statements about a smooth function ahead of one point, from its value and two derivatives there.
+#pragma once
+
+#include "edmill/numerics/hermite.hpp"
+
+namespace edmill::numerics {
+
+/// Bernstein coefficients b_1..b_3 of a cubic lower bound of f on [start, start + length]; b_0 is the value
+/// itself: the second Taylor polynomial less sup|f'''| tau^3 / 6. (theory.md, section 3)
+template <class Real>
+struct CubicLowerBound {
+  Real b1, b2, b3;
+  Real slack;  ///< bound on the rounding error of any coefficient
+
+  CubicLowerBound(const Point<Real>& start, const Real& curvature, const Real& length,
+                  const CurveBounds<Real>& bounds) {
+    const Real rise = start.slope * length;
+    const Real bend = curvature * (length * length) / 2;
+    b1 = start.value + rise / 3;
+    b2 = start.value + (2 * rise + bend) / 3;
+    b3 = start.value + rise + bend - bounds.third * (length * length * length) / 6;
+    // The curvature is a sum of products that the bound on |f''| majorises; 64 roundings are more than it
+    // has.
+    slack =
+        bounds.value_error + length * bounds.slope_error +
+        std::numeric_limits<Real>::epsilon() *
+            (32 * bounds.second * (length * length) +
+             8 * ((start.value < 0 ? Real(-start.value) : start.value) + (rise < 0 ? Real(-rise) : rise)));
+  }
+
+  Real least() const {
+    const Real least = b1 < b2 ? b1 : b2;
+    return b3 < least ? b3 : least;
+  }
+};
+
+/// Proven: no contact on (start, start + length], from outside or from a start that is zero within rounding
+/// and rises. See proven_positive and proven_departure.
+template <class Real>
+bool proven_clear(const Point<Real>& start, const Real& curvature, const Real& length,
+                  const CurveBounds<Real>& bounds) {
+  const CubicLowerBound<Real> cubic(start, curvature, length, bounds);
+  if (start.value > bounds.value_error) return cubic.least() > cubic.slack;
+  if (start.value < -bounds.value_error || !can_depart(start, bounds)) return false;
+  const Real least = cubic.least() - cubic.slack - 2 * bounds.value_error;
+  return least > 0 && least * start.slope > 8 * (bounds.value_error * bounds.second) * length;
+}
+
+/// Estimate of the first positive root of the second Taylor polynomial, counted from the start; `length` or
+/// more when there is none before. A hint, never a decision.
+template <class Real>
+Real first_root_hint(const Point<Real>& start, const Real& curvature, const Real& length) {
+  using std::sqrt;
+  const Real value = start.value > 0 ? start.value : Real(0);
+  const Real discriminant = start.slope * start.slope - 2 * curvature * value;
+  if (discriminant < 0) return length;
+  const Real root = sqrt(discriminant);
+  if (start.slope < 0) return 2 * value / (root - start.slope);
+  if (curvature < 0) return (start.slope + root) / -curvature;
+  return length;
+}
+
+}  // namespace edmill::numerics

@@ -1,0 +1,48 @@
+// A second, independent answer to the ball-wall question: interval branch and bound in Arb balls.
+// It shares neither bounds nor numerics with the solver; only the doubles of the question are common.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace edmill::testing {
+
+/// A mill, a flight and a window as plain doubles, all taken exactly.
+struct OracleQuestion {
+  double arm, theta_max, gamma_max, period;
+  double vessel_radius, half_height;
+  std::array<double, 3> gravity;
+  std::array<double, 3> position, velocity;  ///< at the start of the flight, inertial
+  std::int64_t start_period;
+  double start_offset;
+  double radius;
+  std::int64_t begin_period;
+  double begin_offset;
+  double length;    ///< of the window [s]
+  double overtime;  ///< contacts up to this long after the window are told, too [s]
+};
+
+enum class OracleVerdict { none, contact, unresolved };
+
+/// First contact with one wall. Delays count from the window's begin and are rounded outwards.
+struct OracleContact {
+  OracleVerdict verdict = OracleVerdict::none;
+  double earliest = 0, latest = 0;  ///< enclosure of the delay [s]
+  double slope = 0;                 ///< rate of the gap function there, per second
+  double curvature = 0;             ///< its second derivative there
+  bool turned_back = false;  ///< overlapped and leaving at first; the contact is where the rate vanishes
+};
+
+/// Nearest doubles to a gap function and its rate.
+struct OracleSample {
+  double gap, rate;
+};
+
+/// Contacts with the walls 0, 1, 2. A wall is searched up to the first contact with the walls before it and
+/// a little beyond.
+std::array<OracleContact, 3> first_contacts(const OracleQuestion& question);
+
+/// Gap function of `wall` at `delay` after the window's begin.
+OracleSample gap_after(const OracleQuestion& question, int wall, double delay);
+
+}  // namespace edmill::testing
