@@ -1,6 +1,8 @@
 // Certified statements about a smooth function ahead of one point, from its value and two derivatives there.
 #pragma once
 
+#include <cmath>
+
 #include "edmill/numerics/hermite.hpp"
 
 namespace edmill::numerics {
