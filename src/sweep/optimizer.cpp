@@ -204,6 +204,10 @@ std::string describe(const OptimizeSpec& spec, const Study& study, const Optimum
   text += optimum.contenders.empty() ? "every other point is less, at 5 % for all comparisons together\n"
                                      : "not to be told apart from it, at 5 % for all comparisons together:\n";
   for (const auto k : optimum.contenders) text += line_of(spec, study, k);
+  const auto& points = study.points();
+  const auto excluded =
+      std::count_if(points.begin(), points.end(), [](const Point& p) { return p.failed() > 0; });
+  if (excluded > 0) text += fmt::format("{} points with failed runs were left out\n", excluded);
   return text;
 }
 

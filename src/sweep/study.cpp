@@ -54,6 +54,8 @@ void Study::add_runs(std::size_t point, std::uint64_t count) {
 }
 
 void Study::require_a_good_case() const {
+  if (points_.empty())
+    throw InputError(spec_.file + ": found a budget of too few runs for a point, expected more");
   for (const auto& point : points_)
     for (const auto& run : point.runs)
       if (!run.record) return;
