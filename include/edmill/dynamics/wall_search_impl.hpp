@@ -232,7 +232,8 @@ Real WallSearch<Real>::polished_root(const Curve& curve, Point& left, Point& rig
         const Real d = t - near.t;
         return Real(near.value + d * (near.slope + d * (curvature / 2)));
       };
-      Point low{guess - 2 * ulp, Real(0), Real(0)}, high{guess + 2 * ulp, Real(0), Real(0)};
+      const Real reach = epsilon<Real>() * guess;  // one or two ulps of this very number
+      Point low{guess - reach, Real(0), Real(0)}, high{guess + reach, Real(0), Real(0)};
       if (!(low.t > left.t && high.t < right.t)) break;
       low.value = quadratic(low.t);
       high.value = quadratic(high.t);

@@ -10,6 +10,7 @@
 #include "edmill/engine/cell_grid.hpp"
 #include "edmill/engine/collapse_watch.hpp"
 #include "edmill/engine/event_queue.hpp"
+#include "edmill/engine/flight_table.hpp"
 #include "edmill/engine/observer.hpp"
 #include "edmill/model/case.hpp"
 #include "edmill/model/outcome.hpp"
@@ -83,12 +84,11 @@ class Simulation {
     static constexpr int capacity = 4;
     std::array<Candidate, capacity> pairs;
     int pair_count = 0;
-    bool pairs_dropped = false;  ///< later contacts than the ones kept were forgotten
-    int wall = -1;               ///< a wall id, or -1 when `wall_time` only ends what has been searched
+    Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
+    int wall = -1;                 ///< a wall id, or -1 when `wall_time` only ends what has been searched
     Instant<Real> wall_time;
     Crossing<Real> crossing;
     Instant<Real> crossing_time = Instant<Real>::never();
-    std::uint32_t impacts = 0;
   };
   enum class EventKind { wall_contact, pair_contact, cell_crossing, wall_recheck };
   struct Event {
@@ -115,6 +115,8 @@ class Simulation {
   dynamics::Contact<Real> contact_of(const Event& event) const;
 
   void predict_pairs(int ball, int already_done);
+  void flight_changed(int ball);
+  void predict_near(int ball, int already_done, const typename dynamics::PairSearch<Real>::Seen& seen);
   void predict_pair(int ball, int other, const typename dynamics::PairSearch<Real>::Seen& seen);
   void predict_crossing(int ball);
   void predict_wall(int ball, const model::VesselPose<Real>& pose);
@@ -128,17 +130,22 @@ class Simulation {
   std::vector<model::BallProperties<Real>> balls_;
   std::vector<dynamics::Flight<Real>> flights_;
   std::vector<Vec3<Real>> spins_;
+  std::vector<Real> radii_;
   std::vector<Agenda> agendas_;
+  std::vector<std::uint32_t> impacts_;  ///< of each ball; tells a candidate whether it still holds
   dynamics::DecisionLadder<Real> ladder_;
   CellGrid<Real> grid_;
+  std::optional<FlightTable<Real>> table_;  ///< instead of the grid when that has one cell
   EventQueue<Real> queue_;
   CollapseWatch<Real> collapse_watch_;
+  FoundBalls near_;  ///< scratch: balls of the adjacent cells
   std::vector<Observer<Real>*> observers_;
   EngineCounts<Real> counts_;
   std::optional<model::InelasticCollapse<Real>> collapse_;
   std::optional<EndReason> stop_;
   Instant<Real> now_;
-  Real suspicion_;  ///< contacts of one ball closer in time [s] are put in order by the ladder
+  Real suspicion_;          ///< contacts of one ball closer in time [s] are put in order by the ladder
+  Real tolerated_overlap_;  ///< far above rounding and given states, far below a missed impact [m]
   Real top_speed_;
 };
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "edmill/core/errors.hpp"
 #include "edmill/engine/simulation.hpp"
@@ -49,10 +48,9 @@ CellGrid<Real> make_grid(const model::Mill<Real>& mill,
   for (const auto& b : balls) largest = b.radius > largest ? b.radius : largest;
   const double volume = static_cast<double>(R * R * h) * 6.28;
   Real edge = 2 * largest * (1 + Real(1) / 1024);
-  static const double kap = getenv("KAPPA") ? atof(getenv("KAPPA")) : 0.5;
   static const int nmin = getenv("NMIN") ? atoi(getenv("NMIN")) : 32;
   if ((int)balls.size() <= nmin) edge = 4 * sideways;
-  const double spacing = kap * std::cbrt(volume / static_cast<double>(balls.size()));
+  const double spacing = 0.45 * std::cbrt(volume / static_cast<double>(balls.size()));
   if (edge < spacing) edge = Real(spacing);
   return CellGrid<Real>(low, high, edge, static_cast<int>(balls.size()));
 }
@@ -66,6 +64,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       clock_(the_case.mill.motion.period),
       balls_(the_case.balls),
       agendas_(states.size()),
+      impacts_(states.size(), 0),
       ladder_(the_case.mill, 2 * detail::smallest_radius(the_case.balls),
               detail::largest_speed(states, the_case.mill)),
       grid_(detail::make_grid(the_case.mill, the_case.balls)),
@@ -74,20 +73,20 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
                       Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach),
       now_(start),
       suspicion_(ladder_.suspicion()),
+      tolerated_overlap_(2 * detail::smallest_radius(the_case.balls) / 1000000),
       top_speed_(detail::largest_speed(states, the_case.mill)) {
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
+  for (const auto& ball : balls_) radii_.push_back(ball.radius);
   for (const auto& s : states) {
     flights_.push_back({s.position, s.velocity, start});
     spins_.push_back(s.spin);
   }
   for (int i = 0; i < ball_count(); ++i) grid_.insert(i, flights_[i].position);
+  if (grid_.single_cell()) table_.emplace(states.size());
+  for (int i = 0; i < ball_count(); ++i) flight_changed(i);
   const auto pose = model::pose_at<Real>(mill_.motion, start.offset);
   for (int i = 0; i < ball_count(); ++i) {
-    // Pairs with later balls only: one prediction of a pair is enough.
-    const auto seen = ladder_.pairs().seen(flights_[i], now_);
-    grid_.visit_neighbours(i, [&](int other) {
-      if (other > i) predict_pair(i, other, seen);
-    });
+    predict_pairs(i, -1);
     predict_crossing(i);
     predict_wall(i, pose);
     requeue(i);
@@ -128,7 +127,7 @@ void Simulation<Real>::process(const Event& event) {
   switch (event.kind) {
     case EventKind::pair_contact: {
       const Candidate& c = agendas_[event.ball].pairs[0];
-      if (agendas_[c.partner].impacts != c.partner_impacts) return drop_stale(event.ball);
+      if (impacts_[c.partner] != c.partner_impacts) return drop_stale(event.ball);
       break;
     }
     case EventKind::cell_crossing:
@@ -152,7 +151,7 @@ void Simulation<Real>::drop_stale(int ball) {
   Agenda& a = agendas_[ball];
   for (int k = 1; k < a.pair_count; ++k) a.pairs[k - 1] = a.pairs[k];
   --a.pair_count;
-  if (a.pair_count == 0 && a.pairs_dropped) predict_pairs(ball, -1);
+  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) predict_pairs(ball, -1);
   requeue(ball);
 }
 
@@ -162,8 +161,8 @@ void Simulation<Real>::cross_cell(int ball) {
   const Crossing<Real> crossing = agendas_[ball].crossing;
   grid_.move(ball, crossing.axis, crossing.step);
   const auto seen = ladder_.pairs().seen(flights_[ball], now_);
-  grid_.visit_new_neighbours(ball, crossing.axis, crossing.step,
-                             [&](int other) { predict_pair(ball, other, seen); });
+  grid_.new_neighbours(ball, crossing.axis, crossing.step, near_);
+  predict_near(ball, -1, seen);
   predict_crossing(ball);
   requeue(ball);
 }
@@ -201,7 +200,8 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   impact.ball = ball;
   impact.with_wall = true;
   impact.partner = wall;
-  ++agendas_[ball].impacts;
+  ++impacts_[ball];
+  flight_changed(ball);
   after_impact(impact);
   if (stop_ == EndReason::inelastic_collapse) return;
   predict_all(ball, -1, pose);
@@ -231,8 +231,10 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   impact.ball = ball;
   impact.with_wall = false;
   impact.partner = partner;
-  ++agendas_[ball].impacts;
-  ++agendas_[partner].impacts;
+  ++impacts_[ball];
+  ++impacts_[partner];
+  flight_changed(ball);
+  flight_changed(partner);
   after_impact(impact);
   if (stop_ == EndReason::inelastic_collapse) return;
   const auto& constants = ladder_.walls().constants();
@@ -247,6 +249,8 @@ void Simulation<Real>::after_impact(Impact<Real>& impact) {
   impact.index = counts_.impacts++;
   impact.time = now_;
   if (impact.overlap > counts_.deepest_overlap) counts_.deepest_overlap = impact.overlap;
+  EDMILL_REQUIRE(impact.overlap < tolerated_overlap_,
+                 "an impact was missed: bodies overlap by " + to_text(impact.overlap) + " m");
   const Real limit = top_speed_ * top_speed_;
   for (int body = 0; body < (impact.with_wall ? 1 : 2); ++body) {
     const Real speed_squared =
@@ -311,14 +315,14 @@ auto Simulation<Real>::settle_ties(Event event) -> Event {
   const int other_pair = event.kind == EventKind::pair_contact ? 1 : 0;
   if (a.pair_count > other_pair && close(a.pairs[other_pair].time)) {
     const Candidate& c = a.pairs[other_pair];
-    if (agendas_[c.partner].impacts == c.partner_impacts)
+    if (impacts_[c.partner] == c.partner_impacts)
       settle({EventKind::pair_contact, c.time, event.ball, c.partner});
   }
   const int rival = queue_.runner_up();
   if (rival >= 0 && close(queue_.time(rival))) {
     const Event other = next_of(rival);
     const bool valid = other.kind != EventKind::pair_contact ||
-                       agendas_[other.partner].impacts == agendas_[rival].pairs[0].partner_impacts;
+                       impacts_[other.partner] == agendas_[rival].pairs[0].partner_impacts;
     if (valid) settle(other);
   }
   return event;
@@ -347,25 +351,55 @@ template <class Real>
 void Simulation<Real>::predict_pairs(int ball, int already_done) {
   Agenda& a = agendas_[ball];
   a.pair_count = 0;
-  a.pairs_dropped = false;
+  a.forgotten_from = Instant<Real>::never();
   const auto seen = ladder_.pairs().seen(flights_[ball], now_);
-  grid_.visit_neighbours(ball, [&](int other) {
-    if (other != ball && other != already_done) predict_pair(ball, other, seen);
-  });
+  if (table_) {
+    const auto predict = [&](int other) {
+      if (other != ball && other != already_done) predict_pair(ball, other, seen);
+    };
+    table_->visit_candidates(
+        {seen, radii_[ball], static_cast<Real>(now_.period), now_.offset, ladder_.pairs().filter()}, predict);
+  } else {
+    grid_.neighbours(ball, near_);
+    predict_near(ball, already_done, seen);
+  }
+}
+
+/// Predicts contacts with the balls of `near_`. The filter runs over all of them first, without branches.
+template <class Real>
+void Simulation<Real>::predict_near(int ball, int already_done,
+                                    const typename dynamics::PairSearch<Real>::Seen& seen) {
+  int count = 0;
+  int* near = near_.balls.data();
+  const auto& pairs = ladder_.pairs();
+  const Real radius = radii_[ball];
+  for (int k = 0; k < near_.count; ++k) {
+    const int other = near[k];
+    const bool meets = pairs.may_meet(seen, flights_[other], now_, radius + radii_[other]);
+    near[count] = other;
+    count += meets & (other != ball) & (other != already_done);
+  }
+  for (int k = 0; k < count; ++k) predict_pair(ball, near[k], seen);
+}
+
+template <class Real>
+void Simulation<Real>::flight_changed(int ball) {
+  if (table_) table_->set(ball, flights_[ball], balls_[ball].radius);
 }
 
 template <class Real>
 void Simulation<Real>::predict_pair(int ball, int other,
                                     const typename dynamics::PairSearch<Real>::Seen& seen) {
-  const Real sum = balls_[ball].radius + balls_[other].radius;
+  const Real sum = balls_[ball].radius + radii_[other];
   const auto answer = ladder_.pair(seen, flights_[ball], flights_[other], now_, sum);
   if (answer.verdict == dynamics::Verdict::none) return;
   Agenda& a = agendas_[ball];
-  const Candidate found{clock_.after(now_, answer.delay), other, agendas_[other].impacts};
+  const Candidate found{clock_.after(now_, answer.delay), other, impacts_[other]};
+  if (found.time >= a.forgotten_from) return;
   int place = a.pair_count;
   while (place > 0 && found.time < a.pairs[place - 1].time) --place;
   if (a.pair_count == Agenda::capacity) {
-    a.pairs_dropped = true;
+    a.forgotten_from = place == a.pair_count ? found.time : a.pairs[Agenda::capacity - 1].time;
     if (place == a.pair_count) return;
   } else {
     ++a.pair_count;
