@@ -72,12 +72,13 @@ void add_gas(double packing, int balls) {
 void register_spex() {
   for (const auto& subject : spex_subjects) {
     const std::string name = std::string("spex/") + subject.name;
-    add("edmill/" + name, 40, [&](benchmark::State& s) { spex<double>(s, subject); });
+    add("edmill/" + name, subject.balls < 100 ? 400 : 40,
+        [&](benchmark::State& s) { spex<double>(s, subject); });
     add("peer/" + name, 10, [&](benchmark::State& s) { peer(s, subject.balls, subject.packing); });
   }
-  add("scalar/double/demo", 40, [](benchmark::State& s) { spex<double>(s, demo); });
-  add("scalar/float128/demo", 20, [](benchmark::State& s) { spex<float128>(s, demo); });
-  add("scalar/mpfr50/demo", 10, [](benchmark::State& s) { spex<mpfr50>(s, demo); });
+  add("scalar/double/demo", 400, [](benchmark::State& s) { spex<double>(s, demo); });
+  add("scalar/float128/demo", 200, [](benchmark::State& s) { spex<float128>(s, demo); });
+  add("scalar/mpfr50/demo", 100, [](benchmark::State& s) { spex<mpfr50>(s, demo); });
 }
 
 void register_still_gas() {
