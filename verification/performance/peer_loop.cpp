@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 
@@ -51,7 +52,7 @@ void Calendar::unlink(int ball) {
   (e.previous >= 0 ? entries_[e.previous].next : heads_[-2 - e.previous]) = e.next;
 }
 
-PeerLoop::PeerLoop(int balls, double packing, std::uint64_t seed)
+PeerLoop::PeerLoop(int balls, double packing, std::uint64_t seed, bool in_order)
     : box_(std::cbrt(balls * std::numbers::pi / 6 / packing)) {
   // Cells hold few balls but are not thinner than one.
   const double spacing = std::cbrt(box_ * box_ * box_ / balls);
@@ -64,12 +65,15 @@ PeerLoop::PeerLoop(int balls, double packing, std::uint64_t seed)
 
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
+  std::vector<int> numbers(static_cast<std::size_t>(balls));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  if (!in_order) std::shuffle(numbers.begin(), numbers.end(), random);
   Vector mean{};
   balls_.resize(static_cast<std::size_t>(balls));
   for (int i = 0; i < balls; ++i) {
     Ball& b = balls_[i];
     b = {};
-    const std::array<int, 3> site{i % sites, i / sites % sites, i / sites / sites};
+    const std::array<int, 3> site{numbers[i] % sites, numbers[i] / sites % sites, numbers[i] / sites / sites};
     for (int k = 0; k < 3; ++k) {
       b.position[k] = (site[k] + 0.5) * box_ / sites;
       b.velocity[k] = normal(random);

@@ -39,9 +39,10 @@ class Calendar {
 class PeerLoop {
  public:
   /// Balls on a cubic lattice with Maxwellian velocities at temperature 1 and no total momentum.
-  /// @param packing  volume of the balls over the volume of the box
+  /// @param packing   volume of the balls over the volume of the box
+  /// @param in_order  neighbours lie near each other in memory too; otherwise anywhere
   /// @throws std::invalid_argument when the lattice does not fit or the box has fewer than four cells a side
-  PeerLoop(int balls, double packing, std::uint64_t seed);
+  PeerLoop(int balls, double packing, std::uint64_t seed, bool in_order = true);
 
   /// Goes on for so many collisions.
   void run(std::uint64_t collisions);
