@@ -200,7 +200,9 @@ def print_ratios(result):
         if not name.startswith("edmill/") or not peer or " " in name:
             continue
         ratio, low, high = interval(peer["values"], figure["values"])
-        lines.append("%-48s %8.3f   [%.3f, %.3f]" % (name[len("edmill/"):], ratio, low, high))
+        enough = min(len(peer["values"]), len(figure["values"])) >= FEWEST
+        shown = "   [%.3f, %.3f]" % (low, high) if enough else ""
+        lines.append("%-48s %8.3f%s" % (name[len("edmill/"):], ratio, shown))
     if lines:
         print("edmill / yardstick, collisions per CPU second")
         print("\n".join(lines))

@@ -116,7 +116,7 @@ void queue_operation(benchmark::State& state, int balls) {
   for (auto _ : state) {
     const int ball = queue.top();
     const auto time = queue.time(ball);
-    queue.set(ball, {time.period, time.offset + waits[k++ % waits.size()]});
+    queue.set(ball, {time.period, time.offset + waits[k++ & (waits.size() - 1)]});
   }
 }
 
