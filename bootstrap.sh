@@ -14,7 +14,7 @@ program_packages=(
 )
 test_packages=(
   libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev nlohmann-json3-dev
-  libbenchmark-dev clang clang-format
+  libbenchmark-dev clang clang-format valgrind python3
 )
 
 say() { printf '\n== %s\n' "$*"; }
