@@ -189,8 +189,8 @@ class CellGrid {
     } else {
       last = cell.balls[cell.count - 1];
     }
-    for (int k = 0; k < Cell::inside; ++k)
-      if (k < cell.count && cell.balls[k] == ball) cell.balls[k] = last;
+    // What stands beyond `count` is of no account, so no branch is needed for it.
+    for (int& other : cell.balls) other = other == ball ? last : other;
     --cell.count;
   }
 

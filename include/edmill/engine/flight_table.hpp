@@ -8,28 +8,23 @@
 namespace edmill::engine {
 
 /// One ball as seen now, and what would make another one worth a closer look.
-template <class Real>
 struct PairQuestion {
-  typename dynamics::PairSearch<Real>::Seen seen;
-  Real radius;
-  Real now_period, now_offset;  ///< the instant, in the columns' terms
-  dynamics::PairFilter<Real> filter;
+  dynamics::PairSearch<double>::Seen seen;
+  double radius;
+  double now_period, now_offset;  ///< the instant, in the columns' terms
+  dynamics::PairFilter<double> filter;
 };
 
 /// Flights by columns: the compiler turns a loop over them into vector instructions.
-template <class Real>
 struct FlightColumns {
-  std::vector<Real> x, y, z, u, v, w, period, offset, radius;
+  std::vector<double> x, y, z, u, v, w, period, offset, radius;
 };
 
-/// hits[k] becomes 0 where ball k is proven never to meet the one of the question. For
-/// double it is compiled for several instruction sets, all with the same bits since nothing is contracted.
-template <class Real>
-void mark_candidates(const FlightColumns<Real>& flights, const PairQuestion<Real>& question,
-                     std::vector<Real>& hits);
+/// hits[k] becomes 0 where ball k is proven never to meet the one of the question. Compiled for several
+/// instruction sets, all with the same bits since nothing is contracted.
+void mark_candidates(const FlightColumns& flights, const PairQuestion& question, std::vector<double>& hits);
 
 /// Where cells are of no use this looks at every ball.
-template <class Real>
 class FlightTable {
  public:
   explicit FlightTable(std::size_t balls) : hits_(balls) {
@@ -37,10 +32,10 @@ class FlightTable {
       column->resize(balls);
   }
 
-  void set(int ball, const dynamics::Flight<Real>& flight, const Real& radius) {
+  void set(int ball, const dynamics::Flight<double>& flight, double radius) {
     f_.x[ball] = flight.position[0], f_.y[ball] = flight.position[1], f_.z[ball] = flight.position[2];
     f_.u[ball] = flight.velocity[0], f_.v[ball] = flight.velocity[1], f_.w[ball] = flight.velocity[2];
-    f_.period[ball] = static_cast<Real>(flight.start.period);
+    f_.period[ball] = static_cast<double>(flight.start.period);
     f_.offset[ball] = flight.start.offset;
     f_.radius[ball] = radius;
   }
@@ -48,13 +43,13 @@ class FlightTable {
   /// Calls `visit(other)` for every ball that is not proven to pass by, the ball
   /// itself included.
   template <class Visit>
-  void visit_candidates(const PairQuestion<Real>& question, Visit&& visit) {
-    mark_candidates<Real>(f_, question, hits_);
+  void visit_candidates(const PairQuestion& question, Visit&& visit) {
+    mark_candidates(f_, question, hits_);
     const int n = static_cast<int>(hits_.size());
     // Hits are rare: look at eight at a time.
     int k = 0;
     for (; k + 8 <= n; k += 8) {
-      const Real* h = &hits_[k];
+      const double* h = &hits_[k];
       if (((h[0] + h[1]) + (h[2] + h[3])) + ((h[4] + h[5]) + (h[6] + h[7])) == 0) continue;
       for (int m = k; m < k + 8; ++m)
         if (hits_[m] != 0) visit(m);
@@ -64,8 +59,8 @@ class FlightTable {
   }
 
  private:
-  FlightColumns<Real> f_;
-  std::vector<Real> hits_;
+  FlightColumns f_;
+  std::vector<double> hits_;
 };
 
 }  // namespace edmill::engine

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "edmill/dynamics/decision_ladder.hpp"
@@ -117,6 +118,15 @@ class Simulation {
   void predict_pairs(int ball, int already_done);
   void flight_changed(int ball);
   void predict_near(int ball, int already_done, const typename dynamics::PairSearch<Real>::Seen& seen);
+  const dynamics::Flight<double>& rough_flight(int ball) const {
+    if constexpr (std::is_same_v<Real, double>)
+      return flights_[ball];
+    else
+      return rough_flights_[ball];
+  }
+  dynamics::PairSearch<double>::Seen roughly_seen(int ball) const {
+    return pair_filter_.seen(rough_flight(ball), dynamics::instant_cast<double>(now_));
+  }
   void predict_pair(int ball, int other, const typename dynamics::PairSearch<Real>::Seen& seen);
   void predict_crossing(int ball);
   void predict_wall(int ball, const model::VesselPose<Real>& pose);
@@ -130,12 +140,15 @@ class Simulation {
   std::vector<model::BallProperties<Real>> balls_;
   std::vector<dynamics::Flight<Real>> flights_;
   std::vector<Vec3<Real>> spins_;
-  std::vector<Real> radii_;
   std::vector<Agenda> agendas_;
   std::vector<std::uint32_t> impacts_;  ///< of each ball; tells a candidate whether it still holds
   dynamics::DecisionLadder<Real> ladder_;
+  // Pairs are filtered in double whatever the scalar: its bounds cover the rounding of the flights to double.
+  dynamics::PairSearch<double> pair_filter_;
+  std::vector<dynamics::Flight<double>> rough_flights_;  ///< empty when the scalar is double
+  std::vector<double> radii_;                            ///< rounded too
   CellGrid<Real> grid_;
-  std::optional<FlightTable<Real>> table_;  ///< instead of the grid when that has one cell
+  std::optional<FlightTable> table_;  ///< instead of the grid when that has one cell
   EventQueue<Real> queue_;
   CollapseWatch<Real> collapse_watch_;
   FoundBalls near_;  ///< scratch: balls of the adjacent cells

@@ -29,6 +29,17 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
   return smallest;
 }
 
+/// The mill in double, as the pair filter needs it.
+template <class Real>
+model::Mill<double> rounded(const model::Mill<Real>& m) {
+  const auto r = [](const Real& x) { return static_cast<double>(x); };
+  return {{r(m.motion.arm), r(m.motion.theta_max), r(m.motion.gamma_max), r(m.motion.period)},
+          {r(m.vessel.radius), r(m.vessel.half_height)},
+          vector_cast<double>(m.gravity),
+          {},
+          {}};
+}
+
 /// The region that the vessel sweeps, cut into cells that hold about one ball but are thicker than the
 /// largest.
 template <class Real>
@@ -48,8 +59,7 @@ CellGrid<Real> make_grid(const model::Mill<Real>& mill,
   for (const auto& b : balls) largest = b.radius > largest ? b.radius : largest;
   const double volume = static_cast<double>(R * R * h) * 6.28;
   Real edge = 2 * largest * (1 + Real(1) / 1024);
-  static const int nmin = getenv("NMIN") ? atoi(getenv("NMIN")) : 32;
-  if ((int)balls.size() <= nmin) edge = 4 * sideways;
+  if (balls.size() <= 32) edge = 4 * sideways;
   const double spacing = 0.45 * std::cbrt(volume / static_cast<double>(balls.size()));
   if (edge < spacing) edge = Real(spacing);
   return CellGrid<Real>(low, high, edge, static_cast<int>(balls.size()));
@@ -67,6 +77,10 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       impacts_(states.size(), 0),
       ladder_(the_case.mill, 2 * detail::smallest_radius(the_case.balls),
               detail::largest_speed(states, the_case.mill)),
+      pair_filter_(detail::rounded(the_case.mill),
+                   2 * static_cast<double>(detail::smallest_radius(the_case.balls)),
+                   static_cast<double>(ladder_.walls().constants().reach),
+                   static_cast<double>(detail::largest_speed(states, the_case.mill))),
       grid_(detail::make_grid(the_case.mill, the_case.balls)),
       queue_(static_cast<int>(states.size())),
       collapse_watch_(static_cast<int>(states.size()),
@@ -76,7 +90,8 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       tolerated_overlap_(2 * detail::smallest_radius(the_case.balls) / 1000000),
       top_speed_(detail::largest_speed(states, the_case.mill)) {
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
-  for (const auto& ball : balls_) radii_.push_back(ball.radius);
+  for (const auto& ball : balls_) radii_.push_back(static_cast<double>(ball.radius));
+  if constexpr (!std::is_same_v<Real, double>) rough_flights_.resize(states.size());
   for (const auto& s : states) {
     flights_.push_back({s.position, s.velocity, start});
     spins_.push_back(s.spin);
@@ -259,6 +274,7 @@ void Simulation<Real>::after_impact(Impact<Real>& impact) {
       using std::sqrt;
       top_speed_ = 2 * sqrt(speed_squared);
       ladder_.raise_top_speed(top_speed_);
+      pair_filter_.raise_top_speed(static_cast<double>(top_speed_));
     }
   }
   if (impact.with_wall) {
@@ -357,8 +373,9 @@ void Simulation<Real>::predict_pairs(int ball, int already_done) {
     const auto predict = [&](int other) {
       if (other != ball && other != already_done) predict_pair(ball, other, seen);
     };
-    table_->visit_candidates(
-        {seen, radii_[ball], static_cast<Real>(now_.period), now_.offset, ladder_.pairs().filter()}, predict);
+    table_->visit_candidates({roughly_seen(ball), radii_[ball], static_cast<double>(now_.period),
+                              static_cast<double>(now_.offset), pair_filter_.filter()},
+                             predict);
   } else {
     grid_.neighbours(ball, near_);
     predict_near(ball, already_done, seen);
@@ -371,11 +388,12 @@ void Simulation<Real>::predict_near(int ball, int already_done,
                                     const typename dynamics::PairSearch<Real>::Seen& seen) {
   int count = 0;
   int* near = near_.balls.data();
-  const auto& pairs = ladder_.pairs();
-  const Real radius = radii_[ball];
+  const auto rough = roughly_seen(ball);
+  const auto now = dynamics::instant_cast<double>(now_);
+  const double radius = radii_[ball];
   for (int k = 0; k < near_.count; ++k) {
     const int other = near[k];
-    const bool meets = pairs.may_meet(seen, flights_[other], now_, radius + radii_[other]);
+    const bool meets = pair_filter_.may_meet(rough, rough_flight(other), now, radius + radii_[other]);
     near[count] = other;
     count += meets & (other != ball) & (other != already_done);
   }
@@ -384,7 +402,9 @@ void Simulation<Real>::predict_near(int ball, int already_done,
 
 template <class Real>
 void Simulation<Real>::flight_changed(int ball) {
-  if (table_) table_->set(ball, flights_[ball], balls_[ball].radius);
+  if constexpr (!std::is_same_v<Real, double>)
+    rough_flights_[ball] = dynamics::flight_cast<double>(flights_[ball]);
+  if (table_) table_->set(ball, rough_flight(ball), radii_[ball]);
 }
 
 template <class Real>
