@@ -12,6 +12,7 @@ skip() {
   exit 77
 }
 command -v valgrind >/dev/null || skip "valgrind is not installed"
+grep -qw avx2 /proc/cpuinfo || skip "the figure is for a CPU with AVX2, whose loop the program picks"
 [ "$(uname -m)" = x86_64 ] || skip "the figure is for x86_64, this is $(uname -m)"
 compiler=$("$program" --version | sed -n 's/^compiler //p')
 [[ $compiler =~ ^GNU\ 12\..*,\ Release$ ]] || skip "the figure is for GNU 12, Release; this is '$compiler'"
