@@ -4,6 +4,7 @@
 #include "edmill/core/scalar_list.hpp"
 //
 #include "edmill/app/run_case.hpp"
+#include "edmill/driver/simulate.hpp"
 #include "edmill/dynamics/decision_ladder.hpp"
 #include "edmill/dynamics/wall_search.hpp"
 #include "edmill/engine/simulation.hpp"
@@ -29,6 +30,9 @@
   prefix record::SavedState<Real> record::read_final_state<Real>(const std::string&);         \
   prefix std::string record::summary_json<Real>(const record::Summary<Real>&);                \
   prefix std::string report::result_table<Real>(const record::Summary<Real>&);                \
+  prefix driver::Result<Real> driver::simulate<Real>(const casefile::CaseSpec&,               \
+                                                     const setup::InitialCase<Real>&,         \
+                                                     const driver::Guests<Real>&);            \
   prefix int app::run_case<Real>(const casefile::CaseSpec&, const app::RunOptions&);          \
   }
 

@@ -8,8 +8,9 @@
 #include <filesystem>
 
 #include "edmill/app/dispatch.hpp"
-#include "edmill/app/version.hpp"
+#include "edmill/app/study_command.hpp"
 #include "edmill/core/errors.hpp"
+#include "edmill/core/version.hpp"
 
 namespace {
 
@@ -37,6 +38,16 @@ int run(const std::string& case_file, const std::string& folder, const std::stri
   return received_signal && code == app::ok ? 128 + received_signal : code;
 }
 
+/// `command` is app::run_sweep or app::run_optimize.
+template <class Command>
+int run_study(const Command& command, edmill::app::StudyOptions& options) {
+  options.interrupt = &interrupted;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  const int code = command(options);
+  return received_signal ? 128 + received_signal : code;
+}
+
 /// One line a problem, whatever characters a case file put into it.
 void print_problem(const std::string& problem) {
   std::string line;
@@ -50,8 +61,8 @@ void print_problem(const std::string& problem) {
 std::string version_text() {
   std::string scalars;
   for (const auto& name : edmill::casefile::precisions()) scalars += (scalars.empty() ? "" : ", ") + name;
-  return fmt::format("edmill {} ({})\ncompiler {}\nscalars {}", edmill::app::version(), edmill::app::commit(),
-                     edmill::app::compiler(), scalars);
+  return fmt::format("edmill {} ({})\ncompiler {}\nscalars {}", edmill::version(), edmill::commit(),
+                     edmill::compiler(), scalars);
 }
 
 }  // namespace
@@ -63,7 +74,8 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done, 2 bad input, 3 ended in inelastic collapse, 4 a decision that no scalar could "
       "make,\n"
-      "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
+      "5 some runs of a sweep failed, 130 and 143 interrupted by SIGINT and SIGTERM with the results so far\n"
+      "on disk, 1 any other error.");
   std::string case_file, folder, precision;
   std::vector<std::string> overrides;
   bool quiet = false;
@@ -85,6 +97,19 @@ int main(int argc, char** argv) {
       ->take_all()
       ->expected(1);
 
+  edmill::app::StudyOptions study;
+  const auto add_study = [&](const std::string& name, const std::string& what) {
+    auto* command = app.add_subcommand(name, what);
+    command->add_option("file", study.file, "file that says what to vary (TOML)")->required();
+    command->add_option("--out", study.folder, "folder for the tables; out/<name of the file> unless given");
+    command->add_option("--jobs", study.jobs, "runs at a time in each process; all cores unless given")
+        ->check(CLI::Range(1, 4096));
+    command->add_flag("--quiet", study.quiet, "no progress line and no report");
+    return command;
+  };
+  auto* sweep_command = add_study("sweep", "run a case at many points and tabulate the results");
+  auto* optimize_command = add_study("optimize", "search for the largest dose rate within bounds");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -94,6 +119,8 @@ int main(int argc, char** argv) {
   }
   try {
     if (*run_command) return run(case_file, folder, precision, overrides, quiet);
+    if (*sweep_command) return run_study(edmill::app::run_sweep, study);
+    if (*optimize_command) return run_study(edmill::app::run_optimize, study);
     fmt::print("{}", edmill::app::describe_case(edmill::casefile::read_case(case_file, overrides)));
     return edmill::app::ok;
   } catch (const edmill::InputError& error) {

@@ -322,17 +322,7 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides) {
   Document document;
   document.name = name;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) document.lines.push_back(line);
-  if (const std::string mark = "\xEF\xBB\xBF"; text.starts_with(mark))
-    document.lines[0].erase(0, mark.size());
-  toml::table root;
-  try {
-    root = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw InputError(name + ":" + std::to_string(error.source().begin.line) + ": found no valid TOML (" +
-                     std::string(error.description()) + "), expected a case file");
-  }
+  toml::table root = parse_toml(text, "a case file", document);
   for (const auto& override_text : overrides) apply_override(root, document, override_text);
 
   CaseSpec spec;
@@ -369,13 +359,7 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
 }
 
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || !std::filesystem::is_regular_file(path))
-    throw InputError(path + ": found no readable file, expected a case file (TOML)");
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (in.bad()) throw InputError(path + ": found a file that cannot be read, expected a case file (TOML)");
-  return parse_case(text.str(), path, overrides);
+  return parse_case(read_file(path, "a case file"), path, overrides);
 }
 
 }  // namespace edmill::casefile

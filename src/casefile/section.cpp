@@ -8,25 +8,6 @@ namespace edmill::casefile {
 
 namespace {
 
-std::string kind_of(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "an array";
-    case toml::node_type::string:
-      return "a text";
-    case toml::node_type::integer:
-      return "an integer";
-    case toml::node_type::floating_point:
-      return "a number";
-    case toml::node_type::boolean:
-      return "true or false";
-    default:
-      return "a date or time";
-  }
-}
-
 /// Byte position of a column that counts characters.
 std::size_t byte_of_column(const std::string& line, std::size_t column) {
   std::size_t at = 0;

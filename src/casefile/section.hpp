@@ -39,6 +39,18 @@ struct Document {
   std::string line(const std::string& path, std::size_t number) const;
 };
 
+/// The text of a file.
+/// @param kind  "a case file", for messages
+/// @throws InputError when there is no such file
+std::string read_file(const std::string& path, const std::string& kind);
+
+/// Parses the text of the file `document.name` and keeps its lines.
+/// @throws InputError when it is no TOML
+toml::table parse_toml(const std::string& text, const std::string& kind, Document& document);
+
+/// "an array", for messages.
+std::string kind_of(const toml::node& node);
+
 class Section {
  public:
   /// @param table  null for a section that is absent: look-ups then find nothing
@@ -64,6 +76,15 @@ class Section {
   /// One of `choices`, or the first when absent.
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
 
+  /// true or false; false when absent.
+  bool flag(const std::string& key);
+  /// Keys in the order of the file; asking for them makes none of them known.
+  std::vector<std::string> keys() const;
+  /// A value as `--set` would take it: a text, a number, true or false, or an array in one line.
+  std::optional<std::string> setting(const std::string& key);
+  /// An array of such values, none of them twice; empty when it is not one, which is reported.
+  std::vector<std::string> settings(const std::string& key);
+
   bool has(const std::string& key) const { return table_ && table_->contains(key); }
   bool is_array(const std::string& key) const { return has(key) && table_->get(key)->is_array(); }
   void problem(const std::string& key, const std::string& found, const std::string& expected);
@@ -75,6 +96,7 @@ class Section {
  private:
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   const toml::node* find(const std::string& key);
+  std::optional<std::string> setting_of(const toml::node& node, const std::string& path);
 
   Document* document_;
   const toml::table* table_;

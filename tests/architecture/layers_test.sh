@@ -14,7 +14,9 @@ declare -A allowed=(
   [observe]="core numerics model dynamics engine record"
   [setup]="core numerics model casefile record"
   [report]="core record"
-  [app]="core numerics model casefile record setup dynamics engine observe report"
+  [driver]="core model casefile record setup engine observe"
+  [sweep]="core model casefile record"
+  [app]="core numerics model casefile record setup dynamics engine observe report driver sweep"
 )
 
 status=0

@@ -15,6 +15,7 @@ enum ExitCode : int {
   bad_input = 2,
   inelastic_collapse = 3,
   undecided = 4,
+  some_runs_failed = 5,
 };
 
 struct RunOptions {

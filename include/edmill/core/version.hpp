@@ -3,10 +3,10 @@
 
 #include <string>
 
-namespace edmill::app {
+namespace edmill {
 
 std::string version();   ///< "0.1.0"
 std::string commit();    ///< short commit, "-dirty" when files were changed, "unknown" outside a checkout
 std::string compiler();  ///< "GNU 12.2.0, Release"
 
-}  // namespace edmill::app
+}  // namespace edmill

@@ -1,0 +1,111 @@
+// Files as they are read, and values that are passed on as they were written.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "edmill/core/errors.hpp"
+#include "section.hpp"
+
+namespace edmill::casefile {
+
+std::string kind_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
+  }
+}
+
+std::string read_file(const std::string& path, const std::string& kind) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in || !std::filesystem::is_regular_file(path))
+    throw InputError(path + ": found no readable file, expected " + kind + " (TOML)");
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (in.bad()) throw InputError(path + ": found a file that cannot be read, expected " + kind + " (TOML)");
+  return text.str();
+}
+
+toml::table parse_toml(const std::string& text, const std::string& kind, Document& document) {
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) document.lines.push_back(line);
+  if (const std::string mark = "\xEF\xBB\xBF"; text.starts_with(mark))
+    document.lines[0].erase(0, mark.size());
+  try {
+    return toml::parse(text, document.name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(document.name + ":" + std::to_string(error.source().begin.line) +
+                     ": found no valid TOML (" + std::string(error.description()) + "), expected " + kind);
+  }
+}
+
+std::vector<std::string> Section::keys() const {
+  std::vector<std::pair<toml::source_position, std::string>> found;
+  if (table_)
+    for (const auto& [key, node] : *table_) found.emplace_back(key.source().begin, std::string(key.str()));
+  std::sort(found.begin(), found.end());
+  std::vector<std::string> keys;
+  for (auto& [place, key] : found) keys.push_back(std::move(key));
+  return keys;
+}
+
+std::optional<std::string> Section::setting_of(const toml::node& node, const std::string& path) {
+  if (const auto* text = node.as_string(); text && text->get().find_first_of("\n\r") != std::string::npos) {
+    document_->report(&node, path, "a text of several lines", "a text in one line");
+    return std::nullopt;
+  }
+  const bool in_one_line = node.source().begin.line == node.source().end.line;
+  if (node.is_string() || node.is_number() || node.is_boolean() || (node.is_array() && in_one_line))
+    return document_->raw(node, path);
+  document_->report(&node, path, kind_of(node), "a value of this key");
+  return std::nullopt;
+}
+
+bool Section::flag(const std::string& key) {
+  const auto* node = find(key);
+  if (!node) return false;
+  const auto* value = node->as_boolean();
+  if (!value) document_->report(node, full(key), kind_of(*node), "true or false");
+  return value && value->get();
+}
+
+std::optional<std::string> Section::setting(const std::string& key) {
+  const auto* node = find(key);
+  return node ? setting_of(*node, full(key)) : std::nullopt;
+}
+
+std::vector<std::string> Section::settings(const std::string& key) {
+  const auto* node = find(key);
+  if (!node) return {};
+  const auto* array = node->as_array();
+  if (!array || array->empty()) {
+    const std::string dotted = node->is_table() ? "; write a key with dots in quotes" : "";
+    document_->report(node, full(key), array ? "an empty array" : kind_of(*node),
+                      "an array of values" + dotted);
+    return {};
+  }
+  std::vector<std::string> values;
+  for (std::size_t k = 0; k < array->size(); ++k) {
+    const std::string path = full(key) + "." + std::to_string(k);
+    const auto value = setting_of(*array->get(k), path);
+    if (!value) continue;
+    if (std::find(values.begin(), values.end(), *value) != values.end())
+      document_->report(array->get(k), path, "\"" + *value + "\" twice", "each value once");
+    values.push_back(*value);
+  }
+  return values;
+}
+
+}  // namespace edmill::casefile

@@ -1,0 +1,192 @@
+#include "edmill/casefile/study_spec.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "edmill/core/errors.hpp"
+#include "section.hpp"
+
+namespace edmill::casefile {
+
+namespace {
+
+constexpr std::uint64_t most_runs = 1000000;
+
+void read_study(Section& s, StudySpec& spec) {
+  if (const auto name = s.text("case")) {
+    const std::filesystem::path given(*name);
+    spec.case_file =
+        given.is_relative() ? (std::filesystem::path(spec.file).parent_path() / given).string() : *name;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(spec.case_file, ignored))
+      s.problem("case", "no file '" + spec.case_file + "'", "a case file");
+  } else if (!s.has("case")) {
+    s.problem("case", "nothing", "a case file");
+  }
+  if (s.has("precision"))
+    spec.precision = s.choice("precision", precisions());
+  else
+    s.choice("precision", precisions());
+  spec.seed = s.count("seed").value_or(1);
+  s.require(spec.seed < 1000000000000, "seed", "a number below 1e12");
+}
+
+std::uint64_t bounded(Section& s, const std::string& key, std::uint64_t fallback, std::uint64_t low,
+                      std::uint64_t high) {
+  const auto value = s.count(key).value_or(fallback);
+  s.require(value >= low && value <= high, key,
+            "a number from " + std::to_string(low) + " to " + std::to_string(high));
+  return std::clamp(value, low, high);
+}
+
+/// Seeds and precision belong to the whole study; other keys of a case have a section.
+std::string problem_of_key(const std::string& key) {
+  if (key == "run.seed" || key == "run.precision") return "a key other than run.seed and run.precision";
+  if (key != charge_ratio_key && key.find('.') == std::string::npos)
+    return "section.key of the case, or charge_ratio";
+  return "";
+}
+
+void check_key(Section& s, const std::string& key) {
+  if (const auto expected = problem_of_key(key); !expected.empty())
+    s.problem(key, "a key that cannot be varied", expected);
+}
+
+void read_entry(Section entry, SweepSpec& spec) {
+  SweepSpec::Entry point;
+  point.name = entry.text("name").value_or("");
+  if (!entry.has("set")) entry.problem("set", "nothing", "a table of keys and values");
+  Section set = entry.section("set");
+  for (const auto& key : set.keys()) {
+    if (const auto value = set.setting(key)) point.set.emplace_back(key, *value);
+    check_key(set, key);
+    for (const auto& axis : spec.grid)
+      if (axis.key == key) set.problem(key, "a key of [sweep.grid]", "a key in one of the two");
+  }
+  entry.reject_unknown_keys();
+  spec.entries.push_back(std::move(point));
+}
+
+void read_grid(Section grid, SweepSpec& spec) {
+  for (const auto& key : grid.keys()) {
+    spec.grid.push_back({key, grid.settings(key)});
+    check_key(grid, key);
+  }
+}
+
+void check_size(Section& s, const SweepSpec& spec) {
+  std::uint64_t runs = std::max<std::uint64_t>(spec.entries.size(), 1) * spec.replicas;
+  for (const auto& axis : spec.grid) {
+    runs *= std::max<std::uint64_t>(axis.values.size(), 1);
+    if (runs > most_runs)
+      return s.problem("grid", "more than " + std::to_string(most_runs) + " runs",
+                       "fewer points or replicas");
+  }
+}
+
+/// "2.36 mm" is 2.36 and " mm".
+bool split_value(const std::string& text, double& number, std::string& unit) {
+  const auto end = std::min(text.find_first_not_of("0123456789+-."), text.size());
+  const auto value = parse_decimal(text.substr(0, end));
+  if (!value) return false;
+  number = static_cast<double>(*value);
+  unit = text.substr(end);
+  return true;
+}
+
+void read_range(Section& s, OptimizeVariable& variable) {
+  std::string high_unit;
+  const std::pair<const char*, std::pair<double*, std::string*>> ends[] = {
+      {"low", {&variable.low, &variable.unit}}, {"high", {&variable.high, &high_unit}}};
+  bool good = true;
+  for (const auto& [key, place] : ends) {
+    const auto text = s.setting(key);
+    const bool fine = text && split_value(*text, *place.first, *place.second);
+    if (!fine) s.problem(key, text ? "\"" + *text + "\"" : "nothing", "a number with its unit");
+    good = good && fine;
+  }
+  if (!good) return;
+  s.require(variable.unit == high_unit, "high", "the same unit as 'low'");
+  s.require(variable.low < variable.high, "high", "a value above 'low'");
+  const bool whole = variable.low == std::floor(variable.low) && variable.high == std::floor(variable.high);
+  s.require(!variable.integer || whole, "integer", "whole numbers for 'low' and 'high'");
+}
+
+void read_variable(Section s, OptimizeSpec& spec) {
+  OptimizeVariable variable;
+  variable.key = s.text("key").value_or("");
+  if (!s.has("key")) s.problem("key", "nothing", "a key of the case");
+  if (const auto expected = problem_of_key(variable.key); s.has("key") && !expected.empty())
+    s.require(false, "key", expected);
+  for (const auto& other : spec.variables)
+    s.require(other.key != variable.key, "key", "a key that no other variable has");
+  variable.integer = s.flag("integer");
+  if (s.has("values")) {
+    variable.values = s.settings("values");
+    for (const auto* key : {"low", "high", "integer"})
+      if (s.has(key)) s.problem(key, "both 'values' and '" + std::string(key) + "'", "one of them");
+  } else {
+    s.settings("values");
+  }
+  if (!s.has("values"))
+    read_range(s, variable);
+  else
+    s.setting("low"), s.setting("high");
+  s.reject_unknown_keys();
+  spec.variables.push_back(std::move(variable));
+}
+
+void read_budget(Section& s, OptimizeSpec& spec) {
+  spec.objective = s.choice("objective", {"specific_milling_dose_rate", "milling_dose_rate"});
+  if (!s.has("runs_max")) s.problem("runs_max", "nothing", "the largest number of runs");
+  spec.runs_max = bounded(s, "runs_max", 100, 1, most_runs);
+  spec.replicas_first = bounded(s, "replicas_first", 3, 2, 1000);
+  spec.replicas_max = bounded(s, "replicas_max", 24, 2, 1000);
+  s.require(spec.replicas_max >= spec.replicas_first, "replicas_max", "at least 'replicas_first'");
+  spec.points = bounded(s, "points", 5, 2, 100);
+  spec.refinements = bounded(s, "refinements", 2, 0, 20);
+}
+
+/// Reads the one section of a file by `read`, and reports everything that is wrong.
+template <class Spec, class Read>
+Spec read_study_file(const std::string& path, const std::string& section, const Read& read) {
+  const std::string kind = section == "sweep" ? "a sweep file" : "an optimisation file";
+  Document document;
+  document.name = path;
+  const toml::table root = parse_toml(read_file(path, kind), kind, document);
+  Spec spec;
+  spec.file = path;
+  Section top(document, &root, "");
+  if (!top.has(section)) top.problem(section, "nothing", "a section [" + section + "]");
+  Section s = top.section(section);
+  read_study(s, spec);
+  read(s, spec);
+  s.reject_unknown_keys();
+  top.reject_unknown_keys();
+  if (!document.problems.empty()) throw InputError(document.problems);
+  return spec;
+}
+
+}  // namespace
+
+SweepSpec read_sweep(const std::string& path) {
+  return read_study_file<SweepSpec>(path, "sweep", [](Section& s, SweepSpec& spec) {
+    spec.replicas = bounded(s, "replicas", 1, 1, most_runs);
+    read_grid(s.section("grid"), spec);
+    for (const auto& entry : s.sections("point")) read_entry(entry, spec);
+    check_size(s, spec);
+  });
+}
+
+OptimizeSpec read_optimize(const std::string& path) {
+  return read_study_file<OptimizeSpec>(path, "optimize", [](Section& s, OptimizeSpec& spec) {
+    read_budget(s, spec);
+    const auto variables = s.sections("variable");
+    if (!s.has("variable")) s.problem("variable", "nothing", "1 to 3 entries [[optimize.variable]]");
+    for (const auto& variable : variables) read_variable(variable, spec);
+    s.require(variables.size() <= 3, "variable", "1 to 3 entries [[optimize.variable]]");
+  });
+}
+
+}  // namespace edmill::casefile
