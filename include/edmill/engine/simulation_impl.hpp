@@ -85,7 +85,8 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       grid_(detail::make_grid(the_case.mill, the_case.balls)),
       queue_(static_cast<int>(states.size())),
       collapse_watch_(static_cast<int>(states.size()),
-                      Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach),
+                      Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach,
+                      ladder_.walls().constants().reach / Real(std::int64_t{10000000000})),
       now_(start),
       suspicion_(ladder_.suspicion()),
       tolerated_overlap_(2 * detail::smallest_radius(the_case.balls) / 1000000),
@@ -209,10 +210,12 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   const Vec3<Real> contact_point = flight.position - normal * radius;
   const Vec3<Real> wall_velocity = model::wall_velocity<Real>(pose, mill_.motion.arm, contact_point);
   impact.collapsing = collapse_watch_.since_last(ball, now_, clock_) < mill_.ball_wall.collapse_time;
+  impact.resting = impact.collapsing && collapse_watch_.resting(ball);
   impact.velocity_before[0] = flight.velocity;
   impact.spin_before[0] = spins_[ball];
-  impact.outcome = dynamics::collide_with_wall<Real>(normal, balls_[ball], wall_velocity, flight.velocity,
-                                                     spins_[ball], mill_.ball_wall, impact.collapsing);
+  impact.outcome =
+      dynamics::collide_with_wall<Real>(normal, balls_[ball], wall_velocity, flight.velocity, spins_[ball],
+                                        mill_.ball_wall, impact.collapsing, impact.resting);
   impact.ball = ball;
   impact.with_wall = true;
   impact.partner = wall;
@@ -237,13 +240,14 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   const Real& t_c = mill_.ball_ball.collapse_time;
   impact.collapsing = collapse_watch_.since_last(ball, now_, clock_) < t_c ||
                       collapse_watch_.since_last(partner, now_, clock_) < t_c;
+  impact.resting = impact.collapsing && (collapse_watch_.resting(ball) || collapse_watch_.resting(partner));
   impact.velocity_before[0] = one.velocity;
   impact.velocity_before[1] = two.velocity;
   impact.spin_before[0] = spins_[ball];
   impact.spin_before[1] = spins_[partner];
-  impact.outcome =
-      dynamics::collide_balls<Real>(impact.normal, balls_[ball], balls_[partner], one.velocity, spins_[ball],
-                                    two.velocity, spins_[partner], mill_.ball_ball, impact.collapsing);
+  impact.outcome = dynamics::collide_balls<Real>(impact.normal, balls_[ball], balls_[partner], one.velocity,
+                                                 spins_[ball], two.velocity, spins_[partner], mill_.ball_ball,
+                                                 impact.collapsing, impact.resting);
   impact.ball = ball;
   impact.with_wall = false;
   impact.partner = partner;
