@@ -10,11 +10,11 @@ cd "$(dirname "$0")"
 program_packages=(
   g++ cmake ninja-build git ca-certificates
   libboost1.81-dev libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
-  libmpfr-dev libgmp-dev libssl-dev
+  libmpfr-dev libgmp-dev libssl-dev libtbb-dev libhdf5-dev libopenmpi-dev openmpi-bin
 )
 test_packages=(
   libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev nlohmann-json3-dev
-  libbenchmark-dev clang clang-format
+  libbenchmark-dev clang clang-format valgrind python3
 )
 
 say() { printf '\n== %s\n' "$*"; }

@@ -5,9 +5,9 @@
 //
 #include "edmill/app/run_case_impl.hpp"
 #include "edmill/core/scalar_text.hpp"
+#include "edmill/driver/simulate_impl.hpp"
 #include "edmill/dynamics/decision_ladder_impl.hpp"
 #include "edmill/dynamics/wall_search_impl.hpp"
-#include "edmill/driver/simulate_impl.hpp"
 #include "edmill/engine/simulation_impl.hpp"
 #include "edmill/record/final_state_impl.hpp"
 #include "edmill/record/summary_impl.hpp"

@@ -100,6 +100,27 @@ TEST(Containment, TwoHundredSmallBallsNeverOverlapBeyondRounding) {
   EXPECT_LT(check.deepest_pair, 1e-14);
 }
 
+TEST(Containment, DenseBallsNeverOverlapBeyondRounding) {
+  // Many near neighbours, so that agendas run out of room: forgotten contacts must come back in time.
+  const auto check = deepest_overlap("restitution = 0.8",
+                                     testing::batch(500, "2.36 mm", "gap_ball = \"0.5 mm\"\n"), 0, 0.15);
+  EXPECT_GT(check.events, 20000u);
+  EXPECT_LT(check.deepest_wall, 1e-14);
+  EXPECT_LT(check.deepest_pair, 1e-14);
+}
+
+TEST(Containment, NineHundredBallsNeverOverlapAtAnImpact) {
+  const auto spec =
+      casefile::parse_case(testing::spex_text("end_time = \"0.5 s\"", "restitution = 0.8",
+                                              testing::batch(908, "2.36 mm", "gap_ball = \"0.3 mm\"\n")),
+                           "dense.toml");
+  const auto built = setup::build_case<double>(spec);
+  Simulation<double> simulation(built.the_case, built.states, built.start);
+  EXPECT_EQ(simulation.run_until(simulation.clock().at(0.5)), EndReason::end_time);
+  EXPECT_GT(simulation.counts().impacts, 500000u);
+  EXPECT_LT(simulation.counts().deepest_overlap, 1e-14);
+}
+
 TEST(Containment, AStartAtThousandSecondsIsAsPreciseAsOneAtZero) {
   const auto early = deepest_overlap(demo_contact, testing::batch(28, "4.76 mm"), 0, 1);
   const auto late = deepest_overlap(demo_contact, testing::batch(28, "4.76 mm"), 1000, 1);

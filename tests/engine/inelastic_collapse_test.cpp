@@ -69,6 +69,18 @@ TEST(InelasticCollapse, SingleBallOfThesisChapterFourCollapsesWithoutTheRule) {
   EXPECT_GE(simulation.collapse()->accumulation_time, simulation.seconds() - 1e-6);
 }
 
+TEST(InelasticCollapse, ABallAtRestInACornerGoesOn) {
+  // This very case brings ball 18 to rest between a cap and the cylinder at 0.4847 s, t_c or not.
+  const auto spec = casefile::parse_case(
+      testing::spex_text("end_time = \"0.6 s\"\nseed = 2", "restitution = 0.53\ncollapse_time = \"0.1 ms\"",
+                         testing::batch(24, "5 mm")),
+      "corner.toml");
+  const auto built = setup::build_case<double>(spec);
+  Simulation<double> simulation(built.the_case, built.states, built.start);
+  EXPECT_EQ(simulation.run_until(simulation.clock().at(0.6)), EndReason::end_time);
+  EXPECT_LT(simulation.counts().deepest_overlap, 1e-14);
+}
+
 TEST(InelasticCollapse, ThreeBallsOnALineCollapse) {
   // Two still balls close together and a third coming in, e well below the three-ball threshold 7 - 4
   // sqrt(3).

@@ -32,7 +32,7 @@ class StudyFile : public ProgramTest {
 TEST_F(StudyFile, BadSweepsAreNamedByLineAndKey) {
   const std::string head = "[sweep]\ncase = \"demo.toml\"\n";
   const std::pair<std::string, std::string> files[] = {
-      {"", "bad.toml: key 'sweep': found nothing, expected a section [sweep]"},
+      {"", "bad.toml:1: key 'sweep': found nothing, expected a section [sweep]"},
       {"[sweep\n", "bad.toml:1: found no valid TOML"},
       {"[sweep]\n", "bad.toml:1: key 'sweep.case': found nothing, expected a case file"},
       {"[sweep]\ncase = \"other.toml\"\n", "bad.toml:2: key 'sweep.case': found no file 'other.toml'"},

@@ -79,6 +79,7 @@ void note_totals(const engine::Simulation<Real>& simulation, const observe::RunS
   summary.milling_dose = statistics.milling_dose();
   summary.wall_work = statistics.wall_work();
   summary.collapse_impacts = statistics.collapsing();
+  summary.resting_impacts = statistics.resting();
   summary.collapse_dose = statistics.collapsing_dose();
   summary.collapse = simulation.collapse();
   summary.simultaneous_contacts = simulation.counts().simultaneous_contacts;

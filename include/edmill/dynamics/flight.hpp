@@ -7,9 +7,9 @@
 
 namespace edmill::dynamics {
 
-/// A ball's path from `start` on; its spin does not change in flight.
+/// A ball's path from `start` on; its spin does not change in flight. In double it is one cache line.
 template <class Real>
-struct Flight {
+struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Flight {
   Vec3<Real> position;  ///< at `start` [m]
   Vec3<Real> velocity;  ///< at `start` [m/s]
   Instant<Real> start;

@@ -33,7 +33,7 @@ struct ImpulseParts {
 template <class Real>
 ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
                                  const Real& effective_mass, const Real& compliance,
-                                 const model::ContactLaw<Real>& law, bool collapsing) {
+                                 const model::ContactLaw<Real>& law, bool collapsing, bool resting = false) {
   const Real normal_speed = dot<Real>(contact_velocity, normal);  // negative while approaching
   const Vec3<Real> slip = contact_velocity - normal * normal_speed;
   ImpulseParts<Real> parts;
@@ -41,7 +41,7 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
   out.approach_speed = -normal_speed;
   out.slip_speed = norm<Real>(slip);
   const Real approach = normal_speed < 0 ? Real(-normal_speed) : Real(0);
-  out.restitution = law.restitution(approach, out.slip_speed, compliance, collapsing);
+  out.restitution = law.restitution(approach, out.slip_speed, compliance, collapsing, resting);
   const Real e_n = out.restitution.normal, e_t = out.restitution.tangential;
   const Real gain = (1 - e_t) / compliance;
   parts.per_mass = -(normal * ((1 + e_n) * normal_speed)) - slip * gain;
@@ -62,7 +62,7 @@ template <class Real>
 ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallProperties<Real>& ball_i,
                                   const model::BallProperties<Real>& ball_j, Vec3<Real>& velocity_i,
                                   Vec3<Real>& spin_i, Vec3<Real>& velocity_j, Vec3<Real>& spin_j,
-                                  const model::ContactLaw<Real>& law, bool collapsing) {
+                                  const model::ContactLaw<Real>& law, bool collapsing, bool resting = false) {
   const Real total = ball_i.mass + ball_j.mass;
   const Real share_i = ball_j.mass / total;  // M / m_i
   const Real share_j = ball_i.mass / total;
@@ -70,8 +70,8 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
   const Real compliance = 1 + share_i / ball_i.reduced_inertia + share_j / ball_j.reduced_inertia;
   const Vec3<Real> rolling = spin_i * ball_i.radius + spin_j * ball_j.radius;
   const Vec3<Real> contact_velocity = (velocity_i - velocity_j) - cross<Real>(rolling, normal);
-  const auto parts =
-      detail::impulse_parts<Real>(normal, contact_velocity, effective_mass, compliance, law, collapsing);
+  const auto parts = detail::impulse_parts<Real>(normal, contact_velocity, effective_mass, compliance, law,
+                                                 collapsing, resting);
   velocity_i += parts.per_mass * share_i;
   velocity_j -= parts.per_mass * share_j;
   spin_i += parts.spin_torque * (share_i / (ball_i.radius * ball_i.reduced_inertia));
@@ -84,11 +84,13 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
 template <class Real>
 ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal, const model::BallProperties<Real>& ball,
                                       const Vec3<Real>& wall_velocity, Vec3<Real>& velocity, Vec3<Real>& spin,
-                                      const model::ContactLaw<Real>& law, bool collapsing) {
+                                      const model::ContactLaw<Real>& law, bool collapsing,
+                                      bool resting = false) {
   const Real compliance = 1 + 1 / ball.reduced_inertia;
   const Vec3<Real> rolling = spin * ball.radius;
   const Vec3<Real> contact_velocity = (velocity - wall_velocity) - cross<Real>(rolling, normal);
-  auto parts = detail::impulse_parts<Real>(normal, contact_velocity, ball.mass, compliance, law, collapsing);
+  auto parts =
+      detail::impulse_parts<Real>(normal, contact_velocity, ball.mass, compliance, law, collapsing, resting);
   velocity += parts.per_mass;
   spin += parts.spin_torque * (1 / (ball.radius * ball.reduced_inertia));
   parts.outcome.wall_work = ball.mass * dot<Real>(wall_velocity, parts.per_mass);

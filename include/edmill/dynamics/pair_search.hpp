@@ -13,6 +13,22 @@ struct PairAnswer {
   Real doubt{0};  ///< of a contact: how far off rounding may put it [s]
 };
 
+/// Constants of the filter that proves, for nearly all pairs, that they never meet; they hold for a whole
+/// run.
+template <class Real>
+struct PairFilter {
+  Vec3<Real> gravity;
+  Real period;                               ///< of the drive [s]
+  Real relative, slowest_squared, touching;  ///< see PairSearch::raise_top_speed
+
+  bool may_meet(const Real& b, const Real& c, const Real& v2, const Real& r2) const {
+    // No branch: approaching and parting are a coin toss.
+    const bool clear = (v2 > slowest_squared) & (c > touching);
+    const bool apart = (b >= 0) | (b * b - v2 * c < -(relative * (v2 * r2)));
+    return !(clear & apart);
+  }
+};
+
 /// Both balls fall alike, so their relative motion is a straight line and the time is closed:
 /// with r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2:  dt = c / (-b + sqrt(b^2 - v.v c)). (3.1)
 /// Balls that overlap by rounding collide at once if they approach and never if they part.
@@ -26,6 +42,8 @@ class PairSearch {
              const Real& top_speed)
       : gravity_(mill.gravity), clock_(mill.motion.period), smallest_sum_(smallest_sum), reach_(reach) {
     gravity_size_ = norm<Real>(gravity_);
+    filter_.gravity = gravity_;
+    filter_.period = clock_.period();
     raise_top_speed(top_speed);
   }
 
@@ -36,10 +54,10 @@ class PairSearch {
     const Real u = epsilon<Real>() / 2;
     top_speed_ = top_speed;
     position_error_ = u * (24 * reach_ + 16 * top_speed_ * clock_.period());
-    relative_ = 4096 * (8 * position_error_ / smallest_sum_ + 16 * u);
-    const Real slowest = 64 * u * (top_speed_ + gravity_size_ * clock_.period()) / relative_;
-    slowest_squared_ = slowest * slowest;
-    touching_ = 16 * position_error_ * smallest_sum_;
+    filter_.relative = 4096 * (8 * position_error_ / smallest_sum_ + 16 * u);
+    const Real slowest = 64 * u * (top_speed_ + gravity_size_ * clock_.period()) / filter_.relative;
+    filter_.slowest_squared = slowest * slowest;
+    filter_.touching = 16 * position_error_ * smallest_sum_;
   }
 
   /// A ball's flight seen from one instant, for questions about many partners.
@@ -60,34 +78,49 @@ class PairSearch {
     return (*this)(seen(i, now), j, now, radius_sum);
   }
 
+  /// The filter: false when the two are proven never to meet, as nearly all are, by bounds that hold for the
+  /// whole run. No branch but the last, since approaching and parting are a coin toss.
+  bool may_meet(const Seen& i, const Flight<Real>& j, const Instant<Real>& now,
+                const Real& radius_sum) const {
+    const Relative s = relative(i, j, now, radius_sum);
+    return filter_.may_meet(s.b, s.c, s.v2, s.r2);
+  }
+  const PairFilter<Real>& filter() const { return filter_; }
+
   PairAnswer<Real> operator()(const Seen& i, const Flight<Real>& j, const Instant<Real>& now,
                               const Real& radius_sum) const {
-    const Real age = clock_.elapsed(j.start, now);
+    const Relative s = relative(i, j, now, radius_sum);
+    const Real discriminant = s.b * s.b - s.v2 * s.c;
+    if (!filter_.may_meet(s.b, s.c, s.v2, s.r2)) return {};
+    if (s.v2 > filter_.slowest_squared && s.c > filter_.touching &&
+        discriminant > filter_.relative * (s.v2 * s.r2)) {
+      using std::sqrt;
+      const Real root = sqrt(discriminant);  // v.r at the contact: approach speed times R
+      return {Verdict::contact, s.c / (root - s.b), 4 * position_error_ * radius_sum / root};
+    }
+    return close(s.b, s.c, s.v2, s.r2, s.dt, i.age > s.age ? i.age : s.age, radius_sum);
+  }
+
+ private:
+  /// Relative motion of two balls as seen now.
+  struct Relative {
+    Real b, c, v2, r2;  ///< r.v, r.r - R^2, v.v, r.r
+    Real dt, age;       ///< difference of the ages, age of j [s]
+  };
+  Relative relative(const Seen& i, const Flight<Real>& j, const Instant<Real>& now,
+                    const Real& radius_sum) const {
+    // As DriveClock::elapsed, without its branch.
+    const Real age =
+        static_cast<Real>(now.period - j.start.period) * clock_.period() + (now.offset - j.start.offset);
     const Vec3<Real> r = i.position - position_after(j, gravity_, age);
     const Real dt = i.age - age;  // balls that started together keep their relative velocity exactly
     const Vec3<Real> v{(i.velocity[0] - j.velocity[0]) + gravity_[0] * dt,
                        (i.velocity[1] - j.velocity[1]) + gravity_[1] * dt,
                        (i.velocity[2] - j.velocity[2]) + gravity_[2] * dt};
-    const Real b = dot<Real>(r, v);
     const Real r2 = dot<Real>(r, r);
-    const Real c = r2 - radius_sum * radius_sum;
-    const Real v2 = dot<Real>(v, v);
-    // The filter decides nearly all pairs with bounds that hold for the whole run; no branch but the last,
-    // since approaching and parting are a coin toss.
-    const Real discriminant = b * b - v2 * c;
-    const Real doubt = relative_ * (v2 * r2);
-    const bool clear = (v2 > slowest_squared_) & (c > touching_);
-    const bool apart = (b >= 0) | (discriminant < -doubt);
-    if (clear & apart) return {};
-    if (clear & (discriminant > doubt)) {
-      using std::sqrt;
-      const Real root = sqrt(discriminant);  // v.r at the contact: approach speed times R
-      return {Verdict::contact, c / (root - b), 4 * position_error_ * radius_sum / root};
-    }
-    return close(b, c, v2, r2, dt, i.age > age ? i.age : age, radius_sum);
+    return {dot<Real>(r, v), r2 - radius_sum * radius_sum, dot<Real>(v, v), r2, dt, age};
   }
 
- private:
   /// The same decision with bounds made for this pair: touching, grazing or slow ones.
   PairAnswer<Real> close(const Real& b, const Real& c, const Real& v2, const Real& r2, const Real& dt,
                          const Real& age, const Real& radius_sum) const {
@@ -124,7 +157,8 @@ class PairSearch {
   Vec3<Real> gravity_;
   DriveClock<Real> clock_;
   Real smallest_sum_, reach_;
-  Real gravity_size_{}, top_speed_{}, position_error_{}, relative_{}, slowest_squared_{}, touching_{};
+  Real gravity_size_{}, top_speed_{}, position_error_{};
+  PairFilter<Real> filter_;
 };
 
 }  // namespace edmill::dynamics

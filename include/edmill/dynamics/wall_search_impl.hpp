@@ -35,7 +35,8 @@ WallAnswer<Real> WallSearch<Real>::search(const GapFunctions<Real>& functions, c
     if (!reachable[wall]) continue;
     any = true;
     // A little beyond the first suspected contact there is nothing to look for.
-    const Real hint = numerics::first_root_hint(start, first.curvature[wall], query.length) * 9 / 8;
+    const Real hint =
+        static_cast<Real>(numerics::first_root_hint(start, first.curvature[wall], query.length) * 9 / 8);
     if (hint < length && hint > 64 * resolution()) length = hint;
   }
   if (!any) return {Verdict::none, -1, {}, false, query.length, Real(0)};
@@ -117,24 +118,24 @@ auto WallSearch<Real>::isolate_outside(const Curve& curve, Point left, const Poi
 
     const Real s = end.t - left.t;
     if (count == deepest || s < 16 * resolution()) return {Verdict::undecided};
-    Real fraction = Real(1) / 2;
+    double fraction = 0.5;
     if (end.value < 0 && end.slope < 0) {
-      const Real root = numerics::last_root_hint(left, end);
+      const double root = numerics::last_root_hint(left, end);
       if (root > 0 && root < 1) {
-        const Real margin = Real(1) / 32;
+        constexpr double margin = 1.0 / 32;
         if (4 * root < 1)
           fraction = 2 * root;  // a near root in a long window: cut the window first
         else if (departing)
           fraction = root * 7 / 8;
         else
-          fraction = root > 2 * margin ? Real(root - margin) : Real(root / 2);
+          fraction = root > 2 * margin ? root - margin : root / 2;
       }
     }
     // A cut within rounding of a root would decide nothing: move off it.
-    Point cut = curve.at(left.t + fraction * s);
+    Point cut = curve.at(left.t + static_cast<Real>(fraction) * s);
     for (int tries = 0; tries < 4 && cut.value <= b.value_error && cut.value >= -b.value_error; ++tries) {
       fraction = fraction * 3 / 4;
-      cut = curve.at(left.t + fraction * s);
+      cut = curve.at(left.t + static_cast<Real>(fraction) * s);
     }
     if (cut.value <= b.value_error && cut.value >= -b.value_error) return {Verdict::undecided};
     if (!(cut.t > left.t && cut.t < end.t)) return {Verdict::undecided};
@@ -232,7 +233,8 @@ Real WallSearch<Real>::polished_root(const Curve& curve, Point& left, Point& rig
         const Real d = t - near.t;
         return Real(near.value + d * (near.slope + d * (curvature / 2)));
       };
-      Point low{guess - 2 * ulp, Real(0), Real(0)}, high{guess + 2 * ulp, Real(0), Real(0)};
+      const Real reach = epsilon<Real>() * guess;  // one or two ulps of this very number
+      Point low{guess - reach, Real(0), Real(0)}, high{guess + reach, Real(0), Real(0)};
       if (!(low.t > left.t && high.t < right.t)) break;
       low.value = quadratic(low.t);
       high.value = quadratic(high.t);

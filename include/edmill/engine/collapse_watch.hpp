@@ -15,9 +15,11 @@ namespace edmill::engine {
 template <class Real>
 class CollapseWatch {
  public:
-  CollapseWatch(int balls, const Real& smallest_path)
+  /// @param resting_path  the same for `resting`, of one size in every scalar [m]
+  CollapseWatch(int balls, const Real& smallest_path, const Real& resting_path)
       : smallest_path_(smallest_path),
-        records_(balls, Record{Instant<Real>::long_ago(), -1, 0, 0, false, Real(0)}) {}
+        resting_path_(resting_path),
+        records_(balls, Record{Instant<Real>::long_ago(), -1, 0, 0, 0, false, Real(0)}) {}
 
   /// Of the ball's latest impact of any kind.
   const Instant<Real>& last_impact(int ball) const { return records_[ball].last; }
@@ -42,11 +44,16 @@ class CollapseWatch {
     } else {
       r.burst = 0;
     }
+    r.rest = interval * approach_speed < resting_path_ ? r.rest + 1 : 0;
     r.stuck = interval > 0 ? 0 : r.stuck + 1;
     r.last = now;
     r.partner = key;
     return r.burst >= enough;
   }
+
+  /// The ball's recent impacts came after paths so short that it is at rest for every purpose: with t_c,
+  /// where friction at one wall takes the motion along the normal of another.
+  bool resting(int ball) const { return records_[ball].rest >= enough; }
 
   /// Impacts of the ball without any time between them.
   bool stuck(int ball) const { return records_[ball].stuck >= 1000; }
@@ -63,10 +70,11 @@ class CollapseWatch {
     int partner;
     int burst;
     int stuck;
+    int rest;
     bool extrapolated;
     Real accumulation;
   };
-  Real smallest_path_;
+  Real smallest_path_, resting_path_;
   std::vector<Record> records_;
 };
 

@@ -24,7 +24,12 @@ class EventQueue {
 
   void set(int ball, const Instant<Real>& time) {
     times_[ball] = time;
-    for (int node = (leaves_ + ball) / 2; node >= 1; node /= 2) winners_[node] = match(node);
+    for (int node = (leaves_ + ball) / 2; node >= 1; node /= 2) {
+      const int before = winners_[node];
+      winners_[node] = match(node);
+      // A match that this ball neither won nor wins changes nothing further up.
+      if (before != ball && winners_[node] != ball) return;
+    }
   }
 
   /// The ball whose event is next after the top's, or -1.

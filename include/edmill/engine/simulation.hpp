@@ -4,12 +4,14 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "edmill/dynamics/decision_ladder.hpp"
 #include "edmill/engine/cell_grid.hpp"
 #include "edmill/engine/collapse_watch.hpp"
 #include "edmill/engine/event_queue.hpp"
+#include "edmill/engine/flight_table.hpp"
 #include "edmill/engine/observer.hpp"
 #include "edmill/model/case.hpp"
 #include "edmill/model/outcome.hpp"
@@ -83,12 +85,11 @@ class Simulation {
     static constexpr int capacity = 4;
     std::array<Candidate, capacity> pairs;
     int pair_count = 0;
-    bool pairs_dropped = false;  ///< later contacts than the ones kept were forgotten
-    int wall = -1;               ///< a wall id, or -1 when `wall_time` only ends what has been searched
+    Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
+    int wall = -1;                 ///< a wall id, or -1 when `wall_time` only ends what has been searched
     Instant<Real> wall_time;
     Crossing<Real> crossing;
     Instant<Real> crossing_time = Instant<Real>::never();
-    std::uint32_t impacts = 0;
   };
   enum class EventKind { wall_contact, pair_contact, cell_crossing, wall_recheck };
   struct Event {
@@ -115,6 +116,17 @@ class Simulation {
   dynamics::Contact<Real> contact_of(const Event& event) const;
 
   void predict_pairs(int ball, int already_done);
+  void flight_changed(int ball);
+  void predict_near(int ball, int already_done, const typename dynamics::PairSearch<Real>::Seen& seen);
+  const dynamics::Flight<double>& rough_flight(int ball) const {
+    if constexpr (std::is_same_v<Real, double>)
+      return flights_[ball];
+    else
+      return rough_flights_[ball];
+  }
+  dynamics::PairSearch<double>::Seen roughly_seen(int ball) const {
+    return pair_filter_.seen(rough_flight(ball), dynamics::instant_cast<double>(now_));
+  }
   void predict_pair(int ball, int other, const typename dynamics::PairSearch<Real>::Seen& seen);
   void predict_crossing(int ball);
   void predict_wall(int ball, const model::VesselPose<Real>& pose);
@@ -129,16 +141,24 @@ class Simulation {
   std::vector<dynamics::Flight<Real>> flights_;
   std::vector<Vec3<Real>> spins_;
   std::vector<Agenda> agendas_;
+  std::vector<std::uint32_t> impacts_;  ///< of each ball; tells a candidate whether it still holds
   dynamics::DecisionLadder<Real> ladder_;
+  // Pairs are filtered in double whatever the scalar: its bounds cover the rounding of the flights to double.
+  dynamics::PairSearch<double> pair_filter_;
+  std::vector<dynamics::Flight<double>> rough_flights_;  ///< empty when the scalar is double
+  std::vector<double> radii_;                            ///< rounded too
   CellGrid<Real> grid_;
+  std::optional<FlightTable> table_;  ///< instead of the grid when that has one cell
   EventQueue<Real> queue_;
   CollapseWatch<Real> collapse_watch_;
+  FoundBalls near_;  ///< scratch: balls of the adjacent cells
   std::vector<Observer<Real>*> observers_;
   EngineCounts<Real> counts_;
   std::optional<model::InelasticCollapse<Real>> collapse_;
   std::optional<EndReason> stop_;
   Instant<Real> now_;
-  Real suspicion_;  ///< contacts of one ball closer in time [s] are put in order by the ladder
+  Real suspicion_;          ///< contacts of one ball closer in time [s] are put in order by the ladder
+  Real tolerated_overlap_;  ///< far above rounding and given states, far below a missed impact [m]
   Real top_speed_;
 };
 

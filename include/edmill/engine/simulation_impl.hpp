@@ -1,10 +1,10 @@
-// Implementation of Simulation; included by the instantiation files only.
+// Implementation of Simulation: set-up, the loop, impacts; included by the instantiation files only.
 #pragma once
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "edmill/core/errors.hpp"
+#include "edmill/engine/prediction_impl.hpp"
 #include "edmill/engine/simulation.hpp"
 
 namespace edmill::engine {
@@ -30,6 +30,17 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
   return smallest;
 }
 
+/// The mill in double, as the pair filter needs it.
+template <class Real>
+model::Mill<double> rounded(const model::Mill<Real>& m) {
+  const auto r = [](const Real& x) { return static_cast<double>(x); };
+  return {{r(m.motion.arm), r(m.motion.theta_max), r(m.motion.gamma_max), r(m.motion.period)},
+          {r(m.vessel.radius), r(m.vessel.half_height)},
+          vector_cast<double>(m.gravity),
+          {},
+          {}};
+}
+
 /// The region that the vessel sweeps, cut into cells that hold about one ball but are thicker than the
 /// largest.
 template <class Real>
@@ -49,10 +60,8 @@ CellGrid<Real> make_grid(const model::Mill<Real>& mill,
   for (const auto& b : balls) largest = b.radius > largest ? b.radius : largest;
   const double volume = static_cast<double>(R * R * h) * 6.28;
   Real edge = 2 * largest * (1 + Real(1) / 1024);
-  static const double kap = getenv("KAPPA") ? atof(getenv("KAPPA")) : 0.5;
-  static const int nmin = getenv("NMIN") ? atoi(getenv("NMIN")) : 32;
-  if ((int)balls.size() <= nmin) edge = 4 * sideways;
-  const double spacing = kap * std::cbrt(volume / static_cast<double>(balls.size()));
+  if (balls.size() <= 32) edge = 4 * sideways;
+  const double spacing = 0.45 * std::cbrt(volume / static_cast<double>(balls.size()));
   if (edge < spacing) edge = Real(spacing);
   return CellGrid<Real>(low, high, edge, static_cast<int>(balls.size()));
 }
@@ -66,28 +75,35 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       clock_(the_case.mill.motion.period),
       balls_(the_case.balls),
       agendas_(states.size()),
+      impacts_(states.size(), 0),
       ladder_(the_case.mill, 2 * detail::smallest_radius(the_case.balls),
               detail::largest_speed(states, the_case.mill)),
+      pair_filter_(detail::rounded(the_case.mill),
+                   2 * static_cast<double>(detail::smallest_radius(the_case.balls)),
+                   static_cast<double>(ladder_.walls().constants().reach),
+                   static_cast<double>(detail::largest_speed(states, the_case.mill))),
       grid_(detail::make_grid(the_case.mill, the_case.balls)),
       queue_(static_cast<int>(states.size())),
       collapse_watch_(static_cast<int>(states.size()),
-                      Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach),
+                      Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach,
+                      ladder_.walls().constants().reach / Real(std::int64_t{10000000000})),
       now_(start),
       suspicion_(ladder_.suspicion()),
+      tolerated_overlap_(2 * detail::smallest_radius(the_case.balls) / 1000000),
       top_speed_(detail::largest_speed(states, the_case.mill)) {
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
+  for (const auto& ball : balls_) radii_.push_back(static_cast<double>(ball.radius));
+  if constexpr (!std::is_same_v<Real, double>) rough_flights_.resize(states.size());
   for (const auto& s : states) {
     flights_.push_back({s.position, s.velocity, start});
     spins_.push_back(s.spin);
   }
   for (int i = 0; i < ball_count(); ++i) grid_.insert(i, flights_[i].position);
+  if (grid_.single_cell()) table_.emplace(states.size());
+  for (int i = 0; i < ball_count(); ++i) flight_changed(i);
   const auto pose = model::pose_at<Real>(mill_.motion, start.offset);
   for (int i = 0; i < ball_count(); ++i) {
-    // Pairs with later balls only: one prediction of a pair is enough.
-    const auto seen = ladder_.pairs().seen(flights_[i], now_);
-    grid_.visit_neighbours(i, [&](int other) {
-      if (other > i) predict_pair(i, other, seen);
-    });
+    predict_pairs(i, -1);
     predict_crossing(i);
     predict_wall(i, pose);
     requeue(i);
@@ -128,7 +144,7 @@ void Simulation<Real>::process(const Event& event) {
   switch (event.kind) {
     case EventKind::pair_contact: {
       const Candidate& c = agendas_[event.ball].pairs[0];
-      if (agendas_[c.partner].impacts != c.partner_impacts) return drop_stale(event.ball);
+      if (impacts_[c.partner] != c.partner_impacts) return drop_stale(event.ball);
       break;
     }
     case EventKind::cell_crossing:
@@ -152,7 +168,7 @@ void Simulation<Real>::drop_stale(int ball) {
   Agenda& a = agendas_[ball];
   for (int k = 1; k < a.pair_count; ++k) a.pairs[k - 1] = a.pairs[k];
   --a.pair_count;
-  if (a.pair_count == 0 && a.pairs_dropped) predict_pairs(ball, -1);
+  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) predict_pairs(ball, -1);
   requeue(ball);
 }
 
@@ -162,8 +178,8 @@ void Simulation<Real>::cross_cell(int ball) {
   const Crossing<Real> crossing = agendas_[ball].crossing;
   grid_.move(ball, crossing.axis, crossing.step);
   const auto seen = ladder_.pairs().seen(flights_[ball], now_);
-  grid_.visit_new_neighbours(ball, crossing.axis, crossing.step,
-                             [&](int other) { predict_pair(ball, other, seen); });
+  grid_.new_neighbours(ball, crossing.axis, crossing.step, near_);
+  predict_near(ball, -1, seen);
   predict_crossing(ball);
   requeue(ball);
 }
@@ -194,14 +210,17 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   const Vec3<Real> contact_point = flight.position - normal * radius;
   const Vec3<Real> wall_velocity = model::wall_velocity<Real>(pose, mill_.motion.arm, contact_point);
   impact.collapsing = collapse_watch_.since_last(ball, now_, clock_) < mill_.ball_wall.collapse_time;
+  impact.resting = impact.collapsing && collapse_watch_.resting(ball);
   impact.velocity_before[0] = flight.velocity;
   impact.spin_before[0] = spins_[ball];
-  impact.outcome = dynamics::collide_with_wall<Real>(normal, balls_[ball], wall_velocity, flight.velocity,
-                                                     spins_[ball], mill_.ball_wall, impact.collapsing);
+  impact.outcome =
+      dynamics::collide_with_wall<Real>(normal, balls_[ball], wall_velocity, flight.velocity, spins_[ball],
+                                        mill_.ball_wall, impact.collapsing, impact.resting);
   impact.ball = ball;
   impact.with_wall = true;
   impact.partner = wall;
-  ++agendas_[ball].impacts;
+  ++impacts_[ball];
+  flight_changed(ball);
   after_impact(impact);
   if (stop_ == EndReason::inelastic_collapse) return;
   predict_all(ball, -1, pose);
@@ -221,18 +240,21 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   const Real& t_c = mill_.ball_ball.collapse_time;
   impact.collapsing = collapse_watch_.since_last(ball, now_, clock_) < t_c ||
                       collapse_watch_.since_last(partner, now_, clock_) < t_c;
+  impact.resting = impact.collapsing && (collapse_watch_.resting(ball) || collapse_watch_.resting(partner));
   impact.velocity_before[0] = one.velocity;
   impact.velocity_before[1] = two.velocity;
   impact.spin_before[0] = spins_[ball];
   impact.spin_before[1] = spins_[partner];
-  impact.outcome =
-      dynamics::collide_balls<Real>(impact.normal, balls_[ball], balls_[partner], one.velocity, spins_[ball],
-                                    two.velocity, spins_[partner], mill_.ball_ball, impact.collapsing);
+  impact.outcome = dynamics::collide_balls<Real>(impact.normal, balls_[ball], balls_[partner], one.velocity,
+                                                 spins_[ball], two.velocity, spins_[partner], mill_.ball_ball,
+                                                 impact.collapsing, impact.resting);
   impact.ball = ball;
   impact.with_wall = false;
   impact.partner = partner;
-  ++agendas_[ball].impacts;
-  ++agendas_[partner].impacts;
+  ++impacts_[ball];
+  ++impacts_[partner];
+  flight_changed(ball);
+  flight_changed(partner);
   after_impact(impact);
   if (stop_ == EndReason::inelastic_collapse) return;
   const auto& constants = ladder_.walls().constants();
@@ -247,6 +269,8 @@ void Simulation<Real>::after_impact(Impact<Real>& impact) {
   impact.index = counts_.impacts++;
   impact.time = now_;
   if (impact.overlap > counts_.deepest_overlap) counts_.deepest_overlap = impact.overlap;
+  EDMILL_REQUIRE(impact.overlap < tolerated_overlap_,
+                 "an impact was missed: bodies overlap by " + to_text(impact.overlap) + " m");
   const Real limit = top_speed_ * top_speed_;
   for (int body = 0; body < (impact.with_wall ? 1 : 2); ++body) {
     const Real speed_squared =
@@ -255,6 +279,7 @@ void Simulation<Real>::after_impact(Impact<Real>& impact) {
       using std::sqrt;
       top_speed_ = 2 * sqrt(speed_squared);
       ladder_.raise_top_speed(top_speed_);
+      pair_filter_.raise_top_speed(static_cast<double>(top_speed_));
     }
   }
   if (impact.with_wall) {
@@ -277,156 +302,6 @@ void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int k
     collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner,
                                                collapse_watch_.accumulation_time(ball, clock_)};
     stop_ = EndReason::inelastic_collapse;
-  }
-}
-
-/// Contacts of one ball at times within rounding of each other are put in order by wider scalars; a true tie
-/// keeps the order of the queue and is counted.
-template <class Real>
-auto Simulation<Real>::settle_ties(Event event) -> Event {
-  const auto close = [&](const Instant<Real>& t) { return clock_.elapsed(event.time, t) <= suspicion_; };
-  const auto shares_ball = [&](const Event& other) {
-    const auto involves = [&](int ball) {
-      return other.ball == ball || (other.kind == EventKind::pair_contact && other.partner == ball);
-    };
-    return involves(event.ball) || (event.kind == EventKind::pair_contact && involves(event.partner));
-  };
-  const auto settle = [&](const Event& other) {
-    const bool same =
-        other.kind == event.kind && ((other.ball == event.ball && other.partner == event.partner) ||
-                                     (other.kind == EventKind::pair_contact && other.ball == event.partner &&
-                                      other.partner == event.ball));
-    if (same || !is_contact(other) || !shares_ball(other)) return;
-    const int order = ladder_.order(contact_of(event), contact_of(other));
-    if (order == 0) ++counts_.simultaneous_contacts;
-    if (order > 0) {
-      event = other;
-      now_ = other.time;
-    }
-  };
-  // The ball's own next contact besides this one.
-  const Agenda& a = agendas_[event.ball];
-  if (event.kind == EventKind::pair_contact && a.wall >= 0 && close(a.wall_time))
-    settle({EventKind::wall_contact, a.wall_time, event.ball, a.wall});
-  const int other_pair = event.kind == EventKind::pair_contact ? 1 : 0;
-  if (a.pair_count > other_pair && close(a.pairs[other_pair].time)) {
-    const Candidate& c = a.pairs[other_pair];
-    if (agendas_[c.partner].impacts == c.partner_impacts)
-      settle({EventKind::pair_contact, c.time, event.ball, c.partner});
-  }
-  const int rival = queue_.runner_up();
-  if (rival >= 0 && close(queue_.time(rival))) {
-    const Event other = next_of(rival);
-    const bool valid = other.kind != EventKind::pair_contact ||
-                       agendas_[other.partner].impacts == agendas_[rival].pairs[0].partner_impacts;
-    if (valid) settle(other);
-  }
-  return event;
-}
-
-template <class Real>
-dynamics::Contact<Real> Simulation<Real>::contact_of(const Event& event) const {
-  const auto& flight = flights_[event.ball];
-  if (event.kind == EventKind::wall_contact)
-    return {true, flight, flight, balls_[event.ball].radius, event.time};
-  const auto& partner = flights_[event.partner];
-  const Real sum = balls_[event.ball].radius + balls_[event.partner].radius;
-  if (flight.start < partner.start) return {false, partner, flight, sum, event.time};
-  return {false, flight, partner, sum, event.time};
-}
-
-template <class Real>
-void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose) {
-  predict_pairs(ball, already_done);
-  predict_crossing(ball);
-  predict_wall(ball, pose);
-  requeue(ball);
-}
-
-template <class Real>
-void Simulation<Real>::predict_pairs(int ball, int already_done) {
-  Agenda& a = agendas_[ball];
-  a.pair_count = 0;
-  a.pairs_dropped = false;
-  const auto seen = ladder_.pairs().seen(flights_[ball], now_);
-  grid_.visit_neighbours(ball, [&](int other) {
-    if (other != ball && other != already_done) predict_pair(ball, other, seen);
-  });
-}
-
-template <class Real>
-void Simulation<Real>::predict_pair(int ball, int other,
-                                    const typename dynamics::PairSearch<Real>::Seen& seen) {
-  const Real sum = balls_[ball].radius + balls_[other].radius;
-  const auto answer = ladder_.pair(seen, flights_[ball], flights_[other], now_, sum);
-  if (answer.verdict == dynamics::Verdict::none) return;
-  Agenda& a = agendas_[ball];
-  const Candidate found{clock_.after(now_, answer.delay), other, agendas_[other].impacts};
-  int place = a.pair_count;
-  while (place > 0 && found.time < a.pairs[place - 1].time) --place;
-  if (a.pair_count == Agenda::capacity) {
-    a.pairs_dropped = true;
-    if (place == a.pair_count) return;
-  } else {
-    ++a.pair_count;
-  }
-  for (int k = a.pair_count - 1; k > place; --k) a.pairs[k] = a.pairs[k - 1];
-  a.pairs[place] = found;
-}
-
-template <class Real>
-void Simulation<Real>::predict_crossing(int ball) {
-  if (grid_.single_cell()) return;
-  Agenda& a = agendas_[ball];
-  const auto& flight = flights_[ball];
-  const Real age = clock_.elapsed(flight.start, now_);
-  a.crossing = grid_.crossing(ball, dynamics::position_after(flight, mill_.gravity, age),
-                              dynamics::velocity_after(flight, mill_.gravity, age), mill_.gravity);
-  a.crossing_time = a.crossing.happens ? clock_.after(now_, a.crossing.delay) : Instant<Real>::never();
-}
-
-/// How far a wall search from `begin` need look: to the ball's nearest pair contact, after which it is moot.
-template <class Real>
-Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const {
-  const Real& longest = ladder_.walls().longest_window();
-  const Agenda& a = agendas_[ball];
-  if (a.pair_count == 0) return longest;
-  const Real until_pair = clock_.elapsed(begin, a.pairs[0].time);
-  const Real shortest = longest / 4096;
-  if (until_pair < shortest) return shortest;
-  return until_pair < longest ? until_pair : longest;
-}
-
-template <class Real>
-void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pose) {
-  ++counts_.wall_searches;
-  const Real length = search_length(ball, now_);
-  const auto& flight = flights_[ball];
-  const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, balls_[ball].radius,
-                                               now_.period);
-  const auto first = functions.start(now_.offset, pose);
-  take_wall_answer(ball, ladder_.wall(functions, first, {flight, balls_[ball].radius, now_, length}), now_);
-}
-
-template <class Real>
-void Simulation<Real>::continue_wall_search(int ball) {
-  ++counts_.wall_searches;
-  const Real length = search_length(ball, now_);
-  take_wall_answer(ball, ladder_.wall({flights_[ball], balls_[ball].radius, now_, length}), now_);
-  requeue(ball);
-}
-
-template <class Real>
-void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer,
-                                        const Instant<Real>& begin) {
-  Agenda& a = agendas_[ball];
-  if (answer.verdict == dynamics::Verdict::contact) {
-    a.wall = answer.wall;
-    a.wall_time = answer.time;
-    if (answer.tie) ++counts_.simultaneous_contacts;
-  } else {
-    a.wall = -1;
-    a.wall_time = clock_.after(begin, answer.searched);
   }
 }
 

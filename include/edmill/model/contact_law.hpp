@@ -32,8 +32,10 @@ struct ContactLaw {
   ///                        exactly mu times the normal impulse while sliding (theory.md, section 5)
   /// @param collapsing      an impact within t_c of a previous one of either body: e_n is 1, the tangential
   ///                        law is kept with that e_n
+  /// @param resting         in collapse despite t_c (theory.md, section 6): neither component loses anything
   Restitution<Real> restitution(const Real& approach_speed, const Real& slip_speed, const Real& compliance,
-                                bool collapsing) const {
+                                bool collapsing, bool resting = false) const {
+    if (resting) return {Real(1), Real(1)};
     const Real normal = collapsing ? Real(1) : restitution_normal;
     if (model == ContactModel::constant) return {normal, restitution_tangential};
     const Real sliding = friction * (1 + normal) * compliance * approach_speed;

@@ -97,37 +97,43 @@ bool proven_increasing(const Point<Real>& left, const Point<Real>& right, const 
 }
 
 /// Estimate of the last root of the cubic Hermite interpolant as a fraction of [left, right]; outside (0, 1)
-/// when there is none to be had. A hint for where to split, never a decision. @pre right.value < 0
+/// when there is none to be had. A hint for where to split, never a decision, and so in double for every
+/// scalar.
+/// @pre right.value < 0
 template <class Real>
-Real last_root_hint(const Point<Real>& left, const Point<Real>& right) {
+double last_root_hint(const Point<Real>& left, const Point<Real>& right) {
   const Real s = right.t - left.t;
-  const Real c0 = left.value, c1 = left.slope * s;
-  const Real rise = right.value - left.value, right_slope = right.slope * s;
-  const Real c2 = 3 * rise - 2 * c1 - right_slope, c3 = c1 + right_slope - 2 * rise;
-  Real x{1};
+  const double c0 = static_cast<double>(left.value), c1 = static_cast<double>(left.slope * s);
+  const double rise = static_cast<double>(right.value - left.value);
+  const double right_slope = static_cast<double>(right.slope * s);
+  const double c2 = 3 * rise - 2 * c1 - right_slope, c3 = c1 + right_slope - 2 * rise;
+  double x = 1;
   for (int step = 0; step < 12; ++step) {
-    const Real value = c0 + x * (c1 + x * (c2 + x * c3));
-    const Real slope = c1 + x * (2 * c2 + x * (3 * c3));
-    if (!(slope < 0)) return Real(2);
-    const Real next = x - value / slope;
-    if (!(next > 0 && next < 1)) return Real(2);
-    const Real change = next - x;
+    const double value = c0 + x * (c1 + x * (c2 + x * c3));
+    const double slope = c1 + x * (2 * c2 + x * (3 * c3));
+    if (!(slope < 0)) return 2;
+    const double next = x - value / slope;
+    if (!(next > 0 && next < 1)) return 2;
+    const double change = next - x;
     x = next;
     if (change * change * 4096 < x * x) break;
   }
   return x;
 }
 
-/// Estimate of the root between two points of opposite signs, by inverse cubic interpolation.
+/// Estimate of the root between two points of opposite signs, by inverse cubic interpolation; a hint as
+/// above.
 /// @pre left.value > 0 > right.value, both slopes negative
 template <class Real>
 Real inverse_cubic_hint(const Point<Real>& left, const Point<Real>& right) {
-  const Real rise = right.value - left.value;
-  const Real w = -left.value / rise;
-  const Real v = 1 - w;
-  const Real w2 = w * w, v2 = v * v;
-  return left.t * (v2 * (1 + 2 * w)) + right.t * (w2 * (1 + 2 * v)) +
-         rise * (w * v2 / left.slope - v * w2 / right.slope);
+  const Real s = right.t - left.t;
+  const double rise = static_cast<double>(right.value - left.value);
+  const double w = -static_cast<double>(left.value) / rise;
+  const double v = 1 - w;
+  const double left_slope = static_cast<double>(left.slope * s),
+               right_slope = static_cast<double>(right.slope * s);
+  const double fraction = w * w * (1 + 2 * v) + rise * (w * v * v / left_slope - v * w * w / right_slope);
+  return left.t + s * static_cast<Real>(fraction);
 }
 
 }  // namespace edmill::numerics

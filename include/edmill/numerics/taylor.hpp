@@ -49,17 +49,17 @@ bool proven_clear(const Point<Real>& start, const Real& curvature, const Real& l
 }
 
 /// Estimate of the first positive root of the second Taylor polynomial, counted from the start; `length` or
-/// more when there is none before. A hint, never a decision.
+/// more when there is none before. A hint, never a decision, and so in double for every scalar.
 template <class Real>
-Real first_root_hint(const Point<Real>& start, const Real& curvature, const Real& length) {
-  using std::sqrt;
-  const Real value = start.value > 0 ? start.value : Real(0);
-  const Real discriminant = start.slope * start.slope - 2 * curvature * value;
-  if (discriminant < 0) return length;
-  const Real root = sqrt(discriminant);
-  if (start.slope < 0) return 2 * value / (root - start.slope);
-  if (curvature < 0) return (start.slope + root) / -curvature;
-  return length;
+double first_root_hint(const Point<Real>& start, const Real& second_derivative, const Real& length) {
+  const double value = start.value > 0 ? static_cast<double>(start.value) : 0.0;
+  const double slope = static_cast<double>(start.slope), curvature = static_cast<double>(second_derivative);
+  const double discriminant = slope * slope - 2 * curvature * value;
+  if (discriminant < 0) return static_cast<double>(length);
+  const double root = std::sqrt(discriminant);
+  if (slope < 0) return 2 * value / (root - slope);
+  if (curvature < 0) return (slope + root) / -curvature;
+  return static_cast<double>(length);
 }
 
 }  // namespace edmill::numerics

@@ -16,6 +16,7 @@ class RunStatistics : public engine::Observer<Real> {
   struct Totals {
     std::uint64_t collisions = 0;
     std::uint64_t collapsing = 0;  ///< with e_n = 1 by the collapse rule
+    std::uint64_t resting = 0;     ///< of these, at rest: with e_t = 1 too
     numerics::CompensatedSum<Real> milling_dose;
     numerics::CompensatedSum<Real> collapsing_dose;
     numerics::CompensatedSum<Real> wall_work;
@@ -28,6 +29,7 @@ class RunStatistics : public engine::Observer<Real> {
     if (impact.with_wall) t.wall_work += impact.outcome.wall_work;
     if (impact.collapsing) {
       ++t.collapsing;
+      t.resting += impact.resting;
       t.collapsing_dose += impact.outcome.milling_dose;
     }
   }
@@ -42,6 +44,11 @@ class RunStatistics : public engine::Observer<Real> {
   std::uint64_t collapsing() const {
     std::uint64_t sum = 0;
     for (const auto& t : totals_) sum += t.collapsing;
+    return sum;
+  }
+  std::uint64_t resting() const {
+    std::uint64_t sum = 0;
+    for (const auto& t : totals_) sum += t.resting;
     return sum;
   }
   Real milling_dose() const { return sum(&Totals::milling_dose); }

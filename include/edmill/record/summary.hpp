@@ -31,6 +31,7 @@ struct Summary {
   Real milling_dose{0}, wall_work{0};  ///< [J]
   model::Energy<Real> energy_at_start, energy_at_end;
   std::uint64_t collapse_impacts = 0;
+  std::uint64_t resting_impacts = 0;
   Real collapse_dose{0};
   std::optional<model::InelasticCollapse<Real>> collapse;
   std::vector<Escalations> escalations;

@@ -75,6 +75,7 @@ std::string summary_json(const Summary<Real>& s) {
 
   json.begin("collapse");
   json.integer("impacts", s.collapse_impacts);
+  json.integer("resting_impacts", s.resting_impacts);
   const auto total = s.total_collisions();
   json.number("impact_share",
               total > 0 ? static_cast<double>(s.collapse_impacts) / static_cast<double>(total) : 0.0);

@@ -60,15 +60,16 @@ class Sweep : public ProgramTest {
   }
   void expect_resumption_after(int signal, int end) const {
     write_sweep("[14, 20, 28]", "10 s");
-    ASSERT_EQ(edmill("sweep a.sweep.toml --out whole").code, 0);
+    const int code = edmill("sweep a.sweep.toml --out whole").code;
+    ASSERT_TRUE(code == 0 || code == 5);  // 5: inelastic collapse, an end that is kept like any other
     ASSERT_EQ(signalled("part", signal), end);
     const auto before = records("part");
     ASSERT_GE(before.size(), 2u);
     ASSERT_LT(before.size(), 12u);
     const auto outcome = edmill("sweep a.sweep.toml --out part");
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.code, code) << outcome.err;
     const std::string told = "12 runs: " + std::to_string(before.size()) + " known from before, " +
-                             std::to_string(12 - before.size()) + " run now, 0 failed";
+                             std::to_string(12 - before.size()) + " run now";
     EXPECT_NE(outcome.out.find(told), std::string::npos) << outcome.out;
     const auto after = records("part");
     for (const auto& [name, time] : before) EXPECT_EQ(after.at(name), time) << name << " was run again";

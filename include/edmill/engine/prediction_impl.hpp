@@ -1,0 +1,193 @@
+// Implementation of Simulation: what comes next for a ball, and which of two contacts is first; included by
+// the instantiation files only.
+#pragma once
+
+#include "edmill/engine/simulation.hpp"
+
+namespace edmill::engine {
+
+template <class Real>
+void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose) {
+  predict_pairs(ball, already_done);
+  predict_crossing(ball);
+  predict_wall(ball, pose);
+  requeue(ball);
+}
+
+template <class Real>
+void Simulation<Real>::predict_pairs(int ball, int already_done) {
+  Agenda& a = agendas_[ball];
+  a.pair_count = 0;
+  a.forgotten_from = Instant<Real>::never();
+  const auto seen = ladder_.pairs().seen(flights_[ball], now_);
+  if (table_) {
+    const auto predict = [&](int other) {
+      if (other != ball && other != already_done) predict_pair(ball, other, seen);
+    };
+    table_->visit_candidates({roughly_seen(ball), radii_[ball], static_cast<double>(now_.period),
+                              static_cast<double>(now_.offset), pair_filter_.filter()},
+                             predict);
+  } else {
+    grid_.neighbours(ball, near_);
+    predict_near(ball, already_done, seen);
+  }
+}
+
+/// Predicts contacts with the balls of `near_`. The filter runs over all of them first, without branches.
+template <class Real>
+void Simulation<Real>::predict_near(int ball, int already_done,
+                                    const typename dynamics::PairSearch<Real>::Seen& seen) {
+  int count = 0;
+  int* near = near_.balls.data();
+  const auto rough = roughly_seen(ball);
+  const auto now = dynamics::instant_cast<double>(now_);
+  const double radius = radii_[ball];
+  for (int k = 0; k < near_.count; ++k) {
+    const int other = near[k];
+    const bool meets = pair_filter_.may_meet(rough, rough_flight(other), now, radius + radii_[other]);
+    near[count] = other;
+    count += meets & (other != ball) & (other != already_done);
+  }
+  for (int k = 0; k < count; ++k) predict_pair(ball, near[k], seen);
+}
+
+template <class Real>
+void Simulation<Real>::flight_changed(int ball) {
+  if constexpr (!std::is_same_v<Real, double>)
+    rough_flights_[ball] = dynamics::flight_cast<double>(flights_[ball]);
+  if (table_) table_->set(ball, rough_flight(ball), radii_[ball]);
+}
+
+template <class Real>
+void Simulation<Real>::predict_pair(int ball, int other,
+                                    const typename dynamics::PairSearch<Real>::Seen& seen) {
+  const Real sum = balls_[ball].radius + radii_[other];
+  const auto answer = ladder_.pair(seen, flights_[ball], flights_[other], now_, sum);
+  if (answer.verdict == dynamics::Verdict::none) return;
+  Agenda& a = agendas_[ball];
+  const Candidate found{clock_.after(now_, answer.delay), other, impacts_[other]};
+  if (found.time >= a.forgotten_from) return;
+  int place = a.pair_count;
+  while (place > 0 && found.time < a.pairs[place - 1].time) --place;
+  if (a.pair_count == Agenda::capacity) {
+    a.forgotten_from = place == a.pair_count ? found.time : a.pairs[Agenda::capacity - 1].time;
+    if (place == a.pair_count) return;
+  } else {
+    ++a.pair_count;
+  }
+  for (int k = a.pair_count - 1; k > place; --k) a.pairs[k] = a.pairs[k - 1];
+  a.pairs[place] = found;
+}
+
+template <class Real>
+void Simulation<Real>::predict_crossing(int ball) {
+  if (grid_.single_cell()) return;
+  Agenda& a = agendas_[ball];
+  const auto& flight = flights_[ball];
+  const Real age = clock_.elapsed(flight.start, now_);
+  a.crossing = grid_.crossing(ball, dynamics::position_after(flight, mill_.gravity, age),
+                              dynamics::velocity_after(flight, mill_.gravity, age), mill_.gravity);
+  a.crossing_time = a.crossing.happens ? clock_.after(now_, a.crossing.delay) : Instant<Real>::never();
+}
+
+/// How far a wall search from `begin` need look: to the ball's nearest pair contact, after which it is moot.
+template <class Real>
+Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const {
+  const Real& longest = ladder_.walls().longest_window();
+  const Agenda& a = agendas_[ball];
+  if (a.pair_count == 0) return longest;
+  const Real until_pair = clock_.elapsed(begin, a.pairs[0].time);
+  const Real shortest = longest / 4096;
+  if (until_pair < shortest) return shortest;
+  return until_pair < longest ? until_pair : longest;
+}
+
+template <class Real>
+void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pose) {
+  ++counts_.wall_searches;
+  const Real length = search_length(ball, now_);
+  const auto& flight = flights_[ball];
+  const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, balls_[ball].radius,
+                                               now_.period);
+  const auto first = functions.start(now_.offset, pose);
+  take_wall_answer(ball, ladder_.wall(functions, first, {flight, balls_[ball].radius, now_, length}), now_);
+}
+
+template <class Real>
+void Simulation<Real>::continue_wall_search(int ball) {
+  ++counts_.wall_searches;
+  const Real length = search_length(ball, now_);
+  take_wall_answer(ball, ladder_.wall({flights_[ball], balls_[ball].radius, now_, length}), now_);
+  requeue(ball);
+}
+
+template <class Real>
+void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer,
+                                        const Instant<Real>& begin) {
+  Agenda& a = agendas_[ball];
+  if (answer.verdict == dynamics::Verdict::contact) {
+    a.wall = answer.wall;
+    a.wall_time = answer.time;
+    if (answer.tie) ++counts_.simultaneous_contacts;
+  } else {
+    a.wall = -1;
+    a.wall_time = clock_.after(begin, answer.searched);
+  }
+}
+
+/// Contacts of one ball at times within rounding of each other are put in order by wider scalars; a true tie
+/// keeps the order of the queue and is counted.
+template <class Real>
+auto Simulation<Real>::settle_ties(Event event) -> Event {
+  const auto close = [&](const Instant<Real>& t) { return clock_.elapsed(event.time, t) <= suspicion_; };
+  const auto shares_ball = [&](const Event& other) {
+    const auto involves = [&](int ball) {
+      return other.ball == ball || (other.kind == EventKind::pair_contact && other.partner == ball);
+    };
+    return involves(event.ball) || (event.kind == EventKind::pair_contact && involves(event.partner));
+  };
+  const auto settle = [&](const Event& other) {
+    const bool same =
+        other.kind == event.kind && ((other.ball == event.ball && other.partner == event.partner) ||
+                                     (other.kind == EventKind::pair_contact && other.ball == event.partner &&
+                                      other.partner == event.ball));
+    if (same || !is_contact(other) || !shares_ball(other)) return;
+    const int order = ladder_.order(contact_of(event), contact_of(other));
+    if (order == 0) ++counts_.simultaneous_contacts;
+    if (order > 0) {
+      event = other;
+      now_ = other.time;
+    }
+  };
+  // The ball's own next contact besides this one.
+  const Agenda& a = agendas_[event.ball];
+  if (event.kind == EventKind::pair_contact && a.wall >= 0 && close(a.wall_time))
+    settle({EventKind::wall_contact, a.wall_time, event.ball, a.wall});
+  const int other_pair = event.kind == EventKind::pair_contact ? 1 : 0;
+  if (a.pair_count > other_pair && close(a.pairs[other_pair].time)) {
+    const Candidate& c = a.pairs[other_pair];
+    if (impacts_[c.partner] == c.partner_impacts)
+      settle({EventKind::pair_contact, c.time, event.ball, c.partner});
+  }
+  const int rival = queue_.runner_up();
+  if (rival >= 0 && close(queue_.time(rival))) {
+    const Event other = next_of(rival);
+    const bool valid = other.kind != EventKind::pair_contact ||
+                       impacts_[other.partner] == agendas_[rival].pairs[0].partner_impacts;
+    if (valid) settle(other);
+  }
+  return event;
+}
+
+template <class Real>
+dynamics::Contact<Real> Simulation<Real>::contact_of(const Event& event) const {
+  const auto& flight = flights_[event.ball];
+  if (event.kind == EventKind::wall_contact)
+    return {true, flight, flight, balls_[event.ball].radius, event.time};
+  const auto& partner = flights_[event.partner];
+  const Real sum = balls_[event.ball].radius + balls_[event.partner].radius;
+  if (flight.start < partner.start) return {false, partner, flight, sum, event.time};
+  return {false, flight, partner, sum, event.time};
+}
+
+}  // namespace edmill::engine

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""bench.py compare sees differences that are there and no others.
+usage: bench_compare_test.py BENCH_PY"""
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BENCH = sys.argv.pop(1)
+random_source = random.Random(7)
+
+
+def noisy(middle, noise, count=9):
+    return [middle * (1 + random_source.gauss(0, noise)) for _ in range(count)]
+
+
+def figures(**named):
+    units = {True: "collisions per CPU second", False: "ns CPU time"}
+    return {"machine": {"cpu": "none"},
+            "figures": {name: {"unit": units[more], "more_is_better": more, "values": values}
+                        for name, (more, values) in named.items()}}
+
+
+class Compare(unittest.TestCase):
+    def compare(self, a, b, *more):
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [os.path.join(folder, name) for name in ("a.json", "b.json")]
+            for path, content in zip(paths, (a, b)):
+                with open(path, "w", encoding="utf-8") as out:
+                    out.write(content if isinstance(content, str) else json.dumps(content))
+            return subprocess.run([sys.executable, BENCH, "compare", *paths, *more], capture_output=True, text=True)
+
+    def verdict(self, a, b, more_is_better=True, code=0):
+        done = self.compare(figures(x=(more_is_better, a)), figures(x=(more_is_better, b)))
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        lines = [line for line in done.stdout.split("\n") if line.startswith("x ")]
+        self.assertEqual(len(lines), 1)
+        return lines[0].split("]")[-1].strip() if "]" in lines[0] else lines[0]
+
+    def test_clear_differences(self):
+        self.assertEqual(self.verdict(noisy(1e6, 0.01), noisy(1.1e6, 0.01)), "faster")
+        self.assertEqual(self.verdict(noisy(1e6, 0.01), noisy(0.9e6, 0.01), code=1), "slower")
+
+    def test_times_count_the_other_way(self):
+        self.assertEqual(self.verdict(noisy(100, 0.01), noisy(110, 0.01), False, code=1), "slower")
+        self.assertEqual(self.verdict(noisy(100, 0.01), noisy(90, 0.01), False), "faster")
+
+    def test_noise_alone_is_rarely_a_difference(self):
+        false_alarms = 0
+        for _ in range(40):
+            done = self.compare(figures(x=(True, noisy(1e6, 0.1))), figures(x=(True, noisy(1e6, 0.1))))
+            false_alarms += "no difference" not in done.stdout
+        self.assertLessEqual(false_alarms, 2)
+
+    def test_small_differences_do_not_matter(self):
+        self.assertEqual(self.verdict([100.0] * 9, [101.0] * 9), "no difference")
+        self.assertEqual(self.verdict([101.0] * 9, [100.0] * 9), "no difference")
+
+    def test_one_wild_value_does_not_matter(self):
+        wild = noisy(1e6, 0.005)
+        wild[4] = 1e5
+        self.assertEqual(self.verdict(noisy(1e6, 0.005), wild), "no difference")
+
+    def test_two_values_decide_nothing(self):
+        self.assertIn("too few values", self.verdict([1.0, 1.0], [2.0, 2.0]))
+
+    def test_one_slower_figure_sets_the_exit_code(self):
+        a = figures(fast=(True, noisy(1, 0.01)), slow=(True, noisy(1, 0.01)))
+        b = figures(fast=(True, noisy(2, 0.01)), slow=(True, noisy(0.5, 0.01)))
+        done = self.compare(a, b)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("1 faster, 1 slower", done.stdout)
+
+    def test_bad_input(self):
+        good = figures(x=(True, [1.0, 1.0, 1.0]))
+        self.assertEqual(self.compare("{", good).returncode, 2)
+        self.assertEqual(self.compare("[]", good).returncode, 2)
+        self.assertEqual(self.compare(figures(x=(True, [0.0, 1.0, 1.0])), good).returncode, 2)
+        self.assertEqual(self.compare(figures(y=(True, [1.0, 1.0, 1.0])), good).returncode, 2)
+        self.assertEqual(self.compare(figures(x=(False, [1.0, 1.0, 1.0])), good).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

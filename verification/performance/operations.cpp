@@ -1,0 +1,141 @@
+// Nanoseconds of the single operations of the loop, on states taken from real runs.
+#include <memory>
+#include <random>
+
+#include "subjects.hpp"
+
+namespace edmill::performance {
+
+namespace {
+
+struct PairQuestion {
+  dynamics::Flight<double> one, two;
+  Instant<double> now;
+  double radius_sum;
+};
+
+/// The questions that the loop asks just after an impact.
+struct Questions {
+  std::vector<dynamics::WallQuery<double>> walls;  ///< up to the ball's nearest pair contact
+  std::vector<PairQuestion> pairs;                 ///< partners nearer than three diameters
+};
+
+class Harvest : public engine::Observer<double> {
+ public:
+  explicit Harvest(std::size_t walls) : ladder_(nullptr), wanted_(walls) {}
+  void begin(const dynamics::DecisionLadder<double>& ladder) { ladder_ = &ladder; }
+
+  void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& s) override {
+    if (questions.walls.size() >= wanted_) return s.request_stop(engine::EndReason::interrupted);
+    take(impact.ball, s);
+    if (!impact.with_wall) take(impact.partner, s);
+  }
+
+  Questions questions;
+
+ private:
+  void take(int ball, const engine::Simulation<double>& s) {
+    const auto& pairs = ladder_->pairs();
+    const auto now = s.now();
+    const auto own = pairs.seen(s.flight(ball), now);
+    double length = ladder_->walls().longest_window();
+    for (int other = 0; other < s.ball_count(); ++other) {
+      if (other == ball) continue;
+      const double sum = s.ball(ball).radius + s.ball(other).radius;
+      const auto seen = pairs.seen(s.flight(other), now);
+      if (norm<double>(own.position - seen.position) > 3 * sum) continue;
+      const auto answer = pairs(own, s.flight(other), now, sum);
+      if (answer.verdict == dynamics::Verdict::contact) length = std::min(length, answer.delay);
+      if (questions.pairs.size() < 4 * wanted_)
+        questions.pairs.push_back({s.flight(ball), s.flight(other), now, sum});
+    }
+    length = std::max(length, ladder_->walls().longest_window() / 4096);
+    questions.walls.push_back({s.flight(ball), s.ball(ball).radius, now, length});
+  }
+
+  const dynamics::DecisionLadder<double>* ladder_;
+  std::size_t wanted_;
+};
+
+/// A run past its transient and what it asks next.
+struct Source {
+  explicit Source(const setup::InitialCase<double>& built, double warm_up)
+      : ladder(built.the_case.mill, 2 * built.the_case.balls.front().radius, 20.0), harvest(4096) {
+    Run<double> run(built);
+    run.until(warm_up);
+    harvest.begin(ladder);
+    run.simulation().attach(harvest);
+    run.until(warm_up + 100);
+  }
+  dynamics::DecisionLadder<double> ladder;
+  Harvest harvest;
+};
+
+Source& shaken() {
+  static Source source(
+      setup::build_case<double>(casefile::parse_case(spex_text(spex_subjects[1]), "bench.toml")), 0.5);
+  return source;
+}
+Source& gas() {
+  static Source source(still_gas(1000, 0.26), 0.05);
+  return source;
+}
+
+void wall_query(benchmark::State& state, Source& source, bool whole_window) {
+  auto questions = source.harvest.questions.walls;
+  if (whole_window)
+    for (auto& q : questions) q.length = source.ladder.walls().longest_window();
+  std::size_t k = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(source.ladder.wall(questions[k]));
+    if (++k == questions.size()) k = 0;
+  }
+}
+
+void pair_query(benchmark::State& state, Source& source) {
+  const auto& questions = source.harvest.questions.pairs;
+  std::vector<dynamics::PairSearch<double>::Seen> seen;
+  for (const auto& q : questions) seen.push_back(source.ladder.pairs().seen(q.one, q.now));
+  std::size_t k = 0;
+  for (auto _ : state) {
+    const auto& q = questions[k];
+    benchmark::DoNotOptimize(source.ladder.pair(seen[k], q.one, q.two, q.now, q.radius_sum));
+    if (++k == questions.size()) k = 0;
+  }
+}
+
+/// The earliest ball gets a new time: what every event costs the queue.
+void queue_operation(benchmark::State& state, int balls) {
+  engine::EventQueue<double> queue(balls);
+  std::mt19937_64 random(20110101);
+  std::exponential_distribution<double> wait;
+  std::vector<double> waits(1 << 16);
+  for (auto& w : waits) w = wait(random) * 1e-3;
+  for (int i = 0; i < balls; ++i) queue.set(i, {0, wait(random) * 1e-3});
+  std::size_t k = 0;
+  for (auto _ : state) {
+    const int ball = queue.top();
+    const auto time = queue.time(ball);
+    queue.set(ball, {time.period, time.offset + waits[k++ & (waits.size() - 1)]});
+  }
+}
+
+template <class Function>
+void add(const std::string& name, Function function) {
+  benchmark::RegisterBenchmark(("operation/" + name).c_str(), function)->MinTime(0.1);
+}
+
+}  // namespace
+
+void register_operations() {
+  add("wall_query/spex_111/to_next_pair", [](benchmark::State& s) { wall_query(s, shaken(), false); });
+  add("wall_query/spex_111/whole_window", [](benchmark::State& s) { wall_query(s, shaken(), true); });
+  add("wall_query/gas_1000/to_next_pair", [](benchmark::State& s) { wall_query(s, gas(), false); });
+  add("wall_query/gas_1000/whole_window", [](benchmark::State& s) { wall_query(s, gas(), true); });
+  add("pair_query/spex_111", [](benchmark::State& s) { pair_query(s, shaken()); });
+  add("pair_query/gas_1000", [](benchmark::State& s) { pair_query(s, gas()); });
+  for (const int balls : {28, 1000, 100000})
+    add("queue/" + std::to_string(balls), [=](benchmark::State& s) { queue_operation(s, balls); });
+}
+
+}  // namespace edmill::performance
