@@ -106,7 +106,8 @@ void pair_query(benchmark::State& state, Source& source) {
 
 /// The earliest ball gets a new time: what every event costs the queue.
 void queue_operation(benchmark::State& state, int balls) {
-  engine::EventQueue<double> queue(balls);
+  const DriveClock<double> clock(0.05);
+  engine::EventQueue<double> queue(balls, clock.period());
   std::mt19937_64 random(20110101);
   std::exponential_distribution<double> wait;
   std::vector<double> waits(1 << 16);
@@ -116,7 +117,7 @@ void queue_operation(benchmark::State& state, int balls) {
   for (auto _ : state) {
     const int ball = queue.top();
     const auto time = queue.time(ball);
-    queue.set(ball, {time.period, time.offset + waits[k++ & (waits.size() - 1)]});
+    queue.set(ball, clock.after(time, waits[k++ & (waits.size() - 1)]));
   }
 }
 

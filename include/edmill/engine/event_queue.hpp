@@ -1,61 +1,145 @@
 // The queue of next events: one entry for each ball, the earliest on top.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "edmill/core/instant.hpp"
 
 namespace edmill::engine {
 
-/// A tournament over the balls' next event times. Setting one time replays log2(N) matches; equal times go to
-/// the lower ball, so the order of events does not depend on history.
+/// A calendar: each drive period is cut into days, and the days are dealt round to as many lists as keep
+/// about one event on each. Taking the first event and setting one cost the same for any number of balls.
+/// Equal times go to the lower ball, so the order of events does not depend on history. (Brown 1988)
 template <class Real>
 class EventQueue {
  public:
-  explicit EventQueue(int balls) : times_(balls, Instant<Real>::never()) {
-    while (leaves_ < balls) leaves_ *= 2;
-    winners_.assign(2 * leaves_, -1);
-    for (int i = 0; i < balls; ++i) winners_[leaves_ + i] = i;
-    for (int node = leaves_ - 1; node >= 1; --node) winners_[node] = match(node);
+  /// @param period  of the drive [s]
+  EventQueue(int balls, const Real& period)
+      : entries_(balls),
+        days_per_second_(static_cast<double>(days_per_period_) / static_cast<double>(period)) {
+    std::size_t lists = 64;
+    while (lists < 4 * entries_.size()) lists *= 2;
+    heads_.assign(lists, none);
+    for (int i = 0; i < balls; ++i) link(i);
   }
 
-  int top() const { return winners_[1]; }
-  const Instant<Real>& time(int ball) const { return times_[ball]; }
+  /// The ball whose event is next.
+  int top() {
+    std::int64_t searched = 0;
+    top_ = first_of(today_);
+    while (top_ == none) {
+      ++today_;
+      if (++searched > static_cast<std::int64_t>(heads_.size())) go_to_earliest();
+      top_ = first_of(today_);
+    }
+    days_passed_ += searched;
+    if (++taken_ >= review_) review();
+    return top_;
+  }
+
+  const Instant<Real>& time(int ball) const { return entries_[ball].time; }
 
   void set(int ball, const Instant<Real>& time) {
-    times_[ball] = time;
-    for (int node = (leaves_ + ball) / 2; node >= 1; node /= 2) {
-      const int before = winners_[node];
-      winners_[node] = match(node);
-      // A match that this ball neither won nor wins changes nothing further up.
-      if (before != ball && winners_[node] != ball) return;
-    }
+    unlink(ball);
+    entries_[ball].time = time;
+    link(ball);
   }
 
-  /// The ball whose event is next after the top's, or -1.
-  int runner_up() const {
-    int best = -1;
-    for (int node = leaves_ + top(); node > 1; node /= 2) {
-      const int other = winners_[node ^ 1];
-      if (other >= 0 && (best < 0 || before(other, best))) best = other;
-    }
-    return best;
+  /// The ball whose event is next after that of the last `top`, if it is not later than `limit`; -1
+  /// otherwise.
+  int runner_up(const Instant<Real>& limit) const {
+    const std::int64_t last = day_of(limit);
+    std::int64_t day = today_;
+    do {
+      const int second = first_of(day, top_);
+      if (second != none) return entries_[second].time <= limit ? second : none;
+    } while (++day <= last);
+    return none;
   }
 
  private:
-  bool before(int a, int b) const {
-    if (times_[a] < times_[b]) return true;
-    return times_[a] == times_[b] && a < b;
+  static constexpr int none = -1;
+  static constexpr std::int64_t far_off = std::int64_t{1} << 40;    ///< [periods], in no run
+  static constexpr std::int64_t most_days = std::int64_t{1} << 21;  ///< of a period
+
+  struct Entry {
+    Instant<Real> time = Instant<Real>::never();
+    std::int64_t day = 0;
+    int next = none, previous = none;
+  };
+
+  /// Never later for an earlier time: `today` may be emptied before tomorrow is looked at.
+  std::int64_t day_of(const Instant<Real>& time) const {
+    if (time.period >= far_off) return std::int64_t{1} << 62;
+    const double place = static_cast<double>(time.offset) * days_per_second_;
+    const auto day = static_cast<std::int64_t>(place);
+    return time.period * days_per_period_ + (day < days_per_period_ ? day : days_per_period_ - 1);
   }
-  int match(int node) const {
-    const int left = winners_[2 * node], right = winners_[2 * node + 1];
-    if (right < 0) return left;
-    return before(right, left) ? right : left;
+  int& head(std::int64_t day) { return heads_[static_cast<std::size_t>(day) & (heads_.size() - 1)]; }
+  int head(std::int64_t day) const { return heads_[static_cast<std::size_t>(day) & (heads_.size() - 1)]; }
+
+  /// A list holds the events of its day, and of days a round or more later.
+  int first_of(std::int64_t day, int except = none) const {
+    int best = none;
+    for (int i = head(day); i != none; i = entries_[i].next)
+      if (entries_[i].day == day && i != except && (best == none || before(i, best))) best = i;
+    return best;
   }
 
-  int leaves_ = 1;
-  std::vector<Instant<Real>> times_;
-  std::vector<int> winners_;
+  bool before(int a, int b) const {
+    const auto &one = entries_[a].time, &two = entries_[b].time;
+    if (one < two) return true;
+    return one == two && a < b;
+  }
+
+  void link(int ball) {
+    Entry& e = entries_[ball];
+    const std::int64_t day = day_of(e.time);
+    e.day = day < today_ ? today_ : day;
+    int& first = head(e.day);
+    e.previous = none;
+    e.next = first;
+    if (first != none) entries_[first].previous = ball;
+    first = ball;
+  }
+  void unlink(int ball) {
+    const Entry& e = entries_[ball];
+    if (e.next != none) entries_[e.next].previous = e.previous;
+    (e.previous != none ? entries_[e.previous].next : head(e.day)) = e.next;
+  }
+
+  void go_to_earliest() {
+    today_ = entries_.front().day;
+    for (const Entry& e : entries_) today_ = e.day < today_ ? e.day : today_;
+  }
+
+  /// Days get longer when most are empty and shorter when many events share one.
+  void review() {
+    const std::int64_t events = taken_, days = days_passed_, before = days_per_period_;
+    taken_ = days_passed_ = 0;
+    if (review_ < static_cast<std::int64_t>(entries_.size())) review_ *= 2;
+    if (days > 4 * events) {
+      for (auto d = days; d > 2 * events && days_per_period_ > 1; d /= 2) days_per_period_ /= 2;
+    } else if (events > 2 * days) {
+      for (auto d = days + 1; d < events && days_per_period_ < most_days; d *= 2) days_per_period_ *= 2;
+    }
+    if (days_per_period_ == before) return;
+    days_per_second_ *= static_cast<double>(days_per_period_) / static_cast<double>(before);
+    const int balls = static_cast<int>(entries_.size());
+    for (int& first : heads_) first = none;
+    today_ = day_of(entries_[top_].time);
+    for (int i = 0; i < balls; ++i) link(i);
+  }
+
+  std::vector<Entry> entries_;
+  std::vector<int> heads_;
+  std::int64_t days_per_period_ = 1024;
+  double days_per_second_;
+  std::int64_t today_ = 0;
+  int top_ = none;
+  std::int64_t taken_ = 0, days_passed_ = 0;  ///< since the last review
+  std::int64_t review_ = 64;                  ///< after so many events; soon at first, when nothing is known
 };
 
 }  // namespace edmill::engine

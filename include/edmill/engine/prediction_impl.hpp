@@ -73,8 +73,8 @@ void Simulation<Real>::predict_crossing(int ball, const Seen& seen) {
   Agenda& a = agendas_[ball];
   const auto crossing = grid_.crossing(
       ball, seen.position, dynamics::velocity_after(flights_[ball], mill_.gravity, seen.age), mill_.gravity);
-  a.crossing_axis = crossing.axis;
-  a.crossing_step = crossing.step;
+  a.crossing_axis = static_cast<std::int8_t>(crossing.axis);
+  a.crossing_step = static_cast<std::int8_t>(crossing.step);
   a.crossing_time = crossing.happens ? clock_.after(now_, crossing.delay) : Instant<Real>::never();
 }
 
@@ -114,7 +114,7 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
                                         const Instant<Real>& begin) {
   Agenda& a = agendas_[ball];
   if (answer.verdict == dynamics::Verdict::contact) {
-    a.wall = answer.wall;
+    a.wall = static_cast<std::int8_t>(answer.wall);
     a.wall_time = answer.time;
     if (answer.tie) ++counts_.simultaneous_contacts;
   } else {
@@ -157,8 +157,8 @@ auto Simulation<Real>::settle_ties(Event event) -> Event {
     if (impacts_[c.partner] == c.partner_impacts)
       settle({EventKind::pair_contact, c.time, event.ball, c.partner});
   }
-  const int rival = queue_.runner_up();
-  if (rival >= 0 && close(queue_.time(rival))) {
+  const int rival = queue_.runner_up(clock_.after(event.time, suspicion_));
+  if (rival >= 0) {
     const Event other = next_of(rival);
     const bool valid = other.kind != EventKind::pair_contact ||
                        impacts_[other.partner] == agendas_[rival].pairs[0].partner_impacts;

@@ -81,15 +81,15 @@ class Simulation {
   };
   /// What a ball expects. Its pair contacts are those that it predicted itself, nearest first; for a pair
   /// that both predicted, the later prediction is the valid one.
-  struct Agenda {
-    static constexpr int capacity = 4;
-    std::array<Candidate, capacity> pairs;
-    int pair_count = 0;
-    Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
-    int wall = -1;                 ///< a wall id, or -1 when `wall_time` only ends what has been searched
+  struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
+    static constexpr int capacity = 3;
     Instant<Real> wall_time;
-    int crossing_axis = 0, crossing_step = 0;
     Instant<Real> crossing_time = Instant<Real>::never();
+    std::array<Candidate, capacity> pairs;
+    Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
+    std::int8_t pair_count = 0;
+    std::int8_t wall = -1;  ///< a wall id, or -1 when `wall_time` only ends what has been searched
+    std::int8_t crossing_axis = 0, crossing_step = 0;
   };
   enum class EventKind { wall_contact, pair_contact, cell_crossing, wall_recheck };
   struct Event {

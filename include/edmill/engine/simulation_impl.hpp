@@ -83,7 +83,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
                    static_cast<double>(ladder_.walls().constants().reach),
                    static_cast<double>(detail::largest_speed(states, the_case.mill))),
       grid_(detail::make_grid(the_case.mill, the_case.balls)),
-      queue_(static_cast<int>(states.size())),
+      queue_(static_cast<int>(states.size()), the_case.mill.motion.period),
       collapse_watch_(static_cast<int>(states.size()),
                       Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach,
                       ladder_.walls().constants().reach / Real(std::int64_t{10000000000})),
@@ -110,9 +110,9 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
 template <class Real>
 EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt) {
   stop_.reset();
-  while (queue_.time(queue_.top()) <= end) {
+  for (int next = queue_.top(); queue_.time(next) <= end; next = queue_.top()) {
     if (interrupt && interrupt->load(std::memory_order_relaxed)) return EndReason::interrupted;
-    const Event event = next_of(queue_.top());
+    const Event event = next_of(next);
     now_ = event.time;
     process(event);
     if (stop_) return *stop_;
