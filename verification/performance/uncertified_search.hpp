@@ -38,12 +38,12 @@ inline dynamics::WallAnswer<double> uncertified_search(const dynamics::WallSearc
     if (root * 9 / 8 > 64 * ulp) length = std::min(length, root * 9 / 8);
   }
 
-  // Newton from the prediction, or from the secant when that is outside of where the sign changes.
+  // Newton from the prediction, or from the right end when that is outside of where the sign changes: near
+  // the left end may be the contact that the ball just leaves.
   const auto root_between = [&](int wall, dynamics::GapSample<double> left,
                                 dynamics::GapSample<double> right) {
     double t = predicted[wall];
-    if (!(t > left.offset && t < right.offset))
-      t = left.offset + (right.offset - left.offset) * left.gap[wall] / (left.gap[wall] - right.gap[wall]);
+    if (!(t > left.offset && t < right.offset)) t = right.offset - right.gap[wall] / right.rate[wall];
     for (int step = 0; step < 100 && right.offset - left.offset > ulp; ++step) {
       if (!(t > left.offset && t < right.offset)) t = (left.offset + right.offset) / 2;
       const auto here = functions(t);
