@@ -1,8 +1,9 @@
-# The yardstick, the comparison of figures and the pinned count of instructions; times are not tested.
+# The yardsticks, the comparison of figures and the pinned count of instructions; times are not tested.
 set(benchmarks ${CMAKE_SOURCE_DIR}/verification/performance)
-edmill_test(peer_loop_test performance/peer_loop_test.cpp)
-target_sources(peer_loop_test PRIVATE ${benchmarks}/peer_loop.cpp)
-target_include_directories(peer_loop_test PRIVATE ${benchmarks})
+edmill_test(yardsticks_test performance/yardsticks_test.cpp)
+target_sources(yardsticks_test PRIVATE ${benchmarks}/minimal_loop.cpp ${benchmarks}/peer_loop.cpp
+                                       ${benchmarks}/periodic_gas.cpp)
+target_include_directories(yardsticks_test PRIVATE ${benchmarks})
 
 find_program(PYTHON3 python3)
 if(PYTHON3)

@@ -193,19 +193,20 @@ def print_figures(result):
 
 
 def print_ratios(result):
-    """edmill over the yardstick, from the same run and at equal numbers of balls."""
-    lines = []
-    for name, figure in result["figures"].items():
-        peer = result["figures"].get(name.replace("edmill/", "peer/", 1))
-        if not name.startswith("edmill/") or not peer or " " in name:
-            continue
-        ratio, low, high = interval(peer["values"], figure["values"])
-        enough = min(len(peer["values"]), len(figure["values"])) >= FEWEST
-        shown = "   [%.3f, %.3f]" % (low, high) if enough else ""
-        lines.append("%-48s %8.3f%s" % (name[len("edmill/"):], ratio, shown))
-    if lines:
-        print("edmill / yardstick, collisions per CPU second")
-        print("\n".join(lines))
+    """edmill over each yardstick, from the same run and at equal numbers of balls."""
+    for yardstick in ("minimal", "peer"):
+        lines = []
+        for name, figure in result["figures"].items():
+            other = result["figures"].get(name.replace("edmill/", yardstick + "/", 1))
+            if not name.startswith("edmill/") or not other or " " in name:
+                continue
+            ratio, low, high = interval(other["values"], figure["values"])
+            enough = min(len(other["values"]), len(figure["values"])) >= FEWEST
+            shown = "   [%.3f, %.3f]" % (low, high) if enough else ""
+            lines.append("%-48s %8.3f%s" % (name[len("edmill/"):], ratio, shown))
+        if lines:
+            print("edmill / %s, collisions per CPU second" % yardstick)
+            print("\n".join(lines))
 
 
 def ratios(options):

@@ -4,18 +4,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
-#include <numeric>
-#include <random>
-#include <stdexcept>
+
+#include "periodic_gas.hpp"
 
 namespace edmill::performance {
-
-double enskog_rate(double packing) {
-  const double density = packing * 6 / std::numbers::pi;
-  const double contact_value = (1 - packing / 2) / std::pow(1 - packing, 3);
-  return 4 * std::sqrt(std::numbers::pi) * density * contact_value;
-}
 
 void Calendar::open(int balls, double day) {
   entries_.resize(static_cast<std::size_t>(balls));
@@ -52,43 +44,13 @@ void Calendar::unlink(int ball) {
   (e.previous >= 0 ? entries_[e.previous].next : heads_[-2 - e.previous]) = e.next;
 }
 
-PeerLoop::PeerLoop(int balls, double packing, std::uint64_t seed, bool in_order)
-    : box_(std::cbrt(balls * std::numbers::pi / 6 / packing)) {
-  // Cells hold few balls but are not thinner than one.
-  const double spacing = std::cbrt(box_ * box_ * box_ / balls);
-  const double thinnest = 1 + 1e-9;
-  side_ = std::clamp(static_cast<int>(box_ / std::max(thinnest, 0.5 * spacing)), 4, 1023);
-  if (balls < 1 || box_ < 4 * thinnest) throw std::invalid_argument("a box of fewer than four cells a side");
+PeerLoop::PeerLoop(int balls, double packing, std::uint64_t seed, bool in_order) {
+  const PeriodicGas gas(balls, packing, seed, in_order);
+  box_ = gas.box;
+  side_ = gas.cells_a_side();
   edge_ = box_ / side_;
-  const int sites = static_cast<int>(std::ceil(std::cbrt(balls) - 1e-9));
-  if (box_ / sites < 1) throw std::invalid_argument("balls that do not fit on a cubic lattice");
-
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  std::vector<int> numbers(static_cast<std::size_t>(balls));
-  std::iota(numbers.begin(), numbers.end(), 0);
-  if (!in_order) std::shuffle(numbers.begin(), numbers.end(), random);
-  Vector mean{};
   balls_.resize(static_cast<std::size_t>(balls));
-  for (int i = 0; i < balls; ++i) {
-    Ball& b = balls_[i];
-    b = {};
-    const std::array<int, 3> site{numbers[i] % sites, numbers[i] / sites % sites, numbers[i] / sites / sites};
-    for (int k = 0; k < 3; ++k) {
-      b.position[k] = (site[k] + 0.5) * box_ / sites;
-      b.velocity[k] = normal(random);
-      mean[k] += b.velocity[k] / balls;
-    }
-  }
-  double energy = 0;
-  for (auto& b : balls_)
-    for (int k = 0; k < 3; ++k) {
-      b.velocity[k] -= mean[k];
-      energy += b.velocity[k] * b.velocity[k] / 2;
-    }
-  for (auto& b : balls_)
-    for (auto& v : b.velocity) v *= std::sqrt(1.5 * std::max(balls - 1, 1) / energy);
-
+  for (int i = 0; i < balls; ++i) balls_[i] = {gas.positions[i], gas.velocities[i], 0, 0, 0};
   cells_.resize(static_cast<std::size_t>(side_) * side_ * side_);
   for (int i = 0; i < balls; ++i) {
     for (int k = 0; k < 3; ++k) {

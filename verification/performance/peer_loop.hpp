@@ -1,5 +1,5 @@
-// The yardstick: a lean event-driven loop for elastic smooth spheres in a periodic box. No certificates, no
-// walls, no gravity, no spin. Lengths in ball diameters, masses in ball masses, velocities in thermal ones.
+// The tuned yardstick: what minimal_loop.hpp does, with everything that makes such loops fast. Units as in
+// periodic_gas.hpp.
 #pragma once
 
 #include <array>
@@ -38,10 +38,7 @@ class Calendar {
 
 class PeerLoop {
  public:
-  /// Balls on a cubic lattice with Maxwellian velocities at temperature 1 and no total momentum.
-  /// @param packing   volume of the balls over the volume of the box
-  /// @param in_order  neighbours lie near each other in memory too; otherwise anywhere
-  /// @throws std::invalid_argument when the lattice does not fit or the box has fewer than four cells a side
+  /// Starts from PeriodicGas, which see.
   PeerLoop(int balls, double packing, std::uint64_t seed, bool in_order = true);
 
   /// Goes on for so many collisions.
@@ -129,9 +126,5 @@ class PeerLoop {
   std::vector<Near> near_;
   Calendar calendar_;
 };
-
-/// Collisions of one ball per unit of time in a fluid at temperature 1: Enskog, with the contact value of
-/// Carnahan and Starling.
-double enskog_rate(double packing);
 
 }  // namespace edmill::performance

@@ -75,5 +75,6 @@ inline void count_collisions(benchmark::State& state, std::uint64_t collisions) 
 void register_spex();
 void register_still_gas();
 void register_operations();
+void register_wall_answers();
 
 }  // namespace edmill::performance

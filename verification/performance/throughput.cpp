@@ -1,6 +1,7 @@
-// Collisions per CPU second of one thread: edmill's cases, and the yardstick at equal numbers.
+// Collisions per CPU second of one thread: edmill's cases, and the yardsticks at equal numbers.
 #include <cmath>
 
+#include "minimal_loop.hpp"
 #include "peer_loop.hpp"
 #include "subjects.hpp"
 
@@ -53,10 +54,12 @@ void still(benchmark::State& state, int balls, double packing) {
   if (balls >= 10000) state.counters["bytes_per_ball"] = built_bytes / balls;
 }
 
-void peer(benchmark::State& state, int balls, double packing, bool in_order = true) {
+/// A yardstick.
+template <class Loop>
+void periodic(benchmark::State& state, int balls, double packing, bool in_order = true) {
   settle_memory();
   const double bytes = resident_bytes();
-  PeerLoop loop(balls, packing, 20110101, in_order);
+  Loop loop(balls, packing, 20110101, in_order);
   const double built_bytes = resident_bytes() - bytes;
   loop.run(20 * static_cast<std::uint64_t>(balls) + 1000);
   const auto before = loop.collisions(), crossings = loop.crossings(), stale = loop.stale_events();
@@ -76,6 +79,11 @@ void add(const std::string& name, int iterations, Function function) {
   benchmark::RegisterBenchmark(name.c_str(), function)->Iterations(iterations)->Unit(benchmark::kMillisecond);
 }
 
+void add_yardsticks(const std::string& name, int balls, double packing) {
+  add("minimal/" + name, 10, [=](benchmark::State& s) { periodic<MinimalLoop>(s, balls, packing); });
+  add("peer/" + name, 10, [=](benchmark::State& s) { periodic<PeerLoop>(s, balls, packing); });
+}
+
 std::string gas_name(double packing, int balls) {
   return "gas/packing_" + std::to_string(packing).substr(0, 4) + "/" + std::to_string(balls);
 }
@@ -83,8 +91,8 @@ std::string gas_name(double packing, int balls) {
 void add_gas(double packing, int balls) {
   const std::string name = gas_name(packing, balls);
   add("edmill/" + name, 10, [=](benchmark::State& s) { still(s, balls, packing); });
-  // The yardstick needs a box of four balls a side.
-  if (balls > 123 * packing) add("peer/" + name, 10, [=](benchmark::State& s) { peer(s, balls, packing); });
+  // The yardsticks need a box of four balls a side.
+  if (balls > 123 * packing) add_yardsticks(name, balls, packing);
 }
 
 }  // namespace
@@ -94,7 +102,7 @@ void register_spex() {
     const std::string name = std::string("spex/") + subject.name;
     add("edmill/" + name, subject.balls < 100 ? 400 : 40,
         [&](benchmark::State& s) { spex<double>(s, subject); });
-    add("peer/" + name, 10, [&](benchmark::State& s) { peer(s, subject.balls, subject.packing); });
+    add_yardsticks(name, subject.balls, subject.packing);
   }
   add("scalar/double/demo", 400, [](benchmark::State& s) { spex<double>(s, demo); });
   add("scalar/float128/demo", 200, [](benchmark::State& s) { spex<float128>(s, demo); });
@@ -105,7 +113,7 @@ void register_still_gas() {
   for (const int balls : {1000, 10000, 100000}) {
     add_gas(0.26, balls);
     add("peer-any-order/" + gas_name(0.26, balls), 10,
-        [=](benchmark::State& s) { peer(s, balls, 0.26, false); });
+        [=](benchmark::State& s) { periodic<PeerLoop>(s, balls, 0.26, false); });
   }
   for (const int balls : {1, 3, 10, 30, 100, 300, 1000, 3000, 10000, 30000, 100000}) add_gas(0.10, balls);
   for (const double packing : {0.05, 0.15, 0.20, 0.25, 0.30, 0.35}) add_gas(packing, 1000);

@@ -1,15 +1,23 @@
-// The yardstick of the benchmarks is itself a right simulation of hard spheres.
-#include "peer_loop.hpp"
-
+// The yardsticks of the benchmarks are themselves right simulations of hard spheres.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
+#include "minimal_loop.hpp"
+#include "peer_loop.hpp"
+#include "periodic_gas.hpp"
+
 namespace edmill::performance {
 namespace {
 
-double deepest_overlap(const PeerLoop& loop) {
+template <class Loop>
+class Yardstick : public ::testing::Test {};
+using Loops = ::testing::Types<MinimalLoop, PeerLoop>;
+TYPED_TEST_SUITE(Yardstick, Loops);
+
+template <class Loop>
+double deepest_overlap(const Loop& loop) {
   const auto positions = loop.positions();
   double nearest = 2;
   for (std::size_t i = 0; i < positions.size(); ++i)
@@ -25,9 +33,9 @@ double deepest_overlap(const PeerLoop& loop) {
   return 1 - nearest;
 }
 
-TEST(PeerLoop, KeepsEnergyAndNeverOverlaps) {
+TYPED_TEST(Yardstick, KeepsEnergyAndNeverOverlaps) {
   for (const auto& [balls, packing] : {std::pair{30, 0.1}, std::pair{500, 0.26}, std::pair{1000, 0.35}}) {
-    PeerLoop loop(balls, packing, 7);
+    TypeParam loop(balls, packing, 7);
     const double energy = loop.kinetic_energy();
     EXPECT_NEAR(energy, 1.5 * (balls - 1), 1e-9 * balls);
     for (int k = 0; k < 20; ++k) {
@@ -39,10 +47,10 @@ TEST(PeerLoop, KeepsEnergyAndNeverOverlaps) {
   }
 }
 
-TEST(PeerLoop, CollidesAtTheRateOfEnskog) {
+TYPED_TEST(Yardstick, CollidesAtTheRateOfEnskog) {
   constexpr int balls = 2000;
   for (const double packing : {0.05, 0.1, 0.26, 0.35}) {
-    PeerLoop loop(balls, packing, 11, packing < 0.2);
+    TypeParam loop(balls, packing, 11, packing < 0.2);
     loop.run(30 * balls);
     const double begin = loop.time();
     loop.run(200000);
@@ -51,9 +59,9 @@ TEST(PeerLoop, CollidesAtTheRateOfEnskog) {
   }
 }
 
-TEST(PeerLoop, RefusesWhatItCannotHold) {
-  EXPECT_THROW(PeerLoop(10, 0.3, 1), std::invalid_argument);    // the box is too small for cells
-  EXPECT_THROW(PeerLoop(1000, 0.6, 1), std::invalid_argument);  // the lattice is
+TYPED_TEST(Yardstick, RefusesWhatItCannotHold) {
+  EXPECT_THROW(TypeParam(10, 0.3, 1), std::invalid_argument);    // the box is too small for cells
+  EXPECT_THROW(TypeParam(1000, 0.6, 1), std::invalid_argument);  // the lattice is
 }
 
 }  // namespace
