@@ -107,10 +107,14 @@ void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pos
   ++counts_.wall_searches;
   const Real length = search_length(ball, now_);
   const auto& flight = flights_[ball];
-  const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, balls_[ball].radius,
-                                               now_.period);
-  const auto first = functions.start(now_.offset, pose);
-  take_wall_answer(ball, ladder_.wall(functions, first, {flight, balls_[ball].radius, now_, length}), now_);
+  const dynamics::WallQuery<Real> query{flight, balls_[ball].radius, now_, length};
+  if constexpr (std::is_same_v<Real, double>) {
+    const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, query.radius,
+                                                 now_.period);
+    take_wall_answer(ball, ladder_.wall(functions, functions.start(now_.offset, pose), query), now_);
+  } else {
+    take_wall_answer(ball, ladder_.wall(query), now_);  // which begins in double
+  }
 }
 
 template <class Real>
@@ -128,6 +132,7 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
   if (answer.verdict == dynamics::Verdict::contact) {
     a.wall = answer.wall;
     a.wall_time = answer.time;
+    a.wall_pose = answer.pose;
     if (answer.tie) ++counts_.simultaneous_contacts;
   } else {
     a.wall = -1;

@@ -88,6 +88,7 @@ class Simulation {
     Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
     int wall = -1;                 ///< a wall id, or -1 when `wall_time` only ends what has been searched
     Instant<Real> wall_time;
+    [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at `wall_time`
     Crossing<Real> crossing;
     Instant<Real> crossing_time = Instant<Real>::never();
   };
@@ -109,6 +110,8 @@ class Simulation {
   void drop_stale(int ball);
   void cross_cell(int ball);
   void collide_with_wall(int ball, int wall);
+  model::VesselPose<Real> pose_now() const;
+  model::VesselPose<Real> pose_at_wall_contact(int ball) const;
   void collide_pair(int ball, int partner);
   void after_impact(Impact<Real>& impact);
   void note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall, int partner);

@@ -30,17 +30,6 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
   return smallest;
 }
 
-/// The mill in double, as the pair filter needs it.
-template <class Real>
-model::Mill<double> rounded(const model::Mill<Real>& m) {
-  const auto r = [](const Real& x) { return static_cast<double>(x); };
-  return {{r(m.motion.arm), r(m.motion.theta_max), r(m.motion.gamma_max), r(m.motion.period)},
-          {r(m.vessel.radius), r(m.vessel.half_height)},
-          vector_cast<double>(m.gravity),
-          {},
-          {}};
-}
-
 /// The region that the vessel sweeps, cut into cells that hold about one ball but are thicker than the
 /// largest.
 template <class Real>
@@ -78,7 +67,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       impacts_(states.size(), 0),
       ladder_(the_case.mill, 2 * detail::smallest_radius(the_case.balls),
               detail::largest_speed(states, the_case.mill)),
-      pair_filter_(detail::rounded(the_case.mill),
+      pair_filter_(model::mill_cast<double>(the_case.mill),
                    2 * static_cast<double>(detail::smallest_radius(the_case.balls)),
                    static_cast<double>(ladder_.walls().constants().reach),
                    static_cast<double>(detail::largest_speed(states, the_case.mill))),
@@ -185,12 +174,26 @@ void Simulation<Real>::cross_cell(int ball) {
 }
 
 template <class Real>
+model::VesselPose<Real> Simulation<Real>::pose_now() const {
+  const auto& constants = ladder_.walls().constants();
+  return model::pose_at<Real>(mill_.motion, constants.angular_speed, constants.frequency, now_.offset);
+}
+
+/// The pose now, when the ball's predicted wall contact is due.
+template <class Real>
+model::VesselPose<Real> Simulation<Real>::pose_at_wall_contact(int ball) const {
+  if constexpr (!std::is_same_v<Real, double>) {
+    const Agenda& a = agendas_[ball];
+    if (a.wall_pose && a.wall_time == now_) return *a.wall_pose;
+  }
+  return pose_now();
+}
+
+template <class Real>
 void Simulation<Real>::collide_with_wall(int ball, int wall) {
   auto& flight = flights_[ball];
   dynamics::fly_to(flight, mill_.gravity, clock_, now_);
-  const auto& constants = ladder_.walls().constants();
-  const auto pose =
-      model::pose_at<Real>(mill_.motion, constants.angular_speed, constants.frequency, now_.offset);
+  const auto pose = pose_at_wall_contact(ball);
   const auto local = model::to_vessel_frame<Real>(pose, mill_.motion.arm, flight.position, flight.velocity);
   const Real radius = balls_[ball].radius;
 
@@ -257,9 +260,8 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   flight_changed(partner);
   after_impact(impact);
   if (stop_ == EndReason::inelastic_collapse) return;
-  const auto& constants = ladder_.walls().constants();
-  const auto pose =
-      model::pose_at<Real>(mill_.motion, constants.angular_speed, constants.frequency, now_.offset);
+  // Wide scalars begin their wall searches in double.
+  const auto pose = std::is_same_v<Real, double> ? pose_now() : model::VesselPose<Real>{};
   predict_all(ball, -1, pose);
   predict_all(partner, ball, pose);
 }
