@@ -87,6 +87,7 @@ class WallSearch {
                           const WallQuery<Real>& query) const;
 
   /// The search in double, with only the root found in this scalar; undecided is what double cannot prove.
+  /// It may see, and answer for, a few roundings of double more than the window.
   WallAnswer<Real> search_by_double(const WallQuery<Real>& query) const;
 
   /// The search for a wider flight, radius and mill that were rounded to this scalar, which is double.

@@ -116,10 +116,13 @@ WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query
   if constexpr (!is_wide) {
     return search(query);
   } else {
-    // Rounded outwards: nothing of the window is left out.
-    const auto rough = rough_.rough({flight_cast<double>(query.flight), static_cast<double>(query.radius),
-                                     rounded_down<double>(query.begin),
-                                     static_cast<double>(query.length) * (1 + 4 * epsilon<double>())});
+    EDMILL_REQUIRE(query.length > 0, "window length out of range");
+    // The window is rounded outwards, so that nothing of it is left to be asked about again.
+    const auto begin_down = rounded_down<double>(query.begin);
+    const double length = static_cast<double>(query.length);
+    const auto rough =
+        rough_.rough({flight_cast<double>(query.flight), static_cast<double>(query.radius), begin_down,
+                      length + 4 * epsilon<double>() * (begin_down.offset + length)});
     const Real& begin = query.begin.offset;
     if (rough.verdict == Verdict::none) {
       const Real searched = Real(rough.until) - begin;
