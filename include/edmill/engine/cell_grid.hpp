@@ -1,8 +1,10 @@
 // Neighbour grid in the inertial frame: a ball meets only balls of its own and the adjacent cells.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <unordered_map>
 #include <vector>
 
@@ -68,11 +70,15 @@ class CellGrid {
                           const Vec3<Real>& gravity) const {
     Crossing<Real> best;
     for (int k = 0; k < 3; ++k) {
-      const int cell = place_[ball][k];
-      const Real lower = low_[k] + cell * edge_[k];
-      if (cell + 1 < cells_[k])
-        consider(best, (lower + edge_[k]) - position[k], velocity[k], gravity[k], k, 1);
-      if (cell > 0) consider(best, position[k] - lower, -velocity[k], -gravity[k], k, -1);
+      const Real lower = low_[k] + place_[ball][k] * edge_[k];
+      const Real above = (lower + edge_[k]) - position[k], below = position[k] - lower;
+      const bool falls_up = gravity[k] > 0;
+      if (gravity[k] == 0)
+        drift(best, ball, k, above, below, velocity[k]);
+      else if (falls_up)
+        fall(best, ball, k, 1, above, below, velocity[k], gravity[k]);
+      else
+        fall(best, ball, k, -1, below, above, -velocity[k], -gravity[k]);
     }
     return best;
   }
@@ -96,29 +102,43 @@ class CellGrid {
  private:
   using Place = std::array<int, 3>;
 
-  /// Time to cover `distance` >= 0 with `speed` and constant `acceleration` towards it.
-  static void consider(Crossing<Real>& best, const Real& distance, const Real& speed,
-                       const Real& acceleration, int axis, int step) {
+  bool is_inner_face(int ball, int axis, int step) const {
+    const int next = place_[ball][axis] + step;
+    return (next >= 0) & (next < cells_[axis]);
+  }
+
+  static void keep_earlier(Crossing<Real>& best, bool reached, const Real& delay, int axis, int step) {
+    if (reached && (!best.happens || delay < best.delay)) best = {true, delay, axis, step};
+  }
+
+  /// Along an axis without gravity.
+  void drift(Crossing<Real>& best, int ball, int axis, const Real& above, const Real& below,
+             const Real& speed) const {
+    const bool up = speed > 0;
+    const int step = up ? 1 : -1;
+    const Real distance = up ? above : below;
+    const Real size = up ? speed : Real(-speed);
+    const bool reached = (size > 0) & is_inner_face(ball, axis, step);
+    keep_earlier(best, reached, (distance > 0 ? distance : Real(0)) / size, axis, step);
+  }
+
+  /// Along an axis with gravity, which points to `step`: a ball that moves against it may reach the far face
+  /// first, and falls to the near one otherwise. Which of them is a coin toss, so one formula serves both.
+  void fall(Crossing<Real>& best, int ball, int axis, int step, const Real& ahead, const Real& behind,
+            const Real& speed, const Real& gravity) const {
     using std::sqrt;
-    const Real d = distance > 0 ? distance : Real(0);
-    if (acceleration == 0) {
-      if (!(speed > 0)) return;
-      const Real delay = d / speed;
-      if (!best.happens || delay < best.delay) best = {true, delay, axis, step};
-      return;
-    }
-    const Real discriminant = speed * speed + 2 * (acceleration * d);
-    if (discriminant < 0) return;
-    const Real root = sqrt(discriminant);
-    Real delay;
-    if (speed >= 0) {
-      if (!(speed + root > 0)) return;
-      delay = 2 * d / (speed + root);
-    } else {
-      if (!(acceleration > 0)) return;
-      delay = (root - speed) / acceleration;
-    }
-    if (!best.happens || delay < best.delay) best = {true, delay, axis, step};
+    const Real far = behind > 0 ? behind : Real(0), near = ahead > 0 ? ahead : Real(0);
+    const Real square = speed * speed, turning = square - 2 * (gravity * far);
+    const bool against = speed < 0;
+    const bool back = against & (turning >= 0) & is_inner_face(ball, axis, -step);
+    const Real distance = back ? far : near;
+    const Real root = sqrt(back ? turning : Real(square + 2 * (gravity * near)));
+    const Real size = against ? Real(-speed) : speed;
+    const bool rises_first = against & !back;  // where root - speed is free of cancellation
+    const Real numerator = rises_first ? Real(root + size) : Real(2 * distance);
+    const Real denominator = rises_first ? gravity : Real(size + root);
+    const bool reached = (back | is_inner_face(ball, axis, step)) & (denominator > 0);
+    keep_earlier(best, reached, numerator / denominator, axis, back ? -step : step);
   }
 
   std::pair<Place, Place> neighbourhood(int ball) const {
@@ -131,37 +151,47 @@ class CellGrid {
   }
 
   /// A cell holds its first balls itself; more than that are rare, and chained.
-  struct Cell {
+  struct alignas(16) Cell {
     static constexpr int inside = 3;
-    int count = 0;
     std::array<int, inside> balls{};
+    int count = 0;  ///< of those inside; `crowded` is added when there are more
   };
+  static constexpr int crowded = 4;
 
-  /// Copies without asking how many there are: a branch for each of 27 mostly empty cells costs more.
+  /// Copies whole cells without asking how full they are: a branch for each of 27 mostly empty ones costs
+  /// more.
   void collect(const Place& low, const Place& high, FoundBalls& found) const {
-    constexpr std::size_t room = 28 * Cell::inside;
+    constexpr std::size_t room = 28 * Cell::inside + 4;
     if (found.balls.size() < room) found.balls.resize(room);
     int* out = found.balls.data();
+    int seen = 0;
     for (int z = low[2]; z <= high[2]; ++z)
       for (int y = low[1]; y <= high[1]; ++y) {
         const Cell* cell = &content_[index({low[0], y, z})];
         for (int x = low[0]; x <= high[0]; ++x, ++cell) {
-          for (int k = 0; k < Cell::inside; ++k) out[k] = cell->balls[k];
-          out += cell->count < Cell::inside ? cell->count : Cell::inside;
-          if (cell->count > Cell::inside) [[unlikely]]
-            out = append_chain(index({x, y, z}), out, found, room);
+          std::memcpy(out, cell, sizeof(Cell));
+          out += cell->count & 3;
+          seen |= cell->count;
         }
       }
     found.count = static_cast<int>(out - found.balls.data());
+    if (seen & crowded) [[unlikely]]
+      append_chains(low, high, found);
   }
 
-  int* append_chain(std::size_t cell, int* out, FoundBalls& found, std::size_t room) const {
-    const auto& chain = overflow_.at(cell);
-    const auto at = static_cast<std::size_t>(out - found.balls.data());
-    if (found.balls.size() < at + chain.size() + room) found.balls.resize(at + chain.size() + room);
-    out = found.balls.data() + at;
-    for (const int ball : chain) *out++ = ball;
-    return out;
+  void append_chains(const Place& low, const Place& high, FoundBalls& found) const {
+    for (int z = low[2]; z <= high[2]; ++z)
+      for (int y = low[1]; y <= high[1]; ++y)
+        for (int x = low[0]; x <= high[0]; ++x) {
+          const auto at = index({x, y, z});
+          if (!(content_[at].count & crowded)) continue;
+          const auto& chain = overflow_.at(at);
+          const auto used = static_cast<std::size_t>(found.count);
+          // The reader rounds the count up to a multiple of four.
+          if (found.balls.size() < used + chain.size() + 4) found.balls.resize(used + chain.size() + 4);
+          std::copy(chain.begin(), chain.end(), found.balls.begin() + found.count);
+          found.count += static_cast<int>(chain.size());
+        }
   }
 
   std::size_t index(const Place& p) const {
@@ -170,28 +200,29 @@ class CellGrid {
   void link(int ball) {
     const auto at = index(place_[ball]);
     Cell& cell = content_[at];
-    if (cell.count < Cell::inside)
-      cell.balls[cell.count] = ball;
-    else
+    if (cell.count < Cell::inside) [[likely]] {
+      cell.balls[cell.count++] = ball;
+    } else {
       overflow_[at].push_back(ball);
-    ++cell.count;
+      cell.count = Cell::inside | crowded;
+    }
   }
   void unlink(int ball) {
     const auto at = index(place_[ball]);
     Cell& cell = content_[at];
     int last;
-    if (cell.count > Cell::inside) {
+    if (cell.count & crowded) [[unlikely]] {
       auto& more = overflow_.at(at);
       last = more.back();
       more.pop_back();
       for (int& other : more)
         if (other == ball) other = last;
+      if (more.empty()) cell.count = Cell::inside;
     } else {
-      last = cell.balls[cell.count - 1];
+      last = cell.balls[--cell.count];
     }
     // What stands beyond `count` is of no account, so no branch is needed for it.
     for (int& other : cell.balls) other = other == ball ? last : other;
-    --cell.count;
   }
 
   Vec3<Real> low_;

@@ -1,4 +1,4 @@
-// The flights of all balls in columns, for asking about one ball and all others at once.
+// Which balls may meet one ball: the pair filter for many flights at once.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace edmill::engine {
 struct PairQuestion {
   dynamics::PairSearch<double>::Seen seen;
   double radius;
-  double now_period, now_offset;  ///< the instant, in the columns' terms
+  Instant<double> now;
   dynamics::PairFilter<double> filter;
 };
 
@@ -23,6 +23,13 @@ struct FlightColumns {
 /// hits[k] becomes 0 where ball k is proven never to meet the one of the question. Compiled for several
 /// instruction sets, all with the same bits since nothing is contracted.
 void mark_candidates(const FlightColumns& flights, const PairQuestion& question, std::vector<double>& hits);
+
+/// Keeps those of `balls` that are not proven never to meet the one of the question, in their order.
+/// @param flights, radii  of all balls
+/// @param balls  room for `count` rounded up to a multiple of four
+/// @return how many were kept. The same bits for several instruction sets, as above.
+int keep_candidates(const dynamics::Flight<double>* flights, const double* radii,
+                    const PairQuestion& question, int* balls, int count);
 
 /// Where cells are of no use this looks at every ball.
 class FlightTable {

@@ -8,59 +8,47 @@ namespace edmill::engine {
 
 template <class Real>
 void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose) {
-  predict_pairs(ball, already_done);
-  predict_crossing(ball);
+  const auto seen = see(ball);
+  predict_pairs(ball, already_done, seen);
+  predict_crossing(ball, seen);
   predict_wall(ball, pose);
   requeue(ball);
 }
 
 template <class Real>
-void Simulation<Real>::predict_pairs(int ball, int already_done) {
+void Simulation<Real>::predict_pairs(int ball, int already_done, const Seen& seen) {
   Agenda& a = agendas_[ball];
   a.pair_count = 0;
   a.forgotten_from = Instant<Real>::never();
-  const auto seen = ladder_.pairs().seen(flights_[ball], now_);
   if (table_) {
     const auto predict = [&](int other) {
       if (other != ball && other != already_done) predict_pair(ball, other, seen);
     };
-    table_->visit_candidates({roughly_seen(ball), radii_[ball], static_cast<double>(now_.period),
-                              static_cast<double>(now_.offset), pair_filter_.filter()},
-                             predict);
+    table_->visit_candidates(question(ball, seen), predict);
   } else {
     grid_.neighbours(ball, near_);
     predict_near(ball, already_done, seen);
   }
 }
 
-/// Predicts contacts with the balls of `near_`. The filter runs over all of them first, without branches.
+/// Predicts contacts with the balls of `near_`.
 template <class Real>
-void Simulation<Real>::predict_near(int ball, int already_done,
-                                    const typename dynamics::PairSearch<Real>::Seen& seen) {
-  int count = 0;
+void Simulation<Real>::predict_near(int ball, int already_done, const Seen& seen) {
   int* near = near_.balls.data();
-  const auto rough = roughly_seen(ball);
-  const auto now = dynamics::instant_cast<double>(now_);
-  const double radius = radii_[ball];
-  for (int k = 0; k < near_.count; ++k) {
-    const int other = near[k];
-    const bool meets = pair_filter_.may_meet(rough, rough_flight(other), now, radius + radii_[other]);
-    near[count] = other;
-    count += meets & (other != ball) & (other != already_done);
-  }
-  for (int k = 0; k < count; ++k) predict_pair(ball, near[k], seen);
+  const int count = keep_candidates(rough_flights(), radii_.data(), question(ball, seen), near, near_.count);
+  for (int k = 0; k < count; ++k)
+    if (near[k] != ball && near[k] != already_done) predict_pair(ball, near[k], seen);
 }
 
 template <class Real>
 void Simulation<Real>::flight_changed(int ball) {
   if constexpr (!std::is_same_v<Real, double>)
     rough_flights_[ball] = dynamics::flight_cast<double>(flights_[ball]);
-  if (table_) table_->set(ball, rough_flight(ball), radii_[ball]);
+  if (table_) table_->set(ball, rough_flights()[ball], radii_[ball]);
 }
 
 template <class Real>
-void Simulation<Real>::predict_pair(int ball, int other,
-                                    const typename dynamics::PairSearch<Real>::Seen& seen) {
+void Simulation<Real>::predict_pair(int ball, int other, const Seen& seen) {
   const Real sum = balls_[ball].radius + radii_[other];
   const auto answer = ladder_.pair(seen, flights_[ball], flights_[other], now_, sum);
   if (answer.verdict == dynamics::Verdict::none) return;
@@ -80,14 +68,14 @@ void Simulation<Real>::predict_pair(int ball, int other,
 }
 
 template <class Real>
-void Simulation<Real>::predict_crossing(int ball) {
+void Simulation<Real>::predict_crossing(int ball, const Seen& seen) {
   if (grid_.single_cell()) return;
   Agenda& a = agendas_[ball];
-  const auto& flight = flights_[ball];
-  const Real age = clock_.elapsed(flight.start, now_);
-  a.crossing = grid_.crossing(ball, dynamics::position_after(flight, mill_.gravity, age),
-                              dynamics::velocity_after(flight, mill_.gravity, age), mill_.gravity);
-  a.crossing_time = a.crossing.happens ? clock_.after(now_, a.crossing.delay) : Instant<Real>::never();
+  const auto crossing = grid_.crossing(
+      ball, seen.position, dynamics::velocity_after(flights_[ball], mill_.gravity, seen.age), mill_.gravity);
+  a.crossing_axis = crossing.axis;
+  a.crossing_step = crossing.step;
+  a.crossing_time = crossing.happens ? clock_.after(now_, crossing.delay) : Instant<Real>::never();
 }
 
 /// How far a wall search from `begin` need look: to the ball's nearest pair contact, after which it is moot.

@@ -89,7 +89,7 @@ class Simulation {
     int wall = -1;                 ///< a wall id, or -1 when `wall_time` only ends what has been searched
     Instant<Real> wall_time;
     [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at `wall_time`
-    Crossing<Real> crossing;
+    int crossing_axis = 0, crossing_step = 0;
     Instant<Real> crossing_time = Instant<Real>::never();
   };
   enum class EventKind { wall_contact, pair_contact, cell_crossing, wall_recheck };
@@ -118,20 +118,27 @@ class Simulation {
   Event settle_ties(Event event);
   dynamics::Contact<Real> contact_of(const Event& event) const;
 
-  void predict_pairs(int ball, int already_done);
+  using Seen = typename dynamics::PairSearch<Real>::Seen;
+  Seen see(int ball) const { return ladder_.pairs().seen(flights_[ball], now_); }
+  void predict_pairs(int ball, int already_done, const Seen& seen);
   void flight_changed(int ball);
-  void predict_near(int ball, int already_done, const typename dynamics::PairSearch<Real>::Seen& seen);
-  const dynamics::Flight<double>& rough_flight(int ball) const {
+  void predict_near(int ball, int already_done, const Seen& seen);
+  const dynamics::Flight<double>* rough_flights() const {
     if constexpr (std::is_same_v<Real, double>)
-      return flights_[ball];
+      return flights_.data();
     else
-      return rough_flights_[ball];
+      return rough_flights_.data();
   }
-  dynamics::PairSearch<double>::Seen roughly_seen(int ball) const {
-    return pair_filter_.seen(rough_flight(ball), dynamics::instant_cast<double>(now_));
+  /// What the pair filter is asked about a ball.
+  PairQuestion question(int ball, const Seen& seen) const {
+    const auto now = dynamics::instant_cast<double>(now_);
+    if constexpr (std::is_same_v<Real, double>)
+      return {seen, radii_[ball], now, pair_filter_.filter()};
+    else
+      return {pair_filter_.seen(rough_flights_[ball], now), radii_[ball], now, pair_filter_.filter()};
   }
-  void predict_pair(int ball, int other, const typename dynamics::PairSearch<Real>::Seen& seen);
-  void predict_crossing(int ball);
+  void predict_pair(int ball, int other, const Seen& seen);
+  void predict_crossing(int ball, const Seen& seen);
   void predict_wall(int ball, const model::VesselPose<Real>& pose);
   void continue_wall_search(int ball);
   Real search_length(int ball, const Instant<Real>& begin) const;

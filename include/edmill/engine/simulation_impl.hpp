@@ -92,10 +92,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
   for (int i = 0; i < ball_count(); ++i) flight_changed(i);
   const auto pose = model::pose_at<Real>(mill_.motion, start.offset);
   for (int i = 0; i < ball_count(); ++i) {
-    predict_pairs(i, -1);
-    predict_crossing(i);
-    predict_wall(i, pose);
-    requeue(i);
+    predict_all(i, -1, pose);
   }
 }
 
@@ -157,19 +154,19 @@ void Simulation<Real>::drop_stale(int ball) {
   Agenda& a = agendas_[ball];
   for (int k = 1; k < a.pair_count; ++k) a.pairs[k - 1] = a.pairs[k];
   --a.pair_count;
-  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) predict_pairs(ball, -1);
+  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) predict_pairs(ball, -1, see(ball));
   requeue(ball);
 }
 
 template <class Real>
 void Simulation<Real>::cross_cell(int ball) {
   ++counts_.cell_crossings;
-  const Crossing<Real> crossing = agendas_[ball].crossing;
-  grid_.move(ball, crossing.axis, crossing.step);
-  const auto seen = ladder_.pairs().seen(flights_[ball], now_);
-  grid_.new_neighbours(ball, crossing.axis, crossing.step, near_);
+  const int axis = agendas_[ball].crossing_axis, step = agendas_[ball].crossing_step;
+  grid_.move(ball, axis, step);
+  const auto seen = see(ball);
+  grid_.new_neighbours(ball, axis, step, near_);
   predict_near(ball, -1, seen);
-  predict_crossing(ball);
+  predict_crossing(ball, seen);
   requeue(ball);
 }
 
