@@ -8,34 +8,38 @@ namespace edmill::engine {
 
 template <class Real>
 void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose) {
-  const auto seen = see(ball);
-  predict_pairs(ball, already_done, seen);
-  predict_crossing(ball, seen);
+  const auto roughly = see_roughly(ball);
+  predict_pairs(ball, already_done, roughly);
+  predict_crossing(ball, roughly);
   predict_wall(ball, pose);
   requeue(ball);
 }
 
 template <class Real>
-void Simulation<Real>::predict_pairs(int ball, int already_done, const Seen& seen) {
+void Simulation<Real>::predict_pairs(int ball, int already_done, const RoughlySeen& roughly) {
   Agenda& a = agendas_[ball];
   a.pair_count = 0;
   a.forgotten_from = Instant<Real>::never();
   if (table_) {
+    const auto& seen = see(ball, roughly);
     const auto predict = [&](int other) {
       if (other != ball && other != already_done) predict_pair(ball, other, seen);
     };
-    table_->visit_candidates(question(ball, seen), predict);
+    table_->visit_candidates(question(ball, roughly), predict);
   } else {
     grid_.neighbours(ball, near_);
-    predict_near(ball, already_done, seen);
+    predict_near(ball, already_done, roughly);
   }
 }
 
 /// Predicts contacts with the balls of `near_`.
 template <class Real>
-void Simulation<Real>::predict_near(int ball, int already_done, const Seen& seen) {
+void Simulation<Real>::predict_near(int ball, int already_done, const RoughlySeen& roughly) {
   int* near = near_.balls.data();
-  const int count = keep_candidates(rough_flights(), radii_.data(), question(ball, seen), near, near_.count);
+  const int count =
+      keep_candidates(rough_flights(), radii_.data(), question(ball, roughly), near, near_.count);
+  if (count == 0) return;
+  const auto& seen = see(ball, roughly);
   for (int k = 0; k < count; ++k)
     if (near[k] != ball && near[k] != already_done) predict_pair(ball, near[k], seen);
 }
@@ -68,14 +72,15 @@ void Simulation<Real>::predict_pair(int ball, int other, const Seen& seen) {
 }
 
 template <class Real>
-void Simulation<Real>::predict_crossing(int ball, const Seen& seen) {
+void Simulation<Real>::predict_crossing(int ball, const RoughlySeen& roughly) {
   if (grid_.single_cell()) return;
   Agenda& a = agendas_[ball];
+  const auto& gravity = pair_filter_.filter().gravity;
   const auto crossing = grid_.crossing(
-      ball, seen.position, dynamics::velocity_after(flights_[ball], mill_.gravity, seen.age), mill_.gravity);
+      ball, roughly.position, dynamics::velocity_after(rough_flights()[ball], gravity, roughly.age), gravity);
   a.crossing_axis = crossing.axis;
   a.crossing_step = crossing.step;
-  a.crossing_time = crossing.happens ? clock_.after(now_, crossing.delay) : Instant<Real>::never();
+  a.crossing_time = crossing.happens ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
 }
 
 /// How far a wall search from `begin` need look: to the ball's nearest pair contact, after which it is moot.

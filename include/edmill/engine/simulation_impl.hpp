@@ -33,8 +33,8 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
 /// The region that the vessel sweeps, cut into cells that hold about one ball but are thicker than the
 /// largest.
 template <class Real>
-CellGrid<Real> make_grid(const model::Mill<Real>& mill,
-                         const std::vector<model::BallProperties<Real>>& balls) {
+CellGrid<double> make_grid(const model::Mill<Real>& mill,
+                           const std::vector<model::BallProperties<Real>>& balls) {
   using std::sqrt;
   const Real &R = mill.vessel.radius, &h = mill.vessel.half_height;
   const Real reach = sqrt(R * R + h * h);
@@ -52,7 +52,8 @@ CellGrid<Real> make_grid(const model::Mill<Real>& mill,
   if (balls.size() <= 32) edge = 4 * sideways;
   const double spacing = 0.45 * std::cbrt(volume / static_cast<double>(balls.size()));
   if (edge < spacing) edge = Real(spacing);
-  return CellGrid<Real>(low, high, edge, static_cast<int>(balls.size()));
+  return CellGrid<double>(vector_cast<double>(low), vector_cast<double>(high), static_cast<double>(edge),
+                          static_cast<int>(balls.size()));
 }
 
 }  // namespace detail
@@ -87,7 +88,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
     flights_.push_back({s.position, s.velocity, start});
     spins_.push_back(s.spin);
   }
-  for (int i = 0; i < ball_count(); ++i) grid_.insert(i, flights_[i].position);
+  for (int i = 0; i < ball_count(); ++i) grid_.insert(i, vector_cast<double>(flights_[i].position));
   if (grid_.single_cell()) table_.emplace(states.size());
   for (int i = 0; i < ball_count(); ++i) flight_changed(i);
   const auto pose = model::pose_at<Real>(mill_.motion, start.offset);
@@ -154,7 +155,8 @@ void Simulation<Real>::drop_stale(int ball) {
   Agenda& a = agendas_[ball];
   for (int k = 1; k < a.pair_count; ++k) a.pairs[k - 1] = a.pairs[k];
   --a.pair_count;
-  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) predict_pairs(ball, -1, see(ball));
+  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never())
+    predict_pairs(ball, -1, see_roughly(ball));
   requeue(ball);
 }
 
@@ -163,10 +165,10 @@ void Simulation<Real>::cross_cell(int ball) {
   ++counts_.cell_crossings;
   const int axis = agendas_[ball].crossing_axis, step = agendas_[ball].crossing_step;
   grid_.move(ball, axis, step);
-  const auto seen = see(ball);
+  const auto roughly = see_roughly(ball);
   grid_.new_neighbours(ball, axis, step, near_);
-  predict_near(ball, -1, seen);
-  predict_crossing(ball, seen);
+  predict_near(ball, -1, roughly);
+  predict_crossing(ball, roughly);
   requeue(ball);
 }
 
