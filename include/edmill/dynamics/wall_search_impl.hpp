@@ -110,7 +110,8 @@ RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
 }
 
 /// The wide gap is evaluated at the rough root, an error of double away from the root, so that one step of
-/// Newton's iteration with the curvature as double knows it is good for three times the digits of double.
+/// Newton's iteration with the curvature as double knows it gives nearly three times the digits of double.
+/// That the place found belongs to the root needs no second sign: the gap falls all along the bracket.
 template <class Real>
 WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query) const {
   if constexpr (!is_wide) {
@@ -131,8 +132,9 @@ WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query
     if (rough.verdict != Verdict::contact) return {Verdict::undecided};
 
     const Functions functions(constants_, query.flight, query.radius, query.begin.period);
-    const double narrowing = static_cast<double>(epsilon<Real>()) / epsilon<double>();
-    const double ulp = narrowing * epsilon<double>() * rough_.constants().clock.period();
+    const double unit = static_cast<double>(epsilon<Real>());
+    const double ulp = unit * rough_.constants().clock.period();
+    const double error = rough.error * (unit / epsilon<double>());  // bounds are proportional to it
     // The bound on the rounding of a gap is several times what it usually is: aim before the root by parts of
     // it, for the event time is where the computed gap is not negative.
     double part = 1.0 / 16;
@@ -145,7 +147,7 @@ WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query
       const double flatness = static_cast<double>(slope);
       if (!(flatness < 0)) break;
       const Real newton = -value / slope;
-      const double size = static_cast<double>(newton), doubt = -rough.error * narrowing / flatness;
+      const double size = static_cast<double>(newton), doubt = -error / flatness;
       if (size <= doubt + 4 * ulp && size >= -(doubt + 4 * ulp)) {
         if (value >= 0)
           return {
