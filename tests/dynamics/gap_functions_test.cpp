@@ -71,6 +71,56 @@ TEST(GapFunctions, RoundingErrorsStayBelowTheirBounds) {
   EXPECT_GT(worst_gap, 0.02);
 }
 
+TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
+  const auto wide_mill = testing::spex_mill<mpfr50>();
+  const auto mill = model::mill_cast<double>(wide_mill);
+  const GapFunctions<double>::Constants constants(mill);
+  const GapFunctions<mpfr50>::Constants wide_constants(wide_mill);
+  setup::Random random(23);
+  double worst_gap = 0, worst_rate = 0;
+  for (int k = 0; k < 50000; ++k) {
+    const RandomFlight r(random, mill, 10);
+    // Digits below those of double, anywhere up to half a unit in the last place.
+    const auto more = [&](double x) {
+      return mpfr50(x) * (1 + mpfr50(random.symmetric<double>()) * 0x1p-54);
+    };
+    auto wide = flight_cast<mpfr50>(r.flight);
+    for (int n = 0; n < 3; ++n) {
+      wide.position[n] = more(r.flight.position[n]);
+      wide.velocity[n] = more(r.flight.velocity[n]);
+    }
+    wide.start.offset = more(r.flight.start.offset);
+    const mpfr50 radius = more(r.radius);
+    const GapFunctions<double> narrow(constants, flight_cast<double>(wide), static_cast<double>(radius),
+                                      r.period);
+    const GapFunctions<mpfr50> exact(wide_constants, wide, radius, r.period);
+    const auto found = narrow(r.offset);
+    const auto truth = exact(mpfr50(r.offset));
+    const double elapsed = narrow.elapsed(r.offset);
+    const double speed = norm<double>(r.flight.velocity) + constants.gravity * elapsed;
+    const auto own = narrow.errors(elapsed, speed), state = narrow.state_errors(elapsed, speed);
+    const auto bound = own + state;
+    // What the state alone does, in 50 digits.
+    const GapFunctions<mpfr50>::Constants rounded_constants(model::mill_cast<mpfr50>(mill));
+    const auto moved = GapFunctions<mpfr50>(rounded_constants, flight_cast<mpfr50>(flight_cast<double>(wide)),
+                                            mpfr50(static_cast<double>(radius)), r.period)(mpfr50(r.offset));
+    const auto part = [](const mpfr50& a, const mpfr50& b, double limit) {
+      return static_cast<double>(abs(a - b)) / limit;
+    };
+    for (int w = 0; w < model::wall_count; ++w) {
+      EXPECT_LT(part(mpfr50(found.gap[w]), truth.gap[w], bound.gap[w]), 1);
+      EXPECT_LT(part(mpfr50(found.rate[w]), truth.rate[w], bound.rate[w]), 1);
+      worst_gap = std::max(worst_gap, part(moved.gap[w], truth.gap[w], state.gap[w]));
+      worst_rate = std::max(worst_rate, part(moved.rate[w], truth.rate[w], state.rate[w]));
+    }
+  }
+  std::cout << "largest error of a rounded state over its bound: gap " << worst_gap << ", rate " << worst_rate
+            << "\n";
+  EXPECT_LT(worst_gap, 1);
+  EXPECT_LT(worst_rate, 1);
+  EXPECT_GT(worst_gap, 0.02);
+}
+
 /// Central differences of the gap in 50 digits.
 std::array<mpfr50, 3> derivatives(const GapFunctions<mpfr50>& f, const mpfr50& t, int wall) {
   const mpfr50 h("1e-8");

@@ -287,22 +287,32 @@ WallAnswer<Real> over_window(Decide&& decide, WallQuery<Real> query, const Real&
   }
 }
 
-/// Asks the ladder and the oracle and compares.
+/// Asks the ladder of a scalar and the oracle and compares.
+template <class Real>
 class Comparison {
  public:
-  explicit Comparison(const model::Mill<double>& mill) : mill_(mill), ladder_(mill, 0.00236, 12.0) {}
+  explicit Comparison(const model::Mill<double>& mill)
+      : mill_(mill), ladder_(widened<Real>(mill), Real(0.00236), Real(12)) {}
 
-  double longest_window() const { return ladder_.walls().longest_window(); }
+  double longest_window() const { return static_cast<double>(ladder_.walls().longest_window()); }
 
   void operator()(const WallQuery<double>& query, Tally& tally) {
     using Clock = std::chrono::steady_clock;
     ++tally.states;
-    const auto before = ladder_.escalations();
+    const auto before = passed_up();
     WallAnswer<double> answer;
+    bool by_double = true;  // every part of the window
     const auto start = Clock::now();
     try {
-      answer = over_window([&](const WallQuery<double>& q) { return ladder_.wall(q); }, query,
-                           mill_.motion.period);
+      const auto wide = over_window(
+          [&](const WallQuery<Real>& q) {
+            if constexpr (!std::is_same_v<Real, double>)
+              by_double &= ladder_.walls().search_by_double(q).verdict != Verdict::undecided;
+            return ladder_.wall(q);
+          },
+          widened<Real>(query), Real(mill_.motion.period));
+      answer = {wide.verdict, wide.wall, instant_cast<double>(wide.time)};
+      if (by_double && wide.verdict == Verdict::contact) expect_polished(query, wide);
     } catch (const std::exception& error) {
       ++tally.thrown;
       complain("threw " + std::string(error.what()), query, answer, {});
@@ -313,16 +323,44 @@ class Comparison {
     const auto told = Clock::now();
     search_seconds += std::chrono::duration<double>(asked - start).count();
     oracle_seconds += std::chrono::duration<double>(told - asked).count();
-    const auto after = ladder_.escalations();
-    ++(after[1].wall > before[1].wall   ? tally.by_mpfr50
-       : after[0].wall > before[0].wall ? tally.by_float128
-                                        : tally.by_double);
+    const auto after = passed_up();
+    ++(after.second > before.second || (std::is_same_v<Real, mpfr50> && !by_double) ? tally.by_mpfr50
+       : after.first > before.first || !by_double                                   ? tally.by_float128
+                                                                                    : tally.by_double);
     judge(query, answer, contacts, tally);
   }
 
   double search_seconds = 0, oracle_seconds = 0;
 
  private:
+  /// How many walls were passed up to float128 and to mpfr50.
+  std::pair<std::uint64_t, std::uint64_t> passed_up() const {
+    std::pair<std::uint64_t, std::uint64_t> counts{0, 0};
+    for (const auto& row : ladder_.escalations())
+      (row.scalar == "mpfr50" ? counts.second : counts.first) = row.wall;
+    return counts;
+  }
+
+  /// A wide scalar's root is its own to the last digit: in 50 digits the gap there is zero within its
+  /// rounding.
+  void expect_polished(const WallQuery<double>& query, const WallAnswer<Real>& answer) {
+    if constexpr (!std::is_same_v<Real, double>) {
+      const GapFunctions<mpfr50>::Constants constants(widened<mpfr50>(mill_));
+      const GapFunctions<mpfr50> exact(constants, flight_cast<mpfr50>(query.flight), mpfr50(query.radius),
+                                       answer.time.period);
+      const GapFunctions<Real> own(ladder_.walls().constants(), flight_cast<Real>(query.flight),
+                                   Real(query.radius), answer.time.period);
+      const Real elapsed = own.elapsed(answer.time.offset);
+      const Real speed = norm<Real>(flight_cast<Real>(query.flight).velocity) +
+                         ladder_.walls().constants().gravity * elapsed;
+      const auto sample = exact(mpfr50(answer.time.offset));
+      const mpfr50 error(own.errors(elapsed, speed).gap[answer.wall]);
+      const mpfr50 ulps(8 * epsilon<Real>() * ladder_.walls().constants().clock.period());
+      EXPECT_LE(abs(sample.gap[answer.wall]), 3 * error + abs(sample.rate[answer.wall]) * ulps)
+          << text(mill_, query);
+    }
+  }
+
   /// begin + length is rounded in double: a contact this close to the end may be told or not.
   double end_slack() const { return 8 * epsilon<double>() * mill_.motion.period; }
 
@@ -422,7 +460,7 @@ class Comparison {
   }
 
   model::Mill<double> mill_;
-  DecisionLadder<double> ladder_;
+  DecisionLadder<Real> ladder_;
   int complaints_ = 0;
 };
 
@@ -453,7 +491,7 @@ TEST(WallSearch, AgreesWithAnIndependentSolverOnAdversarialStates) {
   const long count = wanted_states();
   std::cout << "seed " << seed << ", " << count << " states\n";
   const auto mill = testing::spex_mill<double>();
-  Comparison compare(mill);
+  Comparison<double> compare(mill);
   const StateMaker make(mill, compare.longest_window());
   Draw draw(seed);
   std::map<std::string, Tally> tallies;
@@ -464,36 +502,6 @@ TEST(WallSearch, AgreesWithAnIndependentSolverOnAdversarialStates) {
   }
   print(tallies);
   std::cout << "search " << compare.search_seconds << " s, oracle " << compare.oracle_seconds << " s\n";
-  long bad = 0;
-  for (const auto& [name, tally] : tallies) bad += tally.bad();
-  EXPECT_EQ(bad, 0);
-}
-
-TEST(WallSearch, AgreesWithAnIndependentSolverInOtherMills) {
-  constexpr std::uint64_t seed = 20110102;
-  const long each = std::max<long>(wanted_states() / 500, 64);
-  std::cout << "seed " << seed << ", 24 mills of " << each << " states\n";
-  Draw draw(seed);
-  std::map<std::string, Tally> tallies;
-  for (int m = 0; m < 24; ++m) {
-    auto mill = testing::spex_mill<double>();
-    const bool still = m % 4 == 0, weightless = m % 3 == 0;
-    mill.motion = {draw.chance(0.2) ? 0.0 : draw.uniform(0.02, 0.2), still ? 0.0 : draw.uniform(0.01, 0.8),
-                   still || draw.chance(0.2) ? 0.0 : draw.uniform(0.01, 0.6), draw.log_uniform(0.02, 0.5)};
-    mill.vessel = {draw.uniform(0.01, 0.05), draw.uniform(0.01, 0.05)};
-    mill.gravity = {draw.uniform(-10, 10), draw.uniform(-10, 10), draw.uniform(-10, 10)};
-    if (weightless) mill.gravity = {0.0, 0.0, 0.0};
-    Comparison compare(mill);
-    const StateMaker make(mill, compare.longest_window());
-    for (long k = 0; k < each; ++k) {
-      Kind kind = all_kinds[k % std::size(all_kinds)];
-      // Without acceleration no path from inside turns back at a wall.
-      if (still && weightless && (kind == Kind::grazing || kind == Kind::dipping)) kind = Kind::anywhere;
-      compare(make(draw, kind, draw.chance(0.25)),
-              tallies[std::string(still ? "still" : "driven") + (weightless ? ", weightless" : "")]);
-    }
-  }
-  print(tallies);
   long bad = 0;
   for (const auto& [name, tally] : tallies) bad += tally.bad();
   EXPECT_EQ(bad, 0);
@@ -528,6 +536,157 @@ WallQuery<double> grazing_query(double distance) {
   auto query = query_of({-distance, 0, 0}, {0.5, 0, 0}, 1.0 / 16);
   query.begin.offset = 1.0 / 32;
   return query;
+}
+
+template <class Real>
+class WideWallSearch : public ::testing::Test {};
+using WideScalars = ::testing::Types<float128, mpfr50>;
+TYPED_TEST_SUITE(WideWallSearch, WideScalars);
+
+TYPED_TEST(WideWallSearch, AgreesWithAnIndependentSolver) {
+  constexpr std::uint64_t seed = 20110104;
+  const long count = wanted_states() / 10;
+  std::cout << "seed " << seed << ", " << count << " states\n";
+  const auto mill = testing::spex_mill<double>();
+  Comparison<TypeParam> compare(mill);
+  const StateMaker make(mill, compare.longest_window());
+  Draw draw(seed);
+  std::map<std::string, Tally> tallies;
+  for (long k = 0; k < count; ++k) {
+    const Kind kind = all_kinds[k % std::size(all_kinds)];
+    compare(make(draw, kind, draw.chance(0.25)), tallies[name(kind)]);
+  }
+  print(tallies);
+  long bad = 0;
+  for (const auto& [name, tally] : tallies) bad += tally.bad();
+  EXPECT_EQ(bad, 0);
+  // Double is to decide nearly all that is not made to be undecidable in it.
+  for (const auto kind : {Kind::near, Kind::seam, Kind::axis, Kind::anywhere})
+    EXPECT_GT(tallies[name(kind)].by_double, tallies[name(kind)].states * 9 / 10) << name(kind);
+}
+
+/// States with digits below those of double, in a mill with such digits.
+template <class Real>
+WallQuery<Real> with_more_digits(Draw& draw, const WallQuery<double>& q) {
+  auto wide = widened<Real>(q);
+  const auto more = [&](const Real& x) { return Real(x * (1 + Real(draw.symmetric()) * Real(0x1p-53))); };
+  for (int k = 0; k < 3; ++k) {
+    wide.flight.position[k] = more(wide.flight.position[k]);
+    wide.flight.velocity[k] = more(wide.flight.velocity[k]);
+  }
+  const bool at_start = q.begin == q.flight.start;
+  wide.begin.offset = more(wide.begin.offset);
+  if (at_start)
+    wide.flight.start = wide.begin;
+  else if (wide.flight.start.period < wide.begin.period)
+    wide.flight.start.offset = more(wide.flight.start.offset);
+  wide.radius = more(wide.radius);
+  return wide;
+}
+
+TYPED_TEST(WideWallSearch, InDoubleFirstDecidesAsTheFullSearch) {
+  using Real = TypeParam;
+  const WallSearch<Real> walls(testing::spex_mill<Real>());
+  const auto& clock = walls.constants().clock;
+  StateMaker make(testing::spex_mill<double>(), static_cast<double>(walls.longest_window()));
+  Draw draw(20110105);
+  const Real ulp = epsilon<Real>() * clock.period();
+  std::map<std::string, std::array<long, 3>> counts;  // states, decided in double, contacts
+  Real worst(0);
+  for (long k = 0; k < wanted_states() / 5; ++k) {
+    const Kind kind = all_kinds[k % std::size(all_kinds)];
+    const auto query = with_more_digits<Real>(draw, make(draw, kind, draw.chance(0.25)));
+    const auto first = walls.search_by_double(query);
+    auto& count = counts[name(kind)];
+    ++count[0];
+    if (first.verdict == Verdict::undecided) continue;
+    ++count[1];
+    if (first.verdict == Verdict::none) {
+      auto shorter = query;
+      if (first.searched < query.length) shorter.length = first.searched;
+      const auto full =
+          over_window([&](const WallQuery<Real>& q) { return walls.search(q); }, shorter, clock.period());
+      EXPECT_EQ(full.verdict, Verdict::none) << name(kind) << " " << k;
+      continue;
+    }
+    ++count[2];
+    // The window of the search in double is longer by some roundings.
+    auto longer = query;
+    longer.length += Real(8 * epsilon<double>()) * (query.begin.offset + query.length);
+    const auto full =
+        over_window([&](const WallQuery<Real>& q) { return walls.search(q); }, longer, clock.period());
+    ASSERT_EQ(full.verdict, Verdict::contact) << name(kind) << " " << k;
+    EXPECT_EQ(full.wall, first.wall) << name(kind) << " " << k;
+    // The bound on the rounding is several times what it usually is: a quarter of it, and some ulps.
+    const Real apart = abs(clock.elapsed(first.time, full.time));
+    const Real allowed = (first.doubt > full.doubt ? first.doubt : full.doubt) / 4 + 8 * ulp;
+    if (apart / allowed > worst) worst = apart / allowed;
+    EXPECT_LE(apart, allowed) << name(kind) << " " << k;
+    ASSERT_TRUE(first.pose.has_value());
+    const auto pose = model::pose_at<Real>(walls.constants().mill.motion, first.time.offset);
+    EXPECT_LE(abs(first.pose->sin_alpha - pose.sin_alpha), 16 * epsilon<Real>());
+    EXPECT_LE(abs(first.pose->cos_gamma - pose.cos_gamma), 16 * epsilon<Real>());
+  }
+  for (const auto& [name, count] : counts)
+    std::cout << std::left << std::setw(42) << name << std::right << std::setw(9) << count[0] << " states, "
+              << std::setw(9) << count[1] << " decided in double, " << std::setw(9) << count[2]
+              << " contacts\n";
+  std::cout << "largest difference of times over what is allowed: " << static_cast<double>(worst) << "\n";
+}
+
+TYPED_TEST(WideWallSearch, GrazingAndTouchingStatesAreLeftToTheWideSearch) {
+  using Real = TypeParam;
+  const WallSearch<Real> graze(still_mill<Real>(grazing_gravity));
+  for (const double d : {0x1p-57, -0x1p-57, 0x1p-120, -0x1p-120}) {
+    const auto query = widened<Real>(grazing_query(d));
+    EXPECT_EQ(graze.search_by_double(query).verdict, Verdict::undecided);
+    EXPECT_EQ(graze(query).verdict, graze.search(query).verdict);
+  }
+  EXPECT_EQ(graze.search_by_double(widened<Real>(grazing_query(0x1p-30))).verdict, Verdict::none);
+  EXPECT_EQ(graze.search_by_double(widened<Real>(grazing_query(-0x1p-30))).verdict, Verdict::contact);
+
+  // On a cap and approaching, overlapped or not, and two walls at one time.
+  const WallSearch<Real> still(still_mill<Real>({0, 0, 0}));
+  for (const double overlap : {0.0, 0x1p-58, -0x1p-58}) {
+    const auto query = widened<Real>(query_of({1.0 / 64 + overlap, 0, 0}, {1e-3, 0, 0}, 0.1));
+    EXPECT_EQ(still.search_by_double(query).verdict, Verdict::undecided);
+    const auto hit = still(query);
+    EXPECT_EQ(hit.verdict, Verdict::contact);
+    EXPECT_EQ(hit.wall, 0);
+    EXPECT_NEAR(static_cast<double>(hit.time.offset), overlap < 0 ? -overlap / 1e-3 : 0.0, 1e-25);
+  }
+  const auto corner = widened<Real>(query_of({0, 0, 1.0 / 64}, {0.5, 0, 0.5}, 0.0625));
+  EXPECT_EQ(still.search_by_double(corner).verdict, Verdict::undecided);
+}
+
+TEST(WallSearch, AgreesWithAnIndependentSolverInOtherMills) {
+  constexpr std::uint64_t seed = 20110102;
+  const long each = std::max<long>(wanted_states() / 500, 64);
+  std::cout << "seed " << seed << ", 24 mills of " << each << " states\n";
+  Draw draw(seed);
+  std::map<std::string, Tally> tallies;
+  for (int m = 0; m < 24; ++m) {
+    auto mill = testing::spex_mill<double>();
+    const bool still = m % 4 == 0, weightless = m % 3 == 0;
+    mill.motion = {draw.chance(0.2) ? 0.0 : draw.uniform(0.02, 0.2), still ? 0.0 : draw.uniform(0.01, 0.8),
+                   still || draw.chance(0.2) ? 0.0 : draw.uniform(0.01, 0.6), draw.log_uniform(0.02, 0.5)};
+    mill.vessel = {draw.uniform(0.01, 0.05), draw.uniform(0.01, 0.05)};
+    mill.gravity = {draw.uniform(-10, 10), draw.uniform(-10, 10), draw.uniform(-10, 10)};
+    if (weightless) mill.gravity = {0.0, 0.0, 0.0};
+    Comparison<double> compare(mill);
+    const StateMaker make(mill, compare.longest_window());
+    for (long k = 0; k < each; ++k) {
+      Kind kind = all_kinds[k % std::size(all_kinds)];
+      // Without acceleration no path from inside turns back at a wall.
+      if (still && weightless && (kind == Kind::grazing || kind == Kind::dipping)) kind = Kind::anywhere;
+      compare(make(draw, kind, draw.chance(0.25)),
+              tallies[std::string(still ? "still" : "driven") + (weightless ? ", weightless" : "")]);
+    }
+  }
+  print(tallies);
+  long bad = 0;
+  for (const auto& [name, tally] : tallies) bad += tally.bad();
+  EXPECT_EQ(bad, 0);
 }
 
 template <class Real>

@@ -81,5 +81,25 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
   EXPECT_LT(worst, mpfr50("1e-28"));
 }
 
+/// Radii that no scalar holds exactly: whatever took a value through a narrower one would leave its mark at
+/// the contacts.
+template <class Real>
+Real deepest_overlap(double end) {
+  const auto built = setup::build_case<Real>(testing::demo_spec());
+  Simulation<Real> simulation(built.the_case, built.states, built.start);
+  simulation.run_until(simulation.clock().at(Real(end)));
+  EXPECT_GT(simulation.counts().impacts, 1000u);
+  return simulation.counts().deepest_overlap;
+}
+
+TEST(Precisions, OverlapsAreOfTheRoundingOfTheScalar) {
+  const float128 quad = deepest_overlap<float128>(0.1);
+  const mpfr50 wide = deepest_overlap<mpfr50>(0.1);
+  std::cout << "deepest overlap: float128 " << to_text(quad) << " m, mpfr50 " << to_text(wide) << " m\n";
+  // 1 m stands for the reach of the mill, 16 roundings of it for a contact.
+  EXPECT_LT(quad, 16 * epsilon<float128>());
+  EXPECT_LT(wide, 16 * epsilon<mpfr50>());
+}
+
 }  // namespace
 }  // namespace edmill::engine

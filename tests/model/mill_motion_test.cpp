@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "edmill/instances.hpp"
+#include "edmill/model/nearby_pose.hpp"
 #include "random_physics.hpp"
 #include "spex_case.hpp"
 
@@ -44,6 +45,38 @@ TEST(MillMotion, WallVelocityIsTheDerivativeOfTheWallPosition) {
     const auto found = wall_velocity<mpfr50>(pose_at<mpfr50>(spex(), t), spex().arm, wall_point(t, p));
     RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(found - expected)) < mpfr50("1e-30"));
   }));
+}
+
+template <class Real>
+void expect_nearby_poses_agree() {
+  const auto motion = testing::spex_mill<Real>().motion;
+  const Real speed = motion.angular_speed(), frequency = 1 / motion.period;
+  EXPECT_TRUE(rc::check([&] {
+    const Real t = draw<Real>(Real(0), motion.period);
+    // From far below the longest turn to beyond it.
+    const int exponent = *rc::gen::inRange(20, 60);
+    const Real later = t + draw<Real>(Real(-1), Real(1)) * Real(std::ldexp(1.0, -exponent)) / speed;
+    const auto known = pose_at<Real>(motion, speed, frequency, t);
+    const auto found = pose_nearby<Real>(motion, speed, frequency, later, known, t);
+    const auto direct = pose_at<Real>(motion, speed, frequency, later);
+    const Real allowed = 16 * epsilon<Real>();
+    const auto close = [&](const Real& a, const Real& b, const Real& unit) {
+      return abs(a - b) <= allowed * unit;
+    };
+    RC_ASSERT(close(found.sin_alpha, direct.sin_alpha, Real(1)) &&
+              close(found.cos_alpha, direct.cos_alpha, Real(1)));
+    RC_ASSERT(close(found.sin_gamma, direct.sin_gamma, Real(1)) &&
+              close(found.cos_gamma, direct.cos_gamma, Real(1)));
+    RC_ASSERT(close(found.theta_rate, direct.theta_rate, speed) &&
+              close(found.gamma_rate, direct.gamma_rate, speed));
+    RC_ASSERT(close(found.theta_acceleration, direct.theta_acceleration, speed * speed));
+    RC_ASSERT(close(found.gamma_acceleration, direct.gamma_acceleration, speed * speed));
+  }));
+}
+
+TEST(MillMotion, PosesNearbyAgreeWithPosesFromSines) {
+  expect_nearby_poses_agree<float128>();
+  expect_nearby_poses_agree<mpfr50>();
 }
 
 TEST(MillMotion, WallAccelerationIsTheDerivativeOfTheWallVelocity) {

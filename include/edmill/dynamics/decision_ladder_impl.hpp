@@ -12,21 +12,6 @@ namespace edmill::dynamics {
 
 namespace detail {
 
-template <class To, class From>
-model::ContactLaw<To> law_cast(const model::ContactLaw<From>& law) {
-  return {law.model,        To(law.restitution_normal), To(law.restitution_tangential),
-          To(law.friction), To(law.min_tangential),     To(law.collapse_time)};
-}
-
-template <class To, class From>
-model::Mill<To> mill_cast(const model::Mill<From>& m) {
-  return {{To(m.motion.arm), To(m.motion.theta_max), To(m.motion.gamma_max), To(m.motion.period)},
-          {To(m.vessel.radius), To(m.vessel.half_height)},
-          vector_cast<To>(m.gravity),
-          law_cast<To>(m.ball_ball),
-          law_cast<To>(m.ball_wall)};
-}
-
 template <class Real>
 std::string text(const Flight<Real>& f) {
   std::string out = "flight from (period " + std::to_string(f.start.period) + ", offset " +
@@ -35,19 +20,6 @@ std::string text(const Flight<Real>& f) {
   out += " m, velocity";
   for (int k = 0; k < 3; ++k) out += " " + to_text<Real>(f.velocity[k]);
   return out + " m/s";
-}
-
-/// The latest instant of a narrower scalar that is not after `t`.
-template <class To, class From>
-Instant<To> rounded_down(const Instant<From>& t) {
-  To offset = static_cast<To>(t.offset);
-  if (From(offset) > t.offset) {
-    if constexpr (std::is_same_v<To, double>)
-      offset = std::nextafter(offset, 0.0);
-    else
-      offset -= offset * epsilon<To>();
-  }
-  return {t.period, offset};
 }
 
 }  // namespace detail
@@ -79,7 +51,7 @@ auto DecisionLadder<Real>::above() -> Above& {
   using Wide = typename Above::Wide;
   if (!above_)
     above_.reset(new Above{
-        DecisionLadder<Wide>(detail::mill_cast<Wide>(mill_), Wide(smallest_sum_), Wide(pairs_.top_speed()))});
+        DecisionLadder<Wide>(model::mill_cast<Wide>(mill_), Wide(smallest_sum_), Wide(pairs_.top_speed()))});
   return *above_;
 }
 
@@ -102,7 +74,7 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
     const auto wide =
         above().ladder.wall(WallQuery<Wide>{flight_cast<Wide>(query.flight), Wide(query.radius),
                                             instant_cast<Wide>(query.begin), Wide(query.length)});
-    auto time = detail::rounded_down<Real>(wide.time);
+    auto time = rounded_down<Real>(wide.time);
     if (wide.verdict == Verdict::contact && time < query.begin) time = query.begin;
     Real searched = static_cast<Real>(wide.searched);
     if (Wide(searched) > wide.searched) searched -= searched * epsilon<Real>();

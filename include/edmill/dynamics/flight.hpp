@@ -1,6 +1,8 @@
 // Free flight of a ball between impacts. (2.1)
 #pragma once
 
+#include <type_traits>
+
 #include "edmill/core/instant.hpp"
 #include "edmill/core/scalar.hpp"
 #include "edmill/core/vector.hpp"
@@ -40,6 +42,19 @@ inline void fly_to(Flight<Real>& f, const Vec3<Real>& gravity, const DriveClock<
 template <class To, class From>
 inline Instant<To> instant_cast(const Instant<From>& t) {
   return {t.period, static_cast<To>(t.offset)};
+}
+
+/// The latest instant of a narrower scalar that is not after `t`.
+template <class To, class From>
+inline Instant<To> rounded_down(const Instant<From>& t) {
+  To offset = static_cast<To>(t.offset);
+  if (From(offset) > t.offset) {
+    if constexpr (std::is_same_v<To, double>)
+      offset = std::nextafter(offset, 0.0);
+    else
+      offset -= offset * epsilon<To>();
+  }
+  return {t.period, offset};
 }
 
 template <class To, class From>

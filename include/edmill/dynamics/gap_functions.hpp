@@ -29,6 +29,14 @@ template <class Real>
 struct GapErrors {
   std::array<Real, model::wall_count> gap;
   std::array<Real, model::wall_count> rate;
+
+  friend GapErrors operator+(GapErrors a, const GapErrors& b) {
+    for (int wall = 0; wall < model::wall_count; ++wall) {
+      a.gap[wall] += b.gap[wall];
+      a.rate[wall] += b.rate[wall];
+    }
+    return a;
+  }
 };
 
 /// The gap functions of one flight, over offsets of one drive period.
@@ -71,12 +79,18 @@ class GapFunctions {
   /// Time since the start of the flight [s].
   Real elapsed(const Real& offset) const { return lag_ + (offset - flight_.start.offset); }
 
+  model::VesselPose<Real> pose(const Real& offset) const {
+    return model::pose_at<Real>(c_.mill.motion, c_.angular_speed, c_.frequency, offset);
+  }
+
   Real cap() const { return cap_; }
   Real cylinder() const { return cylinder_; }
 
-  GapSample<Real> operator()(const Real& offset) const {
+  GapSample<Real> operator()(const Real& offset) const { return (*this)(offset, pose(offset)); }
+
+  /// The same where the vessel is known to stand at `pose`.
+  GapSample<Real> operator()(const Real& offset, const model::VesselPose<Real>& pose) const {
     const Real dt = elapsed(offset);
-    const auto pose = model::pose_at<Real>(c_.mill.motion, c_.angular_speed, c_.frequency, offset);
     return sample(offset, model::to_vessel_frame<Real>(pose, c_.mill.motion.arm,
                                                        position_after(flight_, c_.mill.gravity, dt),
                                                        velocity_after(flight_, c_.mill.gravity, dt)));
@@ -94,9 +108,7 @@ class GapFunctions {
     const Real q_second = -2 * ((u[0] * u[0] + p[0] * second[0]) + (u[2] * u[2] + p[2] * second[2]));
     return {sample(offset, state), {second[1], -second[1], q_second}};
   }
-  GapStart<Real> start(const Real& offset) const {
-    return start(offset, model::pose_at<Real>(c_.mill.motion, c_.angular_speed, c_.frequency, offset));
-  }
+  GapStart<Real> start(const Real& offset) const { return start(offset, pose(offset)); }
 
   /// The sample that a state in the vessel frame gives.
   GapSample<Real> sample(const Real& offset, const model::VesselFrameState<Real>& state) const {
@@ -119,6 +131,29 @@ class GapFunctions {
     const Real y = u * (angle * c_.reach + 2 * position);
     const Real y_rate = u * ((angle + 4) * speed + 28 * turning * c_.reach + 2 * turning * position +
                              4 * c_.gravity * elapsed);
+    return spread(u, y, y_rate, speed);
+  }
+
+  /// What rounding a wider flight, radius and mill to this scalar adds to these bounds, at offsets that stand
+  /// for themselves in both. Derivation: docs/theory.md, section 4.
+  GapErrors<Real> state_errors(const Real& elapsed, const Real& speed) const {
+    const Real u = epsilon<Real>() / 2;
+    const Real angle = 9 * c_.amplitudes;
+    const Real lag = lag_ < 0 ? Real(-lag_) : lag_;
+    const Real time = c_.clock.period() + lag;  // ulps of 1 s that the start and the whole periods leave
+    const Real turning = c_.amplitudes * c_.angular_speed;
+    const Real y =
+        u * ((angle + 3) * c_.reach + speed * (elapsed + time) + 2 * (c_.gravity * elapsed * elapsed));
+    const Real y_rate =
+        u * ((angle + 2) * speed + (angle + 10) * turning * c_.reach + c_.gravity * (2 * elapsed + time)) +
+        turning * y;
+    return spread(u, y, y_rate, speed);
+  }
+
+ private:
+  /// Bounds for every wall from those on a position and on a velocity in the vessel frame.
+  GapErrors<Real> spread(const Real& u, const Real& y, const Real& y_rate, const Real& speed) const {
+    const Real turning = c_.amplitudes * c_.angular_speed;
     const Real frame_speed = speed + turning * c_.reach;
     const Real& R = c_.mill.vessel.radius;
     const Real q = 3 * R * y + 4 * u * R * R;
@@ -126,7 +161,6 @@ class GapFunctions {
     return {{y, y, q}, {y_rate, y_rate, q_rate}};
   }
 
- private:
   const Constants& c_;
   Flight<Real> flight_;
   Real cap_, cylinder_;

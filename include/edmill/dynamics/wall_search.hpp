@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limits>
+#include <optional>
+#include <type_traits>
 //
 #include <boost/math/tools/toms748_solve.hpp>
 
@@ -13,6 +15,13 @@ namespace edmill::dynamics {
 
 enum class Verdict { none, contact, undecided };
 
+struct NoPose {};
+
+/// The vessel's pose at a contact goes with the contact in wide scalars, whose sines are dear.
+template <class Real>
+using ContactPose =
+    std::conditional_t<std::is_same_v<Real, double>, NoPose, std::optional<model::VesselPose<Real>>>;
+
 /// The answer of a search over (begin, begin + length]; `none` may hold for a shorter window than was asked.
 template <class Real>
 struct WallAnswer {
@@ -22,6 +31,7 @@ struct WallAnswer {
   bool tie = false;      ///< two walls at one time at the top of the ladder; the lower id was taken
   Real searched{0};      ///< of none: proven from begin for this long [s]
   Real doubt{0};         ///< of a contact: how far off rounding may put its time [s]
+  [[no_unique_address]] ContactPose<Real> pose{};  ///< of a contact, where the search knows it
 };
 
 /// One search: a ball's flight and the window that is asked about.
@@ -33,6 +43,18 @@ struct WallQuery {
   Real length;          ///< [s], at most WallSearch::longest_window()
 };
 
+/// What a search in double proves for a wider flight and mill that were rounded to double. Times are offsets
+/// [s] of the drive period in which the window begins.
+struct RoughAnswer {
+  Verdict verdict = Verdict::undecided;
+  double until = 0;            ///< of none: no contact up to here
+  int wall = -1;               ///< of a contact: nothing is touched before `left`, and
+  double left = 0, right = 0;  ///< the wall's gap falls all the way from `left` to `right`, through zero
+  double root = 0;             ///< about where
+  double curvature = 0;        ///< second derivative of the gap there
+  double error = 0;            ///< bound on the rounding of the gap in double, that of the state left aside
+};
+
 /// Decides for a flight as stored: the first time in the window at which a gap is zero or negative and
 /// falling. A ball that starts within rounding of a wall and leaves it is not in contact until it returns;
 /// one that starts overlapped by rounding and approaches is in contact at once. Equations: theory.md
@@ -40,23 +62,41 @@ struct WallQuery {
 template <class Real>
 class WallSearch {
  public:
-  explicit WallSearch(const model::Mill<Real>& mill) : constants_(mill), bounds_(mill) {}
+  explicit WallSearch(const model::Mill<Real>& mill)
+      : constants_(mill), bounds_(mill), rough_(model::mill_cast<double>(mill)) {}
 
   const Real& longest_window() const { return bounds_.longest_window(); }
 
+  /// In a wide scalar double decides what it can prove for the wide flight too; the rest is searched in full.
   /// @pre the ball is inside the vessel at `begin`, up to rounding
   WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
+    if constexpr (is_wide) {
+      const auto answer = search_by_double(query);
+      if (answer.verdict != Verdict::undecided) return answer;
+    }
+    return search(query);
+  }
+
+  /// The search in this scalar alone.
+  WallAnswer<Real> search(const WallQuery<Real>& query) const {
     const Functions functions(constants_, query.flight, query.radius, query.begin.period);
     return search(functions, functions.start(query.begin.offset), query);
   }
-
   /// The same with the sample at `begin` that the caller has already.
   WallAnswer<Real> search(const GapFunctions<Real>& functions, const GapStart<Real>& first,
                           const WallQuery<Real>& query) const;
 
+  /// The search in double, with only the root found in this scalar; undecided is what double cannot prove.
+  /// It may see, and answer for, a few roundings of double more than the window.
+  WallAnswer<Real> search_by_double(const WallQuery<Real>& query) const;
+
+  /// The search for a wider flight, radius and mill that were rounded to this scalar, which is double.
+  RoughAnswer rough(const WallQuery<Real>& query) const;
+
   const typename GapFunctions<Real>::Constants& constants() const { return constants_; }
 
  private:
+  static constexpr bool is_wide = !std::is_same_v<Real, double>;
   using Functions = GapFunctions<Real>;
   using Point = numerics::Point<Real>;
   using Bounds = numerics::CurveBounds<Real>;
@@ -75,6 +115,10 @@ class WallSearch {
     Point left{}, right{};
   };
 
+  /// With `rounded` every bound covers the rounding of the flight and the mill, and `rough` is filled.
+  template <bool rounded>
+  WallAnswer<Real> first_contact(const Functions& functions, const GapStart<Real>& first,
+                                 const WallQuery<Real>& query, RoughAnswer* rough) const;
   Bracket isolate(const Curve& curve, Point left, const Point& right) const;
   Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
   Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
@@ -90,6 +134,11 @@ class WallSearch {
 
   typename Functions::Constants constants_;
   BoundsTable<Real> bounds_;
+  struct Nothing {
+    explicit Nothing(const model::Mill<double>&) {}
+  };
+  /// Of a wide scalar.
+  [[no_unique_address]] std::conditional_t<is_wide, WallSearch<double>, Nothing> rough_;
 };
 
 }  // namespace edmill::dynamics

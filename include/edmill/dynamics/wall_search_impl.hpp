@@ -6,18 +6,24 @@
 
 #include "edmill/core/errors.hpp"
 #include "edmill/dynamics/wall_search.hpp"
+#include "edmill/model/nearby_pose.hpp"
 
 namespace edmill::dynamics {
 
 template <class Real>
-WallAnswer<Real> WallSearch<Real>::search(const GapFunctions<Real>& functions, const GapStart<Real>& first,
-                                          const WallQuery<Real>& query) const {
+template <bool rounded>
+WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, const GapStart<Real>& first,
+                                                 const WallQuery<Real>& query,
+                                                 [[maybe_unused]] RoughAnswer* rough) const {
   EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
                  "window length out of range");
   const Real begin = query.begin.offset;
   const Vec3<Real> velocity = velocity_after(query.flight, constants_.mill.gravity, functions.elapsed(begin));
   const Real speed = norm<Real>(velocity) + constants_.gravity * query.length;
-  const auto errors = functions.errors(functions.elapsed(begin + query.length), speed);
+  const Real oldest = functions.elapsed(begin + query.length);
+  auto errors = functions.errors(oldest, speed);
+  [[maybe_unused]] const auto own_errors = errors;
+  if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
   const auto curve_of = [&](int wall, const DerivativeBounds<Real>& derivatives) {
     const auto& d = wall == 2 ? derivatives.q : derivatives.y;
     return Curve{functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall]}};
@@ -52,6 +58,8 @@ WallAnswer<Real> WallSearch<Real>::search(const GapFunctions<Real>& functions, c
     const Bracket found = isolate(curve, curve.of(first), curve.of(last));
     if (found.verdict == Verdict::none) continue;
     if (found.verdict == Verdict::undecided) return {Verdict::undecided};
+    // Only a start that is outside for certain makes the bracket hold the wide root too.
+    if (rounded && !(found.left.value > curve.bounds.value_error)) return {Verdict::undecided};
     const Root root = polish(curve, found.left, found.right);
     if (answer.verdict == Verdict::contact) {
       const Real later = root.t - best.t, doubt = root.doubt + best.doubt;
@@ -66,6 +74,8 @@ WallAnswer<Real> WallSearch<Real>::search(const GapFunctions<Real>& functions, c
     best = root;
     answer = {Verdict::contact, wall,      constants_.clock.instant(query.begin.period, root.t), false,
               Real(0),          root.doubt};
+    if constexpr (rounded)
+      *rough = {Verdict::contact, 0, wall, found.left.t, found.right.t, root.t, 0, own_errors.gap[wall]};
     end = root.t + root.doubt;  // later walls are of interest up to here
     if (end > begin + length) end = begin + length;
     const bool more = (wall < 1 && reachable[1]) || (wall < 2 && reachable[2]);
@@ -73,6 +83,86 @@ WallAnswer<Real> WallSearch<Real>::search(const GapFunctions<Real>& functions, c
     last = functions(end);
   }
   return answer;
+}
+
+template <class Real>
+WallAnswer<Real> WallSearch<Real>::search(const GapFunctions<Real>& functions, const GapStart<Real>& first,
+                                          const WallQuery<Real>& query) const {
+  return first_contact<false>(functions, first, query, nullptr);
+}
+
+template <class Real>
+RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
+  if constexpr (is_wide) {
+    return {};
+  } else {
+    const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+    const Real begin = query.begin.offset;
+    RoughAnswer rough;
+    const auto answer = first_contact<true>(functions, functions.start(begin), query, &rough);
+    rough.verdict = answer.verdict;
+    // The sum is rounded, and the window was proven up to its exact or its rounded end.
+    if (answer.verdict == Verdict::none) rough.until = (begin + answer.searched) * (1 - epsilon<Real>());
+    if (answer.verdict == Verdict::contact)
+      rough.curvature = functions.start(rough.root).curvature[rough.wall];
+    return rough;
+  }
+}
+
+/// The wide gap is evaluated at the rough root, an error of double away from the root, so that one step of
+/// Newton's iteration with the curvature as double knows it gives nearly three times the digits of double.
+/// That the place found belongs to the root needs no second sign: the gap falls all along the bracket.
+template <class Real>
+WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query) const {
+  if constexpr (!is_wide) {
+    return search(query);
+  } else {
+    EDMILL_REQUIRE(query.length > 0, "window length out of range");
+    // The window is rounded outwards, so that nothing of it is left to be asked about again.
+    const auto begin_down = rounded_down<double>(query.begin);
+    const double length = static_cast<double>(query.length);
+    const auto rough =
+        rough_.rough({flight_cast<double>(query.flight), static_cast<double>(query.radius), begin_down,
+                      length + 4 * epsilon<double>() * (begin_down.offset + length)});
+    const Real& begin = query.begin.offset;
+    if (rough.verdict == Verdict::none) {
+      const Real searched = Real(rough.until) - begin;
+      if (searched > 0) return {Verdict::none, -1, {}, false, searched, Real(0)};
+    }
+    if (rough.verdict != Verdict::contact) return {Verdict::undecided};
+
+    const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+    const double unit = static_cast<double>(epsilon<Real>());
+    const double ulp = unit * rough_.constants().clock.period();
+    const double error = rough.error * (unit / epsilon<double>());  // bounds are proportional to it
+    // The bound on the rounding of a gap is several times what it usually is: aim before the root by parts of
+    // it, for the event time is where the computed gap is not negative.
+    double part = 1.0 / 16;
+    Real t(rough.root);
+    auto pose = functions.pose(t);
+    for (int step = 0; step < 8; ++step) {
+      if (!(t > begin && t > rough.left && t < rough.right)) break;
+      const auto sample = functions(t, pose);
+      const Real &value = sample.gap[rough.wall], &slope = sample.rate[rough.wall];
+      const double flatness = static_cast<double>(slope);
+      if (!(flatness < 0)) break;
+      const Real newton = -value / slope;
+      const double size = static_cast<double>(newton), doubt = -error / flatness;
+      if (size <= doubt + 4 * ulp && size >= -(doubt + 4 * ulp)) {
+        if (value >= 0)
+          return {
+              Verdict::contact, rough.wall, constants_.clock.instant(query.begin.period, t), false, Real(0),
+              Real(doubt),      pose};
+        part = 4 * part;
+      }
+      const Real next =
+          t + newton - Real(rough.curvature * (size * size) / (2 * flatness) + (2 * ulp + part * doubt));
+      pose = model::pose_nearby<Real>(constants_.mill.motion, constants_.angular_speed, constants_.frequency,
+                                      next, pose, t);
+      t = next;
+    }
+    return {Verdict::undecided};
+  }
 }
 
 template <class Real>

@@ -8,34 +8,38 @@ namespace edmill::engine {
 
 template <class Real>
 void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose) {
-  const auto seen = see(ball);
-  predict_pairs(ball, already_done, seen);
-  predict_crossing(ball, seen);
+  const auto roughly = see_roughly(ball);
+  predict_pairs(ball, already_done, roughly);
+  predict_crossing(ball, roughly);
   predict_wall(ball, pose);
   requeue(ball);
 }
 
 template <class Real>
-void Simulation<Real>::predict_pairs(int ball, int already_done, const Seen& seen) {
+void Simulation<Real>::predict_pairs(int ball, int already_done, const RoughlySeen& roughly) {
   Agenda& a = agendas_[ball];
   a.pair_count = 0;
   a.forgotten_from = Instant<Real>::never();
   if (table_) {
+    const auto& seen = see(ball, roughly);
     const auto predict = [&](int other) {
       if (other != ball && other != already_done) predict_pair(ball, other, seen);
     };
-    table_->visit_candidates(question(ball, seen), predict);
+    table_->visit_candidates(question(ball, roughly), predict);
   } else {
     grid_.neighbours(ball, near_);
-    predict_near(ball, already_done, seen);
+    predict_near(ball, already_done, roughly);
   }
 }
 
 /// Predicts contacts with the balls of `near_`.
 template <class Real>
-void Simulation<Real>::predict_near(int ball, int already_done, const Seen& seen) {
+void Simulation<Real>::predict_near(int ball, int already_done, const RoughlySeen& roughly) {
   int* near = near_.balls.data();
-  const int count = keep_candidates(rough_flights(), radii_.data(), question(ball, seen), near, near_.count);
+  const int count =
+      keep_candidates(rough_flights(), radii_.data(), question(ball, roughly), near, near_.count);
+  if (count == 0) return;
+  const auto& seen = see(ball, roughly);
   for (int k = 0; k < count; ++k)
     if (near[k] != ball && near[k] != already_done) predict_pair(ball, near[k], seen);
 }
@@ -49,7 +53,7 @@ void Simulation<Real>::flight_changed(int ball) {
 
 template <class Real>
 void Simulation<Real>::predict_pair(int ball, int other, const Seen& seen) {
-  const Real sum = balls_[ball].radius + radii_[other];
+  const Real sum = balls_[ball].radius + balls_[other].radius;
   const auto answer = ladder_.pair(seen, flights_[ball], flights_[other], now_, sum);
   if (answer.verdict == dynamics::Verdict::none) return;
   Agenda& a = agendas_[ball];
@@ -68,14 +72,15 @@ void Simulation<Real>::predict_pair(int ball, int other, const Seen& seen) {
 }
 
 template <class Real>
-void Simulation<Real>::predict_crossing(int ball, const Seen& seen) {
+void Simulation<Real>::predict_crossing(int ball, const RoughlySeen& roughly) {
   if (grid_.single_cell()) return;
   Agenda& a = agendas_[ball];
+  const auto& gravity = pair_filter_.filter().gravity;
   const auto crossing = grid_.crossing(
-      ball, seen.position, dynamics::velocity_after(flights_[ball], mill_.gravity, seen.age), mill_.gravity);
+      ball, roughly.position, dynamics::velocity_after(rough_flights()[ball], gravity, roughly.age), gravity);
   a.crossing_axis = static_cast<std::int8_t>(crossing.axis);
   a.crossing_step = static_cast<std::int8_t>(crossing.step);
-  a.crossing_time = crossing.happens ? clock_.after(now_, crossing.delay) : Instant<Real>::never();
+  a.crossing_time = crossing.happens ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
 }
 
 /// How far a wall search from `begin` need look: to the ball's nearest pair contact, after which it is moot.
@@ -95,10 +100,14 @@ void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pos
   ++counts_.wall_searches;
   const Real length = search_length(ball, now_);
   const auto& flight = flights_[ball];
-  const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, balls_[ball].radius,
-                                               now_.period);
-  const auto first = functions.start(now_.offset, pose);
-  take_wall_answer(ball, ladder_.wall(functions, first, {flight, balls_[ball].radius, now_, length}), now_);
+  const dynamics::WallQuery<Real> query{flight, balls_[ball].radius, now_, length};
+  if constexpr (std::is_same_v<Real, double>) {
+    const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, query.radius,
+                                                 now_.period);
+    take_wall_answer(ball, ladder_.wall(functions, functions.start(now_.offset, pose), query), now_);
+  } else {
+    take_wall_answer(ball, ladder_.wall(query), now_);  // which begins in double
+  }
 }
 
 template <class Real>
@@ -116,6 +125,7 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
   if (answer.verdict == dynamics::Verdict::contact) {
     a.wall = static_cast<std::int8_t>(answer.wall);
     a.wall_time = answer.time;
+    a.wall_pose = answer.pose;
     if (answer.tie) ++counts_.simultaneous_contacts;
   } else {
     a.wall = -1;

@@ -84,6 +84,7 @@ class Simulation {
   struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
     static constexpr int capacity = 3;
     Instant<Real> wall_time;
+    [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at `wall_time`
     Instant<Real> crossing_time = Instant<Real>::never();
     std::array<Candidate, capacity> pairs;
     Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
@@ -109,6 +110,8 @@ class Simulation {
   void drop_stale(int ball);
   void cross_cell(int ball);
   void collide_with_wall(int ball, int wall);
+  model::VesselPose<Real> pose_now() const;
+  model::VesselPose<Real> pose_at_wall_contact(int ball) const;
   void collide_pair(int ball, int partner);
   void after_impact(Impact<Real>& impact);
   void note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall, int partner);
@@ -116,10 +119,20 @@ class Simulation {
   dynamics::Contact<Real> contact_of(const Event& event) const;
 
   using Seen = typename dynamics::PairSearch<Real>::Seen;
-  Seen see(int ball) const { return ladder_.pairs().seen(flights_[ball], now_); }
-  void predict_pairs(int ball, int already_done, const Seen& seen);
+  using RoughlySeen = dynamics::PairSearch<double>::Seen;
+  RoughlySeen see_roughly(int ball) const {
+    return pair_filter_.seen(rough_flights()[ball], dynamics::instant_cast<double>(now_));
+  }
+  /// In the scalar itself, where a look in double has found something.
+  decltype(auto) see(int ball, const RoughlySeen& roughly) const {
+    if constexpr (std::is_same_v<Real, double>)
+      return (roughly);
+    else
+      return ladder_.pairs().seen(flights_[ball], now_);
+  }
+  void predict_pairs(int ball, int already_done, const RoughlySeen& roughly);
   void flight_changed(int ball);
-  void predict_near(int ball, int already_done, const Seen& seen);
+  void predict_near(int ball, int already_done, const RoughlySeen& roughly);
   const dynamics::Flight<double>* rough_flights() const {
     if constexpr (std::is_same_v<Real, double>)
       return flights_.data();
@@ -127,15 +140,11 @@ class Simulation {
       return rough_flights_.data();
   }
   /// What the pair filter is asked about a ball.
-  PairQuestion question(int ball, const Seen& seen) const {
-    const auto now = dynamics::instant_cast<double>(now_);
-    if constexpr (std::is_same_v<Real, double>)
-      return {seen, radii_[ball], now, pair_filter_.filter()};
-    else
-      return {pair_filter_.seen(rough_flights_[ball], now), radii_[ball], now, pair_filter_.filter()};
+  PairQuestion question(int ball, const RoughlySeen& roughly) const {
+    return {roughly, radii_[ball], dynamics::instant_cast<double>(now_), pair_filter_.filter()};
   }
   void predict_pair(int ball, int other, const Seen& seen);
-  void predict_crossing(int ball, const Seen& seen);
+  void predict_crossing(int ball, const RoughlySeen& roughly);
   void predict_wall(int ball, const model::VesselPose<Real>& pose);
   void continue_wall_search(int ball);
   Real search_length(int ball, const Instant<Real>& begin) const;
@@ -151,10 +160,11 @@ class Simulation {
   std::vector<std::uint32_t> impacts_;  ///< of each ball; tells a candidate whether it still holds
   dynamics::DecisionLadder<Real> ladder_;
   // Pairs are filtered in double whatever the scalar: its bounds cover the rounding of the flights to double.
+  // Cells are crossed in double too: their margin covers it.
   dynamics::PairSearch<double> pair_filter_;
   std::vector<dynamics::Flight<double>> rough_flights_;  ///< empty when the scalar is double
   std::vector<double> radii_;                            ///< rounded too
-  CellGrid<Real> grid_;
+  CellGrid<double> grid_;
   std::optional<FlightTable> table_;  ///< instead of the grid when that has one cell
   EventQueue<Real> queue_;
   CollapseWatch<Real> collapse_watch_;

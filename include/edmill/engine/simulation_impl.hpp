@@ -30,22 +30,11 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
   return smallest;
 }
 
-/// The mill in double, as the pair filter needs it.
-template <class Real>
-model::Mill<double> rounded(const model::Mill<Real>& m) {
-  const auto r = [](const Real& x) { return static_cast<double>(x); };
-  return {{r(m.motion.arm), r(m.motion.theta_max), r(m.motion.gamma_max), r(m.motion.period)},
-          {r(m.vessel.radius), r(m.vessel.half_height)},
-          vector_cast<double>(m.gravity),
-          {},
-          {}};
-}
-
 /// The region that the vessel sweeps, cut into cells that hold about one ball but are thicker than the
 /// largest.
 template <class Real>
-CellGrid<Real> make_grid(const model::Mill<Real>& mill,
-                         const std::vector<model::BallProperties<Real>>& balls) {
+CellGrid<double> make_grid(const model::Mill<Real>& mill,
+                           const std::vector<model::BallProperties<Real>>& balls) {
   using std::sqrt;
   const Real &R = mill.vessel.radius, &h = mill.vessel.half_height;
   const Real reach = sqrt(R * R + h * h);
@@ -63,7 +52,8 @@ CellGrid<Real> make_grid(const model::Mill<Real>& mill,
   if (balls.size() <= 32) edge = 4 * sideways;
   const double spacing = 0.45 * std::cbrt(volume / static_cast<double>(balls.size()));
   if (edge < spacing) edge = Real(spacing);
-  return CellGrid<Real>(low, high, edge, static_cast<int>(balls.size()));
+  return CellGrid<double>(vector_cast<double>(low), vector_cast<double>(high), static_cast<double>(edge),
+                          static_cast<int>(balls.size()));
 }
 
 }  // namespace detail
@@ -78,7 +68,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       impacts_(states.size(), 0),
       ladder_(the_case.mill, 2 * detail::smallest_radius(the_case.balls),
               detail::largest_speed(states, the_case.mill)),
-      pair_filter_(detail::rounded(the_case.mill),
+      pair_filter_(model::mill_cast<double>(the_case.mill),
                    2 * static_cast<double>(detail::smallest_radius(the_case.balls)),
                    static_cast<double>(ladder_.walls().constants().reach),
                    static_cast<double>(detail::largest_speed(states, the_case.mill))),
@@ -98,7 +88,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
     flights_.push_back({s.position, s.velocity, start});
     spins_.push_back(s.spin);
   }
-  for (int i = 0; i < ball_count(); ++i) grid_.insert(i, flights_[i].position);
+  for (int i = 0; i < ball_count(); ++i) grid_.insert(i, vector_cast<double>(flights_[i].position));
   if (grid_.single_cell()) table_.emplace(states.size());
   for (int i = 0; i < ball_count(); ++i) flight_changed(i);
   const auto pose = model::pose_at<Real>(mill_.motion, start.offset);
@@ -165,7 +155,8 @@ void Simulation<Real>::drop_stale(int ball) {
   Agenda& a = agendas_[ball];
   for (int k = 1; k < a.pair_count; ++k) a.pairs[k - 1] = a.pairs[k];
   --a.pair_count;
-  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) predict_pairs(ball, -1, see(ball));
+  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never())
+    predict_pairs(ball, -1, see_roughly(ball));
   requeue(ball);
 }
 
@@ -174,20 +165,34 @@ void Simulation<Real>::cross_cell(int ball) {
   ++counts_.cell_crossings;
   const int axis = agendas_[ball].crossing_axis, step = agendas_[ball].crossing_step;
   grid_.move(ball, axis, step);
-  const auto seen = see(ball);
+  const auto roughly = see_roughly(ball);
   grid_.new_neighbours(ball, axis, step, near_);
-  predict_near(ball, -1, seen);
-  predict_crossing(ball, seen);
+  predict_near(ball, -1, roughly);
+  predict_crossing(ball, roughly);
   requeue(ball);
+}
+
+template <class Real>
+model::VesselPose<Real> Simulation<Real>::pose_now() const {
+  const auto& constants = ladder_.walls().constants();
+  return model::pose_at<Real>(mill_.motion, constants.angular_speed, constants.frequency, now_.offset);
+}
+
+/// The pose now, when the ball's predicted wall contact is due.
+template <class Real>
+model::VesselPose<Real> Simulation<Real>::pose_at_wall_contact(int ball) const {
+  if constexpr (!std::is_same_v<Real, double>) {
+    const Agenda& a = agendas_[ball];
+    if (a.wall_pose && a.wall_time == now_) return *a.wall_pose;
+  }
+  return pose_now();
 }
 
 template <class Real>
 void Simulation<Real>::collide_with_wall(int ball, int wall) {
   auto& flight = flights_[ball];
   dynamics::fly_to(flight, mill_.gravity, clock_, now_);
-  const auto& constants = ladder_.walls().constants();
-  const auto pose =
-      model::pose_at<Real>(mill_.motion, constants.angular_speed, constants.frequency, now_.offset);
+  const auto pose = pose_at_wall_contact(ball);
   const auto local = model::to_vessel_frame<Real>(pose, mill_.motion.arm, flight.position, flight.velocity);
   const Real radius = balls_[ball].radius;
 
@@ -254,9 +259,8 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   flight_changed(partner);
   after_impact(impact);
   if (stop_ == EndReason::inelastic_collapse) return;
-  const auto& constants = ladder_.walls().constants();
-  const auto pose =
-      model::pose_at<Real>(mill_.motion, constants.angular_speed, constants.frequency, now_.offset);
+  // Wide scalars begin their wall searches in double.
+  const auto pose = std::is_same_v<Real, double> ? pose_now() : model::VesselPose<Real>{};
   predict_all(ball, -1, pose);
   predict_all(partner, ball, pose);
 }

@@ -33,6 +33,25 @@ struct Mill {
   ContactLaw<Real> ball_wall;
 };
 
+/// The mill in another scalar: exact when that is wider, rounded otherwise.
+template <class To, class From>
+Mill<To> mill_cast(const Mill<From>& m) {
+  const auto law = [](const ContactLaw<From>& l) {
+    return ContactLaw<To>{l.model,
+                          static_cast<To>(l.restitution_normal),
+                          static_cast<To>(l.restitution_tangential),
+                          static_cast<To>(l.friction),
+                          static_cast<To>(l.min_tangential),
+                          static_cast<To>(l.collapse_time)};
+  };
+  return {{static_cast<To>(m.motion.arm), static_cast<To>(m.motion.theta_max),
+           static_cast<To>(m.motion.gamma_max), static_cast<To>(m.motion.period)},
+          {static_cast<To>(m.vessel.radius), static_cast<To>(m.vessel.half_height)},
+          vector_cast<To>(m.gravity),
+          law(m.ball_ball),
+          law(m.ball_wall)};
+}
+
 template <class Real>
 struct Case {
   Mill<Real> mill;

@@ -108,8 +108,7 @@ inline void sin_cos_both<double>(const double& one, const double& two, SinCos<do
 /// sin and cos of 2 pi `turns`, for |turns| below 2^20. Error at most 4 ulp of 1.
 template <class Real>
 SinCos<Real> sin_cos_turns(const Real& turns) {
-  using std::floor;
-  const Real reduced = turns - floor(turns + Real(1) / 2);
+  const Real reduced = turns - Real(std::floor(static_cast<double>(turns) + 0.5));
   return sin_cos<Real>(2 * pi<Real>() * reduced);
 }
 
