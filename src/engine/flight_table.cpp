@@ -54,7 +54,7 @@ static_assert(sizeof(dynamics::Flight<double>) == 2 * sizeof(Four));
 
 // Four flights are two rows each; turned, they are the columns of the loop above.
 EDMILL_FOR_SEVERAL_CPUS int keep_candidates(const dynamics::Flight<double>* flights, const double* radii,
-                                            const PairQuestion& q, int* balls, int count) {
+                                            int stride, const PairQuestion& q, int* balls, int count) {
   const double drive = q.filter.period, slowest = q.filter.slowest_squared, touching = q.filter.touching;
   const double relative = q.filter.relative;
   for (int k = count; k & 3; ++k) balls[k] = balls[0];
@@ -84,7 +84,7 @@ EDMILL_FOR_SEVERAL_CPUS int keep_candidates(const dynamics::Flight<double>* flig
                p = __builtin_shufflevector(ef0, gh0, 2, 3, 6, 7);
     const Four w = __builtin_shufflevector(ef1, gh1, 0, 1, 4, 5),
                offset = __builtin_shufflevector(ef1, gh1, 2, 3, 6, 7);
-    const Four radius{radii[i0], radii[i1], radii[i2], radii[i3]};
+    const Four radius{radii[i0 * stride], radii[i1 * stride], radii[i2 * stride], radii[i3 * stride]};
 
     // Whole periods since the start, below 2^51: as the low bits of a double they need no conversion.
     constexpr double shift = 6755399441055744.0;  // 1.5 x 2^52

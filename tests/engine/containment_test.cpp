@@ -20,13 +20,13 @@ class OverlapCheck : public Observer<double> {
     for (int i = 0; i < n; ++i) {
       const auto p =
           model::to_vessel_frame<double>(pose, mill.motion.arm, positions_[i], positions_[i]).position;
-      const double r = simulation.ball(i).radius;
+      const double r = simulation.properties(i).radius;
       const double side = mill.vessel.radius - r - std::hypot(p[0], p[2]);
       const double cap = mill.vessel.half_height - r - std::abs(p[1]);
       if (side < near || cap < near) exact_wall(simulation, impact.time, i);
       for (int j = 0; j < i; ++j) {
         const Vec3<double> d = positions_[i] - positions_[j];
-        const double sum = r + simulation.ball(j).radius + near;
+        const double sum = r + simulation.properties(j).radius + near;
         if (dot<double>(d, d) < sum * sum) exact_pair(simulation, impact.time, i, j);
       }
     }
@@ -53,13 +53,13 @@ class OverlapCheck : public Observer<double> {
     const auto pose = model::pose_at<float128>(motion, float128(t.offset));
     const auto r = position(s, t, i);
     const auto p = model::to_vessel_frame<float128>(pose, motion.arm, r, r).position;
-    const float128 radius = s.ball(i).radius;
+    const float128 radius = s.properties(i).radius;
     const float128 side = sqrt(p[0] * p[0] + p[2] * p[2]) - (float128(m.vessel.radius) - radius);
     const float128 cap = abs(p[1]) - (float128(m.vessel.half_height) - radius);
     deepest_wall = std::max({deepest_wall, side, cap});
   }
   void exact_pair(const Simulation<double>& s, const Instant<double>& t, int i, int j) {
-    const float128 sum = float128(s.ball(i).radius) + float128(s.ball(j).radius);
+    const float128 sum = float128(s.properties(i).radius) + float128(s.properties(j).radius);
     const float128 distance = norm<float128>(Vec3<float128>(position(s, t, i) - position(s, t, j)));
     deepest_pair = std::max(deepest_pair, float128(sum - distance));
   }

@@ -41,7 +41,7 @@ class Harvest : public engine::Observer<double> {
     double length = ladder_->walls().longest_window();
     for (int other = 0; other < s.ball_count(); ++other) {
       if (other == ball) continue;
-      const double sum = s.ball(ball).radius + s.ball(other).radius;
+      const double sum = s.properties(ball).radius + s.properties(other).radius;
       const auto seen = pairs.seen(s.flight(other), now);
       if (norm<double>(own.position - seen.position) > 3 * sum) continue;
       const auto answer = pairs(own, s.flight(other), now, sum);
@@ -50,7 +50,7 @@ class Harvest : public engine::Observer<double> {
         questions.pairs.push_back({s.flight(ball), s.flight(other), now, sum});
     }
     length = std::max(length, ladder_->walls().longest_window() / 4096);
-    questions.walls.push_back({s.flight(ball), s.ball(ball).radius, now, length});
+    questions.walls.push_back({s.flight(ball), s.properties(ball).radius, now, length});
   }
 
   const dynamics::DecisionLadder<double>* ladder_;

@@ -25,10 +25,10 @@ struct FlightColumns {
 void mark_candidates(const FlightColumns& flights, const PairQuestion& question, std::vector<double>& hits);
 
 /// Keeps those of `balls` that are not proven never to meet the one of the question, in their order.
-/// @param flights, radii  of all balls
+/// @param flights, radii  of all balls; ball i has radius radii[i * stride]
 /// @param balls  room for `count` rounded up to a multiple of four
 /// @return how many were kept. The same bits for several instruction sets, as above.
-int keep_candidates(const dynamics::Flight<double>* flights, const double* radii,
+int keep_candidates(const dynamics::Flight<double>* flights, const double* radii, int stride,
                     const PairQuestion& question, int* balls, int count);
 
 /// Where cells are of no use this looks at every ball.

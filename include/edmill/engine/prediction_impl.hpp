@@ -37,7 +37,7 @@ template <class Real>
 void Simulation<Real>::predict_near(int ball, int already_done, const RoughlySeen& roughly) {
   int* near = near_.balls.data();
   const int count =
-      keep_candidates(rough_flights(), radii_.data(), question(ball, roughly), near, near_.count);
+      keep_candidates(rough_flights(), radii_.data(), stride_, question(ball, roughly), near, near_.count);
   if (count == 0) return;
   const auto& seen = see(ball, roughly);
   for (int k = 0; k < count; ++k)
@@ -48,12 +48,12 @@ template <class Real>
 void Simulation<Real>::flight_changed(int ball) {
   if constexpr (!std::is_same_v<Real, double>)
     rough_flights_[ball] = dynamics::flight_cast<double>(flights_[ball]);
-  if (table_) table_->set(ball, rough_flights()[ball], radii_[ball]);
+  if (table_) table_->set(ball, rough_flights()[ball], radii_[ball * stride_]);
 }
 
 template <class Real>
 void Simulation<Real>::predict_pair(int ball, int other, const Seen& seen) {
-  const Real sum = balls_[ball].radius + balls_[other].radius;
+  const Real sum = properties(ball).radius + properties(other).radius;
   const auto answer = ladder_.pair(seen, flights_[ball], flights_[other], now_, sum);
   if (answer.verdict == dynamics::Verdict::none) return;
   Agenda& a = agendas_[ball];
@@ -100,7 +100,7 @@ void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pos
   ++counts_.wall_searches;
   const Real length = search_length(ball, now_);
   const auto& flight = flights_[ball];
-  const dynamics::WallQuery<Real> query{flight, balls_[ball].radius, now_, length};
+  const dynamics::WallQuery<Real> query{flight, properties(ball).radius, now_, length};
   if constexpr (std::is_same_v<Real, double>) {
     const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, query.radius,
                                                  now_.period);
@@ -114,7 +114,7 @@ template <class Real>
 void Simulation<Real>::continue_wall_search(int ball) {
   ++counts_.wall_searches;
   const Real length = search_length(ball, now_);
-  take_wall_answer(ball, ladder_.wall({flights_[ball], balls_[ball].radius, now_, length}), now_);
+  take_wall_answer(ball, ladder_.wall({flights_[ball], properties(ball).radius, now_, length}), now_);
   requeue(ball);
 }
 
@@ -181,9 +181,9 @@ template <class Real>
 dynamics::Contact<Real> Simulation<Real>::contact_of(const Event& event) const {
   const auto& flight = flights_[event.ball];
   if (event.kind == EventKind::wall_contact)
-    return {true, flight, flight, balls_[event.ball].radius, event.time};
+    return {true, flight, flight, properties(event.ball).radius, event.time};
   const auto& partner = flights_[event.partner];
-  const Real sum = balls_[event.ball].radius + balls_[event.partner].radius;
+  const Real sum = properties(event.ball).radius + properties(event.partner).radius;
   if (flight.start < partner.start) return {false, partner, flight, sum, event.time};
   return {false, flight, partner, sum, event.time};
 }

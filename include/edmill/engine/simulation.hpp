@@ -63,7 +63,7 @@ class Simulation {
   const DriveClock<Real>& clock() const { return clock_; }
   int ball_count() const { return static_cast<int>(flights_.size()); }
   const model::Mill<Real>& mill() const { return mill_; }
-  const model::BallProperties<Real>& ball(int i) const { return balls_[i]; }
+  const model::BallProperties<Real>& properties(int i) const { return balls_[i * stride_]; }
   const dynamics::Flight<Real>& flight(int i) const { return flights_[i]; }
   const Vec3<Real>& spin(int i) const { return spins_[i]; }
   model::BallState<Real> state_at(int i, const Instant<Real>& when) const;
@@ -141,7 +141,7 @@ class Simulation {
   }
   /// What the pair filter is asked about a ball.
   PairQuestion question(int ball, const RoughlySeen& roughly) const {
-    return {roughly, radii_[ball], dynamics::instant_cast<double>(now_), pair_filter_.filter()};
+    return {roughly, radii_[ball * stride_], dynamics::instant_cast<double>(now_), pair_filter_.filter()};
   }
   void predict_pair(int ball, int other, const Seen& seen);
   void predict_crossing(int ball, const RoughlySeen& roughly);
@@ -164,6 +164,7 @@ class Simulation {
   dynamics::PairSearch<double> pair_filter_;
   std::vector<dynamics::Flight<double>> rough_flights_;  ///< empty when the scalar is double
   std::vector<double> radii_;                            ///< rounded too
+  int stride_;  ///< 0 when all balls are alike: then the first entry, always at hand, serves for every ball
   CellGrid<double> grid_;
   std::optional<FlightTable> table_;  ///< instead of the grid when that has one cell
   EventQueue<Real> queue_;

@@ -83,6 +83,8 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       top_speed_(detail::largest_speed(states, the_case.mill)) {
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
   for (const auto& ball : balls_) radii_.push_back(static_cast<double>(ball.radius));
+  stride_ =
+      std::all_of(balls_.begin(), balls_.end(), [&](const auto& b) { return b == balls_.front(); }) ? 0 : 1;
   if constexpr (!std::is_same_v<Real, double>) rough_flights_.resize(states.size());
   for (const auto& s : states) {
     flights_.push_back({s.position, s.velocity, start});
@@ -194,7 +196,7 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   dynamics::fly_to(flight, mill_.gravity, clock_, now_);
   const auto pose = pose_at_wall_contact(ball);
   const auto local = model::to_vessel_frame<Real>(pose, mill_.motion.arm, flight.position, flight.velocity);
-  const Real radius = balls_[ball].radius;
+  const Real radius = properties(ball).radius;
 
   Impact<Real> impact{};
   Vec3<Real>& normal = impact.normal;
@@ -216,8 +218,8 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   impact.velocity_before[0] = flight.velocity;
   impact.spin_before[0] = spins_[ball];
   impact.outcome =
-      dynamics::collide_with_wall<Real>(normal, balls_[ball], wall_velocity, flight.velocity, spins_[ball],
-                                        mill_.ball_wall, impact.collapsing, impact.resting);
+      dynamics::collide_with_wall<Real>(normal, properties(ball), wall_velocity, flight.velocity,
+                                        spins_[ball], mill_.ball_wall, impact.collapsing, impact.resting);
   impact.ball = ball;
   impact.with_wall = true;
   impact.partner = wall;
@@ -238,7 +240,7 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
 
   Impact<Real> impact{};
   impact.normal = between * (1 / distance);
-  impact.overlap = balls_[ball].radius + balls_[partner].radius - distance;
+  impact.overlap = properties(ball).radius + properties(partner).radius - distance;
   const Real& t_c = mill_.ball_ball.collapse_time;
   impact.collapsing = collapse_watch_.since_last(ball, now_, clock_) < t_c ||
                       collapse_watch_.since_last(partner, now_, clock_) < t_c;
@@ -247,9 +249,9 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   impact.velocity_before[1] = two.velocity;
   impact.spin_before[0] = spins_[ball];
   impact.spin_before[1] = spins_[partner];
-  impact.outcome = dynamics::collide_balls<Real>(impact.normal, balls_[ball], balls_[partner], one.velocity,
-                                                 spins_[ball], two.velocity, spins_[partner], mill_.ball_ball,
-                                                 impact.collapsing, impact.resting);
+  impact.outcome = dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner),
+                                                 one.velocity, spins_[ball], two.velocity, spins_[partner],
+                                                 mill_.ball_ball, impact.collapsing, impact.resting);
   impact.ball = ball;
   impact.with_wall = false;
   impact.partner = partner;
@@ -318,7 +320,7 @@ model::Energy<Real> Simulation<Real>::energy_at(const Instant<Real>& when) const
   model::Energy<Real> energy;
   for (int i = 0; i < ball_count(); ++i) {
     const auto state = state_at(i, when);
-    const auto& ball = balls_[i];
+    const auto& ball = properties(i);
     const Real inertia = ball.reduced_inertia * ball.mass * ball.radius * ball.radius;
     energy.kinetic +=
         ball.mass / 2 * squared_norm<Real>(state.velocity) + inertia / 2 * squared_norm<Real>(state.spin);
