@@ -4,6 +4,7 @@
 #include "edmill/core/scalar_list.hpp"
 //
 #include "edmill/app/run_case.hpp"
+#include "edmill/certify/event_source.hpp"
 #include "edmill/driver/simulate.hpp"
 #include "edmill/dynamics/decision_ladder.hpp"
 #include "edmill/dynamics/wall_search.hpp"
@@ -15,25 +16,26 @@
 #include "edmill/setup/build_case.hpp"
 
 /// `prefix` is `extern template` to declare and `template` to define.
-#define EDMILL_INSTANCES(prefix, Real)                                                        \
-  namespace edmill {                                                                          \
-  prefix std::string to_text<Real>(const Real&);                                              \
-  prefix Real from_text<Real>(const std::string&);                                            \
-  prefix class dynamics::WallSearch<Real>;                                                    \
-  prefix class dynamics::DecisionLadder<Real>;                                                \
-  prefix class engine::Simulation<Real>;                                                      \
-  prefix Real casefile::Quantity::to<Real>() const;                                           \
-  prefix model::Mill<Real> setup::build_mill<Real>(const casefile::CaseSpec&);                \
-  prefix setup::InitialCase<Real> setup::build_case<Real>(const casefile::CaseSpec&);         \
-  prefix void record::write_final_state<Real>(std::ostream&, const record::SavedState<Real>&, \
-                                              const DriveClock<Real>&);                       \
-  prefix record::SavedState<Real> record::read_final_state<Real>(const std::string&);         \
-  prefix std::string record::summary_json<Real>(const record::Summary<Real>&);                \
-  prefix std::string report::result_table<Real>(const record::Summary<Real>&);                \
-  prefix driver::Result<Real> driver::simulate<Real>(const casefile::CaseSpec&,               \
-                                                     const setup::InitialCase<Real>&,         \
-                                                     const driver::Guests<Real>&);            \
-  prefix int app::run_case<Real>(const casefile::CaseSpec&, const app::RunOptions&);          \
+#define EDMILL_INSTANCES(prefix, Real)                                                                      \
+  namespace edmill {                                                                                        \
+  prefix std::string to_text<Real>(const Real&);                                                            \
+  prefix Real from_text<Real>(const std::string&);                                                          \
+  prefix class dynamics::WallSearch<Real>;                                                                  \
+  prefix class dynamics::DecisionLadder<Real>;                                                              \
+  prefix class engine::Simulation<Real>;                                                                    \
+  prefix Real casefile::Quantity::to<Real>() const;                                                         \
+  prefix model::Mill<Real> setup::build_mill<Real>(const casefile::CaseSpec&);                              \
+  prefix setup::InitialCase<Real> setup::build_case<Real>(const casefile::CaseSpec&);                       \
+  prefix void record::write_final_state<Real>(std::ostream&, const record::SavedState<Real>&,               \
+                                              const DriveClock<Real>&);                                     \
+  prefix record::SavedState<Real> record::read_final_state<Real>(const std::string&);                       \
+  prefix std::string record::summary_json<Real>(const record::Summary<Real>&);                              \
+  prefix std::string report::result_table<Real>(const record::Summary<Real>&);                              \
+  prefix driver::Result<Real> driver::simulate<Real>(const casefile::CaseSpec&,                             \
+                                                     const setup::InitialCase<Real>&,                       \
+                                                     const driver::Guests<Real>&);                          \
+  prefix std::unique_ptr<certify::EventSource> certify::make_source<Real>(const casefile::CaseSpec&, bool); \
+  prefix int app::run_case<Real>(const casefile::CaseSpec&, const app::RunOptions&);                        \
   }
 
 #define EDMILL_DECLARE_INSTANCES(Real) EDMILL_INSTANCES(extern template, Real)

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 
+#include "edmill/app/certify_command.hpp"
 #include "edmill/app/dispatch.hpp"
 #include "edmill/app/study_command.hpp"
 #include "edmill/core/errors.hpp"
@@ -25,7 +26,7 @@ extern "C" void on_signal(int signal) {
 }
 
 int run(const std::string& case_file, const std::string& folder, const std::string& precision,
-        const std::vector<std::string>& overrides, bool quiet) {
+        const std::string& shadow, const std::vector<std::string>& overrides, bool quiet) {
   using namespace edmill;
   const auto spec = casefile::read_case(case_file, overrides);
   app::RunOptions options;
@@ -34,8 +35,24 @@ int run(const std::string& case_file, const std::string& folder, const std::stri
   options.interrupt = &interrupted;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  const int code = app::run_case(precision.empty() ? spec.precision : precision, spec, options);
+  const auto& scalar = precision.empty() ? spec.precision : precision;
+  int code = app::run_case(scalar, spec, options);
+  if (code == app::ok && !shadow.empty() && !received_signal)
+    code = app::run_shadow(spec, scalar, shadow, &interrupted);
   return received_signal && code == app::ok ? 128 + received_signal : code;
+}
+
+int certify(const std::string& case_file, const std::vector<std::string>& overrides,
+            edmill::app::CertifyOptions& options) {
+  using namespace edmill;
+  const auto spec = casefile::read_case(case_file, overrides);
+  if (options.file.empty())
+    options.file = "out/" + std::filesystem::path(case_file).stem().string() + ".reference.csv";
+  options.interrupt = &interrupted;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  const int code = app::run_certify(spec, options);
+  return received_signal ? 128 + received_signal : code;
 }
 
 /// `command` is app::run_sweep or app::run_optimize.
@@ -76,7 +93,7 @@ int main(int argc, char** argv) {
       "make,\n"
       "5 some runs of a sweep failed, 130 and 143 interrupted by SIGINT and SIGTERM with the results so far\n"
       "on disk, 1 any other error.");
-  std::string case_file, folder, precision;
+  std::string case_file, folder, precision, shadow;
   std::vector<std::string> overrides;
   bool quiet = false;
 
@@ -89,6 +106,25 @@ int main(int argc, char** argv) {
       ->take_all()
       ->expected(1);
   run_command->add_flag("--quiet", quiet, "no progress line and no result table");
+
+  run_command->add_option("--shadow", shadow, "run beside it in this wider scalar and tell when the two part")
+      ->check(CLI::IsMember(edmill::casefile::precisions()));
+
+  edmill::app::CertifyOptions certification;
+  auto* certify_command =
+      app.add_subcommand("certify", "raise the precision until the first events are certain; write them");
+  certify_command->add_option("case", case_file, "case file (TOML)")->required();
+  certify_command->add_option("--collisions", certification.collisions, "how many events")
+      ->required()
+      ->check(CLI::Range(1, 10000000));
+  certify_command->add_option("--digits", certification.digits, "to how many digits; 25 unless given")
+      ->check(CLI::Range(1, 90));
+  certify_command->add_option("--out", certification.file,
+                              "file; out/<case name>.reference.csv unless given");
+  certify_command->add_option("--set", overrides, "section.key=value, over the case file; can be repeated")
+      ->take_all()
+      ->expected(1);
+  certify_command->add_flag("--quiet", certification.quiet, "no progress and no report");
 
   auto* check_command =
       app.add_subcommand("check", "read and check a case; print it in SI with derived numbers");
@@ -118,7 +154,8 @@ int main(int argc, char** argv) {
     return edmill::app::bad_input;
   }
   try {
-    if (*run_command) return run(case_file, folder, precision, overrides, quiet);
+    if (*run_command) return run(case_file, folder, precision, shadow, overrides, quiet);
+    if (*certify_command) return certify(case_file, overrides, certification);
     if (*sweep_command) return run_study(edmill::app::run_sweep, study);
     if (*optimize_command) return run_study(edmill::app::run_optimize, study);
     fmt::print("{}", edmill::app::describe_case(edmill::casefile::read_case(case_file, overrides)));

@@ -308,7 +308,7 @@ void apply_override(toml::table& root, Document& document, const std::string& te
 }  // namespace
 
 const std::vector<std::string>& precisions() {
-  static const std::vector<std::string> names{"double", "float128", "mpfr50"};
+  static const std::vector<std::string> names{"double", "float128", "mpfr50", "mpfr100", "mpfr200"};
   return names;
 }
 

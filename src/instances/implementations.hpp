@@ -4,6 +4,7 @@
 #include "edmill/instances.hpp"
 //
 #include "edmill/app/run_case_impl.hpp"
+#include "edmill/certify/event_source_impl.hpp"
 #include "edmill/core/scalar_text.hpp"
 #include "edmill/driver/simulate_impl.hpp"
 #include "edmill/dynamics/decision_ladder_impl.hpp"

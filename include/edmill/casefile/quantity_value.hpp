@@ -8,10 +8,8 @@ namespace edmill::casefile {
 
 template <class Real>
 Real Quantity::to() const {
-  // Twice the digits of the widest scalar, so that the last rounding is the only one that counts.
-  using Wide = boost::multiprecision::number<
-      boost::multiprecision::mpfr_float_backend<120, boost::multiprecision::allocate_stack>,
-      boost::multiprecision::et_off>;
+  // Twice the digits and more, so that the last rounding is the only one that counts.
+  using Wide = mpfr_of<2 * std::numeric_limits<Real>::digits10 + 20>;
   Wide result = Wide(numerator(value).str()) / Wide(denominator(value).str());
   Wide pi;
   mpfr_const_pi(pi.backend().data(), MPFR_RNDN);

@@ -11,9 +11,14 @@
 namespace edmill {
 
 using float128 = boost::multiprecision::float128;
-using mpfr50 = boost::multiprecision::number<
-    boost::multiprecision::mpfr_float_backend<50, boost::multiprecision::allocate_stack>,
+template <unsigned digits>
+using mpfr_of = boost::multiprecision::number<
+    boost::multiprecision::mpfr_float_backend<digits, boost::multiprecision::allocate_stack>,
     boost::multiprecision::et_off>;
+using mpfr50 = mpfr_of<50>;
+// Errors grow with every collision; these two are for certifying long sequences of events.
+using mpfr100 = mpfr_of<100>;
+using mpfr200 = mpfr_of<200>;
 
 template <>
 struct ScalarName<float128> {
@@ -22,6 +27,15 @@ struct ScalarName<float128> {
 template <>
 struct ScalarName<mpfr50> {
   static constexpr std::string_view value = "mpfr50";
+};
+
+template <>
+struct ScalarName<mpfr100> {
+  static constexpr std::string_view value = "mpfr100";
+};
+template <>
+struct ScalarName<mpfr200> {
+  static constexpr std::string_view value = "mpfr200";
 };
 
 template <>
@@ -36,6 +50,14 @@ template <>
 struct WiderScalar<mpfr50> {
   using type = void;
 };
+template <>
+struct WiderScalar<mpfr100> {
+  using type = void;
+};
+template <>
+struct WiderScalar<mpfr200> {
+  using type = void;
+};
 
 }  // namespace edmill
 
@@ -44,4 +66,6 @@ struct WiderScalar<mpfr50> {
 #define EDMILL_FOR_EACH_SCALAR(MACRO) \
   MACRO(double)                       \
   MACRO(::edmill::float128)           \
-  MACRO(::edmill::mpfr50)
+  MACRO(::edmill::mpfr50)             \
+  MACRO(::edmill::mpfr100)            \
+  MACRO(::edmill::mpfr200)

@@ -9,10 +9,18 @@ namespace edmill::model {
 
 namespace detail {
 
-/// Turns [rad] up to which what double rounds off the cubic term, and the quintic term, are below the
-/// scalar's rounding of 1.
+/// Turns [rad] up to which what double rounds off the cubic term, d^3 2^-53 / 6, and the quintic term,
+/// d^5 / 120, are below the scalar's rounding of 1.
 template <class Real>
-inline constexpr double longest_turn = std::numeric_limits<Real>::digits > 113 ? 0x1p-38 : 0x1p-24;
+constexpr double longest_turn_of() {
+  constexpr int digits = std::numeric_limits<Real>::digits;
+  if (digits <= 113) return 0x1p-24;
+  double turn = 1;
+  for (int k = 0; k < (digits - 53) / 3; ++k) turn /= 2;
+  return turn;
+}
+template <class Real>
+inline constexpr double longest_turn = longest_turn_of<Real>();
 
 /// sin and cos of an angle that has grown by `more`. In the Taylor polynomials the last terms are far below
 /// the first ones and so left to double.

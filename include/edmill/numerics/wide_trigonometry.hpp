@@ -16,27 +16,45 @@ inline float128 pi<float128>() {
 }
 
 template <>
-inline mpfr50 pi<mpfr50>() {
-  static const mpfr50 value = [] {
-    mpfr50 p;
-    mpfr_const_pi(p.backend().data(), MPFR_RNDN);
-    return p;
-  }();
-  return value;
-}
-
-template <>
 inline SinCos<float128> sin_cos<float128>(const float128& angle) {
   SinCos<float128> result;
   sincosq(angle.backend().value(), &result.sin.backend().value(), &result.cos.backend().value());
   return result;
 }
 
-template <>
-inline SinCos<mpfr50> sin_cos<mpfr50>(const mpfr50& angle) {
-  SinCos<mpfr50> result;
+namespace detail {
+
+template <class Real>
+Real mpfr_pi() {
+  static const Real value = [] {
+    Real p;
+    mpfr_const_pi(p.backend().data(), MPFR_RNDN);
+    return p;
+  }();
+  return value;
+}
+
+template <class Real>
+SinCos<Real> mpfr_sin_and_cos(const Real& angle) {
+  SinCos<Real> result;
   mpfr_sin_cos(result.sin.backend().data(), result.cos.backend().data(), angle.backend().data(), MPFR_RNDN);
   return result;
 }
+
+}  // namespace detail
+
+#define EDMILL_MPFR_TRIGONOMETRY(Real)                   \
+  template <>                                            \
+  inline Real pi<Real>() {                               \
+    return detail::mpfr_pi<Real>();                      \
+  }                                                      \
+  template <>                                            \
+  inline SinCos<Real> sin_cos<Real>(const Real& angle) { \
+    return detail::mpfr_sin_and_cos<Real>(angle);        \
+  }
+EDMILL_MPFR_TRIGONOMETRY(mpfr50)
+EDMILL_MPFR_TRIGONOMETRY(mpfr100)
+EDMILL_MPFR_TRIGONOMETRY(mpfr200)
+#undef EDMILL_MPFR_TRIGONOMETRY
 
 }  // namespace edmill::numerics

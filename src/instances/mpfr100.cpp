@@ -1,0 +1,3 @@
+#include "implementations.hpp"
+
+EDMILL_INSTANCES(template, mpfr100)
