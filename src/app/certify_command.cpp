@@ -142,8 +142,7 @@ int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options) {
   return undecided;
 }
 
-int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& shadow,
-               const std::atomic<bool>* interrupt) {
+void check_shadow(const std::string& precision, const std::string& shadow) {
   const auto& all = casefile::precisions();
   const auto rank = [&](const std::string& name) {
     return std::find(all.begin(), all.end(), name) - all.begin();
@@ -151,6 +150,10 @@ int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, con
   if (rank(shadow) <= rank(precision))
     throw InputError(
         fmt::format("option '--shadow': found \"{}\", expected a scalar wider than {}", shadow, precision));
+}
+
+int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& shadow,
+               const std::atomic<bool>* interrupt) {
   const auto narrow = source_in(precision, spec, true), wide = source_in(shadow, spec, true);
   Agreement agreement;
   std::optional<std::pair<Event, Event>> parted;

@@ -29,13 +29,14 @@ int run(const std::string& case_file, const std::string& folder, const std::stri
         const std::string& shadow, const std::vector<std::string>& overrides, bool quiet) {
   using namespace edmill;
   const auto spec = casefile::read_case(case_file, overrides);
+  const auto& scalar = precision.empty() ? spec.precision : precision;
+  if (!shadow.empty()) app::check_shadow(scalar, shadow);
   app::RunOptions options;
   options.folder = folder.empty() ? "out/" + std::filesystem::path(case_file).stem().string() : folder;
   options.quiet = quiet;
   options.interrupt = &interrupted;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  const auto& scalar = precision.empty() ? spec.precision : precision;
   int code = app::run_case(scalar, spec, options);
   if (code == app::ok && !shadow.empty() && !received_signal)
     code = app::run_shadow(spec, scalar, shadow, &interrupted);

@@ -21,9 +21,11 @@ struct CertifyOptions {
 /// @return an exit code; `undecided` when the widest two do not agree
 int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options);
 
+/// @throws InputError when `shadow` is not wider than `precision`
+void check_shadow(const std::string& precision, const std::string& shadow);
+
 /// Runs the case in both scalars side by side to its end and prints when they part: event, time, quantities,
 /// and how fast digits are lost.
-/// @throws InputError when `shadow` is not wider than `precision`
 int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& shadow,
                const std::atomic<bool>* interrupt);
 
