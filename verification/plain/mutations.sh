@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Wrong versions of plain_mill: plain_mill_test must fail with each.
+# usage: mutations.sh EDMILL
+set -euo pipefail
+cd "$(dirname "$0")"
+edmill=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+status=0
+mutate() {
+  local name=$1 change=$2
+  sed "$change" plain_mill.cpp > "$folder/mutant.cpp"
+  cmp -s plain_mill.cpp "$folder/mutant.cpp" && { echo "no change: $name"; status=1; return; }
+  g++ -O1 -std=gnu++20 "$folder/mutant.cpp" -o "$folder/mutant" -lmpfr -lgmp -lquadmath
+  if timeout 120 ./plain_mill_test.py "$edmill" "$folder/mutant" > "$folder/log" 2> "$folder/errors"; then
+    echo "NOT FOUND: $name"
+    status=1
+  else
+    echo "found: $name: $(grep -v '^  ' "$folder/log" | sed 's/ (.*): /: /; s/, worst.*//' | paste -sd ';') $(tail -n 1 "$folder/errors" | cut -c1-60)"
+  fi
+}
+mutate "tangential impulse with the wrong sign" 's/(1 + e) + gt \*/(1 + e) - gt */'
+mutate "spin turned the wrong way" 's/cross(n, gt) \* (share/cross(n, gt) * (-share/'
+mutate "wall velocity at the ball's centre" 's/pose.velocity(ra - n \* R)/pose.velocity(ra)/'
+mutate "no collapse rule" 's/now_ - b.start < collapse_time_;/false;/'
+mutate "1 + e in the sliding impulse without the rule's e" 's/friction_ \* (1 + e)/friction_ * (1 + restitution_)/'
+mutate "arm longer by 1e-22 m" 's/mill_.arm = number("arm")/mill_.arm = number("arm") + T("1e-22")/'
+exit $status

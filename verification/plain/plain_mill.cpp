@@ -1,0 +1,366 @@
+// A second ball mill, from docs/theory.md alone: no code, data structure or search of edmill. Slow and plain.
+#include <algorithm>
+#include <array>
+#include <boost/math/constants/constants.hpp>
+#include <boost/multiprecision/float128.hpp>
+#include <boost/multiprecision/mpfr.hpp>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace mp = boost::multiprecision;
+using Mpfr100 = mp::number<mp::mpfr_float_backend<100>, mp::et_off>;
+using mp::float128;
+
+template <class S>
+struct Vec {
+  S x{0}, y{0}, z{0};
+  Vec operator+(const Vec& o) const { return {x + o.x, y + o.y, z + o.z}; }
+  Vec operator-(const Vec& o) const { return {x - o.x, y - o.y, z - o.z}; }
+  Vec operator*(const S& s) const { return {x * s, y * s, z * s}; }
+};
+template <class S>
+S dot(const Vec<S>& a, const Vec<S>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class S>
+Vec<S> cross(const Vec<S>& a, const Vec<S>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class S>
+struct Mill {
+  S turns_per_second, arm, theta_max, gamma_max, radius, half_height, gravity, ball_radius;
+};
+template <class T>
+Mill<double> in_double(const Mill<T>& m) {
+  auto d = [](const T& s) { return static_cast<double>(s); };
+  return {d(m.turns_per_second), d(m.arm),         d(m.theta_max), d(m.gamma_max),
+          d(m.radius),           d(m.half_height), d(m.gravity),   d(m.ball_radius)};
+}
+
+// Section 1: P = R_z(theta) [ (l, 0, 0) + R_x(gamma) p ].
+template <class S>
+struct Pose {
+  S arm, ct, st, cg, sg, theta_rate, gamma_rate;
+
+  Pose(const Mill<S>& m, S turns) : arm(m.arm) {
+    using std::cos, std::sin, std::floor;
+    const S pi = boost::math::constants::pi<S>();
+    turns -= floor(turns);
+    const S c = cos(2 * pi * turns), s = sin(2 * pi * turns), w = 2 * pi * m.turns_per_second;
+    const S theta = m.theta_max * c + pi / 2, gamma = m.gamma_max * s;
+    theta_rate = -m.theta_max * w * s;
+    gamma_rate = m.gamma_max * w * c;
+    ct = cos(theta), st = sin(theta), cg = cos(gamma), sg = sin(gamma);
+  }
+  // A direction of the vessel in the inertial frame, and back.
+  Vec<S> outward(const Vec<S>& p) const {
+    const S y = cg * p.y - sg * p.z, z = sg * p.y + cg * p.z;
+    return {ct * p.x - st * y, st * p.x + ct * y, z};
+  }
+  Vec<S> inward(const Vec<S>& d) const {
+    const S x = ct * d.x + st * d.y, y = ct * d.y - st * d.x;
+    return {x, cg * y + sg * d.z, cg * d.z - sg * y};
+  }
+  Vec<S> centre() const { return {arm * ct, arm * st, S(0)}; }
+  // Velocity of the vessel's point that is at P.
+  Vec<S> velocity(const Vec<S>& P) const {
+    const Vec<S> about_z{S(0), S(0), theta_rate}, about_x{ct * gamma_rate, st * gamma_rate, S(0)};
+    return cross(about_z, P) + cross(about_x, P - centre());
+  }
+};
+
+// The parabola of a ball, by the time tau since its start.
+template <class S>
+struct Flight {
+  Vec<S> r, v;
+  S turns;  // of the drive at the start
+
+  Vec<S> position(const Mill<S>& m, const S& tau) const {
+    return r + v * tau - Vec<S>{S(0), m.gravity * tau * tau / 2, S(0)};
+  }
+  Vec<S> velocity(const Mill<S>& m, const S& tau) const { return v - Vec<S>{S(0), m.gravity * tau, S(0)}; }
+  Pose<S> pose(const Mill<S>& m, const S& tau) const { return {m, turns + tau * m.turns_per_second}; }
+};
+
+template <class S>
+struct Gap {
+  S value, rate;
+};
+
+// Section 2. The rates: the ball's velocity less that of the vessel's point it is at, in the vessel's axes.
+template <class S>
+std::array<Gap<S>, 3> gaps(const Mill<S>& m, const Flight<S>& flight, const S& tau) {
+  const Pose<S> pose = flight.pose(m, tau);
+  const Vec<S> P = flight.position(m, tau);
+  const Vec<S> p = pose.inward(P - pose.centre());
+  const Vec<S> u = pose.inward(flight.velocity(m, tau) - pose.velocity(P));
+  const S free_height = m.half_height - m.ball_radius, free_radius = m.radius - m.ball_radius;
+  return {{{free_height + p.y, u.y},
+           {free_height - p.y, -u.y},
+           {free_radius * free_radius - p.x * p.x - p.z * p.z, -2 * (p.x * u.x + p.z * u.z)}}};
+}
+
+// The contact in [a, b], at whose end the gap is negative: bisection to an open gap, then Newton.
+template <class T>
+T closing_time(const Mill<T>& m, const Flight<T>& flight, unsigned wall, T a, T b) {
+  const T least = 8 * std::numeric_limits<T>::epsilon() * b;
+  for (Gap<T> g = gaps(m, flight, a)[wall]; !(g.value > 0);) {  // a ball that has just left
+    if (b - a <= least) return b;
+    const T middle = (a + b) / 2;
+    g = gaps(m, flight, middle)[wall];
+    (g.value > 0 || g.rate > 0 ? a : b) = middle;
+  }
+  T x = (a + b) / 2;
+  while (b - a > least) {
+    const Gap<T> g = gaps(m, flight, x)[wall];
+    (g.value > 0 ? a : b) = x;
+    const T next = x - g.value / g.rate;
+    if (abs(next - x) <= least) return x;
+    x = next > a && next < b ? next : T((a + b) / 2);
+  }
+  return x;
+}
+
+// The least gap in [a, b], where the rate changes sign; the place if the ball is at or behind the wall there.
+template <class T>
+std::optional<T> graze(const Mill<T>& m, const Flight<T>& flight, unsigned wall, T a, T b) {
+  for (int i = 0; i < 400 && b - a > std::numeric_limits<T>::epsilon() * b; ++i) {
+    const T middle = (a + b) / 2;
+    const Gap<T> g = gaps(m, flight, middle)[wall];
+    if (g.value <= 0) return middle;
+    if (g.value > abs(g.rate) * (b - a)) return {};  // the gap is convex here: it stays open
+    (g.rate < 0 ? a : b) = middle;
+  }
+  return {};
+}
+
+// The first contact with a wall: samples in double, roots in the wide scalar.
+template <class T>
+std::pair<T, unsigned> first_wall(const Mill<T>& m, const Flight<T>& flight) {
+  const Mill<double> near_mill = in_double(m);
+  auto d = [](const Vec<T>& v) {
+    return Vec<double>{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+  };
+  const Flight<double> near_flight{d(flight.r), d(flight.v), static_cast<double>(flight.turns)};
+  // What double may not know the sign of is asked of the wide scalar.
+  auto sample = [&](double tau, bool wide) {
+    std::array<Gap<double>, 3> near = gaps(near_mill, near_flight, tau);
+    for (const Gap<double>& g : near) wide = wide || std::fabs(g.value) < 1e-12 || std::fabs(g.rate) < 1e-12;
+    if (!wide) return near;
+    const std::array<Gap<T>, 3> sharp = gaps(m, flight, T(tau));
+    for (unsigned k = 0; k < 3; ++k)
+      near[k] = {static_cast<double>(sharp[k].value), static_cast<double>(sharp[k].rate)};
+    return near;
+  };
+  double a = 0, step = 1e-9;
+  std::array<Gap<double>, 3> old = sample(a, true);
+  for (unsigned k = 0; k < 3; ++k)
+    if (old[k].value <= 0 && old[k].rate < 0) return {T(0), k};
+  while (a < 10) {
+    const double b = a + step;
+    const std::array<Gap<double>, 3> now = sample(b, false);
+    std::optional<std::pair<T, unsigned>> first;
+    for (unsigned k = 0; k < 3; ++k) {
+      std::optional<T> behind;
+      if (now[k].value <= 0 && now[k].rate < 0)
+        behind = T(b);
+      else if (old[k].rate < 0 && now[k].rate >= 0)
+        behind = graze(m, flight, k, T(a), T(b));
+      if (!behind) continue;
+      const T tau = closing_time(m, flight, k, T(a), *behind);
+      if (!first || tau < first->first) first = {tau, k};
+    }
+    if (first) return *first;
+    a = b;
+    old = now;
+    step = std::min(1.5 * step, 1e-5);
+  }
+  throw std::runtime_error("a ball meets no wall within 10 s");
+}
+
+using Options = std::map<std::string, std::string>;
+
+template <class T>
+class PlainMill {
+ public:
+  PlainMill(std::istream& states, const Options& o) {
+    auto number = [&](const char* name) { return T(o.at(name)); };
+    const T degree = boost::math::constants::pi<T>() / 180;
+    mill_.turns_per_second = number("rpm") / 60, mill_.arm = number("arm"), mill_.gravity = number("gravity");
+    mill_.theta_max = number("theta-max") * degree, mill_.gamma_max = number("gamma-max") * degree;
+    mill_.radius = number("diameter") / 2, mill_.half_height = number("height") / 2;
+    const T R = mill_.ball_radius = number("ball-diameter") / 2;
+    mass_ = number("density") * 4 / 3 * boost::math::constants::pi<T>() * R * R * R;
+    inertia_ = number("reduced-inertia"), collapse_time_ = number("collapse-time");
+    restitution_ = number("restitution"), friction_ = number("friction");
+    min_tangential_ = number("min-tangential");
+    std::string line, cell;
+    std::getline(states, line);
+    while (std::getline(states, line)) {
+      std::vector<T> c;
+      for (std::istringstream row(line); std::getline(row, cell, ',');) c.push_back(T(cell));
+      if (c.size() < 11) throw std::runtime_error("short line in the states");
+      now_ = c[10];
+      const Flight<T> flight{{c[1], c[2], c[3]}, {c[4], c[5], c[6]}, now_ * mill_.turns_per_second};
+      balls_.push_back({flight, {c[7], c[8], c[9]}, now_});
+    }
+    for (Ball& b : balls_) predict_walls(b);
+    for (unsigned i = 0; i < balls_.size(); ++i) predict(i);
+  }
+
+  void run(unsigned long events, std::ostream& out) {
+    out << "index,time,ball,partner_kind,partner,approach_speed,slip_speed,milling_dose,wall_work\n";
+    out.precision(std::numeric_limits<T>::max_digits10);
+    for (unsigned long index = 0; index < events; ++index) {
+      const unsigned i = earliest();
+      const Next next = balls_[i].next;
+      now_ = next.time;
+      // A pair is named by its lower ball.
+      const bool pair = next.kind == ball;
+      const unsigned a = pair ? std::min(i, next.partner) : i,
+                     b = pair ? std::max(i, next.partner) : next.partner;
+      out << index << ',' << std::scientific << now_ << ',' << a << (pair ? ",ball," : ",wall,") << b;
+      for (const T& value : collide(a, next.kind, b)) out << ',' << value;
+      out << '\n';
+      predict(a);
+      if (pair) predict(b);
+    }
+  }
+
+ private:
+  enum Kind { wall, ball };
+  struct Next {
+    T time;
+    Kind kind;
+    unsigned partner;
+    unsigned long partner_impacts;
+  };
+  struct Ball {
+    Flight<T> flight;
+    Vec<T> spin;
+    T start;  // of the flight
+    unsigned long impacts = 0;
+    T wall_time{};
+    unsigned wall_id = 0;
+    Next next{};
+  };
+
+  Vec<T> position(const Ball& b) const { return b.flight.position(mill_, now_ - b.start); }
+  Vec<T> velocity(const Ball& b) const { return b.flight.velocity(mill_, now_ - b.start); }
+
+  void predict_walls(Ball& b) {
+    const auto [tau, id] = first_wall(mill_, b.flight);
+    b.wall_time = b.start + tau;
+    b.wall_id = id;
+  }
+  void predict(unsigned i) {
+    Ball& b = balls_[i];
+    b.next = {b.wall_time, wall, b.wall_id, 0};
+    const T contact = 4 * mill_.ball_radius * mill_.ball_radius;
+    for (unsigned j = 0; j < balls_.size(); ++j) {
+      if (j == i) continue;
+      const Vec<T> r = position(b) - position(balls_[j]), v = velocity(b) - velocity(balls_[j]);
+      const T rv = dot(r, v), c = dot(r, r) - contact, root = rv * rv - dot(v, v) * c;
+      if (rv >= 0 || (c > 0 && root < 0)) continue;
+      const T time = c <= 0 ? now_ : now_ + c / (sqrt(root) - rv);  // (3.1)
+      if (time < b.next.time) b.next = {time, ball, j, balls_[j].impacts};
+    }
+  }
+  // A prediction is void when the partner has collided since.
+  unsigned earliest() {
+    while (true) {
+      unsigned best = 0;
+      for (unsigned i = 1; i < balls_.size(); ++i)
+        if (balls_[i].next.time < balls_[best].next.time) best = i;
+      const Next& next = balls_[best].next;
+      if (next.kind == wall || balls_[next.partner].impacts == next.partner_impacts) return best;
+      predict(best);
+    }
+  }
+
+  bool lasting(const Ball& b) const { return b.impacts > 0 && now_ - b.start < collapse_time_; }
+  void restart(Ball& b, const Vec<T>& r, const Vec<T>& v, const Vec<T>& spin) {
+    b.flight = {r, v, now_ * mill_.turns_per_second};
+    b.spin = spin;
+    b.start = now_;
+    ++b.impacts;
+    predict_walls(b);
+  }
+  static Vec<T> wall_normal(const Pose<T>& pose, const Vec<T>& r, unsigned id) {
+    if (id < 2) return pose.outward({T(0), T(id == 0 ? 1 : -1), T(0)});
+    const Vec<T> p = pose.inward(r - pose.centre());
+    const T distance = sqrt(p.x * p.x + p.z * p.z);
+    return pose.outward({-p.x / distance, T(0), -p.z / distance});
+  }
+
+  // Section 5 for balls of one kind, where c is 1 + 1/J with a wall as with a ball, and M is m or m/2.
+  std::array<T, 4> collide(unsigned i, Kind kind, unsigned partner) {
+    Ball& a = balls_[i];
+    Ball* b = kind == ball ? &balls_[partner] : nullptr;
+    const T R = mill_.ball_radius, J = inertia_, c = 1 + 1 / J, share = b ? T(0.5) : T(1);
+    const Vec<T> ra = position(a), va = velocity(a), rb = b ? position(*b) : Vec<T>{};
+    const Pose<T> pose(mill_, now_ * mill_.turns_per_second);
+    const Vec<T> n = b ? (ra - rb) * (1 / sqrt(dot(ra - rb, ra - rb))) : wall_normal(pose, ra, partner);
+    const Vec<T> partner_velocity = b ? velocity(*b) : pose.velocity(ra - n * R);
+    const Vec<T> spins = b ? a.spin + b->spin : a.spin;
+    const Vec<T> g = va - partner_velocity - cross(spins * R, n), gn = n * dot(g, n), gt = g - gn;
+    const T approach = -dot(g, n), slip = sqrt(dot(gt, gt));
+    const T e = lasting(a) || (b && lasting(*b)) ? T(1) : restitution_;  // section 6
+    T et = min_tangential_;
+    if (slip > 0) et = std::max(et, T(1 - friction_ * (1 + e) * c * approach / slip));
+    const Vec<T> change = (gn * (1 + e) + gt * ((1 - et) / c)) * -share;
+    const Vec<T> turn = cross(n, gt) * (share * (1 - et) / (c * R * J));
+    restart(a, ra, va + change, a.spin + turn);
+    if (b) restart(*b, rb, partner_velocity - change, b->spin + turn);
+    const T dose = share * mass_ / 2 * ((1 - e * e) * approach * approach + (1 - et * et) / c * slip * slip);
+    return {approach, slip, dose, b ? T(0) : T(mass_ * dot(partner_velocity, change))};
+  }
+
+  Mill<T> mill_;
+  T mass_, inertia_, restitution_, friction_, min_tangential_, collapse_time_, now_{};
+  std::vector<Ball> balls_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  // SI, angles in degrees.
+  std::istringstream defaults(
+      "scalar mpfr100 rpm 1098 arm 0.1 theta-max 15 gamma-max 15 diameter 0.038 height 0.057 gravity 9.8 "
+      "ball-diameter 0.00476 density 8000 reduced-inertia 0.4 restitution 0.5 friction 0.4 min-tangential -1 "
+      "collapse-time 1e-4");
+  Options options;
+  for (std::string key, value; defaults >> key >> value;) options[key] = value;
+  if (argc < 3 || argc % 2 == 0)
+    throw std::runtime_error("usage: plain_mill STATES.csv EVENTS [--option value]...");
+  for (int k = 3; k < argc; k += 2) {
+    const std::string name = argv[k];
+    if (name.substr(0, 2) != "--" || !options.count(name.substr(2)))
+      throw std::runtime_error("what is " + name);
+    options[name.substr(2)] = argv[k + 1];
+  }
+  std::ifstream states(argv[1]);
+  if (!states) throw std::runtime_error(std::string("cannot read ") + argv[1]);
+  const unsigned long events = std::stoul(argv[2]);
+  if (options["scalar"] == "mpfr100")
+    PlainMill<Mpfr100>(states, options).run(events, std::cout);
+  else if (options["scalar"] == "float128")
+    PlainMill<float128>(states, options).run(events, std::cout);
+  else
+    throw std::runtime_error("no scalar " + options["scalar"]);
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << "plain_mill: " << error.what() << '\n';
+  return 2;
+}
