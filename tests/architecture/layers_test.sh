@@ -16,7 +16,8 @@ declare -A allowed=(
   [report]="core record"
   [driver]="core model casefile record setup engine observe"
   [sweep]="core model casefile record"
-  [app]="core numerics model casefile record setup dynamics engine observe report driver sweep"
+  [compare]="core record sweep"
+  [app]="core numerics model casefile record setup dynamics engine observe report driver sweep compare"
 )
 
 status=0
