@@ -17,7 +17,8 @@ std::size_t SpectrumClasses::of(double value) const {
 double Batch::all_events() const { return std::accumulate(events.begin(), events.end(), 0.0); }
 
 std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const BatchTimes& times,
-                                    const SpectrumClasses& speeds, const SpectrumClasses& doses) {
+                                    const SpectrumClasses& speed_classes,
+                                    const SpectrumClasses& dose_classes) {
   std::vector<Batch> batches(times.count);
   LogReader log(place);
   const bool dose = log.has(milling_dose), work = log.has(wall_work);
@@ -28,10 +29,11 @@ std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const Ba
     Batch& batch = batches[static_cast<std::size_t>(place_in_time)];
     batch.events[event->partner_kind()] += 1;
     batch.approach_speed += event->values[approach_speed];
-    batch.speed_spectrum[speeds.of(event->values[approach_speed])] += 1;
+    batch.spectra[event->with_wall ? wall_speeds : ball_speeds]
+                 [speed_classes.of(event->values[approach_speed])] += 1;
     if (dose) {
       batch.milling_dose += event->values[milling_dose];
-      batch.dose_spectrum[doses.of(event->values[milling_dose])] += 1;
+      batch.spectra[doses][dose_classes.of(event->values[milling_dose])] += event->values[milling_dose];
     }
     if (work) batch.wall_work += event->values[wall_work];
   }
@@ -59,19 +61,18 @@ double paired_t_probability(const Series& differences) {
   return 2 * boost::math::cdf(boost::math::complement(student, std::abs(mean) / error));
 }
 
-SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b,
-                          std::vector<double> Batch::*spectrum) {
-  // Classes that are empty in both logs are left out.
+SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum) {
+  // The exchanges below work on sums and differences. Classes that are empty in both logs are left out.
   std::vector<std::size_t> used;
   Series both;
   for (std::size_t c = 0; c < SpectrumClasses::count; ++c) {
     double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k].*spectrum)[c] + (b[k].*spectrum)[c];
-    if (sum > 0) used.push_back(c), both.push_back(sum);
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].spectra[spectrum][c] + b[k].spectra[spectrum][c];
+    if (sum != 0) used.push_back(c), both.push_back(sum);
   }
   std::vector<Series> differences(a.size());
   for (std::size_t k = 0; k < a.size(); ++k)
-    for (const auto c : used) differences[k].push_back((a[k].*spectrum)[c] - (b[k].*spectrum)[c]);
+    for (const auto c : used) differences[k].push_back(a[k].spectra[spectrum][c] - b[k].spectra[spectrum][c]);
   const double all = std::accumulate(both.begin(), both.end(), 0.0);
 
   // With s the sum of +-(A - B): A holds (both + s)/2, B (both - s)/2.
@@ -83,7 +84,7 @@ SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>&
       for (std::size_t c = 0; c < s.size(); ++c) s[c] += sign * differences[k][c];
     }
     const double excess = std::accumulate(s.begin(), s.end(), 0.0);
-    if (std::abs(excess) >= all) return 1.0;  // one side has no events at all
+    if (std::abs(excess) >= all) return 1.0;  // one side has nothing at all
     double up_to_a = 0, up_to_b = 0, largest = 0;
     for (std::size_t c = 0; c < s.size(); ++c) {
       up_to_a += (both[c] + s[c]) / (all + excess);

@@ -94,16 +94,21 @@ class Judge {
     add(std::move(q), events, within ? 1 : paired_t_probability(differences));
   }
 
-  void spectrum(const std::string& name, std::vector<double> Batch::*values) {
-    const double in_a = events(a_), in_b = events(b_);
-    Quantity q = named(name, "1");
-    if (in_a == 0 || in_b == 0) {
-      add(std::move(q), 0, 1);
+  void spectrum(const std::string& name, Spectrum spectrum, double events) {
+    const auto empty = [&](const std::vector<Batch>& batches) {
+      return std::all_of(batches.begin(), batches.end(), [&](const Batch& batch) {
+        const auto& values = batch.spectra[spectrum];
+        return std::all_of(values.begin(), values.end(), [](double v) { return v == 0; });
+      });
+    };
+    if (empty(a_) || empty(b_)) {
+      skip(name, "1", "nothing in one log");
       return;
     }
-    const auto test = test_spectra(a_, b_, values);
+    Quantity q = named(name, "1");
+    const auto test = test_spectra(a_, b_, spectrum);
     q.difference = test.distance, q.half_width = test.limit;
-    add(std::move(q), in_a + in_b, test.probability);
+    add(std::move(q), events, test.probability);
   }
 
   void skip(const std::string& name, const std::string& unit, const std::string& reason) {
@@ -151,17 +156,18 @@ class Judge {
 
 std::vector<Quantity> judge(const Comparison& c) {
   // Spectra in classes above what the tolerance takes for 0.
-  const SpectrumClasses speeds(c.options.tolerance * c.a.mean_magnitude[approach_speed]);
-  const SpectrumClasses doses(c.options.tolerance * c.a.mean_magnitude[milling_dose]);
-  const auto a = cut_into_batches(c.options.a, c.times, speeds, doses);
-  const auto b = cut_into_batches(c.options.b, c.times, speeds, doses);
+  const SpectrumClasses speed_classes(c.options.tolerance * c.a.mean_magnitude[approach_speed]);
+  const SpectrumClasses dose_classes(c.options.tolerance * c.a.mean_magnitude[milling_dose]);
+  const auto a = cut_into_batches(c.options.a, c.times, speed_classes, dose_classes);
+  const auto b = cut_into_batches(c.options.b, c.times, speed_classes, dose_classes);
   Judge judge(a, b, c.options.tolerance);
   const double length = c.times.length, all = Judge::events(a) + Judge::events(b);
 
+  std::array<double, partner_kinds> events_of_kind{};
   static constexpr const char* partners[] = {"wall_0", "wall_1", "wall_2", "ball_ball"};
   for (std::size_t k = 0; k < partner_kinds; ++k) {
     const auto rate = [&](const Batch& batch) { return batch.events[k] / length; };
-    double events = 0;
+    double& events = events_of_kind[k];
     for (const auto* batches : {&a, &b})
       for (const auto& batch : *batches) events += batch.events[k];
     const auto name = std::string("collision_rate_") + partners[k];
@@ -189,9 +195,10 @@ std::vector<Quantity> judge(const Comparison& c) {
                ratio_series(series_of(b, speed), series_of(b, events)));
   else
     judge.skip("mean_approach_speed", "m/s", "no collisions in one log");
-  judge.spectrum("approach_speed_spectrum", &Batch::speed_spectrum);
+  judge.spectrum("wall_approach_speed_spectrum", wall_speeds, all - events_of_kind[3]);
+  judge.spectrum("ball_approach_speed_spectrum", ball_speeds, events_of_kind[3]);
   if (c.a.has[milling_dose] && c.b.has[milling_dose])
-    judge.spectrum("milling_dose_spectrum", &Batch::dose_spectrum);
+    judge.spectrum("milling_dose_spectrum", doses, all);
   else
     judge.skip("milling_dose_spectrum", "1", missing(milling_dose));
   return judge.rows(c.events.agree_throughout());
