@@ -155,9 +155,10 @@ class Judge {
 };
 
 std::vector<Quantity> judge(const Comparison& c) {
-  // Spectra in classes above what the tolerance takes for 0.
-  const SpectrumClasses speed_classes(c.options.tolerance * c.a.mean_magnitude[approach_speed]);
-  const SpectrumClasses dose_classes(c.options.tolerance * c.a.mean_magnitude[milling_dose]);
+  // Spectra in classes above what counts as 0: far below the mean, and what the tolerance forgives.
+  const double zero = std::max(c.options.tolerance, 1e-9);
+  const SpectrumClasses speed_classes(zero * c.a.mean_magnitude[approach_speed]);
+  const SpectrumClasses dose_classes(zero * c.a.mean_magnitude[milling_dose]);
   const auto a = cut_into_batches(c.options.a, c.times, speed_classes, dose_classes);
   const auto b = cut_into_batches(c.options.b, c.times, speed_classes, dose_classes);
   Judge judge(a, b, c.options.tolerance);
