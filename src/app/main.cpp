@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "edmill/app/certify_command.hpp"
+#include "edmill/app/compare_command.hpp"
 #include "edmill/app/dispatch.hpp"
 #include "edmill/app/study_command.hpp"
 #include "edmill/core/errors.hpp"
@@ -92,8 +93,8 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done, 2 bad input, 3 ended in inelastic collapse, 4 a decision that no scalar could "
       "make,\n"
-      "5 some runs of a sweep failed, 130 and 143 interrupted by SIGINT and SIGTERM with the results so far\n"
-      "on disk, 1 any other error.");
+      "5 some runs of a sweep failed, 6 the compared outputs differ, 7 they hold too few data to say,\n"
+      "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
   std::string case_file, folder, precision, shadow;
   std::vector<std::string> overrides;
   bool quiet = false;
@@ -147,6 +148,23 @@ int main(int argc, char** argv) {
   auto* sweep_command = add_study("sweep", "run a case at many points and tabulate the results");
   auto* optimize_command = add_study("optimize", "search for the largest dose rate within bounds");
 
+  edmill::app::CompareOptions compare;
+  auto* compare_command =
+      app.add_subcommand("compare", "compare two collision logs event by event and by statistics");
+  compare_command->add_option("A", compare.a, "reference: folder of a run, or a collision log (CSV)")
+      ->required();
+  compare_command->add_option("B", compare.b, "the other")->required();
+  compare_command
+      ->add_option("--tolerance", compare.tolerance, "relative, for single events; 1e-9 unless given")
+      ->check(CLI::Range(0.0, 1.0));
+  compare_command->add_option("--events", compare.events, "so many must agree one by one");
+  compare_command->add_option("--from", compare.limits.from, "time in s to begin at");
+  compare_command->add_option("--until", compare.limits.until, "time in s to end at");
+  compare_command->add_option("--batch", compare.batch, "length of a batch in s; a twentieth unless given")
+      ->check(CLI::PositiveNumber);
+  compare_command->add_option("--json", compare.json, "file for the result in JSON");
+  compare_command->add_flag("--quiet", compare.quiet, "no table");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -159,6 +177,7 @@ int main(int argc, char** argv) {
     if (*certify_command) return certify(case_file, overrides, certification);
     if (*sweep_command) return run_study(edmill::app::run_sweep, study);
     if (*optimize_command) return run_study(edmill::app::run_optimize, study);
+    if (*compare_command) return edmill::app::run_compare(compare);
     fmt::print("{}", edmill::app::describe_case(edmill::casefile::read_case(case_file, overrides)));
     return edmill::app::ok;
   } catch (const edmill::InputError& error) {

@@ -17,7 +17,8 @@ declare -A allowed=(
   [driver]="core model casefile record setup engine observe"
   [sweep]="core model casefile record"
   [certify]="core model casefile setup engine"
-  [app]="core numerics model casefile record setup dynamics engine observe report driver sweep certify"
+  [compare]="core record sweep"
+  [app]="core numerics model casefile record setup dynamics engine observe report driver sweep certify compare"
 )
 
 status=0

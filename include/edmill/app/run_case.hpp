@@ -16,6 +16,8 @@ enum ExitCode : int {
   inelastic_collapse = 3,
   undecided = 4,
   some_runs_failed = 5,
+  outputs_differ = 6,
+  too_few_data = 7,
 };
 
 struct RunOptions {
