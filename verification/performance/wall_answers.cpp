@@ -36,7 +36,8 @@ class StateHarvest : public engine::Observer<double> {
     double until = s.clock().period();
     for (int other = 0; other < s.ball_count(); ++other) {
       if (other == ball) continue;
-      const auto answer = pairs_(own, s.flight(other), s.now(), s.properties(ball).radius + s.properties(other).radius);
+      const auto answer =
+          pairs_(own, s.flight(other), s.now(), s.properties(ball).radius + s.properties(other).radius);
       if (answer.verdict == dynamics::Verdict::contact) until = std::min(until, answer.delay);
     }
     states.push_back({s.flight(ball), s.properties(ball).radius, s.now(), until});
