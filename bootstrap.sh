@@ -13,7 +13,7 @@ program_packages=(
   libmpfr-dev libgmp-dev libssl-dev libtbb-dev libhdf5-dev libopenmpi-dev openmpi-bin
 )
 test_packages=(
-  libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev nlohmann-json3-dev
+  libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev libgsl-dev nlohmann-json3-dev
   libbenchmark-dev clang clang-format valgrind python3
 )
 

@@ -1,0 +1,182 @@
+// Claim 02: the certified wall search on states of a real run, against Arb and against GSL's Brent.
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+
+#include <cmath>
+#include <vector>
+
+#include "arb_oracle.hpp"
+#include "claim.hpp"
+#include "edmill/instances.hpp"
+
+namespace edmill::verification {
+namespace {
+
+using dynamics::Verdict;
+using dynamics::WallQuery;
+using testing::OracleQuestion;
+using testing::OracleVerdict;
+
+const Claim claim("02 root search");
+
+/// After each impact, what the engine is about to ask for each ball of it. Its window may end earlier, at the
+/// next pair contact; the longest one holds every shorter one.
+class Harvest : public engine::Observer<double> {
+ public:
+  explicit Harvest(double window) : window_(window) {}
+  void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
+    take(impact.ball, simulation);
+    if (!impact.with_wall) take(impact.partner, simulation);
+    if (queries.size() >= 6000) simulation.request_stop(engine::EndReason::max_collisions);
+  }
+  std::vector<WallQuery<double>> queries;
+
+ private:
+  void take(int ball, const engine::Simulation<double>& s) {
+    queries.push_back({s.flight(ball), s.properties(ball).radius, s.now(), window_});
+  }
+  double window_;
+};
+
+OracleQuestion question_of(const model::Mill<double>& mill, const WallQuery<double>& q, double length) {
+  const auto &r = q.flight.position, &v = q.flight.velocity, &g = mill.gravity;
+  return {mill.motion.arm,
+          mill.motion.theta_max,
+          mill.motion.gamma_max,
+          mill.motion.period,
+          mill.vessel.radius,
+          mill.vessel.half_height,
+          {g[0], g[1], g[2]},
+          {r[0], r[1], r[2]},
+          {v[0], v[1], v[2]},
+          q.flight.start.period,
+          q.flight.start.offset,
+          q.radius,
+          q.begin.period,
+          q.begin.offset,
+          length,
+          0};
+}
+
+/// The gap at `delay` after the window's begin by plain rotations in long double: no code of the solver.
+struct PlainGap {
+  const OracleQuestion& q;
+  int wall;
+
+  static double at(double delay, void* self) {
+    const auto& [question, wall] = *static_cast<PlainGap*>(self);
+    return static_cast<double>(of(question, wall, delay));
+  }
+  static long double of(const OracleQuestion& q, int wall, long double delay) {
+    using Number = long double;
+    const Number t = q.begin_offset + delay;
+    const Number flown =
+        static_cast<Number>(q.begin_period - q.start_period) * q.period + (t - q.start_offset);
+    Number r[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      r[k] = q.position[k] + q.velocity[k] * flown + q.gravity[k] * flown * flown / 2;
+    const Number phase = 2 * acosl(-1.0L) * t / q.period;
+    const Number theta = q.theta_max * cosl(phase) + acosl(-1.0L) / 2, gamma = q.gamma_max * sinl(phase);
+    // Back by theta about Z, back along the arm, back by gamma about x'.
+    const Number x = cosl(theta) * r[0] + sinl(theta) * r[1] - q.arm;
+    const Number b = cosl(theta) * r[1] - sinl(theta) * r[0];
+    const Number y = cosl(gamma) * b + sinl(gamma) * r[2], z = cosl(gamma) * r[2] - sinl(gamma) * b;
+    if (wall == 2) return q.vessel_radius - q.radius - hypotl(x, z);
+    return q.half_height - q.radius + (wall == 0 ? y : -y);
+  }
+};
+
+/// Root of the plain gap between two delays, to the last bit that Brent's method reaches in double.
+double brent(const OracleQuestion& q, int wall, double low, double high) {
+  PlainGap gap{q, wall};
+  gsl_function f{&PlainGap::at, &gap};
+  gsl_root_fsolver* solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+  double root = NAN;
+  if (gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS) {
+    int status = GSL_CONTINUE;
+    for (int k = 0; k < 200 && status == GSL_CONTINUE; ++k) {
+      gsl_root_fsolver_iterate(solver);
+      status = gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), gsl_root_fsolver_x_upper(solver),
+                                      1e-18, 4e-16);
+    }
+    root = gsl_root_fsolver_root(solver);
+  }
+  gsl_root_fsolver_free(solver);
+  return root;
+}
+
+TEST(RootSearch, EveryRootOfARealRunIsTheFirstOne) {
+  gsl_set_error_handler_off();
+  const auto built =
+      setup::build_case<double>(casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/demo.toml"));
+  engine::Simulation<double> simulation(built.the_case, built.states, built.start);
+  simulation.run_until(simulation.clock().at(0.5));  // the transient is over
+  const auto& mill = built.the_case.mill;
+  dynamics::DecisionLadder<double> ladder(mill, 2 * built.the_case.balls[0].radius, 20.0);
+  Harvest harvest(ladder.walls().longest_window());
+  simulation.attach(harvest);
+  simulation.run_until(simulation.clock().at(10.0));
+
+  const double resolution = epsilon<double>() * mill.motion.period;
+  long contacts = 0, none = 0, no_sign_change = 0, not_first = 0, unfounded = 0, unresolved = 0;
+  double worst_time = 0, worst_place = 0, worst_doubts = 0, worst_brent = 0;
+  for (const auto& query : harvest.queries) {
+    const auto answer = ladder.wall(query);
+    const bool hit = answer.verdict == Verdict::contact;
+    // A search that proves none may prove it for less than was asked.
+    const auto question = question_of(mill, query, hit ? query.length : answer.searched);
+    const auto truth = testing::first_contacts(question);
+    const testing::OracleContact* first = nullptr;
+    for (const auto& c : truth) {
+      unresolved += c.verdict == OracleVerdict::unresolved;
+      if (c.verdict == OracleVerdict::contact && (!first || c.latest < first->latest)) first = &c;
+    }
+    if (!hit) {
+      ++none;
+      not_first += first && first->earliest < answer.searched - 8 * resolution;
+      continue;
+    }
+    ++contacts;
+    if (!first) {
+      ++unfounded;
+      continue;
+    }
+    // The enclosure: the time with its doubt and the digits of the clock on both sides.
+    const double width = 2 * answer.doubt + 8 * resolution;
+    auto around = question;
+    around.begin_period = answer.time.period;
+    around.begin_offset = answer.time.offset;
+    const bool touching = first->turned_back || first->latest < 8 * resolution;
+    if (!touching)
+      no_sign_change += !(testing::gap_after(around, answer.wall, -width).gap > 0 &&
+                          testing::gap_after(around, answer.wall, width).gap < 0);
+    const auto periods = static_cast<double>(answer.time.period - query.begin.period);
+    const double delay = periods * mill.motion.period + (answer.time.offset - query.begin.offset);
+    const double error = delay - first->earliest;
+    // The cylinder's gap function grows with twice the distance from the axis.
+    const double unit = answer.wall == 2 ? 2 * (mill.vessel.radius - query.radius) : 1;
+    raise(worst_time, std::abs(error));
+    raise(worst_place, std::abs(error * first->slope) / unit);
+    raise(worst_doubts, std::abs(error) / width);
+    if (&truth[static_cast<std::size_t>(answer.wall)] != first || error > width) ++not_first;
+    if (touching) continue;
+    // Arb has proven the left part of this bracket free of contacts; without a change of sign Brent fails.
+    const double half = std::min(1e-6, first->earliest / 2);
+    const double third = brent(question, answer.wall, delay - half, delay + half);
+    raise(worst_brent, std::abs(third - delay) / width);
+  }
+  claim.say("demo.toml from 0.5 s on: " + std::to_string(harvest.queries.size()) + " queries, " +
+            std::to_string(contacts) + " contacts, " + std::to_string(none) + " proven free");
+  claim.at_least("contacts", contacts, 2000);
+  claim.at_most("queries that Arb could not resolve", unresolved, 0);
+  claim.at_most("roots whose enclosure holds no sign change in Arb", no_sign_change, 0);
+  claim.at_most("answers before which Arb finds another contact, or of another wall", not_first, 0);
+  claim.at_most("contacts that Arb does not find", unfounded, 0);
+  claim.at_most("largest |time - Arb|", worst_time, 1e-12, " s");
+  claim.at_most("largest |time - Arb| times approach speed", worst_place, 1e-15, " m");
+  claim.at_most("largest |time - Arb| in enclosures", worst_doubts, 1, "");
+  claim.at_most("largest |time - Brent| in enclosures", worst_brent, 1, "");
+}
+
+}  // namespace
+}  // namespace edmill::verification
