@@ -66,11 +66,15 @@ LogReader::LogReader(const fs::path& place) : last_time_(-std::numeric_limits<do
 
 void LogReader::read_header() {
   const auto problem = [&](const std::string& text) {
-    problems_.push_back(fmt::format("{}:1: {}", file_, text));
+    problems_.push_back(fmt::format("{}:{}: {}", file_, line_number_, text));
   };
-  if (!std::getline(in_, line_)) throw InputError(file_ + ":1: found an empty file, expected a header");
-  line_number_ = 1;
-  if (line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // a byte order mark
+  // Comments may come first, as in certified sequences.
+  do {
+    if (!std::getline(in_, line_))
+      throw InputError(
+          fmt::format("{}:{}: found the end of the file, expected a header", file_, line_number_ + 1));
+    if (++line_number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // a byte order mark
+  } while (line_.starts_with('#'));
   split();
   header_.assign(fields_.begin(), fields_.end());
   const auto column = [&](std::string_view name) -> std::optional<std::size_t> {

@@ -66,7 +66,7 @@ TEST_F(LogReading, EveryProblemOfAHeaderAtOnce) {
   EXPECT_EQ(all[0], "1: column 5: found 'time' again, expected it once");
   EXPECT_EQ(all[1], "1: found no column 'partner_kind', expected it in the header");
   EXPECT_EQ(all[2], "1: found no column 'approach_speed', expected it in the header");
-  EXPECT_EQ(problems(""), (std::vector<std::string>{"1: found an empty file, expected a header"}));
+  EXPECT_EQ(problems(""), (std::vector<std::string>{"1: found the end of the file, expected a header"}));
 }
 
 TEST_F(LogReading, BadLinesAreExplained) {
@@ -89,6 +89,13 @@ TEST_F(LogReading, BadLinesAreExplained) {
     EXPECT_EQ(problems(least + "0.5,0,wall,0,1\n" + line + "\n2,0,wall,1,1\n"),
               (std::vector<std::string>{"3: " + message}))
         << line;
+}
+
+TEST_F(LogReading, CommentsMayComeBeforeTheHeader) {
+  const std::string comments = "# certified\n# evidence, with commas\n";
+  EXPECT_TRUE(problems(comments + least + "1,0,wall,0,1\n").empty());
+  EXPECT_EQ(problems(comments + least + "1,0,roof,0,1\n").size(), 1u);
+  EXPECT_TRUE(problems(comments + least + "1,0,roof,0,1\n")[0].starts_with("4: column 3"));
 }
 
 TEST_F(LogReading, TheFirstTenBadLinesAreTold) {
