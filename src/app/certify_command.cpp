@@ -12,6 +12,7 @@
 #include "edmill/core/errors.hpp"
 #include "edmill/core/version.hpp"
 #include "edmill/instances.hpp"
+#include "edmill/observe/collision_log.hpp"
 #include "edmill/record/output_folder.hpp"
 
 namespace edmill::app {
@@ -96,7 +97,7 @@ void write_reference(const casefile::CaseSpec& spec, const CertifyOptions& optio
       << fmt::format("# {} events, each value correct to {} digits of the quantity's largest size\n",
                      sequence.events.size(), options.digits);
   for (const auto& line : evidence) out << "# " << line << '\n';
-  out << "index,time,ball,partner_kind,partner,approach_speed,slip_speed,milling_dose,wall_work\n";
+  out << observe::collision_log_header << '\n';
   for (std::size_t k = 0; k < sequence.events.size(); ++k) {
     const Event& e = sequence.events[k];
     // Two digits more than are certified: the text's own rounding is not to count.
@@ -176,9 +177,9 @@ int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, con
     fmt::print("  {:<16} agrees to {} digits\n", name_of(static_cast<Quantity>(k)),
                digits_text(agreement.digits(static_cast<Quantity>(k))));
   if (const auto lost = agreement.digits_lost_per_event()) {
-    const double balls = static_cast<double>(spec.ball_count());
-    fmt::print("  digits lost: {:.4f} an event, about {:.2f} a collision of a ball\n", *lost,
-               *lost * balls / 2);
+    const double each = static_cast<double>(agreement.bodies()) / static_cast<double>(spec.ball_count());
+    fmt::print("  digits lost: {:.4f} an event, {:.2f} a collision of a ball\n", *lost,
+               *lost * static_cast<double>(agreement.events()) / each);
   }
   return ok;
 }

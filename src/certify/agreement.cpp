@@ -27,6 +27,7 @@ bool Agreement::take(const Event& one, const Event& two) {
     }
   }
   ++events_;
+  bodies_ += one.with_wall ? 1 : 2;
   return true;
 }
 

@@ -52,7 +52,8 @@ static_assert(sizeof(dynamics::Flight<double>) == 2 * sizeof(Four));
 
 }  // namespace
 
-// Four flights are two rows each; turned, they are the columns of the loop above.
+// Four flights are two rows each; turned, they are the columns of the loop above. Written out, since a
+// function called from here would be compiled for the oldest CPU.
 EDMILL_FOR_SEVERAL_CPUS int keep_candidates(const dynamics::Flight<double>* flights, const double* radii,
                                             int stride, const PairQuestion& q, int* balls, int count) {
   const double drive = q.filter.period, slowest = q.filter.slowest_squared, touching = q.filter.touching;

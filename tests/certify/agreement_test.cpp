@@ -20,6 +20,7 @@ TEST(Agreement, DigitsAreOfTheLargestDifferenceOverTheLargestSize) {
   EXPECT_NEAR(agreement.digits(approach_speed), 6, 1e-9);  // 4e-6 of 4 m/s
   EXPECT_NEAR(agreement.least_digits(), 6, 1e-9);
   EXPECT_EQ(agreement.digits(slip_speed), Agreement::most);
+  EXPECT_EQ(agreement.bodies(), 3u);
 }
 
 TEST(Agreement, OtherBodiesEndTheCommonSequence) {

@@ -13,8 +13,8 @@
 #include <sstream>
 #include <vector>
 
-#include "arb_oracle.hpp"
 #include "edmill/instances.hpp"
+#include "oracle_question.hpp"
 #include "spex_case.hpp"
 
 namespace edmill::dynamics {
@@ -232,25 +232,6 @@ class StateMaker {
   double longest_;
 };
 
-OracleQuestion question_of(const model::Mill<double>& mill, const WallQuery<double>& q, double overtime) {
-  return {mill.motion.arm,
-          mill.motion.theta_max,
-          mill.motion.gamma_max,
-          mill.motion.period,
-          mill.vessel.radius,
-          mill.vessel.half_height,
-          {mill.gravity[0], mill.gravity[1], mill.gravity[2]},
-          {q.flight.position[0], q.flight.position[1], q.flight.position[2]},
-          {q.flight.velocity[0], q.flight.velocity[1], q.flight.velocity[2]},
-          q.flight.start.period,
-          q.flight.start.offset,
-          q.radius,
-          q.begin.period,
-          q.begin.offset,
-          q.length,
-          overtime};
-}
-
 std::string text(const model::Mill<double>& mill, const WallQuery<double>& q) {
   std::ostringstream out;
   out << std::hexfloat << "mill: arm " << mill.motion.arm << " theta_max " << mill.motion.theta_max
@@ -319,7 +300,7 @@ class Comparison {
       return;
     }
     const auto asked = Clock::now();
-    const auto contacts = testing::first_contacts(question_of(mill_, query, end_slack()));
+    const auto contacts = testing::first_contacts(testing::question_of(mill_, query, end_slack()));
     const auto told = Clock::now();
     search_seconds += std::chrono::duration<double>(asked - start).count();
     oracle_seconds += std::chrono::duration<double>(told - asked).count();
@@ -446,7 +427,7 @@ class Comparison {
         << " wall " << answer.wall << " after " << static_cast<double>(delay(query, answer)) << " s\n";
     for (int wall = 0; wall < 3; ++wall) {
       const auto& c = contacts[static_cast<std::size_t>(wall)];
-      const auto g = testing::gap_after(question_of(mill_, query, 0), wall, 0);
+      const auto g = testing::gap_after(testing::question_of(mill_, query), wall, 0);
       out << "  wall " << wall << ": gap " << g.gap << " rate " << g.rate << " at begin; oracle "
           << (c.verdict == OracleVerdict::contact ? "contact after "
               : c.verdict == OracleVerdict::none  ? "none "

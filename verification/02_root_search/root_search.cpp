@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "arb_oracle.hpp"
 #include "claim.hpp"
 #include "edmill/instances.hpp"
+#include "oracle_question.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -37,26 +37,6 @@ class Harvest : public engine::Observer<double> {
   }
   double window_;
 };
-
-OracleQuestion question_of(const model::Mill<double>& mill, const WallQuery<double>& q, double length) {
-  const auto &r = q.flight.position, &v = q.flight.velocity, &g = mill.gravity;
-  return {mill.motion.arm,
-          mill.motion.theta_max,
-          mill.motion.gamma_max,
-          mill.motion.period,
-          mill.vessel.radius,
-          mill.vessel.half_height,
-          {g[0], g[1], g[2]},
-          {r[0], r[1], r[2]},
-          {v[0], v[1], v[2]},
-          q.flight.start.period,
-          q.flight.start.offset,
-          q.radius,
-          q.begin.period,
-          q.begin.offset,
-          length,
-          0};
-}
 
 /// The gap at `delay` after the window's begin by plain rotations in long double: no code of the solver.
 struct PlainGap {
@@ -124,7 +104,9 @@ TEST(RootSearch, EveryRootOfARealRunIsTheFirstOne) {
     const auto answer = ladder.wall(query);
     const bool hit = answer.verdict == Verdict::contact;
     // A search that proves none may prove it for less than was asked.
-    const auto question = question_of(mill, query, hit ? query.length : answer.searched);
+    WallQuery<double> asked = query;
+    if (!hit) asked.length = answer.searched;
+    const auto question = testing::question_of(mill, asked);
     const auto truth = testing::first_contacts(question);
     const testing::OracleContact* first = nullptr;
     for (const auto& c : truth) {

@@ -16,6 +16,8 @@ class Agreement {
   bool take(const Event& one, const Event& two);
 
   std::size_t events() const { return events_; }
+  /// Balls that took part, counted at each event: two where balls collide.
+  std::size_t bodies() const { return bodies_; }
   /// Digits to which all events taken agree; `most` when no difference was seen.
   double digits(Quantity quantity) const;
   double least_digits() const;
@@ -26,7 +28,7 @@ class Agreement {
   std::optional<double> digits_lost_per_event() const;
 
  private:
-  std::size_t events_ = 0;
+  std::size_t events_ = 0, bodies_ = 0;
   std::array<Number, quantity_count> largest_difference_{}, largest_size_{};
   double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;  // of the line through log10 of the differences in time
 };

@@ -1,7 +1,7 @@
 // The events of a run, one after the other, in numbers that hold those of every scalar.
 #pragma once
 
-#include <cstdint>
+#include <array>
 #include <memory>
 #include <vector>
 

@@ -8,7 +8,7 @@
 
 namespace edmill {
 
-/// Name of a scalar as the case file and the records spell it: "double", "float128", "mpfr50".
+/// Name of a scalar as the case file and the records spell it, e.g. "double", "mpfr50".
 template <class Real>
 struct ScalarName;
 
@@ -17,9 +17,11 @@ struct ScalarName<double> {
   static constexpr std::string_view value = "double";
 };
 
-/// The next wider scalar of the decision ladder, or void at its top.
+/// The next wider scalar of the decision ladder; void where the ladder ends.
 template <class Real>
-struct WiderScalar;
+struct WiderScalar {
+  using type = void;
+};
 
 template <class Real>
 using Wider = typename WiderScalar<Real>::type;

@@ -28,7 +28,6 @@ template <>
 struct ScalarName<mpfr50> {
   static constexpr std::string_view value = "mpfr50";
 };
-
 template <>
 struct ScalarName<mpfr100> {
   static constexpr std::string_view value = "mpfr100";
@@ -45,18 +44,6 @@ struct WiderScalar<double> {
 template <>
 struct WiderScalar<float128> {
   using type = mpfr50;
-};
-template <>
-struct WiderScalar<mpfr50> {
-  using type = void;
-};
-template <>
-struct WiderScalar<mpfr100> {
-  using type = void;
-};
-template <>
-struct WiderScalar<mpfr200> {
-  using type = void;
 };
 
 }  // namespace edmill

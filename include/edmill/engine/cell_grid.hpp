@@ -14,10 +14,9 @@
 namespace edmill::engine {
 
 /// Which face of its cell a ball leaves through, and when.
-template <class Real>
 struct Crossing {
   bool happens = false;
-  Real delay{};  ///< from now [s]
+  double delay = 0;  ///< from now [s]
   int axis = 0;
   int step = 0;  ///< -1 or +1
 };
@@ -29,17 +28,17 @@ struct FoundBalls {
 };
 
 /// Cells are never thinner than the largest ball plus a margin that dwarfs the rounding of crossing times, so
-/// a crossing that is late by rounding hides no contact. The outermost cells are open to the outside.
-template <class Real>
+/// a crossing that is late by rounding hides no contact; that is why double serves every scalar. The
+/// outermost cells are open to the outside.
 class CellGrid {
  public:
   /// @param low, high  corners of the region that the balls' centres sweep [m]
   /// @param edge       least edge of a cell [m]
-  CellGrid(const Vec3<Real>& low, const Vec3<Real>& high, const Real& edge, int balls)
+  CellGrid(const Vec3<double>& low, const Vec3<double>& high, double edge, int balls)
       : low_(low), place_(balls) {
     for (int k = 0; k < 3; ++k) {
-      const Real extent = high[k] - low[k];
-      const double count = std::floor(static_cast<double>(extent / edge));
+      const double extent = high[k] - low[k];
+      const double count = std::floor(extent / edge);
       cells_[k] = count < 1 ? 1 : count > 512 ? 512 : static_cast<int>(count);
       edge_[k] = extent / cells_[k];
     }
@@ -49,9 +48,9 @@ class CellGrid {
   int cells(int axis) const { return cells_[axis]; }
   bool single_cell() const { return content_.size() == 1; }
 
-  void insert(int ball, const Vec3<Real>& position) {
+  void insert(int ball, const Vec3<double>& position) {
     for (int k = 0; k < 3; ++k) {
-      const Real place = (position[k] - low_[k]) / edge_[k];
+      const double place = (position[k] - low_[k]) / edge_[k];
       int cell = place > 0 ? static_cast<int>(place) : 0;
       if (cell >= cells_[k]) cell = cells_[k] - 1;
       place_[ball][k] = cell;
@@ -66,12 +65,12 @@ class CellGrid {
   }
 
   /// When the ball, now at `position` with `velocity`, leaves its cell.
-  Crossing<Real> crossing(int ball, const Vec3<Real>& position, const Vec3<Real>& velocity,
-                          const Vec3<Real>& gravity) const {
-    Crossing<Real> best;
+  Crossing crossing(int ball, const Vec3<double>& position, const Vec3<double>& velocity,
+                    const Vec3<double>& gravity) const {
+    Crossing best;
     for (int k = 0; k < 3; ++k) {
-      const Real lower = low_[k] + place_[ball][k] * edge_[k];
-      const Real above = (lower + edge_[k]) - position[k], below = position[k] - lower;
+      const double lower = low_[k] + place_[ball][k] * edge_[k];
+      const double above = (lower + edge_[k]) - position[k], below = position[k] - lower;
       const bool falls_up = gravity[k] > 0;
       if (gravity[k] == 0)
         drift(best, ball, k, above, below, velocity[k]);
@@ -107,36 +106,34 @@ class CellGrid {
     return (next >= 0) & (next < cells_[axis]);
   }
 
-  static void keep_earlier(Crossing<Real>& best, bool reached, const Real& delay, int axis, int step) {
+  static void keep_earlier(Crossing& best, bool reached, double delay, int axis, int step) {
     if (reached && (!best.happens || delay < best.delay)) best = {true, delay, axis, step};
   }
 
   /// Along an axis without gravity.
-  void drift(Crossing<Real>& best, int ball, int axis, const Real& above, const Real& below,
-             const Real& speed) const {
+  void drift(Crossing& best, int ball, int axis, double above, double below, double speed) const {
     const bool up = speed > 0;
     const int step = up ? 1 : -1;
-    const Real distance = up ? above : below;
-    const Real size = up ? speed : Real(-speed);
+    const double distance = up ? above : below;
+    const double size = up ? speed : -speed;
     const bool reached = (size > 0) & is_inner_face(ball, axis, step);
-    keep_earlier(best, reached, (distance > 0 ? distance : Real(0)) / size, axis, step);
+    keep_earlier(best, reached, (distance > 0 ? distance : 0.0) / size, axis, step);
   }
 
   /// Along an axis with gravity, which points to `step`: a ball that moves against it may reach the far face
   /// first, and falls to the near one otherwise. Which of them is a coin toss, so one formula serves both.
-  void fall(Crossing<Real>& best, int ball, int axis, int step, const Real& ahead, const Real& behind,
-            const Real& speed, const Real& gravity) const {
-    using std::sqrt;
-    const Real far = behind > 0 ? behind : Real(0), near = ahead > 0 ? ahead : Real(0);
-    const Real square = speed * speed, turning = square - 2 * (gravity * far);
+  void fall(Crossing& best, int ball, int axis, int step, double ahead, double behind, double speed,
+            double gravity) const {
+    const double far = behind > 0 ? behind : 0.0, near = ahead > 0 ? ahead : 0.0;
+    const double square = speed * speed, turning = square - 2 * (gravity * far);
     const bool against = speed < 0;
     const bool back = against & (turning >= 0) & is_inner_face(ball, axis, -step);
-    const Real distance = back ? far : near;
-    const Real root = sqrt(back ? turning : Real(square + 2 * (gravity * near)));
-    const Real size = against ? Real(-speed) : speed;
+    const double distance = back ? far : near;
+    const double root = std::sqrt(back ? turning : square + 2 * (gravity * near));
+    const double size = against ? -speed : speed;
     const bool rises_first = against & !back;  // where root - speed is free of cancellation
-    const Real numerator = rises_first ? Real(root + size) : Real(2 * distance);
-    const Real denominator = rises_first ? gravity : Real(size + root);
+    const double numerator = rises_first ? root + size : 2 * distance;
+    const double denominator = rises_first ? gravity : size + root;
     const bool reached = (back | is_inner_face(ball, axis, step)) & (denominator > 0);
     keep_earlier(best, reached, numerator / denominator, axis, back ? -step : step);
   }
@@ -225,8 +222,8 @@ class CellGrid {
     for (int& other : cell.balls) other = other == ball ? last : other;
   }
 
-  Vec3<Real> low_;
-  std::array<Real, 3> edge_;
+  Vec3<double> low_;
+  std::array<double, 3> edge_;
   Place cells_;
   std::vector<Cell> content_;
   std::unordered_map<std::size_t, std::vector<int>> overflow_;

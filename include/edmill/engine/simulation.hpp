@@ -165,7 +165,7 @@ class Simulation {
   std::vector<dynamics::Flight<double>> rough_flights_;  ///< empty when the scalar is double
   std::vector<double> radii_;                            ///< rounded too
   int stride_;  ///< 0 when all balls are alike: then the first entry, always at hand, serves for every ball
-  CellGrid<double> grid_;
+  CellGrid grid_;
   std::optional<FlightTable> table_;  ///< instead of the grid when that has one cell
   EventQueue<Real> queue_;
   CollapseWatch<Real> collapse_watch_;

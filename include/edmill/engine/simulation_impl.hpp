@@ -33,8 +33,7 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
 /// The region that the vessel sweeps, cut into cells that hold about one ball but are thicker than the
 /// largest.
 template <class Real>
-CellGrid<double> make_grid(const model::Mill<Real>& mill,
-                           const std::vector<model::BallProperties<Real>>& balls) {
+CellGrid make_grid(const model::Mill<Real>& mill, const std::vector<model::BallProperties<Real>>& balls) {
   using std::sqrt;
   const Real &R = mill.vessel.radius, &h = mill.vessel.half_height;
   const Real reach = sqrt(R * R + h * h);
@@ -52,8 +51,8 @@ CellGrid<double> make_grid(const model::Mill<Real>& mill,
   if (balls.size() <= 32) edge = 4 * sideways;
   const double spacing = 0.45 * std::cbrt(volume / static_cast<double>(balls.size()));
   if (edge < spacing) edge = Real(spacing);
-  return CellGrid<double>(vector_cast<double>(low), vector_cast<double>(high), static_cast<double>(edge),
-                          static_cast<int>(balls.size()));
+  return CellGrid(vector_cast<double>(low), vector_cast<double>(high), static_cast<double>(edge),
+                  static_cast<int>(balls.size()));
 }
 
 }  // namespace detail

@@ -1,0 +1,30 @@
+// The solver's question to the oracle, in the oracle's plain numbers.
+#pragma once
+
+#include "arb_oracle.hpp"
+#include "edmill/dynamics/wall_search.hpp"
+
+namespace edmill::testing {
+
+/// @param overtime  see OracleQuestion [s]
+inline OracleQuestion question_of(const model::Mill<double>& mill, const dynamics::WallQuery<double>& q,
+                                  double overtime = 0) {
+  return {mill.motion.arm,
+          mill.motion.theta_max,
+          mill.motion.gamma_max,
+          mill.motion.period,
+          mill.vessel.radius,
+          mill.vessel.half_height,
+          {mill.gravity[0], mill.gravity[1], mill.gravity[2]},
+          {q.flight.position[0], q.flight.position[1], q.flight.position[2]},
+          {q.flight.velocity[0], q.flight.velocity[1], q.flight.velocity[2]},
+          q.flight.start.period,
+          q.flight.start.offset,
+          q.radius,
+          q.begin.period,
+          q.begin.offset,
+          q.length,
+          overtime};
+}
+
+}  // namespace edmill::testing
