@@ -222,8 +222,26 @@ void read_output(Section s, CaseSpec& spec) {
   output.end_time = s.quantity("end_time", Dimension::time);
   if (output.start_time && output.end_time)
     s.require(output.end_time->value > output.start_time->value, "end_time", "a time after start_time");
+  output.states = s.flag("states");
   s.reject_unknown_keys();
   spec.outputs.push_back(std::move(output));
+}
+
+void read_audit(Section audit, AuditSpec& spec) {
+  Section columns = audit.section("columns");
+  for (const auto& ours : columns.keys())
+    if (const auto theirs = columns.text(ours)) spec.columns.emplace_back(ours, *theirs);
+  spec.tolerance = audit.quantity("tolerance", Dimension::none);
+  if (spec.tolerance)
+    audit.require(spec.tolerance->positive() && spec.tolerance->value < 1, "tolerance",
+                  "a number above 0, below 1");
+  spec.gap_tolerance = audit.quantity("gap_tolerance", Dimension::length);
+  if (spec.gap_tolerance) audit.require(spec.gap_tolerance->positive(), "gap_tolerance", "a positive length");
+  spec.first_ball = audit.count("first_ball");
+  if (spec.first_ball) audit.require(*spec.first_ball <= largest_count, "first_ball", "usually 0 or 1");
+  spec.walls = audit.text("walls").value_or("");
+  spec.from_start = audit.flag("from_start");
+  audit.reject_unknown_keys();
 }
 
 /// Everything that a run depends on, in one order and exact.
@@ -340,6 +358,7 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
   for (const auto& entry : top.sections("ball")) read_ball(entry, spec);
   for (const auto& entry : top.sections("balls")) read_batch(entry, spec);
   for (const auto& entry : top.sections("output")) read_output(entry, spec);
+  read_audit(top.section("audit"), spec.audit);
   if (!top.has("ball") && !top.has("balls"))
     top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
   top.reject_unknown_keys();

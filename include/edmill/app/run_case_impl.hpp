@@ -25,7 +25,7 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   };
   for (const auto& output : spec.outputs)
     logs.push_back(std::make_unique<observe::CollisionLog<Real>>(
-        folder / output.file, time(output.start_time), time(output.end_time)));
+        folder / output.file, time(output.start_time), time(output.end_time), output.states));
 
   driver::Guests<Real> guests;
   guests.interrupt = options.interrupt;

@@ -56,6 +56,16 @@ struct OutputSpec {
   std::string type;
   std::string file;
   std::optional<Quantity> start_time, end_time;
+  bool states = false;  ///< with the bodies' states before and after
+};
+
+/// Section [audit]: how another code's collision log is to be read and judged. docs/audit.md
+struct AuditSpec {
+  std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
+  std::optional<Quantity> tolerance, gap_tolerance;
+  std::optional<std::uint64_t> first_ball;
+  std::string walls;  ///< "-1, -2, -3": what stands for walls 0, 1 and 2; empty when not given
+  bool from_start = false;
 };
 
 struct CaseSpec {
@@ -75,6 +85,7 @@ struct CaseSpec {
   std::vector<ExplicitBall> balls;
   std::vector<BallBatch> batches;
   std::vector<OutputSpec> outputs;
+  AuditSpec audit;  ///< no part of what is simulated, nor of the digest
 
   std::size_t ball_count() const;
 };

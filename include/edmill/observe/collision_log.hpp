@@ -15,13 +15,25 @@ namespace edmill::observe {
 inline constexpr const char* collision_log_header =
     "index,time,ball,partner_kind,partner,approach_speed,slip_speed,milling_dose,wall_work";
 
+/// What `states = true` adds: for the ball and for its partner position, velocity and spin before, velocity
+/// and spin after the impact, in the inertial frame [m, m/s, rad/s]. Those of a wall are empty.
+inline constexpr const char* collision_log_states =
+    ",x,y,z,vx_before,vy_before,vz_before,wx_before,wy_before,wz_before"
+    ",vx_after,vy_after,vz_after,wx_after,wy_after,wz_after"
+    ",partner_x,partner_y,partner_z,partner_vx_before,partner_vy_before,partner_vz_before"
+    ",partner_wx_before,partner_wy_before,partner_wz_before,partner_vx_after,partner_vy_after,partner_vz_"
+    "after"
+    ",partner_wx_after,partner_wy_after,partner_wz_after";
+
 template <class Real>
 class CollisionLog : public engine::Observer<Real> {
  public:
   /// @param from, until  times [s] that the log is restricted to, both included
-  CollisionLog(const std::filesystem::path& place, std::optional<Real> from, std::optional<Real> until)
-      : file_(place), from_(from), until_(until) {
-    file_.stream() << collision_log_header << '\n';
+  /// @param states       with the bodies' states before and after
+  CollisionLog(const std::filesystem::path& place, std::optional<Real> from, std::optional<Real> until,
+               bool states = false)
+      : file_(place), from_(from), until_(until), states_(states) {
+    file_.stream() << collision_log_header << (states ? collision_log_states : "") << '\n';
   }
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
@@ -33,14 +45,30 @@ class CollisionLog : public engine::Observer<Real> {
                        std::to_string(impact.partner);
     for (const Real* value : {&o.approach_speed, &o.slip_speed, &o.milling_dose, &o.wall_work})
       line += "," + to_text<Real>(*value);
+    if (states_) {
+      line += states_of(impact, 0, simulation);
+      line += impact.with_wall ? std::string(15, ',') : states_of(impact, 1, simulation);
+    }
     file_.stream() << line << '\n';
   }
 
   void commit() { file_.commit(); }
 
  private:
+  static std::string states_of(const engine::Impact<Real>& impact, int body,
+                               const engine::Simulation<Real>& simulation) {
+    const int ball = body == 0 ? impact.ball : impact.partner;
+    const auto& flight = simulation.flight(ball);
+    std::string text;
+    for (const Vec3<Real>* vector : {&flight.position, &impact.velocity_before[body],
+                                     &impact.spin_before[body], &flight.velocity, &simulation.spin(ball)})
+      for (int axis = 0; axis < 3; ++axis) text += "," + to_text<Real>((*vector)[axis]);
+    return text;
+  }
+
   record::AtomicFile file_;
   std::optional<Real> from_, until_;
+  bool states_;
 };
 
 }  // namespace edmill::observe
