@@ -4,11 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "edmill/record/csv_reader.hpp"
 
 namespace edmill::compare {
 
@@ -45,27 +45,16 @@ class LogReader {
   /// @throws InputError with the bad lines: file, line, column, found, expected
   std::optional<Event> next();
 
-  const std::string& file() const { return file_; }
+  const std::string& file() const { return csv_.file(); }
 
  private:
   void read_header();
   std::optional<Event> parse();
-  std::optional<double> parse_number(std::size_t column);
-  std::optional<int> parse_id(std::size_t column, const std::string& expected, int largest);
-  void split();
-  void bad_line(const std::string& problem);
-  void bad_field(std::size_t column, const std::string& expected);
 
-  std::string file_;
-  std::ifstream in_;
-  std::string line_;
-  std::vector<std::string_view> fields_;  ///< of line_
-  std::vector<std::string> header_;
+  record::CsvReader csv_;
   std::array<std::optional<std::size_t>, value_count> value_columns_;
   std::size_t ball_column_ = 0, kind_column_ = 0, partner_column_ = 0;
-  std::uint64_t line_number_ = 0;
   double last_time_;
-  std::vector<std::string> problems_;
 };
 
 /// What one pass over a log tells.
