@@ -10,6 +10,7 @@
 #include "edmill/dynamics/wall_search.hpp"
 #include "edmill/engine/simulation.hpp"
 #include "edmill/numerics/wide_trigonometry.hpp"
+#include "edmill/outputs/output.hpp"
 #include "edmill/record/final_state.hpp"
 #include "edmill/record/summary.hpp"
 #include "edmill/report/result_table.hpp"
@@ -38,6 +39,14 @@
   prefix int app::run_case<Real>(const casefile::CaseSpec&, const app::RunOptions&);                        \
   }
 
-#define EDMILL_DECLARE_INSTANCES(Real) EDMILL_INSTANCES(extern template, Real)
+/// Outputs are compiled apart: they change more often than the core.
+#define EDMILL_OUTPUT_INSTANCES(prefix, Real) \
+  namespace edmill {                          \
+  prefix class outputs::Outputs<Real>;        \
+  }
+
+#define EDMILL_DECLARE_INSTANCES(Real)    \
+  EDMILL_INSTANCES(extern template, Real) \
+  EDMILL_OUTPUT_INSTANCES(extern template, Real)
 EDMILL_FOR_EACH_SCALAR(EDMILL_DECLARE_INSTANCES)
 #undef EDMILL_DECLARE_INSTANCES

@@ -10,6 +10,7 @@
 #include "edmill/app/certify_command.hpp"
 #include "edmill/app/compare_command.hpp"
 #include "edmill/app/dispatch.hpp"
+#include "edmill/app/list_variables.hpp"
 #include "edmill/app/study_command.hpp"
 #include "edmill/core/errors.hpp"
 #include "edmill/core/version.hpp"
@@ -135,6 +136,9 @@ int main(int argc, char** argv) {
       ->take_all()
       ->expected(1);
 
+  auto* variables_command =
+      app.add_subcommand("variables", "list the variables that outputs can show, as Markdown tables");
+
   edmill::app::StudyOptions study;
   const auto add_study = [&](const std::string& name, const std::string& what) {
     auto* command = app.add_subcommand(name, what);
@@ -178,6 +182,10 @@ int main(int argc, char** argv) {
     if (*sweep_command) return run_study(edmill::app::run_sweep, study);
     if (*optimize_command) return run_study(edmill::app::run_optimize, study);
     if (*compare_command) return edmill::app::run_compare(compare);
+    if (*variables_command) {
+      fmt::print("{}", edmill::app::list_variables());
+      return edmill::app::ok;
+    }
     fmt::print("{}", edmill::app::describe_case(edmill::casefile::read_case(case_file, overrides)));
     return edmill::app::ok;
   } catch (const edmill::InputError& error) {

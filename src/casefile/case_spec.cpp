@@ -6,6 +6,7 @@
 
 #include "edmill/core/digest.hpp"
 #include "edmill/core/errors.hpp"
+#include "output_spec.hpp"
 #include "section.hpp"
 
 namespace edmill::casefile {
@@ -206,25 +207,6 @@ void read_ball(Section s, CaseSpec& spec) {
   if (const auto spin = s.vector("spin", Dimension::angular_speed)) ball.spin = *spin;
   s.reject_unknown_keys();
   spec.balls.push_back(std::move(ball));
-}
-
-void read_output(Section s, CaseSpec& spec) {
-  OutputSpec output;
-  if (!s.has("type")) s.problem("type", "nothing", "\"collisions\"");
-  output.type = s.choice("type", {"collisions"});
-  output.file = s.text("file").value_or(output.type + ".csv");
-  s.require(output.file.find('/') == std::string::npos && output.file != "." && output.file != ".." &&
-                output.file != "summary.json" && output.file != "final_state.csv",
-            "file", "a plain file name other than summary.json and final_state.csv");
-  for (const auto& other : spec.outputs)
-    s.require(other.file != output.file, "file", "a file name that no other output has");
-  output.start_time = s.quantity("start_time", Dimension::time);
-  output.end_time = s.quantity("end_time", Dimension::time);
-  if (output.start_time && output.end_time)
-    s.require(output.end_time->value > output.start_time->value, "end_time", "a time after start_time");
-  output.states = s.flag("states");
-  s.reject_unknown_keys();
-  spec.outputs.push_back(std::move(output));
 }
 
 void read_audit(Section audit, AuditSpec& spec) {

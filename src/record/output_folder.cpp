@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <atomic>
+
 #include "edmill/core/errors.hpp"
 
 namespace edmill::record {
@@ -22,8 +24,32 @@ void prepare_folder(const fs::path& folder) {
                      ": found a folder that cannot be written to, expected an output folder");
 }
 
-AtomicFile::AtomicFile(fs::path place)
-    : place_(std::move(place)), temporary_(place_.string() + ".partial-" + std::to_string(::getpid())) {
+namespace {
+std::atomic<int> opened = 0;  // two files of one run can have the same place
+
+/// What stood in `place`, then what is in `addition`, under the latter's name.
+void prepend(const fs::path& place, const fs::path& addition) {
+  const fs::path joined = addition.string() + "-joined";
+  std::ofstream out(joined, std::ios::binary | std::ios::trunc);
+  for (const auto& part : {place, addition}) {
+    std::ifstream in(part, std::ios::binary);
+    if (fs::file_size(part) > 0) out << in.rdbuf();
+  }
+  out.close();
+  if (out.fail()) {
+    std::error_code ignored;
+    fs::remove(joined, ignored);
+    throw std::runtime_error(place.string() + ": could not be written; the disk may be full");
+  }
+  fs::rename(joined, addition);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(fs::path place, bool append)
+    : place_(std::move(place)),
+      temporary_(place_.string() + ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(opened++)),
+      append_(append) {
   std::error_code ignored;
   if (fs::is_directory(place_, ignored))
     throw InputError(place_.string() + ": found a folder, expected a place for a file");
@@ -45,6 +71,8 @@ void AtomicFile::commit() {
   stream_.close();
   if (!good || stream_.fail())
     throw std::runtime_error(place_.string() + ": could not be written; the disk may be full");
+  std::error_code ignored;
+  if (append_ && fs::exists(place_, ignored)) prepend(place_, temporary_);
   fs::rename(temporary_, place_);
   committed_ = true;
 }

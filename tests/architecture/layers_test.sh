@@ -14,11 +14,12 @@ declare -A allowed=(
   [observe]="core numerics model dynamics engine record"
   [setup]="core numerics model casefile record"
   [report]="core record"
+  [outputs]="core numerics model casefile record engine observe"
   [driver]="core model casefile record setup engine observe"
   [sweep]="core model casefile record"
   [certify]="core model casefile setup engine"
   [compare]="core record sweep"
-  [app]="core numerics model casefile record setup dynamics engine observe report driver sweep certify compare"
+  [app]="core numerics model casefile record setup dynamics engine observe outputs report driver sweep certify compare"
 )
 
 status=0

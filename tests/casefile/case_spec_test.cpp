@@ -161,8 +161,8 @@ TEST(CaseSpec, EveryValueOfAFullCaseIsReadExactly) {
   ASSERT_EQ(c.outputs.size(), 1u);
   EXPECT_EQ(c.outputs[0].type, "collisions");
   EXPECT_EQ(c.outputs[0].file, "first.csv");
-  EXPECT_EQ(c.outputs[0].start_time->value, 1);
-  EXPECT_EQ(c.outputs[0].end_time->value, 2);
+  EXPECT_EQ(c.outputs[0].timer.start_time->value, 1);
+  EXPECT_EQ(c.outputs[0].timer.end_time->value, 2);
 }
 
 TEST(CaseSpec, DefaultsAreThoseOfTheThesis) {

@@ -8,8 +8,8 @@
 
 #include "edmill/app/run_case.hpp"
 #include "edmill/driver/simulate.hpp"
-#include "edmill/observe/collision_log.hpp"
 #include "edmill/observe/progress.hpp"
+#include "edmill/outputs/output.hpp"
 #include "edmill/report/result_table.hpp"
 
 namespace edmill::app {
@@ -19,18 +19,12 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   const std::filesystem::path folder(options.folder);
   const auto built = setup::build_case<Real>(spec);
   record::prepare_folder(folder);
-  std::vector<std::unique_ptr<observe::CollisionLog<Real>>> logs;
-  const auto time = [](const std::optional<casefile::Quantity>& q) {
-    return q ? std::optional<Real>(q->template to<Real>()) : std::nullopt;
-  };
-  for (const auto& output : spec.outputs)
-    logs.push_back(std::make_unique<observe::CollisionLog<Real>>(
-        folder / output.file, time(output.start_time), time(output.end_time), output.states));
+  const DriveClock<Real> clock(built.the_case.mill.motion.period);
+  outputs::Outputs<Real> outputs(spec, folder, clock.seconds(built.start));
 
   driver::Guests<Real> guests;
   guests.interrupt = options.interrupt;
-  for (auto& log : logs) guests.observers.push_back(log.get());
-  const DriveClock<Real> clock(built.the_case.mill.motion.period);
+  if (!outputs.empty()) guests.observers.push_back(&outputs);
   std::unique_ptr<observe::Progress<Real>> progress;
   if (!options.quiet && ::isatty(STDERR_FILENO)) {
     std::optional<double> end;
@@ -42,7 +36,7 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   const auto [summary, saved] = driver::simulate<Real>(spec, built, guests);
   progress.reset();
 
-  for (auto& log : logs) log->commit();
+  outputs.commit();
   record::AtomicFile state_file(folder / "final_state.csv");
   record::write_final_state<Real>(state_file.stream(), saved, clock);
   state_file.commit();

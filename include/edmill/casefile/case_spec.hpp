@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "edmill/casefile/output_spec.hpp"
 #include "edmill/casefile/quantity.hpp"
 #include "edmill/model/contact_law.hpp"
 
@@ -49,14 +50,6 @@ struct MillSpec {
   std::string type = "spex8000";
   Quantity arm, theta_max, gamma_max;
   Quantity period;  ///< of the drive, or the clock unit of a still vessel [s]
-};
-
-/// An entry [[output]].
-struct OutputSpec {
-  std::string type;
-  std::string file;
-  std::optional<Quantity> start_time, end_time;
-  bool states = false;  ///< with the bodies' states before and after
 };
 
 /// Section [audit]: how another code's collision log is to be read and judged. docs/audit.md

@@ -101,6 +101,7 @@ Result<Real> simulate(const casefile::CaseSpec& spec, const setup::InitialCase<R
   Result<Real> result;
   auto& summary = result.summary;
   run_both_parts(built, guests.interrupt, simulation, statistics, summary);
+  for (auto* observer : guests.observers) observer->on_end(simulation);
   summary.cpu_seconds = cpu_seconds() - cpu_start;
   note_totals(simulation, statistics, summary);
   if (spec.powder_mass) summary.powder_mass = spec.powder_mass->template to<Real>();

@@ -31,12 +31,13 @@ inline Vec3<Real> velocity_after(const Flight<Real>& f, const Vec3<Real>& gravit
 }
 
 template <class Real>
-inline void fly_to(Flight<Real>& f, const Vec3<Real>& gravity, const DriveClock<Real>& clock,
+inline Real fly_to(Flight<Real>& f, const Vec3<Real>& gravity, const DriveClock<Real>& clock,
                    const Instant<Real>& when) {
   const Real dt = clock.elapsed(f.start, when);
   f.position = position_after(f, gravity, dt);
   f.velocity = velocity_after(f, gravity, dt);
   f.start = when;
+  return dt;
 }
 
 template <class To, class From>

@@ -26,6 +26,8 @@ struct Impact {
   Vec3<Real> normal;  ///< unit, from the partner to the ball
   Vec3<Real> velocity_before[2];  ///< of the ball and, for balls, the partner [m/s]
   Vec3<Real> spin_before[2];      ///< [rad/s]
+  Real flight_time[2];            ///< since the body's last impact, or the start of the run [s]
+  Vec3<Real> wall_velocity;       ///< of the wall at the contact point; of no account between balls [m/s]
 };
 
 template <class Real>
@@ -33,6 +35,8 @@ class Observer {
  public:
   virtual ~Observer() = default;
   virtual void on_impact(const Impact<Real>& impact, Simulation<Real>& simulation) = 0;
+  /// At the end of the run, whatever ended it.
+  virtual void on_end(const Simulation<Real>&) {}
 };
 
 }  // namespace edmill::engine

@@ -192,7 +192,7 @@ model::VesselPose<Real> Simulation<Real>::pose_at_wall_contact(int ball) const {
 template <class Real>
 void Simulation<Real>::collide_with_wall(int ball, int wall) {
   auto& flight = flights_[ball];
-  dynamics::fly_to(flight, mill_.gravity, clock_, now_);
+  const Real flight_time = dynamics::fly_to(flight, mill_.gravity, clock_, now_);
   const auto pose = pose_at_wall_contact(ball);
   const auto local = model::to_vessel_frame<Real>(pose, mill_.motion.arm, flight.position, flight.velocity);
   const Real radius = properties(ball).radius;
@@ -216,6 +216,8 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   impact.resting = impact.collapsing && collapse_watch_.resting(ball);
   impact.velocity_before[0] = flight.velocity;
   impact.spin_before[0] = spins_[ball];
+  impact.flight_time[0] = flight_time;
+  impact.wall_velocity = wall_velocity;
   impact.outcome =
       dynamics::collide_with_wall<Real>(normal, properties(ball), wall_velocity, flight.velocity,
                                         spins_[ball], mill_.ball_wall, impact.collapsing, impact.resting);
@@ -232,8 +234,8 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
 template <class Real>
 void Simulation<Real>::collide_pair(int ball, int partner) {
   auto &one = flights_[ball], &two = flights_[partner];
-  dynamics::fly_to(one, mill_.gravity, clock_, now_);
-  dynamics::fly_to(two, mill_.gravity, clock_, now_);
+  const Real flight_times[2] = {dynamics::fly_to(one, mill_.gravity, clock_, now_),
+                                dynamics::fly_to(two, mill_.gravity, clock_, now_)};
   const Vec3<Real> between = one.position - two.position;
   const Real distance = norm<Real>(between);
 
@@ -248,6 +250,7 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   impact.velocity_before[1] = two.velocity;
   impact.spin_before[0] = spins_[ball];
   impact.spin_before[1] = spins_[partner];
+  impact.flight_time[0] = flight_times[0], impact.flight_time[1] = flight_times[1];
   impact.outcome = dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner),
                                                  one.velocity, spins_[ball], two.velocity, spins_[partner],
                                                  mill_.ball_ball, impact.collapsing, impact.resting);

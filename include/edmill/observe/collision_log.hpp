@@ -1,13 +1,10 @@
-// collisions.csv: one line for each impact.
+// The text of collisions.csv: one line for each impact.
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
 
 #include "edmill/core/scalar.hpp"
 #include "edmill/engine/simulation.hpp"
-#include "edmill/record/output_folder.hpp"
 
 namespace edmill::observe {
 
@@ -25,38 +22,12 @@ inline constexpr const char* collision_log_states =
     "after"
     ",partner_wx_after,partner_wy_after,partner_wz_after";
 
+/// One impact as a line of the log.
+/// @param states  with the bodies' states before and after
 template <class Real>
-class CollisionLog : public engine::Observer<Real> {
- public:
-  /// @param from, until  times [s] that the log is restricted to, both included
-  /// @param states       with the bodies' states before and after
-  CollisionLog(const std::filesystem::path& place, std::optional<Real> from, std::optional<Real> until,
-               bool states = false)
-      : file_(place), from_(from), until_(until), states_(states) {
-    file_.stream() << collision_log_header << (states ? collision_log_states : "") << '\n';
-  }
-
-  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
-    const Real time = simulation.clock().seconds(impact.time);
-    if ((from_ && time < *from_) || (until_ && time > *until_)) return;
-    const auto& o = impact.outcome;
-    std::string line = std::to_string(impact.index) + "," + to_text<Real>(time) + "," +
-                       std::to_string(impact.ball) + (impact.with_wall ? ",wall," : ",ball,") +
-                       std::to_string(impact.partner);
-    for (const Real* value : {&o.approach_speed, &o.slip_speed, &o.milling_dose, &o.wall_work})
-      line += "," + to_text<Real>(*value);
-    if (states_) {
-      line += states_of(impact, 0, simulation);
-      line += impact.with_wall ? std::string(15, ',') : states_of(impact, 1, simulation);
-    }
-    file_.stream() << line << '\n';
-  }
-
-  void commit() { file_.commit(); }
-
- private:
-  static std::string states_of(const engine::Impact<Real>& impact, int body,
-                               const engine::Simulation<Real>& simulation) {
+std::string collision_line(const engine::Impact<Real>& impact, const engine::Simulation<Real>& simulation,
+                           bool states) {
+  const auto states_of = [&](int body) {
     const int ball = body == 0 ? impact.ball : impact.partner;
     const auto& flight = simulation.flight(ball);
     std::string text;
@@ -64,11 +35,15 @@ class CollisionLog : public engine::Observer<Real> {
                                      &impact.spin_before[body], &flight.velocity, &simulation.spin(ball)})
       for (int axis = 0; axis < 3; ++axis) text += "," + to_text<Real>((*vector)[axis]);
     return text;
-  }
-
-  record::AtomicFile file_;
-  std::optional<Real> from_, until_;
-  bool states_;
-};
+  };
+  const auto& o = impact.outcome;
+  std::string line =
+      std::to_string(impact.index) + "," + to_text<Real>(simulation.clock().seconds(impact.time)) + "," +
+      std::to_string(impact.ball) + (impact.with_wall ? ",wall," : ",ball,") + std::to_string(impact.partner);
+  for (const Real* value : {&o.approach_speed, &o.slip_speed, &o.milling_dose, &o.wall_work})
+    line += "," + to_text<Real>(*value);
+  if (states) line += states_of(0) + (impact.with_wall ? std::string(15, ',') : states_of(1));
+  return line;
+}
 
 }  // namespace edmill::observe

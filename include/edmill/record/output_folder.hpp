@@ -15,8 +15,9 @@ void prepare_folder(const std::filesystem::path& folder);
 /// file that stood there stays as it was.
 class AtomicFile {
  public:
+  /// @param append  what stands there when the file is put in place is kept before it
   /// @throws InputError when the temporary file cannot be opened
-  explicit AtomicFile(std::filesystem::path place);
+  explicit AtomicFile(std::filesystem::path place, bool append = false);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
@@ -29,7 +30,7 @@ class AtomicFile {
  private:
   std::filesystem::path place_, temporary_;
   std::ofstream stream_;
-  bool committed_ = false;
+  bool append_, committed_ = false;
 };
 
 }  // namespace edmill::record

@@ -1,0 +1,63 @@
+// What an entry [[output]] asks for. docs/outputs.md
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edmill/casefile/quantity.hpp"
+
+namespace edmill::casefile {
+
+/// When an output records. (thesis D.3.2) Of two starts the first counts, and of two ends.
+struct TimerSpec {
+  bool on = true;
+  std::optional<Quantity> start_time, end_time, duration;
+  std::optional<std::uint64_t> start_collision;  ///< index of an impact, from 0
+  std::optional<std::uint64_t> collisions;       ///< how many impacts it lasts
+  std::optional<Quantity> interval;
+  std::optional<std::uint64_t> max_rows;
+};
+
+/// Only impacts for which a flag or a count has this value.
+struct Restriction {
+  int variable;  ///< place in model::impact_variables
+  std::uint64_t value;
+};
+
+enum class Statistic { sum, average, minimum, maximum, rate, percentage };
+
+/// A variable that an output shows.
+struct ColumnSpec {
+  int variable = 0;  ///< place in model::impact_variables; for trends_balls in model::ball_variables
+  std::vector<Statistic> statistics;
+  std::string label;                  ///< in place of the variable's name
+  std::string true_text, false_text;  ///< for flags
+  bool with_ball = false;             ///< trends_balls: which ball has the minimum or maximum
+};
+
+struct FrequencySpec {
+  ColumnSpec variable;
+  Quantity low, high;
+  std::uint64_t intervals = 10;
+  std::string title;
+  bool wall_details = false, percentages = false, out_of_range = false;
+};
+
+struct OutputSpec {
+  std::string type;
+  std::string file;
+  std::string folder;  ///< inside the run's folder; empty for that itself
+  bool append = false;
+  TimerSpec timer;
+  std::vector<Restriction> only;
+  std::vector<ColumnSpec> columns;
+  FrequencySpec frequency;
+  std::vector<std::string> fields;  ///< milling_dose
+  bool accumulated = false;         ///< trends: since the start instead of for each interval
+  std::uint64_t ball = 0;           ///< trace
+  bool states = false;              ///< collisions: with the bodies' states before and after
+};
+
+}  // namespace edmill::casefile

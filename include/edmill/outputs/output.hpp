@@ -1,0 +1,98 @@
+// One entry [[output]] at work.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "edmill/casefile/case_spec.hpp"
+#include "edmill/engine/simulation.hpp"
+#include "edmill/model/impact_facts.hpp"
+#include "edmill/outputs/output_timer.hpp"
+#include "edmill/outputs/variable_values.hpp"
+#include "edmill/record/output_folder.hpp"
+
+namespace edmill::outputs {
+
+/// What outputs know of the run that they record.
+template <class Real>
+struct RunFacts {
+  Real start;                       ///< initial time [s]
+  std::optional<Real> powder_mass;  ///< [kg]
+};
+
+/// One impact as an output sees it.
+template <class Real>
+struct Seen {
+  const model::ImpactFacts<Real>& facts;
+  const engine::Impact<Real>& impact;
+  const engine::Simulation<Real>& simulation;
+};
+
+/// A file with its timer and its restrictions. Types derive from it and say what they do with an impact.
+template <class Real>
+class Output {
+ public:
+  Output(const casefile::OutputSpec& spec, const std::filesystem::path& folder, const RunFacts<Real>& run)
+      : file_(folder / spec.folder / spec.file, spec.append), timer_(spec.timer, run.start) {
+    for (const auto& r : spec.only) only_.push_back({variable_formula<Real>(r.variable), Real(r.value)});
+  }
+  virtual ~Output() = default;
+
+  void on_impact(const Seen<Real>& seen) {
+    const auto& f = seen.facts;
+    const bool recorded = timer_.admits(f.time, f.index);
+    if (timer_.is_open()) before(seen);
+    if (!recorded) return;
+    for (const auto& r : only_)
+      if (r.formula(f) != r.value) return;
+    record(seen);
+  }
+  /// At the end of the run, whatever ended it.
+  void finish(const engine::Simulation<Real>& simulation) {
+    const Real end = simulation.seconds();
+    if (timer_.recorded(end)) end_of_record(simulation, timer_.until(end));
+  }
+  void commit() { file_.commit(); }
+
+ protected:
+  /// An impact of the record.
+  virtual void record(const Seen<Real>& seen) = 0;
+  /// Any impact, before it is recorded: for rows that are due since the one before.
+  virtual void before(const Seen<Real>&) {}
+  virtual void end_of_record(const engine::Simulation<Real>&, const Real& /*until*/) {}
+
+  std::ostream& out() { return file_.stream(); }
+  const OutputTimer<Real>& timer() const { return timer_; }
+
+ private:
+  struct Restriction {
+    VariableFormula<Real> formula;
+    Real value;
+  };
+  record::AtomicFile file_;
+  OutputTimer<Real> timer_;
+  std::vector<Restriction> only_;
+};
+
+/// All outputs of a case, as one observer.
+template <class Real>
+class Outputs : public engine::Observer<Real> {
+ public:
+  /// Opens the files. @throws InputError when one cannot be written
+  Outputs(const casefile::CaseSpec& spec, const std::filesystem::path& folder, const Real& start);
+  ~Outputs() override;
+
+  bool empty() const { return outputs_.empty(); }
+  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override;
+  void on_end(const engine::Simulation<Real>& simulation) override;
+  /// Puts all files in place.
+  void commit();
+
+ private:
+  std::vector<std::unique_ptr<Output<Real>>> outputs_;
+  Real previous_;  ///< time of the last impact of any ball [s]
+};
+
+}  // namespace edmill::outputs

@@ -1,0 +1,47 @@
+// Values of the variables of an impact, by the formulas of model/impact_variables.def.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "edmill/core/scalar.hpp"
+#include "edmill/model/impact_facts.hpp"
+#include "edmill/model/impact_variables.hpp"
+
+namespace edmill::outputs {
+
+/// Value of the variable at a place of model::impact_variables; 0 or 1 for a flag.
+template <class Real>
+using VariableFormula = Real (*)(const model::ImpactFacts<Real>&);
+
+template <class Real>
+VariableFormula<Real> variable_formula(int place) {
+  using Facts = model::ImpactFacts<Real>;
+#define EDMILL_FLAG(name, thesis, meaning, formula) \
+  [](const Facts& f) -> Real { return (static_cast<void>(f), (formula) ? Real(1) : Real(0)); },
+#define EDMILL_COUNT(name, thesis, meaning, formula) [](const Facts& f) -> Real { return Real(formula); },
+#define EDMILL_VARIABLE(name, thesis, unit, meaning, formula) \
+  [](const Facts& f) -> Real { return Real(formula); },
+  static constexpr std::array<VariableFormula<Real>, model::impact_variables.size()> formulas{
+#include "edmill/model/impact_variables.def"
+  };
+#undef EDMILL_FLAG
+#undef EDMILL_COUNT
+#undef EDMILL_VARIABLE
+  return formulas[static_cast<std::size_t>(place)];
+}
+
+/// "milling_dose [J]", for headers.
+inline std::string title_of(const std::string& name, std::string_view unit) {
+  return name + " [" + std::string(unit) + "]";
+}
+
+/// A text as a cell of CSV (RFC 4180).
+inline std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace edmill::outputs
