@@ -10,7 +10,7 @@ cd "$(dirname "$0")"
 program_packages=(
   g++ cmake ninja-build git ca-certificates
   libboost1.81-dev libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
-  libmpfr-dev libgmp-dev libssl-dev libtbb-dev libhdf5-dev libopenmpi-dev openmpi-bin
+  libmpfr-dev libgmp-dev libssl-dev libtbb-dev libhdf5-dev libpugixml-dev libopenmpi-dev openmpi-bin
 )
 test_packages=(
   libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev libgsl-dev nlohmann-json3-dev

@@ -96,6 +96,7 @@ void read_vessel(Section vessel, CaseSpec& spec) {
   spec.vessel_height = vessel.required("height", Dimension::length);
   vessel.require(spec.vessel_diameter.positive(), "diameter", "a positive length");
   vessel.require(spec.vessel_height.positive(), "height", "a positive length");
+  spec.vessel_colour = vessel.colour("colour", spec.vessel_colour);
   vessel.reject_unknown_keys();
 }
 
@@ -169,6 +170,7 @@ void read_ball_spec(Section& s, BallSpec& ball) {
   s.require(ball.reduced_inertia.positive() && ball.reduced_inertia.value <= 1, "reduced_inertia",
             "a number above 0, up to 1");
   if (const auto velocity = s.vector("velocity", Dimension::speed)) ball.velocity = *velocity;
+  ball.colour = s.colour("colour", ball.colour);
 }
 
 constexpr std::uint64_t largest_count = 100000000;
@@ -310,6 +312,14 @@ void apply_override(toml::table& root, Document& document, const std::string& te
 const std::vector<std::string>& precisions() {
   static const std::vector<std::string> names{"double", "float128", "mpfr50", "mpfr100", "mpfr200"};
   return names;
+}
+
+std::vector<Colour> CaseSpec::ball_colours() const {
+  std::vector<Colour> colours;
+  for (const auto& ball : balls) colours.push_back(ball.colour);
+  for (const auto& batch : batches)
+    colours.insert(colours.end(), static_cast<std::size_t>(batch.count), batch.colour);
+  return colours;
 }
 
 std::size_t CaseSpec::ball_count() const {

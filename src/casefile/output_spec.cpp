@@ -234,25 +234,61 @@ void read_trace(Section& s, OutputSpec& output) {
 
 void read_collisions(Section& s, OutputSpec& output) { output.states = s.flag("states"); }
 
+void read_contact_point(Section& s, OutputSpec& output) {
+  if (!s.has("contact_point")) return;
+  Section point = s.section("contact_point");
+  ContactPointSpec spec;
+  spec.radius = point.quantity("radius", Dimension::length, spec.radius);
+  point.require(spec.radius.positive(), "radius", "a positive length");
+  spec.colour = point.colour("colour", spec.colour);
+  point.reject_unknown_keys();
+  output.contact_point = spec;
+}
+
+void read_animation(Section& s, OutputSpec& output) {
+  read_contact_point(s, output);
+  auto& a = output.animation;
+  a.speed = s.quantity("speed", Dimension::none, a.speed);
+  s.require(a.speed.positive(), "speed", "a positive number; 1 is real time");
+  a.frames_per_minute = s.count("frames_per_minute").value_or(a.frames_per_minute);
+  s.require(a.frames_per_minute > 0, "frames_per_minute", "at least 1");
+  a.min_frames = s.count("min_frames").value_or(a.min_frames);
+  s.require(a.min_frames > 0, "min_frames", "at least 1");
+}
+
+/// Of one impact unless told: there is a file for each.
+void read_snapshot(Section& s, OutputSpec& output) {
+  read_contact_point(s, output);
+  if (!output.timer.collisions) output.timer.collisions = 1;
+}
+
+void read_paraview(Section& s, OutputSpec& output) {
+  read_interval(s, output.timer, Quantity{boost::multiprecision::cpp_rational(1, 100)});
+}
+
 void read_iterations(Section&, OutputSpec&) {}
 
 /// A new output is a row here, with its keys, and a class in outputs/ with a row in make_outputs.
 struct Kind {
   const char* type;
+  const char* extension;
   void (*read)(Section&, OutputSpec&);
 };
-constexpr Kind kinds[] = {{"collisions", read_collisions},
-                          {"milling_dose", read_milling_dose},
-                          {"frequency", read_frequency},
-                          {"statistics", read_statistics_output},
-                          {"trends", read_trends},
-                          {"trends_instant", read_trends_instant},
-                          {"trends_balls", read_trends_balls},
-                          {"trace", read_trace},
-                          {"iterations", read_iterations}};
+constexpr Kind kinds[] = {{"collisions", ".csv", read_collisions},
+                          {"milling_dose", ".csv", read_milling_dose},
+                          {"frequency", ".csv", read_frequency},
+                          {"statistics", ".csv", read_statistics_output},
+                          {"trends", ".csv", read_trends},
+                          {"trends_instant", ".csv", read_trends_instant},
+                          {"trends_balls", ".csv", read_trends_balls},
+                          {"trace", ".csv", read_trace},
+                          {"iterations", ".csv", read_iterations},
+                          {"snapshot", ".x3d", read_snapshot},
+                          {"animation", ".x3d", read_animation},
+                          {"paraview", ".pvd", read_paraview}};
 
-void read_place(Section& s, const CaseSpec& spec, OutputSpec& output) {
-  output.file = s.text("file").value_or(output.type + ".csv");
+void read_place(Section& s, const CaseSpec& spec, const Kind& kind, OutputSpec& output) {
+  output.file = s.text("file").value_or(output.type + kind.extension);
   const bool plain = output.file.find('/') == std::string::npos && output.file != "." && output.file != "..";
   s.require(plain, "file", "a plain file name");
   if (const auto folder = s.text("folder")) {
@@ -263,7 +299,8 @@ void read_place(Section& s, const CaseSpec& spec, OutputSpec& output) {
   }
   s.require(!output.folder.empty() || (output.file != "summary.json" && output.file != "final_state.csv"),
             "file", "a plain file name other than summary.json and final_state.csv");
-  output.append = s.flag("append");
+  const bool table = std::string_view(kind.extension) == ".csv";
+  if (table) output.append = s.flag("append");
   for (const auto& other : spec.outputs)
     s.require(other.file != output.file || other.folder != output.folder || (other.append && output.append),
               "file", "a file name that no other output has, unless both append");
@@ -277,11 +314,12 @@ void read_output(Section s, CaseSpec& spec) {
   for (const auto& kind : kinds) types.push_back(kind.type);
   if (!s.has("type")) s.problem("type", "nothing", "a type of output, e.g. \"collisions\"");
   output.type = s.choice("type", types);
-  read_place(s, spec, output);
+  const auto& kind =
+      *std::find_if(std::begin(kinds), std::end(kinds), [&](const Kind& k) { return output.type == k.type; });
+  read_place(s, spec, kind, output);
   read_timer(s, output.timer);
   read_restrictions(s, output.only);
-  for (const auto& kind : kinds)
-    if (output.type == kind.type) kind.read(s, output);
+  kind.read(s, output);
   if (output.type == "trace" && spec.ball_count() > 0)
     s.require(output.ball < spec.ball_count(), "ball", "a ball of the case; they count from 0");
   s.reject_unknown_keys();

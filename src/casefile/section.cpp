@@ -193,6 +193,30 @@ std::optional<std::string> Section::text(const std::string& key) {
   return string->get();
 }
 
+Colour Section::colour(const std::string& key, const Colour& fallback) {
+  const auto* node = find(key);
+  if (!node) return fallback;
+  if (const auto* name = node->as_string())
+    for (const auto& known : named_colours)
+      if (known.name == name->get()) return known.colour;
+  const auto* array = node->as_array();
+  if (array && array->size() == 3 && array->is_homogeneous() && array->get(0)->is_number()) {
+    const double full = array->get(0)->is_integer() ? 255 : 1;
+    Colour colour;
+    bool good = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      colour[k] = array->get(k)->value_or(-1.0) / full;
+      good = good && colour[k] >= 0 && colour[k] <= 1;
+    }
+    if (good) return colour;
+  }
+  std::string names;
+  for (const auto& known : named_colours) names += (names.empty() ? "" : ", ") + std::string(known.name);
+  problem(key, node->is_string() ? "\"" + node->as_string()->get() + "\"" : kind_of(*node),
+          "three integers from 0 to 255, three decimals from 0 to 1, or one of " + names);
+  return fallback;
+}
+
 std::string Section::choice(const std::string& key, const std::vector<std::string>& choices) {
   const auto* node = find(key);
   if (!node) return choices.front();

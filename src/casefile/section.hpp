@@ -73,6 +73,8 @@ class Section {
   std::optional<QuantityVector> vector(const std::string& key, Dimension dimension);
   std::optional<std::uint64_t> count(const std::string& key);
   std::optional<std::string> text(const std::string& key);
+  /// A name, or red, green and blue: integers up to 255 or decimals up to 1.
+  Colour colour(const std::string& key, const Colour& fallback);
   /// One of `choices`, or the first when absent.
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "edmill/casefile/colour.hpp"
 #include "edmill/casefile/output_spec.hpp"
 #include "edmill/casefile/quantity.hpp"
 #include "edmill/model/contact_law.hpp"
@@ -21,7 +22,8 @@ struct BallSpec {
   Quantity density{8000};
   Quantity reduced_inertia{boost::multiprecision::cpp_rational(2, 5)};
   QuantityVector velocity{};
-  std::string where;  ///< "case.toml:12: [[balls]] 1", for messages
+  Colour colour{0, 0, 1};  ///< in pictures
+  std::string where;       ///< "case.toml:12: [[balls]] 1", for messages
 };
 
 /// A batch of balls placed at random. (thesis D.2.4)
@@ -73,6 +75,7 @@ struct CaseSpec {
   QuantityVector gravity{};
   MillSpec mill;
   Quantity vessel_diameter, vessel_height;
+  Colour vessel_colour{1, 1, 0};  ///< in pictures
   ContactSpec ball_ball, ball_wall;
   std::optional<Quantity> powder_mass;
   std::vector<ExplicitBall> balls;
@@ -81,6 +84,8 @@ struct CaseSpec {
   AuditSpec audit;  ///< no part of what is simulated, nor of the digest
 
   std::size_t ball_count() const;
+  /// Colours of all balls, in their order.
+  std::vector<Colour> ball_colours() const;
 };
 
 /// Precisions that a case can name.

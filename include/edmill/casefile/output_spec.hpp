@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "edmill/casefile/colour.hpp"
 #include "edmill/casefile/quantity.hpp"
 
 namespace edmill::casefile {
@@ -45,6 +46,19 @@ struct FrequencySpec {
   bool wall_details = false, percentages = false, out_of_range = false;
 };
 
+/// A sphere that marks the contact point in pictures.
+struct ContactPointSpec {
+  Quantity radius{boost::multiprecision::cpp_rational(1, 1000)};
+  Colour colour{1, 1, 0};
+};
+
+/// How an animation is played. (thesis D.4.2)
+struct AnimationSpec {
+  Quantity speed{boost::multiprecision::cpp_rational(1, 1000)};  ///< of playback; 1 is real time
+  std::uint64_t frames_per_minute = 60;                          ///< of playback
+  std::uint64_t min_frames = 8;
+};
+
 struct OutputSpec {
   std::string type;
   std::string file;
@@ -54,10 +68,12 @@ struct OutputSpec {
   std::vector<Restriction> only;
   std::vector<ColumnSpec> columns;
   FrequencySpec frequency;
-  std::vector<std::string> fields;  ///< milling_dose
-  bool accumulated = false;         ///< trends: since the start instead of for each interval
-  std::uint64_t ball = 0;           ///< trace
-  bool states = false;              ///< collisions: with the bodies' states before and after
+  std::vector<std::string> fields;                ///< milling_dose
+  bool accumulated = false;                       ///< trends: since the start instead of for each interval
+  std::uint64_t ball = 0;                         ///< trace
+  std::optional<ContactPointSpec> contact_point;  ///< pictures
+  AnimationSpec animation;
+  bool states = false;  ///< collisions: with the bodies' states before and after
 };
 
 }  // namespace edmill::casefile

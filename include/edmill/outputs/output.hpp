@@ -20,6 +20,8 @@ template <class Real>
 struct RunFacts {
   Real start;                       ///< initial time [s]
   std::optional<Real> powder_mass;  ///< [kg]
+  casefile::Colour vessel_colour{};
+  std::vector<casefile::Colour> ball_colours;  ///< of each ball
 };
 
 /// One impact as an output sees it.
@@ -30,12 +32,11 @@ struct Seen {
   const engine::Simulation<Real>& simulation;
 };
 
-/// A file with its timer and its restrictions. Types derive from it and say what they do with an impact.
+/// A timer and restrictions. Types derive from it and say what they do with an impact.
 template <class Real>
 class Output {
  public:
-  Output(const casefile::OutputSpec& spec, const std::filesystem::path& folder, const RunFacts<Real>& run)
-      : file_(folder / spec.folder / spec.file, spec.append), timer_(spec.timer, run.start) {
+  Output(const casefile::OutputSpec& spec, const RunFacts<Real>& run) : timer_(spec.timer, run.start) {
     for (const auto& r : spec.only) only_.push_back({variable_formula<Real>(r.variable), Real(r.value)});
   }
   virtual ~Output() = default;
@@ -54,7 +55,8 @@ class Output {
     const Real end = simulation.seconds();
     if (timer_.recorded(end)) end_of_record(simulation, timer_.until(end));
   }
-  void commit() { file_.commit(); }
+  /// Puts what was written in place.
+  virtual void commit() = 0;
 
  protected:
   /// An impact of the record.
@@ -63,7 +65,6 @@ class Output {
   virtual void before(const Seen<Real>&) {}
   virtual void end_of_record(const engine::Simulation<Real>&, const Real& /*until*/) {}
 
-  std::ostream& out() { return file_.stream(); }
   const OutputTimer<Real>& timer() const { return timer_; }
 
  private:
@@ -71,9 +72,24 @@ class Output {
     VariableFormula<Real> formula;
     Real value;
   };
-  record::AtomicFile file_;
   OutputTimer<Real> timer_;
   std::vector<Restriction> only_;
+};
+
+/// An output that is one file of text.
+template <class Real>
+class TableOutput : public Output<Real> {
+ public:
+  TableOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
+              const RunFacts<Real>& run)
+      : Output<Real>(spec, run), file_(folder / spec.folder / spec.file, spec.append) {}
+  void commit() override { file_.commit(); }
+
+ protected:
+  std::ostream& out() { return file_.stream(); }
+
+ private:
+  record::AtomicFile file_;
 };
 
 /// All outputs of a case, as one observer.

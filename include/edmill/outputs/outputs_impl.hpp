@@ -1,6 +1,7 @@
 // Implementation of Outputs; included by the instantiation files only.
 #pragma once
 
+#include "edmill/outputs/scene_outputs.hpp"
 #include "edmill/outputs/simple_outputs.hpp"
 #include "edmill/outputs/statistics_outputs.hpp"
 #include "edmill/outputs/trends_outputs.hpp"
@@ -31,7 +32,10 @@ constexpr Maker<Real> makers[] = {{"collisions", make<Real, CollisionsOutput>},
                                   {"trends_instant", make<Real, TrendsInstantOutput>},
                                   {"trends_balls", make<Real, TrendsBallsOutput>},
                                   {"trace", make<Real, TraceOutput>},
-                                  {"iterations", make<Real, IterationsOutput>}};
+                                  {"iterations", make<Real, IterationsOutput>},
+                                  {"snapshot", make<Real, SnapshotOutput>},
+                                  {"animation", make<Real, AnimationOutput>},
+                                  {"paraview", make<Real, ParaviewOutput>}};
 
 template <class Real>
 model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
@@ -73,7 +77,7 @@ model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
 template <class Real>
 Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
-  RunFacts<Real> run{start, std::nullopt};
+  RunFacts<Real> run{start, std::nullopt, spec.vessel_colour, spec.ball_colours()};
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();
   for (const auto& output : spec.outputs) {
     if (!output.folder.empty()) record::prepare_folder(folder / output.folder);

@@ -17,11 +17,11 @@ std::string value_text(int variable, const Real& value) {
 
 /// The collision log. docs/files.md
 template <class Real>
-class CollisionsOutput : public Output<Real> {
+class CollisionsOutput : public TableOutput<Real> {
  public:
   CollisionsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                    const RunFacts<Real>& run)
-      : Output<Real>(spec, folder, run), states_(spec.states) {
+      : TableOutput<Real>(spec, folder, run), states_(spec.states) {
     this->out() << observe::collision_log_header << (states_ ? observe::collision_log_states : "") << '\n';
   }
 
@@ -36,11 +36,11 @@ class CollisionsOutput : public Output<Real> {
 
 /// All variables of each impact. (thesis D.4.9)
 template <class Real>
-class IterationsOutput : public Output<Real> {
+class IterationsOutput : public TableOutput<Real> {
  public:
   IterationsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                    const RunFacts<Real>& run)
-      : Output<Real>(spec, folder, run) {
+      : TableOutput<Real>(spec, folder, run) {
     std::string line;
     for (const auto& v : model::impact_variables)
       line += (line.empty() ? "" : ",") + title_of(std::string(v.name), v.unit);
@@ -58,11 +58,11 @@ class IterationsOutput : public Output<Real> {
 
 /// Values of single impacts: of each, or of the first after each interval. (thesis D.4.6)
 template <class Real>
-class TrendsInstantOutput : public Output<Real> {
+class TrendsInstantOutput : public TableOutput<Real> {
  public:
   TrendsInstantOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                       const RunFacts<Real>& run)
-      : Output<Real>(spec, folder, run),
+      : TableOutput<Real>(spec, folder, run),
         columns_(spec.columns),
         clock_(spec.timer),
         every_impact_(!spec.timer.interval),
@@ -106,11 +106,11 @@ class TrendsInstantOutput : public Output<Real> {
 
 /// Milling dose of the record and what follows from it. (thesis 4.3.3)
 template <class Real>
-class MillingDoseOutput : public Output<Real> {
+class MillingDoseOutput : public TableOutput<Real> {
  public:
   MillingDoseOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                     const RunFacts<Real>& run)
-      : Output<Real>(spec, folder, run), fields_(spec.fields), powder_mass_(run.powder_mass) {}
+      : TableOutput<Real>(spec, folder, run), fields_(spec.fields), powder_mass_(run.powder_mass) {}
 
  protected:
   void record(const Seen<Real>& seen) override { dose_ += seen.facts.milling_dose; }

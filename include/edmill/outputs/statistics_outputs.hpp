@@ -12,11 +12,11 @@ namespace edmill::outputs {
 /// Sums, averages, extremes, rates and shares of variables, for each wall, all walls, other balls and all.
 /// (thesis D.4.3)
 template <class Real>
-class StatisticsOutput : public Output<Real> {
+class StatisticsOutput : public TableOutput<Real> {
  public:
   StatisticsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                    const RunFacts<Real>& run)
-      : Output<Real>(spec, folder, run) {
+      : TableOutput<Real>(spec, folder, run) {
     for (const auto& c : spec.columns) gathered_.push_back({c, variable_formula<Real>(c.variable), {}});
   }
 
@@ -61,11 +61,11 @@ class StatisticsOutput : public Output<Real> {
 
 /// How often a variable falls into each of equal intervals [lower, upper). (thesis D.4.4)
 template <class Real>
-class FrequencyOutput : public Output<Real> {
+class FrequencyOutput : public TableOutput<Real> {
  public:
   FrequencyOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                   const RunFacts<Real>& run)
-      : Output<Real>(spec, folder, run),
+      : TableOutput<Real>(spec, folder, run),
         spec_(spec.frequency),
         formula_(variable_formula<Real>(spec.frequency.variable.variable)),
         low_(spec.frequency.low.to<Real>()),

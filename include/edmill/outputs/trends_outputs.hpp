@@ -4,17 +4,18 @@
 #include "edmill/model/ball_variables.hpp"
 #include "edmill/numerics/trigonometry.hpp"
 #include "edmill/outputs/accumulator.hpp"
+#include "edmill/outputs/balls_before.hpp"
 #include "edmill/outputs/output.hpp"
 
 namespace edmill::outputs {
 
 /// Statistics of each interval, or from the start up to its end. (thesis D.4.5)
 template <class Real>
-class TrendsOutput : public Output<Real> {
+class TrendsOutput : public TableOutput<Real> {
  public:
   TrendsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                const RunFacts<Real>& run)
-      : Output<Real>(spec, folder, run), accumulated_(spec.accumulated), clock_(spec.timer) {
+      : TableOutput<Real>(spec, folder, run), accumulated_(spec.accumulated), clock_(spec.timer) {
     std::string line = "time [s]";
     for (const auto& c : spec.columns) {
       gathered_.push_back({c, variable_formula<Real>(c.variable), {}});
@@ -64,35 +65,13 @@ class TrendsOutput : public Output<Real> {
   IntervalClock<Real> clock_;
 };
 
-/// The balls at an instant between the last impact and the present one, whose bodies have collided already.
-template <class Real>
-class BallsBefore {
- public:
-  explicit BallsBefore(const Seen<Real>& seen) : seen_(seen) {}
-
-  /// @param time  not before the last impact, not after the present one [s]
-  model::BallState<Real> state(int ball, const Real& time) const {
-    const auto& s = seen_.simulation;
-    const auto& f = seen_.facts;
-    const bool one = ball == f.ball, two = f.ball_ball && ball == f.partner;
-    if (!one && !two) return s.state_at(ball, s.clock().at(time));
-    const auto& body = one ? f.one : f.two;
-    const Real back = f.time - time;
-    return {s.flight(ball).position - body.velocity_before * back + f.gravity * (back * back / 2),
-            body.velocity_before - f.gravity * back, body.spin_before};
-  }
-
- private:
-  const Seen<Real>& seen_;
-};
-
 /// What the balls do at the end of each interval. (thesis D.4.7)
 template <class Real>
-class TrendsBallsOutput : public Output<Real> {
+class TrendsBallsOutput : public TableOutput<Real> {
  public:
   TrendsBallsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                     const RunFacts<Real>& run)
-      : Output<Real>(spec, folder, run), columns_(spec.columns), clock_(spec.timer) {
+      : TableOutput<Real>(spec, folder, run), columns_(spec.columns), clock_(spec.timer) {
     std::string line = "time [s],impacts [1]";
     for (const auto& c : columns_) {
       const auto& v = model::ball_variables[c.variable];
@@ -160,11 +139,11 @@ class TrendsBallsOutput : public Output<Real> {
 
 /// Where one ball is: at each of its impacts, or at the end of each interval. (thesis D.4.8)
 template <class Real>
-class TraceOutput : public Output<Real> {
+class TraceOutput : public TableOutput<Real> {
  public:
   TraceOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
               const RunFacts<Real>& run)
-      : Output<Real>(spec, folder, run),
+      : TableOutput<Real>(spec, folder, run),
         ball_(static_cast<int>(spec.ball)),
         clock_(spec.timer),
         at_impacts_(!spec.timer.interval) {
