@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""Runs the 24 cases in replicas over seeds; each run leaves OUT/<case>-<seed>.json. Runs that are there already, of the
+same case by the same program, are kept, so it can be stopped and started again.
+
+usage: ward_runs.py WARD_BATCHES --out OUT [--jobs N] [--short]    --short: 3 seeds, 1 s to 5 s, of the cases below 60 balls
+"""
+import argparse
+import concurrent.futures
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import tables
+
+CASES = pathlib.Path(__file__).resolve().parent / "cases"
+
+
+def plan(case, short=False):
+    """Seeds, start, end and batch of a case's runs [s]. Many balls settle their own mean: 12 s are enough for them."""
+    if short:
+        return range(1, 4 if case.count < 60 else 1), 1, 5, 0.5
+    if case.count < 60:
+        return range(1, 6), 30, 150, 2
+    return range(1, 4), 30, 42, 2
+
+
+def run(program, case, seed, times, place):
+    start, end, batch = times
+    command = [program, str(CASES / f"{case.name}.toml"), "--batch", str(batch)]
+    for key, value in (("run.seed", seed), ("run.start_time", f"{start} s"), ("run.end_time", f"{end} s")):
+        command += ["--set", f"{key}={value}"]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if done.returncode:
+        raise RuntimeError(f"{place.stem}: exit code {done.returncode}")
+    temporary = place.with_suffix(".tmp")
+    temporary.write_text(done.stdout)
+    os.replace(temporary, place)
+
+
+def known(place, commit, times):
+    """Whether a run is there; a case file that is younger than its run is run again."""
+    if not place.exists() or place.stat().st_mtime < (CASES / f"{place.stem.rsplit('-', 1)[0]}.toml").stat().st_mtime:
+        return False
+    record = json.loads(place.read_text())
+    return record["commit"] == commit and (record["start_time"], record["end_time"], record["batch_length"]) == times
+
+
+def run_all(program, folder, jobs=1, short=False, quiet=False):
+    """Does every run that is not known, the shortest first."""
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    commit = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.split()[-1]
+    waiting = []
+    for case in sorted(tables.cases(), key=lambda case: case.count):
+        seeds, *times = plan(case, short)
+        for seed in seeds:
+            place = folder / f"{case.name}-{seed}.json"
+            if not known(place, commit, tuple(map(float, times))):
+                waiting.append((program, case, seed, times, place))
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for k, (work, done) in enumerate([(w, pool.submit(run, *w)) for w in waiting], 1):
+            done.result()
+            if not quiet:
+                print(f"{k} of {len(waiting)}: {work[-1].name}", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", metavar="WARD_BATCHES")
+    parser.add_argument("--out", required=True)
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--short", action="store_true")
+    args = parser.parse_args()
+    try:
+        run_all(args.program, args.out, args.jobs, args.short)
+    except RuntimeError as error:
+        sys.exit(f"ward_runs.py: {error}")
+
+
+if __name__ == "__main__":
+    main()
