@@ -6,6 +6,7 @@ usage: ward_runs.py WARD_BATCHES --out OUT [--jobs N] [--short]    --short: 3 se
 """
 import argparse
 import concurrent.futures
+import hashlib
 import json
 import os
 import pathlib
@@ -26,29 +27,36 @@ def plan(case, short=False):
     return range(1, 4), 30, 42, 2
 
 
+def sha256(place):
+    return hashlib.sha256(pathlib.Path(place).read_bytes()).hexdigest()
+
+
 def run(program, case, seed, times, place):
     start, end, batch = times
-    command = [program, str(CASES / f"{case.name}.toml"), "--batch", str(batch)]
+    case_file = CASES / f"{case.name}.toml"
+    case_sha256 = sha256(case_file)
+    command = [program, str(case_file), "--batch", str(batch)]
     for key, value in (("run.seed", seed), ("run.start_time", f"{start} s"), ("run.end_time", f"{end} s")):
         command += ["--set", f"{key}={value}"]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if done.returncode:
         raise RuntimeError(f"{place.stem}: exit code {done.returncode}")
     temporary = place.with_suffix(".tmp")
-    temporary.write_text(done.stdout)
+    temporary.write_text(json.dumps({"case_sha256": case_sha256, **json.loads(done.stdout)}, indent=1))
     os.replace(temporary, place)
 
 
-def known(place, commit, times):
-    """Whether a run is there; a case file that is younger than its run is run again."""
-    if not place.exists() or place.stat().st_mtime < (CASES / f"{place.stem.rsplit('-', 1)[0]}.toml").stat().st_mtime:
+def known(place, case, commit, times):
+    """Whether the run of this case file by this program is there."""
+    if not place.exists():
         return False
     record = json.loads(place.read_text())
-    return record["commit"] == commit and (record["start_time"], record["end_time"], record["batch_length"]) == times
+    found = record["commit"], record["case_sha256"], record["start_time"], record["end_time"], record["batch_length"]
+    return found == (commit, sha256(CASES / f"{case.name}.toml"), *times)
 
 
 def run_all(program, folder, jobs=1, short=False, quiet=False):
-    """Does every run that is not known, the shortest first."""
+    """Does every run that is not known, fewest balls first."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     commit = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.split()[-1]
@@ -57,7 +65,7 @@ def run_all(program, folder, jobs=1, short=False, quiet=False):
         seeds, *times = plan(case, short)
         for seed in seeds:
             place = folder / f"{case.name}-{seed}.json"
-            if not known(place, commit, tuple(map(float, times))):
+            if not known(place, case, commit, times):
                 waiting.append((program, case, seed, times, place))
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for k, (work, done) in enumerate([(w, pool.submit(run, *w)) for w in waiting], 1):
