@@ -24,7 +24,6 @@ STEPPED = (  # method of emulation.csv, options of stepped_mill
     ("lossless_1e-3", "--search exact --collapse-time 1e-4 --smooth-time 1e-3"),
     ("stepped", "--search stepped --collapse-time 0"),
     ("stepped_put_back", "--search stepped --collapse-time 0 --put-back 1"),
-    ("stepped_put_back_t_c", "--search stepped --collapse-time 1e-4 --put-back 1"),
 )
 
 

@@ -70,17 +70,14 @@ def double_problems(root, edmill):
     return problems
 
 
-def mpfr50_problems(root, edmill, which):
+def mpfr50_problems(root, edmill):
     wanted = {}
     for row in csv.DictReader(io.StringIO((root / MPFR50).read_text())):
         wanted.setdefault(row["case"], []).append(row)
-    names = [case.name for case in tables.cases()] if which == "all" else which.split(",")
-    cases = {case.name: case for case in tables.cases()}
-    problems = [f"--mpfr50: no case {name}" for name in names if name not in cases]
-    for name in names:
-        if name in cases:
-            found = list(csv.DictReader(collisions(root, edmill, cases[name], WIDE_EVENTS, "mpfr50")))
-            problems += difference(name, wanted.get(name, []), found)
+    problems = []
+    for case in tables.cases():
+        found = list(csv.DictReader(collisions(root, edmill, case, WIDE_EVENTS, "mpfr50")))
+        problems += difference(case.name, wanted.get(case.name, []), found)
     return problems
 
 
@@ -93,5 +90,6 @@ def difference(name, wanted, found):
         bad = [key for key in BODIES if a[key] != b[key]]
         bad += [key for key in VALUES if abs(Decimal(a[key]) - Decimal(b[key])) > limits[key]]
         if bad:
-            return [f"{name}: event {a['index']} in mpfr50 differs from {MPFR50} in {', '.join(f'{k} ({b[k]}, not {a[k]})' for k in bad)}"]
+            values = ", ".join(f"{key} ({b[key]}, not {a[key]})" for key in bad)
+            return [f"{name}: event {a['index']} in mpfr50 differs from {MPFR50} in {values}"]
     return []
