@@ -1,22 +1,27 @@
 #!/usr/bin/env python3
-"""What finite resolution in time does to the dose rate: four cases of the 5 g sample in edmill with larger collapse times,
-and in stepped/stepped_mill.cpp with exact search (a control) and with stepped ones.
+"""What finite resolution in time does to the dose rate: all cases in edmill with larger collapse times, and four cases of the
+5 g sample in stepped/stepped_mill.cpp with exact search (a control) and with stepped ones.
 
-usage: emulation.py WARD_BATCHES STEPPED_MILL > emulation.csv
+usage: emulation.py WARD_BATCHES STEPPED_MILL FOLDER > emulation.csv    FOLDER keeps what is done
 """
 import csv
 import io
 import json
+import pathlib
 import subprocess
 import sys
 
 import intervals
 import tables
+import ward_runs
 from ward_runs import CASES
+
+SOURCE = pathlib.Path(__file__).resolve().parent / "stepped" / "stepped_mill.cpp"
 
 COUNTS = (7, 28, 95, 227)
 START, BATCH = 1, 0.5
 COLLAPSE_TIMES = ("1e-4", "3e-4", "5e-4", "1e-3", "2e-3")
+COLLAPSE_TIMES_OF_ALL = ("5e-4", "1e-3")
 STEPPED = (  # method of emulation.csv, options of stepped_mill
     ("control", "--search exact --collapse-time 1e-4"),
     ("passed_through", "--search exact --collapse-time 0 --ignore 5e-4"),
@@ -59,22 +64,41 @@ def row(case, method, doses, impacts):
             f"{sum(impacts) / len(impacts) / BATCH:.6g}"]
 
 
-def study(ward_batches, stepped_mill):
-    """@return text of emulation.csv"""
+def plan():
+    """All pairs of case and method, with the function that does them: (case, method, function, its last argument)."""
+    for case in sorted(tables.cases(), key=lambda case: case.count):
+        detailed = case.powder == "5" and case.count in COUNTS
+        for collapse_time in COLLAPSE_TIMES if detailed else COLLAPSE_TIMES_OF_ALL:
+            yield case, f"edmill_t_c_{collapse_time}", edmill, collapse_time
+        for method, options in STEPPED if detailed else ():
+            yield case, method, stepped, options
+
+
+def study(ward_batches, stepped_mill, folder):
+    """Does what is not in FOLDER/emulation.jsonl yet. @return text of emulation.csv"""
+    commit, source = ward_runs.commit_of(ward_batches), ward_runs.sha256(SOURCE)
+    cache = pathlib.Path(folder) / "emulation.jsonl"
+    cache.parent.mkdir(parents=True, exist_ok=True)
+    known = {}
+    for line in cache.read_text().splitlines() if cache.exists() else ():
+        entry = json.loads(line)
+        if entry["source"] == source and ward_runs.same_core(entry["commit"], commit):
+            known[entry["key"]] = entry["row"]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["case", "balls", "method", "inverse_milling_dose_rate", "inverse_milling_dose_rate_ci95",
                      "collision_rate_total"])
-    cases = [case for case in tables.cases() if case.powder == "5" and case.count in COUNTS]
-    for case in sorted(cases, key=lambda case: case.count):
-        for collapse_time in COLLAPSE_TIMES:
-            writer.writerow(row(case, f"edmill_t_c_{collapse_time}", *edmill(ward_batches, case, collapse_time)))
-        for method, options in STEPPED:
-            writer.writerow(row(case, method, *stepped(stepped_mill, case, options)))
+    for case, method, function, how in plan():
+        key = f"{case.name} {method} {how} {end_of(case)} {ward_runs.sha256(CASES / f'{case.name}.toml')}"
+        if key not in known:
+            known[key] = row(case, method, *function(ward_batches if function is edmill else stepped_mill, case, how))
+            with open(cache, "a", encoding="utf-8") as file:
+                file.write(json.dumps({"key": key, "commit": commit, "source": source, "row": known[key]}) + "\n")
+        writer.writerow(known[key])
     return out.getvalue()
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) != 4:
         sys.exit(__doc__.strip())
     print(study(*sys.argv[1:]), end="")

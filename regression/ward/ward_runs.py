@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Runs the 24 cases in replicas over seeds; each run leaves OUT/<case>-<seed>.json. Runs that are there already, of the
-same case by the same program, are kept, so it can be stopped and started again.
+same case by a program with the same core, are kept, so it can be stopped and started again.
 
 usage: ward_runs.py WARD_BATCHES --out OUT [--jobs N] [--short]    --short: 3 seeds, 1 s to 5 s, of the cases below 60 balls
 """
 import argparse
 import concurrent.futures
+import functools
 import hashlib
 import json
 import os
@@ -47,20 +48,34 @@ def run(program, case, seed, times, place):
     os.replace(temporary, place)
 
 
+@functools.lru_cache(None)
+def same_core(commit, other):
+    """Whether two commits have the same sources of the core."""
+    if commit == other:
+        return True
+    return subprocess.run(["git", "-C", str(CASES), "diff", "--quiet", commit, other, "--", ":/include", ":/src"],
+                          stderr=subprocess.DEVNULL).returncode == 0
+
+
+def commit_of(program):
+    version = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return version.split()[-1]
+
+
 def known(place, case, commit, times):
     """Whether the run of this case file by this program is there."""
     if not place.exists():
         return False
     record = json.loads(place.read_text())
-    found = record["commit"], record["case_sha256"], record["start_time"], record["end_time"], record["batch_length"]
-    return found == (commit, sha256(CASES / f"{case.name}.toml"), *times)
+    found = record["case_sha256"], record["start_time"], record["end_time"], record["batch_length"]
+    return found == (sha256(CASES / f"{case.name}.toml"), *times) and same_core(record["commit"], commit)
 
 
 def run_all(program, folder, jobs=1, short=False, quiet=False):
     """Does every run that is not known, fewest balls first."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    commit = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.split()[-1]
+    commit = commit_of(program)
     waiting = []
     for case in sorted(tables.cases(), key=lambda case: case.count):
         seeds, *times = plan(case, short)

@@ -80,10 +80,9 @@ def replicas_csv(folder):
 
 
 def provenance(folder):
-    """Commit, compiler and processor time of all runs; they must be of one program."""
+    """Commits, compiler and processor time of the runs; one compiler, and commits with the same core."""
     runs = [run for case in tables.cases() for run in read_runs(folder, case)]
-    programs = {(run["commit"], run["compiler"]) for run in runs}
-    if len(programs) != 1:
-        raise RuntimeError(f"{folder}: runs of different programs: {sorted(programs)}")
-    (commit, compiler), = programs
-    return {"commit": commit, "compiler": compiler, "cpu_seconds": round(sum(run["cpu_seconds"] for run in runs))}
+    commits, compilers = {run["commit"] for run in runs}, {run["compiler"] for run in runs}
+    if len(compilers) != 1 or not all(ward_runs.same_core(min(commits), commit) for commit in commits):
+        raise RuntimeError(f"{folder}: runs of different programs: {sorted(commits)}, {sorted(compilers)}")
+    return {"commit": min(commits), "compiler": compilers.pop(), "cpu_seconds": round(sum(run["cpu_seconds"] for run in runs))}
