@@ -32,15 +32,17 @@ STEPPED = (  # method of emulation.csv, options of stepped_mill
 )
 
 
-def end_of(case):
-    """Of a run [s]: many balls settle their own mean and cost more."""
+def end_of(case, function):
+    """Of a run [s]: many balls settle their own mean and cost more, in the plain program above all."""
+    if function is stepped:
+        return START + (20 if case.count < 20 else 5 if case.count < 60 else 2)
     return START + (20 if case.count < 60 else 5 if case.count < 200 else 3)
 
 
 def edmill(program, case, collapse_time):
     """@return milling dose and impacts in batches"""
     command = [program, str(CASES / f"{case.name}.toml"), "--batch", str(BATCH)]
-    for setting in (f"run.start_time={START} s", f"run.end_time={end_of(case)} s",
+    for setting in (f"run.start_time={START} s", f"run.end_time={end_of(case, edmill)} s",
                     f"contact.collapse_time={collapse_time} s"):
         command += ["--set", setting]
     batches = json.loads(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout)["batches"]
@@ -50,7 +52,7 @@ def edmill(program, case, collapse_time):
 
 def stepped(program, case, options):
     command = [program, "--balls", str(case.count), "--diameter-mm", case.diameter, "--restitution", case.restitution,
-               "--start", str(START), "--end", str(end_of(case)), "--batch", str(BATCH), *options.split()]
+               "--start", str(START), "--end", str(end_of(case, stepped)), "--batch", str(BATCH), *options.split()]
     table = csv.DictReader(io.StringIO(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout))
     rows = [{key: float(value) for key, value in row.items()} for row in table]
     return ([row["milling_dose"] for row in rows],
@@ -89,7 +91,7 @@ def study(ward_batches, stepped_mill, folder):
     writer.writerow(["case", "balls", "method", "inverse_milling_dose_rate", "inverse_milling_dose_rate_ci95",
                      "collision_rate_total"])
     for case, method, function, how in plan():
-        key = f"{case.name} {method} {how} {end_of(case)} {ward_runs.sha256(CASES / f'{case.name}.toml')}"
+        key = f"{case.name} {method} {how} {end_of(case, function)} {ward_runs.sha256(CASES / f'{case.name}.toml')}"
         if key not in known:
             known[key] = row(case, method, *function(ward_batches if function is edmill else stepped_mill, case, how))
             with open(cache, "a", encoding="utf-8") as file:

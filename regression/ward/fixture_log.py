@@ -1,4 +1,5 @@
-"""UPDATES.jsonl: one line for each update of the fixtures, with the hashes of all of them and of the line before."""
+"""UPDATES.jsonl: one line for each update of the fixtures, with the hashes of all of them, of the line before, and of itself.
+The hashes find what was changed by mistake or in haste; whoever wants to deceive is stopped by review, not by them."""
 import datetime
 import hashlib
 import json
@@ -15,6 +16,10 @@ def sha256(data):
     return hashlib.sha256(data).hexdigest()
 
 
+def own_hash(entry):
+    return sha256(json.dumps({key: value for key, value in entry.items() if key != "entry"}).encode())
+
+
 def present(root):
     """Hashes of the fixtures and of the cases that are there."""
     files = [place for folder in (FIXTURES[0], CASES) for place in (root / folder).glob("*")]
@@ -29,8 +34,8 @@ def problems(root):
     found, previous, entry = [], "", {"files": {}}
     for number, line in enumerate((root / LOG).read_text().splitlines(), 1):
         entry = json.loads(line)
-        if entry["previous"] != previous:
-            found.append(f"{LOG}:{number}: a line before it was changed; lines are only ever added")
+        if entry["previous"] != previous or entry["entry"] != own_hash(entry):
+            found.append(f"{LOG}:{number}: it or a line before it was changed; lines are only ever added")
         previous = sha256(line.encode())
     wanted, there = entry["files"], present(root)
     for name in sorted(wanted.keys() | there.keys()):
@@ -54,5 +59,6 @@ def write(root, texts, reason, sources):
     lines = (root / LOG).read_text().splitlines() if (root / LOG).exists() else []
     entry = {"date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d"), "reason": reason, **sources,
              "changed": sorted(texts), "previous": sha256(lines[-1].encode()) if lines else "", "files": present(root)}
+    entry["entry"] = own_hash(entry)
     with open(root / LOG, "a", encoding="utf-8") as file:
         file.write(json.dumps(entry) + "\n")
