@@ -19,9 +19,9 @@ from ward_runs import CASES
 SOURCE = pathlib.Path(__file__).resolve().parent / "stepped" / "stepped_mill.cpp"
 
 COUNTS = (7, 28, 95, 227)
-START, BATCH = 1, 0.5
+BATCH = 0.5  # [s]
 COLLAPSE_TIMES = ("1e-4", "3e-4", "5e-4", "1e-3", "2e-3")
-COLLAPSE_TIMES_OF_ALL = ("5e-4", "1e-3")
+COLLAPSE_TIMES_OF_ALL = ("5e-4",)
 STEPPED = (  # method of emulation.csv, options of stepped_mill
     ("control", "--search exact --collapse-time 1e-4"),
     ("passed_through", "--search exact --collapse-time 0 --ignore 5e-4"),
@@ -30,19 +30,21 @@ STEPPED = (  # method of emulation.csv, options of stepped_mill
     ("stepped", "--search stepped --collapse-time 0"),
     ("stepped_put_back", "--search stepped --collapse-time 0 --put-back 1"),
 )
+OF_MANY_BALLS = ("control", "lossless_5e-4", "stepped_put_back")  # the plain program is slow
 
 
-def end_of(case, function):
-    """Of a run [s]: many balls settle their own mean and cost more, in the plain program above all."""
+def times_of(case, function):
+    """Start and end of a run's statistics [s]: many balls settle their own mean and cost more, in the plain program above all."""
     if function is stepped:
-        return START + (20 if case.count < 20 else 5 if case.count < 60 else 2)
-    return START + (20 if case.count < 60 else 5 if case.count < 200 else 3)
+        return (1, 21) if case.count < 20 else (1, 6) if case.count < 60 else (0.5, 2)
+    return (1, 21) if case.count < 60 else (1, 6) if case.count < 200 else (1, 3)
 
 
 def edmill(program, case, collapse_time):
     """@return milling dose and impacts in batches"""
     command = [program, str(CASES / f"{case.name}.toml"), "--batch", str(BATCH)]
-    for setting in (f"run.start_time={START} s", f"run.end_time={end_of(case, edmill)} s",
+    start, end = times_of(case, edmill)
+    for setting in (f"run.start_time={start} s", f"run.end_time={end} s",
                     f"contact.collapse_time={collapse_time} s"):
         command += ["--set", setting]
     batches = json.loads(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout)["batches"]
@@ -51,8 +53,9 @@ def edmill(program, case, collapse_time):
 
 
 def stepped(program, case, options):
+    start, end = map(str, times_of(case, stepped))
     command = [program, "--balls", str(case.count), "--diameter-mm", case.diameter, "--restitution", case.restitution,
-               "--start", str(START), "--end", str(end_of(case, stepped)), "--batch", str(BATCH), *options.split()]
+               "--start", start, "--end", end, "--batch", str(BATCH), *options.split()]
     table = csv.DictReader(io.StringIO(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout))
     rows = [{key: float(value) for key, value in row.items()} for row in table]
     return ([row["milling_dose"] for row in rows],
@@ -73,7 +76,8 @@ def plan():
         for collapse_time in COLLAPSE_TIMES if detailed else COLLAPSE_TIMES_OF_ALL:
             yield case, f"edmill_t_c_{collapse_time}", edmill, collapse_time
         for method, options in STEPPED if detailed else ():
-            yield case, method, stepped, options
+            if case.count < 60 or method in OF_MANY_BALLS:
+                yield case, method, stepped, options
 
 
 def study(ward_batches, stepped_mill, folder):
@@ -91,7 +95,7 @@ def study(ward_batches, stepped_mill, folder):
     writer.writerow(["case", "balls", "method", "inverse_milling_dose_rate", "inverse_milling_dose_rate_ci95",
                      "collision_rate_total"])
     for case, method, function, how in plan():
-        key = f"{case.name} {method} {how} {end_of(case, function)} {ward_runs.sha256(CASES / f'{case.name}.toml')}"
+        key = f"{case.name} {method} {how} {times_of(case, function)[1]} {ward_runs.sha256(CASES / f'{case.name}.toml')}"
         if key not in known:
             known[key] = row(case, method, *function(ward_batches if function is edmill else stepped_mill, case, how))
             with open(cache, "a", encoding="utf-8") as file:

@@ -7,7 +7,7 @@ text { font: 13px sans-serif; fill: #333 } .axis { stroke: #333; fill: none } .g
 .title { font-weight: bold } svg { background: #fff }
 @media (prefers-color-scheme: dark) { text { fill: #ddd } .axis { stroke: #ddd } svg { background: #16181d } }
 </style>"""
-PANEL_WIDTH, PANEL_HEIGHT, LEFT, TOP, BOTTOM, GAP = 330, 300, 75, 45, 60, 70
+PANEL_WIDTH, PANEL_HEIGHT, LEFT, TOP, BOTTOM, GAP = 330, 300, 75, 45, 60, 90
 
 
 class Panel:
@@ -18,8 +18,8 @@ class Panel:
         self.x_ticks, self.y_ticks, self.logarithmic = x_ticks, y_ticks, logarithmic
         self.series = []
 
-    def add(self, name, points, colour, dashed=False):
-        self.series.append((name, points, COLOURS[colour], dashed))
+    def add(self, name, points, colour, dashed=False, joined=True):
+        self.series.append((name, points, COLOURS[colour], dashed, joined))
 
     def draw(self, left):
         scale = math.log10 if self.logarithmic else float
@@ -43,8 +43,8 @@ class Panel:
                 text(middle, TOP + PANEL_HEIGHT + 45, self.x_label, "middle"),
                 f'<text transform="translate({left - 55} {TOP + PANEL_HEIGHT / 2}) rotate(-90)" text-anchor="middle">'
                 f"{self.y_label}</text>"]
-        for _, points, colour, dashed in self.series:
-            out += draw_series([(across(x), y, half) for x, y, half in points], down, colour, dashed)
+        for _, points, *look in self.series:
+            out += draw_series([(across(x), y, half) for x, y, half in points], down, *look)
         return out
 
 
@@ -57,10 +57,10 @@ def text(x, y, words, anchor="start", kind=None):
     return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"' + (f' class="{kind}"' if kind else "") + f">{words}</text>"
 
 
-def draw_series(points, down, colour, dashed):
+def draw_series(points, down, colour, dashed, joined):
     style = f' stroke="{colour}"' + (' stroke-dasharray="5 4"' if dashed else "")
     path = " ".join(f"{x:.1f},{down(y):.1f}" for x, y, _ in points)
-    out = [f'<polyline points="{path}" fill="none" stroke-width="1.5"{style}/>']
+    out = [f'<polyline points="{path}" fill="none" stroke-width="1.5"{style}/>'] if joined else []
     for x, y, half in points:
         if half:
             a, b = down(y - half), down(y + half)
@@ -80,8 +80,8 @@ def figure(panels, legend_columns=3):
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">', STYLE]
     for k, panel in enumerate(panels):
         out += panel.draw(LEFT + k * (PANEL_WIDTH + GAP))
-    for k, (name, _, colour, dashed) in enumerate(panels[0].series):
+    for k, (name, _, *look) in enumerate(panels[0].series):
         x, y = LEFT + (k % legend_columns) * (width - LEFT) / legend_columns, top_of_legend + 22 * (k // legend_columns)
-        out += draw_series([(x, y, 0), (x + 30, y, 0)], float, colour, dashed)
+        out += draw_series([(x, y, 0), (x + 30, y, 0)][:2 if look[-1] else 1], float, *look)
         out.append(text(x + 42, y + 4, name))
     return "\n".join(out + ["</svg>", ""])
