@@ -19,7 +19,7 @@ from ward_runs import CASES
 SOURCE = pathlib.Path(__file__).resolve().parent / "stepped" / "stepped_mill.cpp"
 
 COUNTS = (7, 28, 95, 227)
-BATCH = 0.5  # [s]
+NINE_PERIODS = 9 * 60 / 1054  # of the drive [s]
 COLLAPSE_TIMES = ("1e-4", "3e-4", "5e-4", "1e-3", "2e-3")
 COLLAPSE_TIMES_OF_ALL = ("5e-4",)
 STEPPED = (  # method of emulation.csv, options of stepped_mill
@@ -34,16 +34,19 @@ OF_MANY_BALLS = ("control", "lossless_5e-4", "stepped_put_back")  # the plain pr
 
 
 def times_of(case, function):
-    """Start and end of a run's statistics [s]: many balls settle their own mean and cost more, in the plain program above all."""
+    """Start, end and batch of a run's statistics [s]: many balls settle their own mean and cost more, in the plain program above
+    all. Short runs are whole drive periods long, since where in a period they end would show."""
+    if case.count < (20 if function is stepped else 60):
+        return 1, 21, 0.5
     if function is stepped:
-        return (1, 21) if case.count < 20 else (1, 6) if case.count < 60 else (0.5, 2)
-    return (1, 21) if case.count < 60 else (1, 6) if case.count < 200 else (1, 3)
+        return (1, 1 + 10 * NINE_PERIODS, NINE_PERIODS) if case.count < 60 else (0.5, 0.5 + 3 * NINE_PERIODS, NINE_PERIODS)
+    return 1, 1 + (10 if case.count < 200 else 4) * NINE_PERIODS, NINE_PERIODS
 
 
 def edmill(program, case, collapse_time):
     """@return milling dose and impacts in batches"""
-    command = [program, str(CASES / f"{case.name}.toml"), "--batch", str(BATCH)]
-    start, end = times_of(case, edmill)
+    start, end, batch = times_of(case, edmill)
+    command = [program, str(CASES / f"{case.name}.toml"), "--batch", str(batch)]
     for setting in (f"run.start_time={start} s", f"run.end_time={end} s",
                     f"contact.collapse_time={collapse_time} s"):
         command += ["--set", setting]
@@ -53,20 +56,20 @@ def edmill(program, case, collapse_time):
 
 
 def stepped(program, case, options):
-    start, end = map(str, times_of(case, stepped))
+    start, end, batch = map(str, times_of(case, stepped))
     command = [program, "--balls", str(case.count), "--diameter-mm", case.diameter, "--restitution", case.restitution,
-               "--start", start, "--end", end, "--batch", str(BATCH), *options.split()]
+               "--start", start, "--end", end, "--batch", batch, *options.split()]
     table = csv.DictReader(io.StringIO(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout))
     rows = [{key: float(value) for key, value in row.items()} for row in table]
     return ([row["milling_dose"] for row in rows],
             [row["wall_0"] + row["wall_1"] + row["wall_2"] + row["ball_ball"] for row in rows])
 
 
-def row(case, method, doses, impacts):
-    rate = sum(doses) / len(doses) / BATCH
-    half = intervals.half_width([dose / BATCH for dose in doses])
+def row(case, method, batch, doses, impacts):
+    rate = sum(doses) / len(doses) / batch
+    half = intervals.half_width([dose / batch for dose in doses])
     return [case.name, case.count, method, f"{1 / rate:.5g}", f"{half / rate**2:.2g}",
-            f"{sum(impacts) / len(impacts) / BATCH:.6g}"]
+            f"{sum(impacts) / len(impacts) / batch:.6g}"]
 
 
 def plan():
@@ -97,7 +100,8 @@ def study(ward_batches, stepped_mill, folder):
     for case, method, function, how in plan():
         key = f"{case.name} {method} {how} {times_of(case, function)[1]} {ward_runs.sha256(CASES / f'{case.name}.toml')}"
         if key not in known:
-            known[key] = row(case, method, *function(ward_batches if function is edmill else stepped_mill, case, how))
+            program = ward_batches if function is edmill else stepped_mill
+            known[key] = row(case, method, times_of(case, function)[2], *function(program, case, how))
             with open(cache, "a", encoding="utf-8") as file:
                 file.write(json.dumps({"key": key, "commit": commit, "source": source, "row": known[key]}) + "\n")
         writer.writerow(known[key])
