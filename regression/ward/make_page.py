@@ -108,12 +108,22 @@ def span(values, form):
     return f"{min(values):{form}} to {max(values):{form}}"
 
 
-def ratios(data, method, cases=None):
-    return [case.thesis_inverse / data.inverse(case, method)[0] for case in cases or data.many()]
+def diameter_table(data):
+    rows = []
+    for diameter in reversed(tables.DIAMETERS):
+        cases = [case for case in data.many() if case.diameter == diameter]
+        rates = [case.thesis_rate / data.rate(case, "edmill_t_c_5e-4") for case in cases if case.thesis_rate]
+        rows.append([f"{diameter} mm", ratios(data, cases), ratios(data, cases, "edmill_t_c_5e-4"), span(rates, ".2f")])
+    return table(["thesis / edmill", "inverse dose rate, t_c 0.1 ms", "inverse dose rate, t_c 0.5 ms", "collision rate, t_c 0.5 ms"], rows)
 
 
-def rate_ratios(data, cases):
-    return [case.thesis_rate / data.rate(case, "edmill_t_c_5e-4") for case in cases if case.thesis_rate]
+def ratios(data, cases, method=None):
+    return span((case.thesis_inverse / data.inverse(case, method)[0] for case in cases), ".2f")
+
+
+def lossless_off(data):
+    off = [abs(data.inverse(case, "lossless_5e-4")[0] / case.thesis_inverse - 1) for case in data.cases if case.name in DETAILED]
+    return f"{100 * max(off):.1f} %"
 
 
 def words(data):
@@ -121,17 +131,13 @@ def words(data):
     with open(ROOT / fixture_log.LOG, encoding="utf-8") as file:
         entries = [json.loads(line) for line in file]
     source = next(entry for entry in reversed(entries) if "statistics" in entry)
-    soft = [case for case in data.many() if float(case.restitution) <= 0.6]
-    hard = [case for case in data.many() if float(case.restitution) > 0.6]
     cpu = source["statistics"]["cpu_seconds"]
     return {
         "inverse_table": inverse_table(data), "rate_table": rate_table(data), "method_table": method_table(data),
-        "single_table": single_table(data), "ratios": span(ratios(data, None), ".2f"),
+        "single_table": single_table(data), "ratios": ratios(data, data.many()),
         "worst_interval": f"{max(100 * h / m for m, h in map(data.inverse, data.many())):.2f}",
         "closure": max((row["largest_energy_closure"] for row in data.statistics.values()), key=float),
-        "soft_ratios": span(ratios(data, None, soft), ".2f"), "soft_ratios_lossy": span(ratios(data, "edmill_t_c_5e-4", soft), ".2f"),
-        "hard_ratios": span(ratios(data, None, hard), ".2f"), "hard_ratios_lossy": span(ratios(data, "edmill_t_c_5e-4", hard), ".2f"),
-        "soft_rates": span(rate_ratios(data, soft), ".2f"), "hard_rates": span(rate_ratios(data, hard), ".2f"),
+        "diameter_table": diameter_table(data), "lossless_off": lossless_off(data),
         "least_alike": f"{min(float(data.statistics[c.name]['replicas_alike_p']) for c in data.many()):.3f}",
         "date": source["date"], "commit": source["statistics"]["commit"], "compiler": source["statistics"]["compiler"],
         "cpu": f"{cpu} s",
