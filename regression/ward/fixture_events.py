@@ -12,7 +12,8 @@ import tables
 DOUBLE = "regression/ward/fixtures/events.double.csv"
 MPFR50 = "regression/ward/fixtures/events.mpfr50.csv"
 EVENTS, BLOCK, WIDE_EVENTS, DIGITS = 1000, 100, 200, 25
-BODIES, VALUES = ("index", "ball", "partner_kind", "partner"), ("time", "approach_speed", "slip_speed", "milling_dose", "wall_work")
+BODIES = ("index", "ball", "partner_kind", "partner")
+VALUES = ("time", "approach_speed", "slip_speed", "milling_dose", "wall_work")
 COLUMNS = ("case", "index", "time", "ball", "partner_kind", "partner", *VALUES[1:])
 
 
@@ -31,7 +32,8 @@ def double_rows(root, edmill, case):
     rows = [(case.name, f"0-{len(lines) - 1}", hashlib.sha256("\n".join([header, *lines, ""]).encode()).hexdigest(), "")]
     for k in range(0, len(lines), BLOCK):
         block = lines[k:k + BLOCK]
-        rows.append((case.name, f"{k}-{k + len(block) - 1}", hashlib.sha256("\n".join([*block, ""]).encode()).hexdigest(), block[-1]))
+        hashed = hashlib.sha256("\n".join([*block, ""]).encode()).hexdigest()
+        rows.append((case.name, f"{k}-{k + len(block) - 1}", hashed, block[-1]))
     return rows
 
 
@@ -65,7 +67,9 @@ def double_problems(root, edmill):
         if found == wanted.get(case.name):
             continue
         first = next((pair for pair in zip(wanted.get(case.name, [])[1:], found[1:]) if pair[0] != pair[1]), None)
-        where = f"first in events {first[0][1]}, whose last is\n    {first[1][3]}\n  not\n    {first[0][3]}" if first else "in length"
+        where = "in length"
+        if first:
+            where = f"first in events {first[0][1]}, whose last is\n    {first[1][3]}\n  not\n    {first[0][3]}"
         problems.append(f"{case.name}: events in double differ from {DOUBLE}, {where}")
     return problems
 

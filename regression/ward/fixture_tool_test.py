@@ -80,7 +80,8 @@ def checks(copy):
 
     copy.edit(DOUBLE, "0-999,", "0-998,")
     code, output = copy.run("check")
-    expect("a fixture edited by hand is found", code == 1 and f"{DOUBLE}: changed without edmill-fixtures update" in output, output)
+    told = f"{DOUBLE}: changed without edmill-fixtures update" in output
+    expect("a fixture edited by hand is found", code == 1 and told, output)
     copy.restore()
 
     copy.edit("regression/ward/cases/5g_2_5_4_76mm.toml", "friction = 0.4", "friction = 0.3")
@@ -121,7 +122,8 @@ def update(copy):
     code, output = copy.run("update", "--part", "events", "--reason", "a test of the tool", **ALTERED)
     after = (copy.root / LOG).read_text()
     expect("an update with a reason is done", code == 0 and DOUBLE in output, output)
-    expect("it adds a line to the log", after.startswith(before) and '"reason": "a test of the tool"' in after[len(before):], after)
+    told = '"reason": "a test of the tool"' in after[len(before):]
+    expect("it adds a line to the log", after.startswith(before) and told, after)
     code, output = copy.run("check", **ALTERED)
     expect("the new fixtures hold for the altered program", code == 0, output)
 

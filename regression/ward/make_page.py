@@ -114,7 +114,8 @@ def diameter_table(data):
         cases = [case for case in data.many() if case.diameter == diameter]
         rates = [case.thesis_rate / data.rate(case, "edmill_t_c_5e-4") for case in cases if case.thesis_rate]
         rows.append([f"{diameter} mm", ratios(data, cases), ratios(data, cases, "edmill_t_c_5e-4"), span(rates, ".2f")])
-    return table(["thesis / edmill", "inverse dose rate, t_c 0.1 ms", "inverse dose rate, t_c 0.5 ms", "collision rate, t_c 0.5 ms"], rows)
+    return table(["thesis / edmill", "inverse dose rate, t_c 0.1 ms", "inverse dose rate, t_c 0.5 ms",
+                  "collision rate, t_c 0.5 ms"], rows)
 
 
 def ratios(data, cases, method=None):
@@ -122,7 +123,8 @@ def ratios(data, cases, method=None):
 
 
 def lossless_off(data):
-    off = [abs(data.inverse(case, "lossless_5e-4")[0] / case.thesis_inverse - 1) for case in data.cases if case.name in DETAILED]
+    off = [abs(data.inverse(case, "lossless_5e-4")[0] / case.thesis_inverse - 1)
+           for case in data.cases if case.name in DETAILED]
     return f"{100 * max(off):.1f} %"
 
 
@@ -160,7 +162,8 @@ def inverse_figure(data):
                       [(float(case.diameter), *data.inverse(case)) for case in cases if case.count > 1], k)
         for k, ratio in enumerate(tables.CHARGE_RATIOS):
             cases = [case for case in data.cases if (case.powder, case.charge_ratio) == (powder, ratio)]
-            panel.add(f"thesis, charge ratio {ratio}", [(float(case.diameter), case.thesis_inverse, 0) for case in cases], k, True)
+            panel.add(f"thesis, charge ratio {ratio}",
+                      [(float(case.diameter), case.thesis_inverse, 0) for case in cases], k, dashed=True)
         panels.append(panel)
     return svg.figure(panels)
 
@@ -181,7 +184,7 @@ def specific_figure(data):
                     points.append((float(case.diameter), 1 / mean / float(powder), half / mean**2 / float(powder)))
                 thesis.append((float(case.diameter), 1 / case.thesis_inverse / float(powder), 0))
             panel.add(f"edmill, charge ratio {ratio}", points, k)
-            panel.add(f"thesis, charge ratio {ratio}", thesis, k, True)
+            panel.add(f"thesis, charge ratio {ratio}", thesis, k, dashed=True)
         panels.append(panel)
     return svg.figure(panels, 2)
 
@@ -190,8 +193,8 @@ def ratio_figure(data):
     """Thesis over edmill by restitution, at two collapse times."""
     panels = []
     for method, title in ((None, "t_c 0.1 ms"), ("edmill_t_c_5e-4", "t_c 0.5 ms")):
-        panel = svg.Panel(title, "normal restitution", "inverse dose rate, thesis / edmill", (0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85),
-                          (0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5))
+        panel = svg.Panel(title, "normal restitution", "inverse dose rate, thesis / edmill",
+                          (0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85), (0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5))
         for k, diameter in enumerate(tables.DIAMETERS):
             cases = sorted((c for c in data.many() if c.diameter == diameter), key=lambda c: (c.restitution, c.powder))
             points = []

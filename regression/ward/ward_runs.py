@@ -2,7 +2,7 @@
 """Runs the 24 cases in replicas over seeds; each run leaves OUT/<case>-<seed>.json. Runs that are there already, of the
 same case by a program with the same core, are kept, so it can be stopped and started again.
 
-usage: ward_runs.py WARD_BATCHES --out OUT [--jobs N] [--short]    --short: 3 seeds, 1 s to 5 s, of the cases below 60 balls
+usage: ward_runs.py WARD_BATCHES --out OUT [--jobs N] [--short]    --short: 3 seeds, 1 s to 5.1 s, of the cases below 60 balls
 """
 import argparse
 import concurrent.futures
@@ -24,7 +24,7 @@ def plan(case, short=False):
     """Seeds, start, end and batch of a case's runs [s]. The thesis leaves out 30 s of 150 s. Many balls are in their steady
     state within half a second (thesis, chapter 5) and settle their own mean: short runs are enough."""
     if short:
-        return range(1, 4 if case.count < 60 else 1), 1, 5, 0.5
+        return range(1, 4 if case.count < 60 else 1), 1, 5.1, 0.512334
     if case.count < 60:
         return range(1, 6), 30, 150, 2
     if case.count < 400:
