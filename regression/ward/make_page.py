@@ -138,7 +138,7 @@ def words(data):
         "inverse_table": inverse_table(data), "rate_table": rate_table(data), "method_table": method_table(data),
         "single_table": single_table(data), "ratios": ratios(data, data.many()),
         "worst_interval": f"{max(100 * h / m for m, h in map(data.inverse, data.many())):.2f}",
-        "closure": max((row["largest_energy_closure"] for row in data.statistics.values()), key=float),
+        "closure": max((data.statistics[case.name]["largest_energy_closure"] for case in data.many()), key=float),
         "diameter_table": diameter_table(data), "lossless_off": lossless_off(data),
         "least_alike": f"{min(float(data.statistics[c.name]['replicas_alike_p']) for c in data.many()):.3f}",
         "date": source["date"], "commit": source["statistics"]["commit"], "compiler": source["statistics"]["compiler"],
