@@ -5,6 +5,7 @@ usage: fixture_tool_test.py EDMILL WARD_BATCHES STEPPED_MILL
 """
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -97,7 +98,7 @@ def checks(copy):
     code, output = copy.run("check", **ALTERED)
     where = "5g_2_5_4_76mm: events in double differ from" in output and "first in events 0-99" in output
     expect("altered friction is found in double, with the place", code == 1 and where, output)
-    expect("altered friction is found in mpfr50", "5g_2_5_4_76mm: event 0 in mpfr50 differs" in output, output)
+    expect("altered friction is found in mpfr50", re.search(r"5g_2_5_4_76mm: event \d+ in mpfr50 differs", output), output)
 
 
 def refusals(copy):

@@ -194,7 +194,7 @@ def ratio_figure(data):
     panels = []
     for method, title in ((None, "t_c 0.1 ms"), ("edmill_t_c_5e-4", "t_c 0.5 ms")):
         panel = svg.Panel(title, "normal restitution", "inverse dose rate, thesis / edmill",
-                          (0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85), (0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5))
+                          (0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85), (0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6))
         for k, diameter in enumerate(tables.DIAMETERS):
             cases = sorted((c for c in data.many() if c.diameter == diameter), key=lambda c: (c.restitution, c.powder))
             points = []
