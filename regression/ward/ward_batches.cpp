@@ -1,0 +1,113 @@
+// One run of a case with its totals batch by batch, as JSON: what regression/ward/statistics.py averages.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "edmill/core/errors.hpp"
+#include "edmill/core/version.hpp"
+#include "edmill/instances.hpp"
+#include "edmill/record/json_text.hpp"
+
+namespace {
+
+using namespace edmill;
+
+/// Milling dose [J] and impacts by partner in batches of equal length from the start of statistics on.
+class Batches : public engine::Observer<double> {
+ public:
+  struct Totals {
+    double milling_dose = 0;
+    std::array<std::uint64_t, model::partner_kinds> collisions{};
+  };
+
+  Batches(double start, double length, std::size_t count, const DriveClock<double>& clock) {
+    for (std::size_t k = 0; k <= count; ++k)
+      boundaries_.push_back(clock.at(start + static_cast<double>(k) * length));
+    totals_.resize(count);
+  }
+
+  void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>&) override {
+    while (next_ < boundaries_.size() && boundaries_[next_] < impact.time) ++next_;
+    if (next_ == 0 || next_ == boundaries_.size()) return;
+    auto& totals = totals_[next_ - 1];
+    totals.milling_dose += impact.outcome.milling_dose;
+    ++totals.collisions[impact.with_wall ? impact.partner : model::ball_ball];
+  }
+
+  const std::vector<Totals>& totals() const { return totals_; }
+
+ private:
+  std::vector<Instant<double>> boundaries_;
+  std::vector<Totals> totals_;
+  std::size_t next_ = 0;
+};
+
+/// Lists of numbers, which record::JsonText does not know, are written as texts of numbers.
+template <class Value>
+std::string list(const std::vector<Batches::Totals>& totals, Value value) {
+  std::string text;
+  for (const auto& t : totals) text += (text.empty() ? "" : " ") + value(t);
+  return text;
+}
+
+void write(const record::Summary<double>& s, double length, const std::vector<Batches::Totals>& totals) {
+  record::JsonText json;
+  json.text("format", "edmill ward run 1");
+  json.text("commit", s.provenance.commit);
+  json.text("compiler", s.provenance.compiler);
+  json.text("case_digest", s.provenance.case_digest);
+  json.integer("seed", s.provenance.seed);
+  json.text("end_reason", s.end_reason);
+  json.number("start_time", s.start_time);
+  json.number("end_time", s.end_time);
+  json.number("batch_length", length);
+  json.number("milling_dose", s.milling_dose);
+  json.number("energy_closure", s.energy_closure());
+  json.number("collapse_milling_dose", s.collapse_dose);
+  json.integer("collapse_impacts", s.collapse_impacts);
+  json.integer("impacts_since_start", s.total_impacts);
+  json.number("cpu_seconds", s.cpu_seconds);
+  json.begin("batches");
+  json.text("milling_dose", list(totals, [](const auto& t) { return to_text<double>(t.milling_dose); }));
+  constexpr std::array<const char*, model::partner_kinds> names = {"wall_0", "wall_1", "wall_2", "ball_ball"};
+  for (std::size_t k = 0; k < names.size(); ++k)
+    json.text(names[k], list(totals, [k](const auto& t) { return std::to_string(t.collisions[k]); }));
+  json.end();
+  std::cout << json.finish();
+}
+
+int run(const std::string& file, const std::vector<std::string>& overrides, double length) {
+  const auto spec = casefile::read_case(file, overrides);
+  const auto built = setup::build_case<double>(spec);
+  const double start = built.the_case.statistics_start;
+  if (!built.the_case.stop.end_time) throw InputError({file + ": run.end_time: not given, expected a time"});
+  const auto count = static_cast<std::size_t>((*built.the_case.stop.end_time - start) / length + 1e-9);
+  Batches batches(start, length, count, DriveClock<double>(built.the_case.mill.motion.period));
+  driver::Guests<double> guests;
+  guests.observers = {&batches};
+  const auto [summary, saved] = driver::simulate<double>(spec, built, guests);
+  write(summary, length, batches.totals());
+  return summary.end_reason == "end_time" ? 0 : 3;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"a run of a case with its totals batch by batch, as JSON on standard output"};
+  app.set_version_flag("--version", version() + " " + commit());
+  std::string file;
+  std::vector<std::string> overrides;
+  double length = 2;
+  app.add_option("case", file, "case file (TOML)")->required();
+  app.add_option("--batch", length, "length of a batch in s")->check(CLI::PositiveNumber);
+  app.add_option("--set", overrides, "section.key=value, over the case file")->take_all()->expected(1);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run(file, overrides, length);
+  } catch (const InputError& error) {
+    for (const auto& problem : error.problems()) std::cerr << "ward_batches: " << problem << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "ward_batches: " << error.what() << '\n';
+    return 1;
+  }
+}
