@@ -337,6 +337,8 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
 
   CaseSpec spec;
   spec.file = name;
+  spec.text = text;
+  for (const auto& setting : overrides) spec.text += "\n# --set " + setting;
   Section top(document, &root, "");
   read_run(top.section("run"), spec);
   read_mill(top.section("mill"), spec);

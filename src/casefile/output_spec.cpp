@@ -283,6 +283,7 @@ constexpr Kind kinds[] = {{"collisions", ".csv", read_collisions},
                           {"trends_balls", ".csv", read_trends_balls},
                           {"trace", ".csv", read_trace},
                           {"iterations", ".csv", read_iterations},
+                          {"events", ".h5", read_collisions},
                           {"snapshot", ".x3d", read_snapshot},
                           {"animation", ".x3d", read_animation},
                           {"paraview", ".pvd", read_paraview}};

@@ -1,34 +1,16 @@
-#include <hdf5.h>
-
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
+#include "edmill/record/hdf5_handle.hpp"
 #include "edmill/sweep/table.hpp"
 
 namespace edmill::sweep {
 
+using Handle = record::Hdf5Handle;
+using record::hdf5_check;
+
 namespace {
-
-/// An HDF5 object, closed at the end of its scope.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id < 0) throw std::runtime_error("HDF5 could not make a table");
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() { close_(id_); }
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-void check(herr_t status) {
-  if (status < 0) throw std::runtime_error("HDF5 could not write a table");
-}
 
 std::size_t width_of(const Table::Column& column) {
   const auto* texts = std::get_if<Table::Texts>(&column.values);
@@ -59,21 +41,21 @@ void write_table(hid_t file, const std::string& name, const Table& table) {
     const bool integer = std::holds_alternative<Table::Integers>(column.values);
     const Handle type(H5Tcopy(text ? H5T_C_S1 : integer ? H5T_STD_I64LE : H5T_IEEE_F64LE), H5Tclose);
     if (text) {
-      check(H5Tset_size(type, width));
-      check(H5Tset_strpad(type, H5T_STR_NULLPAD));
-      check(H5Tset_cset(type, H5T_CSET_UTF8));
+      hdf5_check(H5Tset_size(type, width));
+      hdf5_check(H5Tset_strpad(type, H5T_STR_NULLPAD));
+      hdf5_check(H5Tset_cset(type, H5T_CSET_UTF8));
     }
-    check(H5Tinsert(row_type, column.name.c_str(), offset, type));
+    hdf5_check(H5Tinsert(row_type, column.name.c_str(), offset, type));
     for (std::size_t k = 0; k < table.rows(); ++k) put(column, k, &rows[k * size + offset]);
     offset += width;
   }
   const hsize_t count = table.rows();
   const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  check(H5Pset_obj_track_times(creation, false));
+  hdf5_check(H5Pset_obj_track_times(creation, false));
   const Handle set(H5Dcreate2(file, name.c_str(), row_type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
                    H5Dclose);
-  check(H5Dwrite(set, row_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()));
+  hdf5_check(H5Dwrite(set, row_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()));
 }
 
 }  // namespace
@@ -81,12 +63,12 @@ void write_table(hid_t file, const std::string& name, const Table& table) {
 std::string hdf5_image(const std::vector<std::pair<std::string, Table>>& tables) {
   // In memory: the bytes go to disk as one atomic file.
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  check(H5Pset_fapl_core(access, 1 << 16, false));
+  hdf5_check(H5Pset_fapl_core(access, 1 << 16, false));
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  check(H5Pset_obj_track_times(creation, false));
+  hdf5_check(H5Pset_obj_track_times(creation, false));
   const Handle file(H5Fcreate("tables.h5", H5F_ACC_TRUNC, creation, access), H5Fclose);
   for (const auto& [name, table] : tables) write_table(file, name, table);
-  check(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  hdf5_check(H5Fflush(file, H5F_SCOPE_GLOBAL));
   const auto size = H5Fget_file_image(file, nullptr, 0);
   if (size <= 0) throw std::runtime_error("HDF5 could not write a table");
   std::string image(static_cast<std::size_t>(size), '\0');

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "edmill/app/list_variables.hpp"
+#include "edmill/record/hdf5_handle.hpp"
 #include "program.hpp"
 
 namespace edmill {
@@ -421,6 +422,63 @@ TEST_F(Outputs, ParaviewFramesHoldBallsAndVessel) {
   for (const auto& entry : std::filesystem::directory_iterator(scratch / "out/movie"))
     entries += entry.exists();
   EXPECT_EQ(entries, 2u);  // nothing partial is left
+}
+
+/// A dataset of the event file, as doubles.
+std::vector<double> dataset(hid_t file, const std::string& name) {
+  const record::Hdf5Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose),
+      space(H5Dget_space(set), H5Sclose);
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  record::hdf5_check(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+  return values;
+}
+
+TEST_F(Outputs, EventsInHdf5AreThoseOfTheLog) {
+  write("case.toml", std::string(small_case) +
+                         "[[output]]\ntype = \"collisions\"\nstates = true\n"
+                         "[[output]]\ntype = \"events\"\nstates = true\n"
+                         "[[output]]\ntype = \"events\"\nfile = \"small.h5\"\n");
+  ASSERT_EQ(edmill("run case.toml --quiet --out out").code, 0);
+  const auto bytes = contents(scratch / "out/small.h5"), all_bytes = contents(scratch / "out/events.h5");
+  ASSERT_EQ(edmill("run case.toml --quiet --out out").code, 0);
+  EXPECT_EQ(contents(scratch / "out/small.h5"), bytes);
+  EXPECT_EQ(contents(scratch / "out/events.h5"), all_bytes);
+
+  const auto log = read("collisions.csv");
+  const record::Hdf5Handle file(H5Fopen((scratch / "out/events.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+                                H5Fclose);
+  for (const std::string column :
+       {"index", "time", "ball", "partner", "approach_speed", "slip_speed", "milling_dose", "wall_work"}) {
+    const auto values = dataset(file, "events/" + column);
+    ASSERT_EQ(values.size(), log.size());
+    for (std::size_t k = 0; k < log.size(); ++k)
+      EXPECT_EQ(values[k], number(log[k], column)) << column << " of row " << k;
+  }
+  for (const std::string body : {"", "partner_"})
+    for (const auto& [name, letter, when] : {std::tuple{"position", "", ""},
+                                             {"velocity_before", "v", "_before"},
+                                             {"spin_before", "w", "_before"},
+                                             {"velocity_after", "v", "_after"},
+                                             {"spin_after", "w", "_after"}}) {
+      const auto values = dataset(file, "events/" + (body.empty() ? "ball_" : body) + name);
+      ASSERT_EQ(values.size(), 3 * log.size());
+      for (std::size_t k = 0; k < log.size(); ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          if (!body.empty() && log[k].at("partner_kind") == "wall") {
+            EXPECT_TRUE(std::isnan(values[3 * k + axis]));
+            continue;
+          }
+          const std::string column = body + letter + "xyz"[axis] + when;
+          EXPECT_EQ(values[3 * k + axis], number(log[k], column)) << column << " of row " << k;
+        }
+    }
+  const auto places = dataset(file, "final_position"), state = dataset(file, "final_spin");
+  const auto final_state = read("final_state.csv");
+  ASSERT_EQ(places.size(), 15u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(places[3 * i], number(final_state[i], "position_x"));
+    EXPECT_EQ(state[3 * i + 2], number(final_state[i], "spin_z"));
+  }
 }
 
 TEST(VariablesPage, IsWhatTheProgramLists) {

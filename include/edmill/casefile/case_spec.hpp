@@ -65,6 +65,7 @@ struct AuditSpec {
 
 struct CaseSpec {
   std::string file;    ///< path of the case file
+  std::string text;    ///< of the case file, and the settings over it as comments
   std::string digest;  ///< SHA-256 of the case's canonical text
   std::string precision = "double";
   std::uint64_t seed = 1;

@@ -9,6 +9,7 @@
 #include "edmill/casefile/case_spec.hpp"
 #include "edmill/engine/simulation.hpp"
 #include "edmill/model/impact_facts.hpp"
+#include "edmill/outputs/event_file.hpp"
 #include "edmill/outputs/output_timer.hpp"
 #include "edmill/outputs/variable_values.hpp"
 #include "edmill/record/output_folder.hpp"
@@ -22,6 +23,7 @@ struct RunFacts {
   std::optional<Real> powder_mass;  ///< [kg]
   casefile::Colour vessel_colour{};
   std::vector<casefile::Colour> ball_colours;  ///< of each ball
+  std::vector<FileNote> notes;                 ///< where the run comes from
 };
 
 /// One impact as an output sees it.

@@ -1,6 +1,7 @@
 // Implementation of Outputs; included by the instantiation files only.
 #pragma once
 
+#include "edmill/outputs/events_output.hpp"
 #include "edmill/outputs/scene_outputs.hpp"
 #include "edmill/outputs/simple_outputs.hpp"
 #include "edmill/outputs/statistics_outputs.hpp"
@@ -33,9 +34,21 @@ constexpr Maker<Real> makers[] = {{"collisions", make<Real, CollisionsOutput>},
                                   {"trends_balls", make<Real, TrendsBallsOutput>},
                                   {"trace", make<Real, TraceOutput>},
                                   {"iterations", make<Real, IterationsOutput>},
+                                  {"events", make<Real, EventsOutput>},
                                   {"snapshot", make<Real, SnapshotOutput>},
                                   {"animation", make<Real, AnimationOutput>},
                                   {"paraview", make<Real, ParaviewOutput>}};
+
+template <class Real>
+std::vector<FileNote> notes_of(const casefile::CaseSpec& spec) {
+  return {{"program", "edmill " + std::string(version()) + " (" + std::string(commit()) + ")"},
+          {"compiler", std::string(compiler())},
+          {"precision", std::string(ScalarName<Real>::value)},
+          {"seed", std::to_string(spec.seed)},
+          {"case_file", spec.file},
+          {"case_digest", spec.digest},
+          {"case", spec.text, true}};
+}
 
 template <class Real>
 model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
@@ -77,7 +90,8 @@ model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
 template <class Real>
 Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
-  RunFacts<Real> run{start, std::nullopt, spec.vessel_colour, spec.ball_colours()};
+  RunFacts<Real> run{start, std::nullopt, spec.vessel_colour, spec.ball_colours(),
+                     detail::notes_of<Real>(spec)};
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();
   for (const auto& output : spec.outputs) {
     if (!output.folder.empty()) record::prepare_folder(folder / output.folder);

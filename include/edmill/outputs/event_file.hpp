@@ -1,0 +1,53 @@
+// The event log as HDF5: one dataset for each column, so that a reader takes only what it needs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace edmill::outputs {
+
+/// A column of the log.
+struct EventColumn {
+  enum class Type { integer, number, vector };  ///< 64-bit integer, 64-bit number, three of those a row
+  std::string name, unit, description;
+  Type type;
+};
+
+/// A text of the whole file: an attribute, or a dataset when it is `long_text`.
+struct FileNote {
+  std::string key, value;
+  bool long_text = false;
+};
+
+/// Written in blocks under a temporary name; `commit` puts it in place. The same rows make the same bytes: no
+/// time stamps. Integers and times are compressed; the digits of measured numbers are noise that does not
+/// shrink.
+class EventFile {
+ public:
+  EventFile(std::filesystem::path place, std::vector<EventColumn> columns,
+            const std::vector<FileNote>& notes);
+  EventFile(const EventFile&) = delete;
+  EventFile& operator=(const EventFile&) = delete;
+  ~EventFile();
+
+  void add(std::size_t column, std::int64_t value);
+  void add(std::size_t column, double value);
+  /// After a value, or three for a vector, was added to every column.
+  void end_row();
+
+  /// A table of its own beside the events: rows of `width` numbers.
+  void add_table(const std::string& name, const std::string& unit, const std::string& description,
+                 const std::vector<double>& values, std::size_t width);
+
+  /// @throws std::runtime_error when anything was not written; the old file is then still there
+  void commit();
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace edmill::outputs

@@ -1,0 +1,32 @@
+// What everything that writes HDF5 needs. Heavy: include it in source files only.
+#pragma once
+
+#include <hdf5.h>
+
+#include <stdexcept>
+
+namespace edmill::record {
+
+/// An HDF5 object, closed at the end of its scope.
+class Hdf5Handle {
+ public:
+  /// @throws std::runtime_error when `id` is that of a failure
+  Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
+    if (id < 0) throw std::runtime_error("HDF5 could not make an object; the disk may be full");
+  }
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+  ~Hdf5Handle() { close_(id_); }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// @throws std::runtime_error when a call has failed
+inline void hdf5_check(herr_t status) {
+  if (status < 0) throw std::runtime_error("HDF5 could not write; the disk may be full");
+}
+
+}  // namespace edmill::record
