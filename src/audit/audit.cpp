@@ -37,7 +37,7 @@ std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings
   std::vector<Diagnosis> found;
   const auto add = [&](const std::string& name, std::uint64_t events, std::uint64_t of,
                        const std::string& text) {
-    if (events > 0) found.push_back({name, text, events, of});
+    if (events > 0 && 2 * events >= of) found.push_back({name, text, events, of});
   };
   const auto count = [&](Kind kind) { return findings.of(kind).count; };
   const auto walls_off = count(Kind::rotation_order) + count(Kind::late_event) + count(Kind::early_event);
@@ -70,9 +70,9 @@ std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings
 }
 
 /// Late events that a finite time step would give: never early, and hardly deeper than a step's path.
-void diagnose_step(const Findings& findings, double latest, std::vector<Diagnosis>& found) {
+void diagnose_step(const Findings& findings, double reach, double latest, std::vector<Diagnosis>& found) {
   const auto late = findings.of(Kind::late_event).count, early = findings.of(Kind::early_event).count;
-  if (late < 3 || early > 0) return;
+  if (late < 3 || early > 0 || findings.of(Kind::late_event).worst > reach / 100) return;
   found.push_back(
       {"time_step",
        fmt::format("finite steps: events are late and never early, by at most {:.2g} s; a gap tolerance of "
@@ -113,11 +113,12 @@ Audit audit(const model::Case<double>& the_case, const std::vector<model::BallSt
     auditor.take(*event);
     if (options.progress && result.events % 4096 == 0) options.progress(event->time, result.events);
   }
+  auditor.finish();
   result.energies = auditor.energies();
   result.undecided = auditor.flights().undecided();
   result.not_made = checks_not_made(result.findings, any_pairs);
   result.diagnoses = diagnose(auditor, result.findings);
-  diagnose_step(result.findings, auditor.latest(), result.diagnoses);
+  diagnose_step(result.findings, result.tolerances.reach, auditor.latest(), result.diagnoses);
   const bool judged =
       result.findings.judged_number(Check::touch) + result.findings.judged_number(Check::milling_dose) > 0;
   result.verdict = result.findings.total() > 0 ? Verdict::violations

@@ -196,7 +196,7 @@ bool Auditor::another_body_is_there(LoggedEvent& event, double allowed, double g
   const double radius = ball(event.ball).radius;
   const Vec& position = event.body[0].position;
   for (int wall = 0; wall < model::wall_count; ++wall)
-    if (wall != event.partner &&
+    if (wall != event.partner && std::abs(gap) > radius / 100 &&
         std::abs(wall_gap(frame, case_.mill.vessel, wall, radius, position)) <= allowed) {
       tell(Kind::wrong_partner, event, std::abs(gap), event.partner, wall, "another wall is touched");
       event.partner = wall;
@@ -205,7 +205,7 @@ bool Auditor::another_body_is_there(LoggedEvent& event, double allowed, double g
   for (int k = 0; k < flights_.balls(); ++k) {
     if (k == event.ball || !flights_.of(k).state_known || event.time < flights_.of(k).start) continue;
     const double apart = size(Vec(flights_.position_at(k, event.time) - position)) - radius - ball(k).radius;
-    if (std::abs(apart) <= allowed) {
+    if (std::abs(apart) <= allowed && std::abs(gap) > radius / 100) {
       tell(Kind::wrong_partner, event, std::abs(gap), event.partner, k, "a ball is touched, and no wall");
       flights_.of(k) = Track{};
       event.with_wall = false;
@@ -232,6 +232,10 @@ Restitutions Auditor::restitutions(const LoggedEvent& event) const {
       continue;
     }
     const double since = event.time - *track.last_impact;
+    if (since < 0) {  // a line far out of order
+      perhaps = true;
+      continue;
+    }
     surely = surely || since < t_c - slack;
     perhaps = perhaps || since < t_c + slack;
   }

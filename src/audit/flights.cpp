@@ -80,6 +80,7 @@ void Flights::begin_at_start(int ball, const model::BallState<double>& state, do
 void Flights::judge(int ball, const FlightEnd& end) {
   Track& track = of(ball);
   const double time = end.event->time;
+  settle_held(track, end.event);
   if (!track.state_known || time < track.start) return;
   double off = 0;  // how far the flight ends from where it should [m]
   judge_state(ball, track, end, off, false);
@@ -88,7 +89,8 @@ void Flights::judge(int ball, const FlightEnd& end) {
   const double until = track.broken ? std::min(time, track.broken_from) : time;
   const double slack = tolerances_.touch(time, size(track.flight.velocity)) +
                        tolerances_.position(time, size(track.flight.velocity) * (time - track.start), 0);
-  auto missed = end.displaced ? std::nullopt : first_wall(ball, track, until, slack);
+  std::optional<Contact> missed;
+  if (!end.displaced) missed = first_wall(ball, track, until, slack);
   // The impact that ends the flight is late, not missed.
   if (missed && end.late && end.event->with_wall && missed->partner == end.event->partner) missed.reset();
   auto pair = first_ball(ball, track, end, slack);
@@ -101,11 +103,10 @@ void Flights::judge(int ball, const FlightEnd& end) {
   if (missed) {
     const bool explained = off > 0 && explained_by_walls(ball, track, end);
     if (explained || deep(*missed)) {
-      tell_missed(ball, *missed, end,
-                  explained  ? "the state changes as by this impact: it is not logged"
-                  : off == 0 ? "the ball flew on through the wall"
-                             : "");
-      ++missed_by_wall_[static_cast<std::size_t>(missed->partner)];
+      track.held = missed_finding(ball, *missed, end,
+                                  explained  ? "the state changes as by this impact: it is not logged"
+                                  : off == 0 ? "the ball flew on through the wall"
+                                             : "");
       told = true;
       missed_at = missed->time;
     }
@@ -114,7 +115,8 @@ void Flights::judge(int ball, const FlightEnd& end) {
     const bool explained = off > 0 && explained_by_ball(ball, *pair, end);
     Track& other = of(pair->partner);
     if (explained) {
-      tell_missed(ball, *pair, end, "the state changes as by this impact: it is not logged");
+      findings_.add(
+          missed_finding(ball, *pair, end, "the state changes as by this impact: it is not logged"));
       if (!other.broken || pair->time < other.broken_from) other.broken_from = pair->time;
       other.broken = told = true;
       missed_at = pair->time;
@@ -134,20 +136,41 @@ void Flights::judge(int ball, const FlightEnd& end) {
       missed_at = pair->time;
     }
   }
-  settle_pending(track, off, told ? missed_at : time);
+  settle_pending(track, end, off, told ? missed_at : time);
   if (!told) judge_state(ball, track, end, off, true);
 }
 
 /// Missed impacts that other balls' flights have found are true if this flight was as the log says.
-void Flights::settle_pending(Track& track, double off, double missed_at) {
-  for (const auto& p : track.pending)
-    if (p.finding.time <= missed_at && (off == 0 || p.depth > 2 * off)) findings_.add(p.finding);
+void Flights::settle_pending(Track& track, const FlightEnd& end, double off, double missed_at) {
+  const int other = end.body == 0 ? end.event->partner : end.event->ball;
+  for (const auto& p : track.pending) {
+    const bool told_late = end.late && !end.event->with_wall && p.finding.ball == other;
+    if (!told_late && p.finding.time <= missed_at && (off == 0 || p.depth > 2 * off))
+      findings_.add(p.finding);
+  }
   track.pending.clear();
 }
 
-void Flights::tell_missed(int ball, const Contact& contact, const FlightEnd& end, const char* note) {
-  findings_.add({Kind::missed_event, contact.depth, end.event->line, contact.time, ball, contact.with_wall,
-                 contact.partner, unknown, unknown, note});
+/// Codes that step in time tell several impacts of a ball at one time: the second one is late and not missed.
+void Flights::settle_held(Track& track, const LoggedEvent* next) {
+  if (!track.held) return;
+  const bool told =
+      next && next->time == track.start && next->with_wall && next->partner == track.held->partner;
+  if (!told) {
+    findings_.add(*track.held);
+    ++missed_by_wall_[static_cast<std::size_t>(track.held->partner)];
+  }
+  track.held.reset();
+}
+
+void Flights::finish() {
+  for (auto& track : tracks_) settle_held(track, nullptr);
+}
+
+Finding Flights::missed_finding(int ball, const Contact& contact, const FlightEnd& end,
+                                const char* note) const {
+  return {Kind::missed_event, contact.depth,   end.event->line, contact.time, ball,
+          contact.with_wall,  contact.partner, unknown,         unknown,      note};
 }
 
 /// Position, velocity and spin at the end of a flight.

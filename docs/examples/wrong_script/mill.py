@@ -6,7 +6,7 @@ usage: mill.py LOG.csv [--fix NAME ...] [--step 1e-5] [--end 0.2]
 import argparse
 from math import cos, hypot, pi, sin, sqrt
 
-MISTAKES = ("euler", "sign", "masses", "dose", "spin")
+MISTAKES = ("euler", "gamma", "masses", "dose", "spin")
 options = argparse.ArgumentParser()
 options.add_argument("log")
 options.add_argument("--fix", action="append", choices=MISTAKES + ("all",), default=[])
@@ -64,7 +64,8 @@ class Vessel:
         self.about_x = times(self.x, SWING * OMEGA * cos(OMEGA * t))
 
     def velocity(self, point):
-        return add(cross(self.about_z, point), cross(self.about_x, add(point, self.centre, -1)))
+        swing = cross(self.about_z, point)
+        return swing if wrong("gamma") else add(swing, cross(self.about_x, add(point, self.centre, -1)))
 
     def contacts(self, ball):
         """Walls that the ball overlaps: number and normal."""
@@ -98,7 +99,7 @@ def collide(t, one, two, partner, normal, wall_velocity, log):
     kinetic = sum(b.mass * dot(b.v, b.v) / 2 for b in bodies)
     for b, side in zip(bodies, (1, -1)):
         share = side * (0.5 if two and wrong("masses") else mass / b.mass)
-        b.v = add(add(b.v, along, share), across, -share if wrong("sign") and not two else share)
+        b.v = add(add(b.v, along, share), across, share)
         b.w = add(b.w, cross(times(normal, -1), across), abs(share) / (b.radius * INERTIA))
     if wrong("dose"):  # forgets that the wall does work, and the spin
         dose = kinetic - sum(b.mass * dot(b.v, b.v) / 2 for b in bodies)

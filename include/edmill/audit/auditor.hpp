@@ -14,6 +14,8 @@ class Auditor {
   /// The log begins with these states.
   void begin(const std::vector<model::BallState<double>>& states, double time);
   void take(LoggedEvent& event);
+  /// At the end of the log.
+  void finish() { flights_.finish(); }
 
   const Energies& energies() const { return impacts_.energies(); }
   const Flights& flights() const { return flights_; }

@@ -26,6 +26,8 @@ struct Track {
     double depth;
   };
   std::vector<Pending> pending;
+  /// A missed impact with a wall, until it is seen that the same time's next line does not tell it.
+  std::optional<Finding> held;
 };
 
 /// The end of a flight as an event tells it.
@@ -53,6 +55,9 @@ class Flights {
   /// Judges the flight of a ball that an event ends.
   void judge(int ball, const FlightEnd& end);
 
+  /// At the end of the log.
+  void finish();
+
   /// Begins a new flight.
   void begin(int ball, double time, const BodyState& state, const Available::Body& has);
   void begin_at_start(int ball, const model::BallState<double>& state, double time);
@@ -63,10 +68,10 @@ class Flights {
 
  private:
   struct Contact {
-    double time;
-    bool with_wall;
-    int partner;
-    double depth;  ///< the most that the bodies overlap later in the flight [m]
+    double time = 0;
+    bool with_wall = false;
+    int partner = -1;
+    double depth = 0;  ///< the most that the bodies overlap later in the flight [m]
   };
   struct State {  ///< of a ball while an unlogged impact is tried
     dynamics::Flight<double> flight;
@@ -82,8 +87,9 @@ class Flights {
   bool arrives(const State& state, const FlightEnd& end) const;
   void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it);
   const char* look_of(const Track& track, const BodyState& state, double dt, double dv) const;
-  void tell_missed(int ball, const Contact& contact, const FlightEnd& end, const char* note);
-  void settle_pending(Track& track, double off, double missed_at);
+  Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note) const;
+  void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at);
+  void settle_held(Track& track, const LoggedEvent* next);
   double deepest(int ball, const Track& track, int wall, double from, double until) const;
   Scene scene_at(int ball, int wall, double time, const Vec& position) const;
 
