@@ -170,6 +170,7 @@ auto Auditor::judge_wall_touch(LoggedEvent& event, Scene& scene, double allowed)
   if (std::abs(printed_gap) <= allowed) {
     tell(Kind::rotation_order, event, std::abs(gap), gap, 0, "touches with the printed matrix (2.14)");
     // The rest is judged where that code has its wall.
+    scene.displaced = true;
     scene.impact.normal = wall_normal(scene.printed, event.partner, position);
     const Vec point = position - scene.impact.normal * radius;
     scene.impact.wall_velocity =

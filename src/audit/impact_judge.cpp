@@ -204,13 +204,23 @@ void ImpactJudge::tell_broken_equations(const LoggedEvent& event, const Scene& s
   }
 }
 
-void ImpactJudge::judge(const LoggedEvent& event, const Scene& scene, const Restitutions& allowed) {
+void ImpactJudge::judge(const LoggedEvent& event, Scene scene, const Restitutions& allowed) {
   if (!available_.positions(event.with_wall) || !available_.velocities_before(event.with_wall)) {
     judge_speeds(event, scene.impact, allowed);
     return;
   }
-  const Impact& impact = scene.impact;
   const Known known{available_.velocities_after(event.with_wall), available_.spins(event.with_wall)};
+  if (scene.displaced && known.velocities) {
+    // With the printed matrix goes either its own derivative or the printed velocity.
+    Impact other = scene.impact;
+    const Vec& centre = event.body[0].position;
+    other.wall_velocity = wall_velocity(WallVelocity::of_the_printed_matrix, scene.nested, scene.printed,
+                                        centre - other.normal * other.ball[0].radius, centre);
+    if (residuals(event, other, allowed, known).largest() <
+        residuals(event, scene.impact, allowed, known).largest())
+      scene.impact = other;
+  }
+  const Impact& impact = scene.impact;
   const double scale = velocity_scale(impact, event, known.spins);
   const double allowed_off = tolerances_.relative * scale;
   const double g_n = dot(impact.before(event), impact.normal);

@@ -113,9 +113,8 @@ TEST_F(Faulty, LateEvents) {
   const int late = simulate(faults);
   const auto audit = judged();
   expect_kinds(audit, {Kind::late_event});
-  EXPECT_LE(count(audit, Kind::late_event), static_cast<std::uint64_t>(late));
-  EXPECT_GE(count(audit, Kind::late_event),
-            static_cast<std::uint64_t>(late) * 3 / 4);  // not where bodies turn back
+  // Not where bodies turn back in time; a ball left overlapped may meet the wall again before it is out.
+  EXPECT_GE(count(audit, Kind::late_event), static_cast<std::uint64_t>(late) * 3 / 4);
   EXPECT_TRUE(looks_like(audit, "time_step"));
 }
 
@@ -170,7 +169,7 @@ TEST_F(Faulty, WrongTangentialSign) {
   prepare();
   Faults faults;
   faults.tangential_sign = true;
-  simulate(faults);
+  simulate(faults, 80);  // energy grows without bounds
   const auto audit = judged();
   expect_kinds(audit, {Kind::tangential_sign});
   EXPECT_TRUE(looks_like(audit, "tangential_sign"));
@@ -180,13 +179,13 @@ TEST_F(Faulty, UnequalMasses) {
   prepare();
   Faults faults;
   faults.printed_compliance = true;
-  simulate(faults, 1000);
+  simulate(faults, 500);
   auto audit = judged();
   expect_kinds(audit, {Kind::unequal_balls});
   EXPECT_TRUE(looks_like(audit, "unequal_mass_factor"));
   faults = {};
   faults.equal_masses = true;
-  simulate(faults, 1000);
+  simulate(faults, 500);
   audit = judged();
   expect_kinds(audit, {Kind::unequal_balls});
   EXPECT_FALSE(looks_like(audit, "unequal_mass_factor"));

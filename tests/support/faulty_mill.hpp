@@ -145,9 +145,8 @@ class FaultyMill {
       for (int j = i + 1; j < n; ++j) {
         if (except && !except->with_wall && except->ball == i && except->partner == j) continue;
         if (passing_ == std::pair(i, j)) {
-          const Vec r = states_[i].position - states_[j].position,
-                    v = states_[i].velocity - states_[j].velocity;
-          if (r.dot(v) < 0 || r.norm() < case_.balls[i].radius + case_.balls[j].radius) continue;
+          const Vec r = states_[i].position - states_[j].position;
+          if (r.norm() < case_.balls[i].radius + case_.balls[j].radius + 1e-12) continue;  // not through yet
           passing_ = {-1, -1};
         }
         const double t = pair_time(i, j);
@@ -187,7 +186,7 @@ class FaultyMill {
                                       (!c.with_wall && time_ - last_[c.partner] < law.collapse_time));
     if (faults_.restitution >= 0) law.restitution_normal = faults_.restitution;
     dynamics::ImpactOutcome<double> o;
-    Vec normal;
+    Vec normal, wall(0, 0, 0);
     if (c.with_wall) {
       Vec x, y, z, centre;
       double theta_rate, gamma_rate;
@@ -197,8 +196,10 @@ class FaultyMill {
       normal = c.partner == 2 ? Vec(-outward / outward.norm()) : Vec(y * (c.partner == 0 ? 1.0 : -1.0));
       const Vec point = one.position - normal * case_.balls[c.ball].radius;
       const double s = centre[1] / case_.mill.motion.arm, co = centre[0] / case_.mill.motion.arm;
-      Vec wall =
-          Vec(0, 0, theta_rate).cross(point) + Vec(Vec(co, s, 0) * gamma_rate).cross(Vec(point - centre));
+      wall = Vec(0, 0, theta_rate).cross(point) + Vec(Vec(co, s, 0) * gamma_rate).cross(Vec(point - centre));
+      if (faults_.printed_rotations)  // the derivative of the printed position
+        wall = Vec(0, 0, theta_rate).cross(centre) + Vec(gamma_rate, 0, 0).cross(Vec(point - centre)) +
+               Vec(z * theta_rate).cross(Vec(point - centre));
       wall *= faults_.wall_at_rest ? 0 : faults_.wall_velocity_factor;
       o = dynamics::collide_with_wall<double>(normal, case_.balls[c.ball], wall, one.velocity, one.spin, law,
                                               collapsing);
@@ -233,6 +234,7 @@ class FaultyMill {
       };
       turn(one, before.first);
       if (!c.with_wall) turn(two, before.second);
+      o.wall_work = case_.balls[c.ball].mass * wall.dot(one.velocity - before.first.velocity);
     }
     last_[c.ball] = time_;
     if (!c.with_wall) last_[c.partner] = time_;

@@ -6,7 +6,7 @@ usage: mill.py LOG.csv [--fix NAME ...] [--step 1e-5] [--end 0.2]
 import argparse
 from math import cos, hypot, pi, sin, sqrt
 
-MISTAKES = ("euler", "gamma", "masses", "dose", "spin")
+MISTAKES = ("euler", "restitution", "masses", "dose", "spin")
 options = argparse.ArgumentParser()
 options.add_argument("log")
 options.add_argument("--fix", action="append", choices=MISTAKES + ("all",), default=[])
@@ -64,8 +64,7 @@ class Vessel:
         self.about_x = times(self.x, SWING * OMEGA * cos(OMEGA * t))
 
     def velocity(self, point):
-        swing = cross(self.about_z, point)
-        return swing if wrong("gamma") else add(swing, cross(self.about_x, add(point, self.centre, -1)))
+        return add(cross(self.about_z, point), cross(self.about_x, add(point, self.centre, -1)))
 
     def contacts(self, ball):
         """Walls that the ball overlaps: number and normal."""
@@ -91,10 +90,11 @@ def collide(t, one, two, partner, normal, wall_velocity, log):
     if g_n >= 0:
         return
     mass = one.mass * two.mass / (one.mass + two.mass) if two else one.mass
+    e_n = 0.6 if wrong("restitution") and not two else RESTITUTION
     slip = add(g, normal, -g_n)
     slip_speed, compliance = sqrt(dot(slip, slip)), 1 + 1 / INERTIA
-    e_t = max(-1, 1 - FRICTION * (1 + RESTITUTION) * compliance * -g_n / slip_speed) if slip_speed > 0 else 1
-    along, across = times(normal, -(1 + RESTITUTION) * g_n), times(slip, -(1 - e_t) / compliance)
+    e_t = max(-1, 1 - FRICTION * (1 + e_n) * compliance * -g_n / slip_speed) if slip_speed > 0 else 1
+    along, across = times(normal, -(1 + e_n) * g_n), times(slip, -(1 - e_t) / compliance)
     before = [(b.x, b.v, b.w) for b in bodies]
     kinetic = sum(b.mass * dot(b.v, b.v) / 2 for b in bodies)
     for b, side in zip(bodies, (1, -1)):
@@ -104,7 +104,7 @@ def collide(t, one, two, partner, normal, wall_velocity, log):
     if wrong("dose"):  # forgets that the wall does work, and the spin
         dose = kinetic - sum(b.mass * dot(b.v, b.v) / 2 for b in bodies)
     else:
-        dose = mass / 2 * ((1 - RESTITUTION**2) * g_n**2 + (1 - e_t**2) / compliance * slip_speed**2)
+        dose = mass / 2 * ((1 - e_n**2) * g_n**2 + (1 - e_t**2) / compliance * slip_speed**2)
     row = [1000 * t, one.number, partner, -g_n, dose]
     for body, (x, v, w) in zip(bodies, before):
         row += [*x, *v, *w, *body.v, *body.w]

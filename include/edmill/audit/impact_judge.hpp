@@ -20,6 +20,7 @@ struct Restitutions {
 struct Scene {
   Impact impact;  ///< with the right velocity of the wall
   VesselFrame nested, printed;
+  bool displaced = false;  ///< judged in the printed frame, where that code has its walls
 };
 
 /// What the impacts of a log do in all.
@@ -35,7 +36,7 @@ class ImpactJudge {
       : mill_(mill), available_(available), tolerances_(tolerances), findings_(findings) {}
 
   /// With the states of the bodies.
-  void judge(const LoggedEvent& event, const Scene& scene, const Restitutions& allowed);
+  void judge(const LoggedEvent& event, Scene scene, const Restitutions& allowed);
   /// Of a log, or for an impact, without them: the dose from the logged speeds.
   void judge_speeds(const LoggedEvent& event, const Impact& impact, const Restitutions& allowed);
 
