@@ -93,6 +93,7 @@ void Flights::judge(int ball, const FlightEnd& end) {
   if (!end.displaced) missed = first_wall(ball, track, until, slack);
   // The impact that ends the flight is late, not missed.
   if (missed && end.late && end.event->with_wall && missed->partner == end.event->partner) missed.reset();
+  if (missed && stays_in_printed_vessel(ball, track, until, slack)) missed.reset();
   auto pair = first_ball(ball, track, end, slack);
   if (pair && (pair->time > until || (missed && missed->time <= pair->time))) pair.reset();
   if (pair) missed.reset();
@@ -282,6 +283,22 @@ double Flights::deepest(int ball, const Track& track, int wall, double from, dou
     depth = std::max(depth, -wall_gap(nested_at(time), case_.mill.vessel, wall, radius, position));
   }
   return depth;
+}
+
+/// Whether the log's walls stand as the printed matrix has them, which was told, and the flight ends inside
+/// of them.
+bool Flights::stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const {
+  if (findings_.of(Kind::rotation_order).count < 3) return false;
+  const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
+  constexpr int samples = 32;
+  for (int k = 0; k <= samples; ++k) {
+    const double time = track.start + (until - track.start) * k / samples;
+    const auto frame = printed_at(time);
+    const Vec position = dynamics::position_after(track.flight, case_.mill.gravity, time - track.start);
+    for (int wall = 0; wall < model::wall_count; ++wall)
+      if (wall_gap(frame, case_.mill.vessel, wall, radius, position) < -slack) return false;
+  }
+  return true;
 }
 
 auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, double slack)

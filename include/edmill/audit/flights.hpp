@@ -90,6 +90,7 @@ class Flights {
   Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note) const;
   void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at);
   void settle_held(Track& track, const LoggedEvent* next);
+  bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const;
   double deepest(int ball, const Track& track, int wall, double from, double until) const;
   Scene scene_at(int ball, int wall, double time, const Vec& position) const;
 
