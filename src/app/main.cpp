@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 
+#include "edmill/app/audit_command.hpp"
 #include "edmill/app/certify_command.hpp"
 #include "edmill/app/compare_command.hpp"
 #include "edmill/app/dispatch.hpp"
@@ -58,6 +59,17 @@ int certify(const std::string& case_file, const std::vector<std::string>& overri
   return received_signal ? 128 + received_signal : code;
 }
 
+int audit(const std::string& case_file, const std::vector<std::string>& overrides,
+          edmill::app::AuditOptions& options) {
+  using namespace edmill;
+  const auto spec = casefile::read_case(case_file, overrides);
+  options.interrupt = &interrupted;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  const int code = app::run_audit(spec, options);
+  return received_signal ? 128 + received_signal : code;
+}
+
 /// `command` is app::run_sweep or app::run_optimize.
 template <class Command>
 int run_study(const Command& command, edmill::app::StudyOptions& options) {
@@ -94,7 +106,9 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done, 2 bad input, 3 ended in inelastic collapse, 4 a decision that no scalar could "
       "make,\n"
-      "5 some runs of a sweep failed, 6 the compared outputs differ, 7 they hold too few data to say,\n"
+      "5 some runs of a sweep failed, 6 the compared outputs differ or the audited log is wrong, 7 they hold "
+      "too few "
+      "data to say,\n"
       "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
   std::string case_file, folder, precision, shadow;
   std::vector<std::string> overrides;
@@ -169,6 +183,33 @@ int main(int argc, char** argv) {
   compare_command->add_option("--json", compare.json, "file for the result in JSON");
   compare_command->add_flag("--quiet", compare.quiet, "no table");
 
+  edmill::app::AuditOptions audited;
+  auto* audit_command =
+      app.add_subcommand("audit", "judge another code's collision log by the physics of a case");
+  audit_command->add_option("case", case_file, "case file (TOML)")->required();
+  audit_command->add_option("log", audited.log, "collision log (CSV), or folder of a run")->required();
+  audit_command
+      ->add_option("--column", audited.columns, "ours=theirs [unit]: name of a column; can be repeated")
+      ->take_all()
+      ->expected(1);
+  audit_command
+      ->add_option("--first-ball", audited.first_ball, "number of the log's first ball; 0 unless given")
+      ->check(CLI::Range(0, 1000000000));
+  audit_command->add_option("--walls", audited.walls,
+                            "what stands for the caps at -y and +y and the cylinder, e.g. \"1, 2, 3\"");
+  audit_command->add_option("--tolerance", audited.tolerance, "relative; 1e-9 unless given")
+      ->check(CLI::Range(1e-15, 0.5));
+  audit_command->add_option("--gap-tolerance", audited.gap_tolerance, "of bodies that should touch, in m")
+      ->check(CLI::PositiveNumber);
+  audit_command->add_flag("--from-start", audited.from_start, "the log begins at the case's initial state");
+  audit_command->add_option("--examples", audited.examples, "of each kind of violation; 3 unless given")
+      ->check(CLI::Range(0, 1000));
+  audit_command->add_option("--json", audited.json, "file for the result in JSON");
+  audit_command->add_option("--set", overrides, "section.key=value, over the case file; can be repeated")
+      ->take_all()
+      ->expected(1);
+  audit_command->add_flag("--quiet", audited.quiet, "no progress line and no table");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -181,6 +222,7 @@ int main(int argc, char** argv) {
     if (*certify_command) return certify(case_file, overrides, certification);
     if (*sweep_command) return run_study(edmill::app::run_sweep, study);
     if (*optimize_command) return run_study(edmill::app::run_optimize, study);
+    if (*audit_command) return audit(case_file, overrides, audited);
     if (*compare_command) return edmill::app::run_compare(compare);
     if (*variables_command) {
       fmt::print("{}", edmill::app::list_variables());

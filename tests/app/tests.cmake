@@ -4,3 +4,5 @@ add_test(NAME sweep_test COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/sweep_test.sh $
 set_tests_properties(sweep_test PROPERTIES TIMEOUT 300)
 edmill_test(compare_test app/compare_test.cpp TIMEOUT 300)
 add_dependencies(compare_test edmill_cli)
+edmill_test(audit_test app/audit_test.cpp TIMEOUT 300)
+add_dependencies(audit_test edmill_cli)

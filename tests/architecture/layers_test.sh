@@ -19,7 +19,8 @@ declare -A allowed=(
   [sweep]="core model casefile record"
   [certify]="core model casefile setup engine"
   [compare]="core record sweep"
-  [app]="core numerics model casefile record setup dynamics engine observe outputs report driver sweep certify compare"
+  [audit]="core numerics model casefile dynamics record"
+  [app]="core numerics model casefile record setup dynamics engine observe outputs report driver sweep certify compare audit"
 )
 
 status=0

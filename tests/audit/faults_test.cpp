@@ -1,0 +1,310 @@
+// Logs of a mill with one mistake: the audit names that mistake, and finds nothing else.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+#include <sstream>
+
+#include "edmill/audit/audit.hpp"
+#include "edmill/core/errors.hpp"
+#include "faulty_mill.hpp"
+#include "program.hpp"
+#include "spex_case.hpp"
+
+namespace edmill::audit {
+namespace {
+
+using testing::Faults;
+using testing::FaultyMill;
+
+class Faulty : public ProgramTest {
+ protected:
+  /// Two kinds of balls of unequal mass and inertia, t_c, gravity.
+  void prepare(const std::string& contact = "restitution = 0.53\ncollapse_time = \"0.1 ms\"") {
+    built = setup::build_case<double>(casefile::parse_case(
+        testing::spex_text(
+            "end_time = \"10 s\"\nseed = 7", contact,
+            testing::batch(2, "9.52 mm") + testing::batch(3, "4.76 mm", "reduced_inertia = 0.6\n")),
+        "faulty.toml"));
+  }
+  Audit judged(const std::string& name = "log.csv") {
+    Options options;
+    options.log = scratch / name;
+    options.from_start = true;
+    return audit(built.the_case, built.states, options);
+  }
+  /// Kinds found, and the whole table when they are not as wanted.
+  static void expect_kinds(const Audit& audit, const std::set<Kind>& wanted) {
+    const auto ranked = audit.findings.ranked();
+    EXPECT_EQ(std::set<Kind>(ranked.begin(), ranked.end()), wanted) << table(audit);
+    EXPECT_EQ(audit.verdict, wanted.empty() ? Verdict::clean : Verdict::violations);
+  }
+  /// Runs the mill with a mistake. @return how often a mistake that comes every so often was made
+  int simulate(const Faults& faults, int events = 400) {
+    return FaultyMill(built.the_case, built.states, faults).write_log(scratch / "log.csv", events);
+  }
+  static std::uint64_t count(const Audit& audit, Kind kind) { return audit.findings.of(kind).count; }
+  static bool looks_like(const Audit& audit, const std::string& name) {
+    for (const auto& d : audit.diagnoses)
+      if (d.name == name) return true;
+    return false;
+  }
+
+  // Changes to a log's lines.
+  std::vector<std::string> lines() const {
+    std::istringstream in(contents(scratch / "log.csv"));
+    std::vector<std::string> all;
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    return all;
+  }
+  void write_lines(const std::vector<std::string>& all) const {
+    std::string text;
+    for (const auto& line : all) text += line + "\n";
+    write("log.csv", text);
+  }
+  static std::vector<std::string> fields(const std::string& line) {
+    std::vector<std::string> all{""};
+    for (const char c : line)
+      if (c == ',')
+        all.emplace_back();
+      else
+        all.back() += c;
+    return all;
+  }
+  /// Changes one field of one line. Columns: 1 time, 2 ball, 3 kind, 4 partner, 7 dose, 8 work, 9 x, 15
+  /// wx_before.
+  void change(std::size_t line, std::size_t column,
+              const std::function<std::string(const std::string&)>& how) const {
+    auto all = lines();
+    auto parts = fields(all.at(line));
+    parts.at(column) = how(parts.at(column));
+    all[line].clear();
+    for (std::size_t k = 0; k < parts.size(); ++k) all[line] += (k > 0 ? "," : "") + parts[k];
+    write_lines(all);
+  }
+  /// The first line from `from` on with a partner of this kind and at least this dose.
+  std::size_t line_with(const std::string& kind, std::size_t from = 100, double dose = 1e-5) const {
+    const auto all = lines();
+    for (std::size_t k = from; k < all.size(); ++k) {
+      const auto parts = fields(all[k]);
+      if (parts[3] == kind && std::stod(parts[7]) > dose) return k;
+    }
+    throw ContractError("no such line");
+  }
+
+  setup::InitialCase<double> built;
+};
+
+TEST_F(Faulty, NothingIsFoundWithoutAMistake) {
+  prepare();
+  simulate({});
+  const auto audit = judged();
+  expect_kinds(audit, {});
+  EXPECT_EQ(audit.events, 400u);
+  EXPECT_TRUE(audit.not_made.empty());
+  EXPECT_GT(audit.findings.judged_number(Check::momentum), 20u);
+  EXPECT_GT(audit.findings.judged_number(Check::missed), 400u);
+}
+
+TEST_F(Faulty, LateEvents) {
+  prepare();
+  Faults faults;
+  faults.late_every = 5;
+  const int late = simulate(faults);
+  const auto audit = judged();
+  expect_kinds(audit, {Kind::late_event});
+  // Not where bodies turn back in time; a ball left overlapped may meet the wall again before it is out.
+  EXPECT_GE(count(audit, Kind::late_event), static_cast<std::uint64_t>(late) * 3 / 4);
+  EXPECT_TRUE(looks_like(audit, "time_step"));
+}
+
+TEST_F(Faulty, MissedImpactsOfBallsThatFlyOnThroughEachOther) {
+  prepare();
+  Faults faults;
+  faults.missed_pairs_every = 6;
+  const int missed = simulate(faults, 1000);
+  ASSERT_GE(missed, 8);
+  const auto audit = judged();
+  expect_kinds(audit, {Kind::missed_event});
+  EXPECT_EQ(count(audit, Kind::missed_event), static_cast<std::uint64_t>(missed));
+}
+
+TEST_F(Faulty, AnImpactThatIsNotLogged) {
+  for (const std::string kind : {"wall", "ball"}) {
+    prepare();
+    simulate({});
+    auto all = lines();
+    const auto line = line_with(kind);
+    const auto parts = fields(all[line]);
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(line));
+    write_lines(all);
+    const auto audit = judged();
+    expect_kinds(audit, {Kind::missed_event});
+    ASSERT_EQ(count(audit, Kind::missed_event), 1u);
+    const auto& found = audit.findings.of(Kind::missed_event).examples.at(0);
+    EXPECT_NEAR(found.time, std::stod(parts[1]), 1e-7);
+    EXPECT_EQ(found.with_wall, kind == "wall");
+  }
+}
+
+TEST_F(Faulty, WrongRestitution) {
+  prepare();
+  Faults faults;
+  faults.restitution = 0.6;
+  simulate(faults);
+  const auto audit = judged();
+  expect_kinds(audit, {Kind::normal_restitution});
+  EXPECT_NEAR(audit.findings.of(Kind::normal_restitution).examples[0].found, 0.6, 1e-9);
+}
+
+TEST_F(Faulty, NoCollapseRule) {
+  prepare();
+  Faults faults;
+  faults.no_collapse_rule = true;
+  simulate(faults, 150);
+  expect_kinds(judged(), {Kind::collapse_rule});
+}
+
+TEST_F(Faulty, WrongTangentialSign) {
+  prepare();
+  Faults faults;
+  faults.tangential_sign = true;
+  simulate(faults, 80);  // energy grows without bounds
+  const auto audit = judged();
+  expect_kinds(audit, {Kind::tangential_sign});
+  EXPECT_TRUE(looks_like(audit, "tangential_sign"));
+}
+
+TEST_F(Faulty, UnequalMasses) {
+  prepare();
+  Faults faults;
+  faults.printed_compliance = true;
+  simulate(faults, 500);
+  auto audit = judged();
+  expect_kinds(audit, {Kind::unequal_balls});
+  EXPECT_TRUE(looks_like(audit, "unequal_mass_factor"));
+  faults = {};
+  faults.equal_masses = true;
+  simulate(faults, 500);
+  audit = judged();
+  expect_kinds(audit, {Kind::unequal_balls});
+  EXPECT_FALSE(looks_like(audit, "unequal_mass_factor"));
+}
+
+TEST_F(Faulty, WrongWallVelocity) {
+  prepare();
+  Faults faults;
+  faults.wall_at_rest = true;
+  simulate(faults);
+  auto audit = judged();
+  expect_kinds(audit, {Kind::wall_velocity});
+  EXPECT_EQ(audit.findings.of(Kind::wall_velocity).notes.at("a wall at rest"),
+            count(audit, Kind::wall_velocity));
+  // One that no formula in the list gives.
+  faults = {};
+  faults.wall_velocity_factor = 1.01;
+  simulate(faults);
+  audit = judged();
+  EXPECT_GT(count(audit, Kind::wall_velocity), audit.findings.judged_number(Check::touch) / 2);
+}
+
+TEST_F(Faulty, OrderOfTheRotations) {
+  prepare();
+  Faults faults;
+  faults.printed_rotations = true;
+  simulate(faults);
+  const auto audit = judged();
+  expect_kinds(audit, {Kind::rotation_order});
+  EXPECT_TRUE(looks_like(audit, "rotation_order"));
+  EXPECT_FALSE(looks_like(audit, "time_step"));
+}
+
+TEST_F(Faulty, LostSpin) {
+  prepare();
+  Faults faults;
+  faults.spin_lost = true;
+  simulate(faults);
+  expect_kinds(judged(), {Kind::lost_spin});
+}
+
+TEST_F(Faulty, NonBallisticFlight) {
+  prepare();
+  Faults faults;
+  faults.no_gravity = true;
+  simulate(faults);
+  const auto audit = judged();
+  expect_kinds(audit, {Kind::non_ballistic});
+  EXPECT_EQ(audit.findings.of(Kind::non_ballistic).notes.count("flown without gravity"), 1u);
+}
+
+TEST_F(Faulty, WrongDoseAndWork) {
+  prepare();
+  Faults faults;
+  faults.dose_factor = 1.001;
+  simulate(faults);
+  expect_kinds(judged(), {Kind::milling_dose});
+  simulate({});
+  const auto line = line_with("wall");
+  change(line, 8, [](const std::string& work) { return fmt::format("{}", -std::stod(work)); });
+  const auto audit = judged();
+  expect_kinds(audit, {Kind::wall_work});
+  EXPECT_EQ(audit.findings.of(Kind::wall_work).examples.at(0).line, line + 1);
+}
+
+TEST_F(Faulty, DuplicatesAndDisorder) {
+  prepare();
+  simulate({});
+  auto all = lines();
+  all.insert(all.begin() + 200, all[199]);
+  write_lines(all);
+  auto audit = judged();
+  expect_kinds(audit, {Kind::duplicate});
+  EXPECT_EQ(audit.findings.of(Kind::duplicate).examples.at(0).line, 201u);
+  simulate({});
+  all = lines();
+  std::swap(all[150], all[170]);
+  write_lines(all);
+  audit = judged();
+  expect_kinds(audit, {Kind::out_of_order});
+}
+
+TEST_F(Faulty, BodiesThatAreNotThere) {
+  prepare();
+  simulate({});
+  change(line_with("wall"), 2, [](const std::string&) { return "5"; });
+  EXPECT_GE(count(judged(), Kind::unknown_body), 1u);
+  simulate({});
+  change(line_with("wall"), 9, [](const std::string&) { return "nan"; });
+  EXPECT_EQ(count(judged(), Kind::not_finite), 1u);
+}
+
+TEST_F(Faulty, WrongPartners) {
+  prepare();
+  simulate({});
+  change(line_with("wall"), 4, [](const std::string& wall) { return wall == "2" ? "0" : "2"; });
+  expect_kinds(judged(), {Kind::wrong_partner});
+  simulate({});
+  const auto line = line_with("ball");
+  const auto parts = fields(lines()[line]);
+  change(line, 4, [&](const std::string& ball) {
+    for (int k = 0;; ++k)
+      if (std::to_string(k) != ball && std::to_string(k) != parts[2]) return std::to_string(k);
+  });
+  expect_kinds(judged(), {Kind::wrong_partner});
+}
+
+TEST_F(Faulty, TheGapOfTheLowerCapWithThePrintedSign) {
+  // y - R - h/2 is negative everywhere: a code that looks for its change of sign never meets the cap, and
+  // balls leave the vessel there.
+  prepare();
+  Faults faults;
+  faults.lower_cap_unseen = true;
+  simulate(faults);
+  const auto audit = judged();
+  expect_kinds(audit, {Kind::missed_event});
+  EXPECT_EQ(count(audit, Kind::missed_event), built.the_case.balls.size());
+  EXPECT_TRUE(looks_like(audit, "gap_sign"));
+}
+
+}  // namespace
+}  // namespace edmill::audit
