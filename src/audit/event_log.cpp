@@ -109,7 +109,8 @@ void EventLog::read_header(const LogConventions& conventions) {
   std::vector<std::string> problems;
   for (const auto& [ours, given] : conventions.columns) {
     const auto name = std::find(names.begin(), names.end(), ours);
-    const auto complain = [&](const std::string& found, const std::string& expected) {
+    const auto complain = [&problems, &ours = ours, &given = given](const std::string& found,
+                                                                    const std::string& expected) {
       problems.push_back(fmt::format("column '{}={}': found {}, expected {}", ours, given, found, expected));
     };
     if (name == names.end()) {
