@@ -1,8 +1,14 @@
 # What keeps the house in order.
 set(architecture ${CMAKE_CURRENT_SOURCE_DIR}/architecture)
-get_target_property(eigen_include Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+# Folders of headers that the compiler does not know by itself.
+set(include_flags)
+foreach(package Eigen3::Eigen hdf5::hdf5)
+  get_target_property(folders ${package} INTERFACE_INCLUDE_DIRECTORIES)
+  list(TRANSFORM folders PREPEND -I)
+  list(APPEND include_flags ${folders})
+endforeach()
 add_test(NAME layers_test COMMAND ${architecture}/layers_test.sh)
-add_test(NAME headers_test COMMAND ${architecture}/headers_test.sh ${CMAKE_CXX_COMPILER} -I${eigen_include} -DEIGEN_DONT_VECTORIZE)
+add_test(NAME headers_test COMMAND ${architecture}/headers_test.sh ${CMAKE_CXX_COMPILER} ${include_flags} -DEIGEN_DONT_VECTORIZE)
 find_program(CLANG_FORMAT clang-format)
 if(CLANG_FORMAT)
   add_test(NAME format_test COMMAND ${architecture}/format_test.sh)
