@@ -1,0 +1,45 @@
+// The collision log of a case in double, by the core alone: same_bits_test builds it with several compilers,
+// for which the whole program in all its scalars would take too long. usage: collision_bits CASE.toml
+// COLLISIONS
+#include <cstdlib>
+#include <iostream>
+
+#include "edmill/core/scalar_list.hpp"
+//
+#include "edmill/core/scalar_text.hpp"
+#include "edmill/dynamics/decision_ladder_impl.hpp"
+#include "edmill/dynamics/wall_search_impl.hpp"
+#include "edmill/engine/simulation_impl.hpp"
+#include "edmill/numerics/wide_trigonometry.hpp"
+#include "edmill/observe/collision_log.hpp"
+#include "edmill/record/final_state_impl.hpp"
+#include "edmill/setup/build_case_impl.hpp"
+
+namespace {
+
+using edmill::engine::Simulation;
+
+class Log : public edmill::engine::Observer<double> {
+ public:
+  explicit Log(std::uint64_t collisions) : collisions_(collisions) {}
+
+  void on_impact(const edmill::engine::Impact<double>& impact, Simulation<double>& simulation) override {
+    std::cout << edmill::observe::collision_line(impact, simulation, false) << '\n';
+    if (impact.index + 1 == collisions_) simulation.request_stop(edmill::engine::EndReason::max_collisions);
+  }
+
+ private:
+  std::uint64_t collisions_;
+};
+
+}  // namespace
+
+int main(int, char** argv) {
+  const auto spec = edmill::casefile::read_case(argv[1]);
+  const auto built = edmill::setup::build_case<double>(spec);
+  Simulation<double> simulation(built.the_case, built.states, built.start);
+  Log log(std::strtoull(argv[2], nullptr, 10));
+  simulation.attach(log);
+  std::cout << edmill::observe::collision_log_header << '\n';
+  simulation.run_until(simulation.clock().at(spec.end_time->to<double>()), nullptr);
+}
