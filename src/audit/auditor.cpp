@@ -7,9 +7,6 @@ namespace edmill::audit {
 
 namespace {
 
-double dot(const Vec& a, const Vec& b) { return edmill::dot<double>(a, b); }
-double size(const Vec& a) { return edmill::norm<double>(a); }
-
 /// Bodies of an event: the ball, and its partner when that is a ball.
 std::size_t bodies(const LoggedEvent& event) { return event.with_wall ? 1 : 2; }
 int ball_of(const LoggedEvent& event, std::size_t body) { return body == 0 ? event.ball : event.partner; }

@@ -8,8 +8,6 @@ namespace edmill::audit {
 namespace {
 
 Vec cross(const Vec& a, const Vec& b) { return edmill::cross<double>(a, b); }
-double dot(const Vec& a, const Vec& b) { return edmill::dot<double>(a, b); }
-double size(const Vec& a) { return edmill::norm<double>(a); }
 
 Vec centre_of(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose) {
   return {-pose.sin_alpha * motion.arm, pose.cos_alpha * motion.arm, 0};  // theta = alpha + pi/2

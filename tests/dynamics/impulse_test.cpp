@@ -53,7 +53,7 @@ struct Pair {
   Pair() {
     if (dot<Real>(vi - vj, normal) > 0) normal = -normal;  // approaching
     normal = normal * (1 / norm<Real>(normal));
-    outcome = collide_balls<Real>(normal, i, j, vi2, wi2, vj2, wj2, law, collapsing);
+    outcome = collide_balls<Real>(normal, i, j, vi2, wi2, vj2, wj2, law, {.collapsing = collapsing});
   }
   Vec3<Real> contact_velocity(const Vec3<Real>& a, const Vec3<Real>& wa, const Vec3<Real>& b,
                               const Vec3<Real>& wb) const {
@@ -81,7 +81,7 @@ struct WallHit {
   WallHit() {
     if (dot<Real>(v - wall, normal) > 0) normal = -normal;
     normal = normal * (1 / norm<Real>(normal));
-    outcome = collide_with_wall<Real>(normal, ball, wall, v2, w2, law, collapsing);
+    outcome = collide_with_wall<Real>(normal, ball, wall, v2, w2, law, {.collapsing = collapsing});
   }
   Vec3<Real> contact_velocity(const Vec3<Real>& a, const Vec3<Real>& wa) const {
     const Vec3<Real> rolling = wa * ball.radius;
@@ -201,14 +201,15 @@ TYPED_TEST(Impulse, AMovingFrameSeesTheSameImpact) {
     const Vec3<Real> boost = draw_vector<Real>(Real(10));
     const Pair<Real> p;
     Vec3<Real> vi = p.vi + boost, wi = p.wi, vj = p.vj + boost, wj = p.wj;
-    const auto o = collide_balls<Real>(p.normal, p.i, p.j, vi, wi, vj, wj, p.law, p.collapsing);
+    const auto o =
+        collide_balls<Real>(p.normal, p.i, p.j, vi, wi, vj, wj, p.law, {.collapsing = p.collapsing});
     RC_ASSERT(norm<Real>(Vec3<Real>(vi - boost - p.vi2)) <= tolerance<Real>() * 1000);
     RC_ASSERT(norm<Real>(Vec3<Real>(wi - p.wi2)) * p.i.radius <= tolerance<Real>() * 1000);
     RC_ASSERT(size<Real>(o.milling_dose - p.outcome.milling_dose) <= tolerance<Real>() * p.i.mass * 10000);
     const WallHit<Real> h;
     Vec3<Real> v = h.v + boost, w = h.w;
-    const auto hit =
-        collide_with_wall<Real>(h.normal, h.ball, Vec3<Real>(h.wall + boost), v, w, h.law, h.collapsing);
+    const auto hit = collide_with_wall<Real>(h.normal, h.ball, Vec3<Real>(h.wall + boost), v, w, h.law,
+                                             {.collapsing = h.collapsing});
     RC_ASSERT(norm<Real>(Vec3<Real>(v - boost - h.v2)) <= tolerance<Real>() * 1000);
     RC_ASSERT(size<Real>(hit.milling_dose - h.outcome.milling_dose) <=
               tolerance<Real>() * h.ball.mass * 10000);
@@ -227,7 +228,8 @@ TYPED_TEST(Impulse, ATurnedFrameSeesTheSameImpact) {
     };
     const Pair<Real> p;
     Vec3<Real> vi = turned(p.vi), wi = turned(p.wi), vj = turned(p.vj), wj = turned(p.wj);
-    const auto o = collide_balls<Real>(turned(p.normal), p.i, p.j, vi, wi, vj, wj, p.law, p.collapsing);
+    const auto o =
+        collide_balls<Real>(turned(p.normal), p.i, p.j, vi, wi, vj, wj, p.law, {.collapsing = p.collapsing});
     RC_ASSERT(norm<Real>(Vec3<Real>(vi - turned(p.vi2))) <= tolerance<Real>() * 1000);
     RC_ASSERT(norm<Real>(Vec3<Real>(wj - turned(p.wj2))) * p.j.radius <= tolerance<Real>() * 1000);
     RC_ASSERT(size<Real>(o.milling_dose - p.outcome.milling_dose) <= tolerance<Real>() * p.i.mass * 10000);
@@ -242,7 +244,7 @@ TEST(ImpulseErrata, PrintedSignOfTheTangentialTermBreaksTheRestitutionLaw) {
   law.restitution_normal = 0.5;
   law.friction = 0.4;
   Vec3<double> v(3, -1, 0), w(0, 0, 0);
-  const auto o = collide_with_wall<double>(normal, ball, wall, v, w, law, false);
+  const auto o = collide_with_wall<double>(normal, ball, wall, v, w, law);
   const double gt = 3, e_t = o.restitution.tangential;
   ASSERT_LT(e_t, 1);
   const double printed_v = 3 - (e_t - 1) / (1 + 1 / 0.4) * gt;
@@ -262,7 +264,7 @@ TEST(ImpulseErrata, PrintedCompliancePutsTheSlidingImpulseOffForBallsOfUnequalIn
   model::ContactLaw<double> law;
   law.restitution_normal = 0.5;
   law.friction = 0.1;
-  const auto o = collide_balls<double>(Vec3<double>(0, 1, 0), i, j, vi, wi, vj, wj, law, false);
+  const auto o = collide_balls<double>(Vec3<double>(0, 1, 0), i, j, vi, wi, vj, wj, law);
   EXPECT_NEAR(o.tangential_impulse / o.normal_impulse, 0.1, 1e-15);
   const double m = i.mass * j.mass / (i.mass + j.mass);
   const double right = 1 + m / (i.mass * 0.4) + m / (j.mass * 0.66), printed = 1 + 1 / 0.4;
@@ -270,4 +272,16 @@ TEST(ImpulseErrata, PrintedCompliancePutsTheSlidingImpulseOffForBallsOfUnequalIn
 }
 
 }  // namespace
+TEST(Impulse, ABallAtRestLeavesAtTheLeastSpeedThoughItsApproachIsRounding) {
+  const model::BallProperties<double> ball{1, 1, 0.4};
+  model::ContactLaw<double> law;
+  law.restitution_normal = 0.5;
+  const double least = 0x1p-20;
+  for (const double approach : {0x1p-21, 0x1p-60, 0.0, -0x1p-60, -0x1p-19, 0x1p-19}) {
+    Vec3<double> v{0, -approach, 0}, w{0, 0, 0};
+    collide_with_wall<double>({0, 1, 0}, ball, {0, 0, 0}, v, w, law, {true, true, least});
+    EXPECT_EQ(v[1], std::max(std::abs(approach), least)) << approach;
+  }
+}
+
 }  // namespace edmill::dynamics

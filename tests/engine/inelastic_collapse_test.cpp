@@ -81,6 +81,19 @@ TEST(InelasticCollapse, ABallAtRestInACornerGoesOn) {
   EXPECT_LT(simulation.counts().deepest_overlap, 1e-14);
 }
 
+TEST(InelasticCollapse, ABallWhoseHopsAreBelowRoundingGoesOn) {
+  // With so short a t_c ball 6 comes to rest on a cap at 0.0729 s: its approach speed is then 1e-17 m/s,
+  // which is rounding, with either sign.
+  const auto spec = casefile::parse_case(
+      testing::spex_text("end_time = \"0.074 s\"\nseed = 3", "restitution = 0.53\ncollapse_time = \"1e-7 s\"",
+                         testing::batch(24, "4.76 mm", "gap_ball = \"0.2 mm\"")),
+      "hops.toml");
+  const auto built = setup::build_case<double>(spec);
+  Simulation<double> simulation(built.the_case, built.states, built.start);
+  EXPECT_EQ(simulation.run_until(simulation.clock().at(0.074)), EndReason::end_time);
+  EXPECT_LT(simulation.counts().deepest_overlap, 1e-14);
+}
+
 TEST(InelasticCollapse, ThreeBallsOnALineCollapse) {
   // Two still balls close together and a third coming in, e well below the three-ball threshold 7 - 4
   // sqrt(3).

@@ -202,7 +202,7 @@ class FaultyMill {
                Vec(z * theta_rate).cross(Vec(point - centre));
       wall *= faults_.wall_at_rest ? 0 : faults_.wall_velocity_factor;
       o = dynamics::collide_with_wall<double>(normal, case_.balls[c.ball], wall, one.velocity, one.spin, law,
-                                              collapsing);
+                                              {.collapsing = collapsing});
     } else {
       const auto &bi = case_.balls[c.ball], &bj = case_.balls[c.partner];
       normal = one.position - two.position;
@@ -216,7 +216,7 @@ class FaultyMill {
         law.model = model::ContactModel::constant;
       }
       o = dynamics::collide_balls<double>(normal, bi, bj, one.velocity, one.spin, two.velocity, two.spin, law,
-                                          collapsing);
+                                          {.collapsing = collapsing});
       if (faults_.equal_masses) {
         const double total = bi.mass + bj.mass;
         one.velocity =

@@ -12,6 +12,9 @@ namespace edmill::audit {
 
 using Vec = Vec3<double>;
 
+inline double dot(const Vec& a, const Vec& b) { return edmill::dot<double>(a, b); }
+inline double size(const Vec& a) { return edmill::norm<double>(a); }
+
 /// How the vessel stands: the turned axes x, y, z and the centre C in the inertial frame.
 struct VesselFrame {
   Vec x, y, z, centre;

@@ -20,6 +20,15 @@ struct ImpactOutcome {
   Real wall_work{};           ///< [J], (A.82); zero between balls
 };
 
+/// What the impacts before say of this one; theory.md, section 6.
+template <class Real>
+struct Persistence {
+  bool collapsing = false;  ///< within t_c of the last one
+  bool resting = false;     ///< of a body at rest for every purpose
+  /// At which bodies at rest leave each other at least [m/s]: what they climb then is more than rounding.
+  Real least_separation{0};
+};
+
 namespace detail {
 
 /// The common part of both impacts. `partner_compliance` is M/(m_j J_j), zero for a wall.
@@ -33,7 +42,7 @@ struct ImpulseParts {
 template <class Real>
 ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
                                  const Real& effective_mass, const Real& compliance,
-                                 const model::ContactLaw<Real>& law, bool collapsing, bool resting = false) {
+                                 const model::ContactLaw<Real>& law, const Persistence<Real>& contact) {
   const Real normal_speed = dot<Real>(contact_velocity, normal);  // negative while approaching
   const Vec3<Real> slip = contact_velocity - normal * normal_speed;
   ImpulseParts<Real> parts;
@@ -41,12 +50,19 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
   out.approach_speed = -normal_speed;
   out.slip_speed = norm<Real>(slip);
   const Real approach = normal_speed < 0 ? Real(-normal_speed) : Real(0);
-  out.restitution = law.restitution(approach, out.slip_speed, compliance, collapsing, resting);
+  out.restitution =
+      law.restitution(approach, out.slip_speed, compliance, contact.collapsing, contact.resting);
   const Real e_n = out.restitution.normal, e_t = out.restitution.tangential;
   const Real gain = (1 - e_t) / compliance;
-  parts.per_mass = -(normal * ((1 + e_n) * normal_speed)) - slip * gain;
+  Real change = -((1 + e_n) * normal_speed);
+  if (contact.resting && approach < contact.least_separation) {
+    // Below it the approach is rounding, and may even have the wrong sign.
+    change =
+        contact.least_separation > normal_speed ? Real(contact.least_separation - normal_speed) : Real(0);
+  }
+  parts.per_mass = normal * change - slip * gain;
   parts.spin_torque = cross<Real>(normal, slip) * gain;
-  out.normal_impulse = effective_mass * ((1 + e_n) * approach);
+  out.normal_impulse = effective_mass * (change > 0 ? change : Real(0));
   out.tangential_impulse = effective_mass * (gain * out.slip_speed);
   out.milling_dose = effective_mass / 2 *
                      ((1 - e_n * e_n) * (normal_speed * normal_speed) +
@@ -62,7 +78,7 @@ template <class Real>
 ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallProperties<Real>& ball_i,
                                   const model::BallProperties<Real>& ball_j, Vec3<Real>& velocity_i,
                                   Vec3<Real>& spin_i, Vec3<Real>& velocity_j, Vec3<Real>& spin_j,
-                                  const model::ContactLaw<Real>& law, bool collapsing, bool resting = false) {
+                                  const model::ContactLaw<Real>& law, const Persistence<Real>& contact = {}) {
   const Real total = ball_i.mass + ball_j.mass;
   const Real share_i = ball_j.mass / total;  // M / m_i
   const Real share_j = ball_i.mass / total;
@@ -70,8 +86,8 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
   const Real compliance = 1 + share_i / ball_i.reduced_inertia + share_j / ball_j.reduced_inertia;
   const Vec3<Real> rolling = spin_i * ball_i.radius + spin_j * ball_j.radius;
   const Vec3<Real> contact_velocity = (velocity_i - velocity_j) - cross<Real>(rolling, normal);
-  const auto parts = detail::impulse_parts<Real>(normal, contact_velocity, effective_mass, compliance, law,
-                                                 collapsing, resting);
+  const auto parts =
+      detail::impulse_parts<Real>(normal, contact_velocity, effective_mass, compliance, law, contact);
   velocity_i += parts.per_mass * share_i;
   velocity_j -= parts.per_mass * share_j;
   spin_i += parts.spin_torque * (share_i / (ball_i.radius * ball_i.reduced_inertia));
@@ -84,13 +100,12 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
 template <class Real>
 ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal, const model::BallProperties<Real>& ball,
                                       const Vec3<Real>& wall_velocity, Vec3<Real>& velocity, Vec3<Real>& spin,
-                                      const model::ContactLaw<Real>& law, bool collapsing,
-                                      bool resting = false) {
+                                      const model::ContactLaw<Real>& law,
+                                      const Persistence<Real>& contact = {}) {
   const Real compliance = 1 + 1 / ball.reduced_inertia;
   const Vec3<Real> rolling = spin * ball.radius;
   const Vec3<Real> contact_velocity = (velocity - wall_velocity) - cross<Real>(rolling, normal);
-  auto parts =
-      detail::impulse_parts<Real>(normal, contact_velocity, ball.mass, compliance, law, collapsing, resting);
+  auto parts = detail::impulse_parts<Real>(normal, contact_velocity, ball.mass, compliance, law, contact);
   velocity += parts.per_mass;
   spin += parts.spin_torque * (1 / (ball.radius * ball.reduced_inertia));
   parts.outcome.wall_work = ball.mass * dot<Real>(wall_velocity, parts.per_mass);

@@ -30,6 +30,16 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
   return smallest;
 }
 
+/// At which bodies at rest leave each other at least [m/s]: in the drive's greatest acceleration they then
+/// climb about the rounding error of a position.
+template <class Real>
+Real least_separation(const model::Mill<Real>& mill, const Real& reach) {
+  using std::sqrt;
+  const Real omega = mill.motion.angular_speed();
+  const Real drive = (mill.motion.theta_max + mill.motion.gamma_max) * omega * omega * reach;
+  return sqrt(epsilon<Real>() / 2 * reach * (drive + norm<Real>(mill.gravity)));
+}
+
 /// The region that the vessel sweeps, cut into cells that hold about one ball but are thicker than the
 /// largest.
 template <class Real>
@@ -78,6 +88,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
                       ladder_.walls().constants().reach / Real(std::int64_t{10000000000})),
       now_(start),
       suspicion_(ladder_.suspicion()),
+      least_separation_(detail::least_separation(the_case.mill, ladder_.walls().constants().reach)),
       tolerated_overlap_(2 * detail::smallest_radius(the_case.balls) / 1000000),
       top_speed_(detail::largest_speed(states, the_case.mill)) {
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
@@ -218,9 +229,8 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   impact.spin_before[0] = spins_[ball];
   impact.flight_time[0] = flight_time;
   impact.wall_velocity = wall_velocity;
-  impact.outcome =
-      dynamics::collide_with_wall<Real>(normal, properties(ball), wall_velocity, flight.velocity,
-                                        spins_[ball], mill_.ball_wall, impact.collapsing, impact.resting);
+  impact.outcome = dynamics::collide_with_wall<Real>(normal, properties(ball), wall_velocity, flight.velocity,
+                                                     spins_[ball], mill_.ball_wall, persistence_of(impact));
   impact.ball = ball;
   impact.with_wall = true;
   impact.partner = wall;
@@ -253,7 +263,7 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   impact.flight_time[0] = flight_times[0], impact.flight_time[1] = flight_times[1];
   impact.outcome = dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner),
                                                  one.velocity, spins_[ball], two.velocity, spins_[partner],
-                                                 mill_.ball_ball, impact.collapsing, impact.resting);
+                                                 mill_.ball_ball, persistence_of(impact));
   impact.ball = ball;
   impact.with_wall = false;
   impact.partner = partner;
