@@ -29,9 +29,8 @@ class StatisticsOutput : public TableOutput<Real> {
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
     const Real &from = this->timer().from(), duration = until - from;
     auto& out = this->out();
-    out << "# from " << to_text<Real>(from) << " s to " << to_text<Real>(until)
-        << " s: " << to_text<Real>(duration) << " s; " << simulation.ball_count() << " balls, "
-        << model::wall_count << " walls\n"
+    this->write_window(until);
+    out << "; " << simulation.ball_count() << " balls, " << model::wall_count << " walls\n"
         << "variable,statistic,unit,wall_0,wall_1,wall_2,walls,ball_ball,total\n";
     for (const auto& g : gathered_) {
       const auto& variable = model::impact_variables[g.column.variable];
