@@ -294,7 +294,12 @@ void read_place(Section& s, const CaseSpec& spec, const Kind& kind, OutputSpec& 
   s.require(!output.folder.empty() || (output.file != "summary.json" && output.file != "final_state.csv"),
             "file", "a plain file name other than summary.json and final_state.csv");
   const bool table = std::string_view(kind.extension) == ".csv";
-  if (table) output.append = s.flag("append");
+  if (table) {
+    output.append = s.flag("append");
+    s.require(!output.append || !output.hdf5(), "append", "false for HDF5");
+    s.require(output.type != "collisions" || !output.hdf5(), "file",
+              "a name ending in .csv; `events` is the log as HDF5");
+  }
   for (const auto& other : spec.outputs)
     s.require(other.file != output.file || other.folder != output.folder || (other.append && output.append),
               "file", "a file name that no other output has, unless both append");

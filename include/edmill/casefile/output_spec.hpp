@@ -88,6 +88,9 @@ struct OutputSpec {
   std::optional<ContactPointSpec> contact_point;  ///< pictures
   AnimationSpec animation;
   bool states = false;  ///< collisions: with the bodies' states before and after
+
+  /// Whether a table is to be written as HDF5.
+  bool hdf5() const { return file.ends_with(".h5"); }
 };
 
 }  // namespace edmill::casefile

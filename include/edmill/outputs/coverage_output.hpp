@@ -35,6 +35,15 @@ class CoverageOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+    for (const auto& [column, meaning] :
+         {std::pair{"wall", "0 the cap at -y, 1 the cap at +y, 2 the cylinder"},
+          {"angle_low", "about the vessel's axis from x, the arm, to z"},
+          {"angle_high", "about the vessel's axis from x, the arm, to z"},
+          {"height_low", "along y from the vessel's centre; none on caps"},
+          {"height_high", "along y from the vessel's centre; none on caps"},
+          {"radius_low", "from the vessel's axis; none on the cylinder"},
+          {"radius_high", "from the vessel's axis; none on the cylinder"}})
+      this->describe(column, meaning);
     this->write_window(until);
     this->out() << '\n';
     this->out() << "wall,angle_low [rad],angle_high [rad],height_low [m],height_high [m],radius_low [m],"

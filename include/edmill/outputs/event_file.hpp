@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "edmill/outputs/file_note.hpp"
+
 namespace edmill::outputs {
 
 /// A column of the log.
@@ -14,12 +16,6 @@ struct EventColumn {
   enum class Type { integer, number, vector };  ///< 64-bit integer, 64-bit number, three of those a row
   std::string name, unit, description;
   Type type;
-};
-
-/// A text of the whole file: an attribute, or a dataset when it is `long_text`.
-struct FileNote {
-  std::string key, value;
-  bool long_text = false;
 };
 
 /// Written in blocks under a temporary name; `commit` puts it in place. The same rows make the same bytes: no

@@ -27,6 +27,9 @@ class RatesAboveOutput : public TableOutput<Real> {
   void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
     this->write_window(until);
     this->out() << '\n';
+    this->describe("cutoff", "the approach speed from which on impacts count");
+    this->describe("rate", "collision rate");
+    this->describe("dose_rate", "milling dose rate");
     auto& out = this->out();
     out << title_of("cutoff", "m/s") << partner_titles("rate", "1/s") << partner_titles("dose_rate", "W")
         << '\n';

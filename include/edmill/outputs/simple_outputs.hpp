@@ -71,6 +71,7 @@ class TrendsInstantOutput : public TableOutput<Real> {
     std::string line;
     for (const auto& c : columns_) {
       const auto& v = model::impact_variables[c.variable];
+      this->describe(name_of(c, v.name), v.meaning);
       line += (line.empty() ? "" : ",") + csv_cell(title_of(name_of(c, v.name), v.unit));
     }
     this->out() << line << '\n';

@@ -35,6 +35,9 @@ class SpectraOutput : public TableOutput<Real> {
   void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
     this->write_window(until);
     this->out() << '\n';
+    this->describe("low", "lower edge of the bin");
+    this->describe("high", "upper edge of the bin, not in it");
+    this->describe("energy", of_speed_ ? "dose of the impacts" : "this part of the dose of the impacts");
     const std::string unit = of_speed_ ? "m/s" : "J";
     auto& out = this->out();
     out << "spectrum,bin," << title_of("low", unit) << ',' << title_of("high", unit)

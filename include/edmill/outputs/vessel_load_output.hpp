@@ -20,6 +20,16 @@ class VesselLoadOutput : public TableOutput<Real> {
                                      {"vessel_force", "N"},
                                      {"vessel_torque", "N m"}})
       for (const auto* axis : {"_x", "_y", "_z"}) out << ',' << title_of(std::string(name) + axis, unit);
+    this->describe("time", "end of the interval");
+    this->describe("work", "of the walls on the balls");
+    this->describe("power", "of the walls on the balls");
+    for (const std::string axis : {"_x", "_y", "_z"}) {
+      this->describe("impulse" + axis, "on the vessel, inertial frame");
+      this->describe("force" + axis, "mean force on the vessel, inertial frame");
+      this->describe("torque" + axis, "mean torque on the vessel about the fulcrum, inertial frame");
+      this->describe("vessel_force" + axis, "mean force on the vessel, vessel frame");
+      this->describe("vessel_torque" + axis, "mean torque on the vessel about its centre, vessel frame");
+    }
     out << ',' << title_of("work", "J") << ',' << title_of("power", "W") << '\n';
   }
 
