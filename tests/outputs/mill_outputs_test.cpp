@@ -17,17 +17,16 @@ using Vector = Eigen::Vector3d;
 
 const double pi = std::acos(-1.0);
 constexpr double radius = 0.00476, vessel_radius = 0.019, half_height = 0.0285;
-constexpr double restitution = 0.53;
 const double mass = 8000 * 4 * pi / 3 * std::pow(radius, 3);
 
 const char* const mill_case =
     "[mill]\nspeed = \"1054 rpm\"\n[vessel]\ndiameter = \"38 mm\"\nheight = \"57 mm\"\n"
-    "[contact]\nrestitution = 0.53\nfriction = 0.4\ncollapse_time = \"0 s\"\n";
+    "[contact]\nrestitution = 0.53\nfriction = 0.4\n";
 const char* const five_balls = "[[balls]]\ncount = 5\ndiameter = \"9.52 mm\"\n";
 const char* const flying_balls =
-    "[[ball]]\ndiameter = \"9.52 mm\"\nposition = [\"0 mm\", \"10 cm\", \"0 mm\"]\n"
+    "[[ball]]\ndiameter = \"9.52 mm\"\nposition = [\"-26 mm\", \"96.5 mm\", \"0 mm\"]\n"
     "velocity = [\"1 m/s\", \"0.5 m/s\", \"-0.3 m/s\"]\nspin = [\"20 rad/s\", \"-50 rad/s\", \"70 rad/s\"]\n"
-    "[[ball]]\ndiameter = \"9.52 mm\"\nposition = [\"12 mm\", \"10 cm\", \"2 mm\"]\n"
+    "[[ball]]\ndiameter = \"9.52 mm\"\nposition = [\"-37.5 mm\", \"93.5 mm\", \"2 mm\"]\n"
     "velocity = [\"-1.5 m/s\", \"0.1 m/s\", \"0.2 m/s\"]\n";
 
 /// The vessel's pose by the thesis's figure 2.4, from the drive's closed form.
@@ -72,16 +71,22 @@ class MillOutputs : public ProgramTest {
     return {number(row, before + axes[0] + after), number(row, before + axes[1] + after),
             number(row, before + axes[2] + after)};
   }
-  /// Dissipated along the normal: by the relative velocity of the balls before and after, or by e_n at a
-  /// wall.
+  /// Dissipated along the normal: by the normal velocity, relative to the partner, before and after.
   static double normal_dose(const Row& impact) {
-    if (impact.at("partner_kind") == "wall")
-      return mass / 2 * (1 - restitution * restitution) * std::pow(number(impact, "approach_speed"), 2);
+    if (impact.at("partner_kind") == "wall") {
+      const double before = -number(impact, "approach_speed");
+      const double change = -impulse(impact).dot(inward_normal(impact)) / mass;
+      return mass / 2 * (before * before - (before + change) * (before + change));
+    }
     const Vector normal = (vector(impact, "") - vector(impact, "partner_")).normalized();
     const auto speed = [&](const std::string& when) {
       return (vector(impact, "v", when) - vector(impact, "partner_v", when)).dot(normal);
     };
     return mass / 4 * (std::pow(speed("_before"), 2) - std::pow(speed("_after"), 2));
+  }
+  static Vector inward_normal(const Row& impact) {
+    const Pose pose(number(impact, "time"));
+    return (vector(impact, "") - pose.centre() - pose.inertial(contact_point(impact))).normalized();
   }
   /// The contact point in the vessel frame: the foot of the ball's centre on the wall.
   static Vector contact_point(const Row& impact) {
@@ -259,8 +264,8 @@ TEST_F(MillOutputs, TorqueIsTheAngularMomentumThatTheBallsLose) {
                                     const Vector& spin) -> Vector {
     return mass * place.cross(velocity) + inertia * spin;
   };
-  Vector change = -angular_momentum({0, 0.1, 0}, {1, 0.5, -0.3}, {20, -50, 70}) -
-                  angular_momentum({0.012, 0.1, 0.002}, {-1.5, 0.1, 0.2}, {0, 0, 0});
+  Vector change = -angular_momentum({-0.026, 0.0965, 0}, {1, 0.5, -0.3}, {20, -50, 70}) -
+                  angular_momentum({-0.0375, 0.0935, 0.002}, {-1.5, 0.1, 0.2}, {0, 0, 0});
   for (const auto& ball : read("final_state.csv"))
     change += angular_momentum(vector(ball, "position_"), vector(ball, "velocity_"), vector(ball, "spin_"));
   EXPECT_LT((given + change).norm(), 1e-14);
@@ -350,7 +355,7 @@ TEST(Sectors, HoldTheDirectionsBetweenTheirEdges) {
         EXPECT_EQ(sectors.holding(3 * std::cos(angle), 3 * std::sin(angle)), k) << count << " at " << angle;
       }
     EXPECT_EQ(sectors.holding(2, 0), 0u);
-    EXPECT_EQ(sectors.holding(0, 0), 0u);
+    EXPECT_LT(sectors.holding(0, 0), count);
   }
   const outputs::Sectors<double> quarters(4);
   EXPECT_EQ(quarters.holding(0, 1), 1u);  // an edge belongs to the sector that it begins

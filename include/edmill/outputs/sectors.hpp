@@ -20,7 +20,7 @@ class Sectors {
 
   std::size_t count() const { return edges_.size(); }
 
-  /// @return k when the angle from x to z is in [k, k + 1) of 2 pi / count; 0 for no direction
+  /// @return k when the angle from x to z is in [k, k + 1) of 2 pi / count; any for no direction
   std::size_t holding(const Real& x, const Real& z) const {
     const bool second_half = z < 0 || (z == 0 && x < 0);
     const auto passed = [&](const numerics::SinCos<Real>& edge) {
