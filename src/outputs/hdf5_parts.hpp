@@ -13,14 +13,15 @@ namespace edmill::outputs {
 using record::hdf5_check;
 using Handle = record::Hdf5Handle;
 
-/// A text as an attribute.
+/// A text as an attribute, of variable length: readers then take it for a text and not for bytes.
 inline void note(hid_t object, const std::string& key, const std::string& value) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  hdf5_check(H5Tset_size(type, value.size() + 1));
+  hdf5_check(H5Tset_size(type, H5T_VARIABLE));
   hdf5_check(H5Tset_cset(type, H5T_CSET_UTF8));
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle attribute(H5Acreate2(object, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  hdf5_check(H5Awrite(attribute, type, value.c_str()));
+  const char* text = value.c_str();
+  hdf5_check(H5Awrite(attribute, type, &text));
 }
 
 /// A text as a dataset.
