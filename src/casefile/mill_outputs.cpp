@@ -30,8 +30,9 @@ void read_spectra(Section& s, OutputSpec& output) {
   s.require(spectra.low.positive(), "low", "a value above 0: the bins are logarithmic");
   const double low = size_of(spectra.low), high = size_of(spectra.high);
   const bool ascending = low > 0 && high > low * (1 + 1e-6) && std::isfinite(high);
-  s.require(ascending || !spectra.low.positive(), s.has("high") || !s.has("low") ? "high" : "low",
-            "low below high");
+  const bool low_is_wrong = s.has("low") && !s.has("high");
+  s.require(ascending || !spectra.low.positive(), low_is_wrong ? "low" : "high",
+            low_is_wrong ? "a value below high" : "a value above low");
   read_size(s, "bins_per_decade", spectra.bins_per_decade);
 }
 
