@@ -73,7 +73,7 @@ std::string meaning_of(const std::string& name, const std::map<std::string, std:
 
 void add_column(hid_t file, const std::string& name, const Cells& cells, hid_t& made) {
   const hsize_t rows = cells.size(), chunk = std::clamp<hsize_t>(rows, 1, 16384);
-  if (const auto integers = numbers_in<std::int64_t>(cells)) {
+  if (const auto integers = numbers_in<std::int64_t>(cells); integers && rows > 0) {
     made = make_set(file, name, H5T_STD_I64LE, 1, chunk, true);
     append(made, H5T_NATIVE_INT64, 1, 0, rows, integers->data());
   } else if (const auto numbers = numbers_in<double>(cells)) {
