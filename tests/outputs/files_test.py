@@ -116,7 +116,8 @@ class Hdf5(Run):
             self.assertEqual((file.attrs["precision"], file.attrs["seed"]), ("double", "1"))
             columns = list(file["events"].values())
             self.assertEqual(len(columns), 19)
-            for data in [*columns, *(file[name] for name in ("final_time", "final_position", "final_velocity", "final_spin", "ball_diameter", "ball_mass"))]:
+            beside = ("final_time", "final_position", "final_velocity", "final_spin", "ball_diameter", "ball_mass")
+            for data in [*columns, *(file[name] for name in beside)]:
                 self.assertTrue(data.attrs["unit"], data.name)
                 self.assertTrue(data.attrs["description"], data.name)
                 self.assertTrue(data.chunks, data.name)
@@ -138,7 +139,8 @@ class Hdf5(Run):
         change = 0
         for body in ("ball_", "partner_"):
             for sign, when in ((1, "after"), (-1, "before")):
-                energy = mass / 2 * (e[body + "velocity_" + when]**2).sum(1) + inertia / 2 * (e[body + "spin_" + when]**2).sum(1)
+                velocity, spin = e[body + "velocity_" + when], e[body + "spin_" + when]
+                energy = mass / 2 * (velocity**2).sum(1) + inertia / 2 * (spin**2).sum(1)
                 change = change + sign * np.nan_to_num(energy)
         np.testing.assert_allclose(change, e["wall_work"] - e["milling_dose"], atol=1e-16)
         self.assertGreater(e["milling_dose"].sum(), 0.1)
@@ -146,8 +148,10 @@ class Hdf5(Run):
     def test_every_table_is_the_same_as_csv_and_as_hdf5_and_in_two_runs(self):
         folder = pathlib.Path(self.scratch.name)
         entries = TABLES.strip().split("[[output]]")[1:]
-        both = "".join("[[output]]" + entry + "\n[[output]]" + entry + f'\nfile = "{re.search(chr(34) + "(.*?)" + chr(34), entry)[1]}.h5"\n'
-                       for entry in entries)
+        both = ""
+        for entry in entries:
+            kind = re.search('"(.*?)"', entry)[1]
+            both += "[[output]]" + entry + "\n[[output]]" + entry + f'\nfile = "{kind}.h5"\n'
         (folder / "tables.toml").write_text(CASE.read_text().split("[[output]]")[0] + both)
         for out in ("first", "second"):
             edmill("run", folder / "tables.toml", "--quiet", "--out", folder / out)
