@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What other people's tools read from the files of a run: h5py, VTK, XML validation, and the Python of docs/files.md.
+"""What other people's tools read from the files of a run: h5py, VTK, view3dscene, xmllint, and the Python of docs/files.md.
 
 usage: files_test.py EDMILL
 """
@@ -280,6 +280,29 @@ class X3d(Run):
             for schema in SCHEMAS:
                 result = self.validates(page, schema)
                 self.assertEqual(result.returncode, 0, result.stderr.decode())
+
+    def loaded(self, page):
+        """What an X3D program, Debian's view3dscene, makes of a page: it writes it down again, in single precision."""
+        return subprocess.run(["tovrmlx3d", page], capture_output=True, text=True, check=False)
+
+    def test_pages_load_without_a_warning(self):
+        for page in self.pages():
+            result = self.loaded(page)
+            self.assertEqual((result.returncode, result.stderr), (0, ""), page.name)
+            places = re.findall(r"DEF ball_\d+ Transform \{\s*translation (\S+ \S+ \S+)", result.stdout)
+            expected = [node.get("translation") for node in ElementTree.parse(page).iter("Transform")
+                        if re.fullmatch(r"ball_\d+", node.get("DEF") or "")]
+            self.assertEqual(len(places), 28)
+            np.testing.assert_allclose([numbers(place) for place in places], [numbers(place) for place in expected], rtol=1e-7)
+
+    def test_loading_finds_what_is_wrong(self):
+        text = (self.out / "animation.x3d").read_text()
+        page = pathlib.Path(self.scratch.name) / "wrong.x3d"
+        for right, wrong in (("diffuseColor", "difuseColor"), ("cycleInterval", "cycle"), ("<Sphere ", "<Ball "),
+                             ("toNode=\"ball_0\"", "toNode=\"ball_99\""), ("set_rotation", "set_rot")):
+            self.assertIn(right, text)
+            page.write_text(text.replace(right, wrong, 1))
+            self.assertTrue(self.loaded(page).stderr, wrong)
 
     def test_the_schema_finds_what_is_wrong(self):
         text = (self.out / "animation.x3d").read_text()
