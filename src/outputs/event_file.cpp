@@ -62,7 +62,7 @@ EventFile::EventFile(std::filesystem::path place, std::vector<EventColumn> colum
     const bool integer = c.what.type == EventColumn::Type::integer;
     c.set = std::make_unique<Handle>(
         make_set(*data_->group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, c.width(), block,
-                 integer || c.what.name == "time"),
+                 integer),
         H5Dclose);
     note(*c.set, "unit", c.what.unit);
     note(*c.set, "description", c.what.description);

@@ -19,8 +19,7 @@ struct EventColumn {
 };
 
 /// Written in blocks under a temporary name; `commit` puts it in place. The same rows make the same bytes: no
-/// time stamps. Integers and times are compressed; the digits of measured numbers are noise that does not
-/// shrink.
+/// time stamps. Integers are compressed; the digits of measured numbers are noise that hardly shrinks.
 class EventFile {
  public:
   EventFile(std::filesystem::path place, std::vector<EventColumn> columns,
