@@ -56,12 +56,38 @@ std::optional<std::vector<Number>> numbers_in(const Cells& column) {
   return values;
 }
 
+/// Columns whose name does not tell enough and that are no variables.
+const std::map<std::string, std::string>& common_columns() {
+  static const std::map<std::string, std::string> meanings{
+      {"duration", "length of the interval"},
+      {"impacts", "number of impacts"},
+      {"dose", "milling dose"},
+      {"area", "area of the cell"},
+      {"dose_per_area", "milling dose of the cell over its area"},
+      {"interval", "number of the interval from 1, or below or above all"},
+      {"bin", "number of the bin from 1, or below or above all"},
+      {"spectrum", "the part of the dose, or the speed, that is binned"},
+      {"lower", "lower end, in the interval"},
+      {"upper", "upper end, not in the interval"},
+      {"mean", "middle of the interval"},
+      {"variable", "what the row shows"},
+      {"statistic", "which statistic of it"},
+      {"unit", "of the numbers in the row"},
+      {"milling_dose_rate", "milling dose per second of the record"},
+      {"inverse_milling_dose_rate", "time of the record over its milling dose"},
+      {"specific_milling_dose", "milling dose over the mass of the powder"},
+      {"specific_milling_dose_rate", "milling dose per second over the mass of the powder"},
+      {"powder_mass", "mass of the powder"},
+      {"charge_ratio", "mass of the balls over the mass of the powder"}};
+  return meanings;
+}
+
 std::string meaning_of(const std::string& name, const std::map<std::string, std::string>& meanings) {
   static const std::map<std::string, std::string> partners{
       {"wall_0", "with wall 0, the cap at -y"}, {"wall_1", "with wall 1, the cap at +y"},
       {"wall_2", "with wall 2, the cylinder"},  {"walls", "with all walls"},
       {"ball_ball", "between balls"},           {"total", "of all impacts"}};
-  for (const auto* table : {&meanings, &partners})
+  for (const auto* table : {&meanings, &partners, &common_columns()})
     if (const auto row = table->find(name); row != table->end()) return row->second;
   const auto space = name.find(' ');
   if (const auto row = partners.find(name.substr(0, space));

@@ -5,6 +5,6 @@ add_dependencies(outputs_test edmill_cli)
 edmill_test(mill_outputs_test outputs/mill_outputs_test.cpp)
 add_dependencies(mill_outputs_test edmill_cli)
 # Debian's Python, which Debian's modules are for.
-find_program(DEBIAN_PYTHON3 python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+find_program(DEBIAN_PYTHON3 python3 HINTS /usr/bin REQUIRED)
 add_test(NAME files_test COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/outputs/files_test.py $<TARGET_FILE:edmill_cli>)
 set_tests_properties(files_test PROPERTIES TIMEOUT 300)

@@ -1,4 +1,4 @@
-// Bins of equal ratio.
+// Bins of equal ratio, in every scalar: GSL's histograms know double alone.
 #pragma once
 
 #include <algorithm>

@@ -79,6 +79,7 @@ class TrendsBallsOutput : public TableOutput<Real> {
         const std::string title = name_of(c, v.name, s);
         this->describe(title, std::string(statistic_name(s)) + " over the balls: " + std::string(v.meaning));
         line += "," + csv_cell(title_of(title, v.unit));
+        this->describe(title + " ball", "which ball has it");
         if (shows_ball(c, s)) line += "," + csv_cell(title_of(title + " ball", "1"));
       }
     }
