@@ -14,7 +14,8 @@ program_packages=(
 )
 test_packages=(
   libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev libgsl-dev nlohmann-json3-dev
-  libbenchmark-dev clang clang-format valgrind python3
+  libbenchmark-dev clang clang-format valgrind
+  python3 python3-numpy python3-h5py python3-vtk9 view3dscene libxml2-utils
 )
 
 say() { printf '\n== %s\n' "$*"; }

@@ -5,76 +5,12 @@
 #include <optional>
 
 #include "edmill/core/errors.hpp"
-#include "edmill/record/hdf5_handle.hpp"
+#include "hdf5_parts.hpp"
 
 namespace edmill::outputs {
 
-using record::hdf5_check;
-using Handle = record::Hdf5Handle;
-
 namespace {
-
 constexpr hsize_t block = 16384;  ///< rows that are written at a time
-
-void note(hid_t object, const std::string& key, const std::string& value) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  hdf5_check(H5Tset_size(type, value.size() + 1));
-  hdf5_check(H5Tset_cset(type, H5T_CSET_UTF8));
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(H5Acreate2(object, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  hdf5_check(H5Awrite(attribute, type, value.c_str()));
-}
-
-void add_text(hid_t file, const std::string& name, const std::string& value) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  hdf5_check(H5Tset_size(type, value.size() + 1));
-  hdf5_check(H5Tset_cset(type, H5T_CSET_UTF8));
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  hdf5_check(H5Pset_obj_track_times(creation, false));
-  const Handle set(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
-  hdf5_check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()));
-}
-
-/// A dataset of rows of `width` values that can grow.
-hid_t make_set(hid_t group, const std::string& name, hid_t type, std::size_t width, hsize_t chunk,
-               bool compressed) {
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  hdf5_check(H5Pset_obj_track_times(creation, false));
-  const hsize_t size[2] = {0, width}, largest[2] = {H5S_UNLIMITED, width}, chunks[2] = {chunk, width};
-  const int rank = width > 1 ? 2 : 1;
-  hdf5_check(H5Pset_chunk(creation, rank, chunks));
-  if (compressed) {
-    hdf5_check(H5Pset_shuffle(creation));
-    hdf5_check(H5Pset_deflate(creation, 1));
-  }
-  const Handle space(H5Screate_simple(rank, size, largest), H5Sclose);
-  return H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
-}
-
-void append(hid_t set, hid_t memory_type, std::size_t width, hsize_t before, hsize_t rows,
-            const void* values) {
-  const int rank = width > 1 ? 2 : 1;
-  const hsize_t size[2] = {before + rows, width}, start[2] = {before, 0}, count[2] = {rows, width};
-  hdf5_check(H5Dset_extent(set, size));
-  const Handle space(H5Dget_space(set), H5Sclose);
-  hdf5_check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr));
-  const Handle memory(H5Screate_simple(rank, count, nullptr), H5Sclose);
-  hdf5_check(H5Dwrite(set, memory_type, memory, space, H5P_DEFAULT, values));
-}
-
-hid_t make_file(const std::filesystem::path& place) {
-  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  hdf5_check(H5Pset_obj_track_times(creation, false));
-  return H5Fcreate(place.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
-}
-
-hid_t make_group(hid_t file, const char* name) {
-  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-  hdf5_check(H5Pset_obj_track_times(creation, false));
-  return H5Gcreate2(file, name, H5P_DEFAULT, creation, H5P_DEFAULT);
-}
-
 }  // namespace
 
 struct EventFile::Data {
@@ -119,15 +55,14 @@ EventFile::EventFile(std::filesystem::path place, std::vector<EventColumn> colum
   if (std::filesystem::is_directory(data_->place, ignored))
     throw InputError(data_->place.string() + ": found a folder, expected a place for a file");
   data_->file.emplace(make_file(data_->temporary), H5Fclose);
-  for (const auto& n : notes)
-    n.long_text ? add_text(*data_->file, n.key, n.value) : note(*data_->file, n.key, n.value);
+  add_notes(*data_->file, notes);
   data_->group.emplace(make_group(*data_->file, "events"), H5Gclose);
   for (auto& column : columns) {
     Data::Column c{std::move(column), nullptr, {}, {}};
     const bool integer = c.what.type == EventColumn::Type::integer;
     c.set = std::make_unique<Handle>(
         make_set(*data_->group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, c.width(), block,
-                 integer || c.what.name == "time"),
+                 integer),
         H5Dclose);
     note(*c.set, "unit", c.what.unit);
     note(*c.set, "description", c.what.description);

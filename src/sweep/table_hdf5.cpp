@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstring>
-#include <stdexcept>
 
 #include "edmill/record/hdf5_handle.hpp"
 #include "edmill/sweep/table.hpp"
@@ -61,20 +60,9 @@ void write_table(hid_t file, const std::string& name, const Table& table) {
 }  // namespace
 
 std::string hdf5_image(const std::vector<std::pair<std::string, Table>>& tables) {
-  // In memory: the bytes go to disk as one atomic file.
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  hdf5_check(H5Pset_fapl_core(access, 1 << 16, false));
-  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  hdf5_check(H5Pset_obj_track_times(creation, false));
-  const Handle file(H5Fcreate("tables.h5", H5F_ACC_TRUNC, creation, access), H5Fclose);
-  for (const auto& [name, table] : tables) write_table(file, name, table);
-  hdf5_check(H5Fflush(file, H5F_SCOPE_GLOBAL));
-  const auto size = H5Fget_file_image(file, nullptr, 0);
-  if (size <= 0) throw std::runtime_error("HDF5 could not write a table");
-  std::string image(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file, image.data(), image.size()) != size)
-    throw std::runtime_error("HDF5 could not write a table");
-  return image;
+  return record::hdf5_image([&](hid_t file) {
+    for (const auto& [name, table] : tables) write_table(file, name, table);
+  });
 }
 
 }  // namespace edmill::sweep

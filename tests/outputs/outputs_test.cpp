@@ -6,45 +6,13 @@
 #include <pugixml.hpp>
 #include <vector>
 
+#include "csv_table.hpp"
 #include "edmill/app/list_variables.hpp"
-#include "edmill/record/hdf5_handle.hpp"
+#include "hdf5_table.hpp"
 #include "program.hpp"
 
 namespace edmill {
 namespace {
-
-using Row = std::map<std::string, std::string>;
-
-/// Columns by name; comment lines are skipped. None of these files has a quoted cell.
-std::vector<Row> table(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> header;
-  std::vector<Row> rows;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with('#')) continue;
-    std::vector<std::string> cells;
-    std::istringstream row(line);
-    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
-    if (line.ends_with(',')) cells.emplace_back();
-    if (header.empty()) {
-      header = cells;
-      continue;
-    }
-    EXPECT_EQ(cells.size(), header.size()) << line;
-    for (std::size_t k = 0; k < std::min(cells.size(), header.size()); ++k)
-      rows.resize(rows.size() + (k == 0)), rows.back()[header[k]] = cells[k];
-  }
-  return rows;
-}
-
-double number(const Row& row, const std::string& column) {
-  const auto found = row.find(column);
-  if (found == row.end() || found->second.empty()) {
-    ADD_FAILURE() << "no value in column " << column;
-    return NAN;
-  }
-  return std::stod(found->second);
-}
 
 class Outputs : public ProgramTest {
  protected:
@@ -422,15 +390,6 @@ TEST_F(Outputs, ParaviewFramesHoldBallsAndVessel) {
   for (const auto& entry : std::filesystem::directory_iterator(scratch / "out/movie"))
     entries += entry.exists();
   EXPECT_EQ(entries, 2u);  // nothing partial is left
-}
-
-/// A dataset of the event file, as doubles.
-std::vector<double> dataset(hid_t file, const std::string& name) {
-  const record::Hdf5Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose),
-      space(H5Dget_space(set), H5Sclose);
-  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  record::hdf5_check(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-  return values;
 }
 
 TEST_F(Outputs, EventsInHdf5AreThoseOfTheLog) {

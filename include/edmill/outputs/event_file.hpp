@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "edmill/outputs/file_note.hpp"
+
 namespace edmill::outputs {
 
 /// A column of the log.
@@ -16,15 +18,8 @@ struct EventColumn {
   Type type;
 };
 
-/// A text of the whole file: an attribute, or a dataset when it is `long_text`.
-struct FileNote {
-  std::string key, value;
-  bool long_text = false;
-};
-
 /// Written in blocks under a temporary name; `commit` puts it in place. The same rows make the same bytes: no
-/// time stamps. Integers and times are compressed; the digits of measured numbers are noise that does not
-/// shrink.
+/// time stamps. Integers are compressed; the digits of measured numbers are noise that hardly shrinks.
 class EventFile {
  public:
   EventFile(std::filesystem::path place, std::vector<EventColumn> columns,

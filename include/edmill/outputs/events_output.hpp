@@ -36,7 +36,7 @@ inline std::vector<EventColumn> event_columns(bool states) {
 
 }  // namespace detail
 
-/// NAME.h5: /events with a dataset for each column, /final_position, /final_velocity, /final_spin. Numbers
+/// NAME.h5: /events with a dataset for each column, the balls and their final state beside it. Numbers
 /// are 64-bit whatever the scalar: the digits of a wide run are in the CSV.
 template <class Real>
 class EventsOutput : public Output<Real> {
@@ -69,7 +69,7 @@ class EventsOutput : public Output<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real&) override {
-    std::vector<double> places, velocities, spins;
+    std::vector<double> places, velocities, spins, diameters, masses;
     for (int i = 0; i < simulation.ball_count(); ++i) {
       const auto state = simulation.state_at(i, simulation.now());
       for (int axis = 0; axis < 3; ++axis) {
@@ -77,11 +77,16 @@ class EventsOutput : public Output<Real> {
         velocities.push_back(static_cast<double>(state.velocity[axis]));
         spins.push_back(static_cast<double>(state.spin[axis]));
       }
+      diameters.push_back(static_cast<double>(2 * simulation.properties(i).radius));
+      masses.push_back(static_cast<double>(simulation.properties(i).mass));
     }
-    file_.add_table("final_position", "m", "of each ball at the end of the run, inertial frame", places, 3);
-    file_.add_table("final_velocity", "m/s", "of each ball at the end of the run, inertial frame", velocities,
-                    3);
-    file_.add_table("final_spin", "rad/s", "of each ball at the end of the run, inertial frame", spins, 3);
+    const std::string when = "of each ball at the end of the run, inertial frame";
+    file_.add_table("final_time", "s", "end of the run", {static_cast<double>(simulation.seconds())}, 1);
+    file_.add_table("final_position", "m", when, places, 3);
+    file_.add_table("final_velocity", "m/s", when, velocities, 3);
+    file_.add_table("final_spin", "rad/s", when, spins, 3);
+    file_.add_table("ball_diameter", "m", "of each ball", diameters, 1);
+    file_.add_table("ball_mass", "kg", "of each ball", masses, 1);
   }
 
  private:

@@ -2,15 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "edmill/casefile/case_spec.hpp"
 #include "edmill/engine/simulation.hpp"
 #include "edmill/model/impact_facts.hpp"
-#include "edmill/outputs/event_file.hpp"
+#include "edmill/outputs/file_note.hpp"
 #include "edmill/outputs/output_timer.hpp"
+#include "edmill/outputs/table_file.hpp"
 #include "edmill/outputs/variable_values.hpp"
 #include "edmill/record/output_folder.hpp"
 
@@ -33,6 +36,20 @@ struct Seen {
   const engine::Impact<Real>& impact;
   const engine::Simulation<Real>& simulation;
 };
+
+/// The vessel at the impact.
+template <class Real>
+model::VesselPose<Real> pose_of(const Seen<Real>& seen) {
+  return model::pose_at<Real>(seen.simulation.mill().motion, seen.impact.time.offset);
+}
+/// The contact point in the vessel frame [m].
+template <class Real>
+Vec3<Real> own_contact_point(const Seen<Real>& seen, const model::VesselPose<Real>& pose) {
+  const Vec3<Real> at_rest = Vec3<Real>::Zero();
+  return model::to_vessel_frame<Real>(pose, seen.simulation.mill().motion.arm, seen.facts.contact_point,
+                                      at_rest)
+      .position;
+}
 
 /// A timer and restrictions. Types derive from it and say what they do with an impact.
 template <class Real>
@@ -78,20 +95,36 @@ class Output {
   std::vector<Restriction> only_;
 };
 
-/// An output that is one file of text.
+/// An output that is one table: a file of text, or HDF5 when its name ends in .h5.
 template <class Real>
 class TableOutput : public Output<Real> {
  public:
   TableOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
               const RunFacts<Real>& run)
-      : Output<Real>(spec, run), file_(folder / spec.folder / spec.file, spec.append) {}
-  void commit() override { file_.commit(); }
+      : Output<Real>(spec, run), file_(folder / spec.folder / spec.file, spec.append) {
+    if (spec.hdf5()) notes_ = run.notes;
+  }
+  void commit() override {
+    if (notes_) file_.stream() << table_image(text_.str(), *notes_, meanings_);
+    file_.commit();
+  }
 
  protected:
-  std::ostream& out() { return file_.stream(); }
+  std::ostream& out() { return notes_ ? text_ : file_.stream(); }
+  /// What a column shows, for HDF5, where its name does not tell.
+  void describe(const std::string& column, std::string_view meaning) { meanings_[column] = meaning; }
+  /// "# from 0.5 s to 10 s: 9.5 s", which rates are per; the line is the caller's to end.
+  void write_window(const Real& until) {
+    const Real &from = this->timer().from(), duration = until - from;
+    out() << "# from " << to_text<Real>(from) << " s to " << to_text<Real>(until)
+          << " s: " << to_text<Real>(duration) << " s";
+  }
 
  private:
   record::AtomicFile file_;
+  std::optional<std::vector<FileNote>> notes_;  ///< of HDF5, made of the text at the end
+  std::ostringstream text_;
+  std::map<std::string, std::string> meanings_;
 };
 
 /// All outputs of a case, as one observer.

@@ -16,15 +16,14 @@ class TrendsOutput : public TableOutput<Real> {
   TrendsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                const RunFacts<Real>& run)
       : TableOutput<Real>(spec, folder, run), accumulated_(spec.accumulated), clock_(spec.timer) {
+    this->describe("time", accumulated_ ? "up to which the statistics count" : "end of the interval");
     std::string line = "time [s]";
     for (const auto& c : spec.columns) {
       gathered_.push_back({c, variable_formula<Real>(c.variable), {}});
       const auto& v = model::impact_variables[c.variable];
       for (const Statistic s : c.statistics) {
-        const bool alone = !c.label.empty() && c.statistics.size() == 1;
-        const std::string name = c.label.empty() ? std::string(v.name) : c.label;
-        line += "," +
-                csv_cell(title_of(alone ? name : name + " " + statistic_name(s), statistic_unit(s, v.unit)));
+        this->describe(name_of(c, v.name, s), std::string(statistic_name(s)) + ": " + std::string(v.meaning));
+        line += "," + csv_cell(title_of(name_of(c, v.name, s), statistic_unit(s, v.unit)));
       }
     }
     this->out() << line << '\n';
@@ -72,14 +71,15 @@ class TrendsBallsOutput : public TableOutput<Real> {
   TrendsBallsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                     const RunFacts<Real>& run)
       : TableOutput<Real>(spec, folder, run), columns_(spec.columns), clock_(spec.timer) {
+    this->describe("impacts", "since the start of the run");
     std::string line = "time [s],impacts [1]";
     for (const auto& c : columns_) {
       const auto& v = model::ball_variables[c.variable];
       for (const Statistic s : c.statistics) {
-        const bool alone = !c.label.empty() && c.statistics.size() == 1;
-        const std::string name = c.label.empty() ? std::string(v.name) : c.label;
-        const std::string title = alone ? name : name + " " + statistic_name(s);
+        const std::string title = name_of(c, v.name, s);
+        this->describe(title, std::string(statistic_name(s)) + " over the balls: " + std::string(v.meaning));
         line += "," + csv_cell(title_of(title, v.unit));
+        this->describe(title + " ball", "which ball has it");
         if (shows_ball(c, s)) line += "," + csv_cell(title_of(title + " ball", "1"));
       }
     }
@@ -147,6 +147,8 @@ class TraceOutput : public TableOutput<Real> {
         ball_(static_cast<int>(spec.ball)),
         clock_(spec.timer),
         at_impacts_(!spec.timer.interval) {
+    for (const std::string axis : {"x", "y", "z"})
+      this->describe(axis, "place of ball " + std::to_string(ball_) + ", inertial frame");
     this->out() << "time [s],x [m],y [m],z [m]\n";
   }
 

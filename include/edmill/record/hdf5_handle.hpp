@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <stdexcept>
+#include <string>
 
 namespace edmill::record {
 
@@ -27,6 +28,24 @@ class Hdf5Handle {
 /// @throws std::runtime_error when a call has failed
 inline void hdf5_check(herr_t status) {
   if (status < 0) throw std::runtime_error("HDF5 could not write; the disk may be full");
+}
+
+/// Bytes of a file that `fill(file)` writes: in memory, so that they go to disk as one atomic file.
+template <class Fill>
+std::string hdf5_image(Fill&& fill) {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  hdf5_check(H5Pset_fapl_core(access, 1 << 16, false));
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  hdf5_check(H5Pset_obj_track_times(creation, false));
+  const Hdf5Handle file(H5Fcreate("image.h5", H5F_ACC_TRUNC, creation, access), H5Fclose);
+  fill(static_cast<hid_t>(file));
+  hdf5_check(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  const auto size = H5Fget_file_image(file, nullptr, 0);
+  if (size <= 0) throw std::runtime_error("HDF5 could not write a table");
+  std::string image(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(file, image.data(), image.size()) != size)
+    throw std::runtime_error("HDF5 could not write a table");
+  return image;
 }
 
 }  // namespace edmill::record
