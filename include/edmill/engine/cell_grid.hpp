@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "edmill/core/archive.hpp"
 #include "edmill/core/errors.hpp"
 #include "edmill/core/vector.hpp"
 
@@ -98,6 +99,13 @@ class CellGrid {
     collect(low, high, found);
   }
 
+  /// Which balls are where, and their order in each cell: it is that of the searches.
+  void archive(Archive& a) {
+    std::vector<std::pair<std::size_t, std::vector<int>>> overflow(overflow_.begin(), overflow_.end());
+    a(content_, overflow, place_);
+    if (a.loading()) overflow_ = {overflow.begin(), overflow.end()};
+  }
+
  private:
   using Place = std::array<int, 3>;
 
@@ -152,6 +160,8 @@ class CellGrid {
     static constexpr int inside = 3;
     std::array<int, inside> balls{};
     int count = 0;  ///< of those inside; `crowded` is added when there are more
+
+    void archive(Archive& a) { a(balls, count); }
   };
   static constexpr int crowded = 4;
 
