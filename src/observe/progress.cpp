@@ -12,7 +12,7 @@ ProgressLine::~ProgressLine() {
   if (visible_) fmt::print(stderr, "\r\033[K");
 }
 
-void ProgressLine::show(double now, std::uint64_t collisions, double milling_dose) {
+void ProgressLine::show(double now, std::uint64_t collisions, std::optional<double> milling_dose) {
   const auto time = Clock::now();
   if (!first_) first_ = Look{time, now, collisions};
   if (time - shown_ < std::chrono::milliseconds(200)) return;
@@ -24,7 +24,7 @@ void ProgressLine::show(double now, std::uint64_t collisions, double milling_dos
   line += fmt::format(" simulated, {} collisions", collisions);
   if (spent > 0)
     line += fmt::format(", {:.3g}/s", static_cast<double>(collisions - first_->collisions) / spent);
-  if (simulated > 0) line += fmt::format(", {:.3g} W", milling_dose / simulated);
+  if (milling_dose && simulated > 0) line += fmt::format(", {:.3g} W", *milling_dose / simulated);
   if (end_ && simulated > 0) {
     const double left = spent * (*end_ - now) / simulated;
     line += fmt::format(", {}:{:02} left", static_cast<long>(left) / 60, static_cast<long>(left) % 60);

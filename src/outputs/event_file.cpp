@@ -58,6 +58,7 @@ hid_t make_set(hid_t group, const std::string& name, hid_t type, std::size_t wid
 /// Where a chunk stands in the file [bytes].
 struct ChunkPlace {
   std::uint64_t at = 0, size = 0;
+  std::uint64_t end() const { return at + size; }
   void archive(Archive& a) { a(at, size); }
   bool operator==(const ChunkPlace&) const = default;
 };
@@ -141,9 +142,7 @@ struct EventFile::Data {
         bytes.resize(chunk.size);
         in.seekg(static_cast<std::streamoff>(chunk.at));
         if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-          throw InputError(
-              from.string() +
-              ": found less than the checkpoint goes on from, expected the file that the run left");
+          throw std::runtime_error(from.string() + ": could not be read");
         append_chunk(*c.set, c.width(), written, block, bytes);
         EDMILL_REQUIRE(place_of_chunk(*c.set, written) == chunk, "a block has the place that it had");
       }
@@ -219,13 +218,27 @@ void EventFile::archive(Archive& a) {
   hsize_t rows = d.written;
   a(name, rows, d.waiting);
   for (auto& c : d.columns) a(c.integers, c.numbers, c.chunks);
-  if (a.loading()) {
-    const auto left = std::filesystem::path(d.temporary).replace_filename(name);
-    d.take_blocks(std::filesystem::exists(left) ? left : d.place, rows);
-    // The blocks have the same places in both, so that the checkpoint holds for either.
-    std::filesystem::rename(d.temporary, left);
-    d.temporary = left;
+  const std::uint64_t end = rows > 0 ? d.columns.back().chunks.back().end() : 0;
+  std::optional<std::string> before;
+  if (!a.loading()) before = record::bytes_before(d.temporary, end);
+  a(before);
+  if (!a.loading()) {
+    d.kept = true;
+    return;
   }
+
+  const auto left = std::filesystem::path(d.temporary).replace_filename(name);
+  const auto& from = std::filesystem::exists(left) ? left : d.place;
+  if (rows > 0) {
+    if (!before || record::bytes_before(from, end) != before)
+      throw InputError(d.place.string() +
+                       ": found another file than the checkpoint was made with, expected " +
+                       "the files as the run left them");
+    d.take_blocks(from, rows);
+  }
+  // The blocks have the same places in both, so that the checkpoint holds for either.
+  std::filesystem::rename(d.temporary, left);
+  d.temporary = left;
   d.kept = true;
 }
 

@@ -1,5 +1,7 @@
 #include "edmill/record/atomic_folder.hpp"
 
+#include <fstream>
+
 #include "edmill/core/errors.hpp"
 #include "edmill/record/output_folder.hpp"
 
@@ -17,9 +19,10 @@ AtomicFolder::~AtomicFolder() {
 }
 
 void AtomicFolder::add(const std::string& name, const std::string& text) {
-  AtomicFile file(temporary_ / name);
-  file.stream() << text;
-  file.commit();
+  std::ofstream file(temporary_ / name, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(place_.string() + ": could not be written; the disk may be full");
 }
 
 void AtomicFolder::commit() {

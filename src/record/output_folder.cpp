@@ -102,6 +102,14 @@ void remove_temporaries(const fs::path& place, const std::string& kept) {
   for (const auto& file : found) fs::remove_all(file);
 }
 
+std::optional<std::string> bytes_before(const fs::path& file, std::uint64_t size) {
+  std::string bytes(std::min<std::uint64_t>(size, 4096), '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(size - bytes.size()));
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) return std::nullopt;
+  return bytes;
+}
+
 void sync_to_disk(const fs::path& place) {
   const int descriptor = ::open(place.c_str(), O_RDONLY | O_CLOEXEC);
   const bool done = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);
@@ -144,29 +152,26 @@ void AtomicFile::sync() {
 void AtomicFile::archive(Archive& a) {
   std::uint64_t size = 0;
   std::string name = temporary_.filename().string();
+  std::optional<std::string> before;
   if (!a.loading()) {
     sync();
     size = static_cast<std::uint64_t>(stream_.tellp());
+    before = bytes_before(temporary_, size);
   }
-  a(size, name);
+  a(size, name, before);
   kept_ = true;
   if (!a.loading()) return;
 
   stream_.close();
   fs::remove(temporary_);
   temporary_.replace_filename(name);
-  const auto holds = [size](const fs::path& file) {
-    std::error_code error;
-    const auto found = fs::file_size(file, error);
-    return !error && found >= size;
-  };
-  if (holds(temporary_))
+  if (before && bytes_before(temporary_, size) == before)
     fs::resize_file(temporary_, size);
-  else if (!append_ && holds(place_))
+  else if (before && !append_ && bytes_before(place_, size) == before)
     copy_beginning(place_, temporary_, size);
   else
-    throw InputError(place_.string() + ": found less than the " + std::to_string(size) +
-                     " bytes that the checkpoint goes on from, expected the files that the run left");
+    throw InputError(place_.string() + ": found another file than the checkpoint was made with, expected " +
+                     "the files as the run left them");
   stream_.open(temporary_, std::ios::binary | std::ios::in | std::ios::out | std::ios::ate);
   if (!stream_) fail();
 }

@@ -22,7 +22,7 @@ class ProgressLine {
   /// @param now          simulated time [s]
   /// @param collisions   since the start of the run
   /// @param milling_dose since this line was made [J]
-  void show(double now, std::uint64_t collisions, double milling_dose);
+  void show(double now, std::uint64_t collisions, std::optional<double> milling_dose = std::nullopt);
 
  private:
   using Clock = std::chrono::steady_clock;

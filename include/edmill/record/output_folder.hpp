@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "edmill/core/archive.hpp"
@@ -37,6 +38,10 @@ std::filesystem::path temporary_name(const std::filesystem::path& place);
 /// @param kept  the mark of those that stay
 void remove_temporaries(const std::filesystem::path& place, const std::string& kept);
 
+/// Up to 4096 bytes before the place `size` of a file, to know it again; nothing when it is shorter than
+/// `size`.
+std::optional<std::string> bytes_before(const std::filesystem::path& file, std::uint64_t size);
+
 /// Asks the system to bring a file's, or a folder's, contents to the disk. @throws std::runtime_error
 void sync_to_disk(const std::filesystem::path& place);
 
@@ -66,7 +71,7 @@ class AtomicFile {
 
   /// How far it is written, for a checkpoint; the temporary file is then no longer removed without `commit`.
   /// Loading goes on from there, with that file, or a copy of what was put in place when it is gone.
-  /// @throws InputError when neither is as long as it was
+  /// @throws InputError when neither is what the checkpoint was made with
   void archive(Archive& a);
 
  private:
