@@ -30,6 +30,8 @@ extern "C" void on_signal(int signal) {
   interrupted.store(true, std::memory_order_relaxed);
 }
 
+int with_signal(int code) { return code == edmill::app::interrupted ? code + received_signal : code; }
+
 edmill::app::RunOptions run_options(const std::string& folder, bool quiet) {
   edmill::app::RunOptions options;
   options.folder = folder;
@@ -45,8 +47,7 @@ edmill::app::RunOptions run_options(const std::string& folder, bool quiet) {
 int resume(const std::string& folder, const std::string& checkpoint, bool quiet) {
   using namespace edmill;
   if (!checkpoint.empty()) app::parse_checkpoint_interval(checkpoint);
-  const int code = app::run_resume(checkpoint, run_options(folder, quiet));
-  return received_signal && code == app::ok ? 128 + received_signal : code;
+  return with_signal(app::run_resume(checkpoint, run_options(folder, quiet)));
 }
 
 int run(const std::string& case_file, const std::string& folder, const std::string& precision,
@@ -63,9 +64,11 @@ int run(const std::string& case_file, const std::string& folder, const std::stri
     options.checkpoint = app::first_checkpoint(spec, overrides, scalar, checkpoint);
   }
   int code = app::run_case(scalar, spec, options);
-  if (code == app::ok && !shadow.empty() && !received_signal)
+  if (code == app::ok && !shadow.empty()) {
     code = app::run_shadow(spec, scalar, shadow, &interrupted);
-  return received_signal && code == app::ok ? 128 + received_signal : code;
+    if (received_signal) code = app::interrupted;
+  }
+  return with_signal(code);
 }
 
 int certify(const std::string& case_file, const std::vector<std::string>& overrides,

@@ -157,7 +157,7 @@ struct EventFile::Data {
 EventFile::EventFile(std::filesystem::path place, std::vector<EventColumn> columns,
                      const std::vector<FileNote>& notes)
     : data_(new Data) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are told by exceptions
+  record::hdf5_begin();
   data_->place = std::move(place);
   data_->temporary = record::temporary_name(data_->place);
   std::error_code ignored;

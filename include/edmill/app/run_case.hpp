@@ -21,6 +21,7 @@ enum ExitCode : int {
   some_runs_failed = 5,
   outputs_differ = 6,
   too_few_data = 7,
+  interrupted = 128,  ///< and the signal's number, which the caller knows
 };
 
 struct RunOptions {
@@ -33,7 +34,7 @@ struct RunOptions {
   std::optional<record::Checkpoint> checkpoint;
 };
 
-/// @return an exit code; `ok` for an interrupted run too, whose signal the caller knows
+/// @return an exit code
 /// @throws InterruptedError when the interrupt comes before the first event
 template <class Real>
 int run_case(const casefile::CaseSpec& spec, const RunOptions& options);

@@ -55,6 +55,7 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
     fmt::print(stderr, "edmill: {}\n", summary.error);
     return undecided;
   }
+  if (summary.end_reason == "interrupted") return interrupted;
   return summary.end_reason == "inelastic_collapse" ? inelastic_collapse : ok;
 }
 

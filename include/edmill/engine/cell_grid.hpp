@@ -102,8 +102,14 @@ class CellGrid {
   /// Which balls are where, and their order in each cell: it is that of the searches.
   void archive(Archive& a) {
     std::vector<std::pair<std::size_t, std::vector<int>>> overflow(overflow_.begin(), overflow_.end());
-    a(content_, overflow, place_);
-    if (a.loading()) overflow_ = {overflow.begin(), overflow.end()};
+    std::vector<std::pair<std::size_t, Cell>> occupied;  // most are empty
+    for (std::size_t at = 0; at < content_.size(); ++at)
+      if (content_[at].count > 0) occupied.emplace_back(at, content_[at]);
+    a(occupied, overflow, place_);
+    if (!a.loading()) return;
+    overflow_ = {overflow.begin(), overflow.end()};
+    std::fill(content_.begin(), content_.end(), Cell());
+    for (const auto& [at, cell] : occupied) content_.at(at) = cell;
   }
 
  private:

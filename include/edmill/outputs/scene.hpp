@@ -15,7 +15,7 @@ namespace edmill::outputs {
 struct SceneBall {
   double radius;  ///< [m]
   casefile::Colour colour;
-  Vec3<double> position;  ///< inertial frame [m]
+  Vec3<double> position = Vec3<double>::Zero();  ///< inertial frame [m]
   Vec3<double> velocity = Vec3<double>::Zero(), spin = Vec3<double>::Zero();
   double milling_dose = 0;  ///< of the impacts that the ball had a part in [J]
 

@@ -24,6 +24,14 @@ class Hdf5Handle {
   herr_t (*close_)(hid_t);
 };
 
+/// To be called before anything else of HDF5: failures are told by exceptions, and a file that could not be
+/// written to a full disk is not closed once more at the program's end, which would crash.
+inline void hdf5_begin() {
+  static const herr_t once = H5dont_atexit();
+  static_cast<void>(once);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
 /// @throws std::runtime_error when a call has failed
 inline void hdf5_check(herr_t status) {
   if (status < 0) throw std::runtime_error("HDF5 could not write; the disk may be full");
