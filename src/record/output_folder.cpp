@@ -59,6 +59,26 @@ void copy_beginning(const fs::path& from, const fs::path& to, std::uintmax_t siz
   fs::resize_file(to, size);
 }
 
+/// `size` bytes of a file from `begin` on, under another name.
+void copy_part(const fs::path& from, const fs::path& to, std::uintmax_t begin, std::uintmax_t size) {
+  std::ifstream in(from, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(begin));
+  std::string bytes(size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  std::ofstream out(to, std::ios::binary | std::ios::trunc);
+  out << bytes;
+  out.close();
+  if (!in || !out) throw not_written(to);
+}
+
+/// Whether the addition, of which `before` ends at `size`, stands already behind what stands in `place`.
+bool is_joined(const fs::path& place, const fs::path& addition, std::uint64_t size,
+               const std::string& before) {
+  std::error_code error;
+  const auto bytes = bytes_before(addition, fs::file_size(place, error) + size);
+  return !error && bytes && bytes->ends_with(before);
+}
+
 /// What stood in `place`, then what is in `addition`, under the latter's name.
 void prepend(const fs::path& place, const fs::path& addition) {
   const fs::path joined = temporary_name(place);
@@ -136,6 +156,7 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::commit() {
   stream_.close();
   if (!stream_) fail();
+  if (place_.empty()) return;  // see `archive`
   std::error_code ignored;
   if (append_ && fs::exists(place_, ignored)) prepend(place_, temporary_);
   fs::rename(temporary_, place_);
@@ -162,16 +183,27 @@ void AtomicFile::archive(Archive& a) {
   kept_ = true;
   if (!a.loading()) return;
 
-  stream_.close();
-  fs::remove(temporary_);
+  const fs::path fresh = temporary_;
   temporary_.replace_filename(name);
-  if (before && bytes_before(temporary_, size) == before)
+  if (append_ && !fs::exists(temporary_)) {
+    // Only `commit` has taken it away: the rows stand in their place, and those of this process go nowhere.
+    temporary_ = fresh;
+    place_.clear();
+    return;
+  }
+  stream_.close();
+  if (before && bytes_before(temporary_, size) == before) {
     fs::resize_file(temporary_, size);
-  else if (before && !append_ && bytes_before(place_, size) == before)
+  } else if (before && !append_ && bytes_before(place_, size) == before) {
     copy_beginning(place_, temporary_, size);
-  else
+  } else if (before && append_ && is_joined(place_, temporary_, size, *before)) {
+    copy_part(temporary_, fresh, fs::file_size(place_), size);
+    fs::rename(fresh, temporary_);
+  } else {
     throw InputError(place_.string() + ": found another file than the checkpoint was made with, expected " +
                      "the files as the run left them");
+  }
+  fs::remove(fresh);
   stream_.open(temporary_, std::ios::binary | std::ios::in | std::ios::out | std::ios::ate);
   if (!stream_) fail();
 }

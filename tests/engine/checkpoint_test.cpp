@@ -10,8 +10,8 @@ namespace edmill::engine {
 namespace {
 
 template <class Real>
-struct Run {
-  explicit Run(const casefile::CaseSpec& spec)
+struct Followed {
+  explicit Followed(const casefile::CaseSpec& spec)
       : built(setup::build_case<Real>(spec)), simulation(built.the_case, built.states, built.start) {
     simulation.attach(recorder);
   }
@@ -39,13 +39,13 @@ bool same(const Impact<Real>& a, const Impact<Real>& b) {
 
 template <class Real>
 void expect_same_course(const casefile::CaseSpec& spec, int first, int last, std::size_t at_least) {
-  Run<Real> one(spec);
+  Followed<Real> one(spec);
   one.go_to(first);
   Archive saved;
   saved(one.simulation);
   one.recorder.impacts.clear();
 
-  Run<Real> other(spec);
+  Followed<Real> other(spec);
   other.go_to(first / 2);  // what it was must be of no account
   other.recorder.impacts.clear();
   Archive loaded(saved.bytes());
@@ -124,7 +124,7 @@ TEST(Checkpoint, GoesOnWithTheSameBitsInMpfr50WithCells) {
   expect_same_course<mpfr50>(many_balls(100), 30, 60, 200);
 }
 TEST(Checkpoint, KeepsTheOrderOfEventsAtTheSameTime) {
-  Run<double> probe(crystal());
+  Followed<double> probe(crystal());
   probe.go_to(20);
   std::set<std::pair<std::int64_t, double>> times;
   for (const auto& impact : probe.recorder.impacts) times.emplace(impact.time.period, impact.time.offset);
@@ -138,7 +138,7 @@ TEST(Checkpoint, APauseChangesNothing) {
       if (impact.index % 7 == 0) simulation.request_pause();
     }
   } pauses;
-  Run<double> one(testing::demo_spec()), other(testing::demo_spec());
+  Followed<double> one(testing::demo_spec()), other(testing::demo_spec());
   one.go_to(300);
   other.simulation.attach(pauses);
   const auto end = other.simulation.clock().at(0.3);
