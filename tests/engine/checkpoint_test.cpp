@@ -87,7 +87,8 @@ casefile::CaseSpec many_balls(int count) {
       "many.toml");
 }
 
-/// A crystal at rest: many contacts at the same time, whose order is that of the cells and the queue.
+/// Rows of a crystal, all alike: many contacts at the same time, whose order is that of the cells and the
+/// queue.
 casefile::CaseSpec crystal() {
   std::string balls;
   for (int x = -3; x <= 3; ++x)
@@ -96,7 +97,7 @@ casefile::CaseSpec crystal() {
         const auto component = [](int k, int base) { return std::to_string(base + 4 * k) + " mm"; };
         balls += "[[ball]]\ndiameter = \"3 mm\"\nposition = [\"" + component(x, 0) + "\", \"" +
                  component(y, 100) + "\", \"" + component(z, 0) + "\"]\nvelocity = [\"" +
-                 std::to_string(x % 2) + " m/s\", \"" + std::to_string(y % 2) + " m/s\", \"0 m/s\"]\n";
+                 std::to_string(x % 2) + " m/s\", \"0 m/s\", \"0 m/s\"]\n";
       }
   return casefile::parse_case(
       "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"still\"\narm = \"10 cm\"\n[vessel]\ndiameter = \"60 mm\"\n"
