@@ -53,7 +53,7 @@ int run_audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   if (!given.quiet && ::isatty(STDERR_FILENO)) {
     std::optional<double> end;
     if (spec.end_time) end = spec.end_time->to<double>();
-    line.emplace(built.the_case.initial_time, end);
+    line.emplace(end);
     options.progress = [&](double time, std::uint64_t events) { line->show(time, events); };
   }
   auto result = audit::audit(built.the_case, built.states, options);

@@ -12,6 +12,8 @@
 #include "edmill/app/compare_command.hpp"
 #include "edmill/app/dispatch.hpp"
 #include "edmill/app/list_variables.hpp"
+#include "edmill/app/resume_command.hpp"
+#include "edmill/app/run_folder.hpp"
 #include "edmill/app/study_command.hpp"
 #include "edmill/core/errors.hpp"
 #include "edmill/core/version.hpp"
@@ -28,22 +30,45 @@ extern "C" void on_signal(int signal) {
   interrupted.store(true, std::memory_order_relaxed);
 }
 
+int with_signal(int code) { return code == edmill::app::interrupted ? code + received_signal : code; }
+
+edmill::app::RunOptions run_options(const std::string& folder, bool quiet) {
+  edmill::app::RunOptions options;
+  options.folder = folder;
+  options.quiet = quiet;
+  options.interrupt = &interrupted;
+  options.listen = [] {
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+  };
+  return options;
+}
+
+int resume(const std::string& folder, const std::string& checkpoint, bool quiet) {
+  using namespace edmill;
+  if (!checkpoint.empty()) app::parse_checkpoint_interval(checkpoint);
+  return with_signal(app::run_resume(checkpoint, run_options(folder, quiet)));
+}
+
 int run(const std::string& case_file, const std::string& folder, const std::string& precision,
-        const std::string& shadow, const std::vector<std::string>& overrides, bool quiet) {
+        const std::string& shadow, const std::string& checkpoint, const std::vector<std::string>& overrides,
+        bool quiet) {
   using namespace edmill;
   const auto spec = casefile::read_case(case_file, overrides);
   const auto& scalar = precision.empty() ? spec.precision : precision;
   if (!shadow.empty()) app::check_shadow(scalar, shadow);
-  app::RunOptions options;
-  options.folder = folder.empty() ? "out/" + std::filesystem::path(case_file).stem().string() : folder;
-  options.quiet = quiet;
-  options.interrupt = &interrupted;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  auto options =
+      run_options(folder.empty() ? "out/" + std::filesystem::path(case_file).stem().string() : folder, quiet);
+  if (!checkpoint.empty()) {
+    app::parse_checkpoint_interval(checkpoint);
+    options.checkpoint = app::first_checkpoint(spec, overrides, scalar, checkpoint);
+  }
   int code = app::run_case(scalar, spec, options);
-  if (code == app::ok && !shadow.empty() && !received_signal)
+  if (code == app::ok && !shadow.empty()) {
     code = app::run_shadow(spec, scalar, shadow, &interrupted);
-  return received_signal && code == app::ok ? 128 + received_signal : code;
+    if (received_signal) code = app::interrupted;
+  }
+  return with_signal(code);
 }
 
 int certify(const std::string& case_file, const std::vector<std::string>& overrides,
@@ -110,7 +135,7 @@ int main(int argc, char** argv) {
       "too few "
       "data to say,\n"
       "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
-  std::string case_file, folder, precision, shadow;
+  std::string case_file, folder, precision, shadow, checkpoint;
   std::vector<std::string> overrides;
   bool quiet = false;
 
@@ -124,8 +149,18 @@ int main(int argc, char** argv) {
       ->expected(1);
   run_command->add_flag("--quiet", quiet, "no progress line and no result table");
 
-  run_command->add_option("--shadow", shadow, "run beside it in this wider scalar and tell when the two part")
-      ->check(CLI::IsMember(edmill::casefile::precisions()));
+  auto* shadow_option =
+      run_command
+          ->add_option("--shadow", shadow, "run beside it in this wider scalar and tell when the two part")
+          ->check(CLI::IsMember(edmill::casefile::precisions()));
+  const std::string every = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
+  run_command->add_option("--checkpoint", checkpoint, every + "; never unless given")
+      ->excludes(shadow_option);
+
+  auto* resume_command = app.add_subcommand("resume", "go on with an unfinished run from its checkpoint");
+  resume_command->add_option("folder", folder, "folder of the run")->required();
+  resume_command->add_option("--checkpoint", checkpoint, every + "; as before unless given");
+  resume_command->add_flag("--quiet", quiet, "no progress line and no result table");
 
   edmill::app::CertifyOptions certification;
   auto* certify_command =
@@ -218,7 +253,8 @@ int main(int argc, char** argv) {
     return edmill::app::bad_input;
   }
   try {
-    if (*run_command) return run(case_file, folder, precision, shadow, overrides, quiet);
+    if (*run_command) return run(case_file, folder, precision, shadow, checkpoint, overrides, quiet);
+    if (*resume_command) return resume(folder, checkpoint, quiet);
     if (*certify_command) return certify(case_file, overrides, certification);
     if (*sweep_command) return run_study(edmill::app::run_sweep, study);
     if (*optimize_command) return run_study(edmill::app::run_optimize, study);
@@ -233,6 +269,9 @@ int main(int argc, char** argv) {
   } catch (const edmill::InputError& error) {
     for (const auto& problem : error.problems()) print_problem(problem);
     return edmill::app::bad_input;
+  } catch (const edmill::InterruptedError& error) {
+    print_problem(error.what());
+    return 128 + received_signal;
   } catch (const std::exception& error) {
     print_problem(error.what());
     return edmill::app::internal_error;

@@ -338,7 +338,10 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
   CaseSpec spec;
   spec.file = name;
   spec.text = text;
-  for (const auto& setting : overrides) spec.text += "\n# --set " + setting;
+  for (const auto& setting : overrides) {
+    spec.text += "\n# --set ";
+    for (const char c : setting) spec.text += c == '\n' ? std::string("\n# ") : std::string(1, c);
+  }
   Section top(document, &root, "");
   read_run(top.section("run"), spec);
   read_mill(top.section("mill"), spec);

@@ -291,8 +291,9 @@ void read_place(Section& s, const CaseSpec& spec, const Kind& kind, OutputSpec& 
     const bool inside = f.front() != '/' && ("/" + f + "/").find("/../") == std::string::npos;
     s.require(inside, "folder", "a folder inside the run's folder");
   }
-  s.require(!output.folder.empty() || (output.file != "summary.json" && output.file != "final_state.csv"),
-            "file", "a plain file name other than summary.json and final_state.csv");
+  for (const auto* taken : {"summary.json", "final_state.csv", "checkpoint"})
+    s.require(!output.folder.empty() || output.file != taken, "file",
+              "a plain file name other than summary.json, final_state.csv and checkpoint");
   const bool table = std::string_view(kind.extension) == ".csv";
   if (table) {
     output.append = s.flag("append");

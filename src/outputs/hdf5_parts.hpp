@@ -53,7 +53,10 @@ inline hid_t make_set(hid_t group, const std::string& name, hid_t type, std::siz
     hdf5_check(H5Pset_deflate(creation, 1));
   }
   const Handle space(H5Screate_simple(rank, size, largest), H5Sclose);
-  return H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+  // Nothing is held back: a chunk is in the file when it is written.
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  hdf5_check(H5Pset_chunk_cache(access, 0, 0, 1));
+  return H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, creation, access);
 }
 
 inline void append(hid_t set, hid_t memory_type, std::size_t width, hsize_t before, hsize_t rows,

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "edmill/casefile/case_spec.hpp"
+#include "edmill/record/checkpoint_file.hpp"
 
 namespace edmill::app {
 
@@ -18,15 +21,21 @@ enum ExitCode : int {
   some_runs_failed = 5,
   outputs_differ = 6,
   too_few_data = 7,
+  interrupted = 128,  ///< and the signal's number, which the caller knows
 };
 
 struct RunOptions {
   std::string folder;  ///< of the outputs
   bool quiet = false;
   const std::atomic<bool>* interrupt = nullptr;
+  /// Called when there begins to be something to keep; before that a signal may end the program at once.
+  std::function<void()> listen = [] {};
+  /// What a checkpoint says besides the state, when the run leaves any; with a state, it goes on from there.
+  std::optional<record::Checkpoint> checkpoint;
 };
 
-/// @return an exit code; `ok` for an interrupted run too, whose signal the caller knows
+/// @return an exit code
+/// @throws InterruptedError when the interrupt comes before the first event
 template <class Real>
 int run_case(const casefile::CaseSpec& spec, const RunOptions& options);
 

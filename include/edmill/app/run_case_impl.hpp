@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "edmill/app/run_case.hpp"
+#include "edmill/app/run_folder.hpp"
 #include "edmill/driver/simulate.hpp"
 #include "edmill/observe/progress.hpp"
 #include "edmill/outputs/output.hpp"
@@ -16,39 +17,45 @@ namespace edmill::app {
 
 template <class Real>
 int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
-  const std::filesystem::path folder(options.folder);
   const auto built = setup::build_case<Real>(spec);
-  record::prepare_folder(folder);
+  RunFolder folder(spec, options);
   const DriveClock<Real> clock(built.the_case.mill.motion.period);
-  outputs::Outputs<Real> outputs(spec, folder, clock.seconds(built.start));
+  options.listen();
+  outputs::Outputs<Real> outputs(spec, folder.place(), clock.seconds(built.start));
 
   driver::Guests<Real> guests;
   guests.interrupt = options.interrupt;
-  if (!outputs.empty()) guests.observers.push_back(&outputs);
+  guests.checkpoints = folder.checkpoints();
+  if (!spec.outputs.empty()) guests.observers.push_back(&outputs);
   std::unique_ptr<observe::Progress<Real>> progress;
   if (!options.quiet && ::isatty(STDERR_FILENO)) {
     std::optional<double> end;
     if (spec.end_time) end = spec.end_time->template to<double>();
-    progress =
-        std::make_unique<observe::Progress<Real>>(static_cast<double>(clock.seconds(built.start)), end);
+    progress = std::make_unique<observe::Progress<Real>>(end);
     guests.observers.push_back(progress.get());
   }
   const auto [summary, saved] = driver::simulate<Real>(spec, built, guests);
   progress.reset();
 
-  outputs.commit();
-  record::AtomicFile state_file(folder / "final_state.csv");
+  const bool goes_on = options.checkpoint && summary.end_reason == "interrupted";
+  outputs.commit(goes_on);
+  record::AtomicFile state_file(folder.place() / "final_state.csv");
   record::write_final_state<Real>(state_file.stream(), saved, clock);
   state_file.commit();
-  record::AtomicFile summary_file(folder / "summary.json");
+  record::AtomicFile summary_file(folder.place() / "summary.json");
   summary_file.stream() << record::summary_json(summary);
   summary_file.commit();
+  if (!goes_on) folder.remove_checkpoint();
 
-  if (!options.quiet) fmt::print("{}\nResults are in {}\n", report::result_table(summary), folder.string());
+  if (!options.quiet) {
+    fmt::print("{}\nResults are in {}\n", report::result_table(summary), options.folder);
+    if (goes_on) fmt::print("Go on with: edmill resume {}\n", options.folder);
+  }
   if (!summary.error.empty()) {
     fmt::print(stderr, "edmill: {}\n", summary.error);
     return undecided;
   }
+  if (summary.end_reason == "interrupted") return interrupted;
   return summary.end_reason == "inelastic_collapse" ? inelastic_collapse : ok;
 }
 

@@ -32,6 +32,12 @@ class UndecidedError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The user ended the program before there was anything to keep.
+class InterruptedError : public std::runtime_error {
+ public:
+  InterruptedError() : std::runtime_error("interrupted before the first event; there are no results") {}
+};
+
 /// A broken precondition inside the program.
 class ContractError : public std::logic_error {
  public:

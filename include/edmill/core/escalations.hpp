@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "edmill/core/archive.hpp"
+
 namespace edmill {
 
 /// Decisions that were passed up to one wider scalar.
@@ -12,6 +14,8 @@ struct Escalations {
   std::uint64_t wall = 0;
   std::uint64_t pair = 0;
   std::uint64_t order = 0;  ///< which of two contacts of one ball comes first
+
+  void archive(Archive& a) { a(scalar, wall, pair, order); }
 };
 
 }  // namespace edmill

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "edmill/core/archive.hpp"
+
 namespace edmill {
 
 /// An instant on the simulation clock: `period` whole drive periods and `offset` [s] in [0, period).
@@ -11,6 +13,8 @@ template <class Real>
 struct Instant {
   std::int64_t period = 0;
   Real offset{0};
+
+  void archive(Archive& a) { a(period, offset); }
 
   friend bool operator<(const Instant& a, const Instant& b) {
     return a.period != b.period ? a.period < b.period : a.offset < b.offset;

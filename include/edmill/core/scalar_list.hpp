@@ -6,6 +6,7 @@
 //
 #include <boost/multiprecision/eigen.hpp>
 
+#include "edmill/core/archive.hpp"
 #include "edmill/core/scalar.hpp"
 
 namespace edmill {
@@ -36,6 +37,17 @@ template <>
 struct ScalarName<mpfr200> {
   static constexpr std::string_view value = "mpfr200";
 };
+
+inline void archive_value(Archive& a, float128& value) {
+  a.raw(&value.backend().value(), sizeof value.backend().value());
+}
+/// All limbs, so that no bit depends on a conversion.
+template <unsigned digits>
+void archive_value(Archive& a, mpfr_of<digits>& value) {
+  const auto number = value.backend().data();
+  a(number->_mpfr_sign, number->_mpfr_exp);
+  a.raw(number->_mpfr_d, mpfr_custom_get_size(mpfr_get_prec(number)));
+}
 
 template <>
 struct WiderScalar<double> {

@@ -2,20 +2,35 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "edmill/core/instant.hpp"
 #include "edmill/engine/observer.hpp"
+#include "edmill/observe/checkpoint_watch.hpp"
 #include "edmill/record/final_state.hpp"
 #include "edmill/record/summary.hpp"
 #include "edmill/setup/build_case.hpp"
 
 namespace edmill::driver {
 
+/// States of a run from which it can go on.
+struct Checkpoints {
+  std::optional<observe::CheckpointInterval> every;
+  /// Takes a state of the run: each time that one is due, and when the run is interrupted.
+  std::function<void(const std::string& state)> save;
+  /// The state to go on from; empty at the start of a run. It must be of the same case and program.
+  std::string_view restored;
+};
+
 template <class Real>
 struct Guests {
   std::vector<engine::Observer<Real>*> observers;  ///< told of every impact, in this order
   const std::atomic<bool>* interrupt = nullptr;    ///< ends the run when it becomes true
+  Checkpoints checkpoints{};                       ///< they hold the observers too
 };
 
 template <class Real>
@@ -26,6 +41,7 @@ struct Result {
 
 /// Runs `built` to the end that `spec` asks for. A decision that no scalar could make is told in the summary.
 /// @pre `built` was made of `spec`
+/// @throws InterruptedError when the interrupt comes before the first event
 template <class Real>
 Result<Real> simulate(const casefile::CaseSpec& spec, const setup::InitialCase<Real>& built,
                       const Guests<Real>& guests);

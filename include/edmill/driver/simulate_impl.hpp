@@ -1,13 +1,9 @@
 // Implementation of simulate; included by the instantiation files only.
 #pragma once
 
-#include <ctime>
-
 #include "edmill/core/errors.hpp"
 #include "edmill/core/version.hpp"
-#include "edmill/driver/simulate.hpp"
-#include "edmill/observe/run_statistics.hpp"
-#include "edmill/observe/stop_rules.hpp"
+#include "edmill/driver/course_impl.hpp"
 
 namespace edmill::driver {
 
@@ -25,44 +21,10 @@ inline std::string end_reason_name(engine::EndReason reason) {
       return "inelastic_collapse";
     case engine::EndReason::interrupted:
       return "interrupted";
+    case engine::EndReason::paused:
+      break;  // the course goes on
   }
   return "?";
-}
-
-/// Of this thread: several runs can share a process.
-inline double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-/// Runs up to the start of statistics, then with them to the end.
-template <class Real>
-void run_both_parts(const setup::InitialCase<Real>& built, const std::atomic<bool>* interrupt,
-                    engine::Simulation<Real>& simulation, observe::RunStatistics<Real>& statistics,
-                    record::Summary<Real>& summary) {
-  const auto& clock = simulation.clock();
-  const auto& end_time = built.the_case.stop.end_time;
-  const auto end = end_time ? clock.at(*end_time) : Instant<Real>::never();
-  auto start = clock.at(built.the_case.statistics_start);
-  if (start < built.start) start = built.start;
-  EDMILL_REQUIRE(start <= end || !end_time, "statistics start before the end");
-  try {
-    auto reason = start > built.start ? simulation.run_until(start, interrupt) : engine::EndReason::end_time;
-    if (reason == engine::EndReason::end_time) {
-      summary.start_time = clock.seconds(start);
-      summary.energy_at_start = simulation.energy_at(start);
-      simulation.attach(statistics);
-      reason = simulation.run_until(end, interrupt);
-    } else {
-      summary.start_time = simulation.seconds();
-      summary.energy_at_start = simulation.energy_at(simulation.now());
-    }
-    summary.end_reason = end_reason_name(reason);
-  } catch (const UndecidedError& error) {
-    summary.end_reason = "undecided";
-    summary.error = error.what();
-  }
 }
 
 template <class Real>
@@ -91,19 +53,21 @@ void note_totals(const engine::Simulation<Real>& simulation, const observe::RunS
 template <class Real>
 Result<Real> simulate(const casefile::CaseSpec& spec, const setup::InitialCase<Real>& built,
                       const Guests<Real>& guests) {
-  const double cpu_start = cpu_seconds();
-  engine::Simulation<Real> simulation(built.the_case, built.states, built.start);
-  observe::StopRuleWatch<Real> stop_rules(built.the_case.stop);
-  observe::RunStatistics<Real> statistics;
-  simulation.attach(stop_rules);
-  for (auto* observer : guests.observers) simulation.attach(*observer);
-
+  Course<Real> course(built, guests);
   Result<Real> result;
   auto& summary = result.summary;
-  run_both_parts(built, guests.interrupt, simulation, statistics, summary);
+  try {
+    summary.end_reason = end_reason_name(course.go());
+  } catch (const UndecidedError& error) {
+    summary.end_reason = "undecided";
+    summary.error = error.what();
+  }
+  const auto& simulation = course.simulation();
   for (auto* observer : guests.observers) observer->on_end(simulation);
-  summary.cpu_seconds = cpu_seconds() - cpu_start;
-  note_totals(simulation, statistics, summary);
+  summary.cpu_seconds = course.cpu_spent();
+  summary.start_time = course.counted_from();
+  summary.energy_at_start = course.energy_at_start();
+  note_totals(simulation, course.statistics(), summary);
   if (spec.powder_mass) summary.powder_mass = spec.powder_mass->template to<Real>();
   Real ball_mass{0};
   for (const auto& ball : built.the_case.balls) ball_mass += ball.mass;

@@ -73,6 +73,9 @@ class DecisionLadder {
   /// One entry for each wider scalar, narrowest first.
   std::vector<Escalations> escalations() const;
 
+  /// What it has counted. The rest follows from the mill and the top speed, which is the owner's.
+  void archive(Archive& a);
+
  private:
   WallAnswer<Real> wall_above(const WallQuery<Real>& query);
   PairAnswer<Real> pair_above(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,

@@ -62,6 +62,14 @@ void DecisionLadder<Real>::raise_top_speed(const Real& speed) {
 }
 
 template <class Real>
+void DecisionLadder<Real>::archive(Archive& a) {
+  bool needed_above = above_ != nullptr;
+  a(passed_up_, needed_above);
+  if constexpr (!std::is_void_v<Wider<Real>>)
+    if (needed_above) a(above().ladder);
+}
+
+template <class Real>
 WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) {
   if constexpr (std::is_void_v<Wider<Real>>) {
     throw UndecidedError("ball-wall contact undecided in the widest scalar: ball of radius " +

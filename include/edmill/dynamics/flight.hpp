@@ -15,6 +15,8 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Flight {
   Vec3<Real> position;  ///< at `start` [m]
   Vec3<Real> velocity;  ///< at `start` [m/s]
   Instant<Real> start;
+
+  void archive(Archive& a) { a(position, velocity, start); }
 };
 
 template <class Real>

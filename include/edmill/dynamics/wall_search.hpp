@@ -15,7 +15,9 @@ namespace edmill::dynamics {
 
 enum class Verdict { none, contact, undecided };
 
-struct NoPose {};
+struct NoPose {
+  void archive(Archive&) {}
+};
 
 /// The vessel's pose at a contact goes with the contact in wide scalars, whose sines are dear.
 template <class Real>

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "edmill/core/archive.hpp"
 #include "edmill/core/errors.hpp"
 #include "edmill/core/vector.hpp"
 
@@ -98,6 +99,19 @@ class CellGrid {
     collect(low, high, found);
   }
 
+  /// Which balls are where, and their order in each cell: it is that of the searches.
+  void archive(Archive& a) {
+    std::vector<std::pair<std::size_t, std::vector<int>>> overflow(overflow_.begin(), overflow_.end());
+    std::vector<std::pair<std::size_t, Cell>> occupied;  // most are empty
+    for (std::size_t at = 0; at < content_.size(); ++at)
+      if (content_[at].count > 0) occupied.emplace_back(at, content_[at]);
+    a(occupied, overflow, place_);
+    if (!a.loading()) return;
+    overflow_ = {overflow.begin(), overflow.end()};
+    std::fill(content_.begin(), content_.end(), Cell());
+    for (const auto& [at, cell] : occupied) content_.at(at) = cell;
+  }
+
  private:
   using Place = std::array<int, 3>;
 
@@ -152,6 +166,8 @@ class CellGrid {
     static constexpr int inside = 3;
     std::array<int, inside> balls{};
     int count = 0;  ///< of those inside; `crowded` is added when there are more
+
+    void archive(Archive& a) { a(balls, count); }
   };
   static constexpr int crowded = 4;
 

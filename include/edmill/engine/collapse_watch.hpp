@@ -63,6 +63,8 @@ class CollapseWatch {
     return r.extrapolated ? r.accumulation : clock.seconds(r.last);
   }
 
+  void archive(Archive& a) { a(records_); }
+
  private:
   static constexpr int enough = 8;
   struct Record {
@@ -73,6 +75,8 @@ class CollapseWatch {
     int rest;
     bool extrapolated;
     Real accumulation;
+
+    void archive(Archive& a) { a(last, partner, burst, stuck, rest, extrapolated, accumulation); }
   };
   Real smallest_path_, resting_path_;
   std::vector<Record> records_;

@@ -37,6 +37,8 @@ class Observer {
   virtual void on_impact(const Impact<Real>& impact, Simulation<Real>& simulation) = 0;
   /// At the end of the run, whatever ended it.
   virtual void on_end(const Simulation<Real>&) {}
+  /// What it has gathered, for a checkpoint.
+  virtual void archive(Archive&) {}
 };
 
 }  // namespace edmill::engine

@@ -26,6 +26,7 @@ enum class EndReason {
   max_ball_speed,
   inelastic_collapse,
   interrupted,
+  paused,  ///< an observer wants to look at it between two events
 };
 
 /// What the engine counts about itself.
@@ -37,6 +38,10 @@ struct EngineCounts {
   std::uint64_t wall_searches = 0;
   std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could tell apart
   Real deepest_overlap{0};                  ///< by rounding, at any impact [m]
+
+  void archive(Archive& a) {
+    a(impacts, stale_events, cell_crossings, wall_searches, simultaneous_contacts, deepest_overlap);
+  }
 };
 
 /// A run of one case. Balls are advanced only when they collide; every predicted contact is certified.
@@ -45,8 +50,9 @@ class Simulation {
  public:
   /// @param states  of the case's balls, in order, at `start`
   /// @pre no two balls overlap and all are inside the vessel, up to rounding
+  /// @throws InterruptedError when `interrupt` becomes true meanwhile
   Simulation(const model::Case<Real>& the_case, const std::vector<model::BallState<Real>>& states,
-             const Instant<Real>& start);
+             const Instant<Real>& start, const std::atomic<bool>* interrupt = nullptr);
 
   /// Observers are told of every impact, in the order of attachment; they must outlive the run.
   void attach(Observer<Real>& observer) { observers_.push_back(&observer); }
@@ -57,6 +63,15 @@ class Simulation {
 
   /// Asks the loop to return after the present impact.
   void request_stop(EndReason reason) { stop_ = reason; }
+  /// The same, for nothing more than a pause: any other reason goes before.
+  void request_pause() {
+    if (!stop_) stop_ = EndReason::paused;
+  }
+
+  /// Everything that changes in a run, so that another simulation of the same case goes on with the same
+  /// bits.
+  /// @pre no event is being processed
+  void archive(Archive& a);
 
   const Instant<Real>& now() const { return now_; }
   Real seconds() const { return clock_.seconds(now_); }
@@ -78,6 +93,8 @@ class Simulation {
     Instant<Real> time;
     int partner = -1;
     std::uint32_t partner_impacts = 0;
+
+    void archive(Archive& a) { a(time, partner, partner_impacts); }
   };
   /// What a ball expects. Its pair contacts are those that it predicted itself, nearest first; for a pair
   /// that both predicted, the later prediction is the valid one.
@@ -91,6 +108,11 @@ class Simulation {
     std::int8_t pair_count = 0;
     std::int8_t wall = -1;  ///< a wall id, or -1 when `wall_time` only ends what has been searched
     std::int8_t crossing_axis = 0, crossing_step = 0;
+
+    void archive(Archive& a) {
+      a(wall_time, wall_pose, crossing_time, pairs, forgotten_from, pair_count, wall, crossing_axis,
+        crossing_step);
+    }
   };
   enum class EventKind { wall_contact, pair_contact, cell_crossing, wall_recheck };
   struct Event {

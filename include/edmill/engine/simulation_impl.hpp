@@ -69,7 +69,8 @@ CellGrid make_grid(const model::Mill<Real>& mill, const std::vector<model::BallP
 
 template <class Real>
 Simulation<Real>::Simulation(const model::Case<Real>& the_case,
-                             const std::vector<model::BallState<Real>>& states, const Instant<Real>& start)
+                             const std::vector<model::BallState<Real>>& states, const Instant<Real>& start,
+                             const std::atomic<bool>* interrupt)
     : mill_(the_case.mill),
       clock_(the_case.mill.motion.period),
       balls_(the_case.balls),
@@ -105,7 +106,22 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
   for (int i = 0; i < ball_count(); ++i) flight_changed(i);
   const auto pose = model::pose_at<Real>(mill_.motion, start.offset);
   for (int i = 0; i < ball_count(); ++i) {
+    if (interrupt && interrupt->load(std::memory_order_relaxed)) throw InterruptedError();
     predict_all(i, -1, pose);
+  }
+}
+
+template <class Real>
+void Simulation<Real>::archive(Archive& a) {
+  const auto balls = flights_.size();
+  a(flights_, spins_, agendas_, impacts_, ladder_, grid_, collapse_watch_, counts_, now_, top_speed_);
+  if (!a.loading()) return;
+  EDMILL_REQUIRE(flights_.size() == balls && agendas_.size() == balls, "a saved state of the same case");
+  ladder_.raise_top_speed(top_speed_);
+  pair_filter_.raise_top_speed(static_cast<double>(top_speed_));
+  for (int i = 0; i < ball_count(); ++i) {
+    flight_changed(i);
+    requeue(i);  // equal times go to the lower ball, whatever the queue's history
   }
 }
 

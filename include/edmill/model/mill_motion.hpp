@@ -2,6 +2,7 @@
 // Source: Barahona 2011, section 2.2.2 and (2.2)-(2.16), as corrected in docs/theory.md, section 1.
 #pragma once
 
+#include "edmill/core/archive.hpp"
 #include "edmill/core/vector.hpp"
 #include "edmill/numerics/trigonometry.hpp"
 
@@ -26,6 +27,11 @@ struct VesselPose {
   Real sin_gamma, cos_gamma;
   Real theta_rate, gamma_rate;                  ///< [rad/s]
   Real theta_acceleration, gamma_acceleration;  ///< [rad/s^2]
+
+  void archive(Archive& a) {
+    a(sin_alpha, cos_alpha, sin_gamma, cos_gamma, theta_rate, gamma_rate, theta_acceleration,
+      gamma_acceleration);
+  }
 };
 
 /// Pose at `offset` [s] from the start of any drive period. (2.2), (2.5)

@@ -1,6 +1,8 @@
 // A sum that does not lose small terms (Neumaier 1974).
 #pragma once
 
+#include "edmill/core/archive.hpp"
+
 namespace edmill::numerics {
 
 template <class Real>
@@ -14,6 +16,7 @@ class CompensatedSum {
     return *this;
   }
   Real value() const { return sum_ + lost_; }
+  void archive(Archive& a) { a(sum_, lost_); }
 
  private:
   Real sum_{0}, lost_{0};

@@ -20,6 +20,8 @@ class RunStatistics : public engine::Observer<Real> {
     numerics::CompensatedSum<Real> milling_dose;
     numerics::CompensatedSum<Real> collapsing_dose;
     numerics::CompensatedSum<Real> wall_work;
+
+    void archive(Archive& a) { a(collisions, collapsing, resting, milling_dose, collapsing_dose, wall_work); }
   };
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>&) override {
@@ -33,6 +35,8 @@ class RunStatistics : public engine::Observer<Real> {
       t.collapsing_dose += impact.outcome.milling_dose;
     }
   }
+
+  void archive(Archive& a) override { a(totals_); }
 
   const std::array<Totals, model::partner_kinds>& by_partner() const { return totals_; }
 

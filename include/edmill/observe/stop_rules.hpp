@@ -28,6 +28,7 @@ class StopRuleWatch : public engine::Observer<Real> {
         simulation.request_stop(EndReason::max_ball_speed);
     }
   }
+  void archive(Archive& a) override { a(dose_); }
 
  private:
   model::StopRules<Real> rules_;

@@ -30,6 +30,8 @@ class Accumulator {
 
   Real sum() const { return sum_.value(); }
 
+  void archive(Archive& a) { a(count_, sum_, least_, largest_); }
+
   /// The statistic as text; empty where nothing defines it, such as the average of nothing.
   /// @param duration  that the sum is spread over [s]
   /// @param whole     that the sum is a share of

@@ -43,6 +43,7 @@ struct PartnerTally {
       energy[k] += other.energy[k].value();
     }
   }
+  void archive(Archive& a) { a(impacts, energy); }
 };
 
 /// ",value" of each partner and of their total.

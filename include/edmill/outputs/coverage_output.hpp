@@ -19,6 +19,8 @@ class CoverageOutput : public TableOutput<Real> {
         cells_((2 * rings_ + heights_) * sectors_.count()) {}
 
  protected:
+  void archive_record(Archive& a) override { a(cells_); }
+
   void record(const Seen<Real>& seen) override {
     const auto& f = seen.facts;
     if (f.ball_ball) return;
@@ -57,6 +59,7 @@ class CoverageOutput : public TableOutput<Real> {
   struct Cell {
     std::uint64_t impacts = 0;
     Real dose{0};  ///< [J]
+    void archive(Archive& a) { a(impacts, dose); }
   };
 
   /// Which of `count` equal parts of [0, 1] holds a value; rounding may have put it outside.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "edmill/core/archive.hpp"
 #include "edmill/outputs/file_note.hpp"
 
 namespace edmill::outputs {
@@ -39,6 +40,12 @@ class EventFile {
 
   /// @throws std::runtime_error when anything was not written; the old file is then still there
   void commit();
+
+  /// How far it is written, for a checkpoint; the temporary file is then no longer removed without `commit`.
+  /// HDF5 cannot open a file whose writer was killed. But a block never changes once it is written, so
+  /// loading makes the file anew from the blocks, which stand where the checkpoint says.
+  /// @throws InputError when they are not there
+  void archive(Archive& a);
 
  private:
   struct Data;

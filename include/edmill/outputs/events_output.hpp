@@ -50,6 +50,7 @@ class EventsOutput : public Output<Real> {
   void commit() override { file_.commit(); }
 
  protected:
+  void archive_record(Archive& a) override { a(file_); }
   void record(const Seen<Real>& seen) override {
     const auto& f = seen.facts;
     const auto& o = seen.impact.outcome;

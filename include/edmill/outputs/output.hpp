@@ -55,7 +55,8 @@ Vec3<Real> own_contact_point(const Seen<Real>& seen, const model::VesselPose<Rea
 template <class Real>
 class Output {
  public:
-  Output(const casefile::OutputSpec& spec, const RunFacts<Real>& run) : timer_(spec.timer, run.start) {
+  Output(const casefile::OutputSpec& spec, const RunFacts<Real>& run)
+      : timer_(spec.timer, run.start), appends_(spec.append) {
     for (const auto& r : spec.only) only_.push_back({variable_formula<Real>(r.variable), Real(r.value)});
   }
   virtual ~Output() = default;
@@ -76,8 +77,17 @@ class Output {
   }
   /// Puts what was written in place.
   virtual void commit() = 0;
+  /// Its state and how far its files are written, for a checkpoint.
+  virtual void archive(Archive& a) {
+    a(timer_);
+    archive_record(a);
+  }
+  /// Whether its rows go behind those of other runs.
+  bool appends() const { return appends_; }
 
  protected:
+  /// What it has gathered and not yet written; what follows from the case is not part of it.
+  virtual void archive_record(Archive& a) = 0;
   /// An impact of the record.
   virtual void record(const Seen<Real>& seen) = 0;
   /// Any impact, before it is recorded: for rows that are due since the one before.
@@ -92,6 +102,7 @@ class Output {
     Real value;
   };
   OutputTimer<Real> timer_;
+  bool appends_;
   std::vector<Restriction> only_;
 };
 
@@ -107,6 +118,13 @@ class TableOutput : public Output<Real> {
   void commit() override {
     if (notes_) file_.stream() << table_image(text_.str(), *notes_, meanings_);
     file_.commit();
+  }
+  void archive(Archive& a) override {
+    Output<Real>::archive(a);
+    a(file_);
+    std::string text = text_.str();
+    a(text);
+    if (a.loading()) text_.str({}), text_ << text;
   }
 
  protected:
@@ -135,11 +153,11 @@ class Outputs : public engine::Observer<Real> {
   Outputs(const casefile::CaseSpec& spec, const std::filesystem::path& folder, const Real& start);
   ~Outputs() override;
 
-  bool empty() const { return outputs_.empty(); }
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override;
   void on_end(const engine::Simulation<Real>& simulation) override;
-  /// Puts all files in place.
-  void commit();
+  void archive(Archive& a) override;
+  /// Puts all files in place. A run that goes on later adds its rows to files of other runs only then.
+  void commit(bool goes_on);
 
  private:
   std::vector<std::unique_ptr<Output<Real>>> outputs_;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "edmill/casefile/output_spec.hpp"
+#include "edmill/core/archive.hpp"
 
 namespace edmill::outputs {
 
@@ -58,6 +59,8 @@ class OutputTimer {
   /// Whether there is a record in a run that ends at `run_end`.
   bool recorded(const Real& run_end) const { return on_ && open_ && from_ <= run_end; }
 
+  void archive(Archive& a) { a(open_, ends_, closed_, recorded_, from_, until_); }
+
  private:
   void open(const Real& time) {
     open_ = true;
@@ -102,6 +105,8 @@ class IntervalClock {
     }
   }
   bool full() const { return rows_ && passed_ >= *rows_; }
+
+  void archive(Archive& a) { a(passed_); }
 
  private:
   Real interval_;

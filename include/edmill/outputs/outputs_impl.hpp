@@ -3,6 +3,7 @@
 
 #include "edmill/outputs/coverage_output.hpp"
 #include "edmill/outputs/events_output.hpp"
+#include "edmill/outputs/frames_outputs.hpp"
 #include "edmill/outputs/rates_above_output.hpp"
 #include "edmill/outputs/scene_outputs.hpp"
 #include "edmill/outputs/simple_outputs.hpp"
@@ -125,8 +126,15 @@ void Outputs<Real>::on_end(const engine::Simulation<Real>& simulation) {
 }
 
 template <class Real>
-void Outputs<Real>::commit() {
-  for (auto& output : outputs_) output->commit();
+void Outputs<Real>::archive(Archive& a) {
+  a(previous_);
+  for (auto& output : outputs_) a(*output);
+}
+
+template <class Real>
+void Outputs<Real>::commit(bool goes_on) {
+  for (auto& output : outputs_)
+    if (!goes_on || !output->appends()) output->commit();
 }
 
 }  // namespace edmill::outputs

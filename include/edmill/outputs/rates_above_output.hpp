@@ -18,6 +18,8 @@ class RatesAboveOutput : public TableOutput<Real> {
   }
 
  protected:
+  void archive_record(Archive& a) override { a(from_); }
+
   void record(const Seen<Real>& seen) override {
     const Real& approach = seen.impact.outcome.approach_speed;
     const Real speed = approach > 0 ? approach : Real(0);

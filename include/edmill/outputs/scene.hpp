@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "edmill/casefile/colour.hpp"
+#include "edmill/core/archive.hpp"
 #include "edmill/core/vector.hpp"
 
 namespace edmill::outputs {
@@ -14,14 +15,18 @@ namespace edmill::outputs {
 struct SceneBall {
   double radius;  ///< [m]
   casefile::Colour colour;
-  Vec3<double> position;  ///< inertial frame [m]
+  Vec3<double> position = Vec3<double>::Zero();  ///< inertial frame [m]
   Vec3<double> velocity = Vec3<double>::Zero(), spin = Vec3<double>::Zero();
   double milling_dose = 0;  ///< of the impacts that the ball had a part in [J]
+
+  void archive(Archive& a) { a(radius, colour, position, velocity, spin, milling_dose); }
 };
 
 /// The vessel's pose as angles of the nested motion, theta about Z and gamma about x'. [rad]
 struct SceneAngles {
   double theta, gamma;
+
+  void archive(Archive& a) { a(theta, gamma); }
 };
 
 struct Scene {
@@ -31,6 +36,10 @@ struct Scene {
   std::vector<SceneBall> balls;
   std::optional<SceneBall> contact;  ///< marks the contact point
   double time;                       ///< [s]
+
+  void archive(Archive& a) {
+    a(arm, vessel_radius, half_height, vessel_colour, angles, balls, contact, time);
+  }
 };
 
 /// What moves in an animation: keys are fractions of its duration, from 0 to 1.
@@ -40,6 +49,8 @@ struct SceneMotion {
   using Path = std::vector<std::pair<double, Vec3<double>>>;
   std::vector<Path> balls;  ///< of each ball
   Path contact;             ///< where the scene marks the contact point
+
+  void archive(Archive& a) { a(duration, vessel, balls, contact); }
 };
 
 /// A page of X3D 3.3, still or, with `motion`, moving and repeated for ever.

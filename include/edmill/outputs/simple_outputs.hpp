@@ -27,6 +27,7 @@ class CollisionsOutput : public TableOutput<Real> {
   }
 
  protected:
+  void archive_record(Archive&) override {}
   void record(const Seen<Real>& seen) override {
     this->out() << observe::collision_line<Real>(seen.impact, seen.simulation, states_) << '\n';
   }
@@ -49,6 +50,7 @@ class IterationsOutput : public TableOutput<Real> {
   }
 
  protected:
+  void archive_record(Archive&) override {}
   void record(const Seen<Real>& seen) override {
     std::string line;
     for (int k = 0; k < static_cast<int>(model::impact_variables.size()); ++k)
@@ -78,6 +80,7 @@ class TrendsInstantOutput : public TableOutput<Real> {
   }
 
  protected:
+  void archive_record(Archive& a) override { a(clock_, due_, rows_left_); }
   void record(const Seen<Real>& seen) override {
     if (!every_impact_) {
       clock_.pass(this->timer(), seen.facts.time, [&](const Real&, const Real&) { due_ = true; });
@@ -114,6 +117,7 @@ class MillingDoseOutput : public TableOutput<Real> {
       : TableOutput<Real>(spec, folder, run), fields_(spec.fields), powder_mass_(run.powder_mass) {}
 
  protected:
+  void archive_record(Archive& a) override { a(dose_); }
   void record(const Seen<Real>& seen) override { dose_ += seen.facts.milling_dose; }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {

@@ -18,6 +18,8 @@ class SpectraOutput : public TableOutput<Real> {
         spectra_(of_speed_ ? 2 : 3, Spectrum(edges_.size() + 1)) {}
 
  protected:
+  void archive_record(Archive& a) override { a(spectra_); }
+
   void record(const Seen<Real>& seen) override {
     const auto& f = seen.facts;
     const auto& o = seen.impact.outcome;

@@ -21,6 +21,9 @@ class StatisticsOutput : public TableOutput<Real> {
   }
 
  protected:
+  void archive_record(Archive& a) override {
+    for (auto& g : gathered_) a(g.by_partner);
+  }
   void record(const Seen<Real>& seen) override {
     const auto& f = seen.facts;
     for (auto& g : gathered_) g.by_partner[f.ball_ball ? model::ball_ball : f.partner].add(g.formula(f));
@@ -72,6 +75,7 @@ class FrequencyOutput : public TableOutput<Real> {
         counts_(spec.frequency.intervals + 2) {}
 
  protected:
+  void archive_record(Archive& a) override { a(counts_); }
   void record(const Seen<Real>& seen) override {
     const auto& f = seen.facts;
     ++counts_[row_of(formula_(f))][f.ball_ball ? model::ball_ball : f.partner];

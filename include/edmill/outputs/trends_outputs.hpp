@@ -30,6 +30,10 @@ class TrendsOutput : public TableOutput<Real> {
   }
 
  protected:
+  void archive_record(Archive& a) override {
+    a(clock_);
+    for (auto& g : gathered_) a(g.sums);
+  }
   void before(const Seen<Real>& seen) override {
     clock_.pass(this->timer(), seen.facts.time,
                 [&](const Real& begin, const Real& end) { write_row(begin, end); });
@@ -87,6 +91,7 @@ class TrendsBallsOutput : public TableOutput<Real> {
   }
 
  protected:
+  void archive_record(Archive& a) override { a(clock_); }
   void before(const Seen<Real>& seen) override {
     const BallsBefore<Real> balls(seen);
     clock_.pass(this->timer(), seen.facts.time, [&](const Real&, const Real& end) {
@@ -153,6 +158,7 @@ class TraceOutput : public TableOutput<Real> {
   }
 
  protected:
+  void archive_record(Archive& a) override { a(clock_); }
   void before(const Seen<Real>& seen) override {
     if (at_impacts_) return;
     const BallsBefore<Real> balls(seen);

@@ -34,6 +34,10 @@ class VesselLoadOutput : public TableOutput<Real> {
   }
 
  protected:
+  void archive_record(Archive& a) override {
+    a(clock_, impulse_, moment_, vessel_impulse_, vessel_moment_, work_);
+  }
+
   void before(const Seen<Real>& seen) override {
     clock_.pass(this->timer(), seen.facts.time,
                 [&](const Real& begin, const Real& end) { write_row(begin, end); });

@@ -25,6 +25,14 @@ class Hdf5Handle {
   herr_t (*close_)(hid_t);
 };
 
+/// To be called before anything else of HDF5: failures are told by exceptions, and a file that could not be
+/// written to a full disk is not closed once more at the program's end, which would crash.
+inline void hdf5_begin() {
+  static const herr_t once = H5dont_atexit();
+  static_cast<void>(once);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
 /// @throws std::runtime_error when a call has failed
 inline void hdf5_check(herr_t status) {
   if (status < 0) throw std::runtime_error("HDF5 could not write; the disk may be full");
@@ -33,6 +41,7 @@ inline void hdf5_check(herr_t status) {
 /// Bytes of a file that `fill(file)` writes: in memory, so that they go to disk as one atomic file.
 template <class Fill>
 std::string hdf5_image(Fill&& fill) {
+  hdf5_begin();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   hdf5_check(H5Pset_fapl_core(access, 1 << 16, false));
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);

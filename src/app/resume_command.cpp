@@ -1,0 +1,37 @@
+#include "edmill/app/resume_command.hpp"
+
+#include <filesystem>
+
+#include "edmill/app/dispatch.hpp"
+#include "edmill/core/errors.hpp"
+
+namespace edmill::app {
+
+record::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vector<std::string>& overrides,
+                                    const std::string& precision, const std::string& interval) {
+  record::Checkpoint c;
+  c.case_file = spec.file, c.case_text = spec.text, c.case_digest = spec.digest;
+  if (!spec.initial_state.empty()) c.initial_state = std::filesystem::absolute(spec.initial_state).string();
+  c.overrides = overrides;
+  c.precision = precision;
+  c.interval = interval;
+  return c;
+}
+
+int run_resume(const std::string& interval, RunOptions options) {
+  auto checkpoint = record::read_checkpoint(options.folder);
+  if (!interval.empty()) checkpoint.interval = interval;
+  auto overrides = checkpoint.overrides;
+  if (!checkpoint.initial_state.empty())
+    overrides.push_back("run.initial_state='" + checkpoint.initial_state + "'");
+  auto spec = casefile::parse_case(checkpoint.case_text, checkpoint.case_file, overrides);
+  spec.text = checkpoint.case_text;
+  if (spec.digest != checkpoint.case_digest)
+    throw InputError(options.folder + ": found another initial state in " + spec.initial_state +
+                     " than the run had, expected the file as it was");
+  const std::string precision = checkpoint.precision;
+  options.checkpoint = std::move(checkpoint);
+  return run_case(precision, spec, options);
+}
+
+}  // namespace edmill::app

@@ -1,0 +1,1 @@
+edmill_test(archive_test core/archive_test.cpp)
