@@ -12,9 +12,11 @@
 #include "edmill/app/compare_command.hpp"
 #include "edmill/app/dispatch.hpp"
 #include "edmill/app/list_variables.hpp"
+#include "edmill/app/report_command.hpp"
 #include "edmill/app/study_command.hpp"
 #include "edmill/core/errors.hpp"
 #include "edmill/core/version.hpp"
+#include "edmill/page/run_folder.hpp"
 
 namespace {
 
@@ -29,9 +31,10 @@ extern "C" void on_signal(int signal) {
 }
 
 int run(const std::string& case_file, const std::string& folder, const std::string& precision,
-        const std::string& shadow, const std::vector<std::string>& overrides, bool quiet) {
+        const std::string& shadow, const std::vector<std::string>& overrides, bool report, bool quiet) {
   using namespace edmill;
-  const auto spec = casefile::read_case(case_file, overrides);
+  auto spec = casefile::read_case(case_file, overrides);
+  if (report) page::add_report_outputs(spec);
   const auto& scalar = precision.empty() ? spec.precision : precision;
   if (!shadow.empty()) app::check_shadow(scalar, shadow);
   app::RunOptions options;
@@ -41,6 +44,8 @@ int run(const std::string& case_file, const std::string& folder, const std::stri
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   int code = app::run_case(scalar, spec, options);
+  page::write_case(options.folder, spec, report);
+  if (report) app::run_report(options.folder, quiet);
   if (code == app::ok && !shadow.empty() && !received_signal)
     code = app::run_shadow(spec, scalar, shadow, &interrupted);
   return received_signal && code == app::ok ? 128 + received_signal : code;
@@ -112,7 +117,7 @@ int main(int argc, char** argv) {
       "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
   std::string case_file, folder, precision, shadow;
   std::vector<std::string> overrides;
-  bool quiet = false;
+  bool quiet = false, report = false;
 
   auto* run_command = app.add_subcommand("run", "simulate a case and write its results");
   run_command->add_option("case", case_file, "case file (TOML)")->required();
@@ -126,6 +131,12 @@ int main(int argc, char** argv) {
 
   run_command->add_option("--shadow", shadow, "run beside it in this wider scalar and tell when the two part")
       ->check(CLI::IsMember(edmill::casefile::precisions()));
+
+  run_command->add_flag("--report", report, "write report.html, and the tables that it shows");
+
+  auto* report_command = app.add_subcommand("report", "make the HTML page of a run from its files");
+  report_command->add_option("folder", folder, "folder of the run")->required();
+  report_command->add_flag("--quiet", quiet, "do not tell where the page is");
 
   edmill::app::CertifyOptions certification;
   auto* certify_command =
@@ -218,7 +229,8 @@ int main(int argc, char** argv) {
     return edmill::app::bad_input;
   }
   try {
-    if (*run_command) return run(case_file, folder, precision, shadow, overrides, quiet);
+    if (*run_command) return run(case_file, folder, precision, shadow, overrides, report, quiet);
+    if (*report_command) return edmill::app::run_report(folder, quiet);
     if (*certify_command) return certify(case_file, overrides, certification);
     if (*sweep_command) return run_study(edmill::app::run_sweep, study);
     if (*optimize_command) return run_study(edmill::app::run_optimize, study);
