@@ -62,14 +62,6 @@ void read_timer(Section& s, TimerSpec& timer) {
   s.require(!timer.collisions || *timer.collisions > 0, "collisions", "at least 1");
 }
 
-void read_interval(Section& s, TimerSpec& timer, const std::optional<Quantity>& fallback = std::nullopt) {
-  timer.interval = s.quantity("interval", Dimension::time);
-  s.require(!timer.interval || timer.interval->positive(), "interval", "a positive time");
-  if (!timer.interval) timer.interval = fallback;
-  timer.max_rows = s.count("max_rows");
-  s.require(!timer.max_rows || *timer.max_rows > 0, "max_rows", "at least 1");
-}
-
 void read_restrictions(Section& s, std::vector<Restriction>& only) {
   Section table = s.section("only");
   for (const auto& key : table.keys()) {
@@ -175,11 +167,8 @@ void read_frequency(Section& s, OutputSpec& output) {
     else
       s.setting(key);  // of unknown dimension: nothing to check it against
   }
-  const auto size = [](const Quantity& q) {
-    return q.value.convert_to<double>() * std::pow(3.14159265358979, q.pi_power);
-  };
   if (variable && s.has("low") && s.has("high"))
-    s.require(size(f.high) > size(f.low), "high", "a value above low");
+    s.require(size_of(f.high) > size_of(f.low), "high", "a value above low");
   f.intervals = s.count("intervals").value_or(10);
   s.require(f.intervals > 0 && f.intervals <= 1000000, "intervals", "1 to 1000000");
   f.title = s.text("title").value_or("");
@@ -284,6 +273,10 @@ constexpr Kind kinds[] = {{"collisions", ".csv", read_collisions},
                           {"trace", ".csv", read_trace},
                           {"iterations", ".csv", read_iterations},
                           {"events", ".h5", read_collisions},
+                          {"spectra", ".csv", read_spectra},
+                          {"rates_above", ".csv", read_rates_above},
+                          {"vessel_load", ".csv", read_vessel_load},
+                          {"coverage", ".csv", read_coverage},
                           {"snapshot", ".x3d", read_snapshot},
                           {"animation", ".x3d", read_animation},
                           {"paraview", ".pvd", read_paraview}};
@@ -308,6 +301,18 @@ void read_place(Section& s, const CaseSpec& spec, const Kind& kind, OutputSpec& 
 }
 
 }  // namespace
+
+void read_interval(Section& s, TimerSpec& timer, const std::optional<Quantity>& fallback) {
+  timer.interval = s.quantity("interval", Dimension::time);
+  s.require(!timer.interval || timer.interval->positive(), "interval", "a positive time");
+  if (!timer.interval) timer.interval = fallback;
+  timer.max_rows = s.count("max_rows");
+  s.require(!timer.max_rows || *timer.max_rows > 0, "max_rows", "at least 1");
+}
+
+double size_of(const Quantity& quantity) {
+  return quantity.value.convert_to<double>() * std::pow(3.14159265358979, quantity.pi_power);
+}
 
 void read_output(Section s, CaseSpec& spec) {
   OutputSpec output;

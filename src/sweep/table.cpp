@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "edmill/record/csv_cell.hpp"
+
 namespace edmill::sweep {
 
 namespace {
@@ -14,11 +16,7 @@ std::string field(const Table::Column& column, std::size_t row) {
     return std::to_string((*integers)[row]);
   if (const auto* numbers = std::get_if<Table::Numbers>(&column.values))
     return std::isnan((*numbers)[row]) ? "" : fmt::format("{}", (*numbers)[row]);
-  const auto& text = std::get<Table::Texts>(column.values)[row];
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+  return record::csv_cell(std::get<Table::Texts>(column.values)[row]);
 }
 
 }  // namespace

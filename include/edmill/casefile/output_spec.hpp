@@ -46,6 +46,17 @@ struct FrequencySpec {
   bool wall_details = false, percentages = false, out_of_range = false;
 };
 
+struct SpectraSpec {
+  bool of_speed = false;  ///< of energy otherwise
+  Quantity low, high;     ///< [m/s] or [J]
+  std::uint64_t bins_per_decade = 10;
+};
+
+/// How the vessel's walls are cut into cells.
+struct CoverageSpec {
+  std::uint64_t angles = 36, heights = 24, rings = 6;
+};
+
 /// A sphere that marks the contact point in pictures.
 struct ContactPointSpec {
   Quantity radius{boost::multiprecision::cpp_rational(1, 1000)};
@@ -68,6 +79,9 @@ struct OutputSpec {
   std::vector<Restriction> only;
   std::vector<ColumnSpec> columns;
   FrequencySpec frequency;
+  SpectraSpec spectra;
+  std::vector<Quantity> cutoffs;  ///< rates_above, ascending
+  CoverageSpec coverage;
   std::vector<std::string> fields;                ///< milling_dose
   bool accumulated = false;                       ///< trends: since the start instead of for each interval
   std::uint64_t ball = 0;                         ///< trace

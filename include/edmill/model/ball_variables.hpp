@@ -1,4 +1,4 @@
-// The quantities of one ball at one instant that outputs can show (thesis D.4.7): one row each, defined here.
+// Names, units, meanings and values of the quantities of one ball; see ball_variables.def.
 #pragma once
 
 #include <array>
@@ -14,17 +14,11 @@ struct BallVariable {
   std::string_view name, thesis, unit, meaning;
 };
 
+#define EDMILL_BALL_VARIABLE(name, thesis, unit, meaning, formula) BallVariable{#name, thesis, unit, meaning},
 inline constexpr std::array ball_variables{
-    BallVariable{"density", "dDensity", "kg/m3", "density"},
-    BallVariable{"mass", "dMass", "kg", "mass"},
-    BallVariable{"reduced_inertia", "dReducedMOI", "1", "moment of inertia over mass and radius squared"},
-    BallVariable{"inertia", "dMOI", "kg m2", "moment of inertia"},
-    BallVariable{"speed", "dTransSpeed", "m/s", "speed"},
-    BallVariable{"spin", "dRotSpeed", "rad/s", "spin"},
-    BallVariable{"translational_energy", "dTransEnergy", "J", "kinetic energy of the centre's motion"},
-    BallVariable{"spin_energy", "dRotEnergy", "J", "kinetic energy of the spin"},
-    BallVariable{"energy", "dTotalEnergy", "J", "both"},
+#include "edmill/model/ball_variables.def"
 };
+#undef EDMILL_BALL_VARIABLE
 
 inline std::optional<int> find_ball_variable(std::string_view name) {
   for (int k = 0; k < static_cast<int>(ball_variables.size()); ++k)
@@ -32,33 +26,30 @@ inline std::optional<int> find_ball_variable(std::string_view name) {
   return std::nullopt;
 }
 
+/// One ball as the rows of ball_variables.def see it.
+template <class Real>
+struct BallFacts {
+  const BallProperties<Real>& ball;
+  const BallState<Real>& state;
+  const Real& pi;  ///< of the scalar
+
+  Real inertia() const { return ball.reduced_inertia * ball.mass * ball.radius * ball.radius; }
+  Real translational_energy() const { return ball.mass / 2 * squared_norm<Real>(state.velocity); }
+  Real spin_energy() const { return inertia() / 2 * squared_norm<Real>(state.spin); }
+};
+
 /// Value of a row of `ball_variables`.
 /// @param pi  of the scalar
 template <class Real>
 Real ball_variable(int row, const BallProperties<Real>& ball, const BallState<Real>& state, const Real& pi) {
-  const Real inertia = ball.reduced_inertia * ball.mass * ball.radius * ball.radius;
-  const auto translational = [&] { return Real(ball.mass / 2 * squared_norm<Real>(state.velocity)); };
-  const auto rotational = [&] { return Real(inertia / 2 * squared_norm<Real>(state.spin)); };
-  switch (row) {
-    case 0:
-      return ball.mass / (4 * pi / 3 * ball.radius * ball.radius * ball.radius);
-    case 1:
-      return ball.mass;
-    case 2:
-      return ball.reduced_inertia;
-    case 3:
-      return inertia;
-    case 4:
-      return norm<Real>(state.velocity);
-    case 5:
-      return norm<Real>(state.spin);
-    case 6:
-      return translational();
-    case 7:
-      return rotational();
-    default:
-      return translational() + rotational();
-  }
+  using Facts = BallFacts<Real>;
+#define EDMILL_BALL_VARIABLE(name, thesis, unit, meaning, formula) \
+  [](const Facts& b) -> Real { return Real(formula); },
+  static constexpr std::array<Real (*)(const Facts&), ball_variables.size()> formulas{
+#include "edmill/model/ball_variables.def"
+  };
+#undef EDMILL_BALL_VARIABLE
+  return formulas[static_cast<std::size_t>(row)]({ball, state, pi});
 }
 
 }  // namespace edmill::model

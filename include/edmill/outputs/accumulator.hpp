@@ -3,39 +3,12 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 
-#include "edmill/casefile/output_spec.hpp"
 #include "edmill/core/scalar.hpp"
 #include "edmill/numerics/compensated_sum.hpp"
+#include "edmill/outputs/titles.hpp"
 
 namespace edmill::outputs {
-
-using casefile::Statistic;
-
-inline const char* statistic_name(Statistic s) {
-  switch (s) {
-    case Statistic::sum:
-      return "sum";
-    case Statistic::average:
-      return "average";
-    case Statistic::minimum:
-      return "minimum";
-    case Statistic::maximum:
-      return "maximum";
-    case Statistic::rate:
-      return "rate";
-    case Statistic::percentage:
-      return "percentage";
-  }
-  return "?";
-}
-
-/// Unit of a statistic of a variable with that unit.
-inline std::string statistic_unit(Statistic s, std::string_view unit) {
-  if (s == Statistic::rate) return unit == "J" ? "W" : std::string(unit) + "/s";
-  return s == Statistic::percentage ? "%" : std::string(unit);
-}
 
 template <class Real>
 class Accumulator {

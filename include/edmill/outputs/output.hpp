@@ -34,6 +34,20 @@ struct Seen {
   const engine::Simulation<Real>& simulation;
 };
 
+/// The vessel at the impact.
+template <class Real>
+model::VesselPose<Real> pose_of(const Seen<Real>& seen) {
+  return model::pose_at<Real>(seen.simulation.mill().motion, seen.impact.time.offset);
+}
+/// The contact point in the vessel frame [m].
+template <class Real>
+Vec3<Real> own_contact_point(const Seen<Real>& seen, const model::VesselPose<Real>& pose) {
+  const Vec3<Real> at_rest = Vec3<Real>::Zero();
+  return model::to_vessel_frame<Real>(pose, seen.simulation.mill().motion.arm, seen.facts.contact_point,
+                                      at_rest)
+      .position;
+}
+
 /// A timer and restrictions. Types derive from it and say what they do with an impact.
 template <class Real>
 class Output {
@@ -89,6 +103,12 @@ class TableOutput : public Output<Real> {
 
  protected:
   std::ostream& out() { return file_.stream(); }
+  /// "# from 0.5 s to 10 s: 9.5 s", which rates are per; the line is the caller's to end.
+  void write_window(const Real& until) {
+    const Real &from = this->timer().from(), duration = until - from;
+    out() << "# from " << to_text<Real>(from) << " s to " << to_text<Real>(until)
+          << " s: " << to_text<Real>(duration) << " s";
+  }
 
  private:
   record::AtomicFile file_;

@@ -1,11 +1,15 @@
 // Implementation of Outputs; included by the instantiation files only.
 #pragma once
 
+#include "edmill/outputs/coverage_output.hpp"
 #include "edmill/outputs/events_output.hpp"
+#include "edmill/outputs/rates_above_output.hpp"
 #include "edmill/outputs/scene_outputs.hpp"
 #include "edmill/outputs/simple_outputs.hpp"
+#include "edmill/outputs/spectra_output.hpp"
 #include "edmill/outputs/statistics_outputs.hpp"
 #include "edmill/outputs/trends_outputs.hpp"
+#include "edmill/outputs/vessel_load_output.hpp"
 
 namespace edmill::outputs {
 
@@ -35,6 +39,10 @@ constexpr Maker<Real> makers[] = {{"collisions", make<Real, CollisionsOutput>},
                                   {"trace", make<Real, TraceOutput>},
                                   {"iterations", make<Real, IterationsOutput>},
                                   {"events", make<Real, EventsOutput>},
+                                  {"spectra", make<Real, SpectraOutput>},
+                                  {"rates_above", make<Real, RatesAboveOutput>},
+                                  {"vessel_load", make<Real, VesselLoadOutput>},
+                                  {"coverage", make<Real, CoverageOutput>},
                                   {"snapshot", make<Real, SnapshotOutput>},
                                   {"animation", make<Real, AnimationOutput>},
                                   {"paraview", make<Real, ParaviewOutput>}};

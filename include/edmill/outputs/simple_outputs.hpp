@@ -4,6 +4,7 @@
 #include "edmill/numerics/compensated_sum.hpp"
 #include "edmill/observe/collision_log.hpp"
 #include "edmill/outputs/output.hpp"
+#include "edmill/outputs/titles.hpp"
 
 namespace edmill::outputs {
 
@@ -70,8 +71,7 @@ class TrendsInstantOutput : public TableOutput<Real> {
     std::string line;
     for (const auto& c : columns_) {
       const auto& v = model::impact_variables[c.variable];
-      line += (line.empty() ? "" : ",") +
-              csv_cell(title_of(c.label.empty() ? std::string(v.name) : c.label, v.unit));
+      line += (line.empty() ? "" : ",") + csv_cell(title_of(name_of(c, v.name), v.unit));
     }
     this->out() << line << '\n';
   }

@@ -29,9 +29,8 @@ class StatisticsOutput : public TableOutput<Real> {
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
     const Real &from = this->timer().from(), duration = until - from;
     auto& out = this->out();
-    out << "# from " << to_text<Real>(from) << " s to " << to_text<Real>(until)
-        << " s: " << to_text<Real>(duration) << " s; " << simulation.ball_count() << " balls, "
-        << model::wall_count << " walls\n"
+    this->write_window(until);
+    out << "; " << simulation.ball_count() << " balls, " << model::wall_count << " walls\n"
         << "variable,statistic,unit,wall_0,wall_1,wall_2,walls,ball_ball,total\n";
     for (const auto& g : gathered_) {
       const auto& variable = model::impact_variables[g.column.variable];
@@ -41,8 +40,8 @@ class StatisticsOutput : public TableOutput<Real> {
       Accumulator<Real> total = walls;
       total.add(p[model::ball_ball]);
       for (const Statistic s : g.column.statistics) {
-        out << csv_cell(g.column.label.empty() ? std::string(variable.name) : g.column.label) << ','
-            << statistic_name(s) << ',' << statistic_unit(s, variable.unit);
+        out << csv_cell(name_of(g.column, variable.name)) << ',' << statistic_name(s) << ','
+            << statistic_unit(s, variable.unit);
         const Accumulator<Real>* const shown[] = {&p[0], &p[1], &p[2], &walls, &p[model::ball_ball], &total};
         for (const auto* part : shown) out << ',' << part->text(s, duration, total.sum());
         out << '\n';
@@ -82,8 +81,7 @@ class FrequencyOutput : public TableOutput<Real> {
     auto& out = this->out();
     const auto& variable = model::impact_variables[spec_.variable.variable];
     if (!spec_.title.empty()) out << "# " << spec_.title << '\n';
-    const auto& label = spec_.variable.label;
-    out << "# " << title_of(label.empty() ? std::string(variable.name) : label, variable.unit)
+    out << "# " << title_of(name_of(spec_.variable, variable.name), variable.unit)
         << ": impacts with lower <= value < upper\n"
         << "interval,lower,upper,mean";
     for (const auto& part : parts()) out << ',' << part.name;

@@ -20,12 +20,8 @@ class TrendsOutput : public TableOutput<Real> {
     for (const auto& c : spec.columns) {
       gathered_.push_back({c, variable_formula<Real>(c.variable), {}});
       const auto& v = model::impact_variables[c.variable];
-      for (const Statistic s : c.statistics) {
-        const bool alone = !c.label.empty() && c.statistics.size() == 1;
-        const std::string name = c.label.empty() ? std::string(v.name) : c.label;
-        line += "," +
-                csv_cell(title_of(alone ? name : name + " " + statistic_name(s), statistic_unit(s, v.unit)));
-      }
+      for (const Statistic s : c.statistics)
+        line += "," + csv_cell(title_of(name_of(c, v.name, s), statistic_unit(s, v.unit)));
     }
     this->out() << line << '\n';
   }
@@ -76,9 +72,7 @@ class TrendsBallsOutput : public TableOutput<Real> {
     for (const auto& c : columns_) {
       const auto& v = model::ball_variables[c.variable];
       for (const Statistic s : c.statistics) {
-        const bool alone = !c.label.empty() && c.statistics.size() == 1;
-        const std::string name = c.label.empty() ? std::string(v.name) : c.label;
-        const std::string title = alone ? name : name + " " + statistic_name(s);
+        const std::string title = name_of(c, v.name, s);
         line += "," + csv_cell(title_of(title, v.unit));
         if (shows_ball(c, s)) line += "," + csv_cell(title_of(title + " ball", "1"));
       }

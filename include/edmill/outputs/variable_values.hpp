@@ -31,17 +31,4 @@ VariableFormula<Real> variable_formula(int place) {
   return formulas[static_cast<std::size_t>(place)];
 }
 
-/// "milling_dose [J]", for headers.
-inline std::string title_of(const std::string& name, std::string_view unit) {
-  return name + " [" + std::string(unit) + "]";
-}
-
-/// A text as a cell of CSV (RFC 4180).
-inline std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 }  // namespace edmill::outputs
