@@ -9,6 +9,7 @@
 namespace edmill::page {
 
 using plot::add;
+using plot::brief;
 using plot::readable;
 
 namespace {
@@ -49,19 +50,20 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
   auto section = add_section(main, "results", "Results");
   add(section, "p", {},
-      fmt::format("{} collisions between {} s and {} s of simulated time.", readable(f.all_collisions(), 7),
-                  readable(f.start_time), readable(f.end_time)));
+      fmt::format("{} collisions between {} s and {} s of simulated time.", brief(f.all_collisions(), 12),
+                  brief(f.start_time), brief(f.end_time)));
   auto list = add(section, "dl", {{"class", "cards"}});
   bool any = false;
   for (const auto& card : cards_of(run)) {
     auto box = add(list, "div", {{"class", "card"}});
     add(box, "dt", {}, card.name);
     auto value = add(box, "dd");
-    add(value, "strong", {}, readable(card.value));
+    const auto [number, width] = plot::with_interval(card.value, card.half_width.value_or(0));
+    add(value, "strong", {}, number);
     add(value, "span", {{"class", "unit"}}, " " + card.unit);
     if (card.half_width) {
       any = true;
-      add(box, "dd", {{"class", "interval"}}, "\u00b1 " + readable(*card.half_width, 2) + " " + card.unit);
+      add(box, "dd", {{"class", "interval"}}, "\u00b1 " + width + " " + card.unit);
     }
   }
   if (const auto series = rate_of(run, "milling_dose"); series && any) {
@@ -86,9 +88,9 @@ void add_ward(pugi::xml_node main, const RunFolder& run) {
   auto section = add_section(main, "thesis", "Beside the thesis");
   const double inverse = f.duration() / f.milling_dose, rate = f.all_collisions() / f.duration();
   const auto width = half_width_of(run, "milling_dose");
+  const auto [here, interval] = plot::with_interval(inverse, width.value_or(0) * inverse * inverse);
   std::vector<std::vector<std::string>> rows{
-      {"inverse milling dose rate [s/J]",
-       width ? readable(inverse, *width * inverse * inverse) : readable(inverse),
+      {"inverse milling dose rate [s/J]", width ? here + " \u00b1 " + interval : readable(inverse),
        readable(ward->inverse_dose_rate), readable(ward->inverse_dose_rate / inverse, 3)}};
   if (ward->collision_rate)
     rows.push_back({"collisions [1/s]", readable(rate), readable(*ward->collision_rate),

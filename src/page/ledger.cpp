@@ -9,6 +9,7 @@
 namespace edmill::page {
 
 using plot::add;
+using plot::brief;
 using plot::readable;
 
 void add_energy(pugi::xml_node main, const RunFolder& run) {
@@ -35,16 +36,16 @@ namespace {
 
 std::string law_text(const casefile::ContactSpec& c) {
   const bool constant = c.model == model::ContactModel::constant;
-  return fmt::format("{}, e = {}, {}, t\u1d9c = {} ms", constant ? "constant" : "Walton\u2013Braun",
-                     readable(c.restitution_normal.to<double>(), 3),
-                     constant ? "e tangential = " + readable(c.restitution_tangential.to<double>(), 3)
-                              : "friction " + readable(c.friction.to<double>(), 3),
-                     readable(1000 * c.collapse_time.to<double>(), 3));
+  return fmt::format("{}, e = {}, {}, collapse time {} ms", constant ? "constant" : "Walton\u2013Braun",
+                     brief(c.restitution_normal.to<double>()),
+                     constant ? "e tangential = " + brief(c.restitution_tangential.to<double>())
+                              : "friction " + brief(c.friction.to<double>()),
+                     brief(1000 * c.collapse_time.to<double>()));
 }
 
 std::string ball_text(const casefile::BallSpec& ball, int count) {
-  return fmt::format("{} of {} mm, {} kg/m\u00b3", count, readable(1000 * ball.diameter.to<double>(), 4),
-                     readable(ball.density.to<double>(), 4));
+  return fmt::format("{} of {} mm, {} kg/m\u00b3", count, brief(1000 * ball.diameter.to<double>()),
+                     brief(ball.density.to<double>()));
 }
 
 }  // namespace
@@ -58,19 +59,18 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   if (!spec.balls.empty())
     rows.push_back(
         {"balls placed one by one", ball_text(spec.balls.front(), static_cast<int>(spec.balls.size()))});
-  if (spec.powder_mass) rows.push_back({"powder", readable(1000 * spec.powder_mass->to<double>(), 4) + " g"});
-  const auto mm = [](const casefile::Quantity& q) { return readable(1000 * q.to<double>(), 4); };
+  if (spec.powder_mass) rows.push_back({"powder", brief(1000 * spec.powder_mass->to<double>()) + " g"});
+  const auto mm = [](const casefile::Quantity& q) { return brief(1000 * q.to<double>()); };
   rows.push_back({"vessel", fmt::format("cylinder, {} mm \u00d7 {} mm", mm(spec.vessel_diameter),
                                         mm(spec.vessel_height))});
-  rows.push_back(
-      {"mill", spec.mill.type == "still"
-                   ? std::string("still")
-                   : fmt::format("SPEX 8000, {} rpm, arm {} mm", readable(60 / spec.mill.period.to<double>()),
-                                 mm(spec.mill.arm))});
+  rows.push_back({"mill", spec.mill.type == "still"
+                              ? std::string("still")
+                              : fmt::format("SPEX 8000, {} rpm, arm {} mm",
+                                            brief(60 / spec.mill.period.to<double>()), mm(spec.mill.arm))});
   rows.push_back({"contact of balls", law_text(spec.ball_ball)});
   rows.push_back({"contact with walls", law_text(spec.ball_wall)});
-  rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", readable(f.start_time),
-                                            readable(f.end_time), f.end_reason)});
+  rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time),
+                                            brief(f.end_time), f.end_reason)});
   rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.seed, f.precision)});
   rows.push_back({"collapse rule", fmt::format("{} % of the impacts, {} % of the dose",
                                                readable(100 * f.collapse_impact_share, 3),
@@ -78,7 +78,7 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   rows.push_back({"deepest overlap", readable(f.deepest_overlap, 2) + " m"});
   rows.push_back({"program", fmt::format("edmill {} ({}), {}", f.version, f.commit, f.compiler)});
   rows.push_back({"cost", fmt::format("{} impacts in {} s of processor time",
-                                      readable(f.impacts_since_start, 7), readable(f.cpu_seconds, 3))});
+                                      brief(f.impacts_since_start, 12), readable(f.cpu_seconds, 3))});
   rows.push_back({"digest of the case", f.case_digest});
   add_table(section, "What was run", {"", ""}, rows);
   auto details = add(section, "details");

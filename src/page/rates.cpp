@@ -12,6 +12,7 @@
 namespace edmill::page {
 
 using plot::add;
+using plot::brief;
 using plot::readable;
 
 namespace {
@@ -40,7 +41,7 @@ void fit_heights(plot::Chart& chart) {
     for (const auto& [x, y] : curve.points) see(y);
   for (const auto& band : chart.bands)
     for (const double y : band.high) see(y);
-  const double room = high > low ? 0.06 * (high - low) : 1;
+  const double room = high > low ? 0.1 * (high - low) : 1;
   chart.y.low = low < 0 ? low - room : 0;
   chart.y.high = high + room;
 }
@@ -67,7 +68,7 @@ void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
   fit_heights(chart);
   chart.description =
       fmt::format("Line of the milling dose rate in watts from {} s to {} s of simulated time.",
-                  readable(chart.x.low), readable(chart.x.high));
+                  brief(chart.x.low), brief(chart.x.high));
   draw(grid, chart);
 }
 
@@ -94,7 +95,7 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
   std::vector<std::vector<std::string>> rows;
   const auto row = [&](const std::string& name, double collisions, double dose) {
     const bool timed = f.duration() > 0;
-    rows.push_back({name, readable(collisions, 7), timed ? readable(collisions / f.duration()) : "\u2013",
+    rows.push_back({name, brief(collisions, 12), timed ? readable(collisions / f.duration()) : "\u2013",
                     timed ? readable(dose / f.duration()) : "\u2013",
                     f.milling_dose > 0 ? readable(100 * dose / f.milling_dose, 3) : "\u2013",
                     collisions > 0 ? readable(1000 * dose / collisions, 3) : "\u2013"});
@@ -112,7 +113,7 @@ void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
   const auto table = read_table(run.file_of(*output), "a table of rates above cutoffs");
   std::vector<std::vector<std::string>> rows;
   for (const auto& numbers : table.numbers) {
-    std::vector<std::string> row{readable(numbers[0], 2)};
+    std::vector<std::string> row{brief(numbers[0])};
     for (const char* part : {"wall_0", "wall_1", "wall_2", "ball_ball", "total"})
       row.push_back(readable(numbers[table.column(std::string(part) + " rate")]));
     row.push_back(readable(numbers[table.column("total dose_rate")]));

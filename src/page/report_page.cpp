@@ -42,12 +42,12 @@ std::string subtitle_of(const RunFolder& run) {
   const auto& spec = run.spec;
   std::string text = fmt::format("{} balls", spec.ball_count());
   if (spec.batches.size() == 1 && spec.balls.empty())
-    text += fmt::format(" of {} mm", plot::readable(1000 * spec.batches[0].diameter.to<double>(), 3));
+    text += fmt::format(" of {} mm", plot::brief(1000 * spec.batches[0].diameter.to<double>()));
   if (spec.powder_mass)
-    text += fmt::format(", {} g of powder", plot::readable(1000 * spec.powder_mass->to<double>(), 3));
-  return text + (spec.mill.type == "still" ? std::string(", in a still vessel")
-                                           : fmt::format(", SPEX 8000 at {} rpm",
-                                                         plot::readable(60 / spec.mill.period.to<double>())));
+    text += fmt::format(", {} g of powder", plot::brief(1000 * spec.powder_mass->to<double>()));
+  return text + (spec.mill.type == "still"
+                     ? std::string(", in a still vessel")
+                     : fmt::format(", SPEX 8000 at {} rpm", plot::brief(60 / spec.mill.period.to<double>())));
 }
 
 }  // namespace
@@ -77,8 +77,9 @@ std::string report_page(const RunFolder& run) {
   auto main = add(document, "main");
   add_headline(main, run);
   add_warnings(main, run);
-  add_ward(main, run);
-  add_animation(main, run);
+  auto pair = add(main, "div", {{"class", "pair"}});
+  add_animation(pair, run);
+  add_ward(pair, run);
   add_rates(main, run);
   add_spectra(main, run);
   add_vessel(main, run);

@@ -48,6 +48,7 @@ void copy(pugi::xml_node parent, const pugi::xml_node& source, std::size_t most_
     const std::string key = attribute.name();
     if (!path || (key != "key" && key != "keyValue")) target.append_copy(attribute);
   }
+  if (name == "Viewpoint") target.append_attribute("fieldOfView") = "0.6";  // the swing just fills it
   if (path) copy_path(target, source, most_keys);
   for (const auto& child : source.children()) copy(target, child, most_keys);
 }

@@ -55,8 +55,8 @@ void add_vessel(pugi::xml_node main, const RunFolder& run) {
     maps[w].x.title = "angle about the vessel\u2019s axis";
     maps[w].id = fmt::format("cap-{}", w);
   }
-  maps[0].title = fmt::format("Cap \u2212y, {} mm across", readable(2000 * radius, 3));
-  maps[1].title = fmt::format("Cap +y, {} mm across", readable(2000 * radius, 3));
+  maps[0].title = fmt::format("Cap \u2212y, {} mm across", plot::brief(2000 * radius));
+  maps[1].title = fmt::format("Cap +y, {} mm across", plot::brief(2000 * radius));
   maps[2].id = "cylinder", maps[2].title = "Cylinder, unrolled";
   maps[2].x = {"angle about the vessel\u2019s axis [\u00b0]", 0, 360, false};
   maps[2].y = {"height along the axis [mm]", -500 * height, 500 * height, false};

@@ -40,7 +40,7 @@ std::vector<Warning> warnings_of(const RunFacts& f, const Batches& dose_rate) {
   if (f.all_collisions() < fewest_collisions)
     list.push_back({"too_few_collisions",
                     fmt::format("Only {} collisions were counted; below {} no rate here means much.",
-                                readable(f.all_collisions(), 6), readable(fewest_collisions))});
+                                plot::brief(f.all_collisions()), plot::brief(fewest_collisions))});
   if (!dose_rate.means.empty()) {
     const auto e = sweep::estimate(dose_rate.means);
     if (drifts(dose_rate.means))
@@ -52,14 +52,14 @@ std::vector<Warning> warnings_of(const RunFacts& f, const Batches& dose_rate) {
       list.push_back(
           {"wide_interval", fmt::format("The 95 % interval of the dose rate is wider than \u00b1{} %: "
                                         "run longer.",
-                                        readable(100 * interval_limit, 1))});
+                                        plot::brief(100 * interval_limit))});
   }
   if (f.collapse_dose_share > collapse_share_limit)
     list.push_back(
         {"collapse_share",
          fmt::format(
-             "{} % of the dose comes from impacts within the collapse time t_c of the last one. They have "
-             "e = 1, so the dose rate depends on t_c by about as much: try run with half of it.",
+             "{} % of the dose comes from impacts within the collapse time of the last one. They have "
+             "e = 1, so the dose rate depends on that time by about as much: run with half of it, too.",
              readable(100 * f.collapse_dose_share, 2))});
   if (f.milling_dose > 0 && std::abs(f.closure) > closure_limit * f.milling_dose)
     list.push_back({"energy", fmt::format("Energy closes to {} of the dose only.",

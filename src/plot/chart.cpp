@@ -158,7 +158,7 @@ void draw(pugi::xml_node parent, const Chart& chart) {
     add(inside, "text",
         {{"class", room ? "mark-text" : "mark-text before"},
          {"x", pixel(x + (room ? 5 : -5))},
-         {"y", pixel(f.bottom - 8)}},
+         {"y", pixel(f.top + 10)}},
         mark.text);
   }
   for (const auto& curve : chart.curves)

@@ -84,19 +84,29 @@ std::string readable(double value, int digits) {
   if (!std::isfinite(value)) return std::isnan(value) ? "\u2013" : value < 0 ? minus + "\u221e" : "\u221e";
   if (value == 0) return "0";
   const int exponent = exponent_of(value, digits);
-  if (exponent >= -3 && exponent < 7) return fixed(value, std::max(0, digits - 1 - exponent));
+  if (exponent >= -3 && exponent < std::max(7, digits))
+    return fixed(value, std::max(0, digits - 1 - exponent));
   const double mantissa = value / std::pow(10.0, exponent);
   return fixed(mantissa, std::max(0, digits - 1)) + " \u00d7 10" + superscript(exponent);
 }
 
-std::string readable(double value, double half_width) {
-  if (!(half_width > 0) || !std::isfinite(half_width)) return readable(value);
-  const int digits = 1 + exponent_of(value == 0 ? half_width : value, 6) - exponent_of(half_width, 2) + 1;
+std::string brief(double value, int digits) {
+  std::string text = readable(value, digits);
+  const auto end = text.find(" \u00d7"), point = text.find('.');
+  if (point == std::string::npos || point > end) return text;
+  std::string mantissa = text.substr(0, end);
+  mantissa.erase(mantissa.find_last_not_of('0') + 1);
+  if (mantissa.back() == '.') mantissa.pop_back();
+  return end == std::string::npos ? mantissa : mantissa + text.substr(end);
+}
+
+std::pair<std::string, std::string> with_interval(double value, double half_width) {
+  if (!(half_width > 0) || !std::isfinite(half_width)) return {readable(value), readable(half_width, 2)};
   const int exponent = exponent_of(half_width, 2);
-  if (digits < 1 || exponent < -5 || exponent > 6)
-    return readable(value, std::max(2, digits)) + " \u00b1 " + readable(half_width, 2);
+  if (exponent < -5 || exponent > 6 || std::abs(value) < half_width)
+    return {readable(value, 2), readable(half_width, 2)};
   const int decimals = std::max(0, 1 - exponent);
-  return fixed(value, decimals) + " \u00b1 " + fixed(half_width, decimals);
+  return {fixed(value, decimals), fixed(half_width, decimals)};
 }
 
 }  // namespace edmill::plot

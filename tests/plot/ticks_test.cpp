@@ -7,10 +7,12 @@
 
 namespace {
 
+using edmill::plot::brief;
 using edmill::plot::linear_ticks;
 using edmill::plot::log_ticks;
 using edmill::plot::readable;
 using edmill::plot::Tick;
+using edmill::plot::with_interval;
 
 std::vector<std::string> labels(const std::vector<Tick>& ticks) {
   std::vector<std::string> texts;
@@ -64,8 +66,20 @@ TEST(Readable, NumbersHaveTheAskedDigitsAndRealSigns) {
 }
 
 TEST(Readable, TheHalfWidthSaysHowManyDigitsTheValueHas) {
-  EXPECT_EQ(readable(5.54164, 0.0312), "5.542 \u00b1 0.031");
-  EXPECT_EQ(readable(17241.8, 251.0), "17\u202f242 \u00b1 251");
+  using Pair = std::pair<std::string, std::string>;
+  EXPECT_EQ(with_interval(5.54164, 0.0312), Pair("5.542", "0.031"));
+  EXPECT_EQ(with_interval(0.180452, 0.00087), Pair("0.18045", "0.00087"));
+  EXPECT_EQ(with_interval(17241.8, 251.0), Pair("17\u202f242", "251"));
+  EXPECT_EQ(with_interval(5.54164, 0), Pair("5.542", "0"));
+}
+
+TEST(Readable, BriefNumbersHaveNoZerosAtTheEnd) {
+  EXPECT_EQ(brief(38), "38");
+  EXPECT_EQ(brief(0.5), "0.5");
+  EXPECT_EQ(brief(1053.9999999999998), "1054");
+  EXPECT_EQ(brief(163797), "163\u202f797");
+  EXPECT_EQ(brief(12345678, 12), "12\u202f345\u202f678");
+  EXPECT_EQ(brief(2.5e-9), "2.5 \u00d7 10\u207b\u2079");
 }
 
 }  // namespace

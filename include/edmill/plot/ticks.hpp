@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace edmill::plot {
@@ -23,7 +24,10 @@ std::vector<Tick> log_ticks(double low, double high, int most = 7);
 /// @param digits  significant ones
 std::string readable(double value, int digits = 4);
 
-/// Value and half-width with digits that the half-width allows: "5.54 ± 0.03".
-std::string readable(double value, double half_width);
+/// The same without zeros at the end: "38", "0.5".
+std::string brief(double value, int digits = 6);
+
+/// A value and its half-width with the digits that the half-width allows: "5.542" and "0.031".
+std::pair<std::string, std::string> with_interval(double value, double half_width);
 
 }  // namespace edmill::plot
