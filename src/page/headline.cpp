@@ -95,7 +95,7 @@ void add_ward(pugi::xml_node main, const RunFolder& run) {
   if (ward->collision_rate)
     rows.push_back({"collisions [1/s]", readable(rate), readable(*ward->collision_rate),
                     readable(*ward->collision_rate / rate, 3)});
-  add_table(section,
+  add_table(section, "thesis-table",
             fmt::format("{} balls of {} mm, {} g of powder, charge ratio {}: tables 5.5 and 5.6", ward->balls,
                         ward->diameter, ward->powder, ward->charge_ratio),
             {"quantity", "this run", "thesis", "thesis / this run"}, rows);

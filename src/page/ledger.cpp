@@ -23,13 +23,14 @@ void add_energy(pugi::xml_node main, const RunFolder& run) {
   };
   std::vector<std::vector<std::string>> rows{row("work of the walls on the balls", f.wall_work)};
   for (std::size_t k = 0; k < f.dose.size(); ++k)
-    rows.push_back(row(std::string("\u2212 dose, ") + partner_names[k], f.dose[k] == 0 ? 0 : -f.dose[k]));
-  rows.push_back(row("\u2212 gain of kinetic energy", kinetic == 0 ? 0 : -kinetic));
-  rows.push_back(row("\u2212 gain of potential energy", potential == 0 ? 0 : -potential));
+    rows.push_back(row(std::string("dissipated, ") + partner_names[k], f.dose[k] == 0 ? 0 : -f.dose[k]));
+  rows.push_back(row("into kinetic energy of the balls", kinetic == 0 ? 0 : -kinetic));
+  rows.push_back(row("into potential energy", potential == 0 ? 0 : -potential));
   rows.push_back(
       {"left over, by rounding", readable(f.closure, 2),
        f.milling_dose > 0 ? readable(std::abs(f.closure) / f.milling_dose, 2) + " of the dose" : "\u2013"});
-  add_table(section, "From the start of statistics to their end", {"", "energy [J]", "rate [W]"}, rows);
+  add_table(section, "ledger", "From the start of statistics to their end", {"", "energy [J]", "rate [W]"},
+            rows);
 }
 
 namespace {
@@ -80,7 +81,7 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   rows.push_back({"cost", fmt::format("{} impacts in {} s of processor time",
                                       brief(f.impacts_since_start, 12), readable(f.cpu_seconds, 3))});
   rows.push_back({"digest of the case", f.case_digest});
-  add_table(section, "What was run", {"", ""}, rows);
+  add_table(section, "run", "What was run", {"", ""}, rows);
   auto details = add(section, "details");
   add(details, "summary", {}, "The case file");
   add(add(details, "pre", {{"tabindex", "0"}}), "code", {}, spec.text);

@@ -24,13 +24,13 @@ void add_missing(pugi::xml_node section, const std::string& what, const std::str
   add(line, "span", {}, " to the case, or run it with --report.");
 }
 
-void add_table(pugi::xml_node section, const std::string& caption, const std::vector<std::string>& headings,
-               const std::vector<std::vector<std::string>>& rows) {
+void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
+               const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows) {
+  add(section, "h3", {{"id", id}}, caption);
   // Wide tables scroll inside their own box, which the keyboard can reach.
   auto box = add(section, "div",
-                 {{"class", "table"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", caption}});
-  auto table = add(box, "table");
-  add(table, "caption", {}, caption);
+                 {{"class", "table"}, {"tabindex", "0"}, {"role", "region"}, {"aria-labelledby", id}});
+  auto table = add(box, "table", {{"aria-labelledby", id}});
   auto head = add(add(table, "thead"), "tr");
   for (const auto& heading : headings) add(head, "th", {{"scope", "col"}}, heading);
   auto body = add(table, "tbody");

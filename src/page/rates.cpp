@@ -102,7 +102,7 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
   };
   for (std::size_t k = 0; k < f.collisions.size(); ++k) row(partner_names[k], f.collisions[k], f.dose[k]);
   row("all", f.all_collisions(), f.milling_dose);
-  add_table(section, "Collisions and dose by partner",
+  add_table(section, "by-partner", "Collisions and dose by partner",
             {"with", "collisions", "[1/s]", "dose rate [W]", "share of the dose [%]", "mean dose [mJ]"},
             rows);
 }
@@ -119,7 +119,7 @@ void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
     row.push_back(readable(numbers[table.column("total dose_rate")]));
     rows.push_back(std::move(row));
   }
-  add_table(section, "Collisions per second at or above an approach speed",
+  add_table(section, "above-cutoffs", "Collisions per second at or above an approach speed",
             {"approach speed [m/s]", partner_names[0], partner_names[1], partner_names[2], partner_names[3],
              "all", "dose rate of all [W]"},
             rows);
@@ -139,8 +139,8 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
                        "statistics = [\"average\", \"minimum\", \"maximum\"] }]");
   const auto table = read_table(run.file_of(*output), "a table of trends of balls");
   auto chart = over_time(run, "ball-speeds-over-time", "Ball speeds over time", "speed [m/s]");
-  const std::size_t together =
-      std::max<std::size_t>(1, (table.numbers.size() + most_points - 1) / most_points);
+  // Fives, so that each point has all phases of the drive at which the report's own table looks.
+  const std::size_t together = (table.numbers.size() / most_points + 5) / 5 * 5;
   plot::Curve mean{"mean of all balls", "c0", {}, false};
   plot::Band range{"c0", {}, {}, {}};
   for (std::size_t first = 0; first < table.numbers.size(); first += together) {

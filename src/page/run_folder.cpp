@@ -46,8 +46,8 @@ const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits&
   std::error_code ignored;
   // The report's own come last, and are the ones that surely suit it.
   for (auto output = spec.outputs.rbegin(); output != spec.outputs.rend(); ++output)
-    if (output->type == type && !output->append && output->timer.on && fits(*output) &&
-        std::filesystem::is_regular_file(file_of(*output), ignored))
+    if (output->type == type && !output->append && output->timer.on && !output->file.ends_with(".h5") &&
+        fits(*output) && std::filesystem::is_regular_file(file_of(*output), ignored))
       return &*output;
   return nullptr;
 }
@@ -65,7 +65,7 @@ void add_report_outputs(casefile::CaseSpec& spec) {
     if (output.type == "trends") {
       output.timer.interval = period;  // whole turns of the drive can be compared
     } else if (output.type == "trends_balls") {
-      output.timer.interval = Quantity{period.value * 7 / 20};  // comes to a new phase of the drive 20 times
+      output.timer.interval = Quantity{period.value * 2 / 5};  // 5 phases of the drive in turn
     } else {
       output.timer.start_time = spec.statistics_start;
     }

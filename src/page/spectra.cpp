@@ -31,14 +31,16 @@ plot::Points density(const Table& table, const std::string& spectrum, const std:
   return points;
 }
 
-/// Shows the bins that hold something, and on a logarithmic y axis what is within 5 decades of the top.
+/// Shows the bins that hold something that can be seen: on a linear y axis a thousandth of the top, on a
+/// logarithmic one what is within 5 decades of it.
 void fit(plot::Chart& chart) {
   double first = 0, last = 0, top = 0;
   for (const auto& curve : chart.curves)
+    for (const auto& [x, y] : curve.points) top = std::max(top, y);
+  for (const auto& curve : chart.curves)
     for (std::size_t k = 0; k + 1 < curve.points.size(); ++k) {
       const auto [x, y] = curve.points[k];
-      top = std::max(top, y);
-      if (!(y > 0)) continue;
+      if (!(y > (chart.y.logarithmic ? 0 : 1e-3 * top))) continue;
       first = first == 0 ? x : std::min(first, x);
       last = std::max(last, curve.points[k + 1].first);
     }

@@ -90,9 +90,9 @@ void add_axes(pugi::xml_node svg, const Chart& chart, const Places& places) {
       chart.x.title);
   add(y_axis, "text",
       {{"class", "axis-title"},
-       {"x", "14"},
+       {"x", "12"},
        {"y", pixel(middle)},
-       {"transform", fmt::format("rotate(-90 14 {})", pixel(middle))}},
+       {"transform", fmt::format("rotate(-90 12 {})", pixel(middle))}},
       chart.y.title);
 }
 

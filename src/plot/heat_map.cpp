@@ -51,7 +51,7 @@ void add_scale(pugi::xml_node svg, const HeatMap& map, double x, double top, dou
 }
 
 void draw_disc(pugi::xml_node figure, const HeatMap& map) {
-  constexpr double width = 300, height = 270, cx = 118, cy = 138, radius = 92;
+  constexpr double width = 300, height = 270, cx = 122, cy = 138, radius = 86;
   auto svg = add_drawing(figure, map.id, map.title, map.description, width, height);
   const double scale = radius / map.y.high;
   auto cells = add(svg, "g", {{"class", "cells"}});
@@ -64,7 +64,7 @@ void draw_disc(pugi::xml_node figure, const HeatMap& map) {
         fmt::format("{}\u00b0", 90 * k));
   }
   add(axis, "text", {{"class", "axis-title"}, {"x", pixel(cx)}, {"y", pixel(height - 6)}}, map.x.title);
-  add_scale(svg, map, 244, 46, 230);
+  add_scale(svg, map, 246, 50, 226);
 }
 
 void draw_sheet(pugi::xml_node figure, const HeatMap& map) {

@@ -32,9 +32,9 @@ pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std
 /// "No ball speeds: add [[output]] type = ..."
 void add_missing(pugi::xml_node section, const std::string& what, const std::string& output);
 
-/// A table with a caption and a row of headings; the first cell of each row is its heading.
-void add_table(pugi::xml_node section, const std::string& caption, const std::vector<std::string>& headings,
-               const std::vector<std::vector<std::string>>& rows);
+/// A table under a heading with this id, and a row of headings; the first cell of each row is its heading.
+void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
+               const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows);
 
 /// Rate of a variable of all impacts, or of those with one partner; nothing when no table has it.
 std::optional<Series> rate_of(const RunFolder& run, const char* variable, int partner = -1);

@@ -51,7 +51,7 @@ struct Chart {
 
 /// The inside of the frame in the chart's own units. [px]
 struct Frame {
-  double left = 62, right = 448, top = 14, bottom = 232;
+  double left = 70, right = 448, top = 14, bottom = 232;
   double width = 460, height = 280;
 };
 
