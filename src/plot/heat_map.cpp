@@ -117,7 +117,8 @@ std::string heat_colour(double share) {
 }
 
 void draw(pugi::xml_node parent, const HeatMap& map) {
-  auto figure = add(parent, "figure", {{"class", "chart heat"}, {"id", map.id}});
+  auto figure =
+      add(parent, "figure", {{"class", map.disc ? "chart heat disc" : "chart heat"}, {"id", map.id}});
   add(figure, "figcaption", {}, map.title);
   if (map.disc)
     draw_disc(figure, map);

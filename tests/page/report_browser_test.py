@@ -196,9 +196,9 @@ class Report(unittest.TestCase):
         self.media(kind="print")
         shown = self.script("""
             return ['.still', 'x3d', '#play'].map(s => getComputedStyle(document.querySelector(s)).display !== 'none')""")
+        pdf = self.browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "paperWidth": 8.27, "paperHeight": 11.69})
         self.media()
         self.assertEqual(shown, [True, False, False])
-        pdf = self.browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "paperWidth": 8.27, "paperHeight": 11.69})
         (self.folder / "report.pdf").write_bytes(base64.b64decode(pdf["data"]))
 
 

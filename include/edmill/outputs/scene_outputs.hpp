@@ -111,7 +111,7 @@ class AnimationOutput : public SceneOutput<Real> {
 
  protected:
   void before(const Seen<Real>& seen) override {
-    if (complete_) return;
+    if (complete_ || seen.facts.time < this->timer().from()) return;
     const BallsBefore<Real> balls(seen);
     const auto& f = seen.facts;
     const auto sample = [&](const Real& time) {
@@ -230,7 +230,7 @@ class ParaviewOutput : public SceneOutput<Real> {
     const auto frame = [&](const Real& time) {
       write_frame(seen.simulation, time, [&](int i) { return balls.state(i, time); });
     };
-    if (complete_) return;
+    if (complete_ || seen.facts.time < this->timer().from()) return;
     if (list_.empty()) frame(this->timer().from());
     clock_.pass(this->timer(), seen.facts.time, [&](const Real&, const Real& end) { frame(end); });
     complete_ = this->timer().ends_by(seen.facts.time);
