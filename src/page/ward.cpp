@@ -1,6 +1,7 @@
 #include "edmill/page/ward.hpp"
 
 #include <sstream>
+#include <utility>
 
 #include "edmill/page/embedded.hpp"
 

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -159,6 +160,47 @@ TEST_F(Report, TheLastPointOfTheDoseRateIsTheLastRowOfItsTable) {
   const double end = table.back()[0], begin = table[table.size() - 2][0];
   EXPECT_NEAR(at_ticks(figure, "x-axis", "x", x), (begin + end) / 2, 2e-4);
   EXPECT_NEAR(at_ticks(figure, "y-axis", "y", y + 4), table.back()[1], 2e-3);
+}
+
+std::vector<double> numbers(const pugi::xml_node& node, const char* attribute) {
+  std::istringstream text(node.attribute(attribute).as_string());
+  return {std::istream_iterator<double>(text), std::istream_iterator<double>()};
+}
+
+TEST_F(Report, TheAnimationBeginsWithTheStatisticsAndHasEveryBallInTheVessel) {
+  run("--report");
+  pugi::xml_document animation;
+  ASSERT_TRUE(animation.load_file((folder / "report/animation.x3d").c_str()));
+  const auto scene = animation.child("X3D").child("Scene");
+  const double period = 60.0 / 1054, degree = std::acos(-1.0) / 180;
+  for (int ball = 0; ball < 28; ++ball) {
+    const auto path =
+        scene.find_child_by_attribute("DEF", ("ball_" + std::to_string(ball) + "_path").c_str());
+    const auto keys = numbers(path, "key"), places = numbers(path, "keyValue");
+    ASSERT_EQ(places.size(), 3 * keys.size());
+    EXPECT_EQ(keys.front(), 0);
+    EXPECT_EQ(keys.back(), 1);
+    EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const double phase = 2 * std::acos(-1.0) * (0.5 / period + 2 * keys[k]);  // two turns from 0.5 s on
+      const double theta = (90 + 15 * std::cos(phase)) * degree, gamma = 15 * std::sin(phase) * degree;
+      const double *place = &places[3 * k], x = place[0], y = place[1], z = place[2];
+      const double along = std::cos(theta) * x + std::sin(theta) * y - 0.1;
+      const double across = -std::sin(theta) * x + std::cos(theta) * y;
+      const double axial = across * std::cos(gamma) + z * std::sin(gamma);
+      const double side = -across * std::sin(gamma) + z * std::cos(gamma);
+      ASSERT_LT(std::abs(axial), 0.0285 - 0.00238 + 1e-9) << "ball " << ball << ", key " << keys[k];
+      ASSERT_LT(std::hypot(along, side), 0.019 - 0.00238 + 1e-9) << "ball " << ball << ", key " << keys[k];
+    }
+  }
+  // The still picture shows them.
+  const auto main = body();
+  const double width = numbers(main.select_node("//svg[@class='still']").node(), "viewBox")[2];
+  for (const auto& found : main.select_nodes("//svg[@class='still']//circle"))
+    for (const char* at : {"cx", "cy"}) {
+      EXPECT_GT(found.node().attribute(at).as_double(), 0);
+      EXPECT_LT(found.node().attribute(at).as_double(), width);
+    }
 }
 
 TEST_F(Report, TablesOfAnEarlierRunInTheFolderAreNotShown) {
