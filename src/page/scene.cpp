@@ -39,7 +39,13 @@ void copy_path(pugi::xml_node target, const pugi::xml_node& source, std::size_t 
   target.append_attribute("keyValue") = value_text.c_str();
 }
 
-void copy(pugi::xml_node parent, const pugi::xml_node& source, std::size_t most_keys) {
+/// How much of a scene a page can bear.
+struct Limits {
+  std::size_t keys;              ///< of each path
+  const char* sphere_divisions;  ///< of longitude and latitude
+};
+
+void copy(pugi::xml_node parent, const pugi::xml_node& source, const Limits& limits) {
   const std::string name = source.name();
   if (name == "Background") return;  // the page's own shows
   auto target = parent.append_child(name.c_str());
@@ -49,8 +55,9 @@ void copy(pugi::xml_node parent, const pugi::xml_node& source, std::size_t most_
     if (!path || (key != "key" && key != "keyValue")) target.append_copy(attribute);
   }
   if (name == "Viewpoint") target.append_attribute("fieldOfView") = "0.6";  // the swing just fills it
-  if (path) copy_path(target, source, most_keys);
-  for (const auto& child : source.children()) copy(target, child, most_keys);
+  if (name == "Sphere") target.append_attribute("subdivision") = limits.sphere_divisions;
+  if (path) copy_path(target, source, limits.keys);
+  for (const auto& child : source.children()) copy(target, child, limits);
 }
 
 struct Point {
@@ -117,8 +124,9 @@ void add_scene(pugi::xml_node parent, const pugi::xml_document& animation, std::
                  {{"id", "scene"}, {"disableKeys", "true"}, {"showLog", "false"}, {"showStat", "false"}});
   auto target = add(x3d, "scene");
   add(target, "NavigationInfo", {{"type", "EXAMINE"}});
-  const std::size_t each = std::max<std::size_t>(16, most_keys / std::max<std::size_t>(1, paths));
-  for (const auto& child : scene.children()) copy(target, child, each);
+  const Limits limits{std::max<std::size_t>(16, most_keys / std::max<std::size_t>(1, paths)),
+                      paths > 200 ? "10 10" : "24 24"};
+  for (const auto& child : scene.children()) copy(target, child, limits);
 }
 
 void add_still(pugi::xml_node parent, const pugi::xml_document& animation) {
