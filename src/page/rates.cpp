@@ -53,7 +53,7 @@ void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
         grid, "dose rate over time",
         "type = \"trends\", columns = [{ variable = \"milling_dose\", statistics = [\"rate\"] }]");
   auto chart = over_time(run, "dose-rate", "Milling dose rate over time", "milling dose rate [W]");
-  const auto thin = coarser(*series, most_points);
+  const auto thin = coarser(whole(*series), most_points);
   chart.curves.push_back({"", "c0", points_of(thin), false});
   const double from = run.facts.start_time, until = run.facts.end_time;
   const auto e = sweep::estimate(batches_of(*series, from, until).means);
@@ -77,10 +77,10 @@ void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
   for (int k = 0; k < model::partner_kinds; ++k)
     if (const auto series = rate_of(run, "collision", k))
       chart.curves.push_back(
-          {partner_names[k], partner_colours[k], points_of(coarser(*series, most_points)), false});
+          {partner_names[k], partner_colours[k], points_of(coarser(whole(*series), most_points)), false});
   if (chart.curves.empty())
     if (const auto all = rate_of(run, "collision"))
-      chart.curves.push_back({"all", "c4", points_of(coarser(*all, most_points)), false});
+      chart.curves.push_back({"all", "c4", points_of(coarser(whole(*all), most_points)), false});
   if (chart.curves.empty())
     return add_missing(
         grid, "collision rates over time",

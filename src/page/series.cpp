@@ -27,6 +27,12 @@ std::optional<Series> series_of(const casefile::OutputSpec& output, const Table&
   return std::nullopt;
 }
 
+Series whole(Series s) {
+  if (s.rate.size() > 1 && s.end.back() - s.begin.back() < (1 - 1e-6) * (s.end.front() - s.begin.front()))
+    s.begin.pop_back(), s.end.pop_back(), s.rate.pop_back();
+  return s;
+}
+
 Series coarser(const Series& series, std::size_t most) {
   const std::size_t count = series.rate.size(), together = (count + most - 1) / most;
   Series result;

@@ -67,7 +67,7 @@ void add_vessel(pugi::xml_node main, const RunFolder& run) {
       maps[2].x.high = std::max(maps[2].x.high, cell.x_high);
   }
   auto grid = add(section, "div", {{"class", "charts maps"}});
-  for (const std::size_t w : {2, 0, 1}) {
+  for (const auto w : std::initializer_list<std::size_t>{2, 0, 1}) {
     auto& map = maps[w];
     map.value = "dose rate [kW/m\u00b2]";
     if (!(map.highest > 0)) map.highest = 1;

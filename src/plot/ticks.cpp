@@ -41,6 +41,25 @@ std::string power_of_ten(int exponent) {
                                          : "10" + superscript(exponent);
 }
 
+std::string scientific(double value, int exponent, int digits) {
+  return fixed(value / std::pow(10.0, exponent), std::max(0, digits - 1)) + " \u00d7 10" +
+         superscript(exponent);
+}
+
+std::string without_zeros(const std::string& text) {
+  const auto end = text.find(" \u00d7"), point = text.find('.');
+  if (point == std::string::npos || point > end) return text;
+  std::string mantissa = text.substr(0, end);
+  mantissa.erase(mantissa.find_last_not_of('0') + 1);
+  if (mantissa.back() == '.') mantissa.pop_back();
+  return end == std::string::npos ? mantissa : mantissa + text.substr(end);
+}
+
+/// Of a tick that is too large or too small for plain decimals.
+std::string tick_label(double value) {
+  return value == 0 ? "0" : without_zeros(scientific(value, exponent_of(value, 3), 3));
+}
+
 }  // namespace
 
 std::vector<Tick> linear_ticks(double low, double high, int most) {
@@ -58,7 +77,7 @@ std::vector<Tick> linear_ticks(double low, double high, int most) {
       const double largest = std::max(std::abs(low), std::abs(high));
       for (double k = first; k <= last; ++k) {
         const double value = place(k);
-        ticks.push_back({value, largest >= 1e6 || largest < 1e-3 ? readable(value, 3)
+        ticks.push_back({value, largest >= 1e5 || largest < 1e-3 ? tick_label(value)
                                                                  : fixed(value, std::max(0, -exponent))});
       }
       return ticks;
@@ -86,19 +105,10 @@ std::string readable(double value, int digits) {
   const int exponent = exponent_of(value, digits);
   if (exponent >= -3 && exponent < std::max(7, digits))
     return fixed(value, std::max(0, digits - 1 - exponent));
-  const double mantissa = value / std::pow(10.0, exponent);
-  return fixed(mantissa, std::max(0, digits - 1)) + " \u00d7 10" + superscript(exponent);
+  return scientific(value, exponent, digits);
 }
 
-std::string brief(double value, int digits) {
-  std::string text = readable(value, digits);
-  const auto end = text.find(" \u00d7"), point = text.find('.');
-  if (point == std::string::npos || point > end) return text;
-  std::string mantissa = text.substr(0, end);
-  mantissa.erase(mantissa.find_last_not_of('0') + 1);
-  if (mantissa.back() == '.') mantissa.pop_back();
-  return end == std::string::npos ? mantissa : mantissa + text.substr(end);
-}
+std::string brief(double value, int digits) { return without_zeros(readable(value, digits)); }
 
 std::pair<std::string, std::string> with_interval(double value, double half_width) {
   if (!(half_width > 0) || !std::isfinite(half_width)) return {readable(value), readable(half_width, 2)};

@@ -28,6 +28,7 @@ TEST(Ticks, StandAtRoundNumbersWithAsManyDecimalsAsTheyNeed) {
   EXPECT_EQ(labels(linear_ticks(0, 0.31)), (Texts{"0.0", "0.1", "0.2", "0.3"}));
   EXPECT_EQ(labels(linear_ticks(-1, 1)), (Texts{"\u22121.0", "\u22120.5", "0.0", "0.5", "1.0"}));
   EXPECT_EQ(labels(linear_ticks(0, 12400)), (Texts{"0", "5000", "10\u202f000"}));
+  EXPECT_EQ(labels(linear_ticks(0, 1.2e6)), (Texts{"0", "5 \u00d7 10\u2075", "1 \u00d7 10\u2076"}));
   EXPECT_EQ(linear_ticks(0, 0.31)[3].place, 0.3);  // not 3 * 0.1
 }
 

@@ -22,6 +22,9 @@ struct Series {
 std::optional<Series> series_of(const casefile::OutputSpec& output, const Table& table, int variable,
                                 double start);
 
+/// Without a last interval that is shorter than the first: its rate has another scatter.
+Series whole(Series series);
+
 /// Intervals put together so that there are at most `most` of them; the last can be shorter.
 Series coarser(const Series& series, std::size_t most);
 
