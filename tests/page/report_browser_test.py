@@ -164,6 +164,10 @@ class Report(unittest.TestCase):
         self.assertEqual(first, self.scene_picture())
         self.script("document.getElementById('play').click()")
 
+    def test_5_tables_fit_a_desktop(self):
+        wide = "return [...document.querySelectorAll('.table')].filter(t => t.scrollWidth > t.clientWidth).map(t => t.textContent)"
+        self.assertEqual(self.script(wide), [])
+
     def test_5_a_phone_shows_it_without_scrolling_sideways(self):
         self.keep("desktop.png")
         self.size(390, 844)
