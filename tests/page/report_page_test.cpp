@@ -220,6 +220,16 @@ TEST_F(Report, UsesTablesThatTheCaseAskedFor) {
   EXPECT_EQ(main.select_nodes("//svg[@class='still']//circle").size(), 28u);
 }
 
+TEST_F(Report, ReadsTablesWhoseHeadersHoldCommasAndQuotes) {
+  run("--set 'output=[{type=\"trends\",interval=\"50 ms\",columns=[{variable=\"milling_dose\",label=\"dose, "
+      "\\\"real\\\"\","
+      "statistics=[\"rate\"]}]}]'");
+  ASSERT_NE(text_of(folder / "trends.csv").find("\"dose, \"\"real\"\" [W]\""), std::string::npos);
+  const auto done = edmill("report " + folder.string());
+  ASSERT_EQ(done.code, 0) << done.messages;
+  EXPECT_EQ(ids(body(), "//figure"), Ids{"dose-rate"});
+}
+
 TEST_F(Report, TextsOfTheCaseAreNoMarkup) {
   const auto file = place / "<b>&.toml";
   write(file, "# </pre><script>alert(1)</script>\n" + text_of(source / "docs/examples/demo.toml"));
