@@ -11,11 +11,15 @@ program_packages=(
   g++ cmake ninja-build git ca-certificates
   libboost1.81-dev libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
   libmpfr-dev libgmp-dev libssl-dev libtbb-dev libhdf5-dev libpugixml-dev libopenmpi-dev openmpi-bin
+  nlohmann-json3-dev
 )
+command -v npm >/dev/null || program_packages+=(npm) # fetches what plays the animation of a report
+
 test_packages=(
-  libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev libgsl-dev nlohmann-json3-dev
+  libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev libgsl-dev
   libbenchmark-dev clang clang-format valgrind
   python3 python3-numpy python3-h5py python3-vtk9 view3dscene libxml2-utils
+  chromium chromium-driver python3-selenium
 )
 
 say() { printf '\n== %s\n' "$*"; }

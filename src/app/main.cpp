@@ -10,9 +10,10 @@
 #include "edmill/app/audit_command.hpp"
 #include "edmill/app/certify_command.hpp"
 #include "edmill/app/compare_command.hpp"
-#include "edmill/app/dispatch.hpp"
 #include "edmill/app/list_variables.hpp"
+#include "edmill/app/report_command.hpp"
 #include "edmill/app/resume_command.hpp"
+#include "edmill/app/run_command.hpp"
 #include "edmill/app/run_folder.hpp"
 #include "edmill/app/study_command.hpp"
 #include "edmill/core/errors.hpp"
@@ -52,18 +53,19 @@ int resume(const std::string& folder, const std::string& checkpoint, bool quiet)
 
 int run(const std::string& case_file, const std::string& folder, const std::string& precision,
         const std::string& shadow, const std::string& checkpoint, const std::vector<std::string>& overrides,
-        bool quiet) {
+        bool report, bool quiet) {
   using namespace edmill;
   const auto spec = casefile::read_case(case_file, overrides);
   const auto& scalar = precision.empty() ? spec.precision : precision;
   if (!shadow.empty()) app::check_shadow(scalar, shadow);
   auto options =
       run_options(folder.empty() ? "out/" + std::filesystem::path(case_file).stem().string() : folder, quiet);
+  options.report = report;
   if (!checkpoint.empty()) {
     app::parse_checkpoint_interval(checkpoint);
-    options.checkpoint = app::first_checkpoint(spec, overrides, scalar, checkpoint);
+    options.checkpoint = app::first_checkpoint(spec, overrides, scalar, report, checkpoint);
   }
-  int code = app::run_case(scalar, spec, options);
+  int code = app::run_and_report(scalar, spec, options);
   if (code == app::ok && !shadow.empty()) {
     code = app::run_shadow(spec, scalar, shadow, &interrupted);
     if (received_signal) code = app::interrupted;
@@ -137,7 +139,7 @@ int main(int argc, char** argv) {
       "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
   std::string case_file, folder, precision, shadow, checkpoint;
   std::vector<std::string> overrides;
-  bool quiet = false;
+  bool quiet = false, report = false;
 
   auto* run_command = app.add_subcommand("run", "simulate a case and write its results");
   run_command->add_option("case", case_file, "case file (TOML)")->required();
@@ -161,6 +163,12 @@ int main(int argc, char** argv) {
   resume_command->add_option("folder", folder, "folder of the run")->required();
   resume_command->add_option("--checkpoint", checkpoint, every + "; as before unless given");
   resume_command->add_flag("--quiet", quiet, "no progress line and no result table");
+
+  run_command->add_flag("--report", report, "write report.html, and the tables that it shows");
+
+  auto* report_command = app.add_subcommand("report", "make the HTML page of a run from its files");
+  report_command->add_option("folder", folder, "folder of the run")->required();
+  report_command->add_flag("--quiet", quiet, "do not tell where the page is");
 
   edmill::app::CertifyOptions certification;
   auto* certify_command =
@@ -253,8 +261,9 @@ int main(int argc, char** argv) {
     return edmill::app::bad_input;
   }
   try {
-    if (*run_command) return run(case_file, folder, precision, shadow, checkpoint, overrides, quiet);
+    if (*run_command) return run(case_file, folder, precision, shadow, checkpoint, overrides, report, quiet);
     if (*resume_command) return resume(folder, checkpoint, quiet);
+    if (*report_command) return edmill::app::run_report(folder, quiet);
     if (*certify_command) return certify(case_file, overrides, certification);
     if (*sweep_command) return run_study(edmill::app::run_sweep, study);
     if (*optimize_command) return run_study(edmill::app::run_optimize, study);

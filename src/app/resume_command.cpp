@@ -2,18 +2,19 @@
 
 #include <filesystem>
 
-#include "edmill/app/dispatch.hpp"
+#include "edmill/app/run_command.hpp"
 #include "edmill/core/errors.hpp"
 
 namespace edmill::app {
 
 record::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vector<std::string>& overrides,
-                                    const std::string& precision, const std::string& interval) {
+                                    const std::string& precision, bool report, const std::string& interval) {
   record::Checkpoint c;
   c.case_file = spec.file, c.case_text = spec.text, c.case_digest = spec.digest;
   if (!spec.initial_state.empty()) c.initial_state = std::filesystem::absolute(spec.initial_state).string();
   c.overrides = overrides;
   c.precision = precision;
+  c.report = report;
   c.interval = interval;
   return c;
 }
@@ -30,8 +31,9 @@ int run_resume(const std::string& interval, RunOptions options) {
     throw InputError(options.folder + ": found another initial state in " + spec.initial_state +
                      " than the run had, expected the file as it was");
   const std::string precision = checkpoint.precision;
+  options.report = checkpoint.report;
   options.checkpoint = std::move(checkpoint);
-  return run_case(precision, spec, options);
+  return run_and_report(precision, std::move(spec), options);
 }
 
 }  // namespace edmill::app

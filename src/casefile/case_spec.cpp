@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "edmill/casefile/case_of_run.hpp"
 #include "edmill/core/digest.hpp"
 #include "edmill/core/errors.hpp"
 #include "output_spec.hpp"
@@ -328,8 +329,13 @@ std::size_t CaseSpec::ball_count() const {
   return count;
 }
 
-CaseSpec parse_case(const std::string& text, const std::string& name,
-                    const std::vector<std::string>& overrides) {
+namespace {
+
+const std::string setting_mark = "\n# --set ";  ///< before a setting, in the lines behind the text of a case
+
+/// @param finished  a run of it is over: the file that it began from is not looked for
+CaseSpec parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
+               bool finished) {
   Document document;
   document.name = name;
   toml::table root = parse_toml(text, "a case file", document);
@@ -339,8 +345,8 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
   spec.file = name;
   spec.text = text;
   for (const auto& setting : overrides) {
-    spec.text += "\n# --set ";
-    for (const char c : setting) spec.text += c == '\n' ? std::string("\n# ") : std::string(1, c);
+    spec.text += setting_mark;
+    for (const char c : setting) spec.text += c == '\n' ? ' ' : c;  // a line of the text for each
   }
   Section top(document, &root, "");
   read_run(top.section("run"), spec);
@@ -360,7 +366,7 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
     top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
   top.reject_unknown_keys();
   check_times(top.section("run"), spec);
-  if (!spec.initial_state.empty()) {
+  if (!spec.initial_state.empty() && !finished) {
     const std::filesystem::path given(spec.initial_state);
     if (given.is_relative())
       spec.initial_state = (std::filesystem::path(name).parent_path() / given).string();
@@ -370,8 +376,48 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
                                  "a final_state.csv");
   }
   if (!document.problems.empty()) throw InputError(document.problems);
-  spec.digest = sha256(canonical_text(spec));
+  if (spec.initial_state.empty() || !finished) spec.digest = sha256(canonical_text(spec));
   return spec;
+}
+
+/// The settings in the last lines of a text, in their order.
+std::vector<std::string> settings_of(std::string text) {
+  std::vector<std::string> settings;
+  for (auto line = text.rfind('\n'); line != std::string::npos; line = text.rfind('\n')) {
+    if (text.compare(line, setting_mark.size(), setting_mark) != 0) break;
+    settings.insert(settings.begin(), text.substr(line + setting_mark.size()));
+    text.resize(line);
+  }
+  return settings;
+}
+
+}  // namespace
+
+CaseSpec parse_case(const std::string& text, const std::string& name,
+                    const std::vector<std::string>& overrides) {
+  return parse(text, name, overrides, false);
+}
+
+CaseSpec read_case_of_run(const std::string& path, const std::string& digest) {
+  const std::string text = read_file(path, "the case of the run");
+  CaseSpec spec = parse(text, path, settings_of(text), true);
+  // A case that came with such lines was run without them.
+  if (!spec.digest.empty() && spec.digest != digest) spec = parse(text, path, {}, true);
+  if (!spec.digest.empty() && spec.digest != digest)
+    throw InputError(path + ": found a case with digest " + spec.digest + ", expected that of the run, " +
+                     digest);
+  spec.text = text;
+  return spec;
+}
+
+void add_outputs(const std::string& text, const std::string& name, CaseSpec& spec) {
+  Document document;
+  document.name = name;
+  const toml::table root = parse_toml(text, "entries [[output]]", document);
+  Section top(document, &root, "");
+  for (const auto& entry : top.sections("output")) read_output(entry, spec);
+  top.reject_unknown_keys();
+  if (!document.problems.empty()) throw InputError(document.problems);
 }
 
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides) {

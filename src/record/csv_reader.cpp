@@ -105,7 +105,14 @@ std::optional<int> CsvReader::whole(std::size_t column, const std::string& expec
 void CsvReader::split() {
   fields_.clear();
   std::string_view rest = line_;
-  for (auto comma = rest.find(','); comma != std::string_view::npos; comma = rest.find(',')) {
+  // A field in quotes can hold commas; two quotes in it stand for one (RFC 4180).
+  const auto end_of_field = [&rest] {
+    auto from = rest.starts_with('"') ? rest.find('"', 1) : 0;
+    while (from != std::string_view::npos && rest.substr(from).starts_with("\"\""))
+      from = rest.find('"', from + 2);
+    return rest.find(',', from == std::string_view::npos ? 0 : from);
+  };
+  for (auto comma = end_of_field(); comma != std::string_view::npos; comma = end_of_field()) {
     fields_.push_back(trimmed(rest.substr(0, comma)));
     rest.remove_prefix(comma + 1);
   }

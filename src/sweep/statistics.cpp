@@ -49,4 +49,11 @@ bool differ(const std::vector<double>& a, const std::vector<double>& b, double s
   return distance > student_limit(freedom, significance) * std::sqrt(va + vb);
 }
 
+bool stands_apart(double value, const std::vector<double>& sample, double significance) {
+  if (sample.size() < 2) return false;
+  const double n = static_cast<double>(sample.size());
+  const double spread = std::sqrt(variance_of_mean(sample) * n * (1 + 1 / n));
+  return std::abs(value - mean_of(sample)) > student_limit(n - 1, significance) * spread;
+}
+
 }  // namespace edmill::sweep

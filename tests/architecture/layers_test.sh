@@ -14,13 +14,15 @@ declare -A allowed=(
   [observe]="core numerics model dynamics engine record"
   [setup]="core numerics model casefile record"
   [report]="core record"
+  [plot]=""
   [outputs]="core numerics model casefile record engine observe"
   [driver]="core model casefile record setup engine observe"
   [sweep]="core model casefile record"
   [certify]="core model casefile setup engine"
   [compare]="core record sweep"
   [audit]="core numerics model casefile dynamics record"
-  [app]="core numerics model casefile record setup dynamics engine observe outputs report driver sweep certify compare audit"
+  [page]="core model casefile record sweep plot"
+  [app]="core numerics model casefile record setup dynamics engine observe outputs report driver sweep certify compare audit page"
 )
 
 status=0

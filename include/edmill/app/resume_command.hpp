@@ -9,7 +9,7 @@ namespace edmill::app {
 
 /// What the checkpoints of a run say of it, at its start.
 record::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vector<std::string>& overrides,
-                                    const std::string& precision, const std::string& interval);
+                                    const std::string& precision, bool report, const std::string& interval);
 
 /// Goes on with the run of `options.folder` from its checkpoint. @param interval  empty for the one it had
 /// @return an exit code, as of `edmill run`

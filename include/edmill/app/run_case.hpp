@@ -27,6 +27,7 @@ enum ExitCode : int {
 struct RunOptions {
   std::string folder;  ///< of the outputs
   bool quiet = false;
+  bool report = false;  ///< write the page report.html, and the tables that it shows
   const std::atomic<bool>* interrupt = nullptr;
   /// Called when there begins to be something to keep; before that a signal may end the program at once.
   std::function<void()> listen = [] {};

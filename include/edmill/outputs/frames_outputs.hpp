@@ -23,9 +23,9 @@ class FramesOutput : public SceneOutput<Real> {
                          const StateOf& state_of) = 0;
 
   void before(const Seen<Real>& seen) override {
-    if (complete_) return;
-    const BallsBefore<Real> balls(seen);
     const Real& now = seen.facts.time;
+    if (complete_ || now < this->timer().from()) return;
+    const BallsBefore<Real> balls(seen);
     const auto frame = [&](const Real& time) {
       add_frame(seen.simulation, time, [&](int i) { return balls.state(i, time); });
     };
@@ -69,7 +69,7 @@ class AnimationOutput : public FramesOutput<Real> {
   void before(const Seen<Real>& seen) override {
     FramesOutput<Real>::before(seen);
     const auto& f = seen.facts;
-    if (this->timer().until(f.time) < f.time) return;
+    if (f.time < this->timer().from() || this->timer().until(f.time) < f.time) return;
     for (const int ball : {f.ball, f.ball_ball ? f.partner : f.ball})
       add_key(ball, f.time, seen.simulation.flight(ball).position);
   }

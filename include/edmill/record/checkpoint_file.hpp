@@ -14,13 +14,14 @@ struct Checkpoint {
   std::string case_file, case_text, initial_state;  ///< of the case: name, text, path of its initial state
   std::vector<std::string> overrides;               ///< "section.key=value"
   std::string case_digest, precision;
+  bool report = false;         ///< whether the page was asked for
   std::string interval;        ///< between checkpoints, as it was given
   std::string temporary_mark;  ///< of the files that the run goes on with
   std::string state;           ///< of the run
 
   void archive(Archive& a) {
-    a(case_file, case_text, initial_state, overrides, case_digest, precision, interval, temporary_mark,
-      state);
+    a(case_file, case_text, initial_state, overrides, case_digest, precision, report, interval,
+      temporary_mark, state);
   }
 };
 

@@ -17,4 +17,8 @@ Estimate estimate(const std::vector<double>& values);
 /// two values cannot be told apart.
 bool differ(const std::vector<double>& a, const std::vector<double>& b, double significance);
 
+/// Whether a value lies outside of where another value of this sample would lie with probability
+/// 1 - `significance` (Student's prediction interval). Of fewer than two values nothing stands apart.
+bool stands_apart(double value, const std::vector<double>& sample, double significance);
+
 }  // namespace edmill::sweep

@@ -1,0 +1,23 @@
+# X3DOM plays the animation of a report inside its page. npm fetches it once for a build folder and checks its digest by
+# src/page/package-lock.json; without npm or a network, reports show a still picture instead.
+set(x3dom_recipe ${CMAKE_SOURCE_DIR}/src/page)
+file(SHA256 ${x3dom_recipe}/package-lock.json x3dom_version)
+string(SUBSTRING ${x3dom_version} 0 12 x3dom_version)
+set(x3dom_folder ${CMAKE_BINARY_DIR}/x3dom-${x3dom_version})
+set(EDMILL_X3DOM ${x3dom_folder}/node_modules/x3dom)
+find_program(NPM npm)
+if(NPM AND NOT EXISTS ${EDMILL_X3DOM}/x3dom.js)
+  file(COPY ${x3dom_recipe}/package.json ${x3dom_recipe}/package-lock.json DESTINATION ${x3dom_folder})
+  execute_process(COMMAND ${NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error WORKING_DIRECTORY ${x3dom_folder}
+                  OUTPUT_QUIET ERROR_VARIABLE x3dom_error RESULT_VARIABLE x3dom_result)
+  if(NOT x3dom_result EQUAL 0)
+    message(WARNING "npm could not fetch X3DOM: reports will have no moving picture. ${x3dom_error}")
+  endif()
+elseif(NOT NPM)
+  message(STATUS "no npm: reports will have no moving picture")
+endif()
+if(NOT EXISTS ${EDMILL_X3DOM}/x3dom.js)
+  set(EDMILL_X3DOM ${CMAKE_BINARY_DIR}/no-x3dom)
+  file(WRITE ${EDMILL_X3DOM}/x3dom.js "")
+  file(WRITE ${EDMILL_X3DOM}/x3dom.css "")
+endif()

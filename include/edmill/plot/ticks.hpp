@@ -1,0 +1,33 @@
+// Where an axis is marked, and numbers as people read them.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace edmill::plot {
+
+struct Tick {
+  double place;
+  std::string label;  ///< empty for a mark between the labelled ones
+};
+
+/// Multiples of 1, 2 or 5 times a power of ten inside [low, high], at most `most` of them (and two at least
+/// when `most` > 3). @pre low < high
+std::vector<Tick> linear_ticks(double low, double high, int most = 6);
+
+/// Powers of ten inside [low, high], labelled so that about `most` labels stand; between them the multiples
+/// 2 to 9 when there are few decades. @pre 0 < low < high
+std::vector<Tick> log_ticks(double low, double high, int most = 7);
+
+/// "0.1803", "1.2 x 10^-5" with a real minus and superscripts, thousands apart: for reading only.
+/// @param digits  significant ones
+std::string readable(double value, int digits = 4);
+
+/// The same without zeros at the end: "38", "0.5".
+std::string brief(double value, int digits = 6);
+
+/// A value and its half-width with the digits that the half-width allows: "5.542" and "0.031".
+std::pair<std::string, std::string> with_interval(double value, double half_width);
+
+}  // namespace edmill::plot

@@ -1,0 +1,168 @@
+#include "edmill/plot/chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace edmill::plot {
+
+namespace {
+
+/// Places of values in the frame; what lies outside stops a little beyond it and is clipped.
+class Places {
+ public:
+  explicit Places(const Chart& chart) : chart_(chart) {}
+  double x(double value) const {
+    return frame.left + bounded(fraction(chart_.x, value)) * (frame.right - frame.left);
+  }
+  double y(double value) const {
+    return frame.bottom - bounded(fraction(chart_.y, value)) * (frame.bottom - frame.top);
+  }
+  Frame frame;
+
+ private:
+  static double bounded(double fraction) { return std::clamp(fraction, -0.05, 1.05); }
+  const Chart& chart_;
+};
+
+std::string path_of(const Curve& curve, const Places& places) {
+  std::string path;
+  const auto& points = curve.points;
+  bool pen_down = false;
+  const auto go = [&](double x, double y) {
+    path += fmt::format("{}{} {}", pen_down ? "L" : "M", pixel(places.x(x)), pixel(places.y(y)));
+    pen_down = true;
+  };
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto [x, y] = points[k];
+    if (std::isnan(y)) {
+      pen_down = false;
+      continue;
+    }
+    if (curve.steps && k + 1 == points.size()) break;
+    go(x, y);
+    if (curve.steps) go(points[k + 1].first, y);
+  }
+  return path;
+}
+
+std::string path_of(const Band& band, const Places& places) {
+  std::string path;
+  for (std::size_t k = 0; k < band.x.size(); ++k)
+    path +=
+        fmt::format("{}{} {}", k == 0 ? "M" : "L", pixel(places.x(band.x[k])), pixel(places.y(band.high[k])));
+  for (std::size_t k = band.x.size(); k-- > 0;)
+    path += fmt::format("L{} {}", pixel(places.x(band.x[k])), pixel(places.y(band.low[k])));
+  return path + "Z";
+}
+
+void add_line(pugi::xml_node parent, const char* style, double x1, double y1, double x2, double y2) {
+  add(parent, "line",
+      {{"class", style}, {"x1", pixel(x1)}, {"y1", pixel(y1)}, {"x2", pixel(x2)}, {"y2", pixel(y2)}});
+}
+
+std::vector<Tick> ticks_of(const Axis& axis) {
+  return axis.logarithmic ? log_ticks(axis.low, axis.high) : linear_ticks(axis.low, axis.high);
+}
+
+void add_axes(pugi::xml_node svg, const Chart& chart, const Places& places) {
+  const Frame& f = places.frame;
+  auto x_axis = add(svg, "g", {{"class", "axis x-axis"}}), y_axis = add(svg, "g", {{"class", "axis y-axis"}});
+  for (const auto& tick : ticks_of(chart.x)) {
+    const double x = places.x(tick.place);
+    add_line(x_axis, "tick", x, f.bottom, x, f.bottom + (tick.label.empty() ? 3 : 5));
+    if (!tick.label.empty())
+      add(x_axis, "text", {{"class", "label"}, {"x", pixel(x)}, {"y", pixel(f.bottom + 18)}}, tick.label);
+  }
+  for (const auto& tick : ticks_of(chart.y)) {
+    const double y = places.y(tick.place);
+    if (!tick.label.empty()) add_line(y_axis, "grid", f.left, y, f.right, y);
+    add_line(y_axis, "tick", f.left - (tick.label.empty() ? 3 : 5), y, f.left, y);
+    if (!tick.label.empty())
+      add(y_axis, "text", {{"class", "label"}, {"x", pixel(f.left - 8)}, {"y", pixel(y + 4)}}, tick.label);
+  }
+  add_line(x_axis, "spine", f.left, f.bottom, f.right, f.bottom);
+  add_line(y_axis, "spine", f.left, f.top, f.left, f.bottom);
+  const double middle = (f.top + f.bottom) / 2;
+  add(x_axis, "text",
+      {{"class", "axis-title"}, {"x", pixel((f.left + f.right) / 2)}, {"y", pixel(f.height - 8)}},
+      chart.x.title);
+  add(y_axis, "text",
+      {{"class", "axis-title"},
+       {"x", "12"},
+       {"y", pixel(middle)},
+       {"transform", fmt::format("rotate(-90 12 {})", pixel(middle))}},
+      chart.y.title);
+}
+
+void add_legend(pugi::xml_node figure, const Chart& chart) {
+  if (std::count_if(chart.curves.begin(), chart.curves.end(),
+                    [](const auto& c) { return !c.name.empty(); }) == 0)
+    return;
+  auto legend = add(figure, "ul", {{"class", "legend"}});
+  for (const auto& curve : chart.curves)
+    if (!curve.name.empty()) {
+      auto entry = add(legend, "li");
+      add(entry, "span", {{"class", "swatch " + curve.colour}, {"aria-hidden", "true"}}, " ");
+      add(entry, "span", {}, curve.name);
+    }
+}
+
+}  // namespace
+
+std::string pixel(double place) {
+  std::string text = fmt::format("{:.2f}", place);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+double fraction(const Axis& axis, double value) {
+  if (!axis.logarithmic) return (value - axis.low) / (axis.high - axis.low);
+  return value > 0 ? std::log(value / axis.low) / std::log(axis.high / axis.low) : -1;
+}
+
+pugi::xml_node add_drawing(pugi::xml_node parent, const std::string& id, const std::string& title,
+                           const std::string& description, double width, double height) {
+  auto svg = add(parent, "svg",
+                 {{"viewBox", fmt::format("0 0 {} {}", pixel(width), pixel(height))},
+                  {"role", "img"},
+                  {"aria-labelledby", id + "-title " + id + "-desc"}});
+  add(svg, "title", {{"id", id + "-title"}}, title);
+  add(svg, "desc", {{"id", id + "-desc"}}, description);
+  return svg;
+}
+
+void draw(pugi::xml_node parent, const Chart& chart) {
+  const Places places(chart);
+  const Frame& f = places.frame;
+  auto figure = add(parent, "figure", {{"class", "chart"}, {"id", chart.id}});
+  add(figure, "figcaption", {}, chart.title);
+  add_legend(figure, chart);
+  auto svg = add_drawing(figure, chart.id, chart.title, chart.description, f.width, f.height);
+  const std::string clip = chart.id + "-frame";
+  add(add(add(svg, "defs"), "clipPath", {{"id", clip}}), "rect",
+      {{"x", pixel(f.left)},
+       {"y", pixel(f.top - 1)},
+       {"width", pixel(f.right - f.left)},
+       {"height", pixel(f.bottom - f.top + 1)}});
+  add_axes(svg, chart, places);
+  auto inside = add(svg, "g", {{"clip-path", "url(#" + clip + ")"}});
+  for (const auto& band : chart.bands)
+    add(inside, "path", {{"class", "band " + band.colour}, {"d", path_of(band, places)}});
+  for (const auto& mark : chart.marks) {
+    const double x = places.x(mark.x);
+    add_line(inside, "mark", x, f.top, x, f.bottom);
+    const bool room = x < (f.left + f.right) / 2;
+    add(inside, "text",
+        {{"class", room ? "mark-text" : "mark-text before"},
+         {"x", pixel(x + (room ? 5 : -5))},
+         {"y", pixel(f.top + 10)}},
+        mark.text);
+  }
+  for (const auto& curve : chart.curves)
+    add(inside, "path", {{"class", "curve " + curve.colour}, {"d", path_of(curve, places)}});
+}
+
+}  // namespace edmill::plot

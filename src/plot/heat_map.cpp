@@ -1,0 +1,129 @@
+#include "edmill/plot/heat_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace edmill::plot {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+void add_cell(pugi::xml_node parent, const std::string& path, const HeatMap& map, const HeatCell& cell) {
+  auto node = add(parent, "path", {{"d", path}, {"fill", heat_colour(cell.value / map.highest)}});
+  add(node, "title", {}, readable(cell.value, 3) + map.value.substr(map.value.find(" [") + 1));
+}
+
+/// A ring's part between two angles.
+std::string sector(const HeatCell& c, double scale, double cx, double cy) {
+  const auto place = [&](double radius, double angle) {
+    return fmt::format("{} {}", pixel(cx + scale * radius * std::cos(angle)),
+                       pixel(cy - scale * radius * std::sin(angle)));
+  };
+  const std::string outer = pixel(scale * c.y_high), inner = pixel(scale * c.y_low);
+  const int large = c.x_high - c.x_low > pi ? 1 : 0;
+  return fmt::format("M{}A{} {} 0 {} 0 {}L{}A{} {} 0 {} 1 {}Z", place(c.y_high, c.x_low), outer, outer, large,
+                     place(c.y_high, c.x_high), place(c.y_low, c.x_high), inner, inner, large,
+                     place(c.y_low, c.x_low));
+}
+
+void add_scale(pugi::xml_node svg, const HeatMap& map, double x, double top, double bottom) {
+  auto scale = add(svg, "g", {{"class", "axis y-axis"}});
+  constexpr int parts = 48;
+  const double height = (bottom - top) / parts;
+  for (int k = 0; k < parts; ++k)
+    add(scale, "rect",
+        {{"x", pixel(x)},
+         {"y", pixel(bottom - (k + 1) * height)},
+         {"width", "12"},
+         {"height", pixel(height + 0.5)},
+         {"fill", heat_colour((k + 0.5) / parts)}});
+  for (const auto& tick : linear_ticks(0, map.highest, 6))
+    add(scale, "text",
+        {{"class", "label after"},
+         {"x", pixel(x + 17)},
+         {"y", pixel(bottom - (bottom - top) * tick.place / map.highest + 4)}},
+        tick.label);
+  add(scale, "text", {{"class", "axis-title end"}, {"x", pixel(x + 52)}, {"y", pixel(top - 8)}}, map.value);
+}
+
+void draw_disc(pugi::xml_node figure, const HeatMap& map) {
+  constexpr double width = 300, height = 270, cx = 122, cy = 138, radius = 86;
+  auto svg = add_drawing(figure, map.id, map.title, map.description, width, height);
+  const double scale = radius / map.y.high;
+  auto cells = add(svg, "g", {{"class", "cells"}});
+  for (const auto& cell : map.cells) add_cell(cells, sector(cell, scale, cx, cy), map, cell);
+  auto axis = add(svg, "g", {{"class", "axis x-axis"}});
+  for (int k = 0; k < 4; ++k) {
+    const double c = std::cos(k * pi / 2), s = std::sin(k * pi / 2);
+    add(axis, "text",
+        {{"class", "label"}, {"x", pixel(cx + (radius + 16) * c)}, {"y", pixel(cy - (radius + 12) * s + 4)}},
+        fmt::format("{}\u00b0", 90 * k));
+  }
+  add(axis, "text", {{"class", "axis-title"}, {"x", pixel(cx)}, {"y", pixel(height - 6)}}, map.x.title);
+  add_scale(svg, map, 246, 50, 226);
+}
+
+void draw_sheet(pugi::xml_node figure, const HeatMap& map) {
+  constexpr double width = 460, height = 270, left = 56, right = 376, top = 30, bottom = 222;
+  auto svg = add_drawing(figure, map.id, map.title, map.description, width, height);
+  const auto x = [&](double value) { return left + fraction(map.x, value) * (right - left); };
+  const auto y = [&](double value) { return bottom - fraction(map.y, value) * (bottom - top); };
+  auto cells = add(svg, "g", {{"class", "cells"}});
+  for (const auto& c : map.cells)
+    add_cell(cells,
+             fmt::format("M{0} {1}H{2}V{3}H{0}Z", pixel(x(c.x_low)), pixel(y(c.y_low)), pixel(x(c.x_high)),
+                         pixel(y(c.y_high))),
+             map, c);
+  auto x_axis = add(svg, "g", {{"class", "axis x-axis"}}), y_axis = add(svg, "g", {{"class", "axis y-axis"}});
+  for (double degrees = std::ceil(map.x.low / 90) * 90; degrees <= map.x.high; degrees += 90)
+    add(x_axis, "text", {{"class", "label"}, {"x", pixel(x(degrees))}, {"y", pixel(bottom + 16)}},
+        pixel(degrees));
+  for (const auto& tick : linear_ticks(map.y.low, map.y.high, 7))
+    add(y_axis, "text", {{"class", "label"}, {"x", pixel(left - 6)}, {"y", pixel(y(tick.place) + 4)}},
+        tick.label);
+  add(x_axis, "text", {{"class", "axis-title"}, {"x", pixel((left + right) / 2)}, {"y", pixel(height - 8)}},
+      map.x.title);
+  const std::string middle = pixel((top + bottom) / 2);
+  add(y_axis, "text",
+      {{"class", "axis-title"}, {"x", "14"}, {"y", middle}, {"transform", "rotate(-90 14 " + middle + ")"}},
+      map.y.title);
+  add_scale(svg, map, 396, top, bottom);
+}
+
+}  // namespace
+
+std::string heat_colour(double share) {
+  // Every eighth of matplotlib's viridis (public domain, CC0); straight lines between.
+  static constexpr std::array<std::array<double, 3>, 9> stops{{{68, 1, 84},
+                                                               {71, 44, 122},
+                                                               {59, 81, 139},
+                                                               {44, 113, 142},
+                                                               {33, 144, 141},
+                                                               {39, 173, 129},
+                                                               {92, 200, 99},
+                                                               {170, 220, 50},
+                                                               {253, 231, 37}}};
+  const double place = std::clamp(share, 0.0, 1.0) * 8;
+  const auto k = std::min<std::size_t>(7, static_cast<std::size_t>(place));
+  const auto part = [&](std::size_t c) {
+    return static_cast<int>(
+        std::lround(stops[k][c] + (place - static_cast<double>(k)) * (stops[k + 1][c] - stops[k][c])));
+  };
+  return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
+}
+
+void draw(pugi::xml_node parent, const HeatMap& map) {
+  auto figure =
+      add(parent, "figure", {{"class", map.disc ? "chart heat disc" : "chart heat"}, {"id", map.id}});
+  add(figure, "figcaption", {}, map.title);
+  if (map.disc)
+    draw_disc(figure, map);
+  else
+    draw_sheet(figure, map);
+}
+
+}  // namespace edmill::plot
