@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace edmill::dynamics {
 extern template class DecisionLadder<double>;
 }
