@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <cctype>
-#include <csignal>
 #include <filesystem>
 
 #include "edmill/app/audit_command.hpp"
@@ -15,40 +13,35 @@
 #include "edmill/app/resume_command.hpp"
 #include "edmill/app/run_command.hpp"
 #include "edmill/app/run_folder.hpp"
+#include "edmill/app/signals.hpp"
 #include "edmill/app/study_command.hpp"
 #include "edmill/core/errors.hpp"
 #include "edmill/core/version.hpp"
 
 namespace {
 
-std::atomic<bool> interrupted{false};
-volatile std::sig_atomic_t received_signal = 0;
-
-extern "C" void on_signal(int signal) {
-  // A second signal ends the program at once.
-  if (received_signal) std::_Exit(128 + signal);
-  received_signal = signal;
-  interrupted.store(true, std::memory_order_relaxed);
-}
-
-int with_signal(int code) { return code == edmill::app::interrupted ? code + received_signal : code; }
-
 edmill::app::RunOptions run_options(const std::string& folder, bool quiet) {
   edmill::app::RunOptions options;
   options.folder = folder;
   options.quiet = quiet;
-  options.interrupt = &interrupted;
-  options.listen = [] {
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
-  };
+  options.interrupt = &edmill::app::interrupt_flag();
+  options.listen = edmill::app::listen_for_signals;
   return options;
+}
+
+/// For work that reports no interruption itself.
+template <class Work, class Options>
+int interruptible(const Work& work, Options& options) {
+  using namespace edmill::app;
+  options.interrupt = &interrupt_flag();
+  listen_for_signals();
+  return after_signals(work());
 }
 
 int resume(const std::string& folder, const std::string& checkpoint, bool quiet) {
   using namespace edmill;
   if (!checkpoint.empty()) app::parse_checkpoint_interval(checkpoint);
-  return with_signal(app::run_resume(checkpoint, run_options(folder, quiet)));
+  return app::with_signal(app::run_resume(checkpoint, run_options(folder, quiet)));
 }
 
 int run(const std::string& case_file, const std::string& folder, const std::string& precision,
@@ -67,10 +60,10 @@ int run(const std::string& case_file, const std::string& folder, const std::stri
   }
   int code = app::run_and_report(scalar, spec, options);
   if (code == app::ok && !shadow.empty()) {
-    code = app::run_shadow(spec, scalar, shadow, &interrupted);
-    if (received_signal) code = app::interrupted;
+    code = app::run_shadow(spec, scalar, shadow, options.interrupt);
+    if (*options.interrupt) code = app::interrupted;
   }
-  return with_signal(code);
+  return app::with_signal(code);
 }
 
 int certify(const std::string& case_file, const std::vector<std::string>& overrides,
@@ -79,32 +72,14 @@ int certify(const std::string& case_file, const std::vector<std::string>& overri
   const auto spec = casefile::read_case(case_file, overrides);
   if (options.file.empty())
     options.file = "out/" + std::filesystem::path(case_file).stem().string() + ".reference.csv";
-  options.interrupt = &interrupted;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  const int code = app::run_certify(spec, options);
-  return received_signal ? 128 + received_signal : code;
+  return interruptible([&] { return app::run_certify(spec, options); }, options);
 }
 
 int audit(const std::string& case_file, const std::vector<std::string>& overrides,
           edmill::app::AuditOptions& options) {
   using namespace edmill;
   const auto spec = casefile::read_case(case_file, overrides);
-  options.interrupt = &interrupted;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  const int code = app::run_audit(spec, options);
-  return received_signal ? 128 + received_signal : code;
-}
-
-/// `command` is app::run_sweep or app::run_optimize.
-template <class Command>
-int run_study(const Command& command, edmill::app::StudyOptions& options) {
-  options.interrupt = &interrupted;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  const int code = command(options);
-  return received_signal ? 128 + received_signal : code;
+  return interruptible([&] { return app::run_audit(spec, options); }, options);
 }
 
 /// One line a problem, whatever characters a case file put into it.
@@ -265,8 +240,8 @@ int main(int argc, char** argv) {
     if (*resume_command) return resume(folder, checkpoint, quiet);
     if (*report_command) return edmill::app::run_report(folder, quiet);
     if (*certify_command) return certify(case_file, overrides, certification);
-    if (*sweep_command) return run_study(edmill::app::run_sweep, study);
-    if (*optimize_command) return run_study(edmill::app::run_optimize, study);
+    if (*sweep_command) return interruptible([&] { return edmill::app::run_sweep(study); }, study);
+    if (*optimize_command) return interruptible([&] { return edmill::app::run_optimize(study); }, study);
     if (*audit_command) return audit(case_file, overrides, audited);
     if (*compare_command) return edmill::app::run_compare(compare);
     if (*variables_command) {
@@ -280,7 +255,7 @@ int main(int argc, char** argv) {
     return edmill::app::bad_input;
   } catch (const edmill::InterruptedError& error) {
     print_problem(error.what());
-    return 128 + received_signal;
+    return edmill::app::after_signals(edmill::app::interrupted);
   } catch (const std::exception& error) {
     print_problem(error.what());
     return edmill::app::internal_error;
