@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "case_parts.hpp"
 #include "edmill/casefile/case_of_run.hpp"
 #include "edmill/core/digest.hpp"
 #include "edmill/core/errors.hpp"
@@ -99,117 +100,6 @@ void read_vessel(Section vessel, CaseSpec& spec) {
   vessel.require(spec.vessel_height.positive(), "height", "a positive length");
   spec.vessel_colour = vessel.colour("colour", spec.vessel_colour);
   vessel.reject_unknown_keys();
-}
-
-/// Reads the keys that are there; what is absent keeps the value that `spec` came with.
-/// A new contact law adds its name and its keys here and its formula in model/contact_law.hpp.
-struct ContactKeys {
-  bool restitution = false, tangential = false, friction = false;
-};
-void read_contact_keys(Section& s, ContactSpec& spec, ContactKeys& given) {
-  using model::ContactModel;
-  if (s.has("model"))
-    spec.model = s.choice("model", {"walton-braun", "constant"}) == "constant" ? ContactModel::constant
-                                                                               : ContactModel::walton_braun;
-  else
-    s.choice("model", {"walton-braun", "constant"});
-  const auto take = [&](const std::string& key, const cpp_rational& low, const cpp_rational& high,
-                        Quantity& value, bool& was_given, const std::string& expected) {
-    const bool here = s.has(key);
-    if (const auto found = s.quantity(key, Dimension::none)) {
-      value = *found;
-      s.require(value.value >= low && value.value <= high, key, expected);
-    }
-    was_given = was_given || here;
-  };
-  const cpp_rational large = cpp_rational(1000000);
-  bool ignored = false;
-  if (s.has("restitution") && s.has("restitution_normal"))
-    s.problem("restitution_normal", "both 'restitution' and 'restitution_normal'", "one of them");
-  take("restitution", 0, 1, spec.restitution_normal, given.restitution, "a number from 0 to 1");
-  take("restitution_normal", 0, 1, spec.restitution_normal, given.restitution, "a number from 0 to 1");
-  take("restitution_tangential", -1, 1, spec.restitution_tangential, given.tangential,
-       "a number from -1 to 1");
-  take("friction", 0, large, spec.friction, given.friction, "a number of 0 or more");
-  take("min_tangential", -1, 1, spec.min_tangential, ignored, "a number from -1 to 1");
-  if (const auto t_c = s.quantity("collapse_time", Dimension::time)) {
-    spec.collapse_time = *t_c;
-    s.require(!t_c->negative(), "collapse_time", "a time of 0 or more");
-  }
-}
-
-void read_contact(Section contact, CaseSpec& spec) {
-  ContactSpec base;
-  ContactKeys base_given;
-  read_contact_keys(contact, base, base_given);
-  for (const bool balls : {true, false}) {
-    Section own = contact.section(balls ? "ball_ball" : "ball_wall");
-    ContactSpec& law = balls ? spec.ball_ball : spec.ball_wall;
-    ContactKeys given = base_given;
-    law = base;
-    read_contact_keys(own, law, given);
-    own.reject_unknown_keys();
-    const auto need = [&](bool there, const std::string& key, const std::string& expected) {
-      if (!there) contact.problem(key, "nothing", expected);
-    };
-    need(given.restitution, "restitution", "a number from 0 to 1");
-    if (law.model == model::ContactModel::constant)
-      need(given.tangential, "restitution_tangential", "a number from -1 to 1");
-    else
-      need(given.friction, "friction", "a number of 0 or more");
-  }
-  contact.reject_unknown_keys();
-}
-
-void read_ball_spec(Section& s, BallSpec& ball) {
-  ball.where = s.where();
-  ball.diameter = s.required("diameter", Dimension::length);
-  s.require(ball.diameter.positive(), "diameter", "a positive length");
-  ball.density = s.quantity("density", Dimension::density, ball.density);
-  s.require(ball.density.positive(), "density", "a positive density");
-  ball.reduced_inertia = s.quantity("reduced_inertia", Dimension::none, ball.reduced_inertia);
-  s.require(ball.reduced_inertia.positive() && ball.reduced_inertia.value <= 1, "reduced_inertia",
-            "a number above 0, up to 1");
-  if (const auto velocity = s.vector("velocity", Dimension::speed)) ball.velocity = *velocity;
-  ball.colour = s.colour("colour", ball.colour);
-}
-
-constexpr std::uint64_t largest_count = 100000000;
-
-void read_batch(Section s, CaseSpec& spec) {
-  BallBatch batch;
-  read_ball_spec(s, batch);
-  const auto count = s.count("count").value_or(1);
-  s.require(count > 0 && count <= largest_count, "count", "from 1 to " + std::to_string(largest_count));
-  batch.count = static_cast<int>(std::min(count, largest_count));
-  batch.diameter_spread = s.quantity("diameter_spread", Dimension::length, Quantity{0});
-  const bool narrow = batch.diameter_spread.value < batch.diameter.value || !batch.diameter.positive();
-  s.require(!batch.diameter_spread.negative() && narrow, "diameter_spread",
-            "a length from 0 to less than the diameter");
-  batch.random_speed = s.quantity("random_speed", Dimension::speed);
-  if (batch.random_speed) {
-    s.require(!batch.random_speed->negative(), "random_speed", "a speed of 0 or more");
-    if (s.has("velocity")) s.problem("random_speed", "both 'velocity' and 'random_speed'", "one of them");
-  }
-  batch.gap_ball = s.quantity("gap_ball", Dimension::length, batch.gap_ball);
-  batch.gap_wall = s.quantity("gap_wall", Dimension::length, batch.gap_wall);
-  s.require(!batch.gap_ball.negative(), "gap_ball", "a length of 0 or more");
-  s.require(!batch.gap_wall.negative(), "gap_wall", "a length of 0 or more");
-  batch.max_relocations = s.count("max_relocations").value_or(batch.max_relocations);
-  s.reject_unknown_keys();
-  spec.batches.push_back(std::move(batch));
-}
-
-void read_ball(Section s, CaseSpec& spec) {
-  ExplicitBall ball;
-  read_ball_spec(s, ball);
-  if (const auto position = s.vector("position", Dimension::length))
-    ball.position = *position;
-  else if (!s.has("position") && spec.initial_state.empty())
-    s.problem("position", "nothing", "an array of three lengths");
-  if (const auto spin = s.vector("spin", Dimension::angular_speed)) ball.spin = *spin;
-  s.reject_unknown_keys();
-  spec.balls.push_back(std::move(ball));
 }
 
 void read_audit(Section audit, AuditSpec& spec) {
