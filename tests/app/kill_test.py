@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs with checkpoints that are killed, interrupted and resumed end like one that was left in peace.
+"""Runs with checkpoints and a report that are killed, interrupted and resumed end like one that was left in peace.
 
 usage: kill_test.py EDMILL [KILLS]
 Moments are drawn with a fixed seed, but the machine's load decides what a moment hits.
@@ -7,6 +7,7 @@ Moments are drawn with a fixed seed, but the machine's load decides what a momen
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -137,7 +138,7 @@ def folder(name):
 
 
 def results(place):
-    """Every file below `place` with its bytes, but the CPU times of the summary."""
+    """Every file below `place` with its bytes, but the CPU times of the summary and the page."""
     found = {}
     for root, _, names in os.walk(place):
         for name in names:
@@ -149,6 +150,9 @@ def results(place):
                 for key in ("cpu_seconds", "collisions_per_cpu_second"):
                     del summary[key]
                 content = json.dumps(summary).encode()
+            if name == "report.html":
+                content, times = re.subn(rb"in [^ ]+ s of processor time", b"", content)
+                check(times == 1, "the page tells the CPU time once")
             found[os.path.relpath(path, place)] = content
     return found
 
@@ -167,7 +171,7 @@ def check_same(place, expected, what):
 
 
 def begin(place, interval):
-    return [edmill, "run", "case.toml", "--quiet", "--out", place, "--checkpoint", interval]
+    return [edmill, "run", "case.toml", "--quiet", "--report", "--out", place, "--checkpoint", interval]
 
 
 def stopped_after(command, seconds, number):
@@ -198,7 +202,7 @@ with open(os.path.join(scratch, "case.toml"), "w") as out:
 
 begun = time.monotonic()
 reference = folder("reference")
-subprocess.run([edmill, "run", "case.toml", "--quiet", "--out", reference], cwd=scratch, check=True)
+subprocess.run([edmill, "run", "case.toml", "--quiet", "--report", "--out", reference], cwd=scratch, check=True)
 whole = time.monotonic() - begun
 expected = results(reference)
 check(len(expected) > 30 and expected["all_runs.csv"].startswith(b"rows of another run\n"), "the reference run")

@@ -31,6 +31,8 @@ struct RunOptions {
   const std::atomic<bool>* interrupt = nullptr;
   /// Called when there begins to be something to keep; before that a signal may end the program at once.
   std::function<void()> listen = [] {};
+  /// Called when the results are in place, while a killed run could still go on from its checkpoint.
+  std::function<void()> when_written = [] {};
   /// What a checkpoint says besides the state, when the run leaves any; with a state, it goes on from there.
   std::optional<record::Checkpoint> checkpoint;
 };

@@ -45,6 +45,7 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   record::AtomicFile summary_file(folder.place() / "summary.json");
   summary_file.stream() << record::summary_json(summary);
   summary_file.commit();
+  options.when_written();
   if (!goes_on) folder.remove_checkpoint();
 
   if (!options.quiet) {

@@ -7,6 +7,6 @@ namespace edmill::app {
 
 /// @pre `precision` is one of casefile::precisions()
 /// @return an exit code, as of run_case
-int run_and_report(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options);
+int run_and_report(const std::string& precision, casefile::CaseSpec spec, RunOptions options);
 
 }  // namespace edmill::app
