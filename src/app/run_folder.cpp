@@ -27,7 +27,7 @@ RunFolder::~RunFolder() {
 }
 
 void RunFolder::remove_temporaries(const std::string& kept) {
-  for (const auto* name : {"summary.json", "final_state.csv"})
+  for (const auto* name : {"summary.json", "final_state.csv", "case.toml", "report.html"})
     record::remove_temporaries(place_ / name, kept);
   record::remove_temporaries(record::checkpoint_place(place_), kept);
   for (const auto& output : spec_.outputs)
