@@ -44,7 +44,10 @@ driver::Checkpoints RunFolder::checkpoints() {
 }
 
 void RunFolder::remove_checkpoint() {
-  if (checkpoint_) fs::remove(record::checkpoint_place(place_));
+  if (!checkpoint_) return;
+  // First: once the checkpoint is gone, nobody looks for what killed processes of this run have left.
+  remove_temporaries("");
+  fs::remove(record::checkpoint_place(place_));
 }
 
 observe::CheckpointInterval parse_checkpoint_interval(const std::string& text) {

@@ -47,7 +47,8 @@ const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits&
   // The report's own come last, and are the ones that surely suit it.
   for (auto output = spec.outputs.rbegin(); output != spec.outputs.rend(); ++output)
     if (output->type == type && !output->append && output->timer.on && !output->file.ends_with(".h5") &&
-        fits(*output) && std::filesystem::is_regular_file(file_of(*output), ignored))
+        fits(*output) && std::filesystem::is_regular_file(file_of(*output), ignored) &&
+        !std::filesystem::is_empty(file_of(*output), ignored))  // of a record that never began
       return &*output;
   return nullptr;
 }

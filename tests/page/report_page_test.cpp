@@ -212,6 +212,14 @@ TEST_F(Report, TablesOfAnEarlierRunInTheFolderAreNotShown) {
   EXPECT_TRUE(body().select_nodes("//figure").empty());
 }
 
+TEST_F(Report, OfARecordThatNeverBeganSaysThatItIsMissing) {
+  run("--report");
+  std::ofstream(folder / "report/animation.x3d").close();
+  const auto done = edmill("report --quiet " + folder.string());
+  EXPECT_EQ(done.code, 0) << done.messages;
+  EXPECT_EQ(body().select_nodes("//section[@id='animation']//*[@class='missing']").size(), 1u);
+}
+
 TEST_F(Report, UsesTablesThatTheCaseAskedFor) {
   run("--set 'output=[{type=\"coverage\"},{type=\"animation\",duration=\"10 ms\"}]'");
   ASSERT_EQ(edmill("report " + folder.string()).code, 0);
