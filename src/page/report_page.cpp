@@ -97,7 +97,7 @@ std::string report_page(const RunFolder& run) {
                  {"script", std::string(page_js)},
                  {"x3dom_style", plays ? std::string(x3dom_css) : ""},
                  {"x3dom_script", plays ? std::string(x3dom_js) : ""},
-                 {"x3dom_note", plays ? "The animation is played by X3DOM 1.8.3 (MIT licence)." : ""}});
+                 {"x3dom_note", plays ? "The animation is played by X3DOM (MIT licence)." : ""}});
 }
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {

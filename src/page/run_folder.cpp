@@ -43,12 +43,16 @@ std::filesystem::path RunFolder::file_of(const casefile::OutputSpec& output) con
 }
 
 const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits& fits) const {
-  std::error_code ignored;
+  const auto is_written = [&](const casefile::OutputSpec& output) {
+    std::error_code ignored;
+    const auto file = file_of(output);
+    // The file of a record that never began is empty.
+    return std::filesystem::is_regular_file(file, ignored) && std::filesystem::file_size(file, ignored) > 0;
+  };
   // The report's own come last, and are the ones that surely suit it.
   for (auto output = spec.outputs.rbegin(); output != spec.outputs.rend(); ++output)
     if (output->type == type && !output->append && output->timer.on && !output->file.ends_with(".h5") &&
-        fits(*output) && std::filesystem::is_regular_file(file_of(*output), ignored) &&
-        !std::filesystem::is_empty(file_of(*output), ignored))  // of a record that never began
+        is_written(*output) && fits(*output))
       return &*output;
   return nullptr;
 }

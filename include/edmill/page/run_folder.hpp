@@ -19,8 +19,8 @@ struct RunFolder {
   casefile::CaseSpec spec;  ///< with the outputs of the report when the run was made with them
 
   using Fits = std::function<bool(const casefile::OutputSpec&)>;
-  /// The first output of a type, of which `fits` holds, that is CSV (or X3D), not appended to others, and
-  /// whose file is there; null when there is none.
+  /// An output of a type, of which `fits` holds, that is CSV (or X3D), not appended to others, and
+  /// whose file is there and not empty; null when there is none. The last such output of the case.
   const casefile::OutputSpec* output(std::string_view type, const Fits& fits) const;
   std::filesystem::path file_of(const casefile::OutputSpec& output) const;
 };
