@@ -88,16 +88,15 @@ std::string report_page(const RunFolder& run) {
   add_case(main, run);
   const bool plays = main.select_node("//x3d") && !x3dom_js.empty();
   const auto program = fmt::format("edmill {} ({})", run.facts.version, run.facts.commit);
-  return filled(page_html,
-                {{"title", escaped(title_of(run))},
-                 {"subtitle", escaped(subtitle_of(run))},
-                 {"program", escaped(program)},
-                 {"main", plot::html_of(document)},
-                 {"style", std::string(page_css)},
-                 {"script", std::string(page_js)},
-                 {"x3dom_style", plays ? std::string(x3dom_css) : ""},
-                 {"x3dom_script", plays ? std::string(x3dom_js) : ""},
-                 {"x3dom_note", plays ? "The animation is played by X3DOM (MIT licence)." : ""}});
+  return filled(page_html, {{"title", escaped(title_of(run))},
+                            {"subtitle", escaped(subtitle_of(run))},
+                            {"program", escaped(program)},
+                            {"main", plot::html_of(document)},
+                            {"style", std::string(page_css)},
+                            {"script", std::string(page_js)},
+                            {"x3dom_style", plays ? std::string(x3dom_css) : ""},
+                            {"x3dom_script", plays ? std::string(x3dom_js) : ""},
+                            {"x3dom_note", plays ? "The animation is played by X3DOM (MIT licence)." : ""}});
 }
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {
