@@ -15,10 +15,9 @@
 
 namespace edmill {
 
-/// Saves or loads everything that it is called with. A class takes part by `void archive(Archive& a) { a(x_,
-/// y_);
-/// }`; a scalar of its own by `archive_value` (core/scalar_list.hpp). Every bit is kept. The bytes are of
-/// this machine and of this build: there is no versioning of classes.
+/// Saves or loads everything that it is called with. A class takes part by a function that lists its members,
+/// `void archive(Archive& a) { a(x_, y_); }`; a scalar of its own by `archive_value` (core/scalar_list.hpp).
+/// Every bit is kept. The bytes are of this machine and of this build: there is no versioning of classes.
 class Archive {
  public:
   /// Saves.

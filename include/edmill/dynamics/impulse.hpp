@@ -25,13 +25,13 @@ template <class Real>
 struct Persistence {
   bool collapsing = false;  ///< within t_c of the last one
   bool resting = false;     ///< of a body at rest for every purpose
-  /// At which bodies at rest leave each other at least [m/s]: what they climb then is more than rounding.
+  /// At which bodies at rest leave each other at least [m/s]: a slower approach is rounding.
   Real least_separation{0};
 };
 
 namespace detail {
 
-/// The common part of both impacts. `partner_compliance` is M/(m_j J_j), zero for a wall.
+/// The common part of both impacts.
 template <class Real>
 struct ImpulseParts {
   Vec3<Real> per_mass;     ///< velocity change of a body of the effective mass M, with the sign for body i
@@ -39,6 +39,7 @@ struct ImpulseParts {
   ImpactOutcome<Real> outcome;
 };
 
+/// @param compliance  1 + M/(m_i J_i) + M/(m_j J_j); the last term is zero for a wall
 template <class Real>
 ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
                                  const Real& effective_mass, const Real& compliance,
