@@ -9,39 +9,8 @@ namespace edmill::engine {
 #else
 #define EDMILL_FOR_SEVERAL_CPUS
 #endif
-
-EDMILL_FOR_SEVERAL_CPUS void mark_candidates(const FlightColumns& f, const PairQuestion& q,
-                                             std::vector<double>& hits) {
-  const double *x = f.x.data(), *y = f.y.data(), *z = f.z.data(), *u = f.u.data(), *v = f.v.data(),
-               *w = f.w.data();
-  const double *period = f.period.data(), *offset = f.offset.data(), *radius = f.radius.data();
-  double* __restrict hit = hits.data();
-  // Copies, so that no store can be thought to change them.
-  const double px = q.seen.position[0], py = q.seen.position[1], pz = q.seen.position[2];
-  const double vx = q.seen.velocity[0], vy = q.seen.velocity[1], vz = q.seen.velocity[2];
-  const double gx = q.filter.gravity[0], gy = q.filter.gravity[1], gz = q.filter.gravity[2];
-  const double own_age = q.seen.age, own_radius = q.radius, now_period = static_cast<double>(q.now.period),
-               now_offset = q.now.offset;
-  const double drive = q.filter.period, slowest = q.filter.slowest_squared, touching = q.filter.touching;
-  const double relative = q.filter.relative;
-  const int n = static_cast<int>(hits.size());
-  for (int k = 0; k < n; ++k) {
-    const double age = (now_period - period[k]) * drive + (now_offset - offset[k]);
-    const double half = age / 2, dt = own_age - age;
-    const double rx = px - (x[k] + age * (u[k] + half * gx));
-    const double ry = py - (y[k] + age * (v[k] + half * gy));
-    const double rz = pz - (z[k] + age * (w[k] + half * gz));
-    const double ux = (vx - u[k]) + gx * dt, uy = (vy - v[k]) + gy * dt, uz = (vz - w[k]) + gz * dt;
-    const double b = rx * ux + ry * uy + rz * uz;
-    const double r2 = rx * rx + ry * ry + rz * rz;
-    const double v2 = ux * ux + uy * uy + uz * uz;
-    const double sum = own_radius + radius[k];
-    const double c = r2 - sum * sum;
-    const bool clear = (v2 > slowest) & (c > touching);
-    const bool apart = (b >= 0) | (b * b - v2 * c < -(relative * (v2 * r2)));
-    hit[k] = (clear & apart) ? 0.0 : 1.0;
-  }
-}
+// Of what the clones call: compiled by itself it would be for the oldest CPU.
+#define EDMILL_INTO_CLONES [[gnu::always_inline]] static inline
 
 namespace {
 
@@ -50,25 +19,69 @@ typedef std::int64_t FourIntegers __attribute__((vector_size(32)));
 
 static_assert(sizeof(dynamics::Flight<double>) == 2 * sizeof(Four));
 
+/// Four flights by columns.
+struct FourFlights {
+  Four x, y, z, u, v, w;
+  Four age;  ///< now [s]
+  Four radius;
+};
+
+EDMILL_INTO_CLONES void load(const double* from, Four& four) { std::memcpy(&four, from, sizeof four); }
+EDMILL_INTO_CLONES void store(double* to, const Four& four) { std::memcpy(to, &four, sizeof four); }
+
+/// Entries k to k + 3 of `looks`; see PairFilter.
+EDMILL_INTO_CLONES void look_at_four(const FourFlights& f, const PairQuestion& q, int k, Looks& looks) {
+  const double gx = q.filter.gravity[0], gy = q.filter.gravity[1], gz = q.filter.gravity[2];
+  const Four half = f.age / 2, dt = q.seen.age - f.age;
+  const Four rx = q.seen.position[0] - (f.x + f.age * (f.u + half * gx));
+  const Four ry = q.seen.position[1] - (f.y + f.age * (f.v + half * gy));
+  const Four rz = q.seen.position[2] - (f.z + f.age * (f.w + half * gz));
+  const Four ux = (q.seen.velocity[0] - f.u) + gx * dt, uy = (q.seen.velocity[1] - f.v) + gy * dt,
+             uz = (q.seen.velocity[2] - f.w) + gz * dt;
+  const Four b = rx * ux + ry * uy + rz * uz;
+  const Four r2 = rx * rx + ry * ry + rz * rz;
+  const Four v2 = ux * ux + uy * uy + uz * uz;
+  const Four sum = q.radius + f.radius;
+  const Four c = r2 - sum * sum;
+  const Four discriminant = b * b - v2 * c, doubt = q.filter.relative * (v2 * r2);
+  const FourIntegers clear = (v2 > q.filter.slowest_squared) & (c > q.filter.touching);
+  const FourIntegers apart = (b >= 0) | (discriminant < -doubt);
+  const Four one = Four{} + 1.0;
+  store(&looks.passes[k], (clear & apart) ? one : -one);
+  store(&looks.approach[k], b);
+  store(&looks.gap[k], c);
+  store(&looks.discriminant[k], (clear & (discriminant > doubt)) ? discriminant : -one);
+}
+
 }  // namespace
 
-// Four flights are two rows each; turned, they are the columns of the loop above. Written out, since a
-// function called from here would be compiled for the oldest CPU.
-EDMILL_FOR_SEVERAL_CPUS int keep_candidates(const dynamics::Flight<double>* flights, const double* radii,
-                                            int stride, const PairQuestion& q, int* balls, int count) {
-  const double drive = q.filter.period, slowest = q.filter.slowest_squared, touching = q.filter.touching;
-  const double relative = q.filter.relative;
+EDMILL_FOR_SEVERAL_CPUS void look_at_all(const FlightColumns& flights, const PairQuestion& question,
+                                         Looks& looks) {
+  const PairQuestion q = question;  // so that no store can be thought to change it
+  const double now_period = static_cast<double>(q.now.period);
+  const int rounded_up = static_cast<int>(flights.x.size());
+  for (int k = 0; k < rounded_up; k += 4) {
+    FourFlights f;
+    Four period, offset;
+    load(&flights.x[k], f.x), load(&flights.y[k], f.y), load(&flights.z[k], f.z);
+    load(&flights.u[k], f.u), load(&flights.v[k], f.v), load(&flights.w[k], f.w);
+    load(&flights.period[k], period), load(&flights.offset[k], offset), load(&flights.radius[k], f.radius);
+    f.age = (now_period - period) * q.filter.period + (q.now.offset - offset);
+    look_at_four(f, q, k, looks);
+  }
+}
+
+// Four flights are two rows each; turned, they are columns.
+EDMILL_FOR_SEVERAL_CPUS void look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
+                                     const PairQuestion& question, int* balls, int count, Looks& looks) {
+  const PairQuestion q = question;
   for (int k = count; k & 3; ++k) balls[k] = balls[0];
-  int kept = 0;
   for (int k = 0; k < count; k += 4) {
     const int i0 = balls[k], i1 = balls[k + 1], i2 = balls[k + 2], i3 = balls[k + 3];
+    const auto rows = [flights](int i) { return reinterpret_cast<const double*>(&flights[i]); };
     Four a0, a1, b0, b1, c0, c1, d0, d1;
-    const auto load = [flights](int i, Four& low, Four& high) {
-      const char* from = reinterpret_cast<const char*>(&flights[i]);
-      std::memcpy(&low, from, sizeof low);
-      std::memcpy(&high, from + sizeof low, sizeof high);
-    };
-    load(i0, a0, a1), load(i1, b0, b1), load(i2, c0, c1), load(i3, d0, d1);
+    load(rows(i0), a0), load(rows(i1), b0), load(rows(i2), c0), load(rows(i3), d0);
+    load(rows(i0) + 4, a1), load(rows(i1) + 4, b1), load(rows(i2) + 4, c1), load(rows(i3) + 4, d1);
     const Four ab0 = __builtin_shufflevector(a0, b0, 0, 4, 2, 6),
                cd0 = __builtin_shufflevector(c0, d0, 0, 4, 2, 6);
     const Four ab1 = __builtin_shufflevector(a0, b0, 1, 5, 3, 7),
@@ -77,46 +90,53 @@ EDMILL_FOR_SEVERAL_CPUS int keep_candidates(const dynamics::Flight<double>* flig
                gh0 = __builtin_shufflevector(c1, d1, 0, 4, 2, 6);
     const Four ef1 = __builtin_shufflevector(a1, b1, 1, 5, 3, 7),
                gh1 = __builtin_shufflevector(c1, d1, 1, 5, 3, 7);
-    const Four x = __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5),
-               z = __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7);
-    const Four y = __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5),
-               u = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
-    const Four v = __builtin_shufflevector(ef0, gh0, 0, 1, 4, 5),
-               p = __builtin_shufflevector(ef0, gh0, 2, 3, 6, 7);
-    const Four w = __builtin_shufflevector(ef1, gh1, 0, 1, 4, 5),
+    FourFlights f;
+    f.x = __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5);
+    f.z = __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7);
+    f.y = __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5);
+    f.u = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
+    f.v = __builtin_shufflevector(ef0, gh0, 0, 1, 4, 5);
+    f.w = __builtin_shufflevector(ef1, gh1, 0, 1, 4, 5);
+    const Four period = __builtin_shufflevector(ef0, gh0, 2, 3, 6, 7),
                offset = __builtin_shufflevector(ef1, gh1, 2, 3, 6, 7);
-    const Four radius{radii[i0 * stride], radii[i1 * stride], radii[i2 * stride], radii[i3 * stride]};
+    f.radius = stride == 0 ? Four{} + radii[0] : Four{radii[i0], radii[i1], radii[i2], radii[i3]};
 
     // Whole periods since the start, below 2^51: as the low bits of a double they need no conversion.
     constexpr double shift = 6755399441055744.0;  // 1.5 x 2^52
     FourIntegers started;
-    std::memcpy(&started, &p, sizeof p);
+    std::memcpy(&started, &period, sizeof period);
     const FourIntegers shifted = (q.now.period - started) + std::int64_t{0x4338000000000000};
     Four periods;
     std::memcpy(&periods, &shifted, sizeof periods);
-    const Four age = (periods - shift) * drive + (q.now.offset - offset);
-    const Four half = age / 2, dt = q.seen.age - age;
-    const Vec3<double>& g = q.filter.gravity;
-    const Four rx = q.seen.position[0] - (x + age * (u + half * g[0]));
-    const Four ry = q.seen.position[1] - (y + age * (v + half * g[1]));
-    const Four rz = q.seen.position[2] - (z + age * (w + half * g[2]));
-    const Four ux = (q.seen.velocity[0] - u) + g[0] * dt, uy = (q.seen.velocity[1] - v) + g[1] * dt,
-               uz = (q.seen.velocity[2] - w) + g[2] * dt;
-    const Four b = rx * ux + ry * uy + rz * uz;
-    const Four r2 = rx * rx + ry * ry + rz * rz;
-    const Four v2 = ux * ux + uy * uy + uz * uz;
-    const Four sum = q.radius + radius;
-    const Four c = r2 - sum * sum;
-    const FourIntegers clear = (v2 > slowest) & (c > touching);
-    const FourIntegers apart = (b >= 0) | (b * b - v2 * c < -(relative * (v2 * r2)));
-    const FourIntegers meets = ~(clear & apart) & 1;
-    if ((meets[0] | meets[1] | meets[2] | meets[3]) == 0) continue;
-    balls[kept] = i0, kept += static_cast<int>(meets[0]);
-    balls[kept] = i1, kept += static_cast<int>(meets[1]) & (k + 1 < count);
-    balls[kept] = i2, kept += static_cast<int>(meets[2]) & (k + 2 < count);
-    balls[kept] = i3, kept += static_cast<int>(meets[3]) & (k + 3 < count);
+    f.age = (periods - shift) * q.filter.period + (q.now.offset - offset);
+    look_at_four(f, q, k, looks);
   }
-  return kept;
+}
+
+void Looks::pick(const int* balls, int count) {
+  int kept = 0;
+  for (int k = 0; k < count; ++k) {
+    place_[kept] = k;
+    kept += std::signbit(passes[k]);
+  }
+  for (int h = 0; h < kept; ++h) suspects_[h] = {balls[place_[h]], delay(place_[h])};
+  found_ = kept;
+}
+
+void Looks::pick_all(int count) {
+  int kept = 0;
+  const auto look = [&](int k) {
+    if (passes[k] < 0) suspects_[kept++] = {k, delay(k)};
+  };
+  // Suspects are rare: look at eight at a time.
+  int k = 0;
+  for (; k + 8 <= count; k += 8) {
+    const double* p = &passes[k];
+    if (((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7])) == 8) continue;
+    for (int near = k; near < k + 8; ++near) look(near);
+  }
+  for (; k < count; ++k) look(k);
+  found_ = kept;
 }
 
 }  // namespace edmill::engine

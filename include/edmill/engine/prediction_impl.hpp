@@ -21,11 +21,8 @@ void Simulation<Real>::predict_pairs(int ball, int already_done, const RoughlySe
   a.pair_count = 0;
   a.forgotten_from = Instant<Real>::never();
   if (table_) {
-    const auto& seen = see(ball, roughly);
-    const auto predict = [&](int other) {
-      if (other != ball && other != already_done) predict_pair(ball, other, seen);
-    };
-    table_->visit_candidates(question(ball, roughly), predict);
+    table_->look(question(ball, roughly), looks_);
+    predict_suspects(ball, already_done, roughly);
   } else {
     grid_.neighbours(ball, near_);
     predict_near(ball, already_done, roughly);
@@ -35,13 +32,29 @@ void Simulation<Real>::predict_pairs(int ball, int already_done, const RoughlySe
 /// Predicts contacts with the balls of `near_`.
 template <class Real>
 void Simulation<Real>::predict_near(int ball, int already_done, const RoughlySeen& roughly) {
-  int* near = near_.balls.data();
-  const int count =
-      keep_candidates(rough_flights(), radii_.data(), stride_, question(ball, roughly), near, near_.count);
-  if (count == 0) return;
-  const auto& seen = see(ball, roughly);
-  for (int k = 0; k < count; ++k)
-    if (near[k] != ball && near[k] != already_done) predict_pair(ball, near[k], seen);
+  looks_.make_room(near_.count);
+  look_at(rough_flights(), radii_.data(), stride_, question(ball, roughly), near_.balls.data(), near_.count,
+          looks_);
+  looks_.pick(near_.balls.data(), near_.count);
+  predict_suspects(ball, already_done, roughly);
+}
+
+/// Predicts contacts with the suspects of `looks_`.
+template <class Real>
+void Simulation<Real>::predict_suspects(int ball, int already_done, const RoughlySeen& roughly) {
+  for (const Suspect& suspect : looks_) {
+    const int other = suspect.ball;
+    if (other == ball || other == already_done) continue;
+    if constexpr (std::is_same_v<Real, double>) {
+      if (suspect.delay >= 0) [[likely]] {
+        expect_pair(ball, other, suspect.delay);
+        continue;
+      }
+    }
+    const Real sum = properties(ball).radius + properties(other).radius;
+    const auto answer = ladder_.pair(see(ball, roughly), flights_[ball], flights_[other], now_, sum);
+    if (answer.verdict == dynamics::Verdict::contact) expect_pair(ball, other, answer.delay);
+  }
 }
 
 template <class Real>
@@ -51,13 +64,11 @@ void Simulation<Real>::flight_changed(int ball) {
   if (table_) table_->set(ball, rough_flights()[ball], radii_[ball * stride_]);
 }
 
+/// Puts a contact into the ball's agenda.
 template <class Real>
-void Simulation<Real>::predict_pair(int ball, int other, const Seen& seen) {
-  const Real sum = properties(ball).radius + properties(other).radius;
-  const auto answer = ladder_.pair(seen, flights_[ball], flights_[other], now_, sum);
-  if (answer.verdict == dynamics::Verdict::none) return;
+void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
   Agenda& a = agendas_[ball];
-  const Candidate found{clock_.after(now_, answer.delay), other, impacts_[other]};
+  const Candidate found{clock_.after(now_, delay), other, impacts_[other]};
   if (found.time >= a.forgotten_from) return;
   int place = a.pair_count;
   while (place > 0 && found.time < a.pairs[place - 1].time) --place;
@@ -80,7 +91,8 @@ void Simulation<Real>::predict_crossing(int ball, const RoughlySeen& roughly) {
       ball, roughly.position, dynamics::velocity_after(rough_flights()[ball], gravity, roughly.age), gravity);
   a.crossing_axis = static_cast<std::int8_t>(crossing.axis);
   a.crossing_step = static_cast<std::int8_t>(crossing.step);
-  a.crossing_time = crossing.happens ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
+  a.crossing_time =
+      crossing.delay < Crossing::never ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
 }
 
 /// How far a wall search from `begin` need look: to the ball's nearest pair contact, after which it is moot.

@@ -168,7 +168,8 @@ class Simulation {
   PairQuestion question(int ball, const RoughlySeen& roughly) const {
     return {roughly, radii_[ball * stride_], dynamics::instant_cast<double>(now_), pair_filter_.filter()};
   }
-  void predict_pair(int ball, int other, const Seen& seen);
+  void predict_suspects(int ball, int already_done, const RoughlySeen& roughly);
+  void expect_pair(int ball, int other, const Real& delay);
   void predict_crossing(int ball, const RoughlySeen& roughly);
   void predict_wall(int ball, const model::VesselPose<Real>& pose);
   void continue_wall_search(int ball);
@@ -195,6 +196,7 @@ class Simulation {
   EventQueue<Real> queue_;
   CollapseWatch<Real> collapse_watch_;
   FoundBalls near_;  ///< scratch: balls of the adjacent cells
+  Looks looks_;      ///< scratch: what the pair filter saw
   std::vector<Observer<Real>*> observers_;
   EngineCounts<Real> counts_;
   std::optional<model::InelasticCollapse<Real>> collapse_;
