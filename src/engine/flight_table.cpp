@@ -28,9 +28,14 @@ struct FourFlights {
 
 EDMILL_INTO_CLONES void load(const double* from, Four& four) { std::memcpy(&four, from, sizeof four); }
 EDMILL_INTO_CLONES void store(double* to, const Four& four) { std::memcpy(to, &four, sizeof four); }
+EDMILL_INTO_CLONES void store(std::int64_t* to, const FourIntegers& four) {
+  std::memcpy(to, &four, sizeof four);
+}
 
-/// Entries k to k + 3 of `looks`; see PairFilter.
-EDMILL_INTO_CLONES void look_at_four(const FourFlights& f, const PairQuestion& q, int k, Looks& looks) {
+/// Entries k to k + 3 of `looks`; see PairFilter. `meets` becomes -1 for a suspect and 0 else. A ball that is
+/// in the very same place is the ball of the question itself.
+EDMILL_INTO_CLONES void look_at_four(const FourFlights& f, const PairQuestion& q, int k, Looks& looks,
+                                     FourIntegers& meets) {
   const double gx = q.filter.gravity[0], gy = q.filter.gravity[1], gz = q.filter.gravity[2];
   const Four half = f.age / 2, dt = q.seen.age - f.age;
   const Four rx = q.seen.position[0] - (f.x + f.age * (f.u + half * gx));
@@ -46,11 +51,10 @@ EDMILL_INTO_CLONES void look_at_four(const FourFlights& f, const PairQuestion& q
   const Four discriminant = b * b - v2 * c, doubt = q.filter.relative * (v2 * r2);
   const FourIntegers clear = (v2 > q.filter.slowest_squared) & (c > q.filter.touching);
   const FourIntegers apart = (b >= 0) | (discriminant < -doubt);
-  const Four one = Four{} + 1.0;
-  store(&looks.passes[k], (clear & apart) ? one : -one);
-  store(&looks.approach[k], b);
-  store(&looks.gap[k], c);
-  store(&looks.discriminant[k], (clear & (discriminant > doubt)) ? discriminant : -one);
+  meets = ~((clear & apart) | (r2 == 0));
+  store(looks.approach() + k, b);
+  store(looks.gap() + k, c);
+  store(looks.discriminant() + k, (clear & (discriminant > doubt)) ? discriminant : Four{} - 1.0);
 }
 
 }  // namespace
@@ -67,15 +71,20 @@ EDMILL_FOR_SEVERAL_CPUS void look_at_all(const FlightColumns& flights, const Pai
     load(&flights.u[k], f.u), load(&flights.v[k], f.v), load(&flights.w[k], f.w);
     load(&flights.period[k], period), load(&flights.offset[k], offset), load(&flights.radius[k], f.radius);
     f.age = (now_period - period) * q.filter.period + (q.now.offset - offset);
-    look_at_four(f, q, k, looks);
+    FourIntegers meets;
+    look_at_four(f, q, k, looks, meets);
+    store(looks.meets() + k, meets);
   }
 }
 
 // Four flights are two rows each; turned, they are columns.
-EDMILL_FOR_SEVERAL_CPUS void look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
-                                     const PairQuestion& question, int* balls, int count, Looks& looks) {
+EDMILL_FOR_SEVERAL_CPUS int look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
+                                    const PairQuestion& question, int self, int* balls, int count,
+                                    Looks& looks) {
   const PairQuestion q = question;
-  for (int k = count; k & 3; ++k) balls[k] = balls[0];
+  int* suspects = looks.suspects();
+  int found = 0;
+  for (int k = count; k & 3; ++k) balls[k] = self;
   for (int k = 0; k < count; k += 4) {
     const int i0 = balls[k], i1 = balls[k + 1], i2 = balls[k + 2], i3 = balls[k + 3];
     const auto rows = [flights](int i) { return reinterpret_cast<const double*>(&flights[i]); };
@@ -109,34 +118,34 @@ EDMILL_FOR_SEVERAL_CPUS void look_at(const dynamics::Flight<double>* flights, co
     Four periods;
     std::memcpy(&periods, &shifted, sizeof periods);
     f.age = (periods - shift) * q.filter.period + (q.now.offset - offset);
-    look_at_four(f, q, k, looks);
+    FourIntegers meets;
+    look_at_four(f, q, k, looks, meets);
+    // Without branches: which of them is one is anybody's guess.
+    suspects[found] = k, found -= static_cast<int>(meets[0]);
+    suspects[found] = k + 1, found -= static_cast<int>(meets[1]);
+    suspects[found] = k + 2, found -= static_cast<int>(meets[2]);
+    suspects[found] = k + 3, found -= static_cast<int>(meets[3]);
   }
+  return found;
 }
 
-void Looks::pick(const int* balls, int count) {
-  int kept = 0;
-  for (int k = 0; k < count; ++k) {
-    place_[kept] = k;
-    kept += std::signbit(passes[k]);
-  }
-  for (int h = 0; h < kept; ++h) suspects_[h] = {balls[place_[h]], delay(place_[h])};
-  found_ = kept;
-}
-
-void Looks::pick_all(int count) {
-  int kept = 0;
-  const auto look = [&](int k) {
-    if (passes[k] < 0) suspects_[kept++] = {k, delay(k)};
-  };
+int FlightTable::look(const PairQuestion& question, Looks& looks) const {
+  looks.make_room(balls_);
+  look_at_all(f_, question, looks);
+  const std::int64_t* meets = looks.meets();
+  int* suspects = looks.suspects();
+  int found = 0;
   // Suspects are rare: look at eight at a time.
   int k = 0;
-  for (; k + 8 <= count; k += 8) {
-    const double* p = &passes[k];
-    if (((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7])) == 8) continue;
-    for (int near = k; near < k + 8; ++near) look(near);
+  for (; k + 8 <= balls_; k += 8) {
+    const std::int64_t* m = meets + k;
+    if ((((m[0] | m[1]) | (m[2] | m[3])) | ((m[4] | m[5]) | (m[6] | m[7]))) == 0) continue;
+    for (int near = k; near < k + 8; ++near)
+      if (meets[near] != 0) suspects[found++] = near;
   }
-  for (; k < count; ++k) look(k);
-  found_ = kept;
+  for (; k < balls_; ++k)
+    if (meets[k] != 0) suspects[found++] = k;
+  return found;
 }
 
 }  // namespace edmill::engine

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "edmill/dynamics/pair_search.hpp"
@@ -21,57 +22,45 @@ struct FlightColumns {
   std::vector<double> x, y, z, u, v, w, period, offset, radius;
 };
 
-/// A ball that may meet the one of a question.
-struct Suspect {
-  int ball;
-  double delay;  ///< until they meet [s]; negative where only a closer look can tell
-};
-
-/// What the filter saw, one entry for each ball looked at, and what is left of it: the suspects. Room only
-/// grows.
+/// What the filter saw of each ball looked at, and which of them are left: the suspects. Room only grows.
 class Looks {
  public:
-  std::vector<double> passes;        ///< 1 where the two are proven never to meet, -1 elsewhere
-  std::vector<double> approach;      ///< b = r.v of (3.1)
-  std::vector<double> gap;           ///< c = r.r - R^2
-  std::vector<double> discriminant;  ///< b^2 - v.v c; negative where rounding leaves its sign open
-
   /// For so many balls, rounded up to a multiple of four.
   void make_room(int count) {
-    const std::size_t size = (static_cast<std::size_t>(count) + 3) / 4 * 4;
-    if (passes.size() >= size) return;
-    passes.resize(size), approach.resize(size), gap.resize(size), discriminant.resize(size);
-    place_.resize(size), suspects_.resize(size);
+    const std::size_t size = (static_cast<std::size_t>(count) + 7) / 4 * 4;
+    if (suspects_.size() >= size) return;
+    suspects_.resize(size), meets_.resize(size);
+    approach_.resize(size), gap_.resize(size), discriminant_.resize(size);
   }
 
-  /// Picks the suspects among `count` balls, in their order; entry k of the columns belongs to ball balls[k].
-  void pick(const int* balls, int count);
-  /// The same where entry k belongs to ball k.
-  void pick_all(int count);
+  /// Until the contact with the k-th ball looked at [s]; negative where only a closer look can tell. (3.1)
+  double delay(int k) const {
+    return discriminant_[k] < 0 ? -1.0 : gap_[k] / (std::sqrt(discriminant_[k]) - approach_[k]);
+  }
 
-  const Suspect* begin() const { return suspects_.data(); }
-  const Suspect* end() const { return suspects_.data() + found_; }
+  int* suspects() { return suspects_.data(); }          ///< places of the suspects among the balls looked at
+  std::int64_t* meets() { return meets_.data(); }       ///< -1 for a suspect and 0 else
+  double* approach() { return approach_.data(); }       ///< b = r.v of (3.1)
+  double* gap() { return gap_.data(); }                 ///< c = r.r - R^2
+  double* discriminant() { return discriminant_.data(); }  ///< b^2 - v.v c; -1 where its sign is open
 
  private:
-  /// (3.1)
-  double delay(int k) const {
-    return discriminant[k] < 0 ? -1.0 : gap[k] / (std::sqrt(discriminant[k]) - approach[k]);
-  }
-
-  std::vector<int> place_;
-  std::vector<Suspect> suspects_;
-  int found_ = 0;
+  std::vector<int> suspects_;
+  std::vector<std::int64_t> meets_;
+  std::vector<double> approach_, gap_, discriminant_;
 };
 
 /// Fills the columns of `looks`, which have room for all balls. Compiled for several instruction sets, all
 /// with the same bits since nothing is contracted.
 void look_at_all(const FlightColumns& flights, const PairQuestion& question, Looks& looks);
 
-/// The same for a list of balls.
+/// The same for a list of balls, and finds the suspects among them.
 /// @param flights, radii  of all balls; ball i has radius radii[i * stride]
-/// @param balls, looks  with room for `count` rounded up to a multiple of four
-void look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
-             const PairQuestion& question, int* balls, int count, Looks& looks);
+/// @param self            the ball of the question, which is never a suspect
+/// @param balls, looks    with room for `count` rounded up to a multiple of four
+/// @return how many suspects there are
+int look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
+            const PairQuestion& question, int self, int* balls, int count, Looks& looks);
 
 /// Where cells are of no use this looks at every ball.
 class FlightTable {
@@ -89,12 +78,9 @@ class FlightTable {
     f_.radius[ball] = radius;
   }
 
-  /// Suspects among all balls, the ball of the question itself included.
-  void look(const PairQuestion& question, Looks& looks) const {
-    looks.make_room(balls_);
-    look_at_all(f_, question, looks);
-    looks.pick_all(balls_);
-  }
+  /// Finds the suspects among all balls; the k-th ball looked at is ball k.
+  /// @return how many there are
+  int look(const PairQuestion& question, Looks& looks) const;
 
  private:
   int balls_;

@@ -21,8 +21,8 @@ void Simulation<Real>::predict_pairs(int ball, int already_done, const RoughlySe
   a.pair_count = 0;
   a.forgotten_from = Instant<Real>::never();
   if (table_) {
-    table_->look(question(ball, roughly), looks_);
-    predict_suspects(ball, already_done, roughly);
+    const int found = table_->look(question(ball, roughly), looks_);
+    predict_suspects(ball, already_done, roughly, found, [](int place) { return place; });
   } else {
     grid_.neighbours(ball, near_);
     predict_near(ball, already_done, roughly);
@@ -33,21 +33,25 @@ void Simulation<Real>::predict_pairs(int ball, int already_done, const RoughlySe
 template <class Real>
 void Simulation<Real>::predict_near(int ball, int already_done, const RoughlySeen& roughly) {
   looks_.make_room(near_.count);
-  look_at(rough_flights(), radii_.data(), stride_, question(ball, roughly), near_.balls.data(), near_.count,
-          looks_);
-  looks_.pick(near_.balls.data(), near_.count);
-  predict_suspects(ball, already_done, roughly);
+  int* near = near_.balls.data();
+  const int found = look_at(rough_flights(), radii_.data(), stride_, question(ball, roughly), ball, near,
+                            near_.count, looks_);
+  predict_suspects(ball, already_done, roughly, found, [near](int place) { return near[place]; });
 }
 
 /// Predicts contacts with the suspects of `looks_`.
 template <class Real>
-void Simulation<Real>::predict_suspects(int ball, int already_done, const RoughlySeen& roughly) {
-  for (const Suspect& suspect : looks_) {
-    const int other = suspect.ball;
-    if (other == ball || other == already_done) continue;
+template <class BallAt>
+void Simulation<Real>::predict_suspects(int ball, int already_done, const RoughlySeen& roughly, int found,
+                                        BallAt ball_at) {
+  const int* suspects = looks_.suspects();
+  for (int k = 0; k < found; ++k) {
+    const int other = ball_at(suspects[k]);
+    if (other == already_done) continue;
     if constexpr (std::is_same_v<Real, double>) {
-      if (suspect.delay >= 0) [[likely]] {
-        expect_pair(ball, other, suspect.delay);
+      const double delay = looks_.delay(suspects[k]);
+      if (delay >= 0) [[likely]] {
+        expect_pair(ball, other, delay);
         continue;
       }
     }

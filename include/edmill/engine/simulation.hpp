@@ -168,7 +168,8 @@ class Simulation {
   PairQuestion question(int ball, const RoughlySeen& roughly) const {
     return {roughly, radii_[ball * stride_], dynamics::instant_cast<double>(now_), pair_filter_.filter()};
   }
-  void predict_suspects(int ball, int already_done, const RoughlySeen& roughly);
+  template <class BallAt>
+  void predict_suspects(int ball, int already_done, const RoughlySeen& roughly, int found, BallAt ball_at);
   void expect_pair(int ball, int other, const Real& delay);
   void predict_crossing(int ball, const RoughlySeen& roughly);
   void predict_wall(int ball, const model::VesselPose<Real>& pose);
