@@ -17,9 +17,7 @@ void Simulation<Real>::predict_all(int ball, int already_done, const model::Vess
 
 template <class Real>
 void Simulation<Real>::predict_pairs(int ball, int already_done, const RoughlySeen& roughly) {
-  Agenda& a = agendas_[ball];
-  a.pair_count = 0;
-  a.forgotten_from = Instant<Real>::never();
+  agendas_[ball].drop_pairs();
   if (table_) {
     const int found = table_->look(question(ball, roughly), looks_);
     predict_suspects(ball, already_done, roughly, found, [](int place) { return place; });
@@ -74,16 +72,13 @@ void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
   Agenda& a = agendas_[ball];
   const Candidate found{clock_.after(now_, delay), other, impacts_[other]};
   if (found.time >= a.forgotten_from) return;
-  int place = a.pair_count;
-  while (place > 0 && found.time < a.pairs[place - 1].time) --place;
-  if (a.pair_count == Agenda::capacity) {
-    a.forgotten_from = place == a.pair_count ? found.time : a.pairs[Agenda::capacity - 1].time;
-    if (place == a.pair_count) return;
-  } else {
-    ++a.pair_count;
+  if (a.pair_count < Agenda::capacity) [[likely]] {
+    a.pairs[a.pair_count++] = found;
+    return;
   }
-  for (int k = a.pair_count - 1; k > place; --k) a.pairs[k] = a.pairs[k - 1];
-  a.pairs[place] = found;
+  Candidate& last = a.pairs[a.farthest()];
+  a.forgotten_from = found.time < last.time ? last.time : found.time;
+  if (found.time < last.time) last = found;
 }
 
 template <class Real>
@@ -105,7 +100,7 @@ Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const
   const Real& longest = ladder_.walls().longest_window();
   const Agenda& a = agendas_[ball];
   if (a.pair_count == 0) return longest;
-  const Real until_pair = clock_.elapsed(begin, a.pairs[0].time);
+  const Real until_pair = clock_.elapsed(begin, a.pairs[a.nearest()].time);
   const Real shortest = longest / 4096;
   if (until_pair < shortest) return shortest;
   return until_pair < longest ? until_pair : longest;
@@ -173,21 +168,22 @@ auto Simulation<Real>::settle_ties(Event event) -> Event {
       now_ = other.time;
     }
   };
-  // The ball's own next contact besides this one.
+  // The ball's own contacts besides this one.
   const Agenda& a = agendas_[event.ball];
   if (event.kind == EventKind::pair_contact && a.wall >= 0 && close(a.wall_time))
     settle({EventKind::wall_contact, a.wall_time, event.ball, a.wall});
-  const int other_pair = event.kind == EventKind::pair_contact ? 1 : 0;
-  if (a.pair_count > other_pair && close(a.pairs[other_pair].time)) {
-    const Candidate& c = a.pairs[other_pair];
-    if (impacts_[c.partner] == c.partner_impacts)
+  const int own = event.kind == EventKind::pair_contact ? a.nearest() : -1;
+  for (int k = 0; k < a.pair_count; ++k) {
+    const Candidate& c = a.pairs[k];
+    if (k != own && close(c.time) && impacts_[c.partner] == c.partner_impacts)
       settle({EventKind::pair_contact, c.time, event.ball, c.partner});
   }
   const int rival = queue_.runner_up(clock_.after(event.time, suspicion_));
   if (rival >= 0) {
     const Event other = next_of(rival);
+    const Agenda& theirs = agendas_[rival];
     const bool valid = other.kind != EventKind::pair_contact ||
-                       impacts_[other.partner] == agendas_[rival].pairs[0].partner_impacts;
+                       impacts_[other.partner] == theirs.pairs[theirs.nearest()].partner_impacts;
     if (valid) settle(other);
   }
   return event;

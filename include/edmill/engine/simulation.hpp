@@ -90,31 +90,51 @@ class Simulation {
  private:
   /// A predicted contact with another ball; void once the partner's impact count has moved on.
   struct Candidate {
-    Instant<Real> time;
+    Instant<Real> time = Instant<Real>::never();
     int partner = -1;
     std::uint32_t partner_impacts = 0;
 
     void archive(Archive& a) { a(time, partner, partner_impacts); }
   };
-  /// What a ball expects. Its pair contacts are those that it predicted itself, nearest first; for a pair
-  /// that both predicted, the later prediction is the valid one.
+  enum class EventKind : std::int8_t { wall_contact, pair_contact, cell_crossing, wall_recheck };
+  /// What a ball expects. Its pair contacts are those that it predicted itself, in any order; for a pair that
+  /// both predicted, the later prediction is the valid one.
   struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
     static constexpr int capacity = 3;
     Instant<Real> wall_time;
     [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at `wall_time`
     Instant<Real> crossing_time = Instant<Real>::never();
-    std::array<Candidate, capacity> pairs;
+    std::array<Candidate, capacity> pairs;  ///< the first `pair_count`; the rest are at never()
     Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
     std::int8_t pair_count = 0;
     std::int8_t wall = -1;  ///< a wall id, or -1 when `wall_time` only ends what has been searched
     std::int8_t crossing_axis = 0, crossing_step = 0;
+    EventKind next = EventKind::wall_recheck;  ///< what comes first, as it was queued
+
+    /// The earliest pair contact, if there is one; found without branches, since any of them may be it.
+    int nearest() const {
+      const int first = pairs[1].time < pairs[0].time ? 1 : 0;
+      return pairs[2].time < pairs[first].time ? 2 : first;
+    }
+    int farthest() const {
+      const int last = pairs[1].time > pairs[0].time ? 1 : 0;
+      return pairs[2].time > pairs[last].time ? 2 : last;
+    }
+    void drop_nearest() {
+      pairs[nearest()] = pairs[--pair_count];
+      pairs[pair_count].time = Instant<Real>::never();
+    }
+    void drop_pairs() {
+      for (Candidate& c : pairs) c.time = Instant<Real>::never();
+      pair_count = 0;
+      forgotten_from = Instant<Real>::never();
+    }
 
     void archive(Archive& a) {
       a(wall_time, wall_pose, crossing_time, pairs, forgotten_from, pair_count, wall, crossing_axis,
         crossing_step);
     }
   };
-  enum class EventKind { wall_contact, pair_contact, cell_crossing, wall_recheck };
   struct Event {
     EventKind kind;
     Instant<Real> time;
@@ -123,7 +143,7 @@ class Simulation {
   };
 
   Event next_of(int ball) const;
-  void requeue(int ball) { queue_.set(ball, next_of(ball).time); }
+  void requeue(int ball);
   bool is_contact(const Event& e) const {
     return e.kind == EventKind::wall_contact || e.kind == EventKind::pair_contact;
   }

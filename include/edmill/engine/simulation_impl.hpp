@@ -139,26 +139,37 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
   return EndReason::end_time;
 }
 
-/// The earliest entry of a ball's agenda; at equal times a wall comes before a ball, contacts before the
-/// rest.
+/// Queues the earliest entry of a ball's agenda; at equal times a wall comes before a ball, contacts before
+/// the rest. Which entry it is nobody can guess, so they are compared without branches.
+template <class Real>
+void Simulation<Real>::requeue(int ball) {
+  Agenda& a = agendas_[ball];
+  const Instant<Real>* first = &a.wall_time;
+  EventKind kind = a.wall >= 0 ? EventKind::wall_contact : EventKind::wall_recheck;
+  const Instant<Real>& pair = a.pairs[a.nearest()].time;
+  const bool pair_first = (pair < *first) | ((a.wall < 0) & (pair == *first));
+  first = pair_first ? &pair : first;
+  kind = pair_first ? EventKind::pair_contact : kind;
+  const bool crossing_first = a.crossing_time < *first;
+  first = crossing_first ? &a.crossing_time : first;
+  a.next = crossing_first ? EventKind::cell_crossing : kind;
+  queue_.set(ball, *first);
+}
+
+/// What was queued for a ball.
 template <class Real>
 auto Simulation<Real>::next_of(int ball) const -> Event {
   const Agenda& a = agendas_[ball];
-  Event next{a.wall >= 0 ? EventKind::wall_contact : EventKind::wall_recheck, a.wall_time, ball, a.wall};
-  if (a.pair_count > 0) {
-    const Candidate& c = a.pairs[0];
-    if (c.time < next.time || (c.time == next.time && a.wall < 0))
-      next = {EventKind::pair_contact, c.time, ball, c.partner};
-  }
-  if (a.crossing_time < next.time) next = {EventKind::cell_crossing, a.crossing_time, ball, -1};
-  return next;
+  const int partner = a.next == EventKind::pair_contact ? a.pairs[a.nearest()].partner : a.wall;
+  return {a.next, queue_.time(ball), ball, partner};
 }
 
 template <class Real>
 void Simulation<Real>::process(const Event& event) {
   switch (event.kind) {
     case EventKind::pair_contact: {
-      const Candidate& c = agendas_[event.ball].pairs[0];
+      const Agenda& a = agendas_[event.ball];
+      const Candidate& c = a.pairs[a.nearest()];
       if (impacts_[c.partner] != c.partner_impacts) return drop_stale(event.ball);
       break;
     }
@@ -181,8 +192,7 @@ template <class Real>
 void Simulation<Real>::drop_stale(int ball) {
   ++counts_.stale_events;
   Agenda& a = agendas_[ball];
-  for (int k = 1; k < a.pair_count; ++k) a.pairs[k - 1] = a.pairs[k];
-  --a.pair_count;
+  a.drop_nearest();
   if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never())
     predict_pairs(ball, -1, see_roughly(ball));
   requeue(ball);
