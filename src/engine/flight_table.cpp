@@ -26,6 +26,24 @@ struct FourFlights {
   Four radius;
 };
 
+/// A question in every lane, and out of reach of stores.
+struct FourQuestions {
+  Four px, py, pz, vx, vy, vz, age, radius;
+  Four gx, gy, gz, relative, slowest, touching;
+  Four drive, now;
+};
+
+EDMILL_INTO_CLONES void spread(double value, Four& four) { four = value - Four{}; }
+EDMILL_INTO_CLONES void spread(const PairQuestion& q, FourQuestions& four) {
+  spread(q.seen.position[0], four.px), spread(q.seen.position[1], four.py), spread(q.seen.position[2], four.pz);
+  spread(q.seen.velocity[0], four.vx), spread(q.seen.velocity[1], four.vy), spread(q.seen.velocity[2], four.vz);
+  spread(q.seen.age, four.age), spread(q.radius, four.radius);
+  spread(q.filter.gravity[0], four.gx), spread(q.filter.gravity[1], four.gy), spread(q.filter.gravity[2], four.gz);
+  spread(q.filter.relative, four.relative), spread(q.filter.slowest_squared, four.slowest);
+  spread(q.filter.touching, four.touching);
+  spread(q.filter.period, four.drive), spread(q.now.offset, four.now);
+}
+
 EDMILL_INTO_CLONES void load(const double* from, Four& four) { std::memcpy(&four, from, sizeof four); }
 EDMILL_INTO_CLONES void store(double* to, const Four& four) { std::memcpy(to, &four, sizeof four); }
 EDMILL_INTO_CLONES void store(std::int64_t* to, const FourIntegers& four) {
@@ -34,22 +52,20 @@ EDMILL_INTO_CLONES void store(std::int64_t* to, const FourIntegers& four) {
 
 /// Entries k to k + 3 of `looks`; see PairFilter. `meets` becomes -1 for a suspect and 0 else. A ball that is
 /// in the very same place is the ball of the question itself.
-EDMILL_INTO_CLONES void look_at_four(const FourFlights& f, const PairQuestion& q, int k, Looks& looks,
+EDMILL_INTO_CLONES void look_at_four(const FourFlights& f, const FourQuestions& q, int k, Looks& looks,
                                      FourIntegers& meets) {
-  const double gx = q.filter.gravity[0], gy = q.filter.gravity[1], gz = q.filter.gravity[2];
-  const Four half = f.age / 2, dt = q.seen.age - f.age;
-  const Four rx = q.seen.position[0] - (f.x + f.age * (f.u + half * gx));
-  const Four ry = q.seen.position[1] - (f.y + f.age * (f.v + half * gy));
-  const Four rz = q.seen.position[2] - (f.z + f.age * (f.w + half * gz));
-  const Four ux = (q.seen.velocity[0] - f.u) + gx * dt, uy = (q.seen.velocity[1] - f.v) + gy * dt,
-             uz = (q.seen.velocity[2] - f.w) + gz * dt;
+  const Four half = f.age * 0.5, dt = q.age - f.age;
+  const Four rx = q.px - (f.x + f.age * (f.u + half * q.gx));
+  const Four ry = q.py - (f.y + f.age * (f.v + half * q.gy));
+  const Four rz = q.pz - (f.z + f.age * (f.w + half * q.gz));
+  const Four ux = (q.vx - f.u) + q.gx * dt, uy = (q.vy - f.v) + q.gy * dt, uz = (q.vz - f.w) + q.gz * dt;
   const Four b = rx * ux + ry * uy + rz * uz;
   const Four r2 = rx * rx + ry * ry + rz * rz;
   const Four v2 = ux * ux + uy * uy + uz * uz;
   const Four sum = q.radius + f.radius;
   const Four c = r2 - sum * sum;
-  const Four discriminant = b * b - v2 * c, doubt = q.filter.relative * (v2 * r2);
-  const FourIntegers clear = (v2 > q.filter.slowest_squared) & (c > q.filter.touching);
+  const Four discriminant = b * b - v2 * c, doubt = q.relative * (v2 * r2);
+  const FourIntegers clear = (v2 > q.slowest) & (c > q.touching);
   const FourIntegers apart = (b >= 0) | (discriminant < -doubt);
   meets = ~((clear & apart) | (r2 == 0));
   store(looks.approach() + k, b);
@@ -61,8 +77,10 @@ EDMILL_INTO_CLONES void look_at_four(const FourFlights& f, const PairQuestion& q
 
 EDMILL_FOR_SEVERAL_CPUS void look_at_all(const FlightColumns& flights, const PairQuestion& question,
                                          Looks& looks) {
-  const PairQuestion q = question;  // so that no store can be thought to change it
-  const double now_period = static_cast<double>(q.now.period);
+  FourQuestions q;
+  spread(question, q);
+  Four now_period;
+  spread(static_cast<double>(question.now.period), now_period);
   const int rounded_up = static_cast<int>(flights.x.size());
   for (int k = 0; k < rounded_up; k += 4) {
     FourFlights f;
@@ -70,7 +88,7 @@ EDMILL_FOR_SEVERAL_CPUS void look_at_all(const FlightColumns& flights, const Pai
     load(&flights.x[k], f.x), load(&flights.y[k], f.y), load(&flights.z[k], f.z);
     load(&flights.u[k], f.u), load(&flights.v[k], f.v), load(&flights.w[k], f.w);
     load(&flights.period[k], period), load(&flights.offset[k], offset), load(&flights.radius[k], f.radius);
-    f.age = (now_period - period) * q.filter.period + (q.now.offset - offset);
+    f.age = (now_period - period) * q.drive + (q.now - offset);
     FourIntegers meets;
     look_at_four(f, q, k, looks, meets);
     store(looks.meets() + k, meets);
@@ -81,7 +99,11 @@ EDMILL_FOR_SEVERAL_CPUS void look_at_all(const FlightColumns& flights, const Pai
 EDMILL_FOR_SEVERAL_CPUS int look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
                                     const PairQuestion& question, int self, int* balls, int count,
                                     Looks& looks) {
-  const PairQuestion q = question;
+  FourQuestions q;
+  spread(question, q);
+  const std::int64_t now_period = question.now.period;
+  Four common_radius;
+  spread(radii[0], common_radius);
   int* suspects = looks.suspects();
   int found = 0;
   for (int k = count; k & 3; ++k) balls[k] = self;
@@ -108,16 +130,16 @@ EDMILL_FOR_SEVERAL_CPUS int look_at(const dynamics::Flight<double>* flights, con
     f.w = __builtin_shufflevector(ef1, gh1, 0, 1, 4, 5);
     const Four period = __builtin_shufflevector(ef0, gh0, 2, 3, 6, 7),
                offset = __builtin_shufflevector(ef1, gh1, 2, 3, 6, 7);
-    f.radius = stride == 0 ? Four{} + radii[0] : Four{radii[i0], radii[i1], radii[i2], radii[i3]};
+    f.radius = stride == 0 ? common_radius : Four{radii[i0], radii[i1], radii[i2], radii[i3]};
 
     // Whole periods since the start, below 2^51: as the low bits of a double they need no conversion.
     constexpr double shift = 6755399441055744.0;  // 1.5 x 2^52
     FourIntegers started;
     std::memcpy(&started, &period, sizeof period);
-    const FourIntegers shifted = (q.now.period - started) + std::int64_t{0x4338000000000000};
+    const FourIntegers shifted = (now_period - started) + std::int64_t{0x4338000000000000};
     Four periods;
     std::memcpy(&periods, &shifted, sizeof periods);
-    f.age = (periods - shift) * q.filter.period + (q.now.offset - offset);
+    f.age = (periods - shift) * q.drive + (q.now - offset);
     FourIntegers meets;
     look_at_four(f, q, k, looks, meets);
     // Without branches: which of them is one is anybody's guess.

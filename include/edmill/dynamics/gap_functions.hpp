@@ -56,6 +56,7 @@ class GapFunctions {
       reach = m.motion.arm + sqrt(R * R + h * h);
       gravity = norm<Real>(m.gravity);
       amplitudes = m.motion.theta_max + m.motion.gamma_max;
+      wall_speed = angular_speed * (m.motion.theta_max * reach + m.motion.gamma_max * (reach - m.motion.arm));
     }
     model::Mill<Real> mill;
     DriveClock<Real> clock;
@@ -63,6 +64,7 @@ class GapFunctions {
     Real reach;       ///< largest distance of a ball from the fulcrum [m]
     Real gravity;     ///< [m/s^2]
     Real amplitudes;  ///< theta_max + gamma_max [rad]
+    Real wall_speed;  ///< no point of the vessel is faster [m/s]
   };
 
   /// @param period  offsets count from the start of this drive period

@@ -72,6 +72,15 @@ class PairSearch {
     return {position_after(flight, gravity_, age), flight.velocity, age};
   }
 
+  /// Whether two balls whose flights both start now certainly part for good: `apart` and `velocity` are those
+  /// of one relative to the other.
+  bool parting(const Vec3<Real>& apart, const Vec3<Real>& velocity) const {
+    using std::sqrt;
+    const Real product = sqrt(dot<Real>(velocity, velocity) * dot<Real>(apart, apart));
+    // The bound of `close` on r.v, where 2 |v| times the error of a position is the largest part.
+    return dot<Real>(apart, velocity) > product * (4 * position_error_ / smallest_sum_ + 16 * epsilon<Real>());
+  }
+
   /// First contact from `now` on; both flights started before or at `now`.
   PairAnswer<Real> operator()(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                               const Real& radius_sum) const {

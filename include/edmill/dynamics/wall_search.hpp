@@ -79,6 +79,12 @@ class WallSearch {
     return search(query);
   }
 
+  /// Whether no wall can be reached in the query's window at any velocity of the ball's size, whatever its
+  /// direction: a proof without rates or curvatures. False proves nothing. theory.md, section 3
+  /// @param pose  of the vessel at the window's begin
+  bool out_of_reach(const GapFunctions<Real>& functions, const model::VesselPose<Real>& pose,
+                    const WallQuery<Real>& query) const;
+
   /// The search in this scalar alone.
   WallAnswer<Real> search(const WallQuery<Real>& query) const {
     const Functions functions(constants_, query.flight, query.radius, query.begin.period);

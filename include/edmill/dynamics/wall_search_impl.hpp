@@ -11,6 +11,24 @@
 namespace edmill::dynamics {
 
 template <class Real>
+bool WallSearch<Real>::out_of_reach(const GapFunctions<Real>& functions, const model::VesselPose<Real>& pose,
+                                    const WallQuery<Real>& query) const {
+  const auto& mill = constants_.mill;
+  const Real dt = functions.elapsed(query.begin.offset);
+  const Vec3<Real> velocity = velocity_after(query.flight, mill.gravity, dt);
+  const Vec3<Real> p = model::to_vessel_frame<Real>(pose, mill.motion.arm,
+                                                    position_after(query.flight, mill.gravity, dt), velocity)
+                           .position;
+  const Real speed = norm<Real>(velocity) + constants_.gravity * query.length;
+  // A millionth covers the rounding of all this.
+  const Real way = (speed + constants_.wall_speed) * query.length * (1 + Real(1) / 1048576) +
+                   constants_.reach / 1048576;
+  const Real cap = functions.cap() - way, cylinder = functions.cylinder() - way;
+  const Real y = p[1] < 0 ? Real(-p[1]) : p[1];
+  return (y < cap) & (cylinder > 0) & (p[0] * p[0] + p[2] * p[2] < cylinder * cylinder);
+}
+
+template <class Real>
 template <bool rounded>
 WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, const GapStart<Real>& first,
                                                  const WallQuery<Real>& query,

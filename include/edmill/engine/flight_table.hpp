@@ -11,10 +11,10 @@ namespace edmill::engine {
 
 /// One ball as seen now, and what would make another one worth a closer look.
 struct PairQuestion {
-  dynamics::PairSearch<double>::Seen seen;
+  const dynamics::PairSearch<double>::Seen& seen;
   double radius;
   Instant<double> now;
-  dynamics::PairFilter<double> filter;
+  const dynamics::PairFilter<double>& filter;
 };
 
 /// Flights by columns, with room for a multiple of four.

@@ -115,6 +115,11 @@ void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pos
   if constexpr (std::is_same_v<Real, double>) {
     const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, query.radius,
                                                  now_.period);
+    if (ladder_.walls().out_of_reach(functions, pose, query)) {
+      agendas_[ball].wall = -1;
+      agendas_[ball].wall_time = clock_.after(now_, length);
+      return;
+    }
     take_wall_answer(ball, ladder_.wall(functions, functions.start(now_.offset, pose), query), now_);
   } else {
     take_wall_answer(ball, ladder_.wall(query), now_);  // which begins in double

@@ -301,7 +301,8 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   if (stop_ == EndReason::inelastic_collapse) return;
   // Wide scalars begin their wall searches in double.
   const auto pose = std::is_same_v<Real, double> ? pose_now() : model::VesselPose<Real>{};
-  predict_all(ball, -1, pose);
+  const bool parting = ladder_.pairs().parting(between, one.velocity - two.velocity);
+  predict_all(ball, parting ? partner : -1, pose);
   predict_all(partner, ball, pose);
 }
 
