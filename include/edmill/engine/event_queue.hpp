@@ -60,8 +60,8 @@ class EventQueue {
 
  private:
   static constexpr int none = -1;
-  static constexpr std::int64_t far_off = std::int64_t{1} << 40;    ///< [periods], in no run
-  static constexpr std::int64_t most_days = std::int64_t{1} << 21;  ///< of a period
+  static constexpr std::int64_t far_off = std::int64_t{1} << 30;    ///< [periods], in no run
+  static constexpr std::int64_t most_days = std::int64_t{1} << 31;  ///< of a period
 
   struct Entry {
     Instant<Real> time = Instant<Real>::never();
