@@ -65,9 +65,10 @@ EDMILL_INTO_CLONES void look_at_four(const FourFlights& f, const FourQuestions& 
   const Four sum = q.radius + f.radius;
   const Four c = r2 - sum * sum;
   const Four discriminant = b * b - v2 * c, doubt = q.relative * (v2 * r2);
-  const FourIntegers clear = (v2 > q.slowest) & (c > q.touching);
-  const FourIntegers apart = (b >= 0) | (discriminant < -doubt);
-  meets = ~((clear & apart) | (r2 == 0));
+  const FourIntegers moving = v2 > q.slowest, clear = moving & (c > q.touching);
+  const FourIntegers apart = (c > q.touching) & ((b >= 0) | (discriminant < -doubt));
+  const FourIntegers parting = (b > 0) & (b * b > doubt);
+  meets = ~((moving & (apart | parting)) | (r2 == 0));
   store(looks.approach() + k, b);
   store(looks.gap() + k, c);
   store(looks.discriminant() + k, (clear & (discriminant > doubt)) ? discriminant : Four{} - 1.0);
@@ -106,7 +107,7 @@ EDMILL_FOR_SEVERAL_CPUS int look_at(const dynamics::Flight<double>* flights, con
   spread(radii[0], common_radius);
   int* suspects = looks.suspects();
   int found = 0;
-  for (int k = count; k & 3; ++k) balls[k] = self;
+  balls[count] = balls[count + 1] = balls[count + 2] = self;
   for (int k = 0; k < count; k += 4) {
     const int i0 = balls[k], i1 = balls[k + 1], i2 = balls[k + 2], i3 = balls[k + 3];
     const auto rows = [flights](int i) { return reinterpret_cast<const double*>(&flights[i]); };

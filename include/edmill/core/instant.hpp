@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "edmill/core/archive.hpp"
 
@@ -17,7 +18,10 @@ struct Instant {
   void archive(Archive& a) { a(period, offset); }
 
   friend bool operator<(const Instant& a, const Instant& b) {
-    return a.period != b.period ? a.period < b.period : a.offset < b.offset;
+    if constexpr (std::is_same_v<Real, double>)  // which of two events is first is a coin toss: no branch
+      return (a.period < b.period) | ((a.period == b.period) & (a.offset < b.offset));
+    else
+      return a.period != b.period ? a.period < b.period : a.offset < b.offset;
   }
   friend bool operator>(const Instant& a, const Instant& b) { return b < a; }
   friend bool operator<=(const Instant& a, const Instant& b) { return !(b < a); }

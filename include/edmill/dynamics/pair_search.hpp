@@ -23,9 +23,11 @@ struct PairFilter {
 
   bool may_meet(const Real& b, const Real& c, const Real& v2, const Real& r2) const {
     // No branch: approaching and parting are a coin toss.
-    const bool clear = (v2 > slowest_squared) & (c > touching);
-    const bool apart = (b >= 0) | (b * b - v2 * c < -(relative * (v2 * r2)));
-    return !(clear & apart);
+    const Real doubt = relative * (v2 * r2);
+    const bool moving = v2 > slowest_squared;
+    const bool apart = (c > touching) & ((b >= 0) | (b * b - v2 * c < -doubt));
+    const bool parting = (b > 0) & (b * b > doubt);  // touching or not, as two that have just collided
+    return !(moving & (apart | parting));
   }
 };
 
@@ -70,15 +72,6 @@ class PairSearch {
   Seen seen(const Flight<Real>& flight, const Instant<Real>& now) const {
     const Real age = clock_.elapsed(flight.start, now);
     return {position_after(flight, gravity_, age), flight.velocity, age};
-  }
-
-  /// Whether two balls whose flights both start now certainly part for good: `apart` and `velocity` are those
-  /// of one relative to the other.
-  bool parting(const Vec3<Real>& apart, const Vec3<Real>& velocity) const {
-    using std::sqrt;
-    const Real product = sqrt(dot<Real>(velocity, velocity) * dot<Real>(apart, apart));
-    // The bound of `close` on r.v, where 2 |v| times the error of a position is the largest part.
-    return dot<Real>(apart, velocity) > product * (4 * position_error_ / smallest_sum_ + 16 * epsilon<Real>());
   }
 
   /// First contact from `now` on; both flights started before or at `now`.

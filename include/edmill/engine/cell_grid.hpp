@@ -43,9 +43,13 @@ class CellGrid {
       const double extent = high[k] - low[k];
       const double count = std::floor(extent / edge);
       cells_[k] = count < 1 ? 1 : count > 512 ? 512 : static_cast<int>(count);
-      for (int face = 0; face <= cells_[k]; ++face) faces_[k].push_back(low[k] + extent / cells_[k] * face);
-      faces_[k].front() = -far_off;
-      faces_[k].back() = far_off;
+      const double thickness = extent / cells_[k];
+      for (int cell = 0; cell < cells_[k]; ++cell) {
+        const double lower = low[k] + cell * thickness;
+        faces_[k].push_back({lower, lower + thickness});
+      }
+      faces_[k].front()[0] = -far_off;
+      faces_[k].back()[1] = far_off;
       stride_[k] = static_cast<int>(total);
       total *= static_cast<std::size_t>(cells_[k]) + 2;
     }
@@ -66,9 +70,8 @@ class CellGrid {
     Place& place = place_[ball];
     place.index = 0;
     for (int k = 0; k < 3; ++k) {
-      // The first inner face beyond the ball is the upper one of its cell.
-      const auto upper = std::upper_bound(faces_[k].begin() + 1, faces_[k].end() - 1, position[k]);
-      place.cell[k] = static_cast<int>(upper - faces_[k].begin()) - 1;
+      const auto above = [&](const Faces& faces) { return faces[1] > position[k]; };
+      place.cell[k] = static_cast<int>(std::find_if(faces_[k].begin(), faces_[k].end(), above) - faces_[k].begin());
       place.index += (place.cell[k] + 1) * stride_[k];
     }
     link(ball);
@@ -86,10 +89,10 @@ class CellGrid {
                     const Vec3<double>& gravity) const {
     std::array<Crossing, 3> by_axis;
     for (int k = 0; k < 3; ++k) {
-      const double* face = &faces_[k][place_[ball].cell[k]];
-      const double above = face[1] - position[k], below = position[k] - face[0];
+      const Faces& faces = faces_[k][place_[ball].cell[k]];
+      const double above = faces[1] - position[k], below = position[k] - faces[0];
       if (gravity[k] == 0)
-        by_axis[k] = drift(k, above, below, velocity[k]);
+        by_axis[k] = drift(k, {below, above}, velocity[k]);
       else if (gravity[k] > 0)
         by_axis[k] = fall(k, 1, above, below, velocity[k], gravity[k]);
       else
@@ -124,6 +127,8 @@ class CellGrid {
  private:
   static constexpr double far_off = 1e30;  ///< of the outermost faces [m]
 
+  using Faces = std::array<double, 2>;  ///< lower and upper of a cell along an axis [m]
+
   struct Place {
     std::array<int, 3> cell;
     int index;  ///< in `content_`
@@ -131,29 +136,30 @@ class CellGrid {
     void archive(Archive& a) { a(cell, index); }
   };
 
-  /// Along an axis without gravity.
-  static Crossing drift(int axis, double above, double below, double speed) {
+  // What is selected below is a coin toss, so selections are look-ups: a branch would be mispredicted.
+
+  /// Along an axis without gravity. @param distances  to the lower and the upper face
+  static Crossing drift(int axis, const std::array<double, 2>& distances, double speed) {
     const bool up = speed > 0;
-    const double distance = up ? above : below;
-    const double size = up ? speed : -speed;
-    const double delay = (distance > 0 ? distance : 0.0) / size;
-    return {size > 0 ? delay : far_off, axis, up ? 1 : -1};
+    const double distance = std::max(distances[up], 0.0), size = std::fabs(speed);
+    const double delay = distance / size;
+    return {size > 0 ? delay : far_off, axis, 2 * up - 1};
   }
 
   /// Along an axis with gravity, which points to `step`: a ball that moves against it may reach the far face
-  /// first, and falls to the near one otherwise. Which of them is a coin toss, so one formula serves both.
+  /// first, and falls to the near one otherwise.
   static Crossing fall(int axis, int step, double ahead, double behind, double speed, double gravity) {
-    const double far = behind > 0 ? behind : 0.0, near = ahead > 0 ? ahead : 0.0;
+    const double far = std::max(behind, 0.0), near = std::max(ahead, 0.0);
     const double square = speed * speed, turning = square - 2 * (gravity * far);
     const bool against = speed < 0;
     const bool back = against & (turning >= 0);
-    const double distance = back ? far : near;
-    const double root = std::sqrt(back ? turning : square + 2 * (gravity * near));
-    const double size = against ? -speed : speed;
+    const double distances[] = {near, far}, squares[] = {square + 2 * (gravity * near), turning};
+    const double root = std::sqrt(squares[back]), size = std::fabs(speed);
     const bool rises_first = against & !back;  // where root - speed is free of cancellation
-    const double numerator = rises_first ? root + size : 2 * distance;
-    const double denominator = rises_first ? gravity : size + root;
-    return {denominator > 0 ? numerator / denominator : far_off, axis, back ? -step : step};
+    const double numerators[] = {2 * distances[back], root + size}, denominators[] = {size + root, gravity};
+    const double denominator = denominators[rises_first];
+    const double delay = numerators[rises_first] / denominator;
+    return {denominator > 0 ? delay : far_off, axis, back ? -step : step};
   }
 
   /// A cell holds its first balls itself; more than that are rare, and chained.
@@ -226,7 +232,7 @@ class CellGrid {
   }
 
   std::array<int, 3> cells_;
-  std::array<std::vector<double>, 3> faces_;  ///< of the cells along each axis, lowest first [m]
+  std::array<std::vector<Faces>, 3> faces_;  ///< of the cells along each axis
   std::array<int, 3> stride_;
   std::array<int, 27> around_;                  ///< offsets of a cell and its neighbours in `content_`
   std::array<std::array<int, 9>, 3> abreast_;   ///< the same in one layer across each axis

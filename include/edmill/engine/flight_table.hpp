@@ -57,7 +57,7 @@ void look_at_all(const FlightColumns& flights, const PairQuestion& question, Loo
 /// The same for a list of balls, and finds the suspects among them.
 /// @param flights, radii  of all balls; ball i has radius radii[i * stride]
 /// @param self            the ball of the question, which is never a suspect
-/// @param balls, looks    with room for `count` rounded up to a multiple of four
+/// @param balls, looks    with room for three more than `count`
 /// @return how many suspects there are
 int look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
             const PairQuestion& question, int self, int* balls, int count, Looks& looks);

@@ -70,15 +70,15 @@ void Simulation<Real>::flight_changed(int ball) {
 template <class Real>
 void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
   Agenda& a = agendas_[ball];
-  const Candidate found{clock_.after(now_, delay), other, impacts_[other]};
-  if (found.time >= a.forgotten_from) return;
+  const Instant<Real> time = clock_.after(now_, delay);
+  if (time >= a.forgotten_from) return;
   if (a.pair_count < Agenda::capacity) [[likely]] {
-    a.pairs[a.pair_count++] = found;
+    a.put_pair(Agenda::first_pair + a.pair_count++, time, other, impacts_[other]);
     return;
   }
-  Candidate& last = a.pairs[a.farthest()];
-  a.forgotten_from = found.time < last.time ? last.time : found.time;
-  if (found.time < last.time) last = found;
+  const int last = a.farthest();
+  a.forgotten_from = time < a.times[last] ? a.times[last] : time;
+  if (time < a.times[last]) a.put_pair(last, time, other, impacts_[other]);
 }
 
 template <class Real>
@@ -90,7 +90,7 @@ void Simulation<Real>::predict_crossing(int ball, const RoughlySeen& roughly) {
       ball, roughly.position, dynamics::velocity_after(rough_flights()[ball], gravity, roughly.age), gravity);
   a.crossing_axis = static_cast<std::int8_t>(crossing.axis);
   a.crossing_step = static_cast<std::int8_t>(crossing.step);
-  a.crossing_time =
+  a.times[Agenda::crossing_entry] =
       crossing.delay < Crossing::never ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
 }
 
@@ -100,10 +100,8 @@ Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const
   const Real& longest = ladder_.walls().longest_window();
   const Agenda& a = agendas_[ball];
   if (a.pair_count == 0) return longest;
-  const Real until_pair = clock_.elapsed(begin, a.pairs[a.nearest()].time);
-  const Real shortest = longest / 4096;
-  if (until_pair < shortest) return shortest;
-  return until_pair < longest ? until_pair : longest;
+  const Real until_pair = clock_.elapsed(begin, a.times[a.nearest()]);
+  return std::min(longest, std::max(Real(longest / 4096), until_pair));
 }
 
 template <class Real>
@@ -117,7 +115,7 @@ void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pos
                                                  now_.period);
     if (ladder_.walls().out_of_reach(functions, pose, query)) {
       agendas_[ball].wall = -1;
-      agendas_[ball].wall_time = clock_.after(now_, length);
+      agendas_[ball].times[Agenda::wall_entry] = clock_.after(now_, length);
       return;
     }
     take_wall_answer(ball, ladder_.wall(functions, functions.start(now_.offset, pose), query), now_);
@@ -140,12 +138,12 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
   Agenda& a = agendas_[ball];
   if (answer.verdict == dynamics::Verdict::contact) {
     a.wall = static_cast<std::int8_t>(answer.wall);
-    a.wall_time = answer.time;
+    a.times[Agenda::wall_entry] = answer.time;
     a.wall_pose = answer.pose;
     if (answer.tie) ++counts_.simultaneous_contacts;
   } else {
     a.wall = -1;
-    a.wall_time = clock_.after(begin, answer.searched);
+    a.times[Agenda::wall_entry] = clock_.after(begin, answer.searched);
   }
 }
 
@@ -153,7 +151,6 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
 /// keeps the order of the queue and is counted.
 template <class Real>
 auto Simulation<Real>::settle_ties(Event event) -> Event {
-  const auto close = [&](const Instant<Real>& t) { return clock_.elapsed(event.time, t) <= suspicion_; };
   const auto shares_ball = [&](const Event& other) {
     const auto involves = [&](int ball) {
       return other.ball == ball || (other.kind == EventKind::pair_contact && other.partner == ball);
@@ -173,23 +170,22 @@ auto Simulation<Real>::settle_ties(Event event) -> Event {
       now_ = other.time;
     }
   };
-  // The ball's own contacts besides this one.
+  const Instant<Real> limit = clock_.after(event.time, suspicion_);
+  // The ball's own contacts besides this one, which is the entry that was queued.
   const Agenda& a = agendas_[event.ball];
-  if (event.kind == EventKind::pair_contact && a.wall >= 0 && close(a.wall_time))
-    settle({EventKind::wall_contact, a.wall_time, event.ball, a.wall});
-  const int own = event.kind == EventKind::pair_contact ? a.nearest() : -1;
-  for (int k = 0; k < a.pair_count; ++k) {
-    const Candidate& c = a.pairs[k];
-    if (k != own && close(c.time) && impacts_[c.partner] == c.partner_impacts)
-      settle({EventKind::pair_contact, c.time, event.ball, c.partner});
+  for (int entry = 0; entry < static_cast<int>(a.times.size()); ++entry) {
+    const bool another = (entry != a.next) & (entry != Agenda::crossing_entry);
+    if (!(another & (a.times[entry] <= limit))) continue;
+    if (entry != Agenda::wall_entry) {
+      if (still_holds(a, entry)) settle({EventKind::pair_contact, a.times[entry], event.ball, a.partner_at(entry)});
+    } else if (a.wall >= 0) {
+      settle({EventKind::wall_contact, a.times[entry], event.ball, a.wall});
+    }
   }
-  const int rival = queue_.runner_up(clock_.after(event.time, suspicion_));
+  const int rival = queue_.runner_up(limit);
   if (rival >= 0) {
     const Event other = next_of(rival);
-    const Agenda& theirs = agendas_[rival];
-    const bool valid = other.kind != EventKind::pair_contact ||
-                       impacts_[other.partner] == theirs.pairs[theirs.nearest()].partner_impacts;
-    if (valid) settle(other);
+    if (other.kind != EventKind::pair_contact || still_holds(agendas_[rival], agendas_[rival].next)) settle(other);
   }
   return event;
 }

@@ -88,53 +88,64 @@ class Simulation {
   const std::optional<model::InelasticCollapse<Real>>& collapse() const { return collapse_; }
 
  private:
-  /// A predicted contact with another ball; void once the partner's impact count has moved on.
-  struct Candidate {
-    Instant<Real> time = Instant<Real>::never();
-    int partner = -1;
-    std::uint32_t partner_impacts = 0;
-
-    void archive(Archive& a) { a(time, partner, partner_impacts); }
-  };
-  enum class EventKind : std::int8_t { wall_contact, pair_contact, cell_crossing, wall_recheck };
-  /// What a ball expects. Its pair contacts are those that it predicted itself, in any order; for a pair that
-  /// both predicted, the later prediction is the valid one.
+  enum class EventKind { wall_contact, pair_contact, cell_crossing, wall_recheck };
+  /// What a ball expects. Its pair contacts are those that it predicted itself, in any order; one is void once
+  /// the partner's impact count has moved on, and for a pair that both predicted the later prediction is the
+  /// valid one. Which entry is the earliest is a coin toss, so it is found without branches.
   struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
     static constexpr int capacity = 3;
-    Instant<Real> wall_time;
-    [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at `wall_time`
-    Instant<Real> crossing_time = Instant<Real>::never();
-    std::array<Candidate, capacity> pairs;  ///< the first `pair_count`; the rest are at never()
+    static constexpr int wall_entry = 0, crossing_entry = 1, first_pair = 2;
+    std::array<Instant<Real>, first_pair + capacity> times;  ///< of wall, crossing, pairs; never() where free
+    [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at the wall's time
     Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
+    std::array<int, capacity> partners;
+    std::array<std::uint32_t, capacity> partner_impacts;
     std::int8_t pair_count = 0;
-    std::int8_t wall = -1;  ///< a wall id, or -1 when `wall_time` only ends what has been searched
+    std::int8_t wall = -1;  ///< a wall id, or -1 when the wall's time only ends what has been searched
     std::int8_t crossing_axis = 0, crossing_step = 0;
-    EventKind next = EventKind::wall_recheck;  ///< what comes first, as it was queued
+    std::int8_t next = wall_entry;  ///< the entry that was queued
 
-    /// The earliest pair contact, if there is one; found without branches, since any of them may be it.
+    Agenda() {
+      times.fill(Instant<Real>::never());
+      drop_pairs();
+    }
+
+    static int select(bool condition, int yes, int no) { return no ^ ((yes ^ no) & -static_cast<int>(condition)); }
+
+    /// Entries of the earliest and the latest pair contact, when there are any.
     int nearest() const {
-      const int first = pairs[1].time < pairs[0].time ? 1 : 0;
-      return pairs[2].time < pairs[first].time ? 2 : first;
+      const int first = first_pair + (times[first_pair + 1] < times[first_pair]);
+      return select(times[first_pair + 2] < times[first], first_pair + 2, first);
     }
     int farthest() const {
-      const int last = pairs[1].time > pairs[0].time ? 1 : 0;
-      return pairs[2].time > pairs[last].time ? 2 : last;
+      const int last = first_pair + (times[first_pair + 1] > times[first_pair]);
+      return select(times[first_pair + 2] > times[last], first_pair + 2, last);
+    }
+    int partner_at(int entry) const { return partners[entry - first_pair]; }
+    void put_pair(int entry, const Instant<Real>& time, int partner, std::uint32_t impacts) {
+      times[entry] = time;
+      partners[entry - first_pair] = partner;
+      partner_impacts[entry - first_pair] = impacts;
     }
     void drop_nearest() {
-      pairs[nearest()] = pairs[--pair_count];
-      pairs[pair_count].time = Instant<Real>::never();
+      const int first = nearest(), last = first_pair + --pair_count;
+      put_pair(first, times[last], partners[last - first_pair], partner_impacts[last - first_pair]);
+      times[last] = Instant<Real>::never();
     }
     void drop_pairs() {
-      for (Candidate& c : pairs) c.time = Instant<Real>::never();
+      for (int k = 0; k < capacity; ++k) times[first_pair + k] = Instant<Real>::never();
       pair_count = 0;
       forgotten_from = Instant<Real>::never();
     }
 
     void archive(Archive& a) {
-      a(wall_time, wall_pose, crossing_time, pairs, forgotten_from, pair_count, wall, crossing_axis,
+      a(times, wall_pose, forgotten_from, partners, partner_impacts, pair_count, wall, crossing_axis,
         crossing_step);
     }
   };
+  bool still_holds(const Agenda& a, int pair_entry) const {
+    return impacts_[a.partner_at(pair_entry)] == a.partner_impacts[pair_entry - Agenda::first_pair];
+  }
   struct Event {
     EventKind kind;
     Instant<Real> time;

@@ -140,39 +140,36 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
 }
 
 /// Queues the earliest entry of a ball's agenda; at equal times a wall comes before a ball, contacts before
-/// the rest. Which entry it is nobody can guess, so they are compared without branches.
+/// the rest.
 template <class Real>
 void Simulation<Real>::requeue(int ball) {
   Agenda& a = agendas_[ball];
-  const Instant<Real>* first = &a.wall_time;
-  EventKind kind = a.wall >= 0 ? EventKind::wall_contact : EventKind::wall_recheck;
-  const Instant<Real>& pair = a.pairs[a.nearest()].time;
-  const bool pair_first = (pair < *first) | ((a.wall < 0) & (pair == *first));
-  first = pair_first ? &pair : first;
-  kind = pair_first ? EventKind::pair_contact : kind;
-  const bool crossing_first = a.crossing_time < *first;
-  first = crossing_first ? &a.crossing_time : first;
-  a.next = crossing_first ? EventKind::cell_crossing : kind;
-  queue_.set(ball, *first);
+  const int pair = a.nearest();
+  const bool pair_first = (a.times[pair] < a.times[Agenda::wall_entry]) |
+                          ((a.wall < 0) & (a.times[pair] == a.times[Agenda::wall_entry]));
+  const int contact = Agenda::select(pair_first, pair, Agenda::wall_entry);
+  const bool crossing_first = a.times[Agenda::crossing_entry] < a.times[contact];
+  a.next = static_cast<std::int8_t>(Agenda::select(crossing_first, Agenda::crossing_entry, contact));
+  queue_.set(ball, a.times[a.next]);
 }
 
 /// What was queued for a ball.
 template <class Real>
 auto Simulation<Real>::next_of(int ball) const -> Event {
   const Agenda& a = agendas_[ball];
-  const int partner = a.next == EventKind::pair_contact ? a.pairs[a.nearest()].partner : a.wall;
-  return {a.next, queue_.time(ball), ball, partner};
+  const Instant<Real>& time = a.times[a.next];
+  if (a.next == Agenda::wall_entry)
+    return {a.wall >= 0 ? EventKind::wall_contact : EventKind::wall_recheck, time, ball, a.wall};
+  if (a.next == Agenda::crossing_entry) return {EventKind::cell_crossing, time, ball, -1};
+  return {EventKind::pair_contact, time, ball, a.partner_at(a.next)};
 }
 
 template <class Real>
 void Simulation<Real>::process(const Event& event) {
   switch (event.kind) {
-    case EventKind::pair_contact: {
-      const Agenda& a = agendas_[event.ball];
-      const Candidate& c = a.pairs[a.nearest()];
-      if (impacts_[c.partner] != c.partner_impacts) return drop_stale(event.ball);
+    case EventKind::pair_contact:
+      if (!still_holds(agendas_[event.ball], agendas_[event.ball].next)) return drop_stale(event.ball);
       break;
-    }
     case EventKind::cell_crossing:
       return cross_cell(event.ball);
     case EventKind::wall_recheck:
@@ -221,7 +218,7 @@ template <class Real>
 model::VesselPose<Real> Simulation<Real>::pose_at_wall_contact(int ball) const {
   if constexpr (!std::is_same_v<Real, double>) {
     const Agenda& a = agendas_[ball];
-    if (a.wall_pose && a.wall_time == now_) return *a.wall_pose;
+    if (a.wall_pose && a.times[Agenda::wall_entry] == now_) return *a.wall_pose;
   }
   return pose_now();
 }
@@ -301,8 +298,7 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   if (stop_ == EndReason::inelastic_collapse) return;
   // Wide scalars begin their wall searches in double.
   const auto pose = std::is_same_v<Real, double> ? pose_now() : model::VesselPose<Real>{};
-  const bool parting = ladder_.pairs().parting(between, one.velocity - two.velocity);
-  predict_all(ball, parting ? partner : -1, pose);
+  predict_all(ball, -1, pose);
   predict_all(partner, ball, pose);
 }
 
