@@ -35,10 +35,13 @@ struct FourQuestions {
 
 EDMILL_INTO_CLONES void spread(double value, Four& four) { four = value - Four{}; }
 EDMILL_INTO_CLONES void spread(const PairQuestion& q, FourQuestions& four) {
-  spread(q.seen.position[0], four.px), spread(q.seen.position[1], four.py), spread(q.seen.position[2], four.pz);
-  spread(q.seen.velocity[0], four.vx), spread(q.seen.velocity[1], four.vy), spread(q.seen.velocity[2], four.vz);
+  spread(q.seen.position[0], four.px), spread(q.seen.position[1], four.py),
+      spread(q.seen.position[2], four.pz);
+  spread(q.seen.velocity[0], four.vx), spread(q.seen.velocity[1], four.vy),
+      spread(q.seen.velocity[2], four.vz);
   spread(q.seen.age, four.age), spread(q.radius, four.radius);
-  spread(q.filter.gravity[0], four.gx), spread(q.filter.gravity[1], four.gy), spread(q.filter.gravity[2], four.gz);
+  spread(q.filter.gravity[0], four.gx), spread(q.filter.gravity[1], four.gy),
+      spread(q.filter.gravity[2], four.gz);
   spread(q.filter.relative, four.relative), spread(q.filter.slowest_squared, four.slowest);
   spread(q.filter.touching, four.touching);
   spread(q.filter.period, four.drive), spread(q.now.offset, four.now);

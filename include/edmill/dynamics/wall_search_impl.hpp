@@ -21,8 +21,8 @@ bool WallSearch<Real>::out_of_reach(const GapFunctions<Real>& functions, const m
                            .position;
   const Real speed = norm<Real>(velocity) + constants_.gravity * query.length;
   // A millionth covers the rounding of all this.
-  const Real way = (speed + constants_.wall_speed) * query.length * (1 + Real(1) / 1048576) +
-                   constants_.reach / 1048576;
+  const Real way =
+      (speed + constants_.wall_speed) * query.length * (1 + Real(1) / 1048576) + constants_.reach / 1048576;
   const Real cap = functions.cap() - way, cylinder = functions.cylinder() - way;
   const Real y = p[1] < 0 ? Real(-p[1]) : p[1];
   return (y < cap) & (cylinder > 0) & (p[0] * p[0] + p[2] * p[2] < cylinder * cylinder);

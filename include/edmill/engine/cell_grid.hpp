@@ -71,7 +71,8 @@ class CellGrid {
     place.index = 0;
     for (int k = 0; k < 3; ++k) {
       const auto above = [&](const Faces& faces) { return faces[1] > position[k]; };
-      place.cell[k] = static_cast<int>(std::find_if(faces_[k].begin(), faces_[k].end(), above) - faces_[k].begin());
+      place.cell[k] =
+          static_cast<int>(std::find_if(faces_[k].begin(), faces_[k].end(), above) - faces_[k].begin());
       place.index += (place.cell[k] + 1) * stride_[k];
     }
     link(ball);
@@ -234,8 +235,8 @@ class CellGrid {
   std::array<int, 3> cells_;
   std::array<std::vector<Faces>, 3> faces_;  ///< of the cells along each axis
   std::array<int, 3> stride_;
-  std::array<int, 27> around_;                  ///< offsets of a cell and its neighbours in `content_`
-  std::array<std::array<int, 9>, 3> abreast_;   ///< the same in one layer across each axis
+  std::array<int, 27> around_;                 ///< offsets of a cell and its neighbours in `content_`
+  std::array<std::array<int, 9>, 3> abreast_;  ///< the same in one layer across each axis
   std::vector<Cell> content_;
   std::unordered_map<int, std::vector<int>> overflow_;
   std::vector<Place> place_;

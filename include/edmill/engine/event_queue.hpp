@@ -1,6 +1,8 @@
 // The queue of next events: one entry for each ball, the earliest on top.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -19,21 +21,21 @@ class EventQueue {
       : entries_(balls),
         days_per_second_(static_cast<double>(days_per_period_) / static_cast<double>(period)) {
     std::size_t lists = 64;
-    while (lists < 4 * entries_.size()) lists *= 2;
+    while (lists < 8 * entries_.size()) lists *= 2;
     heads_.assign(lists, none);
+    occupied_.assign(lists / 64, 0);
     for (int i = 0; i < balls; ++i) link(i);
   }
 
   /// The ball whose event is next.
   int top() {
-    std::int64_t searched = 0;
-    top_ = first_of(today_);
-    while (top_ == none) {
-      ++today_;
-      if (++searched > static_cast<std::int64_t>(heads_.size())) go_to_earliest();
-      top_ = first_of(today_);
+    const std::int64_t begin = today_;
+    today_ = next_occupied(today_);
+    while ((top_ = first_of(today_)) == none) {
+      const bool all_seen = today_ - begin > static_cast<std::int64_t>(heads_.size());
+      today_ = all_seen ? earliest_day() : next_occupied(today_ + 1);
     }
-    days_passed_ += searched;
+    days_passed_ += std::min(today_ - begin, static_cast<std::int64_t>(heads_.size()));
     if (++taken_ >= review_) review();
     return top_;
   }
@@ -76,8 +78,17 @@ class EventQueue {
     const auto day = static_cast<std::int64_t>(place);
     return time.period * days_per_period_ + (day < days_per_period_ ? day : days_per_period_ - 1);
   }
-  int& head(std::int64_t day) { return heads_[static_cast<std::size_t>(day) & (heads_.size() - 1)]; }
   int head(std::int64_t day) const { return heads_[static_cast<std::size_t>(day) & (heads_.size() - 1)]; }
+
+  /// The first day from `day` on whose list is not empty: a word of marks at a time, since a loop over empty
+  /// lists would end by surprise each time.
+  std::int64_t next_occupied(std::int64_t day) const {
+    for (;; day = (day | 63) + 1) {
+      const std::size_t at = static_cast<std::size_t>(day) & (heads_.size() - 1);
+      const std::uint64_t marks = occupied_[at / 64] >> (at % 64);
+      if (marks != 0) return day + std::countr_zero(marks);
+    }
+  }
 
   /// A list holds the events of its day, and of days a round or more later.
   int first_of(std::int64_t day, int except = none) const {
@@ -97,7 +108,9 @@ class EventQueue {
     Entry& e = entries_[ball];
     const std::int64_t day = day_of(e.time);
     e.day = day < today_ ? today_ : day;
-    int& first = head(e.day);
+    const std::size_t list = static_cast<std::size_t>(e.day) & (heads_.size() - 1);
+    int& first = heads_[list];
+    occupied_[list / 64] |= std::uint64_t{1} << (list % 64);
     e.previous = none;
     e.next = first;
     if (first != none) entries_[first].previous = ball;
@@ -106,12 +119,18 @@ class EventQueue {
   void unlink(int ball) {
     const Entry& e = entries_[ball];
     if (e.next != none) entries_[e.next].previous = e.previous;
-    (e.previous != none ? entries_[e.previous].next : head(e.day)) = e.next;
+    if (e.previous != none) {
+      entries_[e.previous].next = e.next;
+      return;
+    }
+    const std::size_t list = static_cast<std::size_t>(e.day) & (heads_.size() - 1);
+    heads_[list] = e.next;
+    occupied_[list / 64] &= ~(std::uint64_t{e.next == none} << (list % 64));
   }
 
-  void go_to_earliest() {
-    today_ = entries_.front().day;
-    for (const Entry& e : entries_) today_ = e.day < today_ ? e.day : today_;
+  std::int64_t earliest_day() const {
+    const auto earlier = [](const Entry& a, const Entry& b) { return a.day < b.day; };
+    return std::min_element(entries_.begin(), entries_.end(), earlier)->day;
   }
 
   /// Days get longer when most are empty and shorter when many events share one.
@@ -119,21 +138,23 @@ class EventQueue {
     const std::int64_t events = taken_, days = days_passed_, before = days_per_period_;
     taken_ = days_passed_ = 0;
     if (review_ < static_cast<std::int64_t>(entries_.size())) review_ *= 2;
-    if (days > 4 * events) {
-      for (auto d = days; d > 2 * events && days_per_period_ > 1; d /= 2) days_per_period_ /= 2;
-    } else if (events > 2 * days) {
-      for (auto d = days + 1; d < events && days_per_period_ < most_days; d *= 2) days_per_period_ *= 2;
+    if (days > 16 * events) {
+      for (auto d = days; d > 8 * events && days_per_period_ > 1; d /= 2) days_per_period_ /= 2;
+    } else if (2 * events > days) {
+      for (auto d = days + 1; d < 4 * events && days_per_period_ < most_days; d *= 2) days_per_period_ *= 2;
     }
     if (days_per_period_ == before) return;
     days_per_second_ *= static_cast<double>(days_per_period_) / static_cast<double>(before);
     const int balls = static_cast<int>(entries_.size());
-    for (int& first : heads_) first = none;
+    std::fill(heads_.begin(), heads_.end(), none);
+    std::fill(occupied_.begin(), occupied_.end(), 0);
     today_ = day_of(entries_[top_].time);
     for (int i = 0; i < balls; ++i) link(i);
   }
 
   std::vector<Entry> entries_;
   std::vector<int> heads_;
+  std::vector<std::uint64_t> occupied_;  ///< a mark for each list that is not empty
   std::int64_t days_per_period_ = 1024;
   double days_per_second_;
   std::int64_t today_ = 0;

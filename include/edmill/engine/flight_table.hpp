@@ -38,10 +38,10 @@ class Looks {
     return discriminant_[k] < 0 ? -1.0 : gap_[k] / (std::sqrt(discriminant_[k]) - approach_[k]);
   }
 
-  int* suspects() { return suspects_.data(); }          ///< places of the suspects among the balls looked at
-  std::int64_t* meets() { return meets_.data(); }       ///< -1 for a suspect and 0 else
-  double* approach() { return approach_.data(); }       ///< b = r.v of (3.1)
-  double* gap() { return gap_.data(); }                 ///< c = r.r - R^2
+  int* suspects() { return suspects_.data(); }     ///< places of the suspects among the balls looked at
+  std::int64_t* meets() { return meets_.data(); }  ///< -1 for a suspect and 0 else
+  double* approach() { return approach_.data(); }  ///< b = r.v of (3.1)
+  double* gap() { return gap_.data(); }            ///< c = r.r - R^2
   double* discriminant() { return discriminant_.data(); }  ///< b^2 - v.v c; -1 where its sign is open
 
  private:

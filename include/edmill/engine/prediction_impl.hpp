@@ -6,35 +6,48 @@
 
 namespace edmill::engine {
 
+/// Where the flights do not fit into the cache, the balls of the adjacent cells are found before an impact is
+/// worked out, so that memory brings their flights meanwhile.
 template <class Real>
-void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose) {
+void Simulation<Real>::fetch_neighbours(int ball, FoundBalls& near) const {
+  if (!many_balls()) return;
+  grid_.neighbours(ball, near);
+  for (int k = 0; k < near.count; ++k) __builtin_prefetch(&rough_flights()[near.balls[k]]);
+}
+
+/// @pre fetch_neighbours(ball, near)
+template <class Real>
+void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose,
+                                   FoundBalls& near) {
   const auto roughly = see_roughly(ball);
-  predict_pairs(ball, already_done, roughly);
+  predict_pairs(ball, already_done, roughly, near);
   predict_crossing(ball, roughly);
   predict_wall(ball, pose);
   requeue(ball);
 }
 
 template <class Real>
-void Simulation<Real>::predict_pairs(int ball, int already_done, const RoughlySeen& roughly) {
+void Simulation<Real>::predict_pairs(int ball, int already_done, const RoughlySeen& roughly,
+                                     FoundBalls& near) {
   agendas_[ball].drop_pairs();
   if (table_) {
     const int found = table_->look(question(ball, roughly), looks_);
     predict_suspects(ball, already_done, roughly, found, [](int place) { return place; });
   } else {
-    grid_.neighbours(ball, near_);
-    predict_near(ball, already_done, roughly);
+    if (!many_balls()) grid_.neighbours(ball, near);
+    predict_near(ball, already_done, roughly, near);
   }
 }
 
-/// Predicts contacts with the balls of `near_`.
+/// Predicts contacts with the balls of `near`.
 template <class Real>
-void Simulation<Real>::predict_near(int ball, int already_done, const RoughlySeen& roughly) {
-  looks_.make_room(near_.count);
-  int* near = near_.balls.data();
-  const int found = look_at(rough_flights(), radii_.data(), stride_, question(ball, roughly), ball, near,
-                            near_.count, looks_);
-  predict_suspects(ball, already_done, roughly, found, [near](int place) { return near[place]; });
+void Simulation<Real>::predict_near(int ball, int already_done, const RoughlySeen& roughly,
+                                    FoundBalls& near) {
+  looks_.make_room(near.count);
+  int* balls = near.balls.data();
+  const int found = look_at(rough_flights(), radii_.data(), stride_, question(ball, roughly), ball, balls,
+                            near.count, looks_);
+  predict_suspects(ball, already_done, roughly, found, [balls](int place) { return balls[place]; });
 }
 
 /// Predicts contacts with the suspects of `looks_`.
@@ -177,7 +190,8 @@ auto Simulation<Real>::settle_ties(Event event) -> Event {
     const bool another = (entry != a.next) & (entry != Agenda::crossing_entry);
     if (!(another & (a.times[entry] <= limit))) continue;
     if (entry != Agenda::wall_entry) {
-      if (still_holds(a, entry)) settle({EventKind::pair_contact, a.times[entry], event.ball, a.partner_at(entry)});
+      if (still_holds(a, entry))
+        settle({EventKind::pair_contact, a.times[entry], event.ball, a.partner_at(entry)});
     } else if (a.wall >= 0) {
       settle({EventKind::wall_contact, a.times[entry], event.ball, a.wall});
     }
@@ -185,7 +199,8 @@ auto Simulation<Real>::settle_ties(Event event) -> Event {
   const int rival = queue_.runner_up(limit);
   if (rival >= 0) {
     const Event other = next_of(rival);
-    if (other.kind != EventKind::pair_contact || still_holds(agendas_[rival], agendas_[rival].next)) settle(other);
+    if (other.kind != EventKind::pair_contact || still_holds(agendas_[rival], agendas_[rival].next))
+      settle(other);
   }
   return event;
 }

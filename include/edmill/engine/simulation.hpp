@@ -89,9 +89,9 @@ class Simulation {
 
  private:
   enum class EventKind { wall_contact, pair_contact, cell_crossing, wall_recheck };
-  /// What a ball expects. Its pair contacts are those that it predicted itself, in any order; one is void once
-  /// the partner's impact count has moved on, and for a pair that both predicted the later prediction is the
-  /// valid one. Which entry is the earliest is a coin toss, so it is found without branches.
+  /// What a ball expects. Its pair contacts are those that it predicted itself, in any order; one is void
+  /// once the partner's impact count has moved on, and for a pair that both predicted the later prediction is
+  /// the valid one. Which entry is the earliest is a coin toss, so it is found without branches.
   struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
     static constexpr int capacity = 3;
     static constexpr int wall_entry = 0, crossing_entry = 1, first_pair = 2;
@@ -110,7 +110,9 @@ class Simulation {
       drop_pairs();
     }
 
-    static int select(bool condition, int yes, int no) { return no ^ ((yes ^ no) & -static_cast<int>(condition)); }
+    static int select(bool condition, int yes, int no) {
+      return no ^ ((yes ^ no) & -static_cast<int>(condition));
+    }
 
     /// Entries of the earliest and the latest pair contact, when there are any.
     int nearest() const {
@@ -186,9 +188,11 @@ class Simulation {
     else
       return ladder_.pairs().seen(flights_[ball], now_);
   }
-  void predict_pairs(int ball, int already_done, const RoughlySeen& roughly);
+  bool many_balls() const { return flights_.size() > 8192; }  ///< more than the cache holds
+  void fetch_neighbours(int ball, FoundBalls& near) const;
+  void predict_pairs(int ball, int already_done, const RoughlySeen& roughly, FoundBalls& near);
   void flight_changed(int ball);
-  void predict_near(int ball, int already_done, const RoughlySeen& roughly);
+  void predict_near(int ball, int already_done, const RoughlySeen& roughly, FoundBalls& near);
   const dynamics::Flight<double>* rough_flights() const {
     if constexpr (std::is_same_v<Real, double>)
       return flights_.data();
@@ -207,7 +211,7 @@ class Simulation {
   void continue_wall_search(int ball);
   Real search_length(int ball, const Instant<Real>& begin) const;
   void take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer, const Instant<Real>& begin);
-  void predict_all(int ball, int already_done, const model::VesselPose<Real>& pose);
+  void predict_all(int ball, int already_done, const model::VesselPose<Real>& pose, FoundBalls& near);
 
   model::Mill<Real> mill_;
   DriveClock<Real> clock_;
@@ -227,8 +231,8 @@ class Simulation {
   std::optional<FlightTable> table_;  ///< instead of the grid when that has one cell
   EventQueue<Real> queue_;
   CollapseWatch<Real> collapse_watch_;
-  FoundBalls near_;  ///< scratch: balls of the adjacent cells
-  Looks looks_;      ///< scratch: what the pair filter saw
+  FoundBalls near_, near_partner_;  ///< scratch: balls of the adjacent cells
+  Looks looks_;                     ///< scratch: what the pair filter saw
   std::vector<Observer<Real>*> observers_;
   EngineCounts<Real> counts_;
   std::optional<model::InelasticCollapse<Real>> collapse_;

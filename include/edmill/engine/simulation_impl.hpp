@@ -107,7 +107,8 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
   const auto pose = model::pose_at<Real>(mill_.motion, start.offset);
   for (int i = 0; i < ball_count(); ++i) {
     if (interrupt && interrupt->load(std::memory_order_relaxed)) throw InterruptedError();
-    predict_all(i, -1, pose);
+    fetch_neighbours(i, near_);
+    predict_all(i, -1, pose, near_);
   }
 }
 
@@ -190,8 +191,10 @@ void Simulation<Real>::drop_stale(int ball) {
   ++counts_.stale_events;
   Agenda& a = agendas_[ball];
   a.drop_nearest();
-  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never())
-    predict_pairs(ball, -1, see_roughly(ball));
+  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) {
+    fetch_neighbours(ball, near_);
+    predict_pairs(ball, -1, see_roughly(ball), near_);
+  }
   requeue(ball);
 }
 
@@ -202,7 +205,7 @@ void Simulation<Real>::cross_cell(int ball) {
   grid_.move(ball, axis, step);
   const auto roughly = see_roughly(ball);
   grid_.new_neighbours(ball, axis, step, near_);
-  predict_near(ball, -1, roughly);
+  predict_near(ball, -1, roughly, near_);
   predict_crossing(ball, roughly);
   requeue(ball);
 }
@@ -225,6 +228,7 @@ model::VesselPose<Real> Simulation<Real>::pose_at_wall_contact(int ball) const {
 
 template <class Real>
 void Simulation<Real>::collide_with_wall(int ball, int wall) {
+  fetch_neighbours(ball, near_);
   auto& flight = flights_[ball];
   const Real flight_time = dynamics::fly_to(flight, mill_.gravity, clock_, now_);
   const auto pose = pose_at_wall_contact(ball);
@@ -261,11 +265,13 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   flight_changed(ball);
   after_impact(impact);
   if (stop_ == EndReason::inelastic_collapse) return;
-  predict_all(ball, -1, pose);
+  predict_all(ball, -1, pose, near_);
 }
 
 template <class Real>
 void Simulation<Real>::collide_pair(int ball, int partner) {
+  fetch_neighbours(ball, near_);
+  fetch_neighbours(partner, near_partner_);
   auto &one = flights_[ball], &two = flights_[partner];
   const Real flight_times[2] = {dynamics::fly_to(one, mill_.gravity, clock_, now_),
                                 dynamics::fly_to(two, mill_.gravity, clock_, now_)};
@@ -298,8 +304,8 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   if (stop_ == EndReason::inelastic_collapse) return;
   // Wide scalars begin their wall searches in double.
   const auto pose = std::is_same_v<Real, double> ? pose_now() : model::VesselPose<Real>{};
-  predict_all(ball, -1, pose);
-  predict_all(partner, ball, pose);
+  predict_all(ball, -1, pose, near_);
+  predict_all(partner, ball, pose, near_partner_);
 }
 
 template <class Real>
