@@ -675,6 +675,51 @@ Verdict grazing_verdict(double distance) {
   return WallSearch<Real>(still_mill<Real>(grazing_gravity))(widened<Real>(grazing_query(distance))).verdict;
 }
 
+/// Windows as long as the test without rates allows, for balls from rest to 6 m/s.
+TEST(WallSearch, WhatIsOutOfReachIsNotHit) {
+  constexpr std::uint64_t seed = 20110101;
+  std::cout << "seed " << seed << "\n";
+  const auto mill = testing::spex_mill<double>();
+  DecisionLadder<double> ladder(mill, 0.00236, 12.0);
+  const auto& walls = ladder.walls();
+  Draw draw(seed);
+  int proven = 0, soon_after = 0;
+  for (int k = 0; k < 5000; ++k) {
+    WallQuery<double> q{};
+    q.radius = draw.uniform(0.00118, 0.00635);
+    q.begin = {3, draw.uniform(0, mill.motion.period)};
+    const double across = mill.vessel.radius - q.radius, along = mill.vessel.half_height - q.radius;
+    Vec3<double> place, velocity;
+    do place = {draw.uniform(-across, across), draw.uniform(-along, along), draw.uniform(-across, across)};
+    while (place[0] * place[0] + place[2] * place[2] > across * across);
+    for (int axis = 0; axis < 3; ++axis) velocity[axis] = draw.chance(0.3) ? 0 : draw.uniform(-3.4, 3.4);
+    const auto pose = model::pose_at<double>(mill.motion, q.begin.offset);
+    q.flight = {model::to_inertial<double>(pose, mill.motion.arm, place), velocity, q.begin};
+    const GapFunctions<double> functions(walls.constants(), q.flight, q.radius, q.begin.period);
+    const auto excluded = [&](double length) {
+      q.length = length;
+      return walls.out_of_reach(functions, pose, q);
+    };
+    double longest = 0, too_long = walls.longest_window();
+    if (excluded(too_long)) continue;
+    for (int halving = 0; halving < 30; ++halving) {
+      const double middle = (longest + too_long) / 2;
+      (excluded(middle) ? longest : too_long) = middle;
+    }
+    if (!(longest > 1e-6)) continue;
+    ++proven;
+    const auto hit_within = [&](double length) {
+      q.length = length;
+      const auto decide = [&](const WallQuery<double>& query) { return ladder.wall(query); };
+      return over_window(decide, q, mill.motion.period).verdict == Verdict::contact;
+    };
+    ASSERT_FALSE(hit_within(longest));
+    soon_after += 2 * longest < walls.longest_window() && hit_within(2 * longest);
+  }
+  EXPECT_GT(proven, 4000);
+  EXPECT_GT(soon_after, 200);  // the proof gives away less than half of the time, often enough
+}
+
 TEST(WallSearch, APathThatGrazesByANanometreIsDecidedInDouble) {
   EXPECT_EQ(grazing_verdict<double>(0x1p-30), Verdict::none);
   EXPECT_EQ(grazing_verdict<double>(-0x1p-30), Verdict::contact);

@@ -32,5 +32,22 @@ TEST(EventQueue, TopAndRunnerUpAreTheTwoEarliest) {
   }
 }
 
+/// Nothing for many rounds of the calendar, with its days short and with its days long.
+TEST(EventQueue, LongGapsAreCrossed) {
+  constexpr int balls = 7;
+  EventQueue<double> queue(balls, 1.0);
+  std::int64_t period = 0;
+  for (const std::int64_t gap : {100000, 1, 3000000, 1, 1}) {
+    for (int step = 0; step < 1000; ++step) {
+      // One event after the other, in the order of the balls.
+      if (step % balls == 0) period += gap;
+      for (int ball = 0; ball < balls; ++ball) queue.set(ball, {period, 0.1 * ((ball + step) % balls)});
+      ASSERT_EQ(queue.top(), (balls - step % balls) % balls);
+      ASSERT_EQ(queue.time(queue.top()), (Instant<double>{period, 0.0}));
+      period += 1;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace edmill::engine

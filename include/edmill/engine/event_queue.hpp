@@ -10,9 +10,9 @@
 
 namespace edmill::engine {
 
-/// A calendar: each drive period is cut into days, and the days are dealt round to as many lists as keep
-/// about one event on each. Taking the first event and setting one cost the same for any number of balls.
-/// Equal times go to the lower ball, so the order of events does not depend on history. (Brown 1988)
+/// A calendar: each drive period is cut into days, and the days are dealt round to lists, so short
+/// that few hold more than one event. Taking the first event and setting one cost the same for any number of
+/// balls. Equal times go to the lower ball, so the order of events does not depend on history. (Brown 1988)
 template <class Real>
 class EventQueue {
  public:
@@ -51,13 +51,17 @@ class EventQueue {
   /// The ball whose event is next after that of the last `top`, if it is not later than `limit`; -1
   /// otherwise.
   int runner_up(const Instant<Real>& limit) const {
-    const std::int64_t last = day_of(limit);
-    std::int64_t day = today_;
-    do {
+    const std::int64_t last = std::max(day_of(limit), today_);
+    const std::int64_t round = today_ + static_cast<std::int64_t>(heads_.size());
+    for (auto day = next_occupied(today_); day <= last && day < round; day = next_occupied(day + 1)) {
       const int second = first_of(day, top_);
       if (second != none) return entries_[second].time <= limit ? second : none;
-    } while (++day <= last);
-    return none;
+    }
+    if (last < round) return none;
+    int second = none;  // after a whole round without one
+    for (int i = 0; i < static_cast<int>(entries_.size()); ++i)
+      if (i != top_ && (second == none || before(i, second))) second = i;
+    return second != none && entries_[second].time <= limit ? second : none;
   }
 
  private:

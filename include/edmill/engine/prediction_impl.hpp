@@ -10,7 +10,7 @@ namespace edmill::engine {
 /// worked out, so that memory brings their flights meanwhile.
 template <class Real>
 void Simulation<Real>::fetch_neighbours(int ball, FoundBalls& near) const {
-  if (!many_balls()) return;
+  if (table_ || !many_balls()) return;
   grid_.neighbours(ball, near);
   for (int k = 0; k < near.count; ++k) __builtin_prefetch(&rough_flights()[near.balls[k]]);
 }

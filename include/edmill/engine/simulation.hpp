@@ -176,7 +176,6 @@ class Simulation {
   Event settle_ties(Event event);
   dynamics::Contact<Real> contact_of(const Event& event) const;
 
-  using Seen = typename dynamics::PairSearch<Real>::Seen;
   using RoughlySeen = dynamics::PairSearch<double>::Seen;
   RoughlySeen see_roughly(int ball) const {
     return pair_filter_.seen(rough_flights()[ball], dynamics::instant_cast<double>(now_));

@@ -1,0 +1,145 @@
+// The pair filter for many flights says of each ball what PairSearch says of it alone.
+#include "edmill/engine/flight_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "edmill/setup/random.hpp"
+#include "spex_case.hpp"
+
+namespace edmill::engine {
+namespace {
+
+using dynamics::Flight;
+using dynamics::PairSearch;
+using dynamics::Verdict;
+
+/// Balls in flight since up to two periods, some of them just collided with the one before.
+struct Swarm {
+  std::vector<Flight<double>> flights;
+  std::vector<double> radii;
+  Instant<double> now{7, 0.01};
+
+  Swarm(setup::Random& random, int balls, bool alike, const Vec3<double>& gravity, double period) {
+    const auto somewhere = [&](double size) {
+      return Vec3<double>(size * (2 * random.uniform<double>() - 1),
+                          size * (2 * random.uniform<double>() - 1),
+                          size * (2 * random.uniform<double>() - 1));
+    };
+    const DriveClock<double> clock(period);
+    for (int i = 0; i < balls; ++i) {
+      radii.push_back(alike ? 0.002 : 0.001 + 0.003 * random.uniform<double>());
+      Flight<double> f{somewhere(0.02), somewhere(3), now};
+      if (i > 0 && random.uniform<double>() < 0.3) {
+        // Touching the ball before, up to rounding, and flying off or at it.
+        const auto& other = flights.back();
+        const double age = clock.elapsed(other.start, now);
+        Vec3<double> direction = somewhere(1);
+        direction /= norm<double>(direction);
+        f.position = dynamics::position_after(other, gravity, age) +
+                     direction * ((radii[i] + radii[i - 1]) * (1 + 4e-16 * (random.uniform<double>() - 0.5)));
+        f.velocity =
+            dynamics::velocity_after(other, gravity, age) + direction * (2 * random.uniform<double>() - 1);
+      } else {
+        const double age = 2 * period * random.uniform<double>();
+        f.start = clock.after(now, -age);
+        f.position -= age * (f.velocity + age / 2 * gravity);  // where it was then
+      }
+      flights.push_back(f);
+    }
+  }
+};
+
+TEST(FlightTable, SeesWhatPairSearchSees) {
+  const auto mill = testing::spex_mill<double>();
+  const auto wide_mill = testing::spex_mill<float128>();
+  setup::Random random(20110101);
+  std::map<std::string, int> seen;
+  for (int turn = 0; turn < 400; ++turn) {
+    const int balls = 1 + static_cast<int>(random.uniform<double>() * 40);
+    const bool alike = turn % 2 == 0;
+    const Swarm swarm(random, balls, alike, mill.gravity, mill.motion.period);
+    const PairSearch<double> search(mill, 0.002, 0.1, 10);
+    const PairSearch<float128> wide(wide_mill, float128(0.002), float128(0.1), float128(10));
+    FlightTable table(balls);
+    for (int i = 0; i < balls; ++i) table.set(i, swarm.flights[i], swarm.radii[i]);
+
+    const int self = static_cast<int>(random.uniform<double>() * balls);
+    const auto own = search.seen(swarm.flights[self], swarm.now);
+    const PairQuestion question{own, swarm.radii[self], swarm.now, search.filter()};
+    std::vector<int> list;  // some of the balls, out of order
+    for (int i = balls - 1; i >= 0; --i)
+      if (random.uniform<double>() < 0.8) list.push_back(i);
+    const int count = static_cast<int>(list.size());
+    list.resize(list.size() + 3);
+
+    const auto delays_of = [](Looks& looks, int found, auto ball_at) {
+      std::map<int, double> delays;
+      for (int k = 0; k < found; ++k) delays[ball_at(looks.suspects()[k])] = looks.delay(looks.suspects()[k]);
+      EXPECT_EQ(static_cast<int>(delays.size()), found);
+      return delays;
+    };
+    Looks looks;
+    const auto all = delays_of(looks, table.look(question, looks), [](int place) { return place; });
+    looks.make_room(count);
+    const auto some = delays_of(looks,
+                                look_at(swarm.flights.data(), swarm.radii.data(), alike ? 0 : 1, question,
+                                        self, list.data(), count, looks),
+                                [&](int place) { return list[place]; });
+
+    EXPECT_EQ(all.count(self), 0u);
+    for (int other = 0; other < balls; ++other) {
+      if (other == self) continue;
+      const double sum = swarm.radii[self] + swarm.radii[other];
+      const auto& flight = swarm.flights[other];
+      const bool suspect = search.may_meet(own, flight, swarm.now, sum);
+      ASSERT_EQ(all.count(other) == 1, suspect);
+      const auto answer = search(own, flight, swarm.now, sum);
+      if (!suspect) {
+        ++seen["passed"];
+        // The proof holds in the wide scalar, too.
+        const auto truth = wide(dynamics::flight_cast<float128>(swarm.flights[self]),
+                                dynamics::flight_cast<float128>(flight),
+                                dynamics::instant_cast<float128>(swarm.now), float128(sum));
+        ASSERT_NE(truth.verdict, Verdict::contact);
+        continue;
+      }
+      if (all.at(other) < 0) {
+        ++seen["left open"];
+      } else {
+        ++seen["timed"];
+        ASSERT_EQ(answer.verdict, Verdict::contact);
+        ASSERT_EQ(all.at(other), answer.delay);
+      }
+    }
+    for (int k = 0; k < count; ++k) {
+      ASSERT_EQ(some.count(list[k]), all.count(list[k]));
+      if (some.count(list[k])) ASSERT_EQ(some.at(list[k]), all.at(list[k]));
+    }
+  }
+  for (const char* kind : {"passed", "left open", "timed"}) EXPECT_GT(seen[kind], 50) << kind;
+}
+
+TEST(FlightTable, TwoThatHaveJustCollidedAndPartAreNoSuspects) {
+  const auto mill = testing::spex_mill<double>();
+  const PairSearch<double> search(mill, 0.004, 0.1, 10);
+  const Instant<double> now{3, 0.02};
+  const auto suspects = [&](double speed) {
+    const std::vector<Flight<double>> flights{{{0, 0, 0}, {0, 0, 0}, now},
+                                              {{0.004, 0, 0}, {speed, 0.5, 0}, now}};
+    const std::vector<double> radii{0.002, 0.002};
+    const auto own = search.seen(flights[0], now);
+    std::vector<int> list{0, 1, 0, 0, 0};
+    Looks looks;
+    looks.make_room(2);
+    return look_at(flights.data(), radii.data(), 0, {own, 0.002, now, search.filter()}, 0, list.data(), 2,
+                   looks);
+  };
+  EXPECT_EQ(suspects(0.1), 0);   // they part
+  EXPECT_EQ(suspects(-0.1), 1);  // they approach
+  EXPECT_EQ(suspects(0), 1);     // only a closer look can tell
+}
+
+}  // namespace
+}  // namespace edmill::engine
