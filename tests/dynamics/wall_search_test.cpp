@@ -717,7 +717,7 @@ TEST(WallSearch, WhatIsOutOfReachIsNotHit) {
     soon_after += 2 * longest < walls.longest_window() && hit_within(2 * longest);
   }
   EXPECT_GT(proven, 4000);
-  EXPECT_GT(soon_after, 200);  // the proof gives away less than half of the time, often enough
+  EXPECT_GT(soon_after, 50);  // some come close to what the proof allows: a weaker one would be seen
 }
 
 TEST(WallSearch, APathThatGrazesByANanometreIsDecidedInDouble) {
