@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Runs the benchmarks into JSON files and compares such files.
 
-  bench.py run --binary BENCH --out A.json [--binary BENCH2 --out B.json] [--rounds 5] [--filter REGEX]
+  bench.py run --binary BENCH --out A.json [--binary BENCH2 --out B.json] [--rounds 5] [--filter REGEX] [--core N]
   bench.py compare A.json B.json [--least 0.02]
   bench.py ratios A.json
 
 `run` with several binaries runs them in turn, round by round, so that a slow hour of the machine hits all of
-them alike. `compare` exits with 1 when a figure of B is slower than in A, with 2 on bad input.
+them alike. With --core the yardsticks of a case run at once with edmill on that one core, where a slow minute hits
+them alike, too; CPU times then count the caches that they take from each other. `compare` exits with 1 when a figure of B is slower than in A, with 2 on bad input.
 """
 import argparse
 import datetime
@@ -95,13 +96,38 @@ def take(output, figures):
             entry["values"].append(row["cpu_time"])
 
 
+def names_of(binary, pattern):
+    command = [binary, "--benchmark_list_tests"] + (["--benchmark_filter=" + pattern] if pattern else [])
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+
+
+def run_together(binary, options, figures):
+    """Benchmarks whose names differ in their first part alone run at once on one core."""
+    groups = {}
+    for name in names_of(binary, options.filter):
+        groups.setdefault(figure_name(name).split("/", 1)[-1], []).append(name)
+    for names in groups.values():
+        started = [
+            subprocess.Popen(["taskset", "-c", str(options.core), binary, "--benchmark_format=json",
+                              "--benchmark_filter=^%s$" % re.escape(name)],
+                             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) for name in names]
+        for process in started:
+            output = process.communicate()[0]
+            if process.returncode != 0:
+                raise subprocess.CalledProcessError(process.returncode, process.args)
+            take(json.loads(output), figures)
+
+
 def run(options):
     if len(options.binary) != len(options.out):
         raise ValueError("found %d --binary and %d --out, expected as many" % (len(options.binary), len(options.out)))
-    results = [{"machine": machine(b), "figures": {}} for b in options.binary]
+    results = [{"machine": machine(b), "together": options.core is not None, "figures": {}} for b in options.binary]
     for turn in range(options.rounds):
         for binary, result in zip(options.binary, results):
             print("round %d of %d: %s" % (turn + 1, options.rounds, binary), file=sys.stderr)
+            if options.core is not None:
+                run_together(binary, options, result["figures"])
+                continue
             command = [binary, "--benchmark_format=json"]
             if options.filter:
                 command.append("--benchmark_filter=" + options.filter)
@@ -144,6 +170,12 @@ def interval(a, b):
     # Standard error of a median: 1.25 of the mean's.
     error = sum((spread(v) / statistics.median(v)) ** 2 * 1.5625 / len(v) for v in (a, b)) ** 0.5
     return ratio, min(low, ratio * (1 - 2.58 * error)), max(high, ratio * (1 + 2.58 * error))
+
+
+def paired_interval(a, b):
+    """Median of the ratios b/a of values that were taken at the same time, and their range."""
+    ratios = sorted(y / x for x, y in zip(a, b))
+    return statistics.median(ratios), ratios[0], ratios[-1]
 
 
 def verdict(a, b, least):
@@ -201,6 +233,8 @@ def print_ratios(result):
             if not name.startswith("edmill/") or not other or " " in name:
                 continue
             ratio, low, high = interval(other["values"], figure["values"])
+            if result.get("together"):
+                ratio, low, high = paired_interval(other["values"], figure["values"])
             enough = min(len(other["values"]), len(figure["values"])) >= FEWEST
             shown = "   [%.3f, %.3f]" % (low, high) if enough else ""
             lines.append("%-48s %8.3f%s" % (name[len("edmill/"):], ratio, shown))
@@ -224,6 +258,7 @@ def main():
     do_run.add_argument("--out", action="append", required=True)
     do_run.add_argument("--rounds", type=int, default=5)
     do_run.add_argument("--filter", default="")
+    do_run.add_argument("--core", type=int)
     do_run.set_defaults(action=run)
     do_compare = commands.add_parser("compare")
     do_compare.add_argument("a")
