@@ -126,7 +126,7 @@ class CellGrid {
   }
 
  private:
-  static constexpr double far_off = 1e30;  ///< of the outermost faces [m]
+  static constexpr double far_off = 1e30;  ///< of the outermost faces [m]; as a delay [s], never
 
   using Faces = std::array<double, 2>;  ///< lower and upper of a cell along an axis [m]
 
