@@ -74,6 +74,25 @@ class Compare(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("1 faster, 1 slower", done.stdout)
 
+    def ratio_line(self, together):
+        names = {"edmill/x": [2.0, 30.0, 1.0], "minimal/x": [1.0, 10.0, 1.0]}
+        content = figures(**{name: (True, values) for name, values in names.items()})
+        content["together"] = together
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.json")
+            with open(path, "w", encoding="utf-8") as out:
+                json.dump(content, out)
+            done = subprocess.run([sys.executable, BENCH, "ratios", path], capture_output=True, text=True)
+        return [line.split() for line in done.stdout.split("\n") if line.startswith("x ")]
+
+    def test_rounds_that_ran_together_are_compared_one_by_one(self):
+        self.assertEqual(self.ratio_line(True), [["x", "2.000", "[1.000,", "3.000]"]])
+
+    def test_rounds_that_did_not_are_compared_by_their_medians(self):
+        line, = self.ratio_line(False)
+        self.assertEqual(line[:2], ["x", "2.000"])
+        self.assertNotEqual(line[2:], ["[1.000,", "3.000]"])
+
     def test_bad_input(self):
         good = figures(x=(True, [1.0, 1.0, 1.0]))
         self.assertEqual(self.compare("{", good).returncode, 2)

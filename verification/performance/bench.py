@@ -7,7 +7,8 @@
 
 `run` with several binaries runs them in turn, round by round, so that a slow hour of the machine hits all of
 them alike. With --core the yardsticks of a case run at once with edmill on that one core, where a slow minute hits
-them alike, too; CPU times then count the caches that they take from each other. `compare` exits with 1 when a figure of B is slower than in A, with 2 on bad input.
+them alike, too; CPU times then count the caches that they take from each other. `compare` exits with 1 when a
+figure of B is slower than in A, with 2 on bad input.
 """
 import argparse
 import datetime
@@ -232,9 +233,8 @@ def print_ratios(result):
             other = result["figures"].get(name.replace("edmill/", yardstick + "/", 1))
             if not name.startswith("edmill/") or not other or " " in name:
                 continue
-            ratio, low, high = interval(other["values"], figure["values"])
-            if result.get("together"):
-                ratio, low, high = paired_interval(other["values"], figure["values"])
+            bounds_of = paired_interval if result.get("together") else interval
+            ratio, low, high = bounds_of(other["values"], figure["values"])
             enough = min(len(other["values"]), len(figure["values"])) >= FEWEST
             shown = "   [%.3f, %.3f]" % (low, high) if enough else ""
             lines.append("%-48s %8.3f%s" % (name[len("edmill/"):], ratio, shown))

@@ -31,11 +31,10 @@ class DecisionLadder {
   ~DecisionLadder();
   DecisionLadder(DecisionLadder&&) noexcept;
 
-  /// Certified answer for a wall query; `first` is the start of the search.
+  /// Certified answer for a wall query; `pose` is the vessel's at its begin, where the caller knows it.
   /// @throws UndecidedError when the widest scalar cannot decide; its text reproduces the state
-  WallAnswer<Real> wall(const GapFunctions<Real>& functions, const GapStart<Real>& first,
-                        const WallQuery<Real>& query) {
-    const auto answer = walls_.search(functions, first, query);
+  WallAnswer<Real> wall(const model::VesselPose<Real>& pose, const WallQuery<Real>& query) {
+    const auto answer = walls_.search(pose, query);
     return answer.verdict == Verdict::undecided ? wall_above(query) : answer;
   }
   WallAnswer<Real> wall(const WallQuery<Real>& query) {

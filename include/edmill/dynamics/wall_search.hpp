@@ -90,6 +90,12 @@ class WallSearch {
     const Functions functions(constants_, query.flight, query.radius, query.begin.period);
     return search(functions, functions.start(query.begin.offset), query);
   }
+  /// The same where the caller knows the vessel's pose at the window's begin.
+  WallAnswer<Real> search(const model::VesselPose<Real>& pose, const WallQuery<Real>& query) const {
+    const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+    if (out_of_reach(functions, pose, query)) return {Verdict::none, -1, {}, false, query.length, Real(0)};
+    return search(functions, functions.start(query.begin.offset, pose), query);
+  }
   /// The same with the sample at `begin` that the caller has already.
   WallAnswer<Real> search(const GapFunctions<Real>& functions, const GapStart<Real>& first,
                           const WallQuery<Real>& query) const;

@@ -124,14 +124,7 @@ void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pos
   const auto& flight = flights_[ball];
   const dynamics::WallQuery<Real> query{flight, properties(ball).radius, now_, length};
   if constexpr (std::is_same_v<Real, double>) {
-    const dynamics::GapFunctions<Real> functions(ladder_.walls().constants(), flight, query.radius,
-                                                 now_.period);
-    if (ladder_.walls().out_of_reach(functions, pose, query)) {
-      agendas_[ball].wall = -1;
-      agendas_[ball].times[Agenda::wall_entry] = clock_.after(now_, length);
-      return;
-    }
-    take_wall_answer(ball, ladder_.wall(functions, functions.start(now_.offset, pose), query), now_);
+    take_wall_answer(ball, ladder_.wall(pose, query), now_);
   } else {
     take_wall_answer(ball, ladder_.wall(query), now_);  // which begins in double
   }
