@@ -697,8 +697,9 @@ TEST(WallSearch, WhatIsOutOfReachIsNotHit) {
     q.flight = {model::to_inertial<double>(pose, mill.motion.arm, place), velocity, q.begin};
     const GapFunctions<double> functions(walls.constants(), q.flight, q.radius, q.begin.period);
     const auto excluded = [&](double length) {
-      q.length = length;
-      return walls.out_of_reach(functions, pose, q);
+      const double fastest = norm<double>(velocity) + walls.constants().gravity * length;
+      const WallSet reach = walls.within_reach(functions, place, fastest, length);
+      return !reach[0] && !reach[1] && !reach[2];
     };
     double longest = 0, too_long = walls.longest_window();
     if (excluded(too_long)) continue;

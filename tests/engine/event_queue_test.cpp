@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "edmill/setup/random.hpp"
 
@@ -47,6 +49,33 @@ TEST(EventQueue, LongGapsAreCrossed) {
       period += 1;
     }
   }
+}
+
+TEST(EventQueue, WhatIsSaidToBeUpcomingMostlyIs) {
+  constexpr int balls = 2000, steps = 5000;
+  setup::Random random(12);
+  EventQueue<double> queue(balls, 1.0);
+  const auto later = [&](double now) {
+    const double time = now + random.uniform<double>();
+    return Instant<double>{static_cast<std::int64_t>(time), time - std::floor(time)};
+  };
+  for (int ball = 0; ball < balls; ++ball) queue.set(ball, later(0));
+  std::array<std::array<int, 2>, steps> said;
+  std::array<int, steps> top;
+  for (int step = 0; step < steps; ++step) {
+    top[step] = queue.top();
+    said[step] = queue.upcoming();
+    const auto time = queue.time(top[step]);
+    queue.set(top[step], later(static_cast<double>(time.period) + time.offset));
+  }
+  int next = 0, second = 0;
+  for (int step = steps / 2; step + 2 < steps; ++step) {
+    next += said[step][0] == top[step + 1];
+    second += said[step][1] == top[step + 2];
+  }
+  // Less would not be worth asking for.
+  EXPECT_GT(next, steps / 4);
+  EXPECT_GT(second, steps / 4);
 }
 
 }  // namespace

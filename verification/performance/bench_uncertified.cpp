@@ -1,7 +1,8 @@
 // The benchmarks with an uncertified wall search: what certification costs.
 //
-// The specialisation stands in for the search of the library, and the instances made here for the library's
-// own in double, which the linker then leaves out. The program knows nothing of this.
+// The specialisation stands in for the search of the library once a wall is within reach, and the instances
+// made here for the library's own in double, which the linker then leaves out. The program knows nothing of
+// this.
 #include <cstdlib>
 
 #include "uncertified_search.hpp"
@@ -14,10 +15,16 @@ const int samples = std::getenv("EDMILL_SAMPLES") ? std::atoi(std::getenv("EDMIL
 }  // namespace
 
 template <>
-WallAnswer<double> WallSearch<double>::search(const GapFunctions<double>& functions,
-                                              const GapStart<double>& first,
+WallAnswer<double> WallSearch<double>::search(const model::VesselPose<double>& pose,
                                               const WallQuery<double>& query) const {
-  return performance::uncertified_search(*this, functions, first, query, samples);
+  const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+  const auto ball = functions.seen(query.begin.offset, pose);
+  const WallSet reachable =
+      within_reach(functions, ball.state.position, top_speed(ball.velocity, query.length), query.length);
+  if (!(reachable[0] || reachable[1] || reachable[2]))
+    return {Verdict::none, -1, {}, false, query.length, 0.0};
+  return performance::uncertified_search(*this, functions, functions.start(query.begin.offset, pose, ball),
+                                         query, samples);
 }
 
 }  // namespace edmill::dynamics

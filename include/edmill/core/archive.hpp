@@ -70,8 +70,8 @@ inline void archive_value(Archive& a, std::string& text) {
   text.resize(a.count(text.size()));
   a.raw(text.data(), text.size());
 }
-template <class T>
-void archive_value(Archive& a, std::vector<T>& values) {
+template <class T, class Allocator>
+void archive_value(Archive& a, std::vector<T, Allocator>& values) {
   values.resize(a.count(values.size()));
   for (auto& value : values) a(value);
 }

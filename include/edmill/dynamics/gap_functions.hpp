@@ -24,6 +24,13 @@ struct GapStart : GapSample<Real> {
   std::array<Real, model::wall_count> curvature;
 };
 
+/// A ball at one time.
+template <class Real>
+struct SeenBall {
+  Vec3<Real> velocity;                  ///< inertial [m/s]
+  model::VesselFrameState<Real> state;  ///< in the vessel
+};
+
 /// Bounds on the rounding errors of a sample.
 template <class Real>
 struct GapErrors {
@@ -98,19 +105,27 @@ class GapFunctions {
                                                        velocity_after(flight_, c_.mill.gravity, dt)));
   }
 
-  /// The start of a search at `offset`, where the vessel stands at `pose`.
-  GapStart<Real> start(const Real& offset, const model::VesselPose<Real>& pose) const {
+  /// The ball at `offset`, where the vessel stands at `pose`.
+  SeenBall<Real> seen(const Real& offset, const model::VesselPose<Real>& pose) const {
     const Real dt = elapsed(offset);
     const auto velocity = velocity_after(flight_, c_.mill.gravity, dt);
-    const auto state = model::to_vessel_frame<Real>(pose, c_.mill.motion.arm,
-                                                    position_after(flight_, c_.mill.gravity, dt), velocity);
-    const auto second =
-        model::vessel_frame_acceleration<Real>(pose, c_.mill.motion.arm, state, velocity, c_.mill.gravity);
-    const auto &p = state.position, &u = state.velocity;
-    const Real q_second = -2 * ((u[0] * u[0] + p[0] * second[0]) + (u[2] * u[2] + p[2] * second[2]));
-    return {sample(offset, state), {second[1], -second[1], q_second}};
+    return {velocity, model::to_vessel_frame<Real>(pose, c_.mill.motion.arm,
+                                                   position_after(flight_, c_.mill.gravity, dt), velocity)};
   }
-  GapStart<Real> start(const Real& offset) const { return start(offset, pose(offset)); }
+
+  /// The start of a search at `offset`, where the vessel stands at `pose` and the ball is seen as `ball`.
+  GapStart<Real> start(const Real& offset, const model::VesselPose<Real>& pose,
+                       const SeenBall<Real>& ball) const {
+    const auto second = model::vessel_frame_acceleration<Real>(pose, c_.mill.motion.arm, ball.state,
+                                                               ball.velocity, c_.mill.gravity);
+    const auto &p = ball.state.position, &u = ball.state.velocity;
+    const Real q_second = -2 * ((u[0] * u[0] + p[0] * second[0]) + (u[2] * u[2] + p[2] * second[2]));
+    return {sample(offset, ball.state), {second[1], -second[1], q_second}};
+  }
+  GapStart<Real> start(const Real& offset) const {
+    const auto at = pose(offset);
+    return start(offset, at, seen(offset, at));
+  }
 
   /// The sample that a state in the vessel frame gives.
   GapSample<Real> sample(const Real& offset, const model::VesselFrameState<Real>& state) const {

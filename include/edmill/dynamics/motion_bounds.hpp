@@ -133,12 +133,8 @@ class BoundsTable {
     const Real place = speed * per_speed_;
     if (!(place < speeds - 1)) return derivative_bounds<Real>(mill_, speed, length);
     const int row = static_cast<int>(place);
-    int column = 0;
-    Real half = longest_ / 2;
-    while (column + 1 < lengths && length <= half) {
-      half = half / 2;
-      ++column;
-    }
+    int column = 0;  // counted without branches: windows are of any length
+    for (int j = 1; j < lengths; ++j) column += length <= longest_ / (1 << j);
     return rows_[row * lengths + column];
   }
 

@@ -1,6 +1,7 @@
 // First contact of a ball in free flight with the walls of the moving vessel, as a certified decision.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -14,6 +15,9 @@
 namespace edmill::dynamics {
 
 enum class Verdict { none, contact, undecided };
+
+/// Yes or no for each wall.
+using WallSet = std::array<bool, model::wall_count>;
 
 struct NoPose {
   void archive(Archive&) {}
@@ -79,26 +83,16 @@ class WallSearch {
     return search(query);
   }
 
-  /// Whether no wall can be reached in the query's window at any velocity of the ball's size, whatever its
-  /// direction: a proof without rates or curvatures. False proves nothing. theory.md, section 3
-  /// @param pose  of the vessel at the window's begin
-  bool out_of_reach(const GapFunctions<Real>& functions, const model::VesselPose<Real>& pose,
-                    const WallQuery<Real>& query) const;
+  /// Of each wall, whether a ball at `position` in the vessel can reach it in a window of `length` [s] at any
+  /// velocity below `speed` [m/s], whatever its direction. No is a proof, without rates or curvatures.
+  /// theory.md, section 3
+  WallSet within_reach(const GapFunctions<Real>& functions, const Vec3<Real>& position, const Real& speed,
+                       const Real& length) const;
 
   /// The search in this scalar alone.
-  WallAnswer<Real> search(const WallQuery<Real>& query) const {
-    const Functions functions(constants_, query.flight, query.radius, query.begin.period);
-    return search(functions, functions.start(query.begin.offset), query);
-  }
+  WallAnswer<Real> search(const WallQuery<Real>& query) const;
   /// The same where the caller knows the vessel's pose at the window's begin.
-  WallAnswer<Real> search(const model::VesselPose<Real>& pose, const WallQuery<Real>& query) const {
-    const Functions functions(constants_, query.flight, query.radius, query.begin.period);
-    if (out_of_reach(functions, pose, query)) return {Verdict::none, -1, {}, false, query.length, Real(0)};
-    return search(functions, functions.start(query.begin.offset, pose), query);
-  }
-  /// The same with the sample at `begin` that the caller has already.
-  WallAnswer<Real> search(const GapFunctions<Real>& functions, const GapStart<Real>& first,
-                          const WallQuery<Real>& query) const;
+  WallAnswer<Real> search(const model::VesselPose<Real>& pose, const WallQuery<Real>& query) const;
 
   /// The search in double, with only the root found in this scalar; undecided is what double cannot prove.
   /// It may see, and answer for, a few roundings of double more than the window.
@@ -131,8 +125,11 @@ class WallSearch {
 
   /// With `rounded` every bound covers the rounding of the flight and the mill, and `rough` is filled.
   template <bool rounded>
-  WallAnswer<Real> first_contact(const Functions& functions, const GapStart<Real>& first,
-                                 const WallQuery<Real>& query, RoughAnswer* rough) const;
+  WallAnswer<Real> first_contact(const Functions& functions, const GapStart<Real>& first, WallSet reachable,
+                                 const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
+  Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
+    return norm<Real>(velocity) + constants_.gravity * length;
+  }
   Bracket isolate(const Curve& curve, Point left, const Point& right) const;
   Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
   Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;

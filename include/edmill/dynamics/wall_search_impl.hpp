@@ -11,33 +11,46 @@
 namespace edmill::dynamics {
 
 template <class Real>
-bool WallSearch<Real>::out_of_reach(const GapFunctions<Real>& functions, const model::VesselPose<Real>& pose,
-                                    const WallQuery<Real>& query) const {
-  const auto& mill = constants_.mill;
-  const Real dt = functions.elapsed(query.begin.offset);
-  const Vec3<Real> velocity = velocity_after(query.flight, mill.gravity, dt);
-  const Vec3<Real> p = model::to_vessel_frame<Real>(pose, mill.motion.arm,
-                                                    position_after(query.flight, mill.gravity, dt), velocity)
-                           .position;
-  const Real speed = norm<Real>(velocity) + constants_.gravity * query.length;
+WallSet WallSearch<Real>::within_reach(const GapFunctions<Real>& functions, const Vec3<Real>& position,
+                                       const Real& speed, const Real& length) const {
   // A millionth covers the rounding of all this.
   const Real way =
-      (speed + constants_.wall_speed) * query.length * (1 + Real(1) / 1048576) + constants_.reach / 1048576;
+      (speed + constants_.wall_speed) * length * (1 + Real(1) / 1048576) + constants_.reach / 1048576;
   const Real cap = functions.cap() - way, cylinder = functions.cylinder() - way;
-  const Real y = p[1] < 0 ? Real(-p[1]) : p[1];
-  return (y < cap) & (cylinder > 0) & (p[0] * p[0] + p[2] * p[2] < cylinder * cylinder);
+  const Real &x = position[0], &y = position[1], &z = position[2];
+  return {!(-y < cap), !(y < cap), !((cylinder > 0) & (x * x + z * z < cylinder * cylinder))};
+}
+
+template <class Real>
+WallAnswer<Real> WallSearch<Real>::search(const WallQuery<Real>& query) const {
+  return search(model::pose_at<Real>(constants_.mill.motion, constants_.angular_speed, constants_.frequency,
+                                     query.begin.offset),
+                query);
+}
+
+template <class Real>
+WallAnswer<Real> WallSearch<Real>::search(const model::VesselPose<Real>& pose,
+                                          const WallQuery<Real>& query) const {
+  const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+  const Real& begin = query.begin.offset;
+  const auto ball = functions.seen(begin, pose);
+  const Real speed = top_speed(ball.velocity, query.length);
+  const WallSet reachable = within_reach(functions, ball.state.position, speed, query.length);
+  if (!(reachable[0] | reachable[1] | reachable[2]))
+    return {Verdict::none, -1, {}, false, query.length, Real(0)};
+  return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed, query,
+                              nullptr);
 }
 
 template <class Real>
 template <bool rounded>
 WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, const GapStart<Real>& first,
+                                                 WallSet reachable, const Real& speed,
                                                  const WallQuery<Real>& query,
                                                  [[maybe_unused]] RoughAnswer* rough) const {
   EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
                  "window length out of range");
   const Real begin = query.begin.offset;
-  const Vec3<Real> velocity = velocity_after(query.flight, constants_.mill.gravity, functions.elapsed(begin));
-  const Real speed = norm<Real>(velocity) + constants_.gravity * query.length;
   const Real oldest = functions.elapsed(begin + query.length);
   auto errors = functions.errors(oldest, speed);
   [[maybe_unused]] const auto own_errors = errors;
@@ -47,12 +60,12 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
     return Curve{functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall]}};
   };
 
-  // Most walls are out of reach by the state at the start alone.
+  // Of most walls the state at the start alone shows that they are not hit.
   const auto whole = bounds_.at(speed, query.length);
-  std::array<bool, model::wall_count> reachable;
   Real length = query.length;
   bool any = false;
   for (int wall = 0; wall < model::wall_count; ++wall) {
+    if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, whole);
     const Point start = curve.of(first);
     reachable[wall] = !numerics::proven_clear(start, first.curvature[wall], query.length, curve.bounds);
@@ -104,12 +117,6 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
 }
 
 template <class Real>
-WallAnswer<Real> WallSearch<Real>::search(const GapFunctions<Real>& functions, const GapStart<Real>& first,
-                                          const WallQuery<Real>& query) const {
-  return first_contact<false>(functions, first, query, nullptr);
-}
-
-template <class Real>
 RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
   if constexpr (is_wide) {
     return {};
@@ -117,7 +124,10 @@ RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
     const Functions functions(constants_, query.flight, query.radius, query.begin.period);
     const Real begin = query.begin.offset;
     RoughAnswer rough;
-    const auto answer = first_contact<true>(functions, functions.start(begin), query, &rough);
+    const auto pose = functions.pose(begin);
+    const auto ball = functions.seen(begin, pose);
+    const auto answer = first_contact<true>(functions, functions.start(begin, pose, ball), {true, true, true},
+                                            top_speed(ball.velocity, query.length), query, &rough);
     rough.verdict = answer.verdict;
     // The sum is rounded, and the window was proven up to its exact or its rounded end.
     if (answer.verdict == Verdict::none) rough.until = (begin + answer.searched) * (1 - epsilon<Real>());
@@ -342,18 +352,19 @@ Real WallSearch<Real>::polished_root(const Curve& curve, Point& left, Point& rig
         return Real(near.value + d * (near.slope + d * (curvature / 2)));
       };
       const Real reach = epsilon<Real>() * guess;  // one or two ulps of this very number
-      Point low{guess - reach, Real(0), Real(0)}, high{guess + reach, Real(0), Real(0)};
-      if (!(low.t > left.t && high.t < right.t)) break;
-      low.value = quadratic(low.t);
-      high.value = quadratic(high.t);
-      if (!(low.value > 0 && high.value < 0)) break;
-      const auto root = solve(quadratic, low, high);
+      Real low = guess - reach, high = guess + reach;
+      if (!(low > left.t && high < right.t)) break;
+      if (!(quadratic(low) > 0 && quadratic(high) < 0)) break;
+      while (!adjacent(low, high)) {
+        const Real middle = low + (high - low) / 2;
+        (quadratic(middle) >= 0 ? low : high) = middle;
+      }
       // The quadratic changes sign here, so the gap does within its rounding error; what is left is to find
       // the side on which the computed gap is not negative.
       // The bound on that error is several times what it usually is: step back by parts of it.
       const Real doubt = -curve.bounds.value_error / near.slope;
-      for (const Real& t : {root.first, Real(root.first - (2 * ulp + doubt / 16)),
-                            Real(root.first - (2 * ulp + doubt / 4)), Real(root.first - (2 * ulp + doubt))}) {
+      for (const Real& t : {low, Real(low - (2 * ulp + doubt / 16)), Real(low - (2 * ulp + doubt / 4)),
+                            Real(low - (2 * ulp + doubt))}) {
         if (!(t > left.t && t < right.t)) continue;
         const Point p = curve.at(t);
         (p.value < 0 ? right : left) = p;

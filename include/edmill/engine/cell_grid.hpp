@@ -10,6 +10,7 @@
 
 #include "edmill/core/archive.hpp"
 #include "edmill/core/errors.hpp"
+#include "edmill/core/memory.hpp"
 #include "edmill/core/vector.hpp"
 
 namespace edmill::engine {
@@ -88,21 +89,23 @@ class CellGrid {
   /// When the ball, now at `position` with `velocity`, leaves its cell.
   Crossing crossing(int ball, const Vec3<double>& position, const Vec3<double>& velocity,
                     const Vec3<double>& gravity) const {
-    std::array<Crossing, 3> by_axis;
+    std::array<Passage, 3> by_axis;
     for (int k = 0; k < 3; ++k) {
       const Faces& faces = faces_[k][place_[ball].cell[k]];
-      const double above = faces[1] - position[k], below = position[k] - faces[0];
       if (gravity[k] == 0)
-        by_axis[k] = drift(k, {below, above}, velocity[k]);
+        by_axis[k] = drift(faces, position[k], velocity[k]);
       else if (gravity[k] > 0)
-        by_axis[k] = fall(k, 1, above, below, velocity[k], gravity[k]);
+        by_axis[k] = fall(1, faces[1] - position[k], position[k] - faces[0], velocity[k], gravity[k]);
       else
-        by_axis[k] = fall(k, -1, below, above, -velocity[k], -gravity[k]);
+        by_axis[k] = fall(-1, position[k] - faces[0], faces[1] - position[k], -velocity[k], -gravity[k]);
     }
-    int first = by_axis[1].delay < by_axis[0].delay ? 1 : 0;
+    int first = by_axis[1].delay < by_axis[0].delay;
     first = by_axis[2].delay < by_axis[first].delay ? 2 : first;
-    return by_axis[first];
+    return {by_axis[first].delay, first, by_axis[first].step};
   }
+
+  /// Asks memory for where the ball is.
+  void fetch_place(int ball) const { fetch(&place_[ball]); }
 
   /// Finds every ball in the ball's cell and the adjacent ones, itself included.
   void neighbours(int ball, FoundBalls& found) const { collect(place_[ball].index, around_, found); }
@@ -139,17 +142,22 @@ class CellGrid {
 
   // What is selected below is a coin toss, so selections are look-ups: a branch would be mispredicted.
 
-  /// Along an axis without gravity. @param distances  to the lower and the upper face
-  static Crossing drift(int axis, const std::array<double, 2>& distances, double speed) {
+  /// Through one of the two faces across an axis.
+  struct Passage {
+    double delay;
+    int step;
+  };
+
+  /// Along an axis without gravity.
+  static Passage drift(const Faces& faces, double position, double speed) {
     const bool up = speed > 0;
-    const double distance = std::max(distances[up], 0.0), size = std::fabs(speed);
-    const double delay = distance / size;
-    return {size > 0 ? delay : far_off, axis, 2 * up - 1};
+    const double delay = std::max((faces[up] - position) / speed, 0.0);
+    return {speed == 0 ? far_off : delay, 2 * up - 1};
   }
 
   /// Along an axis with gravity, which points to `step`: a ball that moves against it may reach the far face
   /// first, and falls to the near one otherwise.
-  static Crossing fall(int axis, int step, double ahead, double behind, double speed, double gravity) {
+  static Passage fall(int step, double ahead, double behind, double speed, double gravity) {
     const double far = std::max(behind, 0.0), near = std::max(ahead, 0.0);
     const double square = speed * speed, turning = square - 2 * (gravity * far);
     const bool against = speed < 0;
@@ -160,7 +168,7 @@ class CellGrid {
     const double numerators[] = {2 * distances[back], root + size}, denominators[] = {size + root, gravity};
     const double denominator = denominators[rises_first];
     const double delay = numerators[rises_first] / denominator;
-    return {denominator > 0 ? delay : far_off, axis, back ? -step : step};
+    return {denominator > 0 ? delay : far_off, back ? -step : step};
   }
 
   /// A cell holds its first balls itself; more than that are rare, and chained.
@@ -237,9 +245,9 @@ class CellGrid {
   std::array<int, 3> stride_;
   std::array<int, 27> around_;                 ///< offsets of a cell and its neighbours in `content_`
   std::array<std::array<int, 9>, 3> abreast_;  ///< the same in one layer across each axis
-  std::vector<Cell> content_;
+  LargeVector<Cell> content_;
   std::unordered_map<int, std::vector<int>> overflow_;
-  std::vector<Place> place_;
+  LargeVector<Place> place_;
 };
 
 }  // namespace edmill::engine

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>
 
 #include "edmill/core/instant.hpp"
+#include "edmill/core/memory.hpp"
 
 namespace edmill::engine {
 
@@ -41,6 +43,15 @@ class EventQueue {
   }
 
   const Instant<Real>& time(int ball) const { return entries_[ball].time; }
+
+  /// The balls of the next two events after that of the last `top`, most likely: a look at what may be
+  /// fetched early, not an answer.
+  std::array<int, 2> upcoming() const {
+    const int same_day = entries_[top_].next;
+    const auto day = next_occupied(today_ + 1);
+    if (same_day != none) return {same_day, head(day)};
+    return {head(day), head(next_occupied(day + 1))};
+  }
 
   void set(int ball, const Instant<Real>& time) {
     unlink(ball);
@@ -156,8 +167,8 @@ class EventQueue {
     for (int i = 0; i < balls; ++i) link(i);
   }
 
-  std::vector<Entry> entries_;
-  std::vector<int> heads_;
+  LargeVector<Entry> entries_;
+  LargeVector<int> heads_;
   std::vector<std::uint64_t> occupied_;  ///< a mark for each list that is not empty
   std::int64_t days_per_period_ = 1024;
   double days_per_second_;

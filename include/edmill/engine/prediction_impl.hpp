@@ -12,7 +12,7 @@ template <class Real>
 void Simulation<Real>::fetch_neighbours(int ball, FoundBalls& near) const {
   if (table_ || !many_balls()) return;
   grid_.neighbours(ball, near);
-  for (int k = 0; k < near.count; ++k) __builtin_prefetch(&rough_flights()[near.balls[k]]);
+  for (int k = 0; k < near.count; ++k) fetch(&rough_flights()[near.balls[k]]);
 }
 
 /// @pre fetch_neighbours(ball, near)

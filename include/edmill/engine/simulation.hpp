@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "edmill/core/memory.hpp"
 #include "edmill/dynamics/decision_ladder.hpp"
 #include "edmill/engine/cell_grid.hpp"
 #include "edmill/engine/collapse_watch.hpp"
@@ -98,7 +99,7 @@ class Simulation {
     std::array<Instant<Real>, first_pair + capacity> times;  ///< of wall, crossing, pairs; never() where free
     [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at the wall's time
     Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
-    std::array<int, capacity> partners;
+    std::array<int, capacity> partners{};
     std::array<std::uint32_t, capacity> partner_impacts;
     std::int8_t pair_count = 0;
     std::int8_t wall = -1;  ///< a wall id, or -1 when the wall's time only ends what has been searched
@@ -187,7 +188,9 @@ class Simulation {
     else
       return ladder_.pairs().seen(flights_[ball], now_);
   }
-  bool many_balls() const { return flights_.size() > 8192; }  ///< more than the cache holds
+  bool many_balls() const { return flights_.size() > 1024; }  ///< more than the near caches hold
+  void fetch_ball(int ball) const;
+  void fetch_upcoming() const;
   void fetch_neighbours(int ball, FoundBalls& near) const;
   void predict_pairs(int ball, int already_done, const RoughlySeen& roughly, FoundBalls& near);
   void flight_changed(int ball);
@@ -215,15 +218,15 @@ class Simulation {
   model::Mill<Real> mill_;
   DriveClock<Real> clock_;
   std::vector<model::BallProperties<Real>> balls_;
-  std::vector<dynamics::Flight<Real>> flights_;
-  std::vector<Vec3<Real>> spins_;
-  std::vector<Agenda> agendas_;
+  LargeVector<dynamics::Flight<Real>> flights_;
+  LargeVector<Vec3<Real>> spins_;
+  LargeVector<Agenda> agendas_;
   std::vector<std::uint32_t> impacts_;  ///< of each ball; tells a candidate whether it still holds
   dynamics::DecisionLadder<Real> ladder_;
   // Pairs are filtered in double whatever the scalar: its bounds cover the rounding of the flights to double.
   // Cells are crossed in double too: their margin covers it.
   dynamics::PairSearch<double> pair_filter_;
-  std::vector<dynamics::Flight<double>> rough_flights_;  ///< empty when the scalar is double
+  LargeVector<dynamics::Flight<double>> rough_flights_;  ///< empty when the scalar is double
   std::vector<double> radii_;                            ///< rounded too
   int stride_;  ///< 0 when all balls are alike: then the first entry, always at hand, serves for every ball
   CellGrid grid_;

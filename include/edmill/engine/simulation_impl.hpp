@@ -126,6 +126,26 @@ void Simulation<Real>::archive(Archive& a) {
   }
 }
 
+/// Asks memory for what is kept of a ball.
+template <class Real>
+void Simulation<Real>::fetch_ball(int ball) const {
+  const char* agenda = reinterpret_cast<const char*>(&agendas_[ball]);
+  for (std::size_t line = 0; line < sizeof(Agenda); line += 64) fetch(agenda + line);
+  fetch(&flights_[ball]);
+  fetch(&spins_[ball]);
+  grid_.fetch_place(ball);
+}
+
+/// Where balls do not fit into the near caches, those of the next events are asked for beforehand: the ball
+/// of the event after the next, and the partner of the next, whose agenda has come meanwhile.
+template <class Real>
+void Simulation<Real>::fetch_upcoming() const {
+  const auto [next, later] = queue_.upcoming();
+  fetch_ball(later);
+  const Agenda& a = agendas_[next];
+  fetch_ball(a.partners[std::max<int>(a.next - Agenda::first_pair, 0)]);
+}
+
 template <class Real>
 EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt) {
   stop_.reset();
@@ -133,6 +153,7 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
     if (interrupt && interrupt->load(std::memory_order_relaxed)) return EndReason::interrupted;
     const Event event = next_of(next);
     now_ = event.time;
+    if (many_balls()) fetch_upcoming();
     process(event);
     if (stop_) return *stop_;
   }

@@ -41,8 +41,7 @@ inline VesselPose<Real> pose_at(const MillMotion<Real>& motion, const Real& angu
   const auto phase = numerics::sin_cos_turns<Real>(offset * frequency);
   const Real alpha = motion.theta_max * phase.cos;
   const Real gamma = motion.gamma_max * phase.sin;
-  numerics::SinCos<Real> a, g;
-  numerics::sin_cos_both<Real>(alpha, gamma, a, g);
+  const auto a = numerics::sin_cos<Real>(alpha), g = numerics::sin_cos<Real>(gamma);
   const Real alpha_rate = -(motion.theta_max * angular_speed) * phase.sin;
   const Real gamma_rate = (motion.gamma_max * angular_speed) * phase.cos;
   const Real speed_squared = angular_speed * angular_speed;

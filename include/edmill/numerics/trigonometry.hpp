@@ -29,16 +29,23 @@ SinCos<Real> sin_cos(const Real& angle) {
 
 namespace detail {
 
-/// Taylor polynomials of sin and cos on [-pi/4, pi/4], Estrin order: short dependency chains.
+/// Two doubles that are worked on at once.
+typedef double TwoDoubles __attribute__((vector_size(16)));
+
+/// Taylor polynomials of sin and cos on [-pi/4, pi/4], side by side, in Estrin order: short dependency
+/// chains.
 inline SinCos<double> sin_cos_kernel(double x) {
-  const double z = x * x;
-  const double z2 = z * z;
-  const double z4 = z2 * z2;
-  const double s = ((-1.0 / 6) + z * (1.0 / 120)) + z2 * ((-1.0 / 5040) + z * (1.0 / 362880)) +
-                   z4 * (((-1.0 / 39916800) + z * (1.0 / 6227020800)) + z2 * (-1.0 / 1307674368000));
-  const double c = ((1.0 / 24) + z * (-1.0 / 720)) + z2 * ((1.0 / 40320) + z * (-1.0 / 3628800)) +
-                   z4 * (((1.0 / 479001600) + z * (-1.0 / 87178291200)) + z2 * (1.0 / 20922789888000));
-  return {x + x * (z * s), 1.0 - (0.5 * z - z2 * c)};
+  const double square = x * x;
+  const TwoDoubles z = {square, square};
+  const TwoDoubles z2 = z * z;
+  const TwoDoubles z4 = z2 * z2;
+  const TwoDoubles sum =
+      (TwoDoubles{-1.0 / 6, 1.0 / 24} + z * TwoDoubles{1.0 / 120, -1.0 / 720}) +
+      z2 * (TwoDoubles{-1.0 / 5040, 1.0 / 40320} + z * TwoDoubles{1.0 / 362880, -1.0 / 3628800}) +
+      z4 * ((TwoDoubles{-1.0 / 39916800, 1.0 / 479001600} +
+             z * TwoDoubles{1.0 / 6227020800, -1.0 / 87178291200}) +
+            z2 * TwoDoubles{-1.0 / 1307674368000, 1.0 / 20922789888000});
+  return {x + x * (square * sum[0]), 1.0 - (0.5 * square - z2[1] * sum[1])};
 }
 
 /// Turned by quarters of a turn, without branches: the phase of a drive is in any of them.
@@ -50,22 +57,6 @@ inline SinCos<double> quarter_turned(const SinCos<double>& v, int quarters) {
 
 /// Nearest integer for |x| < 2^31 without the C library.
 inline int nearest(double x) { return static_cast<int>(x < 0 ? x - 0.5 : x + 0.5); }
-
-/// Two doubles that are worked on at once.
-typedef double TwoDoubles __attribute__((vector_size(16)));
-
-/// The kernel for two angles: the same operations, so the same bits.
-inline void sin_cos_kernel(TwoDoubles x, TwoDoubles& sine, TwoDoubles& cosine) {
-  const TwoDoubles z = x * x;
-  const TwoDoubles z2 = z * z;
-  const TwoDoubles z4 = z2 * z2;
-  const TwoDoubles s = ((-1.0 / 6) + z * (1.0 / 120)) + z2 * ((-1.0 / 5040) + z * (1.0 / 362880)) +
-                       z4 * (((-1.0 / 39916800) + z * (1.0 / 6227020800)) + z2 * (-1.0 / 1307674368000));
-  const TwoDoubles c = ((1.0 / 24) + z * (-1.0 / 720)) + z2 * ((1.0 / 40320) + z * (-1.0 / 3628800)) +
-                       z4 * (((1.0 / 479001600) + z * (-1.0 / 87178291200)) + z2 * (1.0 / 20922789888000));
-  sine = x + x * (z * s);
-  cosine = 1.0 - (0.5 * z - z2 * c);
-}
 
 }  // namespace detail
 
@@ -79,30 +70,6 @@ inline SinCos<double> sin_cos<double>(const double& angle) {
   const int quarters = detail::nearest(angle / half_pi_high);
   return detail::quarter_turned(
       detail::sin_cos_kernel((angle - quarters * half_pi_high) - quarters * half_pi_low), quarters);
-}
-
-/// sin and cos of two angles, bit for bit as of each alone.
-template <class Real>
-void sin_cos_both(const Real& one, const Real& two, SinCos<Real>& of_one, SinCos<Real>& of_two) {
-  of_one = sin_cos<Real>(one);
-  of_two = sin_cos<Real>(two);
-}
-
-template <>
-inline void sin_cos_both<double>(const double& one, const double& two, SinCos<double>& of_one,
-                                 SinCos<double>& of_two) {
-  constexpr double eighth_turn = 0.785398163397448;
-  const bool small =
-      (one <= eighth_turn) & (one >= -eighth_turn) & (two <= eighth_turn) & (two >= -eighth_turn);
-  if (!small) {
-    of_one = sin_cos<double>(one);
-    of_two = sin_cos<double>(two);
-    return;
-  }
-  detail::TwoDoubles sine, cosine;
-  detail::sin_cos_kernel(detail::TwoDoubles{one, two}, sine, cosine);
-  of_one = {sine[0], cosine[0]};
-  of_two = {sine[1], cosine[1]};
 }
 
 /// sin and cos of 2 pi `turns`, for |turns| below 2^20. Error at most 4 ulp of 1.

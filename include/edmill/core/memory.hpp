@@ -1,0 +1,51 @@
+// How memory is asked for where there is much of it.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace edmill {
+
+/// Starts to bring the cache line at `address`, which may be any.
+inline void fetch(const void* address) {
+  __builtin_prefetch(address);
+  // Else a function that only fetches passes for one without effects, and compilers drop its calls.
+  asm volatile("");
+}
+
+inline constexpr std::size_t large_page = std::size_t{1} << 21;  ///< [bytes]
+
+/// @return at least `size` bytes, from the start of a large page on
+/// @throws std::bad_alloc
+void* allocate_pages(std::size_t size);
+void free_pages(void* start);
+
+/// Large arrays in large pages, where the system has them: an event among many balls touches dozens of small
+/// pages, and finding a page costs more than reading it.
+template <class T>
+struct LargePages {
+  using value_type = T;
+
+  LargePages() = default;
+  template <class Other>
+  LargePages(const LargePages<Other>&) {}
+
+  T* allocate(std::size_t count) {
+    if (!is_large(count)) return std::allocator<T>().allocate(count);
+    return static_cast<T*>(allocate_pages(count * sizeof(T)));
+  }
+  void deallocate(T* array, std::size_t count) {
+    if (!is_large(count)) return std::allocator<T>().deallocate(array, count);
+    free_pages(array);
+  }
+  friend bool operator==(const LargePages&, const LargePages&) { return true; }
+
+ private:
+  static bool is_large(std::size_t count) { return count >= large_page / sizeof(T); }
+};
+
+template <class T>
+using LargeVector = std::vector<T, LargePages<T>>;
+
+}  // namespace edmill
