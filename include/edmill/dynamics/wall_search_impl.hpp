@@ -31,6 +31,8 @@ WallAnswer<Real> WallSearch<Real>::search(const WallQuery<Real>& query) const {
 template <class Real>
 WallAnswer<Real> WallSearch<Real>::search(const model::VesselPose<Real>& pose,
                                           const WallQuery<Real>& query) const {
+  EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
+                 "window length out of range");
   const Functions functions(constants_, query.flight, query.radius, query.begin.period);
   const Real& begin = query.begin.offset;
   const auto ball = functions.seen(begin, pose);
@@ -48,8 +50,6 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
                                                  WallSet reachable, const Real& speed,
                                                  const WallQuery<Real>& query,
                                                  [[maybe_unused]] RoughAnswer* rough) const {
-  EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
-                 "window length out of range");
   const Real begin = query.begin.offset;
   const Real oldest = functions.elapsed(begin + query.length);
   auto errors = functions.errors(oldest, speed);
@@ -121,6 +121,8 @@ RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
   if constexpr (is_wide) {
     return {};
   } else {
+    EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
+                   "window length out of range");
     const Functions functions(constants_, query.flight, query.radius, query.begin.period);
     const Real begin = query.begin.offset;
     RoughAnswer rough;

@@ -104,7 +104,15 @@ class CellGrid {
     return {by_axis[first].delay, first, by_axis[first].step};
   }
 
-  /// Asks memory for where the ball is.
+  /// Asks memory for the cells that `neighbours` reads, rows of three.
+  void fetch_cells(int ball) const {
+    const Cell* here = &content_[place_[ball].index];
+    for (std::size_t row = 0; row < around_.size(); row += 3) {
+      fetch(here + around_[row]);
+      fetch(here + around_[row + 2]);
+    }
+  }
+  /// Asks memory for where the ball is: what `fetch_cells` reads.
   void fetch_place(int ball) const { fetch(&place_[ball]); }
 
   /// Finds every ball in the ball's cell and the adjacent ones, itself included.

@@ -53,6 +53,10 @@ class EventQueue {
     return {head(day), head(next_occupied(day + 1))};
   }
 
+  /// Asks memory for what `set` touches of a ball: its entry, and then the list that this is in.
+  void fetch_entry(int ball) const { fetch(&entries_[ball]); }
+  void fetch_list(int ball) const { fetch(&heads_[list_of(entries_[ball].day)]); }
+
   void set(int ball, const Instant<Real>& time) {
     unlink(ball);
     entries_[ball].time = time;
@@ -93,13 +97,14 @@ class EventQueue {
     const auto day = static_cast<std::int64_t>(place);
     return time.period * days_per_period_ + (day < days_per_period_ ? day : days_per_period_ - 1);
   }
-  int head(std::int64_t day) const { return heads_[static_cast<std::size_t>(day) & (heads_.size() - 1)]; }
+  std::size_t list_of(std::int64_t day) const { return static_cast<std::size_t>(day) & (heads_.size() - 1); }
+  int head(std::int64_t day) const { return heads_[list_of(day)]; }
 
   /// The first day from `day` on whose list is not empty: a word of marks at a time, since a loop over empty
   /// lists would end by surprise each time.
   std::int64_t next_occupied(std::int64_t day) const {
     for (;; day = (day | 63) + 1) {
-      const std::size_t at = static_cast<std::size_t>(day) & (heads_.size() - 1);
+      const std::size_t at = list_of(day);
       const std::uint64_t marks = occupied_[at / 64] >> (at % 64);
       if (marks != 0) return day + std::countr_zero(marks);
     }
@@ -123,7 +128,7 @@ class EventQueue {
     Entry& e = entries_[ball];
     const std::int64_t day = day_of(e.time);
     e.day = day < today_ ? today_ : day;
-    const std::size_t list = static_cast<std::size_t>(e.day) & (heads_.size() - 1);
+    const std::size_t list = list_of(e.day);
     int& first = heads_[list];
     occupied_[list / 64] |= std::uint64_t{1} << (list % 64);
     e.previous = none;
@@ -138,7 +143,7 @@ class EventQueue {
       entries_[e.previous].next = e.next;
       return;
     }
-    const std::size_t list = static_cast<std::size_t>(e.day) & (heads_.size() - 1);
+    const std::size_t list = list_of(e.day);
     heads_[list] = e.next;
     occupied_[list / 64] &= ~(std::uint64_t{e.next == none} << (list % 64));
   }

@@ -134,16 +134,19 @@ void Simulation<Real>::fetch_ball(int ball) const {
   fetch(&flights_[ball]);
   fetch(&spins_[ball]);
   grid_.fetch_place(ball);
+  queue_.fetch_entry(ball);
 }
 
 /// Where balls do not fit into the near caches, those of the next events are asked for beforehand: the ball
-/// of the event after the next, and the partner of the next, whose agenda has come meanwhile.
+/// of the event after the next, and of the next event what can be found now that its ball has come.
 template <class Real>
 void Simulation<Real>::fetch_upcoming() const {
   const auto [next, later] = queue_.upcoming();
   fetch_ball(later);
   const Agenda& a = agendas_[next];
   fetch_ball(a.partners[std::max<int>(a.next - Agenda::first_pair, 0)]);
+  grid_.fetch_cells(next);
+  queue_.fetch_list(next);
 }
 
 template <class Real>
