@@ -158,10 +158,10 @@ class EventQueue {
     const std::int64_t events = taken_, days = days_passed_, before = days_per_period_;
     taken_ = days_passed_ = 0;
     if (review_ < static_cast<std::int64_t>(entries_.size())) review_ *= 2;
-    if (days > 16 * events) {
-      for (auto d = days; d > 8 * events && days_per_period_ > 1; d /= 2) days_per_period_ /= 2;
-    } else if (2 * events > days) {
-      for (auto d = days + 1; d < 4 * events && days_per_period_ < most_days; d *= 2) days_per_period_ *= 2;
+    if (days > 6 * events) {
+      for (auto d = days; d > 3 * events && days_per_period_ > 1; d /= 2) days_per_period_ /= 2;
+    } else if (events > days) {
+      for (auto d = days + 1; d < 2 * events && days_per_period_ < most_days; d *= 2) days_per_period_ *= 2;
     }
     if (days_per_period_ == before) return;
     days_per_second_ *= static_cast<double>(days_per_period_) / static_cast<double>(before);
