@@ -15,16 +15,12 @@ const int samples = std::getenv("EDMILL_SAMPLES") ? std::atoi(std::getenv("EDMIL
 }  // namespace
 
 template <>
-WallAnswer<double> WallSearch<double>::search(const model::VesselPose<double>& pose,
-                                              const WallQuery<double>& query) const {
-  const Functions functions(constants_, query.flight, query.radius, query.begin.period);
-  const auto ball = functions.seen(query.begin.offset, pose);
-  const WallSet reachable =
-      within_reach(functions, ball.state.position, top_speed(ball.velocity, query.length), query.length);
-  if (!(reachable[0] || reachable[1] || reachable[2]))
-    return {Verdict::none, -1, {}, false, query.length, 0.0};
-  return performance::uncertified_search(*this, functions, functions.start(query.begin.offset, pose, ball),
-                                         query, samples);
+template <>
+WallAnswer<double> WallSearch<double>::first_contact<false>(const Functions& functions,
+                                                            const GapStart<double>& first, WallSet,
+                                                            const double&, const WallQuery<double>& query,
+                                                            RoughAnswer*) const {
+  return performance::uncertified_search(*this, functions, first, query, samples);
 }
 
 }  // namespace edmill::dynamics

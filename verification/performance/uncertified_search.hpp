@@ -10,7 +10,7 @@
 
 namespace edmill::performance {
 
-/// The same question as WallSearch::search, answered by the signs of the gaps at sample points. A contact
+/// The same question as WallSearch's, answered by the signs of the gaps at sample points. A contact
 /// whose gap is negative between two points only is missed.
 /// @param samples  points for each longest window
 inline dynamics::WallAnswer<double> uncertified_search(const dynamics::WallSearch<double>& walls,
