@@ -718,7 +718,7 @@ TEST(WallSearch, WhatIsOutOfReachIsNotHit) {
     soon_after += 2 * longest < walls.longest_window() && hit_within(2 * longest);
   }
   EXPECT_GT(proven, 4000);
-  EXPECT_GT(soon_after, 50);  // some come close to what the proof allows: a weaker one would be seen
+  EXPECT_GT(soon_after, 50);  // of 86: a proof that allowed half the time would leave none
 }
 
 TEST(WallSearch, APathThatGrazesByANanometreIsDecidedInDouble) {
