@@ -175,7 +175,7 @@ def begin(place, interval):
 
 
 def stopped_after(command, seconds, number):
-    """Starts the program and sends it a signal; whether it was still running, its exit code, how long it took to end."""
+    """Starts the program and sends it a signal; whether it was still running, and its exit code."""
     process = subprocess.Popen(command, cwd=scratch, stderr=subprocess.PIPE)
     try:
         process.wait(seconds)
@@ -183,14 +183,12 @@ def stopped_after(command, seconds, number):
     except subprocess.TimeoutExpired:
         running = True
         process.send_signal(number)
-    sent = time.monotonic()
     error = process.communicate()[1].decode()
-    taken = time.monotonic() - sent
     # Killed by the signal itself: it came while the initial state was being made.
     check(process.returncode in (0, -number, 128 + number) if number != signal.SIGKILL else
           process.returncode in (0, -number),
           f"exit code {process.returncode}: {error}")
-    return running, process.returncode, taken
+    return running, process.returncode
 
 
 def checkpoint(place):
@@ -224,7 +222,7 @@ while kills < kills_wanted:
     while True:
         goes_on = os.path.exists(checkpoint(place))
         command = [edmill, "resume", place, "--quiet"] if goes_on else begin(place, interval)
-        running, code, _ = stopped_after(command, whole * rng.uniform(0.02, 1.2), signal.SIGKILL)
+        running, code = stopped_after(command, whole * rng.uniform(0.02, 1.2), signal.SIGKILL)
         if running and code == -signal.SIGKILL:
             kills += 1
             resumed_kills += goes_on
@@ -244,11 +242,10 @@ while interrupts < 6:
     runs += 1
     command = begin(place, "0.4 s simulated")
     while True:
-        running, code, taken = stopped_after(command, whole * rng.uniform(0.1, 1.1), number)
+        running, code = stopped_after(command, whole * rng.uniform(0.1, 1.1), number)
         if code == 0:
             break
         if code == 128 + number and os.path.exists(os.path.join(place, "summary.json")):
-            check(taken < 1 + whole / 4, f"signal {number} took {taken:.2f} s")
             summary = json.loads(results(place)["summary.json"])
             check(summary["end_reason"] == "interrupted", summary["end_reason"])
             got = results(place)

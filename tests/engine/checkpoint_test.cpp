@@ -151,6 +151,27 @@ TEST(Checkpoint, APauseChangesNothing) {
   for (std::size_t k = 0; k < a.size(); ++k) ASSERT_TRUE(same(a[k], b[k])) << "impact " << k;
 }
 
+TEST(Checkpoint, AnInterruptIsSeenBeforeTheNextEvent) {
+  struct Interrupts : Observer<double> {
+    void on_impact(const Impact<double>& impact, Simulation<double>&) override { asked = impact.index == 50; }
+    std::atomic<bool> asked = false;
+  } interrupts;
+  Followed<double> whole(testing::demo_spec()), cut(testing::demo_spec());
+  whole.go_to(300);
+  cut.simulation.attach(interrupts);
+  const auto end = cut.simulation.clock().at(0.3);
+  EXPECT_EQ(cut.simulation.run_until(end, &interrupts.asked), EndReason::interrupted);
+  ASSERT_FALSE(cut.recorder.impacts.empty());
+  EXPECT_EQ(cut.recorder.impacts.back().index, 50);
+  EXPECT_TRUE(cut.simulation.now() == cut.recorder.impacts.back().time);  // nor a later event of another kind
+
+  interrupts.asked = false;
+  EXPECT_EQ(cut.simulation.run_until(end, &interrupts.asked), EndReason::end_time);
+  const auto &a = whole.recorder.impacts, &b = cut.recorder.impacts;
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) ASSERT_TRUE(same(a[k], b[k])) << "impact " << k;
+}
+
 TEST(Checkpoint, AnInterruptDuringTheFirstPredictionsEndsThem) {
   const std::atomic<bool> interrupt = true;
   const auto built = setup::build_case<double>(testing::demo_spec());
