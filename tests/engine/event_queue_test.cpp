@@ -60,7 +60,7 @@ TEST(EventQueue, WhatIsSaidToBeUpcomingMostlyIs) {
     return Instant<double>{static_cast<std::int64_t>(time), time - std::floor(time)};
   };
   for (int ball = 0; ball < balls; ++ball) queue.set(ball, later(0));
-  std::array<std::array<int, 2>, steps> said;
+  std::array<std::array<int, 3>, steps> said;
   std::array<int, steps> top;
   for (int step = 0; step < steps; ++step) {
     top[step] = queue.top();

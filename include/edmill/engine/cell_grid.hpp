@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
-#include <unordered_map>
 #include <vector>
 
 #include "edmill/core/archive.hpp"
@@ -51,17 +52,11 @@ class CellGrid {
       }
       faces_[k].front()[0] = -far_off;
       faces_[k].back()[1] = far_off;
-      stride_[k] = static_cast<int>(total);
-      total *= static_cast<std::size_t>(cells_[k]) + 2;
+      for (int cell = 0; cell < cells_[k] + 2; ++cell)
+        at_[k].push_back(static_cast<int>(total) * (cell / 2) * 8 + (cell % 2 << k));
+      total *= static_cast<std::size_t>(cells_[k] + 3) / 2;
     }
-    content_.resize(total);
-    for (int k = 0, n = 0, in_face[3] = {0, 0, 0}; k < 27; ++k) {
-      const std::array<int, 3> step{k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
-      const int offset = step[0] * stride_[0] + step[1] * stride_[1] + step[2] * stride_[2];
-      around_[n++] = offset;
-      for (int axis = 0; axis < 3; ++axis)
-        if (step[axis] == 0) abreast_[axis][in_face[axis]++] = offset;
-    }
+    content_.resize(8 * total);
   }
 
   int cells(int axis) const { return cells_[axis]; }
@@ -69,12 +64,10 @@ class CellGrid {
 
   void insert(int ball, const Vec3<double>& position) {
     Place& place = place_[ball];
-    place.index = 0;
     for (int k = 0; k < 3; ++k) {
       const auto above = [&](const Faces& faces) { return faces[1] > position[k]; };
       place.cell[k] =
           static_cast<int>(std::find_if(faces_[k].begin(), faces_[k].end(), above) - faces_[k].begin());
-      place.index += (place.cell[k] + 1) * stride_[k];
     }
     link(ball);
   }
@@ -82,7 +75,6 @@ class CellGrid {
   void move(int ball, int axis, int step) {
     unlink(ball);
     place_[ball].cell[axis] += step;
-    place_[ball].index += step * stride_[axis];
     link(ball);
   }
 
@@ -104,34 +96,50 @@ class CellGrid {
     return {by_axis[first].delay, first, by_axis[first].step};
   }
 
-  /// Asks memory for the cells that `neighbours` reads, rows of three.
+  /// Asks memory for the cells that `neighbours` reads: those at the corners lie in all of their bricks.
   void fetch_cells(int ball) const {
-    const Cell* here = &content_[place_[ball].index];
-    for (std::size_t row = 0; row < around_.size(); row += 3) {
-      fetch(here + around_[row]);
-      fetch(here + around_[row + 2]);
-    }
+    const auto& cell = place_[ball].cell;
+    for (const int z : {cell[2], cell[2] + 2})
+      for (const int y : {cell[1], cell[1] + 2})
+        for (const int x : {cell[0], cell[0] + 2}) fetch(&content_[at_[0][x] + at_[1][y] + at_[2][z]]);
+  }
+  /// The same for what a move by `step` along `axis` and `new_neighbours` after it read.
+  void fetch_new_cells(int ball, int axis, int step) const {
+    const Place& place = place_[ball];
+    fetch(&content_[index(place)]);
+    const auto& cell = place.cell;
+    const int one = axis == 0 ? 1 : 0, other = axis == 2 ? 1 : 2;
+    const int layer = at_[axis][cell[axis] + 1 + 2 * step];
+    for (const int u : {cell[one], cell[one] + 2})
+      for (const int v : {cell[other], cell[other] + 2})
+        fetch(&content_[layer + at_[one][u] + at_[other][v]]);
   }
   /// Asks memory for where the ball is: what `fetch_cells` reads.
   void fetch_place(int ball) const { fetch(&place_[ball]); }
 
   /// Finds every ball in the ball's cell and the adjacent ones, itself included.
-  void neighbours(int ball, FoundBalls& found) const { collect(place_[ball].index, around_, found); }
+  void neighbours(int ball, FoundBalls& found) const {
+    const auto& cell = place_[ball].cell;
+    collect<3, 3, 3>(&at_[0][cell[0]], &at_[1][cell[1]], &at_[2][cell[2]], found);
+  }
 
   /// The same for the cells that became adjacent when the ball moved by `step` along `axis`.
   void new_neighbours(int ball, int axis, int step, FoundBalls& found) const {
-    collect(place_[ball].index + step * stride_[axis], abreast_[axis], found);
+    auto cell = place_[ball].cell;
+    cell[axis] += step + 1;
+    const int *x = &at_[0][cell[0]], *y = &at_[1][cell[1]], *z = &at_[2][cell[2]];
+    if (axis == 0) return collect<1, 3, 3>(x, y, z, found);
+    if (axis == 1) return collect<3, 1, 3>(x, y, z, found);
+    collect<3, 3, 1>(x, y, z, found);
   }
 
   /// Which balls are where, and their order in each cell: it is that of the searches.
   void archive(Archive& a) {
-    std::vector<std::pair<int, std::vector<int>>> overflow(overflow_.begin(), overflow_.end());
     std::vector<std::pair<std::size_t, Cell>> occupied;  // most are empty
     for (std::size_t at = 0; at < content_.size(); ++at)
-      if (content_[at].count > 0) occupied.emplace_back(at, content_[at]);
-    a(occupied, overflow, place_);
+      if (content_[at].second != Cell::empty) occupied.emplace_back(at, content_[at]);
+    a(occupied, place_);
     if (!a.loading()) return;
-    overflow_ = {overflow.begin(), overflow.end()};
     std::fill(content_.begin(), content_.end(), Cell());
     for (const auto& [at, cell] : occupied) content_.at(at) = cell;
   }
@@ -143,10 +151,11 @@ class CellGrid {
 
   struct Place {
     std::array<int, 3> cell;
-    int index;  ///< in `content_`
+    int next = none;  ///< ball in the same crowded cell
 
-    void archive(Archive& a) { a(cell, index); }
+    void archive(Archive& a) { a(cell, next); }
   };
+  static constexpr int none = -1;
 
   // What is selected below is a coin toss, so selections are look-ups: a branch would be mispredicted.
 
@@ -179,82 +188,98 @@ class CellGrid {
     return {denominator > 0 ? delay : far_off, back ? -step : step};
   }
 
-  /// A cell holds its first balls itself; more than that are rare, and chained.
-  struct alignas(16) Cell {
-    static constexpr int inside = 3;
-    std::array<int, inside> balls{};
-    int count = 0;  ///< of those inside; `crowded` is added when there are more
+  /// A cell holds up to two balls; those of a crowded one, which is rare, are chained to its first. What
+  /// stands in the place of the second ball tells how many there are: its two highest bits are, as a signed
+  /// number, how many more than two.
+  struct Cell {
+    static constexpr std::uint32_t single = 3u << 30, empty = 2u << 30, crowded = empty | 1u << 29;
+    std::uint32_t first = 0, second = empty;
 
-    void archive(Archive& a) { a(balls, count); }
+    void archive(Archive& a) { a(first, second); }
   };
-  static constexpr int crowded = 4;
 
-  /// Copies whole cells without asking how full they are: a branch for each of 27 mostly empty ones costs
-  /// more.
-  template <std::size_t count>
-  void collect(int centre, const std::array<int, count>& offsets, FoundBalls& found) const {
-    constexpr std::size_t room = 28 * Cell::inside + 4;
-    if (found.balls.size() < room) found.balls.resize(room);
-    int* out = found.balls.data();
-    const Cell* here = &content_[centre];
-    int seen = 0;
-#pragma GCC unroll 27
-    for (std::size_t k = 0; k < count; ++k) {
-      const Cell* cell = here + offsets[k];
-      std::memcpy(out, cell, sizeof(Cell));
-      out += cell->count & 3;
-      seen |= cell->count;
-    }
-    found.count = static_cast<int>(out - found.balls.data());
-    if (seen & crowded) [[unlikely]]
-      for (const int offset : offsets) append_chain(centre + offset, found);
+  int index(const Place& place) const {
+    return at_[0][place.cell[0] + 1] + at_[1][place.cell[1] + 1] + at_[2][place.cell[2] + 1];
   }
 
-  void append_chain(int at, FoundBalls& found) const {
-    if (!(content_[at].count & crowded)) return;
-    const auto& chain = overflow_.at(at);
-    const auto used = static_cast<std::size_t>(found.count);
-    // The reader rounds the count up to a multiple of four.
-    if (found.balls.size() < used + chain.size() + 4) found.balls.resize(used + chain.size() + 4);
-    std::copy(chain.begin(), chain.end(), found.balls.begin() + found.count);
-    found.count += static_cast<int>(chain.size());
+  /// Finds the balls of the cells whose parts of the index are given along each axis. Copies whole cells
+  /// without asking how full they are: a branch for each of 27 mostly empty ones costs more.
+  template <int nx, int ny, int nz>
+  void collect(const int* x, const int* y, const int* z, FoundBalls& found) const {
+    constexpr std::size_t room = 2 * nx * ny * nz + 4;
+    if (found.balls.size() < room) found.balls.resize(room);
+    int* const out = found.balls.data();
+    std::int64_t surplus = 0, seen = 0;
+    std::array<std::ptrdiff_t, nx> along;
+    for (int k = 0; k < nx; ++k) along[k] = x[k];
+#pragma GCC unroll 9
+    for (int row = 0; row < ny * nz; ++row) {
+      const Cell* cells = &content_[y[row % ny] + z[row / ny]];
+#pragma GCC unroll 3
+      for (int k = 0; k < nx; ++k) {
+        const auto cell = std::bit_cast<std::int64_t>(cells[along[k]]);
+        std::memcpy(out + (2 * (nx * row + k) + surplus), &cell, sizeof(cell));
+        surplus += cell >> 62;
+        seen |= cell;
+      }
+    }
+    found.count = 2 * nx * ny * nz + static_cast<int>(surplus);
+    if (seen >> 32 & (Cell::crowded ^ Cell::empty)) [[unlikely]]
+      for (int row = 0; row < ny * nz; ++row)
+        for (int k = 0; k < nx; ++k) append_chain(content_[x[k] + y[row % ny] + z[row / ny]], found);
+  }
+
+  void append_chain(const Cell& cell, FoundBalls& found) const {
+    if (cell.second != Cell::crowded) return;
+    for (int ball = static_cast<int>(cell.first); ball != none; ball = place_[ball].next) {
+      // The reader rounds the count up to a multiple of four.
+      const auto used = static_cast<std::size_t>(found.count);
+      if (found.balls.size() < used + 5) found.balls.resize(2 * used + 5);
+      found.balls[used] = ball;
+      ++found.count;
+    }
   }
 
   void link(int ball) {
-    const int at = place_[ball].index;
-    Cell& cell = content_[at];
-    if (cell.count < Cell::inside) [[likely]] {
-      cell.balls[cell.count++] = ball;
+    Cell& cell = content_[index(place_[ball])];
+    if (cell.second == Cell::empty) {
+      cell = {static_cast<std::uint32_t>(ball), Cell::single};
+    } else if (cell.second == Cell::single) {
+      cell.second = ball;
     } else {
-      overflow_[at].push_back(ball);
-      cell.count = Cell::inside | crowded;
+      if (cell.second != Cell::crowded) place_[cell.first].next = static_cast<int>(cell.second);
+      place_[ball].next = static_cast<int>(cell.first);
+      cell = {static_cast<std::uint32_t>(ball), Cell::crowded};
     }
   }
   void unlink(int ball) {
-    const int at = place_[ball].index;
-    Cell& cell = content_[at];
-    int last;
-    if (cell.count & crowded) [[unlikely]] {
-      auto& more = overflow_.at(at);
-      last = more.back();
-      more.pop_back();
-      for (int& other : more)
-        if (other == ball) other = last;
-      if (more.empty()) cell.count = Cell::inside;
+    Cell& cell = content_[index(place_[ball])];
+    if (cell.second == Cell::crowded) [[unlikely]]
+      return unchain(ball, cell);
+    cell.first = cell.first == static_cast<std::uint32_t>(ball) ? cell.second : cell.first;
+    cell.second = cell.second == Cell::single ? Cell::empty : Cell::single;
+  }
+  void unchain(int ball, Cell& cell) {
+    if (cell.first == static_cast<std::uint32_t>(ball)) {
+      cell.first = place_[ball].next;
     } else {
-      last = cell.balls[--cell.count];
+      int before = static_cast<int>(cell.first);
+      while (place_[before].next != ball) before = place_[before].next;
+      place_[before].next = place_[ball].next;
     }
-    // What stands beyond `count` is of no account, so no branch is needed for it.
-    for (int& other : cell.balls) other = other == ball ? last : other;
+    place_[ball].next = none;
+    int& second = place_[cell.first].next;
+    if (place_[second].next != none) return;
+    cell.second = second;
+    second = none;
   }
 
   std::array<int, 3> cells_;
   std::array<std::vector<Faces>, 3> faces_;  ///< of the cells along each axis
-  std::array<int, 3> stride_;
-  std::array<int, 27> around_;                 ///< offsets of a cell and its neighbours in `content_`
-  std::array<std::array<int, 9>, 3> abreast_;  ///< the same in one layer across each axis
+  /// Parts of a cell's index in `content_` by its number along each axis, where 0 is the layer that stays
+  /// empty. Two by two by two cells are a brick that fills a cache line.
+  std::array<std::vector<int>, 3> at_;
   LargeVector<Cell> content_;
-  std::unordered_map<int, std::vector<int>> overflow_;
   LargeVector<Place> place_;
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "edmill/core/instant.hpp"
+#include "edmill/core/memory.hpp"
 
 namespace edmill::engine {
 
@@ -20,6 +21,13 @@ class CollapseWatch {
       : smallest_path_(smallest_path),
         resting_path_(resting_path),
         records_(balls, Record{Instant<Real>::long_ago(), -1, 0, 0, 0, false, Real(0)}) {}
+
+  /// Asks memory for what is kept of a ball, which may lie in two lines.
+  void fetch_record(int ball) const {
+    const char* record = reinterpret_cast<const char*>(&records_[ball]);
+    fetch(record);
+    fetch(record + sizeof(Record) - 1);
+  }
 
   /// Of the ball's latest impact of any kind.
   const Instant<Real>& last_impact(int ball) const { return records_[ball].last; }
@@ -79,7 +87,7 @@ class CollapseWatch {
     void archive(Archive& a) { a(last, partner, burst, stuck, rest, extrapolated, accumulation); }
   };
   Real smallest_path_, resting_path_;
-  std::vector<Record> records_;
+  LargeVector<Record> records_;
 };
 
 }  // namespace edmill::engine

@@ -12,31 +12,37 @@
 
 namespace edmill::engine {
 
-/// A calendar: each drive period is cut into days, and the days are dealt round to lists, so short
-/// that few hold more than one event. Taking the first event and setting one cost the same for any number of
-/// balls. Equal times go to the lower ball, so the order of events does not depend on history. (Brown 1988)
+/// A calendar: each drive period is cut into days so short that few hold more than one event. Days up to the
+/// horizon, which is one to two months ahead, have a list each; what is later is put off: noted for its
+/// month, without order, and put into lists when the horizon gets there. So taking the first event and
+/// setting one cost the same for any number of balls, and the lists fit into the near caches. Equal times go
+/// to the lower ball, so the order of events does not depend on history. (Brown 1988; Tang, Goh and Thng
+/// 2005)
 template <class Real>
 class EventQueue {
  public:
   /// @param period  of the drive [s]
   EventQueue(int balls, const Real& period)
       : entries_(balls),
+        notes_(months),
+        days_per_month_(month_length(entries_.size())),
         days_per_second_(static_cast<double>(days_per_period_) / static_cast<double>(period)) {
-    std::size_t lists = 64;
-    while (lists < 8 * entries_.size()) lists *= 2;
-    heads_.assign(lists, none);
-    occupied_.assign(lists / 64, 0);
-    for (int i = 0; i < balls; ++i) link(i);
+    heads_.resize(2 * static_cast<std::size_t>(days_per_month_));
+    marks_.resize(heads_.size() / 64);
+    start_over(0);
   }
 
   /// The ball whose event is next.
   int top() {
     const std::int64_t begin = today_;
     today_ = next_occupied(today_);
-    while ((top_ = first_of(today_)) == none) {
-      const bool all_seen = today_ - begin > static_cast<std::int64_t>(heads_.size());
-      today_ = all_seen ? earliest_day() : next_occupied(today_ + 1);
+    for (int opened = 0; horizon_ - today_ <= days_per_month_; ++opened, today_ = next_occupied(today_)) {
+      if (opened < months)
+        open_month();
+      else
+        start_over(earliest_day());
     }
+    top_ = first_of(today_);
     days_passed_ += std::min(today_ - begin, static_cast<std::int64_t>(heads_.size()));
     if (++taken_ >= review_) review();
     return top_;
@@ -44,77 +50,92 @@ class EventQueue {
 
   const Instant<Real>& time(int ball) const { return entries_[ball].time; }
 
-  /// The balls of the next two events after that of the last `top`, most likely: a look at what may be
+  /// The balls of the next three events after that of the last `top`, most likely: a look at what may be
   /// fetched early, not an answer.
-  std::array<int, 2> upcoming() const {
-    const int same_day = entries_[top_].next;
-    const auto day = next_occupied(today_ + 1);
-    if (same_day != none) return {same_day, head(day)};
-    return {head(day), head(next_occupied(day + 1))};
+  std::array<int, 3> upcoming() const {
+    std::array<int, 3> balls{top_, top_, top_};
+    std::int64_t day = today_;
+    std::size_t found = 0;
+    if (const int same_day = entries_[top_].next; same_day >= 0) balls[found++] = same_day;
+    while (found < balls.size() && (day = next_occupied(day + 1)) < horizon_) balls[found++] = head(day);
+    return balls;
   }
 
-  /// Asks memory for what `set` touches of a ball: its entry, and then the list that this is in.
+  /// Asks memory for what is kept of a ball.
   void fetch_entry(int ball) const { fetch(&entries_[ball]); }
-  void fetch_list(int ball) const { fetch(&heads_[list_of(entries_[ball].day)]); }
 
   void set(int ball, const Instant<Real>& time) {
     unlink(ball);
     entries_[ball].time = time;
-    link(ball);
+    put(ball);
   }
 
   /// The ball whose event is next after that of the last `top`, if it is not later than `limit`; -1
   /// otherwise.
   int runner_up(const Instant<Real>& limit) const {
     const std::int64_t last = std::max(day_of(limit), today_);
-    const std::int64_t round = today_ + static_cast<std::int64_t>(heads_.size());
-    for (auto day = next_occupied(today_); day <= last && day < round; day = next_occupied(day + 1)) {
+    for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1)) {
       const int second = first_of(day, top_);
       if (second != none) return entries_[second].time <= limit ? second : none;
     }
-    if (last < round) return none;
-    int second = none;  // after a whole round without one
+    if (last < horizon_) return none;
+    int second = none;
     for (int i = 0; i < static_cast<int>(entries_.size()); ++i)
       if (i != top_ && (second == none || before(i, second))) second = i;
     return second != none && entries_[second].time <= limit ? second : none;
   }
 
  private:
-  static constexpr int none = -1;
-  static constexpr std::int64_t far_off = std::int64_t{1} << 30;    ///< [periods], in no run
+  static constexpr int none = -1, put_off = -2;                   ///< instead of a list's next ball
+  static constexpr int months = 256;                              ///< for which notes are kept
+  static constexpr std::int64_t far_off = std::int64_t{1} << 30;  ///< [periods], in no run
+  static constexpr std::int64_t no_day = std::int64_t{1} << 62;
   static constexpr std::int64_t most_days = std::int64_t{1} << 31;  ///< of a period
 
   struct Entry {
     Instant<Real> time = Instant<Real>::never();
-    std::int64_t day = 0;
-    int next = none, previous = none;
+    std::int64_t day = no_day;
+    int next = put_off, previous = none;
   };
+  /// That an event was put off, and to which day: void when it has been set anew since.
+  struct Note {
+    int ball;
+    std::uint32_t day;  ///< its lowest bits
+  };
+
+  /// Nearly all events of few balls lie within a month.
+  static std::int64_t month_length(std::size_t balls) {
+    const std::size_t days = std::max(std::clamp<std::size_t>(8 * balls, 64, 8192), 8 * balls / months);
+    return static_cast<std::int64_t>(std::bit_ceil(days));
+  }
 
   /// Never later for an earlier time: `today` may be emptied before tomorrow is looked at.
   std::int64_t day_of(const Instant<Real>& time) const {
-    if (time.period >= far_off) return std::int64_t{1} << 62;
+    if (time.period >= far_off) return no_day;
     const double place = static_cast<double>(time.offset) * days_per_second_;
     const auto day = static_cast<std::int64_t>(place);
     return time.period * days_per_period_ + (day < days_per_period_ ? day : days_per_period_ - 1);
   }
+  std::int64_t month_of(std::int64_t day) const { return day >> month_shift_; }
+  std::vector<Note>& notes_of(std::int64_t month) { return notes_[static_cast<std::size_t>(month) % months]; }
   std::size_t list_of(std::int64_t day) const { return static_cast<std::size_t>(day) & (heads_.size() - 1); }
   int head(std::int64_t day) const { return heads_[list_of(day)]; }
 
-  /// The first day from `day` on whose list is not empty: a word of marks at a time, since a loop over empty
-  /// lists would end by surprise each time.
+  /// The first day from `day` on whose list is not empty, or the horizon: a word of marks at a time, since a
+  /// loop over empty lists would end by surprise each time.
   std::int64_t next_occupied(std::int64_t day) const {
-    for (;; day = (day | 63) + 1) {
+    for (; day < horizon_; day = (day | 63) + 1) {
       const std::size_t at = list_of(day);
-      const std::uint64_t marks = occupied_[at / 64] >> (at % 64);
+      const std::uint64_t marks = marks_[at / 64] >> (at % 64);
       if (marks != 0) return day + std::countr_zero(marks);
     }
+    return horizon_;
   }
 
-  /// A list holds the events of its day, and of days a round or more later.
   int first_of(std::int64_t day, int except = none) const {
     int best = none;
     for (int i = head(day); i != none; i = entries_[i].next)
-      if (entries_[i].day == day && i != except && (best == none || before(i, best))) best = i;
+      if (i != except && (best == none || before(i, best))) best = i;
     return best;
   }
 
@@ -124,13 +145,28 @@ class EventQueue {
     return one == two && a < b;
   }
 
+  void put(int ball) {
+    Entry& e = entries_[ball];
+    e.day = std::max(day_of(e.time), today_);
+    if (e.day < horizon_) [[likely]]
+      link(ball);
+    else
+      note(ball);
+  }
+  /// Not inlined, as what follows: it would crowd the common case out of its registers.
+  [[gnu::noinline]] void note(int ball) {
+    Entry& e = entries_[ball];
+    e.next = put_off;
+    if (e.day == no_day) return;
+    // What is later than all months is looked at again in the last.
+    const auto month = std::min(month_of(e.day), month_of(horizon_) + (months - 2));
+    notes_of(month).push_back({ball, static_cast<std::uint32_t>(e.day)});
+  }
   void link(int ball) {
     Entry& e = entries_[ball];
-    const std::int64_t day = day_of(e.time);
-    e.day = day < today_ ? today_ : day;
     const std::size_t list = list_of(e.day);
     int& first = heads_[list];
-    occupied_[list / 64] |= std::uint64_t{1} << (list % 64);
+    marks_[list / 64] |= std::uint64_t{1} << (list % 64);
     e.previous = none;
     e.next = first;
     if (first != none) entries_[first].previous = ball;
@@ -138,6 +174,7 @@ class EventQueue {
   }
   void unlink(int ball) {
     const Entry& e = entries_[ball];
+    if (e.next == put_off) return;
     if (e.next != none) entries_[e.next].previous = e.previous;
     if (e.previous != none) {
       entries_[e.previous].next = e.next;
@@ -145,7 +182,34 @@ class EventQueue {
     }
     const std::size_t list = list_of(e.day);
     heads_[list] = e.next;
-    occupied_[list / 64] &= ~(std::uint64_t{e.next == none} << (list % 64));
+    marks_[list / 64] &= ~(std::uint64_t{e.next == none} << (list % 64));
+  }
+
+  /// Moves the horizon by a month.
+  [[gnu::noinline]] void open_month() {
+    auto& notes = notes_of(month_of(horizon_));
+    horizon_ += days_per_month_;
+    constexpr std::size_t ahead = 8;
+    for (std::size_t k = 0; k < notes.size(); ++k) {
+      if (k + ahead < notes.size()) fetch(&entries_[notes[k + ahead].ball]);
+      const auto [ball, day] = notes[k];
+      const Entry& e = entries_[ball];
+      if (e.next != put_off || static_cast<std::uint32_t>(e.day) != day) continue;
+      if (e.day < horizon_) [[likely]]
+        link(ball);
+      else
+        note(ball);
+    }
+    notes.clear();
+  }
+
+  [[gnu::noinline]] void start_over(std::int64_t day) {
+    std::fill(heads_.begin(), heads_.end(), none);
+    std::fill(marks_.begin(), marks_.end(), 0);
+    for (auto& notes : notes_) notes.clear();
+    today_ = day;
+    horizon_ = (month_of(day) + 2) * days_per_month_;
+    for (int i = 0; i < static_cast<int>(entries_.size()); ++i) put(i);
   }
 
   std::int64_t earliest_day() const {
@@ -165,19 +229,18 @@ class EventQueue {
     }
     if (days_per_period_ == before) return;
     days_per_second_ *= static_cast<double>(days_per_period_) / static_cast<double>(before);
-    const int balls = static_cast<int>(entries_.size());
-    std::fill(heads_.begin(), heads_.end(), none);
-    std::fill(occupied_.begin(), occupied_.end(), 0);
-    today_ = day_of(entries_[top_].time);
-    for (int i = 0; i < balls; ++i) link(i);
+    start_over(day_of(entries_[top_].time));
   }
 
   LargeVector<Entry> entries_;
-  LargeVector<int> heads_;
-  std::vector<std::uint64_t> occupied_;  ///< a mark for each list that is not empty
+  std::vector<int> heads_;                ///< of the lists of days
+  std::vector<std::uint64_t> marks_;      ///< one for each list that is not empty
+  std::vector<std::vector<Note>> notes_;  ///< for the months from the horizon on
+  std::int64_t days_per_month_;           ///< a power of two
+  int month_shift_ = std::countr_zero(static_cast<std::uint64_t>(days_per_month_));
   std::int64_t days_per_period_ = 1024;
   double days_per_second_;
-  std::int64_t today_ = 0;
+  std::int64_t today_ = 0, horizon_ = 0;  ///< days, the latter the first of a month
   int top_ = none;
   std::int64_t taken_ = 0, days_passed_ = 0;  ///< since the last review
   std::int64_t review_ = 64;                  ///< after so many events; soon at first, when nothing is known

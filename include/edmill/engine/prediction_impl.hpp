@@ -6,15 +6,6 @@
 
 namespace edmill::engine {
 
-/// Where the flights do not fit into the cache, the balls of the adjacent cells are found before an impact is
-/// worked out, so that memory brings their flights meanwhile.
-template <class Real>
-void Simulation<Real>::fetch_neighbours(int ball, FoundBalls& near) const {
-  if (table_ || !many_balls()) return;
-  grid_.neighbours(ball, near);
-  for (int k = 0; k < near.count; ++k) fetch(&rough_flights()[near.balls[k]]);
-}
-
 /// @pre fetch_neighbours(ball, near)
 template <class Real>
 void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose,
@@ -22,6 +13,7 @@ void Simulation<Real>::predict_all(int ball, int already_done, const model::Vess
   const auto roughly = see_roughly(ball);
   predict_pairs(ball, already_done, roughly, near);
   predict_crossing(ball, roughly);
+  fetch_more();
   predict_wall(ball, pose);
   requeue(ball);
 }
@@ -86,12 +78,12 @@ void Simulation<Real>::expect_pair(int ball, int other, const Real& delay) {
   const Instant<Real> time = clock_.after(now_, delay);
   if (time >= a.forgotten_from) return;
   if (a.pair_count < Agenda::capacity) [[likely]] {
-    a.put_pair(Agenda::first_pair + a.pair_count++, time, other, impacts_[other]);
+    a.put_pair(Agenda::first_pair + a.pair_count++, time, other, impact_number_);
     return;
   }
   const int last = a.farthest();
   a.forgotten_from = time < a.times[last] ? a.times[last] : time;
-  if (time < a.times[last]) a.put_pair(last, time, other, impacts_[other]);
+  if (time < a.times[last]) a.put_pair(last, time, other, impact_number_);
 }
 
 template <class Real>
@@ -101,8 +93,7 @@ void Simulation<Real>::predict_crossing(int ball, const RoughlySeen& roughly) {
   const auto& gravity = pair_filter_.filter().gravity;
   const auto crossing = grid_.crossing(
       ball, roughly.position, dynamics::velocity_after(rough_flights()[ball], gravity, roughly.age), gravity);
-  a.crossing_axis = static_cast<std::int8_t>(crossing.axis);
-  a.crossing_step = static_cast<std::int8_t>(crossing.step);
+  a.crossing_face = static_cast<std::int8_t>(2 * crossing.axis + (crossing.step > 0));
   a.times[Agenda::crossing_entry] =
       crossing.delay < Crossing::never ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
 }

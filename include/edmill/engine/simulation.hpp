@@ -91,8 +91,8 @@ class Simulation {
  private:
   enum class EventKind { wall_contact, pair_contact, cell_crossing, wall_recheck };
   /// What a ball expects. Its pair contacts are those that it predicted itself, in any order; one is void
-  /// once the partner's impact count has moved on, and for a pair that both predicted the later prediction is
-  /// the valid one. Which entry is the earliest is a coin toss, so it is found without branches.
+  /// once the partner has had an impact since, and for a pair that both predicted the later prediction is the
+  /// valid one. Which entry is the earliest is a coin toss, so it is found without branches.
   struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
     static constexpr int capacity = 3;
     static constexpr int wall_entry = 0, crossing_entry = 1, first_pair = 2;
@@ -100,10 +100,11 @@ class Simulation {
     [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at the wall's time
     Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
     std::array<int, capacity> partners{};
-    std::array<std::uint32_t, capacity> partner_impacts;
+    std::array<std::uint32_t, capacity> known;  ///< number of the latest impact of all, when predicted
+    std::uint32_t last_impact = 0;              ///< number of the ball's latest
     std::int8_t pair_count = 0;
     std::int8_t wall = -1;  ///< a wall id, or -1 when the wall's time only ends what has been searched
-    std::int8_t crossing_axis = 0, crossing_step = 0;
+    std::int8_t crossing_face = 0;  ///< twice the axis, and 1 more when upwards
     std::int8_t next = wall_entry;  ///< the entry that was queued
 
     Agenda() {
@@ -124,15 +125,17 @@ class Simulation {
       const int last = first_pair + (times[first_pair + 1] > times[first_pair]);
       return select(times[first_pair + 2] > times[last], first_pair + 2, last);
     }
+    int crossing_axis() const { return crossing_face / 2; }
+    int crossing_step() const { return crossing_face % 2 ? 1 : -1; }
     int partner_at(int entry) const { return partners[entry - first_pair]; }
-    void put_pair(int entry, const Instant<Real>& time, int partner, std::uint32_t impacts) {
+    void put_pair(int entry, const Instant<Real>& time, int partner, std::uint32_t latest_impact) {
       times[entry] = time;
       partners[entry - first_pair] = partner;
-      partner_impacts[entry - first_pair] = impacts;
+      known[entry - first_pair] = latest_impact;
     }
     void drop_nearest() {
       const int first = nearest(), last = first_pair + --pair_count;
-      put_pair(first, times[last], partners[last - first_pair], partner_impacts[last - first_pair]);
+      put_pair(first, times[last], partners[last - first_pair], known[last - first_pair]);
       times[last] = Instant<Real>::never();
     }
     void drop_pairs() {
@@ -142,12 +145,11 @@ class Simulation {
     }
 
     void archive(Archive& a) {
-      a(times, wall_pose, forgotten_from, partners, partner_impacts, pair_count, wall, crossing_axis,
-        crossing_step);
+      a(times, wall_pose, forgotten_from, partners, known, last_impact, pair_count, wall, crossing_face);
     }
   };
   bool still_holds(const Agenda& a, int pair_entry) const {
-    return impacts_[a.partner_at(pair_entry)] == a.partner_impacts[pair_entry - Agenda::first_pair];
+    return agendas_[a.partner_at(pair_entry)].last_impact <= a.known[pair_entry - Agenda::first_pair];
   }
   struct Event {
     EventKind kind;
@@ -169,6 +171,7 @@ class Simulation {
   model::VesselPose<Real> pose_now() const;
   model::VesselPose<Real> pose_at_wall_contact(int ball) const;
   void collide_pair(int ball, int partner);
+  void number_impact(int ball, int partner);
   void after_impact(Impact<Real>& impact);
   dynamics::Persistence<Real> persistence_of(const Impact<Real>& impact) const {
     return {impact.collapsing, impact.resting, least_separation_};
@@ -189,9 +192,15 @@ class Simulation {
       return ladder_.pairs().seen(flights_[ball], now_);
   }
   bool many_balls() const { return flights_.size() > 1024; }  ///< more than the near caches hold
-  void fetch_ball(int ball) const;
-  void fetch_upcoming() const;
+  void fetch_flights(const FoundBalls& near) const;
   void fetch_neighbours(int ball, FoundBalls& near) const;
+  void fetch_ball(int ball) const;
+  void fetch_body(int ball) const;
+  void look_ahead();
+  void fetch_portion();
+  void fetch_more() {
+    if (fetched_ < portions) fetch_portion();
+  }
   void predict_pairs(int ball, int already_done, const RoughlySeen& roughly, FoundBalls& near);
   void flight_changed(int ball);
   void predict_near(int ball, int already_done, const RoughlySeen& roughly, FoundBalls& near);
@@ -221,7 +230,7 @@ class Simulation {
   LargeVector<dynamics::Flight<Real>> flights_;
   LargeVector<Vec3<Real>> spins_;
   LargeVector<Agenda> agendas_;
-  std::vector<std::uint32_t> impacts_;  ///< of each ball; tells a candidate whether it still holds
+  std::uint32_t impact_number_ = 0;  ///< of the latest one, since they were last numbered anew
   dynamics::DecisionLadder<Real> ladder_;
   // Pairs are filtered in double whatever the scalar: its bounds cover the rounding of the flights to double.
   // Cells are crossed in double too: their margin covers it.
@@ -233,6 +242,9 @@ class Simulation {
   std::optional<FlightTable> table_;  ///< instead of the grid when that has one cell
   EventQueue<Real> queue_;
   CollapseWatch<Real> collapse_watch_;
+  static constexpr int portions = 4;
+  std::array<int, 3> upcoming_{};   ///< balls of the next events, most likely
+  int fetched_ = portions;          ///< of what they need
   FoundBalls near_, near_partner_;  ///< scratch: balls of the adjacent cells
   Looks looks_;                     ///< scratch: what the pair filter saw
   std::vector<Observer<Real>*> observers_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "edmill/core/errors.hpp"
+#include "edmill/engine/fetching_impl.hpp"
 #include "edmill/engine/prediction_impl.hpp"
 #include "edmill/engine/simulation.hpp"
 
@@ -75,7 +76,6 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       clock_(the_case.mill.motion.period),
       balls_(the_case.balls),
       agendas_(states.size()),
-      impacts_(states.size(), 0),
       ladder_(the_case.mill, 2 * detail::smallest_radius(the_case.balls),
               detail::largest_speed(states, the_case.mill)),
       pair_filter_(model::mill_cast<double>(the_case.mill),
@@ -115,7 +115,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
 template <class Real>
 void Simulation<Real>::archive(Archive& a) {
   const auto balls = flights_.size();
-  a(flights_, spins_, agendas_, impacts_, ladder_, grid_, collapse_watch_, counts_, now_, top_speed_);
+  a(flights_, spins_, agendas_, impact_number_, ladder_, grid_, collapse_watch_, counts_, now_, top_speed_);
   if (!a.loading()) return;
   EDMILL_REQUIRE(flights_.size() == balls && agendas_.size() == balls, "a saved state of the same case");
   ladder_.raise_top_speed(top_speed_);
@@ -126,29 +126,6 @@ void Simulation<Real>::archive(Archive& a) {
   }
 }
 
-/// Asks memory for what is kept of a ball.
-template <class Real>
-void Simulation<Real>::fetch_ball(int ball) const {
-  const char* agenda = reinterpret_cast<const char*>(&agendas_[ball]);
-  for (std::size_t line = 0; line < sizeof(Agenda); line += 64) fetch(agenda + line);
-  fetch(&flights_[ball]);
-  fetch(&spins_[ball]);
-  grid_.fetch_place(ball);
-  queue_.fetch_entry(ball);
-}
-
-/// Where balls do not fit into the near caches, those of the next events are asked for beforehand: the ball
-/// of the event after the next, and of the next event what can be found now that its ball has come.
-template <class Real>
-void Simulation<Real>::fetch_upcoming() const {
-  const auto [next, later] = queue_.upcoming();
-  fetch_ball(later);
-  const Agenda& a = agendas_[next];
-  fetch_ball(a.partners[std::max<int>(a.next - Agenda::first_pair, 0)]);
-  grid_.fetch_cells(next);
-  queue_.fetch_list(next);
-}
-
 template <class Real>
 EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt) {
   stop_.reset();
@@ -156,8 +133,9 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
     if (interrupt && interrupt->load(std::memory_order_relaxed)) return EndReason::interrupted;
     const Event event = next_of(next);
     now_ = event.time;
-    if (many_balls()) fetch_upcoming();
+    look_ahead();
     process(event);
+    while (fetched_ < portions) fetch_portion();
     if (stop_) return *stop_;
   }
   now_ = end;
@@ -225,12 +203,13 @@ void Simulation<Real>::drop_stale(int ball) {
 template <class Real>
 void Simulation<Real>::cross_cell(int ball) {
   ++counts_.cell_crossings;
-  const int axis = agendas_[ball].crossing_axis, step = agendas_[ball].crossing_step;
+  const int axis = agendas_[ball].crossing_axis(), step = agendas_[ball].crossing_step();
   grid_.move(ball, axis, step);
-  const auto roughly = see_roughly(ball);
   grid_.new_neighbours(ball, axis, step, near_);
-  predict_near(ball, -1, roughly, near_);
+  if (many_balls()) fetch_flights(near_);
+  const auto roughly = see_roughly(ball);
   predict_crossing(ball, roughly);
+  predict_near(ball, -1, roughly, near_);
   requeue(ball);
 }
 
@@ -285,7 +264,7 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   impact.ball = ball;
   impact.with_wall = true;
   impact.partner = wall;
-  ++impacts_[ball];
+  number_impact(ball, ball);
   flight_changed(ball);
   after_impact(impact);
   if (stop_ == EndReason::inelastic_collapse) return;
@@ -295,7 +274,6 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
 template <class Real>
 void Simulation<Real>::collide_pair(int ball, int partner) {
   fetch_neighbours(ball, near_);
-  fetch_neighbours(partner, near_partner_);
   auto &one = flights_[ball], &two = flights_[partner];
   const Real flight_times[2] = {dynamics::fly_to(one, mill_.gravity, clock_, now_),
                                 dynamics::fly_to(two, mill_.gravity, clock_, now_)};
@@ -320,16 +298,30 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   impact.ball = ball;
   impact.with_wall = false;
   impact.partner = partner;
-  ++impacts_[ball];
-  ++impacts_[partner];
+  number_impact(ball, partner);
   flight_changed(ball);
   flight_changed(partner);
+  fetch_neighbours(partner, near_partner_);
   after_impact(impact);
   if (stop_ == EndReason::inelastic_collapse) return;
   // Wide scalars begin their wall searches in double.
   const auto pose = std::is_same_v<Real, double> ? pose_now() : model::VesselPose<Real>{};
   predict_all(ball, -1, pose, near_);
+  fetch_more();
   predict_all(partner, ball, pose, near_partner_);
+}
+
+/// The next impact is that of these balls, which may be one. Now and then all are numbered anew, so that
+/// numbers never overflow; what holds then, holds.
+template <class Real>
+void Simulation<Real>::number_impact(int ball, int partner) {
+  if (impact_number_ == 1 << 20) {
+    for (Agenda& a : agendas_)
+      for (int k = 0; k < a.pair_count; ++k) a.known[k] = still_holds(a, Agenda::first_pair + k);
+    for (Agenda& a : agendas_) a.last_impact = 1;
+    impact_number_ = 1;
+  }
+  agendas_[ball].last_impact = agendas_[partner].last_impact = ++impact_number_;
 }
 
 template <class Real>
