@@ -133,6 +133,25 @@ TEST(Checkpoint, KeepsTheOrderOfEventsAtTheSameTime) {
   expect_same_course<double>(crystal(), 10, 40, 100);
 }
 
+/// Among other things saving numbers the impacts anew.
+void expect_saving_changes_nothing(const casefile::CaseSpec& spec, int milliseconds, std::size_t at_least) {
+  Followed<double> one(spec), other(spec);
+  one.go_to(milliseconds);
+  for (int now = 1; now <= milliseconds; ++now) {
+    other.go_to(now);
+    Archive saved;
+    saved(other.simulation);
+  }
+  const auto &a = one.recorder.impacts, &b = other.recorder.impacts;
+  ASSERT_GE(a.size(), at_least);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) ASSERT_TRUE(same(a[k], b[k])) << "impact " << k;
+}
+TEST(Checkpoint, SavingChangesNothing) { expect_saving_changes_nothing(testing::demo_spec(), 500, 5000); }
+TEST(Checkpoint, SavingChangesNothingWithCells) {
+  expect_saving_changes_nothing(many_balls(500), 200, 10000);
+}
+
 TEST(Checkpoint, APauseChangesNothing) {
   struct Pauses : Observer<double> {
     void on_impact(const Impact<double>& impact, Simulation<double>& simulation) override {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "edmill/setup/random.hpp"
 
@@ -51,6 +52,47 @@ TEST(EventQueue, LongGapsAreCrossed) {
   }
 }
 
+/// Many balls, of whose events some lie beyond the horizon, some beyond all weeks, and some never come.
+TEST(EventQueue, WhatIsPutOffComesInItsOrder) {
+  setup::Random random(13);
+  for (const int balls : {40, 3000, 40000}) {
+    EventQueue<double> queue(balls, 1.0);
+    std::vector<Instant<double>> times(balls, Instant<double>::never());
+    std::set<std::pair<Instant<double>, int>> order;
+    for (int ball = 0; ball < balls; ++ball) order.emplace(times[ball], ball);
+    const auto set = [&](int ball, const Instant<double>& now) {
+      const double draw = random.uniform<double>();
+      double later = -std::log(1 - random.uniform<double>());
+      if (draw < 0.05) later *= 100;
+      if (draw < 0.01) later *= 10000;
+      const double whole = std::floor(now.offset + later);
+      order.erase({times[ball], ball});
+      times[ball] = draw > 0.99 ? Instant<double>::never()
+                                : Instant<double>{now.period + static_cast<std::int64_t>(whole),
+                                                  now.offset + later - whole};
+      order.emplace(times[ball], ball);
+      queue.set(ball, times[ball]);
+    };
+    for (int ball = 0; ball < balls; ++ball) set(ball, {0, 0.0});
+    for (int step = 0; step < 200000; ++step) {
+      const int top = queue.top();
+      ASSERT_EQ(top, order.begin()->second) << balls << " balls, step " << step;
+      const auto now = times[top];
+      if (!(now < Instant<double>::never())) break;
+      set(top, now);
+      set(static_cast<int>(random.uniform<double>() * balls), now);
+    }
+    // Only the slow are left: the gaps between their events are long.
+    while (order.begin()->first < Instant<double>::never()) {
+      const int top = queue.top();
+      ASSERT_EQ(top, order.begin()->second) << balls << " balls, emptied";
+      order.erase(order.begin());
+      order.emplace(times[top] = Instant<double>::never(), top);
+      queue.set(top, times[top]);
+    }
+  }
+}
+
 TEST(EventQueue, WhatIsSaidToBeUpcomingMostlyIs) {
   constexpr int balls = 2000, steps = 5000;
   setup::Random random(12);
@@ -68,14 +110,16 @@ TEST(EventQueue, WhatIsSaidToBeUpcomingMostlyIs) {
     const auto time = queue.time(top[step]);
     queue.set(top[step], later(static_cast<double>(time.period) + time.offset));
   }
-  int next = 0, second = 0;
-  for (int step = steps / 2; step + 2 < steps; ++step) {
+  int next = 0, second = 0, third = 0;
+  for (int step = steps / 2; step + 3 < steps; ++step) {
     next += said[step][0] == top[step + 1];
     second += said[step][1] == top[step + 2];
+    third += said[step][2] == top[step + 3];
   }
   // Less would not be worth asking for.
   EXPECT_GT(next, steps / 4);
   EXPECT_GT(second, steps / 4);
+  EXPECT_GT(third, steps / 6);
 }
 
 }  // namespace

@@ -40,6 +40,8 @@ class CellGrid {
   /// @param low, high  corners of the region that the balls' centres sweep [m]
   /// @param edge       least edge of a cell [m]
   CellGrid(const Vec3<double>& low, const Vec3<double>& high, double edge, int balls) : place_(balls) {
+    EDMILL_REQUIRE(balls < static_cast<int>(Cell::crowded ^ Cell::empty),
+                   "numbers of balls that a cell can hold");
     std::size_t total = 1;
     for (int k = 0; k < 3; ++k) {
       const double extent = high[k] - low[k];
@@ -120,17 +122,16 @@ class CellGrid {
   /// Finds every ball in the ball's cell and the adjacent ones, itself included.
   void neighbours(int ball, FoundBalls& found) const {
     const auto& cell = place_[ball].cell;
-    collect<3, 3, 3>(&at_[0][cell[0]], &at_[1][cell[1]], &at_[2][cell[2]], found);
+    collect<3>(&at_[0][cell[0]], &at_[1][cell[1]], &at_[2][cell[2]], found);
   }
 
-  /// The same for the cells that became adjacent when the ball moved by `step` along `axis`.
+  /// The same for the cells that became adjacent when the ball moved by `step` along `axis`: one layer, whose
+  /// two other axes may be in any order.
   void new_neighbours(int ball, int axis, int step, FoundBalls& found) const {
-    auto cell = place_[ball].cell;
-    cell[axis] += step + 1;
-    const int *x = &at_[0][cell[0]], *y = &at_[1][cell[1]], *z = &at_[2][cell[2]];
-    if (axis == 0) return collect<1, 3, 3>(x, y, z, found);
-    if (axis == 1) return collect<3, 1, 3>(x, y, z, found);
-    collect<3, 3, 1>(x, y, z, found);
+    const auto& cell = place_[ball].cell;
+    const int one = axis == 0 ? 1 : 0, other = axis == 2 ? 1 : 2;
+    const int layer = at_[axis][cell[axis] + 1 + step];
+    collect<1>(&layer, &at_[one][cell[one]], &at_[other][cell[other]], found);
   }
 
   /// Which balls are where, and their order in each cell: it is that of the searches.
@@ -202,36 +203,45 @@ class CellGrid {
     return at_[0][place.cell[0] + 1] + at_[1][place.cell[1] + 1] + at_[2][place.cell[2] + 1];
   }
 
-  /// Finds the balls of the cells whose parts of the index are given along each axis. Copies whole cells
-  /// without asking how full they are: a branch for each of 27 mostly empty ones costs more.
-  template <int nx, int ny, int nz>
+  /// Finds the balls of the cells whose parts of the index are given along each axis, by threes in y and z.
+  /// Copies whole cells without asking how full they are: a branch for each of 27 mostly empty ones costs
+  /// more.
+  template <int nx>
   void collect(const int* x, const int* y, const int* z, FoundBalls& found) const {
-    constexpr std::size_t room = 2 * nx * ny * nz + 4;
+    constexpr int rows = 9, cells = nx * rows;
+    constexpr std::size_t room = 2 * cells + 4;
     if (found.balls.size() < room) found.balls.resize(room);
     int* const out = found.balls.data();
     std::int64_t surplus = 0, seen = 0;
     std::array<std::ptrdiff_t, nx> along;
     for (int k = 0; k < nx; ++k) along[k] = x[k];
 #pragma GCC unroll 9
-    for (int row = 0; row < ny * nz; ++row) {
-      const Cell* cells = &content_[y[row % ny] + z[row / ny]];
+    for (int row = 0; row < rows; ++row) {
+      const Cell* first = &content_[y[row % 3] + z[row / 3]];
 #pragma GCC unroll 3
       for (int k = 0; k < nx; ++k) {
-        const auto cell = std::bit_cast<std::int64_t>(cells[along[k]]);
+        const auto cell = std::bit_cast<std::int64_t>(first[along[k]]);
         std::memcpy(out + (2 * (nx * row + k) + surplus), &cell, sizeof(cell));
         surplus += cell >> 62;
         seen |= cell;
       }
     }
-    found.count = 2 * nx * ny * nz + static_cast<int>(surplus);
-    if (seen >> 32 & (Cell::crowded ^ Cell::empty)) [[unlikely]]
-      for (int row = 0; row < ny * nz; ++row)
-        for (int k = 0; k < nx; ++k) append_chain(content_[x[k] + y[row % ny] + z[row / ny]], found);
+    found.count = 2 * cells + static_cast<int>(surplus);
+    if (!(seen >> 32 & (Cell::crowded ^ Cell::empty))) [[likely]]
+      return;
+    std::array<int, cells> chains;
+    int count = 0;
+    for (int row = 0; row < rows; ++row)
+      for (int k = 0; k < nx; ++k) {
+        const Cell& cell = content_[x[k] + y[row % 3] + z[row / 3]];
+        chains[count] = static_cast<int>(cell.first);
+        count += cell.second == Cell::crowded;
+      }
+    for (int k = 0; k < count; ++k) append_chain(chains[k], found);
   }
 
-  void append_chain(const Cell& cell, FoundBalls& found) const {
-    if (cell.second != Cell::crowded) return;
-    for (int ball = static_cast<int>(cell.first); ball != none; ball = place_[ball].next) {
+  void append_chain(int first, FoundBalls& found) const {
+    for (int ball = first; ball != none; ball = place_[ball].next) {
       // The reader rounds the count up to a multiple of four.
       const auto used = static_cast<std::size_t>(found.count);
       if (found.balls.size() < used + 5) found.balls.resize(2 * used + 5);
@@ -242,10 +252,11 @@ class CellGrid {
 
   void link(int ball) {
     Cell& cell = content_[index(place_[ball])];
-    if (cell.second == Cell::empty) {
-      cell = {static_cast<std::uint32_t>(ball), Cell::single};
-    } else if (cell.second == Cell::single) {
-      cell.second = ball;
+    const bool single = cell.second == Cell::single;
+    if (single | (cell.second == Cell::empty)) [[likely]] {
+      const std::uint32_t firsts[] = {static_cast<std::uint32_t>(ball), cell.first};
+      const std::uint32_t seconds[] = {Cell::single, static_cast<std::uint32_t>(ball)};
+      cell = {firsts[single], seconds[single]};
     } else {
       if (cell.second != Cell::crowded) place_[cell.first].next = static_cast<int>(cell.second);
       place_[ball].next = static_cast<int>(cell.first);

@@ -13,8 +13,8 @@
 namespace edmill::engine {
 
 /// A calendar: each drive period is cut into days so short that few hold more than one event. Days up to the
-/// horizon, which is one to two months ahead, have a list each; what is later is put off: noted for its
-/// month, without order, and put into lists when the horizon gets there. So taking the first event and
+/// horizon, which is three to four weeks ahead, have a list each; what is later is put off: noted for its
+/// week, without order, and put into lists when the horizon gets there. So taking the first event and
 /// setting one cost the same for any number of balls, and the lists fit into the near caches. Equal times go
 /// to the lower ball, so the order of events does not depend on history. (Brown 1988; Tang, Goh and Thng
 /// 2005)
@@ -24,11 +24,11 @@ class EventQueue {
   /// @param period  of the drive [s]
   EventQueue(int balls, const Real& period)
       : entries_(balls),
-        notes_(months),
-        days_per_month_(month_length(entries_.size())),
+        heads_(list_count(entries_.size())),
+        marks_(heads_.size() / 64),
+        notes_(weeks),
+        days_per_week_(static_cast<std::int64_t>(heads_.size() / 4)),
         days_per_second_(static_cast<double>(days_per_period_) / static_cast<double>(period)) {
-    heads_.resize(2 * static_cast<std::size_t>(days_per_month_));
-    marks_.resize(heads_.size() / 64);
     start_over(0);
   }
 
@@ -36,9 +36,9 @@ class EventQueue {
   int top() {
     const std::int64_t begin = today_;
     today_ = next_occupied(today_);
-    for (int opened = 0; horizon_ - today_ <= days_per_month_; ++opened, today_ = next_occupied(today_)) {
-      if (opened < months)
-        open_month();
+    for (int opened = 0; horizon_ - today_ <= 3 * days_per_week_; ++opened, today_ = next_occupied(today_)) {
+      if (opened < weeks)
+        open_week();
       else
         start_over(earliest_day());
     }
@@ -87,7 +87,7 @@ class EventQueue {
 
  private:
   static constexpr int none = -1, put_off = -2;                   ///< instead of a list's next ball
-  static constexpr int months = 256;                              ///< for which notes are kept
+  static constexpr int weeks = 256;                               ///< for which notes are kept
   static constexpr std::int64_t far_off = std::int64_t{1} << 30;  ///< [periods], in no run
   static constexpr std::int64_t no_day = std::int64_t{1} << 62;
   static constexpr std::int64_t most_days = std::int64_t{1} << 31;  ///< of a period
@@ -103,10 +103,9 @@ class EventQueue {
     std::uint32_t day;  ///< its lowest bits
   };
 
-  /// Nearly all events of few balls lie within a month.
-  static std::int64_t month_length(std::size_t balls) {
-    const std::size_t days = std::max(std::clamp<std::size_t>(8 * balls, 64, 8192), 8 * balls / months);
-    return static_cast<std::int64_t>(std::bit_ceil(days));
+  /// Nearly all events of few balls lie before the horizon, and most of many within the weeks.
+  static std::size_t list_count(std::size_t balls) {
+    return std::bit_ceil(std::max(std::clamp<std::size_t>(8 * balls, 256, 16384), balls / 8));
   }
 
   /// Never later for an earlier time: `today` may be emptied before tomorrow is looked at.
@@ -116,8 +115,8 @@ class EventQueue {
     const auto day = static_cast<std::int64_t>(place);
     return time.period * days_per_period_ + (day < days_per_period_ ? day : days_per_period_ - 1);
   }
-  std::int64_t month_of(std::int64_t day) const { return day >> month_shift_; }
-  std::vector<Note>& notes_of(std::int64_t month) { return notes_[static_cast<std::size_t>(month) % months]; }
+  std::int64_t week_of(std::int64_t day) const { return day >> week_shift_; }
+  std::vector<Note>& notes_of(std::int64_t week) { return notes_[static_cast<std::size_t>(week) % weeks]; }
   std::size_t list_of(std::int64_t day) const { return static_cast<std::size_t>(day) & (heads_.size() - 1); }
   int head(std::int64_t day) const { return heads_[list_of(day)]; }
 
@@ -158,9 +157,9 @@ class EventQueue {
     Entry& e = entries_[ball];
     e.next = put_off;
     if (e.day == no_day) return;
-    // What is later than all months is looked at again in the last.
-    const auto month = std::min(month_of(e.day), month_of(horizon_) + (months - 2));
-    notes_of(month).push_back({ball, static_cast<std::uint32_t>(e.day)});
+    // What is later than all weeks is looked at again in the last.
+    const auto week = std::min(week_of(e.day), week_of(horizon_) + (weeks - 2));
+    notes_of(week).push_back({ball, static_cast<std::uint32_t>(e.day)});
   }
   void link(int ball) {
     Entry& e = entries_[ball];
@@ -185,10 +184,10 @@ class EventQueue {
     marks_[list / 64] &= ~(std::uint64_t{e.next == none} << (list % 64));
   }
 
-  /// Moves the horizon by a month.
-  [[gnu::noinline]] void open_month() {
-    auto& notes = notes_of(month_of(horizon_));
-    horizon_ += days_per_month_;
+  /// Moves the horizon by a week.
+  [[gnu::noinline]] void open_week() {
+    auto& notes = notes_of(week_of(horizon_));
+    horizon_ += days_per_week_;
     constexpr std::size_t ahead = 8;
     for (std::size_t k = 0; k < notes.size(); ++k) {
       if (k + ahead < notes.size()) fetch(&entries_[notes[k + ahead].ball]);
@@ -208,7 +207,7 @@ class EventQueue {
     std::fill(marks_.begin(), marks_.end(), 0);
     for (auto& notes : notes_) notes.clear();
     today_ = day;
-    horizon_ = (month_of(day) + 2) * days_per_month_;
+    horizon_ = (week_of(day) + 4) * days_per_week_;
     for (int i = 0; i < static_cast<int>(entries_.size()); ++i) put(i);
   }
 
@@ -235,12 +234,12 @@ class EventQueue {
   LargeVector<Entry> entries_;
   std::vector<int> heads_;                ///< of the lists of days
   std::vector<std::uint64_t> marks_;      ///< one for each list that is not empty
-  std::vector<std::vector<Note>> notes_;  ///< for the months from the horizon on
-  std::int64_t days_per_month_;           ///< a power of two
-  int month_shift_ = std::countr_zero(static_cast<std::uint64_t>(days_per_month_));
+  std::vector<std::vector<Note>> notes_;  ///< for the weeks from the horizon on
+  std::int64_t days_per_week_;            ///< a power of two
+  int week_shift_ = std::countr_zero(static_cast<std::uint64_t>(days_per_week_));
   std::int64_t days_per_period_ = 1024;
   double days_per_second_;
-  std::int64_t today_ = 0, horizon_ = 0;  ///< days, the latter the first of a month
+  std::int64_t today_ = 0, horizon_ = 0;  ///< days, the latter the first of a week
   int top_ = none;
   std::int64_t taken_ = 0, days_passed_ = 0;  ///< since the last review
   std::int64_t review_ = 64;                  ///< after so many events; soon at first, when nothing is known
