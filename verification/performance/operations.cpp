@@ -1,5 +1,7 @@
 // Nanoseconds of the single operations of the loop, on states taken from real runs.
+#include <algorithm>
 #include <memory>
+#include <numeric>
 #include <random>
 
 #include "subjects.hpp"
@@ -121,6 +123,31 @@ void queue_operation(benchmark::State& state, int balls) {
   }
 }
 
+struct alignas(64) Line {
+  std::uint32_t next;
+};
+
+/// A cache line from anywhere in so much memory: where the one before it says, or wherever, so that many come
+/// at once.
+void memory_line(benchmark::State& state, std::size_t megabytes, bool one_by_one) {
+  LargeVector<Line> lines((megabytes << 20) / sizeof(Line));
+  std::vector<std::uint32_t> order(lines.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937_64 random(20110101);
+  std::shuffle(order.begin(), order.end(), random);
+  for (std::size_t k = 0; k < order.size(); ++k) lines[order[k]].next = order[(k + 1) % order.size()];
+  std::uint32_t at = 0, sum = 0;
+  std::uint64_t draw = 1;
+  for (auto _ : state) {
+    draw = draw * 6364136223846793005u + 1442695040888963407u;
+    if (one_by_one)
+      at = lines[at].next;
+    else
+      sum += lines[(draw >> 33) & (lines.size() - 1)].next;
+  }
+  benchmark::DoNotOptimize(at + sum);
+}
+
 template <class Function>
 void add(const std::string& name, Function function) {
   benchmark::RegisterBenchmark(("operation/" + name).c_str(), function)->MinTime(0.1);
@@ -137,6 +164,10 @@ void register_operations() {
   add("pair_query/gas_1000", [](benchmark::State& s) { pair_query(s, gas()); });
   for (const int balls : {28, 1000, 100000})
     add("queue/" + std::to_string(balls), [=](benchmark::State& s) { queue_operation(s, balls); });
+  for (const std::size_t size : {1, 4, 16, 64})
+    for (const bool one_by_one : {true, false})
+      add("memory/" + std::to_string(size) + (one_by_one ? "/one_by_one" : "/at_once"),
+          [=](benchmark::State& s) { memory_line(s, size, one_by_one); });
 }
 
 }  // namespace edmill::performance
