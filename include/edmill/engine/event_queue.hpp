@@ -105,7 +105,7 @@ class EventQueue {
 
   /// Nearly all events of few balls lie before the horizon, and most of many within the weeks.
   static std::size_t list_count(std::size_t balls) {
-    return std::bit_ceil(std::max(std::clamp<std::size_t>(8 * balls, 256, 16384), balls / 8));
+    return std::bit_ceil(std::max(std::clamp<std::size_t>(8 * balls, 1024, 16384), balls / 8));
   }
 
   /// Never later for an earlier time: `today` may be emptied before tomorrow is looked at.

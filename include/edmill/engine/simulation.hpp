@@ -171,7 +171,7 @@ class Simulation {
   model::VesselPose<Real> pose_now() const;
   model::VesselPose<Real> pose_at_wall_contact(int ball) const;
   void collide_pair(int ball, int partner);
-  void number_anew();
+  [[gnu::noinline]] void number_anew();
   void number_impact(int ball, int partner);
   void after_impact(Impact<Real>& impact);
   dynamics::Persistence<Real> persistence_of(const Impact<Real>& impact) const {
