@@ -38,6 +38,13 @@ bool same(const Impact<Real>& a, const Impact<Real>& b) {
 }
 
 template <class Real>
+void expect_same_impacts(const Followed<Real>& one, const Followed<Real>& other) {
+  const auto &a = one.recorder.impacts, &b = other.recorder.impacts;
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) ASSERT_TRUE(same(a[k], b[k])) << "impact " << k;
+}
+
+template <class Real>
 void expect_same_course(const casefile::CaseSpec& spec, int first, int last, std::size_t at_least) {
   Followed<Real> one(spec);
   one.go_to(first);
@@ -55,10 +62,8 @@ void expect_same_course(const casefile::CaseSpec& spec, int first, int last, std
 
   one.go_to(last);
   other.go_to(last);
-  const auto &a = one.recorder.impacts, &b = other.recorder.impacts;
-  ASSERT_GE(a.size(), at_least);
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t k = 0; k < a.size(); ++k) ASSERT_TRUE(same(a[k], b[k])) << "impact " << k;
+  EXPECT_GE(one.recorder.impacts.size(), at_least);
+  expect_same_impacts(one, other);
   for (int i = 0; i < one.simulation.ball_count(); ++i) {
     const auto x = one.simulation.state_at(i, one.simulation.now()),
                y = other.simulation.state_at(i, other.simulation.now());
@@ -142,10 +147,8 @@ void expect_saving_changes_nothing(const casefile::CaseSpec& spec, int milliseco
     Archive saved;
     saved(other.simulation);
   }
-  const auto &a = one.recorder.impacts, &b = other.recorder.impacts;
-  ASSERT_GE(a.size(), at_least);
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t k = 0; k < a.size(); ++k) ASSERT_TRUE(same(a[k], b[k])) << "impact " << k;
+  EXPECT_GE(one.recorder.impacts.size(), at_least);
+  expect_same_impacts(one, other);
 }
 TEST(Checkpoint, SavingChangesNothing) { expect_saving_changes_nothing(testing::demo_spec(), 500, 5000); }
 TEST(Checkpoint, SavingChangesNothingWithCells) {
@@ -165,9 +168,7 @@ TEST(Checkpoint, APauseChangesNothing) {
   int paused = 0;
   while (other.simulation.run_until(end) == EndReason::paused) ++paused;
   EXPECT_GT(paused, 100);
-  const auto &a = one.recorder.impacts, &b = other.recorder.impacts;
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t k = 0; k < a.size(); ++k) ASSERT_TRUE(same(a[k], b[k])) << "impact " << k;
+  expect_same_impacts(one, other);
 }
 
 TEST(Checkpoint, AnInterruptIsSeenBeforeTheNextEvent) {
@@ -186,9 +187,7 @@ TEST(Checkpoint, AnInterruptIsSeenBeforeTheNextEvent) {
 
   interrupts.asked = false;
   EXPECT_EQ(cut.simulation.run_until(end, &interrupts.asked), EndReason::end_time);
-  const auto &a = whole.recorder.impacts, &b = cut.recorder.impacts;
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t k = 0; k < a.size(); ++k) ASSERT_TRUE(same(a[k], b[k])) << "impact " << k;
+  expect_same_impacts(whole, cut);
 }
 
 TEST(Checkpoint, AnInterruptDuringTheFirstPredictionsEndsThem) {
