@@ -1,5 +1,7 @@
 #include "edmill/engine/flight_table.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace edmill::engine {
@@ -17,101 +19,19 @@ namespace {
 
 typedef double Four __attribute__((vector_size(32)));
 typedef std::int64_t FourIntegers __attribute__((vector_size(32)));
+typedef int FourPlaces __attribute__((vector_size(16)));
+using Column = double[FlightBatch::capacity];
 
 static_assert(sizeof(dynamics::Flight<double>) == 2 * sizeof(Four));
 
-/// Four flights by columns.
-struct FourFlights {
-  Four x, y, z, u, v, w;
-  Four age;  ///< now [s]
-  Four radius;
-};
-
-/// A question in every lane, and out of reach of stores.
-struct FourQuestions {
-  Four px, py, pz, vx, vy, vz, age, radius;
-  Four gx, gy, gz, relative, slowest, touching;
-  Four drive, now;
-};
-
-EDMILL_INTO_CLONES void spread(double value, Four& four) { four = value - Four{}; }
-EDMILL_INTO_CLONES void spread(const PairQuestion& q, FourQuestions& four) {
-  spread(q.seen.position[0], four.px), spread(q.seen.position[1], four.py),
-      spread(q.seen.position[2], four.pz);
-  spread(q.seen.velocity[0], four.vx), spread(q.seen.velocity[1], four.vy),
-      spread(q.seen.velocity[2], four.vz);
-  spread(q.seen.age, four.age), spread(q.radius, four.radius);
-  spread(q.filter.gravity[0], four.gx), spread(q.filter.gravity[1], four.gy),
-      spread(q.filter.gravity[2], four.gz);
-  spread(q.filter.relative, four.relative), spread(q.filter.slowest_squared, four.slowest);
-  spread(q.filter.touching, four.touching);
-  spread(q.filter.period, four.drive), spread(q.now.offset, four.now);
-}
-
 EDMILL_INTO_CLONES void load(const double* from, Four& four) { std::memcpy(&four, from, sizeof four); }
 EDMILL_INTO_CLONES void store(double* to, const Four& four) { std::memcpy(to, &four, sizeof four); }
-EDMILL_INTO_CLONES void store(std::int64_t* to, const FourIntegers& four) {
-  std::memcpy(to, &four, sizeof four);
-}
 
-/// Entries k to k + 3 of `looks`; see PairFilter. `meets` becomes -1 for a suspect and 0 else. A ball that is
-/// in the very same place is the ball of the question itself.
-EDMILL_INTO_CLONES void look_at_four(const FourFlights& f, const FourQuestions& q, int k, Looks& looks,
-                                     FourIntegers& meets) {
-  const Four half = f.age * 0.5, dt = q.age - f.age;
-  const Four rx = q.px - (f.x + f.age * (f.u + half * q.gx));
-  const Four ry = q.py - (f.y + f.age * (f.v + half * q.gy));
-  const Four rz = q.pz - (f.z + f.age * (f.w + half * q.gz));
-  const Four ux = (q.vx - f.u) + q.gx * dt, uy = (q.vy - f.v) + q.gy * dt, uz = (q.vz - f.w) + q.gz * dt;
-  const Four b = rx * ux + ry * uy + rz * uz;
-  const Four r2 = rx * rx + ry * ry + rz * rz;
-  const Four v2 = ux * ux + uy * uy + uz * uz;
-  const Four sum = q.radius + f.radius;
-  const Four c = r2 - sum * sum;
-  const Four discriminant = b * b - v2 * c, doubt = q.relative * (v2 * r2);
-  const FourIntegers moving = v2 > q.slowest, clear = moving & (c > q.touching);
-  const FourIntegers apart = (c > q.touching) & ((b >= 0) | (discriminant < -doubt));
-  const FourIntegers parting = (b > 0) & (b * b > doubt);
-  meets = ~((moving & (apart | parting)) | (r2 == 0));
-  store(looks.approach() + k, b);
-  store(looks.gap() + k, c);
-  store(looks.discriminant() + k, (clear & (discriminant > doubt)) ? discriminant : Four{} - 1.0);
-}
-
-}  // namespace
-
-EDMILL_FOR_SEVERAL_CPUS void look_at_all(const FlightColumns& flights, const PairQuestion& question,
-                                         Looks& looks) {
-  FourQuestions q;
-  spread(question, q);
-  Four now_period;
-  spread(static_cast<double>(question.now.period), now_period);
-  const int rounded_up = static_cast<int>(flights.x.size());
-  for (int k = 0; k < rounded_up; k += 4) {
-    FourFlights f;
-    Four period, offset;
-    load(&flights.x[k], f.x), load(&flights.y[k], f.y), load(&flights.z[k], f.z);
-    load(&flights.u[k], f.u), load(&flights.v[k], f.v), load(&flights.w[k], f.w);
-    load(&flights.period[k], period), load(&flights.offset[k], offset), load(&flights.radius[k], f.radius);
-    f.age = (now_period - period) * q.drive + (q.now - offset);
-    FourIntegers meets;
-    look_at_four(f, q, k, looks, meets);
-    store(looks.meets() + k, meets);
-  }
-}
-
-// Four flights are two rows each; turned, they are columns.
-EDMILL_FOR_SEVERAL_CPUS int look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
-                                    const PairQuestion& question, int self, int* balls, int count,
-                                    Looks& looks) {
-  FourQuestions q;
-  spread(question, q);
-  const std::int64_t now_period = question.now.period;
-  Four common_radius;
-  spread(radii[0], common_radius);
-  int* suspects = looks.suspects();
-  int found = 0;
-  balls[count] = balls[count + 1] = balls[count + 2] = self;
+/// Turns flights into columns: four flights are two rows each.
+/// @param balls  with room for a multiple of four
+EDMILL_INTO_CLONES void gather(const dynamics::Flight<double>* flights, const double* radii, int stride,
+                               const int* balls, int count, FlightBatch& batch) {
+  batch.radius[0] = radii[0];
   for (int k = 0; k < count; k += 4) {
     const int i0 = balls[k], i1 = balls[k + 1], i2 = balls[k + 2], i3 = balls[k + 3];
     const auto rows = [flights](int i) { return reinterpret_cast<const double*>(&flights[i]); };
@@ -126,53 +46,177 @@ EDMILL_FOR_SEVERAL_CPUS int look_at(const dynamics::Flight<double>* flights, con
                gh0 = __builtin_shufflevector(c1, d1, 0, 4, 2, 6);
     const Four ef1 = __builtin_shufflevector(a1, b1, 1, 5, 3, 7),
                gh1 = __builtin_shufflevector(c1, d1, 1, 5, 3, 7);
-    FourFlights f;
-    f.x = __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5);
-    f.z = __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7);
-    f.y = __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5);
-    f.u = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
-    f.v = __builtin_shufflevector(ef0, gh0, 0, 1, 4, 5);
-    f.w = __builtin_shufflevector(ef1, gh1, 0, 1, 4, 5);
-    const Four period = __builtin_shufflevector(ef0, gh0, 2, 3, 6, 7),
-               offset = __builtin_shufflevector(ef1, gh1, 2, 3, 6, 7);
-    f.radius = stride == 0 ? common_radius : Four{radii[i0], radii[i1], radii[i2], radii[i3]};
+    store(batch.position[0] + k, __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5));
+    store(batch.position[1] + k, __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5));
+    store(batch.position[2] + k, __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7));
+    store(batch.velocity[0] + k, __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7));
+    store(batch.velocity[1] + k, __builtin_shufflevector(ef0, gh0, 0, 1, 4, 5));
+    store(batch.velocity[2] + k, __builtin_shufflevector(ef1, gh1, 0, 1, 4, 5));
+    const Four periods = __builtin_shufflevector(ef0, gh0, 2, 3, 6, 7);
+    std::memcpy(batch.period + k, &periods, sizeof periods);
+    store(batch.offset + k, __builtin_shufflevector(ef1, gh1, 2, 3, 6, 7));
+    if (stride != 0) store(batch.radius + k, Four{radii[i0], radii[i1], radii[i2], radii[i3]});
+  }
+}
 
-    // Whole periods since the start, below 2^51: as the low bits of a double they need no conversion.
-    constexpr double shift = 6755399441055744.0;  // 1.5 x 2^52
+/// Times since the starts.
+EDMILL_INTO_CLONES void find_ages(const FlightBatch& batch, const PairQuestion& question, int count,
+                                  Column& ages) {
+  // Whole periods, below 2^51: as the low bits of a double they need no conversion.
+  constexpr double shift = 6755399441055744.0;  // 1.5 x 2^52
+  constexpr std::int64_t bits_of_shift = 0x4338000000000000;
+  const double drive = question.filter.period, now = question.now.offset;
+  for (int k = 0; k < count; k += 4) {
     FourIntegers started;
-    std::memcpy(&started, &period, sizeof period);
-    const FourIntegers shifted = (now_period - started) + std::int64_t{0x4338000000000000};
-    Four periods;
-    std::memcpy(&periods, &shifted, sizeof periods);
-    f.age = (periods - shift) * q.drive + (q.now - offset);
-    FourIntegers meets;
-    look_at_four(f, q, k, looks, meets);
+    std::memcpy(&started, batch.period + k, sizeof started);
+    const FourIntegers shifted = (question.now.period - started) + bits_of_shift;
+    Four periods, offset;
+    std::memcpy(&periods, &shifted, sizeof shifted);
+    load(batch.offset + k, offset);
+    store(ages + k, (periods - shift) * drive + (now - offset));
+  }
+}
+
+/// One coordinate of the motion of the question's ball relative to each of the batch.
+EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairQuestion& question, int axis,
+                                    int count, const Column& ages, Column& r, Column& v) {
+  const double position = question.seen.position[axis], velocity = question.seen.velocity[axis];
+  const double gravity = question.filter.gravity[axis];
+  Four x, u, age;
+  if (gravity == 0) {  // which changes no bit
+    for (int k = 0; k < count; k += 4) {
+      load(batch.position[axis] + k, x), load(batch.velocity[axis] + k, u), load(ages + k, age);
+      store(r + k, position - (x + age * u));
+      store(v + k, velocity - u);
+    }
+  } else {
+    for (int k = 0; k < count; k += 4) {
+      load(batch.position[axis] + k, x), load(batch.velocity[axis] + k, u), load(ages + k, age);
+      store(r + k, position - (x + age * (u + (age * 0.5) * gravity)));
+      store(v + k, (velocity - u) + gravity * (question.seen.age - age));
+    }
+  }
+}
+
+/// Squares of the distances at which the balls touch.
+EDMILL_INTO_CLONES void find_squares(const FlightBatch& batch, double radius, int count, Column& squares) {
+  for (int k = 0; k < count; k += 4) {
+    Four other;
+    load(batch.radius + k, other);
+    const Four sum = radius + other;
+    store(squares + k, sum * sum);
+  }
+}
+
+/// Lanes that are -1, as the bits of a number.
+EDMILL_INTO_CLONES unsigned bits_of(const FourIntegers& lanes) {
+#ifdef __SSE2__
+  typedef double Two __attribute__((vector_size(16)));
+  Two low, high;
+  std::memcpy(&low, &lanes, sizeof low);
+  std::memcpy(&high, reinterpret_cast<const char*>(&lanes) + sizeof low, sizeof high);
+  return static_cast<unsigned>(__builtin_ia32_movmskpd(low) + 4 * __builtin_ia32_movmskpd(high));
+#else
+  return static_cast<unsigned>((lanes[0] & 1) + (lanes[1] & 2) + (lanes[2] & 4) + (lanes[3] & 8));
+#endif
+}
+
+/// Which of four lanes have their bits set, by these bits; and how many, in four bits each.
+constexpr auto lanes_by_bits = [] {
+  std::array<std::array<int, 4>, 16> table{};
+  for (int bits = 0; bits < 16; ++bits)
+    for (int lane = 0, found = 0; lane < 4; ++lane)
+      if ((bits >> lane & 1) != 0) table[bits][found++] = lane;
+  return table;
+}();
+constexpr std::uint64_t counts_by_bits = 0x4332322132212110;
+
+/// The pair filter, see PairFilter, for balls `first` and on of those looked at, by steps that are short chains
+/// of operations, so that the processor works on several fours at once. A ball in the very same place is the
+/// question's own.
+/// @param found  how many suspects there are before
+/// @return how many there are then
+EDMILL_INTO_CLONES int judge(const FlightBatch& batch, const PairQuestion& question, bool alike, int first,
+                             int count, Looks& looks, int found) {
+  alignas(64) Column ages, rx, ry, rz, vx, vy, vz, squares;
+  find_ages(batch, question, count, ages);
+  find_motion(batch, question, 0, count, ages, rx, vx);
+  find_motion(batch, question, 1, count, ages, ry, vy);
+  find_motion(batch, question, 2, count, ages, rz, vz);
+  find_squares(batch, question.radius, alike ? 1 : count, squares);
+  if (alike) std::fill(squares + 1, squares + 4, squares[0]);
+  const int next_square = alike ? 0 : 1;
+  const double relative = question.filter.relative, slowest = question.filter.slowest_squared,
+               touching = question.filter.touching;
+  double *approach = looks.approach() + first, *gap = looks.gap() + first,
+         *discriminants = looks.discriminant() + first;
+  int* suspects = looks.suspects();
+  for (int k = 0; k < count; k += 4) {
+    Four x, y, z, u, v, w, square;
+    load(rx + k, x), load(ry + k, y), load(rz + k, z), load(vx + k, u), load(vy + k, v), load(vz + k, w);
+    load(squares + k * next_square, square);
+    const Four b = x * u + y * v + z * w;
+    const Four r2 = x * x + y * y + z * z;
+    const Four v2 = u * u + v * v + w * w;
+    const Four c = r2 - square;
+    const Four discriminant = b * b - v2 * c, doubt = relative * (v2 * r2);
+    const FourIntegers moving = v2 > slowest, clear = moving & (c > touching);
+    const FourIntegers apart = (c > touching) & ((b >= 0) | (discriminant < -doubt));
+    const FourIntegers parting = (b > 0) & (b * b > doubt);
+    const FourIntegers meets = ~((moving & (apart | parting)) | (r2 == 0));
+    store(approach + k, b);
+    store(gap + k, c);
+    store(discriminants + k, (clear & (discriminant > doubt)) ? discriminant : Four{} - 1.0);
     // Without branches: which of them is one is anybody's guess.
-    suspects[found] = k, found -= static_cast<int>(meets[0]);
-    suspects[found] = k + 1, found -= static_cast<int>(meets[1]);
-    suspects[found] = k + 2, found -= static_cast<int>(meets[2]);
-    suspects[found] = k + 3, found -= static_cast<int>(meets[3]);
+    const unsigned bits = bits_of(meets);
+    FourPlaces places;
+    std::memcpy(&places, &lanes_by_bits[bits], sizeof places);
+    places += first + k;
+    std::memcpy(suspects + found, &places, sizeof places);
+    found += static_cast<int>(counts_by_bits >> (4 * bits) & 15);
+  }
+  return found;
+}
+
+}  // namespace
+
+EDMILL_FOR_SEVERAL_CPUS int look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
+                                    const PairQuestion& question, int self, int* balls, int count,
+                                    Looks& looks) {
+  balls[count] = balls[count + 1] = balls[count + 2] = self;
+  FlightBatch batch;
+  int found = 0;
+  for (int first = 0; first < count; first += FlightBatch::capacity) {
+    const int here = std::min(count - first, FlightBatch::capacity);
+    gather(flights, radii, stride, balls + first, here, batch);
+    found = judge(batch, question, stride == 0, first, here, looks, found);
+  }
+  return found;
+}
+
+EDMILL_FOR_SEVERAL_CPUS int look_at_all(const FlightBatch* batches, int balls, bool alike,
+                                        const PairQuestion& question, Looks& looks) {
+  int found = 0;
+  for (int first = 0; first < balls; first += FlightBatch::capacity) {
+    const int here = std::min(balls - first, FlightBatch::capacity);
+    found = judge(batches[first / FlightBatch::capacity], question, alike, first, here, looks, found);
   }
   return found;
 }
 
 int FlightTable::look(const PairQuestion& question, Looks& looks) const {
   looks.make_room(balls_);
-  look_at_all(f_, question, looks);
-  const std::int64_t* meets = looks.meets();
-  int* suspects = looks.suspects();
-  int found = 0;
-  // Suspects are rare: look at eight at a time.
-  int k = 0;
-  for (; k + 8 <= balls_; k += 8) {
-    const std::int64_t* m = meets + k;
-    if ((((m[0] | m[1]) | (m[2] | m[3])) | ((m[4] | m[5]) | (m[6] | m[7]))) == 0) continue;
-    for (int near = k; near < k + 8; ++near)
-      if (meets[near] != 0) suspects[found++] = near;
-  }
-  for (; k < balls_; ++k)
-    if (meets[k] != 0) suspects[found++] = k;
+  int found = look_at_all(batches_.data(), balls_, alike_, question, looks);
+  if (balls_ % 4 != 0)  // the last four of a batch are not all balls
+    while (found > 0 && looks.suspects()[found - 1] >= balls_) --found;
   return found;
+}
+
+void Looks::grow(int count) {
+  room_ = 2 * count;
+  const auto size = static_cast<std::size_t>(room_) + 8;
+  suspects_.resize(size);
+  for (auto* column : {&approach_, &gap_, &discriminant_}) column->resize(size);
 }
 
 }  // namespace edmill::engine

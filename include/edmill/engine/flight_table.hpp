@@ -17,9 +17,13 @@ struct PairQuestion {
   const dynamics::PairFilter<double>& filter;
 };
 
-/// Flights by columns, with room for a multiple of four.
-struct FlightColumns {
-  std::vector<double> x, y, z, u, v, w, period, offset, radius;
+/// Some flights by columns.
+struct alignas(64) FlightBatch {
+  static constexpr int capacity = 64;
+  double position[3][capacity], velocity[3][capacity];  ///< at the start, by axis
+  std::int64_t period[capacity];                        ///< of the start
+  double offset[capacity];                              ///< of the start
+  double radius[capacity];                              ///< the first one serves for all when they are alike
 };
 
 /// What the filter saw of each ball looked at, and which of them are left: the suspects. Room only grows.
@@ -27,10 +31,8 @@ class Looks {
  public:
   /// For so many balls, rounded up to a multiple of four.
   void make_room(int count) {
-    const std::size_t size = (static_cast<std::size_t>(count) + 7) / 4 * 4;
-    if (suspects_.size() >= size) return;
-    suspects_.resize(size), meets_.resize(size);
-    approach_.resize(size), gap_.resize(size), discriminant_.resize(size);
+    if (count > room_) [[unlikely]]
+      grow(count);
   }
 
   /// Until the contact with the k-th ball looked at [s]; negative where only a closer look can tell. (3.1)
@@ -39,22 +41,20 @@ class Looks {
   }
 
   int* suspects() { return suspects_.data(); }     ///< places of the suspects among the balls looked at
-  std::int64_t* meets() { return meets_.data(); }  ///< -1 for a suspect and 0 else
   double* approach() { return approach_.data(); }  ///< b = r.v of (3.1)
   double* gap() { return gap_.data(); }            ///< c = r.r - R^2
   double* discriminant() { return discriminant_.data(); }  ///< b^2 - v.v c; -1 where its sign is open
 
  private:
+  void grow(int count);
+
+  int room_ = 0;
   std::vector<int> suspects_;
-  std::vector<std::int64_t> meets_;
   std::vector<double> approach_, gap_, discriminant_;
 };
 
-/// Fills the columns of `looks`, which have room for all balls. Compiled for several instruction sets, all
-/// with the same bits since nothing is contracted.
-void look_at_all(const FlightColumns& flights, const PairQuestion& question, Looks& looks);
-
-/// The same for a list of balls, and finds the suspects among them.
+/// Looks at a list of balls and finds the suspects among them. Compiled for several instruction sets, all with
+/// the same bits since nothing is contracted.
 /// @param flights, radii  of all balls; ball i has radius radii[i * stride]
 /// @param self            the ball of the question, which is never a suspect
 /// @param balls, looks    with room for three more than `count`
@@ -62,20 +62,26 @@ void look_at_all(const FlightColumns& flights, const PairQuestion& question, Loo
 int look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
             const PairQuestion& question, int self, int* balls, int count, Looks& looks);
 
+/// The same for the first `balls` of `batches`, which have room for a multiple of four: those beyond the last
+/// are looked at, too.
+int look_at_all(const FlightBatch* batches, int balls, bool alike, const PairQuestion& question,
+                Looks& looks);
+
 /// Where cells are of no use this looks at every ball.
 class FlightTable {
  public:
-  explicit FlightTable(int balls) : balls_(balls) {
-    for (auto* column : {&f_.x, &f_.y, &f_.z, &f_.u, &f_.v, &f_.w, &f_.period, &f_.offset, &f_.radius})
-      column->resize((static_cast<std::size_t>(balls) + 3) / 4 * 4);
-  }
+  /// @param alike  whether all balls have one radius
+  FlightTable(int balls, bool alike)
+      : balls_(balls), alike_(alike), batches_(balls / FlightBatch::capacity + 1) {}
 
   void set(int ball, const dynamics::Flight<double>& flight, double radius) {
-    f_.x[ball] = flight.position[0], f_.y[ball] = flight.position[1], f_.z[ball] = flight.position[2];
-    f_.u[ball] = flight.velocity[0], f_.v[ball] = flight.velocity[1], f_.w[ball] = flight.velocity[2];
-    f_.period[ball] = static_cast<double>(flight.start.period);
-    f_.offset[ball] = flight.start.offset;
-    f_.radius[ball] = radius;
+    FlightBatch& batch = batches_[ball / FlightBatch::capacity];
+    const int place = ball % FlightBatch::capacity;
+    for (int k = 0; k < 3; ++k) batch.position[k][place] = flight.position[k];
+    for (int k = 0; k < 3; ++k) batch.velocity[k][place] = flight.velocity[k];
+    batch.period[place] = flight.start.period;
+    batch.offset[place] = flight.start.offset;
+    batch.radius[place] = radius;
   }
 
   /// Finds the suspects among all balls; the k-th ball looked at is ball k.
@@ -84,7 +90,8 @@ class FlightTable {
 
  private:
   int balls_;
-  FlightColumns f_;
+  bool alike_;
+  std::vector<FlightBatch> batches_;
 };
 
 }  // namespace edmill::engine

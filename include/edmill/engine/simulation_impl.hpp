@@ -102,7 +102,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
     spins_.push_back(s.spin);
   }
   for (int i = 0; i < ball_count(); ++i) grid_.insert(i, vector_cast<double>(flights_[i].position));
-  if (grid_.single_cell()) table_.emplace(static_cast<int>(states.size()));
+  if (grid_.single_cell()) table_.emplace(static_cast<int>(states.size()), stride_ == 0);
   for (int i = 0; i < ball_count(); ++i) flight_changed(i);
   const auto pose = model::pose_at<Real>(mill_.motion, start.offset);
   for (int i = 0; i < ball_count(); ++i) {
