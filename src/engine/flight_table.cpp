@@ -131,9 +131,9 @@ constexpr auto lanes_by_bits = [] {
 }();
 constexpr std::uint64_t counts_by_bits = 0x4332322132212110;
 
-/// The pair filter, see PairFilter, for balls `first` and on of those looked at, by steps that are short chains
-/// of operations, so that the processor works on several fours at once. A ball in the very same place is the
-/// question's own.
+/// The pair filter, see PairFilter, for balls `first` and on of those looked at. Each step is a short chain
+/// of operations, so that the processor works on several fours at once; one chain of all would leave it
+/// waiting. A ball in the very same place is the question's own.
 /// @param found  how many suspects there are before
 /// @return how many there are then
 EDMILL_INTO_CLONES int judge(const FlightBatch& batch, const PairQuestion& question, bool alike, int first,

@@ -52,17 +52,20 @@ struct Swarm {
 };
 
 TEST(FlightTable, SeesWhatPairSearchSees) {
-  const auto mill = testing::spex_mill<double>();
-  const auto wide_mill = testing::spex_mill<float128>();
+  auto mill = testing::spex_mill<double>();
+  auto wide_mill = testing::spex_mill<float128>();
+  const std::vector<Vec3<double>> gravities{mill.gravity, {0, 0, 0}, {1, -9, 0.5}};
   setup::Random random(20110101);
   std::map<std::string, int> seen;
   for (int turn = 0; turn < 400; ++turn) {
-    const int balls = 1 + static_cast<int>(random.uniform<double>() * 40);
+    const int balls = 1 + static_cast<int>(random.uniform<double>() * (turn % 5 == 0 ? 200 : 40));
     const bool alike = turn % 2 == 0;
+    mill.gravity = gravities[turn % gravities.size()];
+    wide_mill.gravity = vector_cast<float128>(mill.gravity);
     const Swarm swarm(random, balls, alike, mill.gravity, mill.motion.period);
     const PairSearch<double> search(mill, 0.002, 0.1, 10);
     const PairSearch<float128> wide(wide_mill, float128(0.002), float128(0.1), float128(10));
-    FlightTable table(balls);
+    FlightTable table(balls, alike);
     for (int i = 0; i < balls; ++i) table.set(i, swarm.flights[i], swarm.radii[i]);
 
     const int self = static_cast<int>(random.uniform<double>() * balls);

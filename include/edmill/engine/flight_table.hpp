@@ -53,8 +53,8 @@ class Looks {
   std::vector<double> approach_, gap_, discriminant_;
 };
 
-/// Looks at a list of balls and finds the suspects among them. Compiled for several instruction sets, all with
-/// the same bits since nothing is contracted.
+/// Looks at a list of balls and finds the suspects among them. Compiled for several instruction sets, all
+/// with the same bits since nothing is contracted.
 /// @param flights, radii  of all balls; ball i has radius radii[i * stride]
 /// @param self            the ball of the question, which is never a suspect
 /// @param balls, looks    with room for three more than `count`

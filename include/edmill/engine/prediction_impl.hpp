@@ -11,45 +11,39 @@ template <class Real>
 void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose,
                                    FoundBalls& near) {
   const auto roughly = see_roughly(ball);
-  predict_pairs(ball, already_done, roughly, near);
+  agendas_[ball].drop_pairs();
+  const int found = look_around(ball, roughly, near);
+  // Before the suspects: how many there are is known late, and the processor can do this meanwhile.
   predict_crossing(ball, roughly);
+  predict_suspects(ball, already_done, roughly, found, near);
   fetch_more();
   predict_wall(ball, pose);
   requeue(ball);
 }
 
+/// Finds the suspects among all balls that the ball may meet.
+/// @return how many there are
 template <class Real>
-void Simulation<Real>::predict_pairs(int ball, int already_done, const RoughlySeen& roughly,
-                                     FoundBalls& near) {
-  agendas_[ball].drop_pairs();
-  if (table_) {
-    const int found = table_->look(question(ball, roughly), looks_);
-    predict_suspects(ball, already_done, roughly, found, [](int place) { return place; });
-  } else {
-    if (!many_balls()) grid_.neighbours(ball, near);
-    predict_near(ball, already_done, roughly, near);
-  }
+int Simulation<Real>::look_around(int ball, const RoughlySeen& roughly, FoundBalls& near) {
+  if (table_) return table_->look(question(ball, roughly), looks_);
+  if (!many_balls()) grid_.neighbours(ball, near);
+  return look_at_near(ball, roughly, near);
 }
 
-/// Predicts contacts with the balls of `near`.
 template <class Real>
-void Simulation<Real>::predict_near(int ball, int already_done, const RoughlySeen& roughly,
-                                    FoundBalls& near) {
+int Simulation<Real>::look_at_near(int ball, const RoughlySeen& roughly, FoundBalls& near) {
   looks_.make_room(near.count);
-  int* balls = near.balls.data();
-  const int found = look_at(rough_flights(), radii_.data(), stride_, question(ball, roughly), ball, balls,
-                            near.count, looks_);
-  predict_suspects(ball, already_done, roughly, found, [balls](int place) { return balls[place]; });
+  return look_at(rough_flights(), radii_.data(), stride_, question(ball, roughly), ball, near.balls.data(),
+                 near.count, looks_);
 }
 
 /// Predicts contacts with the suspects of `looks_`.
 template <class Real>
-template <class BallAt>
 void Simulation<Real>::predict_suspects(int ball, int already_done, const RoughlySeen& roughly, int found,
-                                        BallAt ball_at) {
+                                        const FoundBalls& near) {
   const int* suspects = looks_.suspects();
   for (int k = 0; k < found; ++k) {
-    const int other = ball_at(suspects[k]);
+    const int other = table_ ? suspects[k] : near.balls[suspects[k]];
     if (other == already_done) continue;
     if constexpr (std::is_same_v<Real, double>) {
       const double delay = looks_.delay(suspects[k]);

@@ -202,9 +202,9 @@ class Simulation {
   void fetch_more() {
     if (fetched_ < portions) fetch_portion();
   }
-  void predict_pairs(int ball, int already_done, const RoughlySeen& roughly, FoundBalls& near);
   void flight_changed(int ball);
-  void predict_near(int ball, int already_done, const RoughlySeen& roughly, FoundBalls& near);
+  int look_around(int ball, const RoughlySeen& roughly, FoundBalls& near);
+  int look_at_near(int ball, const RoughlySeen& roughly, FoundBalls& near);
   const dynamics::Flight<double>* rough_flights() const {
     if constexpr (std::is_same_v<Real, double>)
       return flights_.data();
@@ -215,8 +215,8 @@ class Simulation {
   PairQuestion question(int ball, const RoughlySeen& roughly) const {
     return {roughly, radii_[ball * stride_], dynamics::instant_cast<double>(now_), pair_filter_.filter()};
   }
-  template <class BallAt>
-  void predict_suspects(int ball, int already_done, const RoughlySeen& roughly, int found, BallAt ball_at);
+  void predict_suspects(int ball, int already_done, const RoughlySeen& roughly, int found,
+                        const FoundBalls& near);
   void expect_pair(int ball, int other, const Real& delay);
   void predict_crossing(int ball, const RoughlySeen& roughly);
   void predict_wall(int ball, const model::VesselPose<Real>& pose);

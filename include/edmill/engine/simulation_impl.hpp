@@ -196,7 +196,10 @@ void Simulation<Real>::drop_stale(int ball) {
   a.drop_nearest();
   if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) {
     fetch_neighbours(ball, near_);
-    predict_pairs(ball, -1, see_roughly(ball), near_);
+    a.drop_pairs();
+    const auto roughly = see_roughly(ball);
+    const int found = look_around(ball, roughly, near_);
+    predict_suspects(ball, -1, roughly, found, near_);
   }
   requeue(ball);
 }
@@ -209,8 +212,9 @@ void Simulation<Real>::cross_cell(int ball) {
   grid_.new_neighbours(ball, axis, step, near_);
   if (many_balls()) fetch_flights(near_);
   const auto roughly = see_roughly(ball);
+  const int found = look_at_near(ball, roughly, near_);
   predict_crossing(ball, roughly);
-  predict_near(ball, -1, roughly, near_);
+  predict_suspects(ball, -1, roughly, found, near_);
   requeue(ball);
 }
 
