@@ -92,6 +92,7 @@ TEST(FlightTable, SeesWhatPairSearchSees) {
                                 [&](int place) { return list[place]; });
 
     EXPECT_EQ(all.count(self), 0u);
+    EXPECT_TRUE(all.empty() || all.rbegin()->first < balls);
     for (int other = 0; other < balls; ++other) {
       if (other == self) continue;
       const double sum = swarm.radii[self] + swarm.radii[other];
@@ -126,24 +127,45 @@ TEST(FlightTable, SeesWhatPairSearchSees) {
   for (const char* kind : {"passed", "left open", "timed"}) EXPECT_GT(seen[kind], 50) << kind;
 }
 
-TEST(FlightTable, TwoThatHaveJustCollidedAndPartAreNoSuspects) {
-  const auto mill = testing::spex_mill<double>();
+/// What is found of a ball at rest and one more.
+struct Pair {
+  int suspects;
+  double delay;  ///< of the suspect, if any
+};
+Pair look_at_pair(const Vec3<double>& position, const Vec3<double>& velocity) {
+  auto mill = testing::spex_mill<double>();
+  mill.gravity = Vec3<double>::Zero();
   const PairSearch<double> search(mill, 0.004, 0.1, 10);
   const Instant<double> now{3, 0.02};
-  const auto suspects = [&](double speed) {
-    const std::vector<Flight<double>> flights{{{0, 0, 0}, {0, 0, 0}, now},
-                                              {{0.004, 0, 0}, {speed, 0.5, 0}, now}};
-    const std::vector<double> radii{0.002, 0.002};
-    const auto own = search.seen(flights[0], now);
-    std::vector<int> list{0, 1, 0, 0, 0};
-    Looks looks;
-    looks.make_room(2);
-    return look_at(flights.data(), radii.data(), 0, {own, 0.002, now, search.filter()}, 0, list.data(), 2,
-                   looks);
-  };
-  EXPECT_EQ(suspects(0.1), 0);   // they part
-  EXPECT_EQ(suspects(-0.1), 1);  // they approach
-  EXPECT_EQ(suspects(0), 1);     // only a closer look can tell
+  const std::vector<Flight<double>> flights{{{0, 0, 0}, {0, 0, 0}, now}, {position, velocity, now}};
+  const std::vector<double> radii{0.002, 0.002};
+  const auto own = search.seen(flights[0], now);
+  std::vector<int> list{0, 1, 0, 0, 0};
+  Looks looks;
+  looks.make_room(2);
+  const int found =
+      look_at(flights.data(), radii.data(), 0, {own, 0.002, now, search.filter()}, 0, list.data(), 2, looks);
+  return {found, found == 0 ? 0.0 : looks.delay(looks.suspects()[0])};
+}
+
+TEST(FlightTable, TwoThatHaveJustCollidedAndPartAreNoSuspects) {
+  EXPECT_EQ(look_at_pair({0.004, 0, 0}, {0.1, 0.5, 0}).suspects, 0);
+}
+
+TEST(FlightTable, OnlyACloserLookCanTellWhatTouchesOrGrazes) {
+  for (const auto& [position, velocity] : std::vector<std::pair<Vec3<double>, Vec3<double>>>{
+           {{0.004, 0, 0}, {-0.1, 0.5, 0}},                // touch and approach
+           {{0.004 * (1 + 1e-15), 0, 0}, {-0.1, 0.5, 0}},  // the same, with a gap by rounding
+           {{0.004, 0, 0}, {0, 0.5, 0}},                   // touch and slide
+           {{-0.01, 0.004, 0}, {1, 0, 0}}}) {              // will graze
+    const auto [suspects, delay] = look_at_pair(position, velocity);
+    EXPECT_EQ(suspects, 1);
+    EXPECT_LT(delay, 0);
+  }
+  EXPECT_EQ(look_at_pair({-0.01, 0.004 * (1 + 1e-5), 0}, {1, 0, 0}).suspects, 0);  // passes
+  // r.v = -0.01 and v.v = 1: at the contact the centres are 0.004 apart across 0.0039. (3.1)
+  const double contact = 0.01 - std::sqrt(0.004 * 0.004 - 0.0039 * 0.0039);
+  EXPECT_NEAR(look_at_pair({-0.01, 0.0039, 0}, {1, 0, 0}).delay, contact, 1e-15);
 }
 
 }  // namespace
