@@ -22,13 +22,14 @@ struct SpexSubject {
   const char* restitution;
   const char* gaps;
   double packing;
+  int steps;  ///< of a hundredth of a second, which hold some 600 000 collisions
 };
-inline constexpr SpexSubject demo{"28x4.76mm", 28, "4.76 mm", "0.53", "", 0.0245};
+inline constexpr SpexSubject demo{"28x4.76mm", 28, "4.76 mm", "0.53", "", 0.0245, 3500};
 inline constexpr SpexSubject spex_subjects[] = {
     demo,
-    {"111x4.76mm", 111, "4.76 mm", "0.64", "", 0.0970},
-    {"363x2.36mm", 363, "2.36 mm", "0.80", "", 0.0386},
-    {"908x2.36mm", 908, "2.36 mm", "0.80", "gap_ball = \"0.2 mm\"", 0.0967},
+    {"111x4.76mm", 111, "4.76 mm", "0.64", "", 0.0970, 600},
+    {"363x2.36mm", 363, "2.36 mm", "0.80", "", 0.0386, 260},
+    {"908x2.36mm", 908, "2.36 mm", "0.80", "gap_ball = \"0.2 mm\"", 0.0967, 45},
 };
 
 /// Its text, without an end.
