@@ -22,7 +22,7 @@ void* allocate_pages(std::size_t size);
 void free_pages(void* start);
 
 /// Large arrays in large pages, where the system has them: an event among many balls touches dozens of small
-/// pages, and finding a page costs more than reading it.
+/// pages, each of which would have to be found.
 template <class T>
 struct LargePages {
   using value_type = T;

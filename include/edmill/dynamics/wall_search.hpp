@@ -127,6 +127,7 @@ class WallSearch {
   template <bool rounded>
   WallAnswer<Real> first_contact(const Functions& functions, const GapStart<Real>& first, WallSet reachable,
                                  const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
+  void require_length(const WallQuery<Real>& query) const;
   Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
     return norm<Real>(velocity) + constants_.gravity * length;
   }

@@ -22,6 +22,12 @@ WallSet WallSearch<Real>::within_reach(const GapFunctions<Real>& functions, cons
 }
 
 template <class Real>
+void WallSearch<Real>::require_length(const WallQuery<Real>& query) const {
+  EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
+                 "window length out of range");
+}
+
+template <class Real>
 WallAnswer<Real> WallSearch<Real>::search(const WallQuery<Real>& query) const {
   return search(model::pose_at<Real>(constants_.mill.motion, constants_.angular_speed, constants_.frequency,
                                      query.begin.offset),
@@ -31,8 +37,7 @@ WallAnswer<Real> WallSearch<Real>::search(const WallQuery<Real>& query) const {
 template <class Real>
 WallAnswer<Real> WallSearch<Real>::search(const model::VesselPose<Real>& pose,
                                           const WallQuery<Real>& query) const {
-  EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
-                 "window length out of range");
+  require_length(query);
   const Functions functions(constants_, query.flight, query.radius, query.begin.period);
   const Real& begin = query.begin.offset;
   const auto ball = functions.seen(begin, pose);
@@ -121,8 +126,7 @@ RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
   if constexpr (is_wide) {
     return {};
   } else {
-    EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
-                   "window length out of range");
+    require_length(query);
     const Functions functions(constants_, query.flight, query.radius, query.begin.period);
     const Real begin = query.begin.offset;
     RoughAnswer rough;

@@ -110,7 +110,7 @@ class CellGrid {
     const Place& place = place_[ball];
     fetch(&content_[index(place)]);
     const auto& cell = place.cell;
-    const int one = axis == 0 ? 1 : 0, other = axis == 2 ? 1 : 2;
+    const auto [one, other] = across(axis);
     const int layer = at_[axis][cell[axis] + 1 + 2 * step];
     for (const int u : {cell[one], cell[one] + 2})
       for (const int v : {cell[other], cell[other] + 2})
@@ -129,7 +129,7 @@ class CellGrid {
   /// two other axes may be in any order.
   void new_neighbours(int ball, int axis, int step, FoundBalls& found) const {
     const auto& cell = place_[ball].cell;
-    const int one = axis == 0 ? 1 : 0, other = axis == 2 ? 1 : 2;
+    const auto [one, other] = across(axis);
     const int layer = at_[axis][cell[axis] + 1 + step];
     collect<1>(&layer, &at_[one][cell[one]], &at_[other][cell[other]], found);
   }
@@ -157,6 +157,9 @@ class CellGrid {
     void archive(Archive& a) { a(cell, next); }
   };
   static constexpr int none = -1;
+
+  /// The two other axes.
+  static std::array<int, 2> across(int axis) { return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}; }
 
   // What is selected below is a coin toss, so selections are look-ups: a branch would be mispredicted.
 
