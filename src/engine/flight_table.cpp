@@ -83,7 +83,7 @@ EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairQuestion
   const double position = question.seen.position[axis], velocity = question.seen.velocity[axis];
   const double gravity = question.filter.gravity[axis];
   Four x, u, age;
-  if (gravity == 0) {  // which changes no bit
+  if (gravity == 0) {  // which changes no bit of a contact
     for (int k = 0; k < count; k += 4) {
       load(batch.position[axis] + k, x), load(batch.velocity[axis] + k, u), load(ages + k, age);
       store(r + k, position - (x + age * u));
@@ -98,8 +98,13 @@ EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairQuestion
   }
 }
 
-/// Squares of the distances at which the balls touch.
-EDMILL_INTO_CLONES void find_squares(const FlightBatch& batch, double radius, int count, Column& squares) {
+/// Squares of the distances at which the balls touch; the first four when they are alike.
+EDMILL_INTO_CLONES void find_squares(const FlightBatch& batch, double radius, bool alike, int count,
+                                     Column& squares) {
+  if (alike) {
+    const double sum = radius + batch.radius[0];
+    return std::fill(squares, squares + 4, sum * sum);
+  }
   for (int k = 0; k < count; k += 4) {
     Four other;
     load(batch.radius + k, other);
@@ -143,8 +148,7 @@ EDMILL_INTO_CLONES int judge(const FlightBatch& batch, const PairQuestion& quest
   find_motion(batch, question, 0, count, ages, rx, vx);
   find_motion(batch, question, 1, count, ages, ry, vy);
   find_motion(batch, question, 2, count, ages, rz, vz);
-  find_squares(batch, question.radius, alike ? 1 : count, squares);
-  if (alike) std::fill(squares + 1, squares + 4, squares[0]);
+  find_squares(batch, question.radius, alike, count, squares);
   const int next_square = alike ? 0 : 1;
   const double relative = question.filter.relative, slowest = question.filter.slowest_squared,
                touching = question.filter.touching;
