@@ -95,12 +95,8 @@ class EventQueue {
   struct Entry {
     Instant<Real> time = Instant<Real>::never();
     std::int64_t day = no_day;
-    int next = put_off, previous = none;
-  };
-  /// That an event was put off, and to which day: void when it has been set anew since.
-  struct Note {
-    int ball;
-    std::uint32_t day;  ///< its lowest bits
+    int next = put_off;
+    int previous = none;  ///< or, of one that is put off, whose notes have the latest one; others are void
   };
 
   /// Nearly all events of few balls lie before the horizon, and most of many within the weeks.
@@ -116,7 +112,7 @@ class EventQueue {
     return time.period * days_per_period_ + (day < days_per_period_ ? day : days_per_period_ - 1);
   }
   std::int64_t week_of(std::int64_t day) const { return day >> week_shift_; }
-  std::vector<Note>& notes_of(std::int64_t week) { return notes_[static_cast<std::size_t>(week) % weeks]; }
+  static int place_of(std::int64_t week) { return static_cast<int>(week & (weeks - 1)); }
   std::size_t list_of(std::int64_t day) const { return static_cast<std::size_t>(day) & (heads_.size() - 1); }
   int head(std::int64_t day) const { return heads_[list_of(day)]; }
 
@@ -159,7 +155,8 @@ class EventQueue {
     if (e.day == no_day) return;
     // What is later than all weeks is looked at again in the last.
     const auto week = std::min(week_of(e.day), week_of(horizon_) + (weeks - 2));
-    notes_of(week).push_back({ball, static_cast<std::uint32_t>(e.day)});
+    e.previous = place_of(week);
+    notes_[e.previous].push_back(ball);
   }
   void link(int ball) {
     Entry& e = entries_[ball];
@@ -186,18 +183,18 @@ class EventQueue {
 
   /// Moves the horizon by a week.
   [[gnu::noinline]] void open_week() {
-    auto& notes = notes_of(week_of(horizon_));
+    const int place = place_of(week_of(horizon_));
+    auto& notes = notes_[place];
     horizon_ += days_per_week_;
     constexpr std::size_t ahead = 8;
     for (std::size_t k = 0; k < notes.size(); ++k) {
-      if (k + ahead < notes.size()) fetch(&entries_[notes[k + ahead].ball]);
-      const auto [ball, day] = notes[k];
-      const Entry& e = entries_[ball];
-      if (e.next != put_off || static_cast<std::uint32_t>(e.day) != day) continue;
+      if (k + ahead < notes.size()) fetch(&entries_[notes[k + ahead]]);
+      const Entry& e = entries_[notes[k]];
+      if (e.next != put_off || e.previous != place) continue;
       if (e.day < horizon_) [[likely]]
-        link(ball);
+        link(notes[k]);
       else
-        note(ball);
+        note(notes[k]);
     }
     notes.clear();
   }
@@ -232,10 +229,10 @@ class EventQueue {
   }
 
   LargeVector<Entry> entries_;
-  std::vector<int> heads_;                ///< of the lists of days
-  std::vector<std::uint64_t> marks_;      ///< one for each list that is not empty
-  std::vector<std::vector<Note>> notes_;  ///< for the weeks from the horizon on
-  std::int64_t days_per_week_;            ///< a power of two
+  std::vector<int> heads_;               ///< of the lists of days
+  std::vector<std::uint64_t> marks_;     ///< one for each list that is not empty
+  std::vector<std::vector<int>> notes_;  ///< balls put off to each of the weeks from the horizon on
+  std::int64_t days_per_week_;           ///< a power of two
   int week_shift_ = std::countr_zero(static_cast<std::uint64_t>(days_per_week_));
   std::int64_t days_per_period_ = 1024;
   double days_per_second_;

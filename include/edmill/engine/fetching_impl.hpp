@@ -30,13 +30,6 @@ void Simulation<Real>::fetch_ball(int ball) const {
   queue_.fetch_entry(ball);
 }
 
-/// What an impact needs besides.
-template <class Real>
-void Simulation<Real>::fetch_body(int ball) const {
-  fetch(&spins_[ball]);
-  collapse_watch_.fetch_record(ball);
-}
-
 /// Begins to fetch what the next events need.
 template <class Real>
 void Simulation<Real>::look_ahead() {
@@ -66,8 +59,8 @@ void Simulation<Real>::fetch_portion() {
     case 2:
       if (partner(second) == second) return;
       fetch_ball(partner(second));
-      fetch_body(second);
-      return fetch_body(partner(second));
+      fetch(&bodies_[second]);
+      return fetch(&bodies_[partner(second)]);
     default:
       if (crossing)
         grid_.fetch_new_cells(second, agenda.crossing_axis(), agenda.crossing_step());

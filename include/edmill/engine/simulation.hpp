@@ -81,7 +81,7 @@ class Simulation {
   const model::Mill<Real>& mill() const { return mill_; }
   const model::BallProperties<Real>& properties(int i) const { return balls_[i * stride_]; }
   const dynamics::Flight<Real>& flight(int i) const { return flights_[i]; }
-  const Vec3<Real>& spin(int i) const { return spins_[i]; }
+  const Vec3<Real>& spin(int i) const { return bodies_[i].spin; }
   model::BallState<Real> state_at(int i, const Instant<Real>& when) const;
   model::Energy<Real> energy_at(const Instant<Real>& when) const;
   const EngineCounts<Real>& counts() const { return counts_; }
@@ -148,6 +148,14 @@ class Simulation {
       a(times, wall_pose, forgotten_from, partners, known, last_impact, pair_count, wall, crossing_face);
     }
   };
+  /// What an impact needs of a ball besides its flight. In double it is one cache line.
+  struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Body {
+    Vec3<Real> spin;
+    RecentImpacts<Real> recent;
+
+    void archive(Archive& a) { a(spin, recent); }
+  };
+  static_assert(sizeof(Real) != 8 || sizeof(Body) == 64);
   bool still_holds(const Agenda& a, int pair_entry) const {
     return agendas_[a.partner_at(pair_entry)].last_impact <= a.known[pair_entry - Agenda::first_pair];
   }
@@ -196,7 +204,6 @@ class Simulation {
   void fetch_flights(const FoundBalls& near) const;
   void fetch_neighbours(int ball, FoundBalls& near) const;
   void fetch_ball(int ball) const;
-  void fetch_body(int ball) const;
   void look_ahead();
   void fetch_portion();
   void fetch_more() {
@@ -229,7 +236,7 @@ class Simulation {
   DriveClock<Real> clock_;
   std::vector<model::BallProperties<Real>> balls_;
   LargeVector<dynamics::Flight<Real>> flights_;
-  LargeVector<Vec3<Real>> spins_;
+  LargeVector<Body> bodies_;
   LargeVector<Agenda> agendas_;
   std::uint32_t impact_number_ = 0;  ///< of the latest one, since they were last numbered anew
   dynamics::DecisionLadder<Real> ladder_;

@@ -84,8 +84,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
                    static_cast<double>(detail::largest_speed(states, the_case.mill))),
       grid_(detail::make_grid(the_case.mill, the_case.balls)),
       queue_(static_cast<int>(states.size()), the_case.mill.motion.period),
-      collapse_watch_(static_cast<int>(states.size()),
-                      Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach,
+      collapse_watch_(Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach,
                       ladder_.walls().constants().reach / Real(std::int64_t{10000000000})),
       now_(start),
       suspicion_(ladder_.suspicion()),
@@ -99,7 +98,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
   if constexpr (!std::is_same_v<Real, double>) rough_flights_.resize(states.size());
   for (const auto& s : states) {
     flights_.push_back({s.position, s.velocity, start});
-    spins_.push_back(s.spin);
+    bodies_.push_back({s.spin, {}});
   }
   for (int i = 0; i < ball_count(); ++i) grid_.insert(i, vector_cast<double>(flights_[i].position));
   if (grid_.single_cell()) table_.emplace(static_cast<int>(states.size()), stride_ == 0);
@@ -116,7 +115,7 @@ template <class Real>
 void Simulation<Real>::archive(Archive& a) {
   const auto balls = flights_.size();
   if (!a.loading()) number_anew();  // often enough for tests to see that it changes nothing
-  a(flights_, spins_, agendas_, impact_number_, ladder_, grid_, collapse_watch_, counts_, now_, top_speed_);
+  a(flights_, bodies_, agendas_, impact_number_, ladder_, grid_, counts_, now_, top_speed_);
   if (!a.loading()) return;
   EDMILL_REQUIRE(flights_.size() == balls && agendas_.size() == balls, "a saved state of the same case");
   ladder_.raise_top_speed(top_speed_);
@@ -258,14 +257,15 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   }
   const Vec3<Real> contact_point = flight.position - normal * radius;
   const Vec3<Real> wall_velocity = model::wall_velocity<Real>(pose, mill_.motion.arm, contact_point);
-  impact.collapsing = collapse_watch_.since_last(ball, now_, clock_) < mill_.ball_wall.collapse_time;
-  impact.resting = impact.collapsing && collapse_watch_.resting(ball);
+  impact.collapsing = clock_.elapsed(bodies_[ball].recent.last, now_) < mill_.ball_wall.collapse_time;
+  impact.resting = impact.collapsing && collapse_watch_.resting(bodies_[ball].recent);
   impact.velocity_before[0] = flight.velocity;
-  impact.spin_before[0] = spins_[ball];
+  impact.spin_before[0] = bodies_[ball].spin;
   impact.flight_time[0] = flight_time;
   impact.wall_velocity = wall_velocity;
-  impact.outcome = dynamics::collide_with_wall<Real>(normal, properties(ball), wall_velocity, flight.velocity,
-                                                     spins_[ball], mill_.ball_wall, persistence_of(impact));
+  impact.outcome =
+      dynamics::collide_with_wall<Real>(normal, properties(ball), wall_velocity, flight.velocity,
+                                        bodies_[ball].spin, mill_.ball_wall, persistence_of(impact));
   impact.ball = ball;
   impact.with_wall = true;
   impact.partner = wall;
@@ -289,17 +289,18 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   impact.normal = between * (1 / distance);
   impact.overlap = properties(ball).radius + properties(partner).radius - distance;
   const Real& t_c = mill_.ball_ball.collapse_time;
-  impact.collapsing = collapse_watch_.since_last(ball, now_, clock_) < t_c ||
-                      collapse_watch_.since_last(partner, now_, clock_) < t_c;
-  impact.resting = impact.collapsing && (collapse_watch_.resting(ball) || collapse_watch_.resting(partner));
+  impact.collapsing = clock_.elapsed(bodies_[ball].recent.last, now_) < t_c ||
+                      clock_.elapsed(bodies_[partner].recent.last, now_) < t_c;
+  impact.resting = impact.collapsing && (collapse_watch_.resting(bodies_[ball].recent) ||
+                                         collapse_watch_.resting(bodies_[partner].recent));
   impact.velocity_before[0] = one.velocity;
   impact.velocity_before[1] = two.velocity;
-  impact.spin_before[0] = spins_[ball];
-  impact.spin_before[1] = spins_[partner];
+  impact.spin_before[0] = bodies_[ball].spin;
+  impact.spin_before[1] = bodies_[partner].spin;
   impact.flight_time[0] = flight_times[0], impact.flight_time[1] = flight_times[1];
-  impact.outcome = dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner),
-                                                 one.velocity, spins_[ball], two.velocity, spins_[partner],
-                                                 mill_.ball_ball, persistence_of(impact));
+  impact.outcome = dynamics::collide_balls<Real>(
+      impact.normal, properties(ball), properties(partner), one.velocity, bodies_[ball].spin, two.velocity,
+      bodies_[partner].spin, mill_.ball_ball, persistence_of(impact));
   impact.ball = ball;
   impact.with_wall = false;
   impact.partner = partner;
@@ -363,12 +364,12 @@ template <class Real>
 void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall,
                                      int partner) {
   const auto& law = with_wall ? mill_.ball_wall : mill_.ball_ball;
-  const bool collapsing = collapse_watch_.note(ball, key, now_, impact.outcome.approach_speed,
+  const bool collapsing = collapse_watch_.note(bodies_[ball].recent, key, now_, impact.outcome.approach_speed,
                                                impact.outcome.restitution.normal, clock_);
   // With t_c the rule itself ends the cascade; only impacts without any time between them cannot go on.
-  if ((collapsing && !(law.collapse_time > 0)) || collapse_watch_.stuck(ball)) {
-    collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner,
-                                               collapse_watch_.accumulation_time(ball, clock_)};
+  if ((collapsing && !(law.collapse_time > 0)) || collapse_watch_.stuck(bodies_[ball].recent)) {
+    collapse_ = model::InelasticCollapse<Real>{
+        ball, with_wall, partner, collapse_watch_.accumulation_time(bodies_[ball].recent, clock_)};
     stop_ = EndReason::inelastic_collapse;
   }
 }
@@ -377,7 +378,7 @@ template <class Real>
 model::BallState<Real> Simulation<Real>::state_at(int i, const Instant<Real>& when) const {
   const Real dt = clock_.elapsed(flights_[i].start, when);
   return {dynamics::position_after(flights_[i], mill_.gravity, dt),
-          dynamics::velocity_after(flights_[i], mill_.gravity, dt), spins_[i]};
+          dynamics::velocity_after(flights_[i], mill_.gravity, dt), bodies_[i].spin};
 }
 
 template <class Real>
