@@ -29,10 +29,11 @@ void fly_through_cells(std::uint64_t seed, const Vec3<double>& gravity, int coun
   const double edge = 0.11;
   CellGrid grid(low, high, edge, count);
   std::vector<Point> points(count);
+  std::vector<CellOfBall> cells(count);
   std::vector<double> due(count);  // of the next crossing, from now on
   std::vector<Crossing> next(count);
   const auto predict = [&](int i) {
-    next[i] = grid.crossing(i, points[i].position, points[i].velocity, gravity);
+    next[i] = grid.crossing(cells[i], points[i].position, points[i].velocity, gravity);
     due[i] = next[i].delay;
   };
   for (int i = 0; i < count; ++i) {
@@ -41,7 +42,7 @@ void fly_through_cells(std::uint64_t seed, const Vec3<double>& gravity, int coun
       points[i].velocity[k] = 2 * random.uniform<double>() - 1;
     }
     if (i % 5 == 0) points[i].velocity[i % 3] = 0;
-    grid.insert(i, points[i].position);
+    cells[i] = grid.insert(i, points[i].position);
     predict(i);
   }
   FoundBalls found, fresh;
@@ -55,11 +56,11 @@ void fly_through_cells(std::uint64_t seed, const Vec3<double>& gravity, int coun
       left -= dt;
       if (left <= 0) break;
       ++crossings;
-      grid.neighbours(first, found);
+      grid.neighbours(cells[first], found);
       const auto before = found_set(found);
-      grid.move(first, next[first].axis, next[first].step);
-      grid.neighbours(first, found);
-      grid.new_neighbours(first, next[first].axis, next[first].step, fresh);
+      grid.move(first, cells[first], next[first].axis, next[first].step);
+      grid.neighbours(cells[first], found);
+      grid.new_neighbours(cells[first], next[first].axis, next[first].step, fresh);
       // What is new to the ball are the balls of the new cells, no more and no less.
       const auto after = found_set(found), added = found_set(fresh);
       for (const int i : after) ASSERT_EQ(added.count(i) == 1, before.count(i) == 0);
@@ -67,7 +68,7 @@ void fly_through_cells(std::uint64_t seed, const Vec3<double>& gravity, int coun
       predict(first);
     }
     for (int i = 0; i < count; ++i) {
-      grid.neighbours(i, found);
+      grid.neighbours(cells[i], found);
       const auto near = found_set(found);
       ASSERT_EQ(static_cast<int>(near.size()), found.count) << "a ball was found twice";
       ASSERT_EQ(near.count(i), 1u);

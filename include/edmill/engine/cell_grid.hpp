@@ -25,12 +25,22 @@ struct Crossing {
   static constexpr double never = 1e12;
 };
 
+/// The cell of a ball, by its number along each axis.
+struct CellOfBall {
+  std::array<std::int16_t, 3> at{};
+
+  void archive(Archive& a) { a(at); }
+};
+
 /// Balls that a look at the cells found; its room only grows.
 struct FoundBalls {
   std::vector<int> balls;
   int count = 0;
 };
 
+/// The grid knows which balls each cell holds. Which cell a ball is in, its owner keeps beside what else an
+/// event needs of the ball, where it costs no cache line of its own.
+///
 /// Cells are never thinner than the largest ball plus a margin that dwarfs the rounding of crossing times, so
 /// a crossing that is late by rounding hides no contact; that is why double serves every scalar. The
 /// outermost cells are open to the outside. Around them lies a layer of cells that stay empty, so that every
@@ -39,14 +49,14 @@ class CellGrid {
  public:
   /// @param low, high  corners of the region that the balls' centres sweep [m]
   /// @param edge       least edge of a cell [m]
-  CellGrid(const Vec3<double>& low, const Vec3<double>& high, double edge, int balls) : place_(balls) {
+  CellGrid(const Vec3<double>& low, const Vec3<double>& high, double edge, int balls) : next_(balls, none) {
     EDMILL_REQUIRE(balls < static_cast<int>(Cell::crowded ^ Cell::empty),
                    "numbers of balls that a cell can hold");
     std::size_t total = 1;
     for (int k = 0; k < 3; ++k) {
       const double extent = high[k] - low[k];
       const double count = std::floor(extent / edge);
-      cells_[k] = count < 1 ? 1 : count > 512 ? 512 : static_cast<int>(count);
+      cells_[k] = count < 1 ? 1 : count > 512 ? 512 : static_cast<int>(count);  // fits CellOfBall
       const double thickness = extent / cells_[k];
       for (int cell = 0; cell < cells_[k]; ++cell) {
         const double lower = low[k] + cell * thickness;
@@ -64,28 +74,30 @@ class CellGrid {
   int cells(int axis) const { return cells_[axis]; }
   bool single_cell() const { return cells_[0] * cells_[1] * cells_[2] == 1; }
 
-  void insert(int ball, const Vec3<double>& position) {
-    Place& place = place_[ball];
+  /// @return the cell that the ball is in now
+  CellOfBall insert(int ball, const Vec3<double>& position) {
+    CellOfBall cell;
     for (int k = 0; k < 3; ++k) {
       const auto above = [&](const Faces& faces) { return faces[1] > position[k]; };
-      place.cell[k] =
-          static_cast<int>(std::find_if(faces_[k].begin(), faces_[k].end(), above) - faces_[k].begin());
+      cell.at[k] = static_cast<std::int16_t>(std::find_if(faces_[k].begin(), faces_[k].end(), above) -
+                                             faces_[k].begin());
     }
-    link(ball);
+    link(ball, cell);
+    return cell;
   }
 
-  void move(int ball, int axis, int step) {
-    unlink(ball);
-    place_[ball].cell[axis] += step;
-    link(ball);
+  void move(int ball, CellOfBall& cell, int axis, int step) {
+    unlink(ball, cell);
+    cell.at[axis] = static_cast<std::int16_t>(cell.at[axis] + step);
+    link(ball, cell);
   }
 
-  /// When the ball, now at `position` with `velocity`, leaves its cell.
-  Crossing crossing(int ball, const Vec3<double>& position, const Vec3<double>& velocity,
+  /// When a ball in `cell`, now at `position` with `velocity`, leaves it.
+  Crossing crossing(const CellOfBall& cell, const Vec3<double>& position, const Vec3<double>& velocity,
                     const Vec3<double>& gravity) const {
     std::array<Passage, 3> by_axis;
     for (int k = 0; k < 3; ++k) {
-      const Faces& faces = faces_[k][place_[ball].cell[k]];
+      const Faces& faces = faces_[k][cell.at[k]];
       if (gravity[k] == 0)
         by_axis[k] = drift(faces, position[k], velocity[k]);
       else if (gravity[k] > 0)
@@ -99,47 +111,42 @@ class CellGrid {
   }
 
   /// Asks memory for the cells that `neighbours` reads: those at the corners lie in all of their bricks.
-  void fetch_cells(int ball) const {
-    const auto& cell = place_[ball].cell;
-    for (const int z : {cell[2], cell[2] + 2})
-      for (const int y : {cell[1], cell[1] + 2})
-        for (const int x : {cell[0], cell[0] + 2}) fetch(&content_[at_[0][x] + at_[1][y] + at_[2][z]]);
+  void fetch_cells(const CellOfBall& cell) const {
+    const auto [x, y, z] = cell.at;
+    for (const int w : {0, 2})
+      for (const int v : {0, 2})
+        for (const int u : {0, 2}) fetch(&content_[at_[0][x + u] + at_[1][y + v] + at_[2][z + w]]);
   }
-  /// The same for what a move by `step` along `axis` and `new_neighbours` after it read.
-  void fetch_new_cells(int ball, int axis, int step) const {
-    const Place& place = place_[ball];
-    fetch(&content_[index(place)]);
-    const auto& cell = place.cell;
+  /// The same for what a move from `cell` by `step` along `axis` and `new_neighbours` after it read.
+  void fetch_new_cells(const CellOfBall& cell, int axis, int step) const {
+    fetch(&content_[index(cell)]);
     const auto [one, other] = across(axis);
-    const int layer = at_[axis][cell[axis] + 1 + 2 * step];
-    for (const int u : {cell[one], cell[one] + 2})
-      for (const int v : {cell[other], cell[other] + 2})
-        fetch(&content_[layer + at_[one][u] + at_[other][v]]);
-  }
-  /// Asks memory for where the ball is: what `fetch_cells` reads.
-  void fetch_place(int ball) const { fetch(&place_[ball]); }
-
-  /// Finds every ball in the ball's cell and the adjacent ones, itself included.
-  void neighbours(int ball, FoundBalls& found) const {
-    const auto& cell = place_[ball].cell;
-    collect<3>(&at_[0][cell[0]], &at_[1][cell[1]], &at_[2][cell[2]], found);
+    const int layer = at_[axis][cell.at[axis] + 1 + 2 * step];
+    for (const int u : {0, 2})
+      for (const int v : {0, 2})
+        fetch(&content_[layer + at_[one][cell.at[one] + u] + at_[other][cell.at[other] + v]]);
   }
 
-  /// The same for the cells that became adjacent when the ball moved by `step` along `axis`: one layer, whose
-  /// two other axes may be in any order.
-  void new_neighbours(int ball, int axis, int step, FoundBalls& found) const {
-    const auto& cell = place_[ball].cell;
+  /// Finds every ball in the cell and the adjacent ones.
+  void neighbours(const CellOfBall& cell, FoundBalls& found) const {
+    const auto [x, y, z] = cell.at;
+    collect<3>(&at_[0][x], &at_[1][y], &at_[2][z], found);
+  }
+
+  /// The same for the cells that became adjacent when a ball moved to `cell` by `step` along `axis`: one
+  /// layer, whose two other axes may be in any order.
+  void new_neighbours(const CellOfBall& cell, int axis, int step, FoundBalls& found) const {
     const auto [one, other] = across(axis);
-    const int layer = at_[axis][cell[axis] + 1 + step];
-    collect<1>(&layer, &at_[one][cell[one]], &at_[other][cell[other]], found);
+    const int layer = at_[axis][cell.at[axis] + 1 + step];
+    collect<1>(&layer, &at_[one][cell.at[one]], &at_[other][cell.at[other]], found);
   }
 
-  /// Which balls are where, and their order in each cell: it is that of the searches.
+  /// Which balls each cell holds, and their order: it is that of the searches.
   void archive(Archive& a) {
     std::vector<std::pair<std::size_t, Cell>> occupied;  // most are empty
     for (std::size_t at = 0; at < content_.size(); ++at)
       if (content_[at].second != Cell::empty) occupied.emplace_back(at, content_[at]);
-    a(occupied, place_);
+    a(occupied, next_);
     if (!a.loading()) return;
     std::fill(content_.begin(), content_.end(), Cell());
     for (const auto& [at, cell] : occupied) content_.at(at) = cell;
@@ -150,12 +157,6 @@ class CellGrid {
 
   using Faces = std::array<double, 2>;  ///< lower and upper of a cell along an axis [m]
 
-  struct Place {
-    std::array<int, 3> cell;
-    int next = none;  ///< ball in the same crowded cell
-
-    void archive(Archive& a) { a(cell, next); }
-  };
   static constexpr int none = -1;
 
   /// The two other axes.
@@ -202,8 +203,8 @@ class CellGrid {
     void archive(Archive& a) { a(first, second); }
   };
 
-  int index(const Place& place) const {
-    return at_[0][place.cell[0] + 1] + at_[1][place.cell[1] + 1] + at_[2][place.cell[2] + 1];
+  int index(const CellOfBall& cell) const {
+    return at_[0][cell.at[0] + 1] + at_[1][cell.at[1] + 1] + at_[2][cell.at[2] + 1];
   }
 
   /// Finds the balls of the cells whose parts of the index are given along each axis, by threes in y and z.
@@ -244,7 +245,7 @@ class CellGrid {
   }
 
   void append_chain(int first, FoundBalls& found) const {
-    for (int ball = first; ball != none; ball = place_[ball].next) {
+    for (int ball = first; ball != none; ball = next_[ball]) {
       // The reader rounds the count up to a multiple of four.
       const auto used = static_cast<std::size_t>(found.count);
       if (found.balls.size() < used + 5) found.balls.resize(2 * used + 5);
@@ -253,21 +254,21 @@ class CellGrid {
     }
   }
 
-  void link(int ball) {
-    Cell& cell = content_[index(place_[ball])];
+  void link(int ball, const CellOfBall& where) {
+    Cell& cell = content_[index(where)];
     const bool single = cell.second == Cell::single;
     if (single | (cell.second == Cell::empty)) [[likely]] {
       const std::uint32_t firsts[] = {static_cast<std::uint32_t>(ball), cell.first};
       const std::uint32_t seconds[] = {Cell::single, static_cast<std::uint32_t>(ball)};
       cell = {firsts[single], seconds[single]};
     } else {
-      if (cell.second != Cell::crowded) place_[cell.first].next = static_cast<int>(cell.second);
-      place_[ball].next = static_cast<int>(cell.first);
+      if (cell.second != Cell::crowded) next_[cell.first] = static_cast<int>(cell.second);
+      next_[ball] = static_cast<int>(cell.first);
       cell = {static_cast<std::uint32_t>(ball), Cell::crowded};
     }
   }
-  void unlink(int ball) {
-    Cell& cell = content_[index(place_[ball])];
+  void unlink(int ball, const CellOfBall& where) {
+    Cell& cell = content_[index(where)];
     if (cell.second == Cell::crowded) [[unlikely]]
       return unchain(ball, cell);
     cell.first = cell.first == static_cast<std::uint32_t>(ball) ? cell.second : cell.first;
@@ -275,15 +276,15 @@ class CellGrid {
   }
   void unchain(int ball, Cell& cell) {
     if (cell.first == static_cast<std::uint32_t>(ball)) {
-      cell.first = place_[ball].next;
+      cell.first = next_[ball];
     } else {
       int before = static_cast<int>(cell.first);
-      while (place_[before].next != ball) before = place_[before].next;
-      place_[before].next = place_[ball].next;
+      while (next_[before] != ball) before = next_[before];
+      next_[before] = next_[ball];
     }
-    place_[ball].next = none;
-    int& second = place_[cell.first].next;
-    if (place_[second].next != none) return;
+    next_[ball] = none;
+    int& second = next_[cell.first];
+    if (next_[second] != none) return;
     cell.second = second;
     second = none;
   }
@@ -294,7 +295,7 @@ class CellGrid {
   /// empty. Two by two by two cells are a brick that fills a cache line.
   std::array<std::vector<int>, 3> at_;
   LargeVector<Cell> content_;
-  LargeVector<Place> place_;
+  LargeVector<int> next_;  ///< ball in the same crowded cell
 };
 
 }  // namespace edmill::engine

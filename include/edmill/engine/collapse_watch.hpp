@@ -12,12 +12,12 @@ namespace edmill::engine {
 template <class Real>
 struct RecentImpacts {
   Instant<Real> last = Instant<Real>::long_ago();
-  Real accumulation{0};  ///< time [s] to which a burst converges
+  Real accumulation{-1};  ///< time [s] to which a burst converges; negative where it is not known
   int partner = -1;
-  std::int16_t burst = 0, stuck = 0, rest = 0;  ///< impacts in a row; counted up to `CollapseWatch::plenty`
-  bool extrapolated = false;                    ///< whether `accumulation` is known
+  std::int16_t stuck = 0;           ///< impacts in a row, up to `CollapseWatch::plenty`
+  std::int8_t burst = 0, rest = 0;  ///< the same, up to `CollapseWatch::enough`
 
-  void archive(Archive& a) { a(last, accumulation, partner, burst, stuck, rest, extrapolated); }
+  void archive(Archive& a) { a(last, accumulation, partner, stuck, burst, rest); }
 };
 
 /// Follows the balls' recent impacts. A ball whose last `enough` impacts each came after a path shorter than
@@ -37,16 +37,16 @@ class CollapseWatch {
     const Real interval = clock.elapsed(r.last, now);
     if (interval * approach_speed < smallest_path_) {
       if (r.burst == 0) {
-        r.extrapolated = r.partner == key && restitution < 1;
-        if (r.extrapolated) r.accumulation = clock.seconds(now) + interval * restitution / (1 - restitution);
+        r.accumulation = -1;
+        if (restitution < 1) r.accumulation = clock.seconds(now) + interval * restitution / (1 - restitution);
       }
-      if (r.partner != key) r.extrapolated = false;
-      r.burst = one_more(r.burst);
+      if (r.partner != key) r.accumulation = -1;
+      r.burst = one_more(r.burst, enough);
     } else {
       r.burst = 0;
     }
-    r.rest = interval * approach_speed < resting_path_ ? one_more(r.rest) : std::int16_t{0};
-    r.stuck = interval > 0 ? std::int16_t{0} : one_more(r.stuck);
+    r.rest = interval * approach_speed < resting_path_ ? one_more(r.rest, enough) : std::int8_t{0};
+    r.stuck = interval > 0 ? std::int16_t{0} : one_more(r.stuck, plenty);
     r.last = now;
     r.partner = key;
     return r.burst >= enough;
@@ -60,14 +60,16 @@ class CollapseWatch {
   static bool stuck(const RecentImpacts<Real>& r) { return r.stuck >= plenty; }
 
   static Real accumulation_time(const RecentImpacts<Real>& r, const DriveClock<Real>& clock) {
-    return r.extrapolated ? r.accumulation : clock.seconds(r.last);
+    return r.accumulation < 0 ? clock.seconds(r.last) : r.accumulation;
   }
 
-  static constexpr std::int16_t enough = 8, plenty = 1000;
+  static constexpr std::int8_t enough = 8;
+  static constexpr std::int16_t plenty = 1000;
 
  private:
-  static std::int16_t one_more(std::int16_t count) {
-    return std::min(static_cast<std::int16_t>(count + 1), plenty);
+  template <class Count>
+  static Count one_more(Count count, Count most) {
+    return std::min(static_cast<Count>(count + 1), most);
   }
 
   Real smallest_path_, resting_path_;

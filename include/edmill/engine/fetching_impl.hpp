@@ -16,7 +16,7 @@ void Simulation<Real>::fetch_flights(const FoundBalls& near) const {
 template <class Real>
 void Simulation<Real>::fetch_neighbours(int ball, FoundBalls& near) const {
   if (table_ || !many_balls()) return;
-  grid_.neighbours(ball, near);
+  grid_.neighbours(bodies_[ball].cell, near);
   fetch_flights(near);
 }
 
@@ -26,7 +26,7 @@ void Simulation<Real>::fetch_ball(int ball) const {
   const char* agenda = reinterpret_cast<const char*>(&agendas_[ball]);
   for (std::size_t line = 0; line < sizeof(Agenda); line += 64) fetch(agenda + line);
   fetch(&flights_[ball]);
-  grid_.fetch_place(ball);
+  fetch(&bodies_[ball]);
   queue_.fetch_entry(ball);
 }
 
@@ -40,32 +40,30 @@ void Simulation<Real>::look_ahead() {
 
 /// Fetches one more portion: memory takes about ten lines at a time and lets the next ones wait, so there
 /// should be other work between two portions. An event is begun three events early with its ball, whose
-/// agenda tells two events early what else it needs.
+/// agenda tells two events early what else it needs, and its partner's agenda one event early whether the
+/// contact is void.
 template <class Real>
 void Simulation<Real>::fetch_portion() {
   const auto [next, second, third] = upcoming_;
-  const Agenda& agenda = agendas_[second];
-  const bool crossing = agenda.next == Agenda::crossing_entry;
-  const auto partner = [&](int ball) {
-    const Agenda& a = agendas_[ball];
-    return a.next < Agenda::first_pair ? ball : a.partner_at(a.next);
-  };
+  const auto pair_comes = [&](int ball) { return agendas_[ball].next >= Agenda::first_pair; };
+  const auto partner = [&](int ball) { return agendas_[ball].partner_at(agendas_[ball].next); };
   switch (fetched_++) {
     case 0:
       return fetch_ball(third);
     case 1:
-      if (partner(next) != next) grid_.fetch_cells(partner(next));
+      if (pair_comes(next) && still_holds(agendas_[next], agendas_[next].next))
+        grid_.fetch_cells(bodies_[partner(next)].cell);
       return;
     case 2:
-      if (partner(second) == second) return;
-      fetch_ball(partner(second));
-      fetch(&bodies_[second]);
-      return fetch(&bodies_[partner(second)]);
+      if (pair_comes(second)) fetch_ball(partner(second));
+      return;
     default:
-      if (crossing)
-        grid_.fetch_new_cells(second, agenda.crossing_axis(), agenda.crossing_step());
+      const Agenda& agenda = agendas_[second];
+      const CellOfBall& cell = bodies_[second].cell;
+      if (agenda.next == Agenda::crossing_entry)
+        grid_.fetch_new_cells(cell, agenda.crossing_axis(), agenda.crossing_step());
       else
-        grid_.fetch_cells(second);
+        grid_.fetch_cells(cell);
   }
 }
 

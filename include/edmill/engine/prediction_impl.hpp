@@ -26,7 +26,7 @@ void Simulation<Real>::predict_all(int ball, int already_done, const model::Vess
 template <class Real>
 int Simulation<Real>::look_around(int ball, const RoughlySeen& roughly, FoundBalls& near) {
   if (table_) return table_->look(question(ball, roughly), looks_);
-  if (!many_balls()) grid_.neighbours(ball, near);
+  if (!many_balls()) grid_.neighbours(bodies_[ball].cell, near);
   return look_at_near(ball, roughly, near);
 }
 
@@ -85,8 +85,8 @@ void Simulation<Real>::predict_crossing(int ball, const RoughlySeen& roughly) {
   if (grid_.single_cell()) return;
   Agenda& a = agendas_[ball];
   const auto& gravity = pair_filter_.filter().gravity;
-  const auto crossing = grid_.crossing(
-      ball, roughly.position, dynamics::velocity_after(rough_flights()[ball], gravity, roughly.age), gravity);
+  const auto velocity = dynamics::velocity_after(rough_flights()[ball], gravity, roughly.age);
+  const auto crossing = grid_.crossing(bodies_[ball].cell, roughly.position, velocity, gravity);
   a.crossing_face = static_cast<std::int8_t>(2 * crossing.axis + (crossing.step > 0));
   a.times[Agenda::crossing_entry] =
       crossing.delay < Crossing::never ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();

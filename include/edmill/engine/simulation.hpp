@@ -148,12 +148,13 @@ class Simulation {
       a(times, wall_pose, forgotten_from, partners, known, last_impact, pair_count, wall, crossing_face);
     }
   };
-  /// What an impact needs of a ball besides its flight. In double it is one cache line.
+  /// What events need of a ball besides its flight. In double it is one cache line.
   struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Body {
     Vec3<Real> spin;
     RecentImpacts<Real> recent;
+    CellOfBall cell;
 
-    void archive(Archive& a) { a(spin, recent); }
+    void archive(Archive& a) { a(spin, recent, cell); }
   };
   static_assert(sizeof(Real) != 8 || sizeof(Body) == 64);
   bool still_holds(const Agenda& a, int pair_entry) const {

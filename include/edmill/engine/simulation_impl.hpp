@@ -98,9 +98,10 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
   if constexpr (!std::is_same_v<Real, double>) rough_flights_.resize(states.size());
   for (const auto& s : states) {
     flights_.push_back({s.position, s.velocity, start});
-    bodies_.push_back({s.spin, {}});
+    bodies_.push_back({s.spin, {}, {}});
   }
-  for (int i = 0; i < ball_count(); ++i) grid_.insert(i, vector_cast<double>(flights_[i].position));
+  for (int i = 0; i < ball_count(); ++i)
+    bodies_[i].cell = grid_.insert(i, vector_cast<double>(flights_[i].position));
   if (grid_.single_cell()) table_.emplace(static_cast<int>(states.size()), stride_ == 0);
   for (int i = 0; i < ball_count(); ++i) flight_changed(i);
   const auto pose = model::pose_at<Real>(mill_.motion, start.offset);
@@ -207,8 +208,9 @@ template <class Real>
 void Simulation<Real>::cross_cell(int ball) {
   ++counts_.cell_crossings;
   const int axis = agendas_[ball].crossing_axis(), step = agendas_[ball].crossing_step();
-  grid_.move(ball, axis, step);
-  grid_.new_neighbours(ball, axis, step, near_);
+  CellOfBall& cell = bodies_[ball].cell;
+  grid_.move(ball, cell, axis, step);
+  grid_.new_neighbours(cell, axis, step, near_);
   if (many_balls()) fetch_flights(near_);
   const auto roughly = see_roughly(ball);
   const int found = look_at_near(ball, roughly, near_);
