@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""bench.py compare sees differences that are there and no others.
+"""bench.py sees differences that are there and no others, and runs at once what it says it does.
 usage: bench_compare_test.py BENCH_PY"""
 import json
 import os
@@ -93,6 +93,16 @@ class Compare(unittest.TestCase):
         self.assertEqual(line[:2], ["x", "2.000"])
         self.assertNotEqual(line[2:], ["[1.000,", "3.000]"])
 
+    def test_files_that_ran_together_are_compared_round_by_round(self):
+        mood = [random_source.uniform(0.4, 1) for _ in range(9)]  # of the machine, much more than the difference
+        a = figures(x=(True, [1e6 * m for m in mood]))
+        b = figures(x=(True, [1.05e6 * m * random_source.gauss(1, 0.004) for m in mood]))
+        self.assertIn("1 no difference", self.compare(a, b).stdout)
+        a["together"], b["together"] = "one run", "another"
+        self.assertIn("1 no difference", self.compare(a, b).stdout)
+        b["together"] = "one run"
+        self.assertIn("1 faster", self.compare(a, b).stdout)
+
     def test_bad_input(self):
         good = figures(x=(True, [1.0, 1.0, 1.0]))
         self.assertEqual(self.compare("{", good).returncode, 2)
@@ -100,6 +110,62 @@ class Compare(unittest.TestCase):
         self.assertEqual(self.compare(figures(x=(True, [0.0, 1.0, 1.0])), good).returncode, 2)
         self.assertEqual(self.compare(figures(y=(True, [1.0, 1.0, 1.0])), good).returncode, 2)
         self.assertEqual(self.compare(figures(x=(False, [1.0, 1.0, 1.0])), good).returncode, 2)
+
+
+# Stands for a benchmark program. With PARTY set, each process waits until so many of a case are there.
+PROGRAM = r"""#!/usr/bin/env python3
+import glob, json, os, re, sys, time
+names = ["edmill/a/1/iterations:3", "minimal/a/1", "edmill/b", "operation/c"]
+options = dict(argument.split("=", 1) for argument in sys.argv[1:] if "=" in argument)
+chosen = [n for n in names if re.search(options.get("--benchmark_filter", ""), n)]
+if "--benchmark_list_tests" in sys.argv:
+    print("\n".join(chosen))
+    sys.exit()
+case = chosen[0].split("/")[1]
+here = os.path.dirname(os.path.abspath(__file__))
+open(os.path.join(here, "%s.%d" % (case, os.getpid())), "w").close()
+party = json.loads(os.environ.get("PARTY", "{}")).get(case, 0)
+late = time.monotonic() + 20
+while len(glob.glob(os.path.join(here, case + ".*"))) < party:
+    if time.monotonic() > late:
+        sys.exit("alone")
+    time.sleep(0.01)
+print(json.dumps({"benchmarks": [{"name": n, "time_unit": "ns", "cpu_time": 5.0, "collisions": 1e6} for n in chosen]}))
+"""
+
+
+class Run(unittest.TestCase):
+    def run_bench(self, party, *more):
+        """Two programs, which are one, and the files that come of it."""
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "program")
+            with open(program, "w", encoding="utf-8") as out:
+                out.write(PROGRAM)
+            os.chmod(program, 0o755)
+            paths = [os.path.join(folder, name) for name in ("a.json", "b.json")]
+            files = [argument for path in paths for argument in ("--binary", program, "--out", path)]
+            done = subprocess.run([sys.executable, BENCH, "run", *files, "--rounds", "1", *more], capture_output=True,
+                                  text=True, env={**os.environ, "PARTY": json.dumps(party)})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            results = []
+            for path in paths:
+                with open(path, encoding="utf-8") as text:
+                    results.append(json.load(text))
+            return results
+
+    def test_all_programs_of_a_case_run_at_once(self):
+        core = str(min(os.sched_getaffinity(0)))
+        one, two = self.run_bench({"a": 4, "b": 2, "c": 2}, "--core", core)
+        self.assertTrue(one["together"])
+        self.assertEqual(one["together"], two["together"])
+        for result in one, two:
+            self.assertEqual({name: len(figure["values"]) for name, figure in result["figures"].items()},
+                             {"edmill/a/1": 1, "minimal/a/1": 1, "edmill/b": 1, "operation/c": 1})
+
+    def test_without_a_core_they_run_in_turn(self):
+        one, two = self.run_bench({}, "--filter", "^edmill/")
+        self.assertIsNone(one["together"])
+        self.assertEqual(list(two["figures"]), ["edmill/a/1", "edmill/b"])
 
 
 if __name__ == "__main__":

@@ -6,9 +6,9 @@
   bench.py ratios A.json
 
 `run` with several binaries runs them in turn, round by round, so that a slow hour of the machine hits all of
-them alike. With --core the yardsticks of a case run at once with edmill on that one core, where a slow minute hits
-them alike, too; CPU times then count the caches that they take from each other. `compare` exits with 1 when a
-figure of B is slower than in A, with 2 on bad input.
+them alike. With --core edmill and the yardsticks of a case run at once on that one core, those of all binaries,
+where a slow minute hits them alike, too; CPU times then count the caches that they take from each other. `compare`
+exits with 1 when a figure of B is slower than in A, with 2 on bad input.
 """
 import argparse
 import datetime
@@ -20,6 +20,7 @@ import re
 import statistics
 import subprocess
 import sys
+import uuid
 
 # Counter of the benchmark's output -> unit of the figure, whether more is better.
 FIGURES = {"collisions": ("collisions per CPU second", True), "bytes_per_ball": ("bytes", False)}
@@ -102,17 +103,20 @@ def names_of(binary, pattern):
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
 
 
-def run_together(binary, options, figures):
+def run_together(binaries, results, options):
     """Benchmarks whose names differ in their first part alone run at once on one core."""
     groups = {}
-    for name in names_of(binary, options.filter):
-        groups.setdefault(figure_name(name).split("/", 1)[-1], []).append(name)
-    for names in groups.values():
+    for binary, result in zip(binaries, results):
+        for name in names_of(binary, options.filter):
+            case = figure_name(name).split("/", 1)[-1]
+            groups.setdefault(case, []).append((binary, name, result["figures"]))
+    for group in groups.values():
         started = [
-            subprocess.Popen(["taskset", "-c", str(options.core), binary, "--benchmark_format=json",
-                              "--benchmark_filter=^%s$" % re.escape(name)],
-                             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) for name in names]
-        for process in started:
+            (subprocess.Popen(["taskset", "-c", str(options.core), binary, "--benchmark_format=json",
+                               "--benchmark_filter=^%s$" % re.escape(name)],
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True), figures)
+            for binary, name, figures in group]
+        for process, figures in started:
             output = process.communicate()[0]
             if process.returncode != 0:
                 raise subprocess.CalledProcessError(process.returncode, process.args)
@@ -122,13 +126,16 @@ def run_together(binary, options, figures):
 def run(options):
     if len(options.binary) != len(options.out):
         raise ValueError("found %d --binary and %d --out, expected as many" % (len(options.binary), len(options.out)))
-    results = [{"machine": machine(b), "together": options.core is not None, "figures": {}} for b in options.binary]
+    # The same for files whose values were taken at the same time, one by one.
+    together = uuid.uuid4().hex if options.core is not None else None
+    results = [{"machine": machine(b), "together": together, "figures": {}} for b in options.binary]
     for turn in range(options.rounds):
+        if together:
+            print("round %d of %d" % (turn + 1, options.rounds), file=sys.stderr)
+            run_together(options.binary, results, options)
+            continue
         for binary, result in zip(options.binary, results):
             print("round %d of %d: %s" % (turn + 1, options.rounds, binary), file=sys.stderr)
-            if options.core is not None:
-                run_together(binary, options, result["figures"])
-                continue
             command = [binary, "--benchmark_format=json"]
             if options.filter:
                 command.append("--benchmark_filter=" + options.filter)
@@ -159,35 +166,51 @@ def spread(values):
     return 1.4826 * statistics.median([abs(v - middle) for v in values])
 
 
-def interval(a, b):
-    """Ratio of the medians b/a with the bounds of its bootstrapped 99 % interval. When values repeat or are
+def relative_error(values):
+    """Of their median: 1.25 times the standard error of a mean."""
+    return 1.25 * spread(values) / statistics.median(values) / len(values) ** 0.5
+
+
+def bounds(statistic, samples):
+    """The statistic of the samples with the bounds of its bootstrapped 99 % interval. When values repeat or are
     few the bootstrap is too sure of itself, so the interval is never narrower than the MADs allow."""
-    ratio = statistics.median(b) / statistics.median(a)
     draw = random.Random(20110101)
-    ratios = sorted(
-        statistics.median(draw.choices(b, k=len(b))) / statistics.median(draw.choices(a, k=len(a)))
-        for _ in range(DRAWS))
-    low, high = ratios[DRAWS // 200], ratios[DRAWS - 1 - DRAWS // 200]
-    # Standard error of a median: 1.25 of the mean's.
-    error = sum((spread(v) / statistics.median(v)) ** 2 * 1.5625 / len(v) for v in (a, b)) ** 0.5
-    return ratio, min(low, ratio * (1 - 2.58 * error)), max(high, ratio * (1 + 2.58 * error))
+    drawn = sorted(statistic(*(draw.choices(v, k=len(v)) for v in samples)) for _ in range(DRAWS))
+    found, low, high = statistic(*samples), drawn[DRAWS // 200], drawn[DRAWS - 1 - DRAWS // 200]
+    error = 2.58 * sum(relative_error(v) ** 2 for v in samples) ** 0.5
+    return found, min(low, found * (1 - error)), max(high, found * (1 + error))
+
+
+def ratios_of(a, b):
+    """Of values that were taken at the same time."""
+    return [y / x for x, y in zip(a, b)]
+
+
+def interval(a, b):
+    """Ratio of the medians b/a."""
+    return bounds(lambda b, a: statistics.median(b) / statistics.median(a), (b, a))
 
 
 def paired_interval(a, b):
-    """Median of the ratios b/a of values that were taken at the same time, and their range."""
-    ratios = sorted(y / x for x, y in zip(a, b))
-    return statistics.median(ratios), ratios[0], ratios[-1]
+    """Median of the ratios b/a of values that were taken at the same time."""
+    return bounds(statistics.median, (ratios_of(a, b),))
 
 
-def verdict(a, b, least):
+def paired_range(a, b):
+    """The same, with the least and the greatest."""
+    ratios = ratios_of(a, b)
+    return statistics.median(ratios), min(ratios), max(ratios)
+
+
+def verdict(a, b, paired, least):
     """Of figure b against a; differences below `least` count for none."""
     if min(len(a["values"]), len(b["values"])) < FEWEST:
         return "too few values", None
-    bounds = interval(a["values"], b["values"])
-    _, low, high = bounds
+    found = (paired_interval if paired else interval)(a["values"], b["values"])
+    _, low, high = found
     if low <= 1 + least and high >= 1 / (1 + least):
-        return "no difference", bounds
-    return ("faster" if (low > 1) == a["more_is_better"] else "slower"), bounds
+        return "no difference", found
+    return ("faster" if (low > 1) == a["more_is_better"] else "slower"), found
 
 
 def compare(options):
@@ -195,6 +218,9 @@ def compare(options):
     for key in ("cpu", "cores", "compiler", "build_type", "flags"):
         if a["machine"].get(key) != b["machine"].get(key):
             print("note: %s differs: '%s' and '%s'" % (key, a["machine"].get(key), b["machine"].get(key)))
+    paired = bool(a.get("together")) and a["together"] == b.get("together")
+    if paired:
+        print("note: both ran at once, so ratios are those of each round")
     counts = {}
     print("%-48s %12s %12s %8s %19s  %s" % ("figure", "A", "B", "B/A", "99 % interval", "verdict"))
     for name in a["figures"]:
@@ -204,9 +230,9 @@ def compare(options):
         one, two = a["figures"][name], b["figures"][name]
         if one["unit"] != two["unit"]:
             raise ValueError("found '%s' in %s and in %s, expected one unit" % (name, one["unit"], two["unit"]))
-        found, bounds = verdict(one, two, options.least)
+        found, ratio = verdict(one, two, paired, options.least)
         counts[found] = counts.get(found, 0) + 1
-        shown = "%8.3f   [%.3f, %.3f]" % bounds if bounds else ""
+        shown = "%8.3f   [%.3f, %.3f]" % ratio if ratio else ""
         print("%-48s %12.5g %12.5g %-27s  %s" % (name, statistics.median(one["values"]),
                                                  statistics.median(two["values"]), shown, found))
     for name in b["figures"]:
@@ -233,8 +259,8 @@ def print_ratios(result):
             other = result["figures"].get(name.replace("edmill/", yardstick + "/", 1))
             if not name.startswith("edmill/") or not other or " " in name:
                 continue
-            bounds_of = paired_interval if result.get("together") else interval
-            ratio, low, high = bounds_of(other["values"], figure["values"])
+            ratio_of = paired_range if result.get("together") else interval
+            ratio, low, high = ratio_of(other["values"], figure["values"])
             enough = min(len(other["values"]), len(figure["values"])) >= FEWEST
             shown = "   [%.3f, %.3f]" % (low, high) if enough else ""
             lines.append("%-48s %8.3f%s" % (name[len("edmill/"):], ratio, shown))
