@@ -1,4 +1,5 @@
 edmill_test(cell_grid_test engine/cell_grid_test.cpp)
+edmill_test(collapse_watch_test engine/collapse_watch_test.cpp)
 edmill_test(event_queue_test engine/event_queue_test.cpp)
 edmill_test(flight_table_test engine/flight_table_test.cpp)
 edmill_test(energy_test engine/energy_test.cpp TIMEOUT 300)
