@@ -86,6 +86,7 @@ class CellGrid {
     return cell;
   }
 
+  /// The ball leaves `cell`, which becomes the adjacent one.
   void move(int ball, CellOfBall& cell, int axis, int step) {
     unlink(ball, cell);
     cell.at[axis] = static_cast<std::int16_t>(cell.at[axis] + step);
@@ -295,7 +296,7 @@ class CellGrid {
   /// empty. Two by two by two cells are a brick that fills a cache line.
   std::array<std::vector<int>, 3> at_;
   LargeVector<Cell> content_;
-  LargeVector<int> next_;  ///< ball in the same crowded cell
+  LargeVector<int> next_;  ///< of each ball: another one in the same crowded cell
 };
 
 }  // namespace edmill::engine
