@@ -6,6 +6,7 @@ target_include_directories(edmill_arb_oracle PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/
 target_link_libraries(edmill_arb_oracle PRIVATE ${ARB_LIBRARY} ${FLINT_LIBRARY})
 target_compile_options(edmill_arb_oracle PRIVATE ${edmill_warnings} $<$<BOOL:${EDMILL_WERROR}>:-Werror>)
 
-edmill_test(wall_search_test dynamics/wall_search_test.cpp TIMEOUT 1200 LIBRARIES edmill_arb_oracle)
+edmill_test(wall_search_test dynamics/wall_search_test.cpp)
+edmill_test(wall_oracle_test dynamics/wall_oracle_test.cpp TIMEOUT 1200 LIBRARIES edmill_arb_oracle)
 edmill_test(impulse_test dynamics/impulse_test.cpp)
 edmill_test(gap_functions_test dynamics/gap_functions_test.cpp)

@@ -1,0 +1,232 @@
+// States of a ball near a wall that are hard for a search: drawn in float128, asked in any scalar.
+#pragma once
+
+#include <random>
+#include <string>
+
+#include "edmill/dynamics/wall_search.hpp"
+#include "edmill/instances.hpp"
+
+namespace edmill::dynamics {
+
+template <class To>
+model::Mill<To> widened(const model::Mill<double>& m) {
+  model::Mill<To> wide{};
+  wide.motion = {To(m.motion.arm), To(m.motion.theta_max), To(m.motion.gamma_max), To(m.motion.period)};
+  wide.vessel = {To(m.vessel.radius), To(m.vessel.half_height)};
+  wide.gravity = vector_cast<To>(m.gravity);
+  return wide;
+}
+
+template <class To>
+WallQuery<To> widened(const WallQuery<double>& q) {
+  return {flight_cast<To>(q.flight), To(q.radius), instant_cast<To>(q.begin), To(q.length)};
+}
+
+/// Reproducible draws; the distributions of <random> differ between libraries.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : bits_(seed) {}
+  double uniform() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  double symmetric() { return 2 * uniform() - 1; }
+  double log_uniform(double low, double high) { return low * std::pow(high / low, uniform()); }
+  double sign() { return chance(0.5) ? 1 : -1; }
+  bool chance(double p) { return uniform() < p; }
+  int below(int n) { return static_cast<int>(uniform() * n); }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+enum class Kind { leaving, touching, near, grazing, dipping, seam, corner_hit, axis, anywhere };
+constexpr Kind all_kinds[] = {Kind::leaving, Kind::touching,   Kind::near, Kind::grazing, Kind::dipping,
+                              Kind::seam,    Kind::corner_hit, Kind::axis, Kind::anywhere};
+
+inline std::string name(Kind kind) {
+  switch (kind) {
+    case Kind::leaving:
+      return "on a wall, leaving";
+    case Kind::touching:
+      return "on a wall, approaching or overlapped";
+    case Kind::near:
+      return "near a wall";
+    case Kind::grazing:
+      return "grazing";
+    case Kind::dipping:
+      return "through a wall and back in a long window";
+    case Kind::seam:
+      return "near the seam";
+    case Kind::corner_hit:
+      return "cap and cylinder at one time";
+    case Kind::axis:
+      return "near the axis";
+    case Kind::anywhere:
+      return "anywhere";
+  }
+  return "";
+}
+
+/// Where a ball is in the vessel frame, and how it moves there, at an instant.
+struct Placement {
+  Vec3<float128> position, velocity;
+};
+
+/// Draws states of one mill. Wide arithmetic places the ball; the query holds the rounded state.
+class StateMaker {
+ public:
+  StateMaker(const model::Mill<double>& mill, double longest)
+      : mill_(widened<float128>(mill)), constants_(mill_), longest_(longest) {}
+
+  /// Distance from tangency of grazing paths [m]; zero draws it anew for each.
+  double grazing_distance = 0;
+
+  /// @param turning  the window begins near a turning point of the drive
+  WallQuery<double> operator()(Draw& draw, Kind kind, bool turning) const {
+    for (;;) {
+      const auto query = attempt(draw, kind, turning);
+      const GapFunctions<float128> gaps(constants_, flight_cast<float128>(query.flight),
+                                        float128(query.radius), query.begin.period);
+      const auto sample = gaps(float128(query.begin.offset));
+      // A state of the solver is inside the vessel up to rounding.
+      const float128 across = 2 * (mill_.vessel.radius - float128(query.radius));
+      if (sample.gap[0] > -3e-15 && sample.gap[1] > -3e-15 && sample.gap[2] > -3e-15 * across) return query;
+    }
+  }
+
+ private:
+  WallQuery<double> attempt(Draw& draw, Kind kind, bool turning) const {
+    const double period = static_cast<double>(mill_.motion.period);
+    WallQuery<double> q{};
+    q.radius = draw.uniform(0.00118, 0.00635);
+    q.length = draw.chance(0.5) ? draw.uniform(0.0, longest_) : draw.log_uniform(1e-6, 1) * longest_;
+    if (kind == Kind::dipping || draw.chance(0.1)) q.length = longest_;
+    if (!(q.length > 0)) q.length = longest_;
+    double offset = draw.uniform(0, period);
+    if (turning) {
+      offset = 0.25 * draw.below(5) * period;
+      if (draw.chance(0.8)) offset += draw.sign() * draw.log_uniform(1e-15, 1e-2) * period;
+    }
+    if (!(offset >= 0 && offset < period)) offset = 0;
+    const std::int64_t periods[] = {0, 2, 17, 123456, 1000000007};
+    q.begin = {periods[draw.below(5)], offset};
+
+    // The instant at which the ball is placed: begin, or within the window.
+    float128 later = 0;
+    if (kind == Kind::grazing || kind == Kind::dipping || kind == Kind::corner_hit)
+      later = q.length * draw.uniform();
+    const Placement placed = place(draw, kind, q.radius);
+
+    // The flight starts at begin, earlier in that period, or in an earlier period.
+    q.flight.start = q.begin;
+    const double how = draw.uniform();
+    if (how > 0.7) {
+      q.flight.start.period -= draw.chance(0.1) ? 2 : 1;
+      q.flight.start.offset = draw.chance(0.3) ? std::nextafter(period, 0.0) : draw.uniform(0, period);
+    } else if (how > 0.4) {
+      q.flight.start.offset = draw.chance(0.5) ? draw.uniform(0, q.begin.offset)
+                                               : q.begin.offset * (1 - draw.log_uniform(1e-12, 1));
+      if (!(q.flight.start.offset >= 0)) q.flight.start.offset = 0;
+    }
+    set_flight(q, placed, later);
+    return q;
+  }
+
+  /// Moves the placed ball from `later` after begin back to the start of the flight, and rounds.
+  void set_flight(WallQuery<double>& q, const Placement& placed, const float128& later) const {
+    const float128 when = q.begin.offset + later;
+    const auto pose = model::pose_at<float128>(mill_.motion, when);
+    const Vec3<float128> at = model::to_inertial<float128>(pose, mill_.motion.arm, placed.position);
+    Vec3<float128> velocity = model::wall_velocity<float128>(pose, mill_.motion.arm, at);
+    const auto &x = model::vessel_axis_x<float128>(pose), &y = model::vessel_axis_y<float128>(pose),
+               &z = model::vessel_axis_z<float128>(pose);
+    for (int k = 0; k < 3; ++k)
+      velocity[k] += x[k] * placed.velocity[0] + y[k] * placed.velocity[1] + z[k] * placed.velocity[2];
+    const float128 flown = float128(q.begin.period - q.flight.start.period) * mill_.motion.period +
+                           (when - float128(q.flight.start.offset));
+    for (int k = 0; k < 3; ++k) {
+      const float128& g = mill_.gravity[k];
+      q.flight.position[k] = static_cast<double>(at[k] - velocity[k] * flown + g * flown * flown / 2);
+      q.flight.velocity[k] = static_cast<double>(velocity[k] - g * flown);
+    }
+  }
+
+  Placement place(Draw& draw, Kind kind, double radius) const {
+    const float128 across = mill_.vessel.radius - float128(radius);      // of the axis
+    const float128 along = mill_.vessel.half_height - float128(radius);  // of the middle plane
+    const int wall = draw.below(3);
+    float128 cap_gap = along * draw.uniform(), side_gap = across * (1 - std::sqrt(draw.uniform()));
+    const double cap_side = wall == 2 ? draw.sign() : (wall == 0 ? -1 : 1);
+    float128 out_along = 0, out_across = 0;  // velocity towards the cap and towards the cylinder
+    bool free_along = true, free_across = true;
+    const double top = draw.chance(0.5) ? draw.uniform(0.0, 5.7) : draw.log_uniform(1e-6, 5.7);
+    // Gap and approach speed of the wall in question.
+    const auto set = [&](int which, const float128& gap, const float128& approach) {
+      (which == 2 ? side_gap : cap_gap) = gap;
+      (which == 2 ? out_across : out_along) = approach;
+      (which == 2 ? free_across : free_along) = false;
+    };
+    switch (kind) {
+      case Kind::leaving:
+        set(wall, 0, -draw.log_uniform(1e-12, 10));
+        break;
+      case Kind::touching:
+        if (draw.chance(0.5))
+          set(wall, 0, draw.log_uniform(1e-12, 10));
+        else
+          set(wall, -draw.log_uniform(1e-18, 2e-15), draw.sign() * draw.log_uniform(1e-12, 10));
+        break;
+      case Kind::near:
+        set(wall, draw.log_uniform(1e-12, 1e-3), top * draw.symmetric());
+        break;
+      case Kind::grazing: {
+        // A third of them within or near the rounding of the state itself.
+        const double drawn =
+            draw.chance(1.0 / 3) ? draw.log_uniform(1e-18, 1e-14) : draw.log_uniform(1e-14, 1e-9);
+        set(wall, draw.sign() * (grazing_distance > 0 ? grazing_distance : drawn), 0);
+        break;
+      }
+      case Kind::dipping:
+        set(wall, -draw.log_uniform(1e-9, 1e-4), 0);
+        break;
+      case Kind::seam:
+        set(2, draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
+        set(0, draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
+        break;
+      case Kind::corner_hit:
+        set(2, 0, draw.log_uniform(1e-6, 5));
+        set(0, 0, draw.log_uniform(1e-6, 5));
+        break;
+      case Kind::axis:
+        side_gap = across - float128(draw.log_uniform(1e-12, 1e-3));
+        break;
+      case Kind::anywhere:
+        break;
+    }
+    if (free_along) out_along = top * draw.symmetric();
+    if (free_across) out_across = top * draw.symmetric();
+    const float128 angle = draw.uniform(0, 6.283185307179586);
+    const float128 cosine = cos(angle), sine = sin(angle);
+    const float128 distance = across - side_gap, around = top * draw.symmetric();
+    return {{distance * cosine, cap_side * (along - cap_gap), distance * sine},
+            {out_across * cosine - around * sine, cap_side * out_along, out_across * sine + around * cosine}};
+  }
+
+  model::Mill<float128> mill_;
+  GapFunctions<float128>::Constants constants_;
+  double longest_;
+};
+/// A search may prove less of the window than it was asked for; this asks on to its end.
+template <class Decide, class Real>
+WallAnswer<Real> over_window(Decide&& decide, WallQuery<Real> query, const Real& period) {
+  const DriveClock<Real> clock(period);
+  for (;;) {
+    const WallAnswer<Real> answer = decide(query);
+    const Real left = query.length - answer.searched;
+    if (answer.verdict != Verdict::none || !(left > epsilon<Real>() * period)) return answer;
+    query.begin = clock.after(query.begin, answer.searched);
+    query.length = left;
+  }
+}
+
+}  // namespace edmill::dynamics
