@@ -13,7 +13,8 @@ std::string describe_law(const model::ContactLaw<double>& law) {
                                        law.restitution_tangential)
                          : fmt::format("walton-braun: restitution {}, friction {}, tangential at least {}",
                                        law.restitution_normal, law.friction, law.min_tangential);
-  return text + (law.collapse_time > 0 ? fmt::format(", t_c {:g} s", law.collapse_time) : ", no t_c");
+  return text + (law.least_separation > 0 ? fmt::format(", least separation {:g} m/s", law.least_separation)
+                                          : ", no least separation");
 }
 
 }  // namespace

@@ -217,7 +217,7 @@ bool Auditor::another_body_is_there(LoggedEvent& event, double allowed, double g
 /// docs/theory.md, section 6
 Restitutions Auditor::restitutions(const LoggedEvent& event) const {
   const auto& law = event.with_wall ? case_.mill.ball_wall : case_.mill.ball_ball;
-  const double t_c = law.collapse_time;
+  const double t_c = 0;
   Restitutions allowed;
   if (!(t_c > 0)) return allowed;
   bool surely = false, perhaps = false, resting = false;

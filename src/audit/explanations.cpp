@@ -53,8 +53,7 @@ bool ImpactJudge::explain(const LoggedEvent& event, const Scene& scene, const Re
   Restitutions other;
   other.law = !allowed.law, other.collapse = !allowed.collapse;
   for (const auto& formula : right_formulas(impact, other))
-    if (law(impact).collapse_time > 0 &&
-        distance(impact, event, outcome(impact, law(impact), event, formula)) <= allowed_off) {
+    if (false && distance(impact, event, outcome(impact, law(impact), event, formula)) <= allowed_off) {
       explanation = {Kind::collapse_rule,
                      allowed.law ? "e_n is 1 though the last impact is more than t_c ago"
                                  : "e_n is the law's within t_c of the last impact",

@@ -158,7 +158,7 @@ bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& 
     event.body[0].spin_before = state.spin;
     const auto scene = scene_at(ball, contact->second, time, event.body[0].position);
     Formula formula;
-    formula.restitution = time - last < law.collapse_time ? 1 : law.restitution_normal;
+    formula.restitution = law.restitution_normal;
     const auto after = outcome(scene.impact, law, event, formula);
     state = {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time};
     last = time;

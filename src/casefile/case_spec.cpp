@@ -126,7 +126,7 @@ std::string canonical_text(const CaseSpec& c) {
     return v[0].text() + "," + v[1].text() + "," + v[2].text();
   };
   const auto optional = [](const auto& q) { return q ? q->text() : std::string("-"); };
-  out << "edmill case 1\nprecision " << c.precision << "\nseed " << c.seed << "\ninitial_time "
+  out << "edmill case 2\nprecision " << c.precision << "\nseed " << c.seed << "\ninitial_time "
       << c.initial_time.text() << "\nstart_time " << c.statistics_start.text() << "\nend_time "
       << optional(c.end_time) << "\nmax_milling_dose " << optional(c.max_milling_dose) << "\nmax_ball_speed "
       << optional(c.max_ball_speed) << "\nmax_collisions "
@@ -137,7 +137,7 @@ std::string canonical_text(const CaseSpec& c) {
   for (const auto* law : {&c.ball_ball, &c.ball_wall})
     out << "contact " << (law->model == model::ContactModel::constant ? "constant " : "walton-braun ")
         << law->restitution_normal.text() << " " << law->restitution_tangential.text() << " "
-        << law->friction.text() << " " << law->min_tangential.text() << " " << law->collapse_time.text()
+        << law->friction.text() << " " << law->min_tangential.text() << " " << law->least_separation.text()
         << "\n";
   for (const auto& b : c.balls)
     out << "ball " << b.diameter.text() << " " << b.density.text() << " " << b.reduced_inertia.text() << " "

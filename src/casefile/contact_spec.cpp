@@ -35,12 +35,13 @@ void read_contact_keys(Section& s, ContactSpec& spec, ContactKeys& given) {
   take("restitution_normal", 0, 1, spec.restitution_normal, given.restitution, "a number from 0 to 1");
   take("restitution_tangential", -1, 1, spec.restitution_tangential, given.tangential,
        "a number from -1 to 1");
-  take("friction", 0, large, spec.friction, given.friction, "a number of 0 or more");
+  take("friction", 0, large, spec.friction, given.friction, "a number from 0 to 1000000");
   take("min_tangential", -1, 1, spec.min_tangential, ignored, "a number from -1 to 1");
-  if (const auto t_c = s.quantity("collapse_time", Dimension::time)) {
-    spec.collapse_time = *t_c;
-    s.require(!t_c->negative(), "collapse_time", "a time of 0 or more");
+  if (const auto speed = s.quantity("least_separation", Dimension::speed)) {
+    spec.least_separation = *speed;
+    s.require(!speed->negative(), "least_separation", "a speed of 0 or more");
   }
+  s.replaced("collapse_time", "'least_separation', the least speed at which bodies leave an impact");
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ void read_contact(Section contact, CaseSpec& spec) {
     if (law.model == model::ContactModel::constant)
       need(given.tangential, "restitution_tangential", "a number from -1 to 1");
     else
-      need(given.friction, "friction", "a number of 0 or more");
+      need(given.friction, "friction", "a number from 0 to 1000000");
   }
   contact.reject_unknown_keys();
 }

@@ -241,6 +241,11 @@ void Section::require(bool good, const std::string& key, const std::string& expe
   problem(key, node ? "\"" + document_->raw(*node, full(key)) + "\"" : "nothing", expected);
 }
 
+void Section::replaced(const std::string& key, const std::string& expected) {
+  if (const auto* node = find(key))
+    document_->report(node, full(key), "a key that is no longer known", expected);
+}
+
 void Section::reject_unknown_keys() {
   if (!table_) return;
   for (const auto& [key, node] : *table_) {

@@ -24,6 +24,7 @@ void add_energy(pugi::xml_node main, const RunFolder& run) {
   std::vector<std::vector<std::string>> rows{row("work of the walls on the balls", f.wall_work)};
   for (std::size_t k = 0; k < f.dose.size(); ++k)
     rows.push_back(row(std::string("dissipated, ") + partner_names[k], f.dose[k] == 0 ? 0 : -f.dose[k]));
+  rows.push_back(row("supplied by the least separation speed", f.supplied_energy));
   rows.push_back(row("into kinetic energy of the balls", kinetic == 0 ? 0 : -kinetic));
   rows.push_back(row("into potential energy", potential == 0 ? 0 : -potential));
   rows.push_back(
@@ -37,11 +38,11 @@ namespace {
 
 std::string law_text(const casefile::ContactSpec& c) {
   const bool constant = c.model == model::ContactModel::constant;
-  return fmt::format("{}, e = {}, {}, collapse time {} ms", constant ? "constant" : "Walton\u2013Braun",
+  return fmt::format("{}, e = {}, {}, least separation {} mm/s", constant ? "constant" : "Walton\u2013Braun",
                      brief(c.restitution_normal.to<double>()),
                      constant ? "e tangential = " + brief(c.restitution_tangential.to<double>())
                               : "friction " + brief(c.friction.to<double>()),
-                     brief(1000 * c.collapse_time.to<double>()));
+                     brief(1000 * c.least_separation.to<double>()));
 }
 
 std::string ball_text(const casefile::BallSpec& ball, int count) {
@@ -73,9 +74,9 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time),
                                             brief(f.end_time), f.end_reason)});
   rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.seed, f.precision)});
-  rows.push_back({"collapse rule", fmt::format("{} % of the impacts, {} % of the dose",
-                                               readable(100 * f.collapse_impact_share, 3),
-                                               readable(100 * f.collapse_dose_share, 2))});
+  rows.push_back({"at least separation speed", fmt::format("{} % of the impacts, {} % of the dose",
+                                                           readable(100 * f.touched_impact_share, 3),
+                                                           readable(100 * f.touched_dose_share, 2))});
   rows.push_back({"deepest overlap", readable(f.deepest_overlap, 2) + " m"});
   rows.push_back({"program", fmt::format("edmill {} ({}), {}", f.version, f.commit, f.compiler)});
   rows.push_back({"cost", fmt::format("{} impacts in {} s of processor time",

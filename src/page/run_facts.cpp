@@ -93,8 +93,9 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
                                    {"/energy/kinetic_end", &f.kinetic_end},
                                    {"/energy/potential_end", &f.potential_end},
                                    {"/energy/closure", &f.closure},
-                                   {"/collapse/impact_share", &f.collapse_impact_share},
-                                   {"/collapse/milling_dose_share", &f.collapse_dose_share},
+                                   {"/least_separation/impact_share", &f.touched_impact_share},
+                                   {"/least_separation/milling_dose_share", &f.touched_dose_share},
+                                   {"/least_separation/supplied_energy", &f.supplied_energy},
                                    {"/deepest_overlap", &f.deepest_overlap},
                                    {"/impacts_since_start", &f.impacts_since_start},
                                    {"/cpu_seconds", &f.cpu_seconds}})

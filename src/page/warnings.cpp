@@ -13,7 +13,8 @@ namespace {
 
 using plot::readable;
 
-constexpr double collapse_share_limit = 0.05, closure_limit = 1e-9, interval_limit = 0.05;
+constexpr double touched_share_limit = 0.05, supplied_share_limit = 0.01, closure_limit = 1e-9,
+                 interval_limit = 0.05;
 constexpr double fewest_collisions = 1000;
 
 void check_end(const RunFacts& f, std::vector<Warning>& list) {
@@ -54,13 +55,18 @@ std::vector<Warning> warnings_of(const RunFacts& f, const Batches& dose_rate) {
                                         "run longer.",
                                         plot::brief(100 * interval_limit))});
   }
-  if (f.collapse_dose_share > collapse_share_limit)
+  if (f.touched_dose_share > touched_share_limit)
     list.push_back(
-        {"collapse_share",
-         fmt::format(
-             "{} % of the dose comes from impacts within the collapse time of the last one. They have "
-             "e = 1, so the dose rate depends on that time by about as much: run with half of it, too.",
-             readable(100 * f.collapse_dose_share, 2))});
+        {"separation_share",
+         fmt::format("{} % of the dose comes from impacts that the least separation speed decides: "
+                     "run with half of contact.least_separation, too.",
+                     readable(100 * f.touched_dose_share, 2))});
+  if (f.milling_dose > 0 && f.supplied_energy > supplied_share_limit * f.milling_dose)
+    list.push_back(
+        {"supplied_energy",
+         fmt::format("The least separation speed supplies {} % of the dose as energy of motion: run "
+                     "with a smaller contact.least_separation.",
+                     readable(100 * f.supplied_energy / f.milling_dose, 2))});
   if (f.milling_dose > 0 && std::abs(f.closure) > closure_limit * f.milling_dose)
     list.push_back({"energy", fmt::format("Energy closes to {} of the dose only.",
                                           readable(std::abs(f.closure) / f.milling_dose, 2))});

@@ -45,7 +45,7 @@ struct ExplicitBall : BallSpec {
 struct ContactSpec {
   model::ContactModel model = model::ContactModel::walton_braun;
   Quantity restitution_normal, restitution_tangential{1}, friction, min_tangential{-1};
-  Quantity collapse_time{boost::multiprecision::cpp_rational(1, 10000)};
+  Quantity least_separation{boost::multiprecision::cpp_rational(1, 100)};
 };
 
 struct MillSpec {

@@ -40,9 +40,9 @@ void note_totals(const engine::Simulation<Real>& simulation, const observe::RunS
   }
   summary.milling_dose = statistics.milling_dose();
   summary.wall_work = statistics.wall_work();
-  summary.collapse_impacts = statistics.collapsing();
-  summary.resting_impacts = statistics.resting();
-  summary.collapse_dose = statistics.collapsing_dose();
+  summary.touched_impacts = statistics.touched();
+  summary.touched_dose = statistics.touched_dose();
+  summary.supplied_energy = statistics.supplied_energy();
   summary.collapse = simulation.collapse();
   summary.simultaneous_contacts = simulation.counts().simultaneous_contacts;
   summary.deepest_overlap = simulation.counts().deepest_overlap;

@@ -1,5 +1,5 @@
 // What an impact does: new velocities and spins, milling dose, wall work.
-// Equations: (2.28), (2.30), (2.34'), (2.35), (2.36), (A.82) of docs/theory.md.
+// Equations: (2.23'), (2.28'), (2.30'), (2.34'), (2.35), (2.36'), (A.82) of docs/theory.md.
 #pragma once
 
 #include "edmill/core/vector.hpp"
@@ -11,22 +11,23 @@ namespace edmill::dynamics {
 /// The quantities of one impact.
 template <class Real>
 struct ImpactOutcome {
-  Real approach_speed{};  ///< -g.n before the impact [m/s]
-  Real slip_speed{};      ///< |g_t| before the impact [m/s]
-  model::Restitution<Real> restitution{};
-  Real normal_impulse{};      ///< [N s]
-  Real tangential_impulse{};  ///< [N s]
-  Real milling_dose{};        ///< [J], (2.30) or (2.36); never negative
-  Real wall_work{};           ///< [J], (A.82); zero between balls
-};
+  Real approach_speed{};          ///< -g.n before the impact [m/s]
+  Real separation_speed{};        ///< g.n after the impact [m/s]
+  Real slip_speed{};              ///< |g_t| before the impact [m/s]
+  Real restitution_tangential{};  ///< e_t
+  bool least_separation{};        ///< the least separation speed, and not the restitution, decided g.n
+  Real normal_impulse{};          ///< [N s]
+  Real tangential_impulse{};      ///< [N s]
+  Real milling_dose{};            ///< [J], (2.30') or (2.36'); never negative
+  Real normal_dose{};             ///< the part of the dose that the motion along the normal gives up [J]
+  Real supplied_energy{};         ///< that the least separation speed adds to the motion [J]; never negative
+  Real wall_work{};               ///< [J], (A.82); zero between balls
 
-/// What the impacts before say of this one; theory.md, section 6.
-template <class Real>
-struct Persistence {
-  bool collapsing = false;  ///< within t_c of the last one
-  bool resting = false;     ///< of a body at rest for every purpose
-  /// At which bodies at rest leave each other at least [m/s]: a slower approach is rounding.
-  Real least_separation{0};
+  /// Effective e_n = separation over approach speed; above 1 where energy is supplied, 1 where the bodies do
+  /// not approach each other.
+  Real restitution_normal() const {
+    return approach_speed > 0 ? Real(separation_speed / approach_speed) : Real(1);
+  }
 };
 
 namespace detail {
@@ -43,7 +44,7 @@ struct ImpulseParts {
 template <class Real>
 ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
                                  const Real& effective_mass, const Real& compliance,
-                                 const model::ContactLaw<Real>& law, const Persistence<Real>& contact) {
+                                 const model::ContactLaw<Real>& law) {
   const Real normal_speed = dot<Real>(contact_velocity, normal);  // negative while approaching
   const Vec3<Real> slip = contact_velocity - normal * normal_speed;
   ImpulseParts<Real> parts;
@@ -51,35 +52,37 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
   out.approach_speed = -normal_speed;
   out.slip_speed = norm<Real>(slip);
   const Real approach = normal_speed < 0 ? Real(-normal_speed) : Real(0);
-  out.restitution =
-      law.restitution(approach, out.slip_speed, compliance, contact.collapsing, contact.resting);
-  const Real e_n = out.restitution.normal, e_t = out.restitution.tangential;
+  const Real separation = law.separation_speed(approach);
+  out.least_separation = separation > law.restitution_normal * approach;
+  // Bodies that part by rounding, and faster than they would leave, go on as they are.
+  out.separation_speed = separation > normal_speed ? separation : normal_speed;
+  const Real change = out.separation_speed - normal_speed;
+  out.restitution_tangential = law.restitution_of_slip(change, out.slip_speed, compliance);
+  const Real& e_t = out.restitution_tangential;
   const Real gain = (1 - e_t) / compliance;
-  Real change = -((1 + e_n) * normal_speed);
-  if (contact.resting && approach < contact.least_separation) {
-    // Below it the approach is rounding, and may even have the wrong sign.
-    change =
-        contact.least_separation > normal_speed ? Real(contact.least_separation - normal_speed) : Real(0);
-  }
   parts.per_mass = normal * change - slip * gain;
   parts.spin_torque = cross<Real>(normal, slip) * gain;
-  out.normal_impulse = effective_mass * (change > 0 ? change : Real(0));
+  out.normal_impulse = effective_mass * change;
   out.tangential_impulse = effective_mass * (gain * out.slip_speed);
-  out.milling_dose = effective_mass / 2 *
-                     ((1 - e_n * e_n) * (normal_speed * normal_speed) +
-                      (1 - e_t * e_t) / compliance * (out.slip_speed * out.slip_speed));
+  const Real normal_loss = effective_mass / 2 * ((out.approach_speed - out.separation_speed) * change);
+  if (normal_loss < 0)
+    out.supplied_energy = -normal_loss;
+  else
+    out.normal_dose = normal_loss;
+  out.milling_dose = out.normal_dose +
+                     effective_mass / 2 * ((1 - e_t * e_t) / compliance * (out.slip_speed * out.slip_speed));
   return parts;
 }
 
 }  // namespace detail
 
-/// Impact of two balls. (2.28), (2.30)
+/// Impact of two balls. (2.28'), (2.30')
 /// @param normal  contact normal, unit, from ball j to ball i
 template <class Real>
 ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallProperties<Real>& ball_i,
                                   const model::BallProperties<Real>& ball_j, Vec3<Real>& velocity_i,
                                   Vec3<Real>& spin_i, Vec3<Real>& velocity_j, Vec3<Real>& spin_j,
-                                  const model::ContactLaw<Real>& law, const Persistence<Real>& contact = {}) {
+                                  const model::ContactLaw<Real>& law) {
   const Real total = ball_i.mass + ball_j.mass;
   const Real share_i = ball_j.mass / total;  // M / m_i
   const Real share_j = ball_i.mass / total;
@@ -87,8 +90,7 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
   const Real compliance = 1 + share_i / ball_i.reduced_inertia + share_j / ball_j.reduced_inertia;
   const Vec3<Real> rolling = spin_i * ball_i.radius + spin_j * ball_j.radius;
   const Vec3<Real> contact_velocity = (velocity_i - velocity_j) - cross<Real>(rolling, normal);
-  const auto parts =
-      detail::impulse_parts<Real>(normal, contact_velocity, effective_mass, compliance, law, contact);
+  const auto parts = detail::impulse_parts<Real>(normal, contact_velocity, effective_mass, compliance, law);
   velocity_i += parts.per_mass * share_i;
   velocity_j -= parts.per_mass * share_j;
   spin_i += parts.spin_torque * (share_i / (ball_i.radius * ball_i.reduced_inertia));
@@ -96,17 +98,17 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
   return parts.outcome;
 }
 
-/// Impact of a ball with a wall that moves with `wall_velocity` at the contact point. (2.34'), (2.35), (2.36)
+/// Impact of a ball with a wall that moves with `wall_velocity` at the contact point. (2.34'), (2.35),
+/// (2.36')
 /// @param normal  contact normal, unit, from the wall to the ball
 template <class Real>
 ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal, const model::BallProperties<Real>& ball,
                                       const Vec3<Real>& wall_velocity, Vec3<Real>& velocity, Vec3<Real>& spin,
-                                      const model::ContactLaw<Real>& law,
-                                      const Persistence<Real>& contact = {}) {
+                                      const model::ContactLaw<Real>& law) {
   const Real compliance = 1 + 1 / ball.reduced_inertia;
   const Vec3<Real> rolling = spin * ball.radius;
   const Vec3<Real> contact_velocity = (velocity - wall_velocity) - cross<Real>(rolling, normal);
-  auto parts = detail::impulse_parts<Real>(normal, contact_velocity, ball.mass, compliance, law, contact);
+  auto parts = detail::impulse_parts<Real>(normal, contact_velocity, ball.mass, compliance, law);
   velocity += parts.per_mass;
   spin += parts.spin_torque * (1 / (ball.radius * ball.reduced_inertia));
   parts.outcome.wall_work = ball.mass * dot<Real>(wall_velocity, parts.per_mass);

@@ -14,22 +14,20 @@ struct RecentImpacts {
   Instant<Real> last = Instant<Real>::long_ago();
   Real accumulation{-1};  ///< time [s] to which a burst converges; negative where it is not known
   int partner = -1;
-  std::int16_t stuck = 0;           ///< impacts in a row, up to `CollapseWatch::plenty`
-  std::int8_t burst = 0, rest = 0;  ///< the same, up to `CollapseWatch::enough`
+  std::int16_t stuck = 0;  ///< impacts in a row, up to `CollapseWatch::plenty`
+  std::int8_t burst = 0;   ///< the same, up to `CollapseWatch::enough`
 
-  void archive(Archive& a) { a(last, accumulation, partner, stuck, burst, rest); }
+  void archive(Archive& a) { a(last, accumulation, partner, stuck, burst); }
 };
 
-/// Follows the balls' recent impacts. A ball whose last `enough` impacts each came after a path shorter than
-/// `smallest_path`, a length well above rounding, is in collapse. The accumulation time extrapolates the
-/// first of these impacts, where rounding matters least: intervals with one partner shrink by the restitution
-/// e, so the rest of them sums to dt e / (1 - e).
+/// Follows the balls' recent impacts by laws without a least separation speed. A ball whose last `enough`
+/// impacts each came after a path shorter than `smallest_path`, a length well above rounding, is in collapse.
+/// The accumulation time extrapolates the first of these impacts, where rounding matters least: intervals
+/// with one partner shrink by the restitution e, so the rest of them sums to dt e / (1 - e).
 template <class Real>
 class CollapseWatch {
  public:
-  /// @param resting_path  the same for `resting`, of one size in every scalar [m]
-  CollapseWatch(const Real& smallest_path, const Real& resting_path)
-      : smallest_path_(smallest_path), resting_path_(resting_path) {}
+  explicit CollapseWatch(const Real& smallest_path) : smallest_path_(smallest_path) {}
 
   /// Takes note of an impact. @param key identifies the partner, @return true when the ball is in collapse
   bool note(RecentImpacts<Real>& r, int key, const Instant<Real>& now, const Real& approach_speed,
@@ -45,19 +43,11 @@ class CollapseWatch {
     } else {
       r.burst = 0;
     }
-    r.rest = interval * approach_speed < resting_path_ ? one_more(r.rest, enough) : std::int8_t{0};
     r.stuck = interval > 0 ? std::int16_t{0} : one_more(r.stuck, plenty);
     r.last = now;
     r.partner = key;
-    return r.burst >= enough;
+    return r.burst >= enough || r.stuck >= plenty;
   }
-
-  /// The ball's recent impacts came after paths so short that it is at rest for every purpose: with t_c,
-  /// where friction at one wall takes the motion along the normal of another.
-  static bool resting(const RecentImpacts<Real>& r) { return r.rest >= enough; }
-
-  /// Impacts of the ball without any time between them.
-  static bool stuck(const RecentImpacts<Real>& r) { return r.stuck >= plenty; }
 
   static Real accumulation_time(const RecentImpacts<Real>& r, const DriveClock<Real>& clock) {
     return r.accumulation < 0 ? clock.seconds(r.last) : r.accumulation;
@@ -72,7 +62,7 @@ class CollapseWatch {
     return std::min(static_cast<Count>(count + 1), most);
   }
 
-  Real smallest_path_, resting_path_;
+  Real smallest_path_;
 };
 
 }  // namespace edmill::engine

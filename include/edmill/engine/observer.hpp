@@ -20,8 +20,6 @@ struct Impact {
   bool with_wall;
   int partner;  ///< ball or wall id
   dynamics::ImpactOutcome<Real> outcome;
-  bool collapsing;    ///< within t_c of a previous impact of either ball
-  bool resting;       ///< and in collapse despite t_c
   Real overlap;       ///< how deep the bodies overlap by rounding at the impact [m]; negative for a gap
   Vec3<Real> normal;  ///< unit, from the partner to the ball
   Vec3<Real> velocity_before[2];  ///< of the ball and, for balls, the partner [m/s]

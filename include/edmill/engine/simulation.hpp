@@ -183,9 +183,6 @@ class Simulation {
   [[gnu::noinline]] void number_anew();
   void number_impact(int ball, int partner);
   void after_impact(Impact<Real>& impact);
-  dynamics::Persistence<Real> persistence_of(const Impact<Real>& impact) const {
-    return {impact.collapsing, impact.resting, least_separation_};
-  }
   void note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall, int partner);
   Event settle_ties(Event event);
   dynamics::Contact<Real> contact_of(const Event& event) const;
@@ -262,7 +259,6 @@ class Simulation {
   std::optional<EndReason> stop_;
   Instant<Real> now_;
   Real suspicion_;          ///< contacts of one ball closer in time [s] are put in order by the ladder
-  Real least_separation_;   ///< of bodies at rest, whose approach is rounding [m/s]
   Real tolerated_overlap_;  ///< far above rounding and given states, far below a missed impact [m]
   Real top_speed_;
 };

@@ -31,16 +31,6 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
   return smallest;
 }
 
-/// At which bodies at rest leave each other at least [m/s]: in the drive's greatest acceleration they then
-/// climb about the rounding error of a position.
-template <class Real>
-Real least_separation(const model::Mill<Real>& mill, const Real& reach) {
-  using std::sqrt;
-  const Real omega = mill.motion.angular_speed();
-  const Real drive = (mill.motion.theta_max + mill.motion.gamma_max) * omega * omega * reach;
-  return sqrt(epsilon<Real>() / 2 * reach * (drive + norm<Real>(mill.gravity)));
-}
-
 /// The region that the vessel sweeps, cut into cells that hold about one ball but are thicker than the
 /// largest.
 template <class Real>
@@ -84,11 +74,9 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
                    static_cast<double>(detail::largest_speed(states, the_case.mill))),
       grid_(detail::make_grid(the_case.mill, the_case.balls)),
       queue_(static_cast<int>(states.size()), the_case.mill.motion.period),
-      collapse_watch_(Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach,
-                      ladder_.walls().constants().reach / Real(std::int64_t{10000000000})),
+      collapse_watch_(Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach),
       now_(start),
       suspicion_(ladder_.suspicion()),
-      least_separation_(detail::least_separation(the_case.mill, ladder_.walls().constants().reach)),
       tolerated_overlap_(2 * detail::smallest_radius(the_case.balls) / 1000000),
       top_speed_(detail::largest_speed(states, the_case.mill)) {
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
@@ -259,15 +247,12 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
   }
   const Vec3<Real> contact_point = flight.position - normal * radius;
   const Vec3<Real> wall_velocity = model::wall_velocity<Real>(pose, mill_.motion.arm, contact_point);
-  impact.collapsing = clock_.elapsed(bodies_[ball].recent.last, now_) < mill_.ball_wall.collapse_time;
-  impact.resting = impact.collapsing && collapse_watch_.resting(bodies_[ball].recent);
   impact.velocity_before[0] = flight.velocity;
   impact.spin_before[0] = bodies_[ball].spin;
   impact.flight_time[0] = flight_time;
   impact.wall_velocity = wall_velocity;
-  impact.outcome =
-      dynamics::collide_with_wall<Real>(normal, properties(ball), wall_velocity, flight.velocity,
-                                        bodies_[ball].spin, mill_.ball_wall, persistence_of(impact));
+  impact.outcome = dynamics::collide_with_wall<Real>(normal, properties(ball), wall_velocity, flight.velocity,
+                                                     bodies_[ball].spin, mill_.ball_wall);
   impact.ball = ball;
   impact.with_wall = true;
   impact.partner = wall;
@@ -290,19 +275,14 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
   Impact<Real> impact{};
   impact.normal = between * (1 / distance);
   impact.overlap = properties(ball).radius + properties(partner).radius - distance;
-  const Real& t_c = mill_.ball_ball.collapse_time;
-  impact.collapsing = clock_.elapsed(bodies_[ball].recent.last, now_) < t_c ||
-                      clock_.elapsed(bodies_[partner].recent.last, now_) < t_c;
-  impact.resting = impact.collapsing && (collapse_watch_.resting(bodies_[ball].recent) ||
-                                         collapse_watch_.resting(bodies_[partner].recent));
   impact.velocity_before[0] = one.velocity;
   impact.velocity_before[1] = two.velocity;
   impact.spin_before[0] = bodies_[ball].spin;
   impact.spin_before[1] = bodies_[partner].spin;
   impact.flight_time[0] = flight_times[0], impact.flight_time[1] = flight_times[1];
-  impact.outcome = dynamics::collide_balls<Real>(
-      impact.normal, properties(ball), properties(partner), one.velocity, bodies_[ball].spin, two.velocity,
-      bodies_[partner].spin, mill_.ball_ball, persistence_of(impact));
+  impact.outcome =
+      dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner), one.velocity,
+                                    bodies_[ball].spin, two.velocity, bodies_[partner].spin, mill_.ball_ball);
   impact.ball = ball;
   impact.with_wall = false;
   impact.partner = partner;
@@ -366,14 +346,13 @@ template <class Real>
 void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall,
                                      int partner) {
   const auto& law = with_wall ? mill_.ball_wall : mill_.ball_ball;
+  if (law.least_separation > 0) return;
   const bool collapsing = collapse_watch_.note(bodies_[ball].recent, key, now_, impact.outcome.approach_speed,
-                                               impact.outcome.restitution.normal, clock_);
-  // With t_c the rule itself ends the cascade; only impacts without any time between them cannot go on.
-  if ((collapsing && !(law.collapse_time > 0)) || collapse_watch_.stuck(bodies_[ball].recent)) {
-    collapse_ = model::InelasticCollapse<Real>{
-        ball, with_wall, partner, collapse_watch_.accumulation_time(bodies_[ball].recent, clock_)};
-    stop_ = EndReason::inelastic_collapse;
-  }
+                                               law.restitution_normal, clock_);
+  if (!collapsing) return;
+  collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner,
+                                             collapse_watch_.accumulation_time(bodies_[ball].recent, clock_)};
+  stop_ = EndReason::inelastic_collapse;
 }
 
 template <class Real>

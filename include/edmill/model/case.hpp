@@ -42,7 +42,7 @@ Mill<To> mill_cast(const Mill<From>& m) {
                           static_cast<To>(l.restitution_tangential),
                           static_cast<To>(l.friction),
                           static_cast<To>(l.min_tangential),
-                          static_cast<To>(l.collapse_time)};
+                          static_cast<To>(l.least_separation)};
   };
   return {{static_cast<To>(m.motion.arm), static_cast<To>(m.motion.theta_max),
            static_cast<To>(m.motion.gamma_max), static_cast<To>(m.motion.period)},

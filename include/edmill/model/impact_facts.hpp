@@ -39,12 +39,12 @@ struct ImpactFacts {
   std::uint64_t index = 0;       ///< counts from 0 since the start of the run
   Real time{}, time_previous{};  ///< of this and of the last impact of any ball, or the start of the run [s]
   int ball = 0, partner = 0;     ///< ids; the partner's is a wall's or a ball's
-  bool ball_ball = false, collapsing = false, resting = false;
+  bool ball_ball = false, least_separation = false;
   int balls = 0, walls = 0;  ///< how many there are
   Vec3<Real> gravity = Vec3<Real>::Zero();
   Vec3<Real> normal = Vec3<Real>::Zero(), contact_point = Vec3<Real>::Zero();  ///< inertial frame [m]
   ImpactBody<Real> one, two;                                                   ///< the ball, its partner
-  Real milling_dose{}, dose_normal{}, wall_work{}, normal_impulse{}, tangential_impulse{};
+  Real milling_dose{}, dose_normal{}, supplied_energy{}, wall_work{}, normal_impulse{}, tangential_impulse{};
   Real restitution_normal{}, restitution_tangential{};
 
   Vec3<Real> relative_before() const { return one.velocity_before - two.velocity_before; }

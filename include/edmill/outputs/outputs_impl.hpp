@@ -68,7 +68,7 @@ model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
   f.time_previous = previous;
   f.ball = impact.ball, f.partner = impact.partner;
   f.ball_ball = !impact.with_wall;
-  f.collapsing = impact.collapsing, f.resting = impact.resting;
+  f.least_separation = impact.outcome.least_separation;
   f.balls = simulation.ball_count(), f.walls = model::wall_count;
   f.gravity = simulation.mill().gravity;
   f.normal = impact.normal;
@@ -85,12 +85,8 @@ model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
   const auto& o = impact.outcome;
   f.milling_dose = o.milling_dose, f.wall_work = o.wall_work;
   f.normal_impulse = o.normal_impulse, f.tangential_impulse = o.tangential_impulse;
-  f.restitution_normal = o.restitution.normal, f.restitution_tangential = o.restitution.tangential;
-  const Real effective_mass =
-      f.two.ball ? Real(f.one.ball->mass * f.two.ball->mass / (f.one.ball->mass + f.two.ball->mass))
-                 : f.one.ball->mass;
-  const Real& e = o.restitution.normal;
-  f.dose_normal = effective_mass / 2 * ((1 - e * e) * (o.approach_speed * o.approach_speed));
+  f.restitution_normal = o.restitution_normal(), f.restitution_tangential = o.restitution_tangential;
+  f.dose_normal = o.normal_dose, f.supplied_energy = o.supplied_energy;
   return f;
 }
 

@@ -20,8 +20,9 @@ struct RunFacts {
   std::optional<double> powder_mass;                              ///< [kg]
   double kinetic_start = 0, potential_start = 0, kinetic_end = 0, potential_end = 0;  ///< [J]
   double closure = 0;                                                                 ///< [J]
-  double collapse_impact_share = 0, collapse_dose_share = 0;
-  double deepest_overlap = 0;  ///< [m]
+  double touched_impact_share = 0, touched_dose_share = 0;  ///< by the least separation speed
+  double supplied_energy = 0;                               ///< by it [J]
+  double deepest_overlap = 0;                               ///< [m]
   double impacts_since_start = 0, cpu_seconds = 0;
 
   double duration() const { return end_time - start_time; }

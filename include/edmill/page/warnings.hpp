@@ -10,8 +10,8 @@
 namespace edmill::page {
 
 struct Warning {
-  std::string
-      kind;  ///< "collapse_share", "transient", "too_few_collisions", "wide_interval", "end_reason", "energy"
+  std::string kind;  ///< "separation_share", "supplied_energy", "transient", "too_few_collisions",
+                     ///< "wide_interval", "end_reason", "energy"
   std::string text;
 };
 

@@ -30,9 +30,9 @@ struct Summary {
   std::array<Real, model::partner_kinds> dose_by_partner{};
   Real milling_dose{0}, wall_work{0};  ///< [J]
   model::Energy<Real> energy_at_start, energy_at_end;
-  std::uint64_t collapse_impacts = 0;
-  std::uint64_t resting_impacts = 0;
-  Real collapse_dose{0};
+  std::uint64_t touched_impacts = 0;  ///< by the least separation speed (theory.md, section 6)
+  Real touched_dose{0};               ///< of these impacts [J]
+  Real supplied_energy{0};            ///< by these impacts to the motion [J]
   std::optional<model::InelasticCollapse<Real>> collapse;
   std::vector<Escalations> escalations;
   std::optional<Real> powder_mass, ball_mass;
@@ -47,9 +47,9 @@ struct Summary {
     for (const auto c : collisions) sum += c;
     return sum;
   }
-  /// sum WE - sum MD - change of (KE + PE) [J]; zero but for rounding.
+  /// sum WE - sum MD + supplied energy - change of (KE + PE) [J]; zero but for rounding.
   Real energy_closure() const {
-    return wall_work - milling_dose -
+    return wall_work - milling_dose + supplied_energy -
            ((energy_at_end.kinetic + energy_at_end.potential) -
             (energy_at_start.kinetic + energy_at_start.potential));
   }

@@ -73,14 +73,18 @@ std::string summary_json(const Summary<Real>& s) {
     json.null("closure_relative");
   json.end();
 
-  json.begin("collapse");
-  json.integer("impacts", s.collapse_impacts);
-  json.integer("resting_impacts", s.resting_impacts);
+  json.begin("least_separation");
+  json.integer("impacts", s.touched_impacts);
   const auto total = s.total_collisions();
   json.number("impact_share",
-              total > 0 ? static_cast<double>(s.collapse_impacts) / static_cast<double>(total) : 0.0);
-  json.number("milling_dose", s.collapse_dose);
-  json.number("milling_dose_share", s.milling_dose > 0 ? Real(s.collapse_dose / s.milling_dose) : Real(0));
+              total > 0 ? static_cast<double>(s.touched_impacts) / static_cast<double>(total) : 0.0);
+  const auto share_of_dose = [&](const Real& energy) {
+    return s.milling_dose > 0 ? Real(energy / s.milling_dose) : Real(0);
+  };
+  json.number("milling_dose", s.touched_dose);
+  json.number("milling_dose_share", share_of_dose(s.touched_dose));
+  json.number("supplied_energy", s.supplied_energy);
+  json.number("supplied_energy_share", share_of_dose(s.supplied_energy));
   json.end();
   if (s.collapse) {
     json.begin("inelastic_collapse");

@@ -39,11 +39,14 @@ std::string result_table(const record::Summary<Real>& s) {
   if (s.milling_dose > 0)
     row("energy closure / dose", fmt::format("{:.2e}", real(s.energy_closure()) / real(s.milling_dose)));
   const auto total = s.total_collisions();
-  row("collapse rule (t_c)",
+  const auto of_dose = [&](const Real& energy) {
+    return s.milling_dose > 0 ? 100 * real(energy) / real(s.milling_dose) : 0.0;
+  };
+  row("at least separation speed",
       fmt::format(
-          "{:.1f} % of impacts, {:.1f} % of the dose",
-          total > 0 ? 100.0 * static_cast<double>(s.collapse_impacts) / static_cast<double>(total) : 0.0,
-          s.milling_dose > 0 ? 100 * real(s.collapse_dose) / real(s.milling_dose) : 0.0));
+          "{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of the dose",
+          total > 0 ? 100.0 * static_cast<double>(s.touched_impacts) / static_cast<double>(total) : 0.0,
+          of_dose(s.touched_dose), of_dose(s.supplied_energy)));
   if (s.collapse)
     row("inelastic collapse", fmt::format("ball {} with {} {} at {:.12g} s", s.collapse->ball,
                                           s.collapse->with_wall ? "wall" : "ball", s.collapse->partner,

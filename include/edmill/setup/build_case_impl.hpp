@@ -28,7 +28,7 @@ model::ContactLaw<Real> to_law(const casefile::ContactSpec& spec) {
   law.restitution_tangential = spec.restitution_tangential.to<Real>();
   law.friction = spec.friction.to<Real>();
   law.min_tangential = spec.min_tangential.to<Real>();
-  law.collapse_time = spec.collapse_time.to<Real>();
+  law.least_separation = spec.least_separation.to<Real>();
   return law;
 }
 
