@@ -26,7 +26,7 @@
   prefix class engine::Simulation<Real>;                                                                    \
   prefix Real casefile::Quantity::to<Real>() const;                                                         \
   prefix model::Mill<Real> setup::build_mill<Real>(const casefile::CaseSpec&);                              \
-  prefix setup::InitialCase<Real> setup::build_case<Real>(const casefile::CaseSpec&);                       \
+  prefix setup::InitialCase<Real> setup::build_case<Real>(const casefile::CaseSpec&, bool);                 \
   prefix void record::write_final_state<Real>(std::ostream&, const record::SavedState<Real>&,               \
                                               const DriveClock<Real>&);                                     \
   prefix record::SavedState<Real> record::read_final_state<Real>(const std::string&);                       \

@@ -130,6 +130,16 @@ int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options) {
     if (wide.events.size() < options.collisions)
       throw InputError(fmt::format("{}: the case ends after {} collisions, {} are asked for", spec.file,
                                    wide.events.size(), options.collisions));
+    const auto by_rule = std::find_if(wide.events.begin(), wide.events.end(),
+                                      [](const Event& event) { return event.by_rule; });
+    if (by_rule != wide.events.end()) {
+      fmt::print(
+          stderr,
+          "edmill: event {}, {}, has another contact of its ball at the same time in every scalar: a rule "
+          "and not the equations puts one first; nothing is written\n",
+          by_rule - wide.events.begin(), describe(*by_rule));
+      return undecided;
+    }
     if (agreement.events() == options.collisions && agreement.least_digits() >= options.digits) {
       write_reference(spec, options, wide, evidence);
       if (!options.quiet) fmt::print("certified: {}\n", options.file);

@@ -20,7 +20,12 @@ std::string describe_law(const model::ContactLaw<double>& law) {
 }  // namespace
 
 std::string describe_case(const casefile::CaseSpec& spec) {
-  const auto built = setup::build_case<double>(spec);
+  // The case's own scalar is the one that has to resolve it; double does for the description.
+#define EDMILL_CHECK_IN(Real) \
+  if (spec.precision == ScalarName<Real>::value) setup::build_case<Real>(spec);
+  EDMILL_FOR_EACH_SCALAR(EDMILL_CHECK_IN)
+#undef EDMILL_CHECK_IN
+  const auto built = setup::build_case<double>(spec, false);
   const auto& c = built.the_case;
   const auto& m = c.mill;
   std::string out = fmt::format("{} is a valid case\n", spec.file);
@@ -29,8 +34,8 @@ std::string describe_case(const casefile::CaseSpec& spec) {
   };
   row("digest", spec.digest);
   row("precision, seed", fmt::format("{}, {}", spec.precision, spec.seed));
-  row("statistics from", fmt::format("{:g} s", c.statistics_start));
-  if (c.stop.end_time) row("stop at time", fmt::format("{:g} s", *c.stop.end_time));
+  row("statistics from", fmt::format("{:g} s", spec.statistics_start.to<double>()));
+  if (spec.end_time) row("stop at time", fmt::format("{:g} s", spec.end_time->to<double>()));
   if (c.stop.max_collisions) row("stop after collisions", fmt::format("{}", *c.stop.max_collisions));
   if (c.stop.max_milling_dose) row("stop at milling dose", fmt::format("{:g} J", *c.stop.max_milling_dose));
   if (c.stop.max_ball_speed) row("stop at ball speed", fmt::format("{:g} m/s", *c.stop.max_ball_speed));

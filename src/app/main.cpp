@@ -256,6 +256,9 @@ int main(int argc, char** argv) {
   } catch (const edmill::InterruptedError& error) {
     print_problem(error.what());
     return edmill::app::after_signals(edmill::app::interrupted);
+  } catch (const edmill::UndecidedError& error) {
+    print_problem(error.what());
+    return edmill::app::undecided;
   } catch (const std::exception& error) {
     print_problem(error.what());
     return edmill::app::internal_error;

@@ -100,7 +100,8 @@ Audit audit(const model::Case<double>& the_case, const std::vector<model::BallSt
   result.log_name = log.file();
   result.available = log.available();
   Auditor auditor(the_case, result.available, result.tolerances, result.findings);
-  if (options.from_start) auditor.begin(states, the_case.initial_time);
+  if (options.from_start)
+    auditor.begin(states, DriveClock<double>(the_case.mill.motion.period).seconds(the_case.initial_time));
   bool any_pairs = false;
   while (auto event = log.next()) {
     if (options.interrupt && options.interrupt->load(std::memory_order_relaxed)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "edmill/model/ball_variables.hpp"
 #include "edmill/model/impact_variables.hpp"
@@ -259,9 +260,14 @@ void read_place(Section& s, const CaseSpec& spec, const Kind& kind, OutputSpec& 
     const bool inside = f.front() != '/' && ("/" + f + "/").find("/../") == std::string::npos;
     s.require(inside, "folder", "a folder inside the run's folder");
   }
-  for (const auto* taken : {"summary.json", "final_state.csv", "checkpoint"})
-    s.require(!output.folder.empty() || output.file != taken, "file",
-              "a plain file name other than summary.json, final_state.csv and checkpoint");
+  const auto place = [](const OutputSpec& o) {
+    return (std::filesystem::path("run") / o.folder / o.file).lexically_normal();
+  };
+  for (const auto* taken : {"summary.json", "final_state.csv", "case.toml", "report.html", "checkpoint"})
+    s.require(
+        place(output) != std::filesystem::path("run") / taken, "file",
+        "a plain file name other than the run's own summary.json, final_state.csv, case.toml, report.html "
+        "and checkpoint");
   const bool table = std::string_view(kind.extension) == ".csv";
   if (table) {
     output.append = s.flag("append");
@@ -270,8 +276,8 @@ void read_place(Section& s, const CaseSpec& spec, const Kind& kind, OutputSpec& 
               "a name ending in .csv; `events` is the log as HDF5");
   }
   for (const auto& other : spec.outputs)
-    s.require(other.file != output.file || other.folder != output.folder || (other.append && output.append),
-              "file", "a file name that no other output has, unless both append");
+    s.require(place(other) != place(output) || (other.append && output.append), "file",
+              "a file name that no other output has, unless both append");
 }
 
 }  // namespace

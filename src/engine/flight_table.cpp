@@ -151,7 +151,7 @@ EDMILL_INTO_CLONES int judge(const FlightBatch& batch, const PairQuestion& quest
   find_squares(batch, question.radius, alike, count, squares);
   const int next_square = alike ? 0 : 1;
   const double relative = question.filter.relative, slowest = question.filter.slowest_squared,
-               touching = question.filter.touching;
+               touching = question.filter.touching, grazing = question.filter.grazing;
   double *approach = looks.approach() + first, *gap = looks.gap() + first,
          *discriminants = looks.discriminant() + first;
   int* suspects = looks.suspects();
@@ -170,7 +170,7 @@ EDMILL_INTO_CLONES int judge(const FlightBatch& batch, const PairQuestion& quest
     const FourIntegers meets = ~((moving & (apart | parting)) | (r2 == 0));
     store(approach + k, b);
     store(gap + k, c);
-    store(discriminants + k, (clear & (discriminant > doubt)) ? discriminant : Four{} - 1.0);
+    store(discriminants + k, (clear & (discriminant > doubt + grazing)) ? discriminant : Four{} - 1.0);
     // Without branches: which of them is one is anybody's guess.
     const unsigned bits = bits_of(meets);
     FourPlaces places;

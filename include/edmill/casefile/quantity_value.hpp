@@ -2,6 +2,7 @@
 #pragma once
 
 #include "edmill/casefile/quantity.hpp"
+#include "edmill/core/instant.hpp"
 #include "edmill/core/scalar_list.hpp"
 
 namespace edmill::casefile {
@@ -16,6 +17,32 @@ Real Quantity::to() const {
   for (int k = 0; k < pi_power; ++k) result *= pi;
   for (int k = 0; k > pi_power; --k) result /= pi;
   return static_cast<Real>(result);
+}
+
+/// The instant at `time` on a clock of whole drive periods, reduced exactly: the offset is as sharp at 1e6 s
+/// as at the start.
+/// @param time    not negative
+/// @param period  of the drive
+template <class Real>
+Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
+  if (time.zero()) return {};
+  std::int64_t periods;
+  Real offset;
+  if (time.pi_power == period.pi_power) {
+    const boost::multiprecision::cpp_rational count = time.value / period.value;
+    periods =
+        static_cast<std::int64_t>(boost::multiprecision::cpp_int(numerator(count) / denominator(count)));
+    offset = Quantity{time.value - periods * period.value, time.pi_power}.to<Real>();
+  } else {
+    // Up to 1e15 periods lead away that many digits more.
+    using Wide = mpfr_of<2 * std::numeric_limits<Real>::digits10 + 40>;
+    const Wide length = period.to<Wide>(), seconds = time.to<Wide>();
+    const Wide whole = floor(Wide(seconds / length));
+    periods = static_cast<std::int64_t>(whole);
+    offset = static_cast<Real>(Wide(seconds - whole * length));
+  }
+  if (offset < period.to<Real>()) return {periods, offset};
+  return {periods + 1, Real(0)};  // it is rounded to a whole period
 }
 
 }  // namespace edmill::casefile

@@ -24,6 +24,7 @@ struct Event {
   bool with_wall = false;
   int partner = 0;  ///< ball or wall id
   std::array<Number, quantity_count> values;
+  bool by_rule = false;  ///< another contact is at the same time, and a rule put this one first
 
   bool same_bodies(const Event& other) const {
     return ball == other.ball && with_wall == other.with_wall && partner == other.partner;

@@ -16,8 +16,7 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
       : built_(setup::build_case<Real>(spec)),
         simulation_(built_.the_case, built_.states, built_.start),
         reached_(built_.start) {
-    if (to_end && built_.the_case.stop.end_time)
-      end_ = simulation_.clock().at(*built_.the_case.stop.end_time);
+    if (to_end && built_.the_case.stop.end_time) end_ = *built_.the_case.stop.end_time;
     simulation_.attach(*this);
   }
 
@@ -39,10 +38,11 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
  private:
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
     const auto& o = impact.outcome;
-    Event event{impact.ball, impact.with_wall, impact.partner, {}};
+    Event event{impact.ball, impact.with_wall, impact.partner, {}, false};
     if (!event.with_wall && event.partner < event.ball) std::swap(event.ball, event.partner);
     event.values = {Number(simulation.clock().seconds(impact.time)), Number(o.approach_speed),
                     Number(o.slip_speed), Number(o.milling_dose), Number(o.wall_work)};
+    event.by_rule = impact.by_rule;
     waiting_.push_back(event);
   }
 

@@ -28,11 +28,10 @@ class Course {
         first_(built.start) {
     simulation_.attach(stop_rules_);
     for (auto* observer : guests.observers) simulation_.attach(*observer);
-    const auto& clock = simulation_.clock();
-    start_ = clock.at(built.the_case.statistics_start);
+    start_ = built.the_case.statistics_start;
     if (start_ < first_) start_ = first_;
     const auto& end_time = built.the_case.stop.end_time;
-    end_ = end_time ? clock.at(*end_time) : Instant<Real>::never();
+    end_ = end_time.value_or(Instant<Real>::never());
     EDMILL_REQUIRE(start_ <= end_ || !end_time, "statistics start before the end");
     if (!guests.checkpoints.restored.empty()) restore();
     if (const auto& every = guests.checkpoints.every) {

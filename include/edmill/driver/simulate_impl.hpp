@@ -53,30 +53,40 @@ void note_totals(const engine::Simulation<Real>& simulation, const observe::RunS
 template <class Real>
 Result<Real> simulate(const casefile::CaseSpec& spec, const setup::InitialCase<Real>& built,
                       const Guests<Real>& guests) {
-  Course<Real> course(built, guests);
+  std::optional<Course<Real>> course;
   Result<Real> result;
   auto& summary = result.summary;
   try {
-    summary.end_reason = end_reason_name(course.go());
+    course.emplace(built, guests);
+    summary.end_reason = end_reason_name(course->go());
   } catch (const UndecidedError& error) {
     summary.end_reason = "undecided";
     summary.error = error.what();
   }
-  const auto& simulation = course.simulation();
-  for (auto* observer : guests.observers) observer->on_end(simulation);
-  summary.cpu_seconds = course.cpu_spent();
-  summary.start_time = course.counted_from();
-  summary.energy_at_start = course.energy_at_start();
-  note_totals(simulation, course.statistics(), summary);
+  if (course) {
+    const auto& simulation = course->simulation();
+    for (auto* observer : guests.observers) observer->on_end(simulation);
+    summary.cpu_seconds = course->cpu_spent();
+    summary.start_time = course->counted_from();
+    summary.energy_at_start = course->energy_at_start();
+    note_totals(simulation, course->statistics(), summary);
+    result.saved.time = simulation.now();
+    for (int k = 0; k < simulation.ball_count(); ++k)
+      result.saved.states.push_back(simulation.state_at(k, simulation.now()));
+  } else {
+    // Not even the first contacts of the balls could be told.
+    summary.period = built.the_case.mill.motion.period;
+    summary.start_time = summary.end_time = DriveClock<Real>(summary.period).seconds(built.start);
+    summary.energy_at_start = summary.energy_at_end =
+        model::energy_of(built.the_case.balls, built.states, built.the_case.mill.gravity);
+    result.saved = {built.start, built.states};
+  }
   if (spec.powder_mass) summary.powder_mass = spec.powder_mass->template to<Real>();
   Real ball_mass{0};
   for (const auto& ball : built.the_case.balls) ball_mass += ball.mass;
   summary.ball_mass = ball_mass;
   summary.provenance = {spec.file,  spec.digest, std::string(ScalarName<Real>::value), version(), commit(),
                         compiler(), spec.seed};
-  result.saved.time = simulation.now();
-  for (int k = 0; k < simulation.ball_count(); ++k)
-    result.saved.states.push_back(simulation.state_at(k, simulation.now()));
   return result;
 }
 

@@ -35,11 +35,11 @@ class DecisionLadder {
   /// @throws UndecidedError when the widest scalar cannot decide; its text reproduces the state
   WallAnswer<Real> wall(const model::VesselPose<Real>& pose, const WallQuery<Real>& query) {
     const auto answer = walls_.search(pose, query);
-    return answer.verdict == Verdict::undecided ? wall_above(query) : answer;
+    return is_settled(answer) ? answer : wall_above(query);
   }
   WallAnswer<Real> wall(const WallQuery<Real>& query) {
     const auto answer = walls_(query);
-    return answer.verdict == Verdict::undecided ? wall_above(query) : answer;
+    return is_settled(answer) ? answer : wall_above(query);
   }
 
   /// Certified answer for two balls from `now` on; see PairSearch.
@@ -51,18 +51,16 @@ class DecisionLadder {
   PairAnswer<Real> pair(const typename PairSearch<Real>::Seen& seen, const Flight<Real>& i,
                         const Flight<Real>& j, const Instant<Real>& now, const Real& radius_sum) {
     const auto answer = pairs_(seen, j, now, radius_sum);
-    return answer.verdict == Verdict::undecided ? pair_above(i, j, now, radius_sum) : answer;
+    return is_settled(answer) ? answer : pair_above(i, j, now, radius_sum);
   }
 
   /// Which of two contacts that share a ball comes first: negative `a`, positive `b`, zero when no rung of
   /// the ladder can tell them apart.
   int order(const Contact<Real>& a, const Contact<Real>& b);
 
-  /// Contacts closer in time than this [s] are handed to `order`: far more than rounding puts between most.
-  Real suspicion() const {
-    using std::sqrt;
-    return sqrt(epsilon<Real>()) * pairs_.clock().period();
-  }
+  /// Contacts closer in time than this [s] are handed to `order`. Far more than rounding puts between most;
+  /// a contact whose time is not sharper than a quarter of it is timed by the next rung.
+  const Real& tie_window() const { return pairs_.tie_window(); }
 
   void raise_top_speed(const Real& speed);
 
@@ -76,9 +74,17 @@ class DecisionLadder {
   void archive(Archive& a);
 
  private:
+  template <class Answer>
+  bool is_settled(const Answer& answer) const {
+    if (answer.verdict == Verdict::undecided) return false;
+    // The top has nothing above that knows a time better.
+    return std::is_void_v<Wider<Real>> || answer.verdict == Verdict::none || 4 * answer.doubt <= tie_window();
+  }
   WallAnswer<Real> wall_above(const WallQuery<Real>& query);
   PairAnswer<Real> pair_above(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                               const Real& radius_sum);
+  /// What rounding a wider time to this scalar does to it at most [s].
+  Real rounding() const { return 4 * epsilon<Real>() * pairs_.clock().period(); }
   struct Timed {
     Instant<Real> time;
     Real doubt;  ///< [s]

@@ -86,7 +86,7 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
     if (wide.verdict == Verdict::contact && time < query.begin) time = query.begin;
     Real searched = static_cast<Real>(wide.searched);
     if (Wide(searched) > wide.searched) searched -= searched * epsilon<Real>();
-    return {wide.verdict, wide.wall, time, wide.tie, searched, static_cast<Real>(wide.doubt)};
+    return {wide.verdict, wide.wall, time, wide.tie, searched, static_cast<Real>(wide.doubt) + rounding()};
   }
 }
 
@@ -102,7 +102,7 @@ PairAnswer<Real> DecisionLadder<Real>::pair_above(const Flight<Real>& i, const F
     ++passed_up_.pair;
     const auto wide = above().ladder.pair(flight_cast<Wide>(i), flight_cast<Wide>(j), instant_cast<Wide>(now),
                                           Wide(radius_sum));
-    return {wide.verdict, static_cast<Real>(wide.delay), static_cast<Real>(wide.doubt)};
+    return {wide.verdict, static_cast<Real>(wide.delay), static_cast<Real>(wide.doubt) + rounding()};
   }
 }
 
@@ -113,7 +113,7 @@ auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
     const auto& now = contact.flight.start;
     const auto answer = pair(contact.flight, contact.partner, now, contact.radius);
     if (answer.verdict == Verdict::contact) return {clock.after(now, answer.delay), answer.doubt};
-    return {contact.time, suspicion()};
+    return {contact.time, tie_window()};
   }
   // A window that ends just after the predicted time holds the contact.
   const Real length = walls_.longest_window() / 64;
@@ -122,7 +122,7 @@ auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
   const Real window = clock.elapsed(begin, contact.time) + length / 64;
   const auto answer = wall({contact.flight, contact.radius, begin, window});
   if (answer.verdict == Verdict::contact) return {answer.time, answer.doubt};
-  return {contact.time, suspicion()};
+  return {contact.time, tie_window()};
 }
 
 template <class Real>

@@ -36,11 +36,13 @@ template <class Real>
 struct GapErrors {
   std::array<Real, model::wall_count> gap;
   std::array<Real, model::wall_count> rate;
+  std::array<Real, model::wall_count> curvature;
 
   friend GapErrors operator+(GapErrors a, const GapErrors& b) {
     for (int wall = 0; wall < model::wall_count; ++wall) {
       a.gap[wall] += b.gap[wall];
       a.rate[wall] += b.rate[wall];
+      a.curvature[wall] += b.curvature[wall];
     }
     return a;
   }
@@ -148,7 +150,9 @@ class GapFunctions {
     const Real y = u * (angle * c_.reach + 2 * position);
     const Real y_rate = u * ((angle + 4) * speed + 28 * turning * c_.reach + 2 * turning * position +
                              4 * c_.gravity * elapsed);
-    return spread(u, y, y_rate, speed);
+    const Real y_second = u * (32 + 16 * c_.amplitudes) * largest_acceleration(speed) + 4 * turning * y_rate +
+                          2 * turning * (c_.angular_speed + turning) * y;
+    return spread(u, {y, y_rate, y_second}, speed);
   }
 
   /// What rounding a wider flight, radius and mill to this scalar adds to these bounds, at offsets that stand
@@ -164,18 +168,34 @@ class GapFunctions {
     const Real y_rate =
         u * ((angle + 2) * speed + (angle + 10) * turning * c_.reach + c_.gravity * (2 * elapsed + time)) +
         turning * y;
-    return spread(u, y, y_rate, speed);
+    const Real y_second = u * (32 + 9 * c_.amplitudes) * largest_acceleration(speed) + 4 * turning * y_rate +
+                          2 * turning * (c_.angular_speed + turning) * y;
+    return spread(u, {y, y_rate, y_second}, speed);
   }
 
  private:
-  /// Bounds for every wall from those on a position and on a velocity in the vessel frame.
-  GapErrors<Real> spread(const Real& u, const Real& y, const Real& y_rate, const Real& speed) const {
+  /// Bound on the second derivative of a vessel-frame coordinate, term by term, of a ball inside the vessel
+  /// [m/s^2].
+  Real largest_acceleration(const Real& speed) const {
+    const Real turning = c_.amplitudes * c_.angular_speed;
+    return c_.gravity + 4 * turning * speed + 2 * turning * (c_.angular_speed + 2 * turning) * c_.reach;
+  }
+
+  /// Bounds on the errors of a coordinate in the vessel frame and of its first two derivatives.
+  struct CoordinateErrors {
+    Real value, rate, second;
+  };
+  /// Bounds for every wall from those on a coordinate.
+  GapErrors<Real> spread(const Real& u, const CoordinateErrors& y, const Real& speed) const {
     const Real turning = c_.amplitudes * c_.angular_speed;
     const Real frame_speed = speed + turning * c_.reach;
+    const Real acceleration = largest_acceleration(speed);
     const Real& R = c_.mill.vessel.radius;
-    const Real q = 3 * R * y + 4 * u * R * R;
-    const Real q_rate = 3 * R * y_rate + 3 * frame_speed * y + 6 * u * R * frame_speed;
-    return {{y, y, q}, {y_rate, y_rate, q_rate}};
+    const Real q = 3 * R * y.value + 4 * u * R * R;
+    const Real q_rate = 3 * R * y.rate + 3 * frame_speed * y.value + 6 * u * R * frame_speed;
+    const Real q_second = 6 * frame_speed * y.rate + 4 * R * y.second + 4 * acceleration * y.value +
+                          12 * u * (frame_speed * frame_speed + R * acceleration);
+    return {{y.value, y.value, q}, {y.rate, y.rate, q_rate}, {y.second, y.second, q_second}};
   }
 
   const Constants& c_;

@@ -58,6 +58,8 @@ struct RoughAnswer {
   double left = 0, right = 0;  ///< the wall's gap falls all the way from `left` to `right`, through zero
   double root = 0;             ///< about where
   double curvature = 0;        ///< second derivative of the gap there
+  double curvature_error = 0;  ///< bound on its error
+  double third = 0;            ///< bound on the third derivative
   double error = 0;            ///< bound on the rounding of the gap in double, that of the state left aside
 };
 
@@ -121,6 +123,7 @@ class WallSearch {
   struct Bracket {
     Verdict verdict;
     Point left{}, right{};
+    Real doubt{0};  ///< of a contact at once whose time the gap's slope does not tell [s]
   };
 
   /// With `rounded` every bound covers the rounding of the flight and the mill, and `rough` is filled.
@@ -134,14 +137,30 @@ class WallSearch {
   Bracket isolate(const Curve& curve, Point left, const Point& right) const;
   Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
   Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
+  Bracket isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
+                          const Point& right) const;
   Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;
+  GapSample<Real> sample_of_end(const Functions& functions, const WallSet& reachable,
+                                const GapErrors<Real>& errors, const Real& from, Real& end) const;
   /// A root and how well the scalar knows it: the gap's rounding error over its slope.
   struct Root {
     Real t;
     Real doubt;
+    [[no_unique_address]] ContactPose<Real> pose{};
   };
-  Root polish(const Curve& curve, Point left, Point right) const;
-  Real polished_root(const Curve& curve, Point& left, Point& right) const;
+  /// What is known of a falling gap beside its root.
+  struct Approach {
+    Real guess;  ///< of the root
+    double curvature, curvature_error, third;
+  };
+  Root polish(const Curve& curve, const Bracket& bracket) const;
+  std::optional<Root> close_in(const Functions& functions, int wall, const Real& from, const Real& to,
+                               const Approach& approach, const Real& value_error) const;
+  /// A bracket of a root is narrow enough.
+  bool is_closed(const Real& low, const Real& high) const {
+    const Real middle = low + (high - low) / 2;
+    return high - low <= epsilon<Real>() * constants_.clock.period() || middle <= low || middle >= high;
+  }
   Real resolution() const { return 4 * epsilon<Real>() * constants_.clock.period(); }
 
   typename Functions::Constants constants_;

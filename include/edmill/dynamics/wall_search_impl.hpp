@@ -62,7 +62,8 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
   if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
   const auto curve_of = [&](int wall, const DerivativeBounds<Real>& derivatives) {
     const auto& d = wall == 2 ? derivatives.q : derivatives.y;
-    return Curve{functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall]}};
+    return Curve{
+        functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]}};
   };
 
   // Of most walls the state at the start alone shows that they are not hit.
@@ -85,18 +86,23 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
 
   const auto derivatives = bounds_.at(speed, length);
   Real end = begin + length;
-  GapSample<Real> last = functions(end);
-  WallAnswer<Real> answer{Verdict::none, -1, {}, false, length, Real(0)};
+  GapSample<Real> last = sample_of_end(functions, reachable, errors, begin, end);
+  WallAnswer<Real> answer{Verdict::none, -1, {}, false, end - begin, Real(0)};
   Root best{};
   for (int wall = 0; wall < model::wall_count; ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
-    const Bracket found = isolate(curve, curve.of(first), curve.of(last));
+    const Point start = curve.of(first);
+    const bool resting = start.value <= curve.bounds.value_error &&
+                         start.slope <= 2 * curve.bounds.slope_error &&
+                         start.slope >= -2 * curve.bounds.slope_error;
+    const Bracket found = resting ? isolate_resting(curve, start, first.curvature[wall], curve.of(last))
+                                  : isolate(curve, start, curve.of(last));
     if (found.verdict == Verdict::none) continue;
     if (found.verdict == Verdict::undecided) return {Verdict::undecided};
     // Only a start that is outside for certain makes the bracket hold the wide root too.
     if (rounded && !(found.left.value > curve.bounds.value_error)) return {Verdict::undecided};
-    const Root root = polish(curve, found.left, found.right);
+    const Root root = polish(curve, found);
     if (answer.verdict == Verdict::contact) {
       const Real later = root.t - best.t, doubt = root.doubt + best.doubt;
       if (later > doubt) continue;
@@ -111,14 +117,35 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
     answer = {Verdict::contact, wall,      constants_.clock.instant(query.begin.period, root.t), false,
               Real(0),          root.doubt};
     if constexpr (rounded)
-      *rough = {Verdict::contact, 0, wall, found.left.t, found.right.t, root.t, 0, own_errors.gap[wall]};
-    end = root.t + root.doubt;  // later walls are of interest up to here
-    if (end > begin + length) end = begin + length;
+      *rough = {Verdict::contact,    0, wall, found.left.t, found.right.t, root.t, 0, 0, 0,
+                own_errors.gap[wall]};
     const bool more = (wall < 1 && reachable[1]) || (wall < 2 && reachable[2]);
-    if (!more || !(end > begin)) break;
-    last = functions(end);
+    if (!more) break;
+    // Later walls are of interest up to a little behind this root.
+    const Real behind = root.t + root.doubt + longest_window() / 1048576;
+    if (behind < end) {
+      end = behind;
+      last = sample_of_end(functions, reachable, errors, root.t, end);
+    }
   }
   return answer;
+}
+
+/// The gaps at the end of a window. A gap that is zero within rounding there would leave the window
+/// undecided in every scalar: the end is moved towards `from`, and what is left is for the next window.
+template <class Real>
+GapSample<Real> WallSearch<Real>::sample_of_end(const Functions& functions, const WallSet& reachable,
+                                                const GapErrors<Real>& errors, const Real& from,
+                                                Real& end) const {
+  for (int tries = 0;; ++tries) {
+    const auto sample = functions(end);
+    bool touched = false;
+    for (int wall = 0; wall < model::wall_count; ++wall)
+      touched |=
+          reachable[wall] & (sample.gap[wall] <= errors.gap[wall]) & (sample.gap[wall] >= -errors.gap[wall]);
+    if (!touched || tries == 8) return sample;
+    end = from + (end - from) * 3 / 4;
+  }
 }
 
 template <class Real>
@@ -137,15 +164,21 @@ RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
     rough.verdict = answer.verdict;
     // The sum is rounded, and the window was proven up to its exact or its rounded end.
     if (answer.verdict == Verdict::none) rough.until = (begin + answer.searched) * (1 - epsilon<Real>());
-    if (answer.verdict == Verdict::contact)
+    if (answer.verdict == Verdict::contact) {
+      const Real speed = top_speed(ball.velocity, query.length);
+      const auto derivatives = bounds_.at(speed, query.length);
       rough.curvature = functions.start(rough.root).curvature[rough.wall];
+      rough.curvature_error =
+          functions.errors(functions.elapsed(begin + query.length), speed).curvature[rough.wall];
+      rough.third = (rough.wall == 2 ? derivatives.q : derivatives.y)[1];
+    }
     return rough;
   }
 }
 
 /// The wide gap is evaluated at the rough root, an error of double away from the root, so that one step of
 /// Newton's iteration with the curvature as double knows it gives nearly three times the digits of double.
-/// That the place found belongs to the root needs no second sign: the gap falls all along the bracket.
+/// That the root found is the bracket's needs no more: the gap falls all along it.
 template <class Real>
 WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query) const {
   if constexpr (!is_wide) {
@@ -166,36 +199,15 @@ WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query
     if (rough.verdict != Verdict::contact) return {Verdict::undecided};
 
     const Functions functions(constants_, query.flight, query.radius, query.begin.period);
-    const double unit = static_cast<double>(epsilon<Real>());
-    const double ulp = unit * rough_.constants().clock.period();
-    const double error = rough.error * (unit / epsilon<double>());  // bounds are proportional to it
-    // The bound on the rounding of a gap is several times what it usually is: aim before the root by parts of
-    // it, for the event time is where the computed gap is not negative.
-    double part = 1.0 / 16;
-    Real t(rough.root);
-    auto pose = functions.pose(t);
-    for (int step = 0; step < 8; ++step) {
-      if (!(t > begin && t > rough.left && t < rough.right)) break;
-      const auto sample = functions(t, pose);
-      const Real &value = sample.gap[rough.wall], &slope = sample.rate[rough.wall];
-      const double flatness = static_cast<double>(slope);
-      if (!(flatness < 0)) break;
-      const Real newton = -value / slope;
-      const double size = static_cast<double>(newton), doubt = -error / flatness;
-      if (size <= doubt + 4 * ulp && size >= -(doubt + 4 * ulp)) {
-        if (value >= 0)
-          return {
-              Verdict::contact, rough.wall, constants_.clock.instant(query.begin.period, t), false, Real(0),
-              Real(doubt),      pose};
-        part = 4 * part;
-      }
-      const Real next =
-          t + newton - Real(rough.curvature * (size * size) / (2 * flatness) + (2 * ulp + part * doubt));
-      pose = model::pose_nearby<Real>(constants_.mill.motion, constants_.angular_speed, constants_.frequency,
-                                      next, pose, t);
-      t = next;
-    }
-    return {Verdict::undecided};
+    const Real left(rough.left);
+    const double unit = static_cast<double>(epsilon<Real>()) / epsilon<double>();
+    const auto root = close_in(functions, rough.wall, left > begin ? left : begin, Real(rough.right),
+                               {Real(rough.root), rough.curvature, rough.curvature_error, rough.third},
+                               Real(rough.error * unit));  // bounds are proportional to epsilon
+    if (!root) return {Verdict::undecided};
+    return {
+        Verdict::contact, rough.wall, constants_.clock.instant(query.begin.period, root->t), false, Real(0),
+        root->doubt,      root->pose};
   }
 }
 
@@ -282,12 +294,38 @@ auto WallSearch<Real>::isolate_touching(const Curve& curve, const Point& left, P
   return {Verdict::contact, left, right};
 }
 
+/// The start touches and neither falls nor rises, within rounding: the second derivative decides. A ball that
+/// is pressed on the wall is in contact at once. One that is drawn off would leave the scalar in doubt
+/// whether it touched before; at the top of the ladder what is zero within rounding counts as zero, so it
+/// leaves.
+template <class Real>
+auto WallSearch<Real>::isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
+                                       const Point& right) const -> Bracket {
+  using std::sqrt;
+  const Bounds& b = curve.bounds;
+  const auto size = [](const Real& x) { return x < 0 ? Real(-x) : x; };
+  if (b.second == 0 && b.slope_error == 0) return {Verdict::none};  // at rest to the wall for good
+  const Real bend = (size(curvature) - b.curvature_error) / 2;
+  if (!(bend > 0)) return {Verdict::undecided};
+  // While |f''| > bend, bend s^2/2 exceeds what value and slope may be by rounding from this time on.
+  const Real slope = size(left.slope) + b.slope_error, value = size(left.value) + b.value_error;
+  const Real until = (slope + sqrt(slope * slope + 4 * bend * value)) / bend;
+  if (!(b.third * (2 * until) <= bend)) return {Verdict::undecided};
+  if (curvature < 0) return {Verdict::contact, left, left, until + resolution()};
+  if constexpr (!std::is_void_v<Wider<Real>>) return {Verdict::undecided};
+  const Real later = left.t + 2 * until;
+  if (!(later < right.t)) return {Verdict::undecided};
+  return isolate(curve, curve.at(later), right);
+}
+
 /// The start is overlapped for certain, by rounding, and leaves. Either the gap opens, and the search goes on
 /// outside, or the ball turns back before: the contact is where it begins to approach.
 template <class Real>
 auto WallSearch<Real>::follow_overlap(const Curve& curve, const Point& start, const Point& right) const
     -> Bracket {
+  using std::sqrt;
   const Bounds& b = curve.bounds;
+  const Real sharp = sqrt(epsilon<Real>()) * constants_.clock.period() / 8;  // see PairSearch::tie_window
   Point left = start;
   Real step = left.slope / (2 * b.second);
   for (int k = 0; k < 400; ++k) {
@@ -304,95 +342,94 @@ auto WallSearch<Real>::follow_overlap(const Curve& curve, const Point& start, co
       continue;
     }
     const bool turned = next.slope < -b.slope_error && next.value < -b.value_error;
-    if (turned && step * 65536 < next.t - start.t) return {Verdict::contact, next, next};
+    if (turned && step * 65536 < next.t - start.t && step < sharp)
+      return {Verdict::contact, next, next, step + resolution()};
     if (step < resolution())
-      return turned ? Bracket{Verdict::contact, next, next} : Bracket{Verdict::undecided};
+      return turned ? Bracket{Verdict::contact, next, next, 2 * resolution()} : Bracket{Verdict::undecided};
     step = step / 2;
   }
   return {Verdict::undecided};
 }
 
-/// The bracket's root to the last digit of the scalar: its end where the gap is not negative.
-///
-/// Near the root one evaluation gives a quadratic that is as good as the gap itself; toms748 takes the
-/// quadratic's root to adjacent numbers, and the gap's own signs there are checked. Where rounding moves them
-/// by some ulps, the bracket is closed on the gap itself.
+/// The bracket's root to the last digit of the scalar: the end of the last bracket where the gap is not
+/// negative.
 template <class Real>
-auto WallSearch<Real>::polish(const Curve& curve, Point left, Point right) const -> Root {
-  const Real t = left.t == right.t ? left.t : polished_root(curve, left, right);
-  // The flatter end of what is left of the bracket; a contact at once has no later root to be mistaken for.
-  const Real slope = left.slope > right.slope ? left.slope : right.slope;
-  return {t, resolution() + (slope < 0 ? Real(-4 * curve.bounds.value_error / slope) : Real(0))};
+auto WallSearch<Real>::polish(const Curve& curve, const Bracket& bracket) const -> Root {
+  const Point &left = bracket.left, &right = bracket.right;
+  if (bracket.doubt > 0) return {left.t, bracket.doubt};
+  const auto doubt_at = [&](const Real& slope) {
+    return resolution() + (slope < 0 ? Real(-4 * curve.bounds.value_error / slope) : Real(0));
+  };
+  if (left.t == right.t || left.value <= 0) return {left.t, doubt_at(left.slope)};
+  if (left.slope < 0 && right.slope < 0) {
+    const Real width = right.t - left.t;
+    const auto root = close_in(
+        curve.functions, curve.wall, left.t, right.t,
+        {numerics::inverse_cubic_hint(left, right), static_cast<double>((right.slope - left.slope) / width),
+         static_cast<double>(curve.bounds.third * width), static_cast<double>(curve.bounds.third)},
+        curve.bounds.value_error);
+    if (root) return *root;
+  }
+  const auto gap = [&](const Real& t) { return Real(curve.at(t).value); };
+  const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
+  std::uintmax_t iterations = 500;
+  const auto root =
+      boost::math::tools::toms748_solve(gap, left.t, right.t, left.value, right.value, closed, iterations);
+  EDMILL_REQUIRE(iterations < 500, "root polishing ran out of iterations");
+  const Point end = curve.at(root.first);
+  EDMILL_REQUIRE(end.value >= 0, "root polishing lost the sign change");
+  return {root.first, doubt_at(end.slope)};
 }
 
+/// The root of a gap that is proven to fall through zero in (from, to): Newton's iteration, which knows the
+/// curvature, up to where one step more would change nothing; then toms748 on the gap itself, in a bracket of
+/// a few units of the clock. Nothing when rounding does not let the signs at such a bracket be seen.
 template <class Real>
-Real WallSearch<Real>::polished_root(const Curve& curve, Point& left, Point& right) const {
-  if (left.value <= 0) return left.t;
-  const Real ulp = epsilon<Real>() * constants_.clock.period();
-  const auto adjacent = [](const Real& a, const Real& b) {
-    const Real middle = a + (b - a) / 2;
-    return middle <= a || middle >= b;
+auto WallSearch<Real>::close_in(const Functions& functions, int wall, const Real& from, const Real& to,
+                                const Approach& approach, const Real& value_error) const
+    -> std::optional<Root> {
+  const Real unit = epsilon<Real>() * constants_.clock.period();
+  const double clock_unit = static_cast<double>(unit);
+  Real t = approach.guess;
+  auto pose = functions.pose(t);
+  const auto pose_at = [&](const Real& time) {
+    return model::pose_nearby<Real>(constants_.mill.motion, constants_.angular_speed, constants_.frequency,
+                                    time, pose, t);
   };
-  const auto solve = [&](const auto& f, const Point& a, const Point& b) {
-    std::uintmax_t iterations = 500;
-    const auto root = boost::math::tools::toms748_solve(f, a.t, b.t, a.value, b.value, adjacent, iterations);
-    EDMILL_REQUIRE(iterations < 500, "root polishing ran out of iterations");
-    return root;
-  };
-  if (left.slope < 0 && right.slope < 0) {
-    const Real curvature = (right.slope - left.slope) / (right.t - left.t);
-    const Real width = right.t - left.t;
-    Real guess = numerics::inverse_cubic_hint(left, right);
-    for (int step = 0; step < 12 && guess > left.t && guess < right.t; ++step) {
-      const Point near = curve.at(guess);
-      (near.value < 0 ? right : left) = near;
-      if (!(near.slope < 0) || near.value == 0) break;
-      const Real newton = -near.value / near.slope;
-      const Real correction = newton - curvature * (newton * newton) / (2 * near.slope);
-      const Real size = correction < 0 ? Real(-correction) : correction;
-      guess = near.t + correction;
-      // The curvature is off by at most sup|third derivative| times the width of the bracket.
-      if (curve.bounds.third * (size * size) * (width + size) > -near.slope * ulp) continue;
-      const auto quadratic = [&](const Real& t) {
-        const Real d = t - near.t;
-        return Real(near.value + d * (near.slope + d * (curvature / 2)));
-      };
-      const Real reach = epsilon<Real>() * guess;  // one or two ulps of this very number
-      Real low = guess - reach, high = guess + reach;
-      if (!(low > left.t && high < right.t)) break;
-      if (!(quadratic(low) > 0 && quadratic(high) < 0)) break;
-      while (!adjacent(low, high)) {
-        const Real middle = low + (high - low) / 2;
-        (quadratic(middle) >= 0 ? low : high) = middle;
-      }
-      // The quadratic changes sign here, so the gap does within its rounding error; what is left is to find
-      // the side on which the computed gap is not negative.
-      // The bound on that error is several times what it usually is: step back by parts of it.
-      const Real doubt = -curve.bounds.value_error / near.slope;
-      for (const Real& t : {low, Real(low - (2 * ulp + doubt / 16)), Real(low - (2 * ulp + doubt / 4)),
-                            Real(low - (2 * ulp + doubt))}) {
-        if (!(t > left.t && t < right.t)) continue;
-        const Point p = curve.at(t);
-        (p.value < 0 ? right : left) = p;
-        if (p.value >= 0) return p.t;
-      }
-      break;
+  for (int step = 0; step < 8; ++step) {
+    if (!(t > from && t < to)) return std::nullopt;
+    const auto sample = functions(t, pose);
+    const Real& slope = sample.rate[wall];
+    const double flatness = static_cast<double>(slope);
+    if (!(flatness < 0)) return std::nullopt;
+    const Real newton = -sample.gap[wall] / slope;
+    const double size = static_cast<double>(newton), square = size * size;
+    const Real centre = t + (newton - Real(approach.curvature * square / (2 * flatness)));
+    const double off = (approach.curvature_error + approach.third * (size < 0 ? -size : size)) * square;
+    if (off > -flatness * clock_unit) {
+      pose = pose_at(centre);
+      t = centre;
+      continue;
     }
+    const auto gap = [&](const Real& time) { return Real(functions(time, pose_at(time)).gap[wall]); };
+    const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
+    const Real doubt = -value_error / slope;
+    // The bound on the rounding of a gap is several times what it usually is.
+    for (Real reach = unit + doubt / 16; reach <= 8 * (unit + doubt); reach = 4 * reach) {
+      const Real low = centre - reach, high = centre + reach;
+      if (!(low > from && high < to)) return std::nullopt;
+      const Real at_low = gap(low), at_high = gap(high);
+      if (!(at_low >= 0 && at_high <= 0)) continue;
+      std::uintmax_t iterations = 100;
+      const Real root =
+          boost::math::tools::toms748_solve(gap, low, high, at_low, at_high, closed, iterations).first;
+      Root found{root, resolution() + 4 * doubt};
+      if constexpr (is_wide) found.pose = pose_at(root);
+      return found;
+    }
+    return std::nullopt;
   }
-  if (left.value == 0 || adjacent(left.t, right.t)) return left.t;
-  // One end is near, the other may still be far: bring it in by doubling steps.
-  const bool from_left = left.value < -right.value;
-  for (Real step = ulp; step < right.t - left.t; step = 2 * step) {
-    const Point p = curve.at(from_left ? Real(left.t + step) : Real(right.t - step));
-    (p.value < 0 ? right : left) = p;
-    if (from_left == (p.value < 0)) break;
-  }
-  if (left.value == 0 || adjacent(left.t, right.t)) return left.t;
-  const auto root = solve([&](const Real& t) { return Real(curve.at(t).value); }, left, right);
-  EDMILL_REQUIRE(
-      root.first == root.second || (curve.at(root.first).value >= 0 && curve.at(root.second).value <= 0),
-      "root polishing lost the sign change");
-  return root.first;
+  return std::nullopt;
 }
 
 }  // namespace edmill::dynamics

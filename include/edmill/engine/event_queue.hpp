@@ -70,6 +70,22 @@ class EventQueue {
     put(ball);
   }
 
+  /// All balls with an event up to `limit`, lower ones first.
+  void due_until(const Instant<Real>& limit, std::vector<int>& balls) const {
+    balls.clear();
+    const std::int64_t last = std::max(day_of(limit), today_);
+    const auto add = [&](int i) {
+      if (entries_[i].time <= limit) balls.push_back(i);
+    };
+    if (last < horizon_) {
+      for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1))
+        for (int i = head(day); i != none; i = entries_[i].next) add(i);
+      std::sort(balls.begin(), balls.end());
+    } else {
+      for (int i = 0; i < static_cast<int>(entries_.size()); ++i) add(i);
+    }
+  }
+
   /// The ball whose event is next after that of the last `top`, if it is not later than `limit`; -1
   /// otherwise.
   int runner_up(const Instant<Real>& limit) const {

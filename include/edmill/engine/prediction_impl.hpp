@@ -92,13 +92,14 @@ void Simulation<Real>::predict_crossing(int ball, const RoughlySeen& roughly) {
       crossing.delay < Crossing::never ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
 }
 
-/// How far a wall search from `begin` need look: to the ball's nearest pair contact, after which it is moot.
+/// How far a wall search from `begin` need look: to a little behind the ball's nearest pair contact, so that
+/// a wall contact which may be first is known.
 template <class Real>
 Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const {
   const Real& longest = ladder_.walls().longest_window();
   const Agenda& a = agendas_[ball];
   if (a.pair_count == 0) return longest;
-  const Real until_pair = clock_.elapsed(begin, a.times[a.nearest()]);
+  const Real until_pair = clock_.elapsed(begin, a.times[a.nearest()]) + 2 * ladder_.tie_window();
   return std::min(longest, std::max(Real(longest / 4096), until_pair));
 }
 
@@ -116,10 +117,10 @@ void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pos
 }
 
 template <class Real>
-void Simulation<Real>::continue_wall_search(int ball) {
+void Simulation<Real>::continue_wall_search(int ball, const Instant<Real>& begin) {
   ++counts_.wall_searches;
-  const Real length = search_length(ball, now_);
-  take_wall_answer(ball, ladder_.wall({flights_[ball], properties(ball).radius, now_, length}), now_);
+  const Real length = search_length(ball, begin);
+  take_wall_answer(ball, ladder_.wall({flights_[ball], properties(ball).radius, begin, length}), begin);
   requeue(ball);
 }
 
@@ -128,59 +129,101 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
                                         const Instant<Real>& begin) {
   Agenda& a = agendas_[ball];
   if (answer.verdict == dynamics::Verdict::contact) {
-    a.wall = static_cast<std::int8_t>(answer.wall);
+    a.wall = static_cast<std::int8_t>(answer.wall + (answer.tie ? Agenda::tied : 0));
     a.times[Agenda::wall_entry] = answer.time;
     a.wall_pose = answer.pose;
-    if (answer.tie) ++counts_.simultaneous_contacts;
   } else {
+    // The next search begins where this one's proof still holds, whatever the sum is rounded to.
     a.wall = -1;
-    a.times[Agenda::wall_entry] = clock_.after(begin, answer.searched);
+    a.times[Agenda::wall_entry] =
+        clock_.after(begin, answer.searched - 4 * epsilon<Real>() * clock_.period());
   }
 }
 
-/// Contacts of one ball at times within rounding of each other are put in order by wider scalars; a true tie
-/// keeps the order of the queue and is counted.
+/// Whether anything else is due so soon after a contact that it may be first. Rarely.
+template <class Real>
+bool Simulation<Real>::has_rivals(const Event& event) const {
+  const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
+  const Agenda& a = agendas_[event.ball];
+  bool another = a.forgotten_from <= limit;
+  for (int entry = 0; entry < static_cast<int>(a.times.size()); ++entry)
+    another |= (entry != a.next) & (entry != Agenda::crossing_entry) & (a.times[entry] <= limit);
+  return another || queue_.runner_up(limit) >= 0;
+}
+
+/// Of contacts that share a ball and are so close in time that rounding may have put them in the wrong order,
+/// the first: wider scalars time them anew. What no scalar can tell apart is put in order by a rule, and
+/// marked.
 template <class Real>
 auto Simulation<Real>::settle_ties(Event event) -> Event {
-  const auto shares_ball = [&](const Event& other) {
-    const auto involves = [&](int ball) {
-      return other.ball == ball || (other.kind == EventKind::pair_contact && other.partner == ball);
+  std::vector<Event> passed;  // that went behind another one
+  for (;;) {
+    const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
+    finish_wall_searches(event, limit);
+    find_rivals(event, limit);
+    std::optional<Event> first;
+    for (const Event& rival : rivals_) {
+      const auto same = [&](const Event& e) { return e.same_bodies(rival); };
+      if (std::any_of(passed.begin(), passed.end(), same)) continue;
+      const int order = ladder_.order(contact_of(event), contact_of(rival));
+      event.by_rule |= order == 0;
+      if (order > 0 || (order == 0 && rival.goes_before(event))) {
+        first = rival;
+        first->by_rule |= order == 0;
+        break;
+      }
+    }
+    if (!first) return event;
+    passed.push_back(event);
+    event = *first;
+  }
+}
+
+/// A search that ends so soon may end just before a contact.
+template <class Real>
+void Simulation<Real>::finish_wall_searches(const Event& event, const Instant<Real>& limit) {
+  const auto finish = [&](int ball) {
+    const Agenda& a = agendas_[ball];
+    while (!a.hits_wall() && a.times[Agenda::wall_entry] <= limit)
+      continue_wall_search(ball, Instant<Real>(a.times[Agenda::wall_entry]));
+  };
+  finish(event.ball);
+  if (event.kind == EventKind::pair_contact) finish(event.partner);
+}
+
+/// Fills `rivals_` with the contacts up to `limit` that share a ball with the event.
+template <class Real>
+void Simulation<Real>::find_rivals(const Event& event, const Instant<Real>& limit) {
+  rivals_.clear();
+  queue_.due_until(limit, due_);
+  for (const int ball : due_) {
+    const Agenda& a = agendas_[ball];
+    const auto add = [&](const Event& rival) {
+      if (rival.shares_ball(event) && !rival.same_bodies(event)) rivals_.push_back(rival);
     };
-    return involves(event.ball) || (event.kind == EventKind::pair_contact && involves(event.partner));
-  };
-  const auto settle = [&](const Event& other) {
-    const bool same =
-        other.kind == event.kind && ((other.ball == event.ball && other.partner == event.partner) ||
-                                     (other.kind == EventKind::pair_contact && other.ball == event.partner &&
-                                      other.partner == event.ball));
-    if (same || !is_contact(other) || !shares_ball(other)) return;
-    const int order = ladder_.order(contact_of(event), contact_of(other));
-    if (order == 0) ++counts_.simultaneous_contacts;
-    if (order > 0) {
-      event = other;
-      now_ = other.time;
-    }
-  };
-  const Instant<Real> limit = clock_.after(event.time, suspicion_);
-  // The ball's own contacts besides this one, which is the entry that was queued.
-  const Agenda& a = agendas_[event.ball];
-  for (int entry = 0; entry < static_cast<int>(a.times.size()); ++entry) {
-    const bool another = (entry != a.next) & (entry != Agenda::crossing_entry);
-    if (!(another & (a.times[entry] <= limit))) continue;
-    if (entry != Agenda::wall_entry) {
-      if (still_holds(a, entry))
-        settle({EventKind::pair_contact, a.times[entry], event.ball, a.partner_at(entry)});
-    } else if (a.wall >= 0) {
-      settle({EventKind::wall_contact, a.times[entry], event.ball, a.wall});
-    }
+    if (a.hits_wall() && a.times[Agenda::wall_entry] <= limit)
+      add({EventKind::wall_contact, a.times[Agenda::wall_entry], ball, a.wall_id(), a.wall_is_tied()});
+    for (int entry = Agenda::first_pair; entry < Agenda::first_pair + a.pair_count; ++entry)
+      if (a.times[entry] <= limit && still_holds(a, entry))
+        add({EventKind::pair_contact, a.times[entry], ball, a.partner_at(entry)});
+    if (a.forgotten_from <= limit) add_rivals_of_full_agenda(ball, event, limit);
   }
-  const int rival = queue_.runner_up(limit);
-  if (rival >= 0) {
-    const Event other = next_of(rival);
-    if (other.kind != EventKind::pair_contact || still_holds(agendas_[rival], agendas_[rival].next))
-      settle(other);
+}
+
+/// Contacts that the ball's agenda had no room for are predicted anew.
+template <class Real>
+void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event& event, const Instant<Real>& limit) {
+  for (int other = 0; other < ball_count(); ++other) {
+    if (other == ball) continue;
+    Event rival{EventKind::pair_contact, limit, ball, other};
+    if (!rival.shares_ball(event) || rival.same_bodies(event)) continue;
+    const auto contact = contact_of(rival);
+    const auto& begin = contact.flight.start;
+    const auto answer = ladder_.pair(contact.flight, contact.partner, begin, contact.radius);
+    if (answer.verdict != dynamics::Verdict::contact) continue;
+    rival.time = clock_.after(begin, answer.delay);
+    if (rival.time <= limit) rivals_.push_back(rival);
   }
-  return event;
 }
 
 template <class Real>

@@ -1,9 +1,11 @@
 // The event-driven simulation: next event, propagate, collide, tell, predict.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -103,7 +105,9 @@ class Simulation {
     std::array<std::uint32_t, capacity> known;  ///< number of the latest impact of all, when predicted
     std::uint32_t last_impact = 0;              ///< number of the ball's latest
     std::int8_t pair_count = 0;
-    std::int8_t wall = -1;  ///< a wall id, or -1 when the wall's time only ends what has been searched
+    /// A wall id, or -1 when the wall's time only ends what has been searched; `tied` more when another wall
+    /// is hit at the same time.
+    std::int8_t wall = -1;
     std::int8_t crossing_face = 0;  ///< twice the axis, and 1 more when upwards
     std::int8_t next = wall_entry;  ///< the entry that was queued
 
@@ -125,6 +129,10 @@ class Simulation {
       const int last = first_pair + (times[first_pair + 1] > times[first_pair]);
       return select(times[first_pair + 2] > times[last], first_pair + 2, last);
     }
+    static constexpr int tied = 64;
+    bool hits_wall() const { return wall >= 0; }
+    bool wall_is_tied() const { return wall >= tied; }
+    int wall_id() const { return wall % tied; }
     int crossing_axis() const { return crossing_face / 2; }
     int crossing_step() const { return crossing_face % 2 ? 1 : -1; }
     int partner_at(int entry) const { return partners[entry - first_pair]; }
@@ -165,26 +173,50 @@ class Simulation {
     Instant<Real> time;
     int ball;
     int partner;
+    bool by_rule = false;  ///< a rule put it before another contact
+
+    bool is_contact() const { return kind == EventKind::wall_contact || kind == EventKind::pair_contact; }
+    bool involves(int other) const {
+      return ball == other || (kind == EventKind::pair_contact && partner == other);
+    }
+    bool shares_ball(const Event& other) const {
+      return involves(other.ball) || (other.kind == EventKind::pair_contact && involves(other.partner));
+    }
+    bool same_bodies(const Event& other) const {
+      if (kind != other.kind) return false;
+      return (ball == other.ball && partner == other.partner) ||
+             (kind == EventKind::pair_contact && ball == other.partner && partner == other.ball);
+    }
+    /// The rule for contacts at one time: a wall goes before a ball, then the lower numbers.
+    bool goes_before(const Event& other) const {
+      const auto place = [](const Event& e) {
+        const bool pair = e.kind == EventKind::pair_contact;
+        return std::tuple(pair, pair ? std::min(e.ball, e.partner) : e.ball,
+                          pair ? std::max(e.ball, e.partner) : e.partner);
+      };
+      return place(*this) < place(other);
+    }
   };
 
   Event next_of(int ball) const;
   void requeue(int ball);
-  bool is_contact(const Event& e) const {
-    return e.kind == EventKind::wall_contact || e.kind == EventKind::pair_contact;
-  }
 
   void process(const Event& event);
   void drop_stale(int ball);
   void cross_cell(int ball);
-  void collide_with_wall(int ball, int wall);
+  void collide_with_wall(const Event& event);
   model::VesselPose<Real> pose_now() const;
   model::VesselPose<Real> pose_at_wall_contact(int ball) const;
-  void collide_pair(int ball, int partner);
+  void collide_pair(const Event& event);
   [[gnu::noinline]] void number_anew();
   void number_impact(int ball, int partner);
   void after_impact(Impact<Real>& impact);
   void note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall, int partner);
+  bool has_rivals(const Event& event) const;
   Event settle_ties(Event event);
+  void finish_wall_searches(const Event& event, const Instant<Real>& limit);
+  void find_rivals(const Event& event, const Instant<Real>& limit);
+  void add_rivals_of_full_agenda(int ball, const Event& event, const Instant<Real>& limit);
   dynamics::Contact<Real> contact_of(const Event& event) const;
 
   using RoughlySeen = dynamics::PairSearch<double>::Seen;
@@ -225,7 +257,7 @@ class Simulation {
   void expect_pair(int ball, int other, const Real& delay);
   void predict_crossing(int ball, const RoughlySeen& roughly);
   void predict_wall(int ball, const model::VesselPose<Real>& pose);
-  void continue_wall_search(int ball);
+  void continue_wall_search(int ball, const Instant<Real>& begin);
   Real search_length(int ball, const Instant<Real>& begin) const;
   void take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer, const Instant<Real>& begin);
   void predict_all(int ball, int already_done, const model::VesselPose<Real>& pose, FoundBalls& near);
@@ -253,14 +285,16 @@ class Simulation {
   int fetched_ = portions;          ///< of what they need
   FoundBalls near_, near_partner_;  ///< scratch: balls of the adjacent cells
   Looks looks_;                     ///< scratch: what the pair filter saw
+  std::vector<int> due_;            ///< scratch: balls with an event at nearly the same time
+  std::vector<Event> rivals_;       ///< scratch: contacts that may be first
   std::vector<Observer<Real>*> observers_;
   EngineCounts<Real> counts_;
   std::optional<model::InelasticCollapse<Real>> collapse_;
   std::optional<EndReason> stop_;
   Instant<Real> now_;
-  Real suspicion_;          ///< contacts of one ball closer in time [s] are put in order by the ladder
   Real tolerated_overlap_;  ///< far above rounding and given states, far below a missed impact [m]
-  Real top_speed_;
+  Real fall_;               ///< that a flight adds to a ball's speed at most [m/s]
+  Real top_speed_;          ///< of any ball at any time; it grows
 };
 
 }  // namespace edmill::engine

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <boost/math/special_functions/cbrt.hpp>
 
 #include "edmill/core/errors.hpp"
 #include "edmill/engine/fetching_impl.hpp"
@@ -12,6 +13,16 @@ namespace edmill::engine {
 
 namespace detail {
 
+/// The most that gravity adds to a ball's speed in one flight: one that stays within `reach` of the fulcrum
+/// bends by g t^2/8 < 2 reach [m/s].
+template <class Real>
+Real largest_fall(const model::Mill<Real>& mill) {
+  using std::sqrt;
+  const Real &R = mill.vessel.radius, &h = mill.vessel.half_height;
+  const Real reach = mill.motion.arm + sqrt(R * R + h * h);
+  return 4 * sqrt(reach * norm<Real>(mill.gravity));
+}
+
 template <class Real>
 Real largest_speed(const std::vector<model::BallState<Real>>& states, const model::Mill<Real>& mill) {
   Real largest{1};
@@ -21,7 +32,7 @@ Real largest_speed(const std::vector<model::BallState<Real>>& states, const mode
   }
   const Real wall = (mill.motion.theta_max + mill.motion.gamma_max) * mill.motion.angular_speed() *
                     (mill.motion.arm + mill.vessel.radius + mill.vessel.half_height);
-  return 2 * (largest + wall);
+  return 2 * (largest + wall) + largest_fall(mill);
 }
 
 template <class Real>
@@ -48,9 +59,12 @@ CellGrid make_grid(const model::Mill<Real>& mill, const std::vector<model::BallP
   Real largest{0};
   for (const auto& b : balls) largest = b.radius > largest ? b.radius : largest;
   const double volume = static_cast<double>(R * R * h) * 6.28;
+  // The C library's cube root is not the same on every machine; nor is long double.
+  using boost::math::policies::promote_double;
+  constexpr boost::math::policies::policy<promote_double<false>> portable;
   Real edge = 2 * largest * (1 + Real(1) / 1024);
   if (balls.size() <= 32) edge = 4 * sideways;
-  const double spacing = 0.45 * std::cbrt(volume / static_cast<double>(balls.size()));
+  const double spacing = 0.45 * boost::math::cbrt(volume / static_cast<double>(balls.size()), portable);
   if (edge < spacing) edge = Real(spacing);
   return CellGrid(vector_cast<double>(low), vector_cast<double>(high), static_cast<double>(edge),
                   static_cast<int>(balls.size()));
@@ -76,8 +90,8 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       queue_(static_cast<int>(states.size()), the_case.mill.motion.period),
       collapse_watch_(Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().constants().reach),
       now_(start),
-      suspicion_(ladder_.suspicion()),
       tolerated_overlap_(2 * detail::smallest_radius(the_case.balls) / 1000000),
+      fall_(detail::largest_fall(the_case.mill)),
       top_speed_(detail::largest_speed(states, the_case.mill)) {
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
   for (const auto& ball : balls_) radii_.push_back(static_cast<double>(ball.radius));
@@ -138,7 +152,7 @@ void Simulation<Real>::requeue(int ball) {
   Agenda& a = agendas_[ball];
   const int pair = a.nearest();
   const bool pair_first = (a.times[pair] < a.times[Agenda::wall_entry]) |
-                          ((a.wall < 0) & (a.times[pair] == a.times[Agenda::wall_entry]));
+                          ((!a.hits_wall()) & (a.times[pair] == a.times[Agenda::wall_entry]));
   const int contact = Agenda::select(pair_first, pair, Agenda::wall_entry);
   const bool crossing_first = a.times[Agenda::crossing_entry] < a.times[contact];
   a.next = static_cast<std::int8_t>(Agenda::select(crossing_first, Agenda::crossing_entry, contact));
@@ -151,7 +165,8 @@ auto Simulation<Real>::next_of(int ball) const -> Event {
   const Agenda& a = agendas_[ball];
   const Instant<Real>& time = a.times[a.next];
   if (a.next == Agenda::wall_entry)
-    return {a.wall >= 0 ? EventKind::wall_contact : EventKind::wall_recheck, time, ball, a.wall};
+    return a.hits_wall() ? Event{EventKind::wall_contact, time, ball, a.wall_id(), a.wall_is_tied()}
+                         : Event{EventKind::wall_recheck, time, ball, -1};
   if (a.next == Agenda::crossing_entry) return {EventKind::cell_crossing, time, ball, -1};
   return {EventKind::pair_contact, time, ball, a.partner_at(a.next)};
 }
@@ -165,15 +180,17 @@ void Simulation<Real>::process(const Event& event) {
     case EventKind::cell_crossing:
       return cross_cell(event.ball);
     case EventKind::wall_recheck:
-      return continue_wall_search(event.ball);
+      return continue_wall_search(event.ball, now_);
     case EventKind::wall_contact:
       break;
   }
-  const Event first = settle_ties(event);
+  const Event first = has_rivals(event) ? settle_ties(event) : event;
+  now_ = first.time;
+  if (first.by_rule) ++counts_.simultaneous_contacts;
   if (first.kind == EventKind::wall_contact)
-    collide_with_wall(first.ball, first.partner);
+    collide_with_wall(first);
   else
-    collide_pair(first.ball, first.partner);
+    collide_pair(first);
 }
 
 /// The nearest pair contact is void: the partner has collided since. The next one takes its place.
@@ -224,7 +241,8 @@ model::VesselPose<Real> Simulation<Real>::pose_at_wall_contact(int ball) const {
 }
 
 template <class Real>
-void Simulation<Real>::collide_with_wall(int ball, int wall) {
+void Simulation<Real>::collide_with_wall(const Event& event) {
+  const int ball = event.ball, wall = event.partner;
   fetch_neighbours(ball, near_);
   auto& flight = flights_[ball];
   const Real flight_time = dynamics::fly_to(flight, mill_.gravity, clock_, now_);
@@ -255,6 +273,7 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
                                                      bodies_[ball].spin, mill_.ball_wall);
   impact.ball = ball;
   impact.with_wall = true;
+  impact.by_rule = event.by_rule;
   impact.partner = wall;
   number_impact(ball, ball);
   flight_changed(ball);
@@ -264,7 +283,8 @@ void Simulation<Real>::collide_with_wall(int ball, int wall) {
 }
 
 template <class Real>
-void Simulation<Real>::collide_pair(int ball, int partner) {
+void Simulation<Real>::collide_pair(const Event& event) {
+  const int ball = event.ball, partner = event.partner;
   fetch_neighbours(ball, near_);
   auto &one = flights_[ball], &two = flights_[partner];
   const Real flight_times[2] = {dynamics::fly_to(one, mill_.gravity, clock_, now_),
@@ -285,6 +305,7 @@ void Simulation<Real>::collide_pair(int ball, int partner) {
                                     bodies_[ball].spin, two.velocity, bodies_[partner].spin, mill_.ball_ball);
   impact.ball = ball;
   impact.with_wall = false;
+  impact.by_rule = event.by_rule;
   impact.partner = partner;
   number_impact(ball, partner);
   flight_changed(ball);
@@ -322,13 +343,13 @@ void Simulation<Real>::after_impact(Impact<Real>& impact) {
   if (impact.overlap > counts_.deepest_overlap) counts_.deepest_overlap = impact.overlap;
   EDMILL_REQUIRE(impact.overlap < tolerated_overlap_,
                  "an impact was missed: bodies overlap by " + to_text(impact.overlap) + " m");
-  const Real limit = top_speed_ * top_speed_;
+  const Real fastest = top_speed_ - fall_, limit = fastest * fastest;
   for (int body = 0; body < (impact.with_wall ? 1 : 2); ++body) {
     const Real speed_squared =
         squared_norm<Real>(flights_[body == 0 ? impact.ball : impact.partner].velocity);
     if (speed_squared > limit) {
       using std::sqrt;
-      top_speed_ = 2 * sqrt(speed_squared);
+      top_speed_ = 2 * sqrt(speed_squared) + fall_;
       ladder_.raise_top_speed(top_speed_);
       pair_filter_.raise_top_speed(static_cast<double>(top_speed_));
     }
@@ -365,14 +386,8 @@ model::BallState<Real> Simulation<Real>::state_at(int i, const Instant<Real>& wh
 template <class Real>
 model::Energy<Real> Simulation<Real>::energy_at(const Instant<Real>& when) const {
   model::Energy<Real> energy;
-  for (int i = 0; i < ball_count(); ++i) {
-    const auto state = state_at(i, when);
-    const auto& ball = properties(i);
-    const Real inertia = ball.reduced_inertia * ball.mass * ball.radius * ball.radius;
-    energy.kinetic +=
-        ball.mass / 2 * squared_norm<Real>(state.velocity) + inertia / 2 * squared_norm<Real>(state.spin);
-    energy.potential -= ball.mass * dot<Real>(mill_.gravity, state.position);
-  }
+  for (int i = 0; i < ball_count(); ++i)
+    energy += model::energy_of<Real>(properties(i), state_at(i, when), mill_.gravity);
   return energy;
 }
 

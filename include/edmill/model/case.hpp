@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "edmill/core/instant.hpp"
 #include "edmill/core/vector.hpp"
 #include "edmill/model/ball.hpp"
 #include "edmill/model/contact_law.hpp"
@@ -17,7 +18,7 @@ namespace edmill::model {
 /// The first rule that is met ends the run; at least one is set.
 template <class Real>
 struct StopRules {
-  std::optional<Real> end_time;  ///< [s] on the simulation clock
+  std::optional<Instant<Real>> end_time;
   std::optional<std::uint64_t> max_collisions;
   std::optional<Real> max_milling_dose;  ///< [J] since the start of the run
   std::optional<Real> max_ball_speed;    ///< [m/s] of a ball just after an impact
@@ -57,8 +58,8 @@ struct Case {
   Mill<Real> mill;
   std::vector<BallProperties<Real>> balls;
   StopRules<Real> stop;
-  Real initial_time{0};      ///< [s] instant of the initial state
-  Real statistics_start{0};  ///< [s] statistics count from here on
+  Instant<Real> initial_time;      ///< of the initial state
+  Instant<Real> statistics_start;  ///< statistics count from here on
 };
 
 }  // namespace edmill::model

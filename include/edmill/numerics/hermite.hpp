@@ -17,7 +17,7 @@ struct Point {
 template <class Real>
 struct CurveBounds {
   Real second, third, fourth;  ///< sup |f''|, sup |f'''|, sup |f''''|
-  Real value_error, slope_error;
+  Real value_error, slope_error, curvature_error;
 };
 
 /// Bernstein coefficients b_1..b_4 of a quartic lower bound of f on [left, right]; b_0 is the left value.

@@ -21,13 +21,11 @@ struct CubicLowerBound {
     b1 = start.value + rise / 3;
     b2 = start.value + (2 * rise + bend) / 3;
     b3 = start.value + rise + bend - bounds.third * (length * length * length) / 6;
-    // The curvature is a sum of products that the bound on |f''| majorises; 64 roundings are more than it
-    // has.
-    slack =
-        bounds.value_error + length * bounds.slope_error +
-        std::numeric_limits<Real>::epsilon() *
-            (32 * bounds.second * (length * length) +
-             8 * ((start.value < 0 ? Real(-start.value) : start.value) + (rise < 0 ? Real(-rise) : rise)));
+    slack = bounds.value_error + length * bounds.slope_error +
+            (length * length) / 2 * bounds.curvature_error +
+            8 * std::numeric_limits<Real>::epsilon() *
+                ((start.value < 0 ? Real(-start.value) : start.value) + (rise < 0 ? Real(-rise) : rise) +
+                 bounds.second * (length * length));
   }
 
   Real least() const {

@@ -22,8 +22,9 @@ model::Mill<Real> build_mill(const casefile::CaseSpec& spec);
 
 /// Case and initial state: explicit balls first, then the batches, placed at random by the case's seed.
 /// @throws InputError when balls overlap, lie outside the vessel, cannot be placed, or an initial state does
-/// not fit
+/// not fit, and for what this scalar cannot resolve
+/// @param resolved  whether the last of these is asked for
 template <class Real>
-InitialCase<Real> build_case(const casefile::CaseSpec& spec);
+InitialCase<Real> build_case(const casefile::CaseSpec& spec, bool resolved = true);
 
 }  // namespace edmill::setup

@@ -1,6 +1,8 @@
 // Implementation of build_case; included by the instantiation files only.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 #include <string>
@@ -211,7 +213,7 @@ void fill_from_file(const casefile::CaseSpec& spec, InitialCase<Real>& result) {
     throw InputError(spec.initial_state +
                      ":2: found a drive_offset of a whole drive period or more, expected " +
                      "one below the case's period of " + to_text<Real>(clock.period()) + " s");
-  if (spec.end_time && saved.time >= clock.at(*result.the_case.stop.end_time))
+  if (spec.end_time && saved.time >= *result.the_case.stop.end_time)
     throw InputError(spec.initial_state + ":2: found a state at " + to_text<Real>(clock.seconds(saved.time)) +
                      " s, expected one before the case's end_time");
   result.start = saved.time;
@@ -234,6 +236,47 @@ void fill_from_file(const casefile::CaseSpec& spec, InitialCase<Real>& result) {
 
 }  // namespace detail
 
+namespace detail {
+
+/// Refuses what the scalar cannot resolve: balls about as small as the rounding of a position, and a least
+/// separation speed whose hops are lower than that.
+template <class Real>
+void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>& built) {
+  using std::sqrt;
+  const auto& mill = built.the_case.mill;
+  const Real &R = mill.vessel.radius, &h = mill.vessel.half_height, w = mill.motion.angular_speed();
+  const Real reach = mill.motion.arm + sqrt(R * R + h * h), gravity = norm<Real>(mill.gravity);
+  const Real turning = mill.motion.theta_max + mill.motion.gamma_max;
+  Real fastest = 2 * turning * w * reach + 4 * sqrt(gravity * reach);
+  for (const auto& state : built.states) fastest = std::max(fastest, norm<Real>(state.velocity));
+  const Real rounding = epsilon<Real>() / 2 * (24 * reach + 16 * fastest * mill.motion.period);
+  const Real least_radius = 8000000 * rounding;  // so that a missed impact is told from rounding
+  const auto number = [](const Real& x) { return fmt::format("{:.3g}", static_cast<double>(x)); };
+  std::vector<std::string> problems;
+  const auto check = [&](const casefile::BallSpec& ball, const Real& diameter) {
+    if (diameter / 2 < least_radius)
+      problems.push_back(ball.where + ": found a ball of radius " + number(diameter / 2) +
+                         " m, expected at least " + number(least_radius) + " m: in this mill " +
+                         std::string(ScalarName<Real>::value) + " knows a position to " + number(rounding) +
+                         " m; a wider precision knows it better");
+  };
+  for (const auto& ball : spec.balls) check(ball, ball.diameter.template to<Real>());
+  for (const auto& ball : spec.batches)
+    check(ball, ball.diameter.template to<Real>() - ball.diameter_spread.template to<Real>());
+  const Real least_hop = 4 * sqrt(rounding * (turning * w * w * reach + gravity));
+  for (const bool walls : {false, true}) {
+    const Real& speed = (walls ? mill.ball_wall : mill.ball_ball).least_separation;
+    if (speed > 0 && speed < least_hop)
+      problems.push_back(spec.file + ": key '" + (walls ? "contact.ball_wall" : "contact.ball_ball") +
+                         ".least_separation': found " + number(speed) + " m/s, expected 0 or at least " +
+                         number(least_hop) + " m/s: hops of a slower ball are lost in the rounding of " +
+                         std::string(ScalarName<Real>::value));
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+}  // namespace detail
+
 template <class Real>
 model::Mill<Real> build_mill(const casefile::CaseSpec& spec) {
   const auto& m = spec.mill;
@@ -245,25 +288,30 @@ model::Mill<Real> build_mill(const casefile::CaseSpec& spec) {
 }
 
 template <class Real>
-InitialCase<Real> build_case(const casefile::CaseSpec& spec) {
+InitialCase<Real> build_case(const casefile::CaseSpec& spec, bool resolved) {
   InitialCase<Real> result;
   auto& c = result.the_case;
   c.mill = build_mill<Real>(spec);
-  c.initial_time = spec.initial_time.to<Real>();
-  c.statistics_start = spec.statistics_start.to<Real>();
-  if (spec.end_time) c.stop.end_time = spec.end_time->to<Real>();
+  const auto instant = [&](const casefile::Quantity& time) {
+    return casefile::instant_at<Real>(time, spec.mill.period);
+  };
+  c.initial_time = instant(spec.initial_time);
+  c.statistics_start = instant(spec.statistics_start);
+  if (spec.end_time) c.stop.end_time = instant(*spec.end_time);
   if (spec.max_milling_dose) c.stop.max_milling_dose = spec.max_milling_dose->to<Real>();
   if (spec.max_ball_speed) c.stop.max_ball_speed = spec.max_ball_speed->to<Real>();
   c.stop.max_collisions = spec.max_collisions;
-  result.start = DriveClock<Real>(c.mill.motion.period).at(c.initial_time);
+  result.start = c.initial_time;
   if (!spec.initial_state.empty()) {
     detail::fill_from_file(spec, result);
+    if (resolved) detail::require_resolution(spec, result);
     return result;
   }
   detail::Filling<Real> filling(spec, result);
   for (const auto& ball : spec.balls) filling.add_explicit(ball);
   for (const auto& batch : spec.batches) filling.add_batch(batch);
   if (!filling.problems().empty()) throw InputError(filling.problems());
+  if (resolved) detail::require_resolution(spec, result);
   return result;
 }
 
