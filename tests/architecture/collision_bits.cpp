@@ -1,6 +1,6 @@
 // The collision log of a case in double, by the core alone: same_bits_test builds it with several compilers,
 // for which the whole program in all its scalars would take too long. usage: collision_bits CASE.toml
-// COLLISIONS
+// COLLISIONS [SETTING...]
 #include <cstdlib>
 #include <iostream>
 
@@ -34,12 +34,12 @@ class Log : public edmill::engine::Observer<double> {
 
 }  // namespace
 
-int main(int, char** argv) {
-  const auto spec = edmill::casefile::read_case(argv[1]);
+int main(int argc, char** argv) {
+  const auto spec = edmill::casefile::read_case(argv[1], {argv + 3, argv + argc});
   const auto built = edmill::setup::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
   Log log(std::strtoull(argv[2], nullptr, 10));
   simulation.attach(log);
   std::cout << edmill::observe::collision_log_header << '\n';
-  simulation.run_until(simulation.clock().at(spec.end_time->to<double>()), nullptr);
+  simulation.run_until(*built.the_case.stop.end_time, nullptr);
 }

@@ -1,44 +1,66 @@
 #!/usr/bin/env bash
 # A double run gives the same bits from g++ -O0, g++ -O3 -march=native and clang++ -O2, and from the program as it was
-# built: the SHA-256 of a log of 20 000 collisions.
+# built: the SHA-256 of the logs of 28 balls, which are all looked at, of 600 in cells, and of 2000, for which memory is
+# asked early.
 # usage: same_bits_test.sh PROGRAM FOLDER
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 program=$1
 builds=$2
 case_file=docs/examples/demo.toml
+cases=("28 20000" "600 20000" "2000 20000") # balls, collisions
+small=(balls.0.diameter="2.36 mm" balls.0.gap_ball="0.2 mm" contact.restitution=0.8)
 
-hash_of() { # name log
-  [ "$(wc -l <"$2")" = 20001 ] || {
-    echo "$1: the log does not hold 20000 collisions" >&2
-    exit 1
-  }
-  sha256sum <"$2" | cut -d' ' -f1
+settings_of() { # balls
+  settings=()
+  if [ "$1" != 28 ]; then settings=("balls.0.count=$1" "${small[@]}"); fi
 }
 
-hash_of_build() { # name compiler flags
-  local folder="$builds/$1"
-  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$2" -DCMAKE_CXX_FLAGS="$3" \
+hash_of() { # name collisions log
+  [ "$(wc -l <"$3")" = $(($2 + 1)) ] || {
+    echo "$1: the log does not hold $2 collisions" >&2
+    exit 1
+  }
+  sha256sum <"$3" | cut -d' ' -f1
+}
+
+build() { # name compiler flags
+  cmake -S . -B "$builds/$1" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$2" -DCMAKE_CXX_FLAGS="$3" \
     -DEDMILL_BENCHMARKS=OFF >"$builds/$1.log" 2>&1 &&
-    cmake --build "$folder" --target collision_bits >>"$builds/$1.log" 2>&1 || {
+    cmake --build "$builds/$1" --target collision_bits >>"$builds/$1.log" 2>&1 || {
     tail -n 30 "$builds/$1.log" >&2
     exit 1
   }
-  "$folder/tests/collision_bits" "$case_file" 20000 >"$folder/collisions.csv"
-  hash_of "$1" "$folder/collisions.csv"
+}
+
+hash_of_build() { # name balls collisions
+  settings_of "$2"
+  "$builds/$1/tests/collision_bits" "$case_file" "$3" "${settings[@]}" >"$builds/$1/collisions.csv"
+  hash_of "$1" "$3" "$builds/$1/collisions.csv"
+}
+
+hash_of_program() { # balls collisions
+  settings_of "$1"
+  local given=()
+  for setting in "${settings[@]}"; do given+=(--set "$setting"); done
+  "$program" run "$case_file" --quiet --out "$builds/program" --set run.max_collisions="$2" \
+    --set "output=[{type=\"collisions\"}]" "${given[@]}"
+  hash_of program "$2" "$builds/program/collisions.csv"
 }
 
 mkdir -p "$builds"
-"$program" run "$case_file" --quiet --out "$builds/program" --set run.max_collisions=20000 \
-  --set "output=[{type=\"collisions\"}]"
-hashes=(
-  "$(hash_of program "$builds/program/collisions.csv")"
-  "$(hash_of_build gcc-O0 g++ "-O0")"
-  "$(hash_of_build gcc-O3-native g++ "-O3 -march=native")"
-  "$(hash_of_build clang-O2 clang++ "-O2")"
-)
-echo "the program            ${hashes[0]}"
-echo "g++ -O0                ${hashes[1]}"
-echo "g++ -O3 -march=native  ${hashes[2]}"
-echo "clang++ -O2            ${hashes[3]}"
-[ "$(printf '%s\n' "${hashes[@]}" | sort -u | wc -l)" = 1 ] && echo "the logs have the same bits"
+build gcc-O0 g++ "-O0"
+build gcc-O3-native g++ "-O3 -march=native"
+build clang-O2 clang++ "-O2"
+different=0
+for each in "${cases[@]}"; do
+  read -r balls collisions <<<"$each"
+  hashes=("$(hash_of_program "$balls" "$collisions")")
+  for name in gcc-O0 gcc-O3-native clang-O2; do hashes+=("$(hash_of_build "$name" "$balls" "$collisions")"); done
+  echo "$balls balls, the program            ${hashes[0]}"
+  echo "$balls balls, g++ -O0                ${hashes[1]}"
+  echo "$balls balls, g++ -O3 -march=native  ${hashes[2]}"
+  echo "$balls balls, clang++ -O2            ${hashes[3]}"
+  [ "$(printf '%s\n' "${hashes[@]}" | sort -u | wc -l)" = 1 ] || different=1
+done
+[ $different = 0 ] && echo "the logs have the same bits"

@@ -35,8 +35,19 @@ struct RandomFlight {
   }
 };
 
-TEST(GapFunctions, RoundingErrorsStayBelowTheirBounds) {
-  const auto mill = testing::spex_mill<double>();
+/// The mill of the SPEX with an arm of this length.
+template <class Real>
+model::Mill<Real> mill_with_arm(const char* metres) {
+  auto mill = testing::spex_mill<Real>();
+  mill.motion.arm = from_text<Real>(metres);
+  return mill;
+}
+
+class GapErrorsAtArm : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(GapFunctions, GapErrorsAtArm, ::testing::Values("0.1", "0", "5", "200"));
+
+TEST_P(GapErrorsAtArm, RoundingErrorsStayBelowTheirBounds) {
+  const auto mill = mill_with_arm<double>(GetParam());
   const GapFunctions<double>::Constants constants(mill);
   const model::Mill<mpfr50> wide_mill{
       {mill.motion.arm, mill.motion.theta_max, mill.motion.gamma_max, mill.motion.period},
@@ -46,14 +57,14 @@ TEST(GapFunctions, RoundingErrorsStayBelowTheirBounds) {
       {}};
   const GapFunctions<mpfr50>::Constants wide_constants(wide_mill);
   setup::Random random(21);
-  double worst_gap = 0, worst_rate = 0;
-  for (int k = 0; k < 50000; ++k) {
+  double worst_gap = 0, worst_rate = 0, worst_curvature = 0;
+  for (int k = 0; k < 20000; ++k) {
     const RandomFlight r(random, mill, 10);
     const GapFunctions<double> narrow(constants, r.flight, r.radius, r.period);
     const GapFunctions<mpfr50> exact(wide_constants, flight_cast<mpfr50>(r.flight), mpfr50(r.radius),
                                      r.period);
-    const auto found = narrow(r.offset);
-    const auto truth = exact(mpfr50(r.offset));
+    const auto found = narrow.start(r.offset);
+    const auto truth = exact.start(mpfr50(r.offset));
     const double elapsed = narrow.elapsed(r.offset);
     const double speed = norm<double>(r.flight.velocity) + constants.gravity * elapsed;
     const auto bound = narrow.errors(elapsed, speed);
@@ -62,11 +73,17 @@ TEST(GapFunctions, RoundingErrorsStayBelowTheirBounds) {
           std::max(worst_gap, static_cast<double>(abs(mpfr50(found.gap[w]) - truth.gap[w])) / bound.gap[w]);
       worst_rate = std::max(worst_rate,
                             static_cast<double>(abs(mpfr50(found.rate[w]) - truth.rate[w])) / bound.rate[w]);
+      worst_curvature = std::max(
+          worst_curvature,
+          static_cast<double>(abs(mpfr50(found.curvature[w]) - truth.curvature[w])) / bound.curvature[w]);
     }
   }
-  std::cout << "largest error over its bound: gap " << worst_gap << ", rate " << worst_rate << "\n";
+  std::cout << "largest error over its bound: gap " << worst_gap << ", rate " << worst_rate << ", curvature "
+            << worst_curvature << "\n";
   EXPECT_LT(worst_gap, 1);
   EXPECT_LT(worst_rate, 1);
+  EXPECT_LT(worst_curvature, 1);
+  EXPECT_GT(worst_curvature, 0.001);
   // Bounds far above the errors would escalate decisions that double could make.
   EXPECT_GT(worst_gap, 0.02);
 }
@@ -77,7 +94,7 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
   const GapFunctions<double>::Constants constants(mill);
   const GapFunctions<mpfr50>::Constants wide_constants(wide_mill);
   setup::Random random(23);
-  double worst_gap = 0, worst_rate = 0;
+  double worst_gap = 0, worst_rate = 0, worst_curvature = 0;
   for (int k = 0; k < 50000; ++k) {
     const RandomFlight r(random, mill, 10);
     // Digits below those of double, anywhere up to half a unit in the last place.
@@ -94,8 +111,8 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
     const GapFunctions<double> narrow(constants, flight_cast<double>(wide), static_cast<double>(radius),
                                       r.period);
     const GapFunctions<mpfr50> exact(wide_constants, wide, radius, r.period);
-    const auto found = narrow(r.offset);
-    const auto truth = exact(mpfr50(r.offset));
+    const auto found = narrow.start(r.offset);
+    const auto truth = exact.start(mpfr50(r.offset));
     const double elapsed = narrow.elapsed(r.offset);
     const double speed = norm<double>(r.flight.velocity) + constants.gravity * elapsed;
     const auto own = narrow.errors(elapsed, speed), state = narrow.state_errors(elapsed, speed);
@@ -103,7 +120,8 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
     // What the state alone does, in 50 digits.
     const GapFunctions<mpfr50>::Constants rounded_constants(model::mill_cast<mpfr50>(mill));
     const auto moved = GapFunctions<mpfr50>(rounded_constants, flight_cast<mpfr50>(flight_cast<double>(wide)),
-                                            mpfr50(static_cast<double>(radius)), r.period)(mpfr50(r.offset));
+                                            mpfr50(static_cast<double>(radius)), r.period)
+                           .start(mpfr50(r.offset));
     const auto part = [](const mpfr50& a, const mpfr50& b, double limit) {
       return static_cast<double>(abs(a - b)) / limit;
     };
@@ -112,10 +130,14 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
       EXPECT_LT(part(mpfr50(found.rate[w]), truth.rate[w], bound.rate[w]), 1);
       worst_gap = std::max(worst_gap, part(moved.gap[w], truth.gap[w], state.gap[w]));
       worst_rate = std::max(worst_rate, part(moved.rate[w], truth.rate[w], state.rate[w]));
+      EXPECT_LT(part(mpfr50(found.curvature[w]), truth.curvature[w], bound.curvature[w]), 1);
+      worst_curvature =
+          std::max(worst_curvature, part(moved.curvature[w], truth.curvature[w], state.curvature[w]));
     }
   }
   std::cout << "largest error of a rounded state over its bound: gap " << worst_gap << ", rate " << worst_rate
-            << "\n";
+            << ", curvature " << worst_curvature << "\n";
+  EXPECT_LT(worst_curvature, 1);
   EXPECT_LT(worst_gap, 1);
   EXPECT_LT(worst_rate, 1);
   EXPECT_GT(worst_gap, 0.02);

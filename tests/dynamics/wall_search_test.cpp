@@ -254,6 +254,71 @@ TEST(WallSearch, AnOverlappedBallThatTurnsBackInsideTheWallIsInContactThere) {
   EXPECT_NEAR(hit.time.offset, 0x1p-33, 0x1p-47);
 }
 
+/// Gap and rate are zero: the second derivative decides, in every scalar.
+TEST(WallSearch, ABallAtRestOnAWallIsInContactAtOnceWhenItIsPressed) {
+  for (const double g : {8.0, 1e-3}) {
+    const auto cap = ask({g, 0, 0}, query_of({1.0 / 64, 0, 0}, {0, 0, 0}, 0.1));
+    EXPECT_EQ(cap.verdict, Verdict::contact);
+    EXPECT_EQ(cap.wall, 0);
+    EXPECT_EQ(cap.time, (Instant<double>{0, 0.0}));
+    const auto side = ask({0, 0, g}, query_of({0, 0, 1.0 / 32}, {0, 0, 0}, 0.1));
+    EXPECT_EQ(side.verdict, Verdict::contact);
+    EXPECT_EQ(side.wall, 2);
+    EXPECT_EQ(side.time, (Instant<double>{0, 0.0}));
+  }
+}
+
+TEST(WallSearch, ABallAtRestOnAWallThatFallsOffComesToTheOtherWall) {
+  // From cap 0 at X = 1/64 to cap 1 at -1/64, g = 8 m/s2: sqrt(2 / 32 / 8) s.
+  const auto cap = ask({-8, 0, 0}, query_of({1.0 / 64, 0, 0}, {0, 0, 0}, 0.125));
+  EXPECT_EQ(cap.verdict, Verdict::contact);
+  EXPECT_EQ(cap.wall, 1);
+  EXPECT_NEAR(cap.time.offset, std::sqrt(2.0 / 32 / 8), 1e-15);
+}
+
+TEST(WallSearch, ABallAtRestOnAWallWithoutGravityStays) {
+  EXPECT_EQ(ask({0, 0, 0}, query_of({1.0 / 64, 0, 0}, {0, 0, 0}, 0.125)).verdict, Verdict::none);
+}
+
+TEST(WallSearch, AContactExactlyAtTheEndOfTheWindowIsLeftToTheNext) {
+  // 1/64 m at 1/8 m/s: the cap is reached after 1/8 s, the longest window.
+  const auto query = query_of({0, 0, 0}, {0.125, 0, 0}, 0.125);
+  const WallSearch<double> walls(still_mill<double>({0, 0, 0}));
+  ASSERT_EQ(walls.longest_window(), 0.125);
+  const auto first = walls(query);
+  EXPECT_EQ(first.verdict, Verdict::none);
+  EXPECT_GT(first.searched, 0.05);
+  EXPECT_LT(first.searched, 0.125);
+  EXPECT_EQ(WallSearch<float128>(still_mill<float128>({0, 0, 0}))(widened<float128>(query)).verdict,
+            Verdict::none);
+  const auto found = ask({0, 0, 0}, query_of({0, 0, 0}, {0.125, 0, 0}, 0.25));
+  EXPECT_EQ(found.verdict, Verdict::contact);
+  EXPECT_NEAR(found.time.offset, 0.125, 1e-16);
+}
+
+/// The gap is not negative at the time that is given, and negative a unit of the clock later.
+TYPED_TEST(WideWallSearch, ARootIsClosedToTheLastDigitOfTheScalar) {
+  using Real = TypeParam;
+  const auto mill = testing::spex_mill<Real>();
+  const WallSearch<Real> walls(mill);
+  const auto narrow = model::mill_cast<double>(mill);
+  StateMaker make(narrow, static_cast<double>(walls.longest_window()));
+  Draw draw(20110104);
+  int contacts = 0;
+  for (int k = 0; k < 300; ++k) {
+    auto query = widened<Real>(make(draw, Kind::anywhere, false));
+    const auto answer = walls(query);
+    if (answer.verdict != Verdict::contact || answer.time.period != query.begin.period) continue;
+    ++contacts;
+    const typename GapFunctions<Real>::Constants constants(mill);
+    const GapFunctions<Real> gaps(constants, query.flight, query.radius, query.begin.period);
+    const Real unit = epsilon<Real>() * mill.motion.period;
+    EXPECT_GE(gaps(Real(answer.time.offset - 16 * answer.doubt)).gap[answer.wall], 0);
+    EXPECT_LT(gaps(Real(answer.time.offset + 2 * unit + 16 * answer.doubt)).gap[answer.wall], 0);
+  }
+  EXPECT_GT(contacts, 30);
+}
+
 TEST(WallSearch, AWindowBeyondTheBoundsIsRefused) {
   DecisionLadder<double> ladder(still_mill<double>({0, 0, 0}), 2 * ball_radius, 10.0);
   const double longest = ladder.walls().longest_window();

@@ -107,6 +107,14 @@ class GapFunctions {
                                                        velocity_after(flight_, c_.mill.gravity, dt)));
   }
 
+  /// The gap to one wall, of which only the angles of the pose are needed.
+  Real gap(int wall, const Real& offset, const model::VesselPose<Real>& pose) const {
+    const auto p = model::position_in_vessel<Real>(pose, c_.mill.motion.arm,
+                                                   position_after(flight_, c_.mill.gravity, elapsed(offset)));
+    if (wall == 2) return cylinder_ * cylinder_ - (p[0] * p[0] + p[2] * p[2]);
+    return wall == 0 ? Real(cap_ + p[1]) : Real(cap_ - p[1]);
+  }
+
   /// The ball at `offset`, where the vessel stands at `pose`.
   SeenBall<Real> seen(const Real& offset, const model::VesselPose<Real>& pose) const {
     const Real dt = elapsed(offset);

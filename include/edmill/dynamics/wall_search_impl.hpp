@@ -411,23 +411,32 @@ auto WallSearch<Real>::close_in(const Functions& functions, int wall, const Real
       t = centre;
       continue;
     }
-    const auto gap = [&](const Real& time) { return Real(functions(time, pose_at(time)).gap[wall]); };
+    const auto gap = [&](const Real& time) {
+      return functions.gap(wall, time,
+                           model::pose_nearby<Real, false>(constants_.mill.motion, constants_.angular_speed,
+                                                           constants_.frequency, time, pose, t));
+    };
     const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
     const Real doubt = -value_error / slope;
-    // The bound on the rounding of a gap is several times what it usually is.
-    for (Real reach = unit + doubt / 16; reach <= 8 * (unit + doubt); reach = 4 * reach) {
-      const Real low = centre - reach, high = centre + reach;
-      if (!(low > from && high < to)) return std::nullopt;
-      const Real at_low = gap(low), at_high = gap(high);
-      if (!(at_low >= 0 && at_high <= 0)) continue;
-      std::uintmax_t iterations = 100;
-      const Real root =
-          boost::math::tools::toms748_solve(gap, low, high, at_low, at_high, closed, iterations).first;
-      Root found{root, resolution() + 4 * doubt};
-      if constexpr (is_wide) found.pose = pose_at(root);
-      return found;
+    // Rounding moves the place where the computed gap changes its sign: step on until both signs are seen.
+    Real low = centre - unit, high = centre + unit, at_low = gap(low), at_high = gap(high);
+    for (Real reach = 4 * unit; !(at_low >= 0 && at_high <= 0); reach = 4 * reach) {
+      if (reach > 16 * (unit + doubt)) return std::nullopt;
+      if (at_low < 0) {
+        high = low, at_high = at_low;
+        low = centre - reach, at_low = gap(low);
+      } else {
+        low = high, at_low = at_high;
+        high = centre + reach, at_high = gap(high);
+      }
     }
-    return std::nullopt;
+    if (!(low > from && high < to)) return std::nullopt;
+    std::uintmax_t iterations = 100;
+    const Real root =
+        boost::math::tools::toms748_solve(gap, low, high, at_low, at_high, closed, iterations).first;
+    Root found{root, resolution() + 4 * doubt};
+    if constexpr (is_wide) found.pose = pose_at(root);
+    return found;
   }
   return std::nullopt;
 }

@@ -84,6 +84,16 @@ struct VesselFrameState {
   Vec3<Real> velocity;  ///< time derivative of `position` [m/s]
 };
 
+/// (2.16'): where a body at `position` is in the vessel.
+template <class Real>
+inline Vec3<Real> position_in_vessel(const VesselPose<Real>& pose, const Real& arm,
+                                     const Vec3<Real>& position) {
+  const Real a = position[1] * pose.cos_alpha - position[0] * pose.sin_alpha;
+  const Real b = -(position[0] * pose.cos_alpha + position[1] * pose.sin_alpha);
+  return {a - arm, b * pose.cos_gamma + position[2] * pose.sin_gamma,
+          position[2] * pose.cos_gamma - b * pose.sin_gamma};
+}
+
 /// (2.16') and its time derivative for a body at `position` moving with `velocity`.
 template <class Real>
 inline VesselFrameState<Real> to_vessel_frame(const VesselPose<Real>& pose, const Real& arm,

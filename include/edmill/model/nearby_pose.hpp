@@ -39,22 +39,26 @@ void turn(Real& sine, Real& cosine, const Real& more) {
 /// Pose at `offset` [s], given the one at `known`. Both angles swing harmonically, alpha'' = -w^2 alpha, so
 /// with x = w dt they grow by alpha' sin(x) / w + alpha'' (1 - cos(x)) / w^2. Error: two roundings more than
 /// pose_at.
-template <class Real>
-VesselPose<Real> pose_nearby(const MillMotion<Real>& motion, const Real& angular_speed, const Real& frequency,
-                             const Real& offset, const VesselPose<Real>& pose, const Real& known) {
+/// @param with_rates  whether the rates and accelerations are asked for, and not the angles alone
+template <class Real, bool with_rates = true>
+inline VesselPose<Real> pose_nearby(const MillMotion<Real>& motion, const Real& angular_speed,
+                                    const Real& frequency, const Real& offset, const VesselPose<Real>& pose,
+                                    const Real& known) {
   const Real dt = offset - known;
   const double short_dt = static_cast<double>(dt), x = static_cast<double>(angular_speed) * short_dt;
-  if (!(x <= detail::longest_turn<Real> && x >= -detail::longest_turn<Real>))
+  if (!(x <= detail::longest_turn<Real> && x >= -detail::longest_turn<Real>)) [[unlikely]]
     return pose_at<Real>(motion, angular_speed, frequency, offset);
   const Real first = dt - Real(short_dt * (x * x) / 6);                        // sin(x) / w
   const Real second = dt * dt / 2 - Real(short_dt * short_dt * (x * x) / 24);  // (1 - cos(x)) / w^2
-  const Real speed_squared = angular_speed * angular_speed;
   VesselPose<Real> next = pose;
   const auto swing = [&](Real& sine, Real& cosine, Real& rate, Real& acceleration) {
     const Real grown = rate * first + acceleration * second;
     detail::turn<Real>(sine, cosine, grown);
-    rate += acceleration * first - speed_squared * (rate * second);
-    acceleration -= speed_squared * grown;
+    if constexpr (with_rates) {
+      const Real speed_squared = angular_speed * angular_speed;
+      rate += acceleration * first - speed_squared * (rate * second);
+      acceleration -= speed_squared * grown;
+    }
   };
   swing(next.sin_alpha, next.cos_alpha, next.theta_rate, next.theta_acceleration);
   swing(next.sin_gamma, next.cos_gamma, next.gamma_rate, next.gamma_acceleration);
