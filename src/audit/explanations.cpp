@@ -67,13 +67,22 @@ bool ImpactJudge::explain(const LoggedEvent& event, const Scene& scene, double a
   return false;
 }
 
+/// The bodies leave at e_n |g_n| where v_s is due, or the reverse.
+bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const Impact& impact,
+                                             double allowed_off) const {
+  const auto& l = law(impact);
+  const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
+  const double by_restitution = l.restitution_normal * -g_n;
+  const double other = separation_speed(l, g_n) > by_restitution ? by_restitution : l.least_separation;
+  return l.least_separation > 0 && std::abs(left - other) <= allowed_off;
+}
+
 /// Tells a wrong speed of separation: by the law's other branch, at another least speed, or neither.
 void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, double off,
                               double allowed_off) {
   const auto& l = law(impact);
   const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
   const double right = separation_speed(l, g_n), by_restitution = l.restitution_normal * -g_n;
-  const bool least_is_due = right > by_restitution;
   const auto finding = [&](Kind kind, double found, double expected, const char* note) {
     return Finding{kind,          off,   event.line, event.time, event.ball, event.with_wall,
                    event.partner, found, expected,   note};
@@ -81,17 +90,17 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, do
   const auto tell_separation = [&](const char* note) {
     findings_.add(finding(Kind::separation_law, left, right, note));
   };
-  if (l.least_separation > 0 &&
-      std::abs(left - (least_is_due ? by_restitution : l.least_separation)) <= allowed_off)
-    return tell_separation(least_is_due ? "leaves at e_n |g_n|, which is below v_s"
-                                        : "leaves at v_s, which is below e_n |g_n|");
+  if (leaves_by_the_other_branch(event, impact, allowed_off))
+    return tell_separation(right > by_restitution ? "leaves at e_n |g_n|, which is below v_s"
+                                                  : "leaves at v_s, which is below e_n |g_n|");
   const auto by_ratio = g_n != 0 ? finding(Kind::normal_restitution, -left / g_n, -right / g_n, "")
                                  : finding(Kind::normal_restitution, unknown, unknown, "");
   if (left <= by_restitution + allowed_off) return findings_.add(by_ratio);
-  OtherLeast& other = other_least_[impact.with_wall ? 1 : 0];
-  // A constant restitution gives the same speed for the same approach only.
-  if (std::abs(left - other.speed) <= allowed_off &&
-      other.speed * std::abs(g_n - other.g_n) > 2 * allowed_off * std::abs(g_n)) {
+  for (OtherLeast& other : other_least_) {
+    // A constant restitution gives the same speed for the same approach only.
+    if (!(std::abs(left - other.speed) <= allowed_off &&
+          other.speed * std::abs(g_n - other.g_n) > 2 * allowed_off * std::abs(g_n)))
+      continue;
     constexpr const char* note = "leaves at a least separation speed that is not the case's";
     if (other.held) {
       // found and expected are ratios in a finding of the restitution.
@@ -104,6 +113,7 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, do
     other.confirmed = true;
     return tell_separation(note);
   }
+  OtherLeast& other = other_least_[impact.with_wall ? 1 : 0];
   if (other.confirmed || left > other.speed - allowed_off) return findings_.add(by_ratio);
   if (other.held) findings_.add(*other.held);
   other = {left, g_n, false, by_ratio};

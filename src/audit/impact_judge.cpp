@@ -158,7 +158,10 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
     const double slack = allowed_off * (1 + friction * impact.compliance);
     if (off.largest() > slack) {
       Explanation explanation;
-      if (known.spins && explain(event, scene, slack, explanation)) {
+      // First: next to no impulse is also that of a wall which the ball would leave behind.
+      const bool separation_alone = std::max({off.tangential, off.momentum, off.spin}) <= slack &&
+                                    leaves_by_the_other_branch(event, impact, slack);
+      if (known.spins && !separation_alone && explain(event, scene, slack, explanation)) {
         tell(explanation.kind, event, off.largest(), off.largest(), 0, explanation.note);
         theirs = explanation.impact;
         wall_velocity_told = explanation.kind == Kind::wall_velocity;

@@ -78,6 +78,7 @@ class ImpactJudge {
                           Explanation& explanation) const;
   void tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
                              const Known& known, double allowed_off);
+  bool leaves_by_the_other_branch(const LoggedEvent& event, const Impact& impact, double allowed_off) const;
   void tell_normal(const LoggedEvent& event, const Impact& impact, double off, double allowed_off);
   bool speeds_tell_another_wall_velocity(const LoggedEvent& event, const Scene& scene, const Known& known,
                                          double allowed_off) const;
