@@ -62,11 +62,11 @@ std::string table(const Audit& a) {
   const auto& e = a.energies;
   if (e.impacts > 0)
     out += fmt::format(
-        "\n  energy of {} impacts: wall work {:.6g} J, dose {:.6g} J, supplied {:.4g} J (by {}), gained "
-        "{:.6g} "
-        "J,\n    closure {:.2e} J\n",
-        e.impacts, e.wall_work.value(), e.milling_dose.value(), e.supplied.value(), e.supplying,
-        e.kinetic_change.value(), e.closure());
+        "\n  energy of {} impacts: wall work {:.6g} J - dose {:.6g} J + supplied {:.4g} J - gained {:.6g} J "
+        "= {:.2g} "
+        "J\n    supplied by the least separation speed in {} of them\n",
+        e.impacts, e.wall_work.value(), e.milling_dose.value(), e.supplied.value(), e.kinetic_change.value(),
+        e.closure(), e.supplying);
   if (a.energies.creating > 0)
     out += fmt::format("\n  {} impacts create energy, {:.4g} J together\n", a.energies.creating,
                        a.energies.created);
