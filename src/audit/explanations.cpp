@@ -103,10 +103,9 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, do
       continue;
     constexpr const char* note = "leaves at a least separation speed that is not the case's";
     if (other.held) {
-      // found and expected are ratios in a finding of the restitution.
       Finding first = *other.held;
       first.kind = Kind::separation_law, first.note = note;
-      first.found *= -other.g_n, first.expected *= -other.g_n;
+      first.found = other.speed, first.expected = other.due;
       findings_.add(first);
     }
     other.held.reset();
@@ -116,7 +115,7 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, do
   OtherLeast& other = other_least_[impact.with_wall ? 1 : 0];
   if (other.confirmed || left > other.speed - allowed_off) return findings_.add(by_ratio);
   if (other.held) findings_.add(*other.held);
-  other = {left, g_n, false, by_ratio};
+  other = {left, g_n, right, false, by_ratio};
 }
 
 void ImpactJudge::finish() {

@@ -63,8 +63,7 @@ std::string table(const Audit& a) {
   if (e.impacts > 0)
     out += fmt::format(
         "\n  energy of {} impacts: wall work {:.6g} J - dose {:.6g} J + supplied {:.4g} J - gained {:.6g} J "
-        "= {:.2g} "
-        "J\n    supplied by the least separation speed in {} of them\n",
+        "= {:.2g} J\n    supplied by the least separation speed in {} of them\n",
         e.impacts, e.wall_work.value(), e.milling_dose.value(), e.supplied.value(), e.kinetic_change.value(),
         e.closure(), e.supplying);
   if (a.energies.creating > 0)

@@ -85,6 +85,26 @@ TEST_F(Separation, AnotherLeastSpeedInTheLog) {
   EXPECT_EQ(notes.at(another), slower_than(0.005));
 }
 
+TEST_F(Separation, TheLeastSpeedAfterEveryImpact) {
+  prepare(contact(0.01));
+  simulate({.restitution = 0});
+  expect_all_separation_law(judged(), 400 - slower_than(0.01), "leaves at v_s, which is below e_n |g_n|");
+}
+
+TEST_F(Separation, ALogWithoutSpins) {
+  prepare(contact(0.01));
+  simulate({.least_separation = 0}, 150);
+  const auto touched = slower_than(0.01);
+  auto all = lines();
+  for (const char axis : {'x', 'y', 'z'})
+    for (const std::string& name : {std::string("w") + axis + "_before", std::string("w") + axis + "_after"})
+      for (std::size_t at; (at = all[0].find(name)) != std::string::npos;) all[0][at] = 'u';
+  write_lines(all);
+  const auto audit = judged();
+  expect_all_separation_law(audit, touched, "leaves at e_n |g_n|, which is below v_s");
+  EXPECT_EQ(audit.energies.impacts, 0u);
+}
+
 TEST_F(Separation, AWrongRestitutionIsNoLeastSpeed) {
   // At a loose tolerance many impacts leave at the same speed within it.
   prepare(contact(0.01));

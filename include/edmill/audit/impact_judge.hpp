@@ -97,7 +97,7 @@ class ImpactJudge {
   /// A least separation speed of the log that is not the case's: two impacts of different approach leave at
   /// the same speed. The first of them is held until the second one is seen.
   struct OtherLeast {
-    double speed = std::numeric_limits<double>::infinity(), g_n = 0;
+    double speed = std::numeric_limits<double>::infinity(), g_n = 0, due = 0;
     bool confirmed = false;
     std::optional<Finding> held;
   };
