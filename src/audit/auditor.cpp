@@ -62,15 +62,10 @@ void Auditor::take(LoggedEvent& event) {
   const Touch touch = judge_touch(event, scene);
   for (std::size_t body = 0; body < bodies(event); ++body)
     flights_.judge(ball_of(event, body), {&event, body, touch.late, touch.displaced});
-  if (touch.usable) impacts_.judge(event, scene, restitutions(event));
+  if (touch.usable) impacts_.judge(event, scene);
 
-  const bool in_states =
-      available_.positions(event.with_wall) && available_.velocities_before(event.with_wall);
-  const double approach =
-      in_states ? -dot(scene.impact.before(event), scene.impact.normal) : event.approach_speed;
   for (std::size_t body = 0; body < bodies(event); ++body) {
     const int k = ball_of(event, body);
-    note_impact(k, event, approach);
     flights_.begin(k, event.time, event.body[body], available_.body[body]);
     last_[static_cast<std::size_t>(k)] = {event.time, other_of(event, body), event.approach_speed,
                                           event.body[body].velocity_before, event.body[body].velocity_after};
@@ -212,46 +207,6 @@ bool Auditor::another_body_is_there(LoggedEvent& event, double allowed, double g
     }
   }
   return false;
-}
-
-/// docs/theory.md, section 6
-Restitutions Auditor::restitutions(const LoggedEvent& event) const {
-  const auto& law = event.with_wall ? case_.mill.ball_wall : case_.mill.ball_ball;
-  const double t_c = 0;
-  Restitutions allowed;
-  if (!(t_c > 0)) return allowed;
-  bool surely = false, perhaps = false, resting = false;
-  const double slack = 2 * Tolerances::time(event.time) + tolerances_.relative * t_c;
-  for (std::size_t body = 0; body < bodies(event); ++body) {
-    const Track& track = flights_.of(ball_of(event, body));
-    resting = resting || track.impacts_at_rest >= resting_after;
-    if (!track.last_impact) {
-      perhaps = perhaps || !track.since_start;
-      continue;
-    }
-    const double since = event.time - *track.last_impact;
-    if (since < 0) {  // a line far out of order
-      perhaps = true;
-      continue;
-    }
-    surely = surely || since < t_c - slack;
-    perhaps = perhaps || since < t_c + slack;
-  }
-  allowed.law = !surely;
-  allowed.collapse = surely || perhaps;
-  allowed.rest = allowed.collapse && resting;
-  return allowed;
-}
-
-void Auditor::note_impact(int k, const LoggedEvent& event, double approach) {
-  Track& track = flights_.of(k);
-  if (track.last_impact) {
-    // Where rounding of the times may decide, the ball counts as resting: then both outcomes are allowed.
-    const double since = event.time - *track.last_impact - 2 * Tolerances::time(event.time);
-    const bool short_path = since * approach < 1.001 * tolerances_.reach / 1e10;
-    track.impacts_at_rest = short_path ? track.impacts_at_rest + 1 : 0;
-  }
-  track.last_impact = event.time;
 }
 
 }  // namespace edmill::audit

@@ -17,7 +17,7 @@ constexpr std::array<KindInfo, kind_count> kinds = {{
     {"rotation_order", "m", "touches in the vessel turned in the order of the printed (2.14)", Check::touch},
     {"not_approaching", "m/s", "the bodies part before the impact", Check::approach},
     {"normal_restitution", "m/s", "not -e_n of the approach", Check::normal_law},
-    {"collapse_rule", "m/s", "e_n is 1 where the law's is due, or the reverse", Check::normal_law},
+    {"separation_law", "m/s", "-e_n of the approach where v_s is due, or the reverse", Check::normal_law},
     {"tangential_restitution", "m/s", "not e_t of the slip", Check::tangential_law},
     {"tangential_sign", "m/s", "the tangential impulse has the opposite sign", Check::tangential_law},
     {"unequal_balls", "m/s", "the formula for equal balls, or shares of the wrong ball",

@@ -53,7 +53,6 @@ void Flights::begin(int ball, double time, const BodyState& state, const Availab
   track.spin = state.spin_after;
   track.start = time;
   track.broken = false;
-  track.since_start = false;
   track.pending.clear();
   const double speed = size(state.velocity_after);
   if (!(speed < fastest_judged)) track.state_known = false;
@@ -69,7 +68,6 @@ void Flights::begin_at_start(int ball, const model::BallState<double>& state, do
   body.velocity_after = state.velocity;
   body.spin_after = state.spin;
   begin(ball, time, body, {true, true, true, true, true});
-  of(ball).since_start = true;
 }
 
 void Flights::judge(int ball, const FlightEnd& end) {

@@ -121,6 +121,11 @@ Vec Impact::after(const LoggedEvent& e) const {
                           e.body[1].spin_after);
 }
 
+double separation_speed(const model::ContactLaw<double>& law, double g_n) {
+  // Bodies that part by rounding leave no slower than they part.
+  return std::max({law.restitution_normal * -g_n, law.least_separation, g_n});
+}
+
 double tangential_restitution(const model::ContactLaw<double>& law, double compliance, double bounce,
                               double slip_speed) {
   if (law.model == model::ContactModel::constant) return law.restitution_tangential;
@@ -134,13 +139,13 @@ std::array<BodyState, 2> outcome(const Impact& impact, const model::ContactLaw<d
   const Vec g = impact.before(event);
   const double g_n = dot(g, impact.normal);
   const Vec slip = g - impact.normal * g_n;
-  const double e_n = formula.lossless ? 1 : formula.restitution;
+  const double bounce = separation_speed(law, g_n) - g_n;
+  const double in_friction =
+      formula.friction_of_restitution ? -(1 + law.restitution_normal) * std::min(g_n, 0.0) : bounce;
   const double c_in_law = formula.compliance_in_e_t > 0 ? formula.compliance_in_e_t : impact.compliance;
   const double c = formula.compliance_in_impulse > 0 ? formula.compliance_in_impulse : impact.compliance;
-  const double e_t = formula.lossless
-                         ? 1
-                         : tangential_restitution(law, c_in_law, (1 + e_n) * std::max(0.0, -g_n), size(slip));
-  const Vec normal_part = impact.normal * (-(1 + e_n) * g_n), tangential_part = slip * (-(1 - e_t) / c);
+  const double e_t = tangential_restitution(law, c_in_law, in_friction, size(slip));
+  const Vec normal_part = impact.normal * bounce, tangential_part = slip * (-(1 - e_t) / c);
   auto result = event.body;
   for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
     const auto& ball = impact.ball[k];

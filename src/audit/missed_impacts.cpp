@@ -144,8 +144,6 @@ bool Flights::arrives(const State& state, const FlightEnd& end) const {
 bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& end) {
   if (!track.spin_known) return false;
   State state{track.flight, track.spin, track.start};
-  double last = track.last_impact.value_or(-1);
-  const auto& law = case_.mill.ball_wall;
   for (int k = 0; k < 4; ++k) {
     const auto contact = wall_contact(state.flight, state.start,
                                       case_.balls[static_cast<std::size_t>(ball)].radius, end.event->time);
@@ -157,11 +155,8 @@ bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& 
     event.body[0].velocity_before = dynamics::velocity_after(state.flight, case_.mill.gravity, dt);
     event.body[0].spin_before = state.spin;
     const auto scene = scene_at(ball, contact->second, time, event.body[0].position);
-    Formula formula;
-    formula.restitution = law.restitution_normal;
-    const auto after = outcome(scene.impact, law, event, formula);
+    const auto after = outcome(scene.impact, case_.mill.ball_wall, event, {});
     state = {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time};
-    last = time;
     if (arrives(state, end)) return true;
   }
   return false;
@@ -194,17 +189,9 @@ bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEn
   }
   apart = event.body[0].position - event.body[1].position;
   impact.normal = apart * (1 / size(apart));
-  const auto& law = case_.mill.ball_ball;
-  for (const double e : {law.restitution_normal, 1.0}) {
-    Formula formula;
-    formula.restitution = e;
-    const auto after = outcome(impact, law, event, formula);
-    if (arrives(
-            {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time},
-            end))
-      return true;
-  }
-  return false;
+  const auto after = outcome(impact, case_.mill.ball_ball, event, {});
+  return arrives(
+      {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time}, end);
 }
 
 }  // namespace edmill::audit

@@ -59,6 +59,13 @@ std::string table(const Audit& a) {
     for (const auto& [note, count] : tally.notes) out += fmt::format("    {} of them: {}\n", count, note);
     for (const auto& example : tally.examples) out += fmt::format("    {}\n", describe(example));
   }
+  const auto& e = a.energies;
+  if (e.impacts > 0)
+    out += fmt::format(
+        "\n  energy of {} impacts: wall work {:.6g} J - dose {:.6g} J + supplied {:.4g} J - gained {:.6g} J "
+        "= {:.2g} J\n    supplied by the least separation speed in {} of them\n",
+        e.impacts, e.wall_work.value(), e.milling_dose.value(), e.supplied.value(), e.kinetic_change.value(),
+        e.closure(), e.supplying);
   if (a.energies.creating > 0)
     out += fmt::format("\n  {} impacts create energy, {:.4g} J together\n", a.energies.creating,
                        a.energies.created);
@@ -124,6 +131,15 @@ std::string to_json(const Audit& a) {
     json.text("text", d.text);
     json.end();
   }
+  json.end();
+  json.begin("energy");
+  json.integer("impacts", a.energies.impacts);
+  json.number("wall_work", a.energies.wall_work.value());
+  json.number("milling_dose", a.energies.milling_dose.value());
+  json.number("supplied", a.energies.supplied.value());
+  json.integer("supplying_impacts", a.energies.supplying);
+  json.number("kinetic_change", a.energies.kinetic_change.value());
+  json.number("closure", a.energies.closure());
   json.end();
   json.begin("energy_created");
   json.integer("impacts", a.energies.creating);

@@ -53,6 +53,28 @@ TEST_F(AuditCommand, AWrongCaseIsFoundInTheLaw) {
   EXPECT_GT(result()["violations"]["normal_restitution"]["count"], 200);
 }
 
+TEST_F(AuditCommand, ALogWithAnotherLeastSeparationSpeedIsFoundAndItsEnergyDoesNotClose) {
+  run("--set run.max_collisions=2000 --set run.start_time='\"0 s\"'");
+  const auto supplied =
+      nlohmann::json::parse(contents(scratch / "out/summary.json"))["least_separation"]["supplied_energy"]
+          .get<double>();
+  ASSERT_GT(supplied, 0);
+  ASSERT_EQ(edmill("audit " + demo + " out --json result.json").code, 0);
+  const auto good = result()["energy"];
+  const double dose = good["milling_dose"];
+  EXPECT_NEAR(good["supplied"], supplied, 1e-12 * dose);
+  EXPECT_NEAR(good["closure"], 0, 1e-12 * dose);
+  EXPECT_NEAR(good["wall_work"].get<double>() - dose + supplied, good["kinetic_change"], 1e-12 * dose);
+
+  const auto bad =
+      edmill("audit " + demo + " out --json result.json --set contact.least_separation='\"0 m/s\"'");
+  EXPECT_EQ(bad.code, 6);
+  EXPECT_EQ(result()["violations"].size(), 1u);
+  EXPECT_GT(result()["violations"]["separation_law"]["count"], 100);
+  EXPECT_NEAR(result()["energy"]["closure"], -supplied, 1e-12 * dose);
+  EXPECT_NE(bad.out.find("separation_law"), std::string::npos);
+}
+
 TEST_F(AuditCommand, LogsWithoutStatesAreCheckedAsFarAsTheyGo) {
   run("--set run.max_collisions=2000", "");
   const auto outcome = edmill("audit " + demo + " out --from-start --json result.json");

@@ -1,99 +1,14 @@
 // Logs of a mill with one mistake: the audit names that mistake, and finds nothing else.
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <set>
-#include <sstream>
-
-#include "edmill/audit/audit.hpp"
-#include "edmill/core/errors.hpp"
-#include "faulty_mill.hpp"
-#include "program.hpp"
-#include "spex_case.hpp"
+#include "faulty_log.hpp"
 
 namespace edmill::audit {
 namespace {
 
 using testing::Faults;
-using testing::FaultyMill;
 
-class Faulty : public ProgramTest {
- protected:
-  /// Two kinds of balls of unequal mass and inertia, t_c, gravity.
-  void prepare(const std::string& contact = "restitution = 0.53\ncollapse_time = \"0.1 ms\"") {
-    built = setup::build_case<double>(casefile::parse_case(
-        testing::spex_text(
-            "end_time = \"10 s\"\nseed = 7", contact,
-            testing::batch(2, "9.52 mm") + testing::batch(3, "4.76 mm", "reduced_inertia = 0.6\n")),
-        "faulty.toml"));
-  }
-  Audit judged(const std::string& name = "log.csv") {
-    Options options;
-    options.log = scratch / name;
-    options.from_start = true;
-    return audit(built.the_case, built.states, options);
-  }
-  /// Kinds found, and the whole table when they are not as wanted.
-  static void expect_kinds(const Audit& audit, const std::set<Kind>& wanted) {
-    const auto ranked = audit.findings.ranked();
-    EXPECT_EQ(std::set<Kind>(ranked.begin(), ranked.end()), wanted) << table(audit);
-    EXPECT_EQ(audit.verdict, wanted.empty() ? Verdict::clean : Verdict::violations);
-  }
-  /// Runs the mill with a mistake. @return how often a mistake that comes every so often was made
-  int simulate(const Faults& faults, int events = 400) {
-    return FaultyMill(built.the_case, built.states, faults).write_log(scratch / "log.csv", events);
-  }
-  static std::uint64_t count(const Audit& audit, Kind kind) { return audit.findings.of(kind).count; }
-  static bool looks_like(const Audit& audit, const std::string& name) {
-    for (const auto& d : audit.diagnoses)
-      if (d.name == name) return true;
-    return false;
-  }
-
-  // Changes to a log's lines.
-  std::vector<std::string> lines() const {
-    std::istringstream in(contents(scratch / "log.csv"));
-    std::vector<std::string> all;
-    for (std::string line; std::getline(in, line);) all.push_back(line);
-    return all;
-  }
-  void write_lines(const std::vector<std::string>& all) const {
-    std::string text;
-    for (const auto& line : all) text += line + "\n";
-    write("log.csv", text);
-  }
-  static std::vector<std::string> fields(const std::string& line) {
-    std::vector<std::string> all{""};
-    for (const char c : line)
-      if (c == ',')
-        all.emplace_back();
-      else
-        all.back() += c;
-    return all;
-  }
-  /// Changes one field of one line. Columns: 1 time, 2 ball, 3 kind, 4 partner, 7 dose, 8 work, 9 x, 15
-  /// wx_before.
-  void change(std::size_t line, std::size_t column,
-              const std::function<std::string(const std::string&)>& how) const {
-    auto all = lines();
-    auto parts = fields(all.at(line));
-    parts.at(column) = how(parts.at(column));
-    all[line].clear();
-    for (std::size_t k = 0; k < parts.size(); ++k) all[line] += (k > 0 ? "," : "") + parts[k];
-    write_lines(all);
-  }
-  /// The first line from `from` on with a partner of this kind and at least this dose.
-  std::size_t line_with(const std::string& kind, std::size_t from = 100, double dose = 1e-5) const {
-    const auto all = lines();
-    for (std::size_t k = from; k < all.size(); ++k) {
-      const auto parts = fields(all[k]);
-      if (parts[3] == kind && std::stod(parts[7]) > dose) return k;
-    }
-    throw ContractError("no such line");
-  }
-
-  setup::InitialCase<double> built;
-};
+class Faulty : public testing::FaultyLog {};
 
 TEST_F(Faulty, NothingIsFoundWithoutAMistake) {
   prepare();
@@ -155,14 +70,6 @@ TEST_F(Faulty, WrongRestitution) {
   const auto audit = judged();
   expect_kinds(audit, {Kind::normal_restitution});
   EXPECT_NEAR(audit.findings.of(Kind::normal_restitution).examples[0].found, 0.6, 1e-9);
-}
-
-TEST_F(Faulty, NoCollapseRule) {
-  prepare();
-  Faults faults;
-  faults.no_collapse_rule = true;
-  simulate(faults, 150);
-  expect_kinds(judged(), {Kind::collapse_rule});
 }
 
 TEST_F(Faulty, WrongTangentialSign) {

@@ -20,20 +20,22 @@
 namespace edmill::testing {
 
 struct Faults {
-  bool printed_rotations = false;   ///< (2.14)
-  bool wall_at_rest = false;        ///< velocity 0 in the impulse
-  double wall_velocity_factor = 1;  ///< in the impulse
-  double restitution = -1;          ///< instead of the law's
-  bool no_collapse_rule = false;
-  bool tangential_sign = false;     ///< (2.34)
-  bool printed_compliance = false;  ///< (2.24)
-  bool equal_masses = false;        ///< each of two balls takes half of the relative change
-  bool spin_lost = false;           ///< in flight
-  bool no_gravity = false;          ///< in flight
-  int late_every = 0;               ///< each so many impacts is handled 20 us late
-  int missed_pairs_every = 0;       ///< each so many contacts of two balls is not seen
-  bool lower_cap_unseen = false;    ///< (2.19): y - R - h/2 never changes its sign
+  bool printed_rotations = false;     ///< (2.14)
+  bool wall_at_rest = false;          ///< velocity 0 in the impulse
+  double wall_velocity_factor = 1;    ///< in the impulse
+  double restitution = -1;            ///< instead of the law's
+  double least_separation = -1;       ///< instead of the law's [m/s]; 0 for none
+  bool restitution_friction = false;  ///< sliding limited by mu (1 + e_n) |g_n| where bodies leave at v_s
+  bool tangential_sign = false;       ///< (2.34)
+  bool printed_compliance = false;    ///< (2.24)
+  bool equal_masses = false;          ///< each of two balls takes half of the relative change
+  bool spin_lost = false;             ///< in flight
+  bool no_gravity = false;            ///< in flight
+  int late_every = 0;                 ///< each so many impacts is handled 20 us late
+  int missed_pairs_every = 0;         ///< each so many contacts of two balls is not seen
+  bool lower_cap_unseen = false;      ///< (2.19): y - R - h/2 never changes its sign
   double dose_factor = 1;
+  bool net_dose = false;  ///< supplied energy is taken off the dose
 };
 
 class FaultyMill {
@@ -42,7 +44,7 @@ class FaultyMill {
 
   FaultyMill(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
              const Faults& faults)
-      : case_(the_case), states_(states), faults_(faults), last_(states.size(), -1e9) {
+      : case_(the_case), states_(states), faults_(faults) {
     gravity_ = faults.no_gravity ? Vec(0, 0, 0) : the_case.mill.gravity;
   }
 
@@ -59,9 +61,9 @@ class FaultyMill {
         continue;
       }
       if (faults_.late_every > 0 && ++impacts_ % faults_.late_every == 0) {
-        // Only where nothing else happens in between.
+        // Only where nothing else happens in between and two balls do not part before.
         const double late = time_ + 20e-6;
-        if (first_contact(&next).time > late) {
+        if (first_contact(&next).time > late && !parting_at(late, next)) {
           advance(late);
           ++special_;
         }
@@ -128,6 +130,12 @@ class FaultyMill {
     return std::numeric_limits<double>::infinity();
   }
 
+  bool parting_at(double t, const Contact& c) const {
+    if (c.with_wall) return false;
+    const Vec v = states_[c.ball].velocity - states_[c.partner].velocity;
+    return (position(c.ball, t) - position(c.partner, t)).dot(v) >= 0;
+  }
+
   double pair_time(int i, int j) const {
     const Vec r = states_[i].position - states_[j].position, v = states_[i].velocity - states_[j].velocity;
     const double sum = case_.balls[i].radius + case_.balls[j].radius;
@@ -175,16 +183,23 @@ class FaultyMill {
     time_ = t;
   }
 
+  /// Fixes e_t for an impact whose friction knows nothing of the least separation speed.
+  static void fix_friction(model::ContactLaw<double>& law, const Vec& g, const Vec& normal,
+                           double compliance) {
+    const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();
+    law.restitution_tangential =
+        law.restitution_of_slip((1 + law.restitution_normal) * std::max(0.0, -g_n), slip, compliance);
+    law.model = model::ContactModel::constant;
+  }
+
   std::string collide(const Contact& c) {
     auto law = c.with_wall ? case_.mill.ball_wall : case_.mill.ball_ball;
     auto& one = states_[c.ball];
     auto& two = states_[c.with_wall ? c.ball : c.partner];
     if (faults_.spin_lost) one.spin = two.spin = Vec(0, 0, 0);
     const auto before = std::pair(one, two);
-    const bool collapsing =
-        !faults_.no_collapse_rule && (time_ - last_[c.ball] < law.collapse_time ||
-                                      (!c.with_wall && time_ - last_[c.partner] < law.collapse_time));
     if (faults_.restitution >= 0) law.restitution_normal = faults_.restitution;
+    if (faults_.least_separation >= 0) law.least_separation = faults_.least_separation;
     dynamics::ImpactOutcome<double> o;
     Vec normal, wall(0, 0, 0);
     if (c.with_wall) {
@@ -201,22 +216,30 @@ class FaultyMill {
         wall = Vec(0, 0, theta_rate).cross(centre) + Vec(gamma_rate, 0, 0).cross(Vec(point - centre)) +
                Vec(z * theta_rate).cross(Vec(point - centre));
       wall *= faults_.wall_at_rest ? 0 : faults_.wall_velocity_factor;
-      o = dynamics::collide_with_wall<double>(normal, case_.balls[c.ball], wall, one.velocity, one.spin, law,
-                                              {.collapsing = collapsing});
+      const auto& ball = case_.balls[c.ball];
+      if (faults_.restitution_friction)
+        fix_friction(law, one.velocity - wall - Vec(one.spin * ball.radius).cross(normal), normal,
+                     1 + 1 / ball.reduced_inertia);
+      o = dynamics::collide_with_wall<double>(normal, ball, wall, one.velocity, one.spin, law);
     } else {
       const auto &bi = case_.balls[c.ball], &bj = case_.balls[c.partner];
       normal = one.position - two.position;
       normal /= normal.norm();
+      const Vec g =
+          one.velocity - two.velocity - Vec(one.spin * bi.radius + two.spin * bj.radius).cross(normal);
       if (faults_.printed_compliance) {
-        const Vec g =
-            one.velocity - two.velocity - Vec(one.spin * bi.radius + two.spin * bj.radius).cross(normal);
         const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();
         law.restitution_tangential =
-            law.restitution(-g_n, slip, 1 + 1 / bi.reduced_inertia, collapsing).tangential;
+            law.restitution_of_slip(law.separation_speed(-g_n) - g_n, slip, 1 + 1 / bi.reduced_inertia);
         law.model = model::ContactModel::constant;
       }
-      o = dynamics::collide_balls<double>(normal, bi, bj, one.velocity, one.spin, two.velocity, two.spin, law,
-                                          {.collapsing = collapsing});
+      if (faults_.restitution_friction) {
+        const double total = bi.mass + bj.mass;
+        fix_friction(law, g, normal,
+                     1 + bj.mass / total / bi.reduced_inertia + bi.mass / total / bj.reduced_inertia);
+      }
+      o = dynamics::collide_balls<double>(normal, bi, bj, one.velocity, one.spin, two.velocity, two.spin,
+                                          law);
       if (faults_.equal_masses) {
         const double total = bi.mass + bj.mass;
         one.velocity =
@@ -236,8 +259,7 @@ class FaultyMill {
       if (!c.with_wall) turn(two, before.second);
       o.wall_work = case_.balls[c.ball].mass * wall.dot(one.velocity - before.first.velocity);
     }
-    last_[c.ball] = time_;
-    if (!c.with_wall) last_[c.partner] = time_;
+    if (faults_.net_dose) o.milling_dose -= o.supplied_energy;
     std::string line =
         fmt::format(",{},{},{},{},{},{},{},{}", time_, c.ball, c.with_wall ? "wall" : "ball", c.partner,
                     o.approach_speed, o.slip_speed, o.milling_dose * faults_.dose_factor, o.wall_work);
@@ -258,7 +280,6 @@ class FaultyMill {
   Faults faults_;
   Vec gravity_;
   double time_ = 0;
-  std::vector<double> last_;
   std::pair<int, int> passing_{-1, -1};
   int special_ = 0, impacts_ = 0, pairs_ = 0;
 };

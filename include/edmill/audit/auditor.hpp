@@ -15,7 +15,10 @@ class Auditor {
   void begin(const std::vector<model::BallState<double>>& states, double time);
   void take(LoggedEvent& event);
   /// At the end of the log.
-  void finish() { flights_.finish(); }
+  void finish() {
+    flights_.finish();
+    impacts_.finish();
+  }
 
   const Energies& energies() const { return impacts_.energies(); }
   const Flights& flights() const { return flights_; }
@@ -36,15 +39,12 @@ class Auditor {
   struct Touch {
     bool late = false, displaced = false, usable = true;
   };
-  static constexpr int resting_after = 8;
 
   bool is_repeated(const LoggedEvent& event) const;
   void find_wrong_balls(LoggedEvent& event);
   Touch judge_touch(LoggedEvent& event, Scene& scene);
   Touch judge_wall_touch(LoggedEvent& event, Scene& scene, double allowed);
   bool another_body_is_there(LoggedEvent& event, double allowed, double gap);
-  Restitutions restitutions(const LoggedEvent& event) const;
-  void note_impact(int ball, const LoggedEvent& event, double approach);
   void tell_late(const LoggedEvent& event, const Scene& scene, double depth);
   void complete_scene(const LoggedEvent& event, Scene& scene) const;
   const model::BallProperties<double>& ball(int k) const { return case_.balls[static_cast<std::size_t>(k)]; }

@@ -21,7 +21,7 @@ enum class Kind : std::size_t {
   rotation_order,
   not_approaching,
   normal_restitution,
-  collapse_rule,
+  separation_law,
   tangential_restitution,
   tangential_sign,
   unequal_balls,

@@ -15,11 +15,8 @@ struct Track {
   bool state_known = false, spin_known = false;
   dynamics::Flight<double> flight{Vec::Zero(), Vec::Zero(), {}};  ///< since the last impact
   Vec spin{0, 0, 0};
-  double start = 0;                   ///< of the flight [s]
-  std::optional<double> last_impact;  ///< [s]
-  bool since_start = false;           ///< no impact yet, and the log begins at the initial state
-  int impacts_at_rest = 0;            ///< in a row, each after hardly any path
-  double broken_from = 0;             ///< an impact of the flight at this time is not in the log [s]
+  double start = 0;        ///< of the flight [s]
+  double broken_from = 0;  ///< an impact of the flight at this time is not in the log [s]
   bool broken = false;
   struct Pending {  ///< a missed impact with a ball whose flight is now over
     Finding finding;

@@ -67,20 +67,23 @@ struct Impact {
   Vec after(const LoggedEvent& e) const;
 };
 
+/// Speed along the normal at which the contact points leave an impact, max(e_n |g_n|, v_s) [m/s]. (2.23')
+/// @param g_n  before the impact; negative while the bodies approach
+double separation_speed(const model::ContactLaw<double>& law, double g_n);
+
 /// e_t of the law for an impact that gives the normal impulse `bounce` times the effective mass. (2.24')
-/// @param bounce  (1 + e_n) |g_n| [m/s]
+/// @param bounce  |g_n| + g_n' [m/s]
 double tangential_restitution(const model::ContactLaw<double>& law, double compliance, double bounce,
                               double slip_speed);
 
 /// A formula for the outcome of an impact: the right one, or one with a mistake.
 struct Formula {
-  double restitution = 1;
-  bool lossless = false;                ///< e_n = e_t = 1, of a ball at rest
-  double velocity_sign = 1;             ///< of the tangential term of the velocity; -1 is (2.34) as printed
-  double spin_sign = 1;                 ///< of the spin's change
-  double compliance_in_e_t = 0;         ///< instead of c in (2.24); 0 for c
-  double compliance_in_impulse = 0;     ///< instead of c in (2.28); 0 for c
-  std::array<double, 2> share{-1, -1};  ///< M/m of each ball; the right ones when negative
+  double velocity_sign = 1;              ///< of the tangential term of the velocity; -1 is (2.34) as printed
+  double spin_sign = 1;                  ///< of the spin's change
+  double compliance_in_e_t = 0;          ///< instead of c in (2.24); 0 for c
+  double compliance_in_impulse = 0;      ///< instead of c in (2.28); 0 for c
+  bool friction_of_restitution = false;  ///< limited by mu (1 + e_n) |g_n| where the bodies leave at v_s
+  std::array<double, 2> share{-1, -1};   ///< M/m of each ball; the right ones when negative
 };
 
 /// Velocities and spins after the impact.
