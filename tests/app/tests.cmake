@@ -10,3 +10,5 @@ add_test(NAME kill_test COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/kill_test.py $<T
 set_tests_properties(kill_test PROPERTIES TIMEOUT 600)
 add_test(NAME disk_full_test COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/disk_full_test.sh $<TARGET_FILE:edmill_cli>)
 set_tests_properties(disk_full_test PROPERTIES TIMEOUT 300)
+edmill_test(limits_test app/limits_test.cpp)
+add_dependencies(limits_test edmill_cli)

@@ -87,5 +87,49 @@ TEST(BuildCase, FinalStateContinuesTheRunExactly) {
               mpfr50("1e-30"));
 }
 
+template <class Real>
+Instant<Real> start_at(const std::string& time, const std::string& speed = "1054 rpm") {
+  const auto spec =
+      casefile::parse_case(testing::spex_text("initial_time = \"" + time + "\"\nend_time = \"1e13 s\"",
+                                              "restitution = 0.5", testing::batch(1, "4 mm")),
+                           "late.toml", {"mill.speed=" + speed});
+  return build_case<Real>(spec).start;
+}
+
+/// At 1054 rpm a period lasts 60/1054 s, and 1054 10^k leaves 40 when divided by 60.
+template <class Real>
+void expect_reduced_exactly() {
+  const Real exact = Real(40) / 1054;
+  std::int64_t tenths = 1054000 / 60;
+  for (const char* time : {"1000 s", "1e4 s", "1e5 s", "1e6 s", "1e9 s", "1e12 s"}) {
+    const auto start = start_at<Real>(time);
+    EXPECT_EQ(start.offset, exact) << time;
+    if (time == std::string("1e6 s")) EXPECT_EQ(start.period, 17566666);
+    EXPECT_GE(start.period, tenths);
+    tenths = start.period;
+  }
+}
+
+TEST(Instants, ALateInstantIsReducedExactly) {
+  expect_reduced_exactly<double>();
+  expect_reduced_exactly<float128>();
+  expect_reduced_exactly<mpfr50>();
+}
+
+/// A speed in rad/s makes the period a multiple of pi: 1e6 s at 100 rad/s are 1e8 / (2 pi) periods.
+TEST(Instants, ALateInstantOfAnIrrationalPeriodIsReducedToTheLastDigit) {
+  const mpfr200 period = 2 * numerics::pi<mpfr200>() / 100, count = floor(mpfr200(mpfr200(1000000) / period));
+  const mpfr200 offset = 1000000 - count * period;
+  EXPECT_EQ(start_at<double>("1e6 s", "100 rad/s").period, static_cast<std::int64_t>(count));
+  EXPECT_EQ(start_at<double>("1e6 s", "100 rad/s").offset, static_cast<double>(offset));
+  EXPECT_EQ(start_at<float128>("1e6 s", "100 rad/s").offset, static_cast<float128>(offset));
+}
+
+TEST(Instants, ATimeOfWholePeriodsHasNoOffset) {
+  const auto start = start_at<double>("30 s");
+  EXPECT_EQ(start.period, 527);
+  EXPECT_EQ(start.offset, 0);
+}
+
 }  // namespace
 }  // namespace edmill::setup

@@ -149,7 +149,8 @@ class GapFunctions {
   /// Rounding bounds for every sample up to `elapsed` [s] after the start of the flight with inertial speeds
   /// up to `speed` [m/s]. The constants are counted in docs/theory.md, section 4; a test compares them with
   /// measured errors.
-  GapErrors<Real> errors(const Real& elapsed, const Real& speed) const {
+  /// @param with_cylinder  whether those of the cylinder are asked for
+  GapErrors<Real> errors(const Real& elapsed, const Real& speed, bool with_cylinder = true) const {
     const Real u = epsilon<Real>() / 2;
     const Real angle = 10 + 16 * c_.amplitudes;  // ulps of 1 that the pose and the products leave
     const Real time = elapsed + 3 * (lag_ < 0 ? Real(-lag_) : lag_);
@@ -160,6 +161,7 @@ class GapFunctions {
                              4 * c_.gravity * elapsed);
     const Real y_second = u * (32 + 16 * c_.amplitudes) * largest_acceleration(speed) + 4 * turning * y_rate +
                           2 * turning * (c_.angular_speed + turning) * y;
+    if (!with_cylinder) return {{y, y, Real(0)}, {y_rate, y_rate, Real(0)}, {y_second, y_second, Real(0)}};
     return spread(u, {y, y_rate, y_second}, speed);
   }
 

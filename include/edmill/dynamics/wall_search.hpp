@@ -124,6 +124,7 @@ class WallSearch {
     Verdict verdict;
     Point left{}, right{};
     Real doubt{0};  ///< of a contact at once whose time the gap's slope does not tell [s]
+    Real guess{0};  ///< of the one root where the gap rises at first and bends downwards all along, else zero
   };
 
   /// With `rounded` every bound covers the rounding of the flight and the mill, and `rough` is filled.
@@ -134,7 +135,12 @@ class WallSearch {
   Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
     return norm<Real>(velocity) + constants_.gravity * length;
   }
+  template <bool rounded>
+  Bracket isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
+                             const Point& right) const;
   Bracket isolate(const Curve& curve, Point left, const Point& right) const;
+  std::optional<Bracket> isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
+                                     const Point& right) const;
   Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
   Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
   Bracket isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
@@ -153,13 +159,14 @@ class WallSearch {
     Real guess;  ///< of the root
     double curvature, curvature_error, third;
   };
-  Root polish(const Curve& curve, const Bracket& bracket) const;
+  std::optional<Root> polish(const Curve& curve, const Bracket& bracket) const;
   std::optional<Root> close_in(const Functions& functions, int wall, const Real& from, const Real& to,
                                const Approach& approach, const Real& value_error) const;
-  /// A bracket of a root is narrow enough.
+  /// A bracket of a root is narrow enough: less than the resolution, and more than half of the bracket in
+  /// which toms748 begins, so that its first step is usually its last.
   bool is_closed(const Real& low, const Real& high) const {
     const Real middle = low + (high - low) / 2;
-    return high - low <= epsilon<Real>() * constants_.clock.period() || middle <= low || middle >= high;
+    return high - low <= resolution() * 5 / 8 || middle <= low || middle >= high;
   }
   Real resolution() const { return 4 * epsilon<Real>() * constants_.clock.period(); }
 

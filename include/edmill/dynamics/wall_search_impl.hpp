@@ -57,7 +57,7 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
                                                  [[maybe_unused]] RoughAnswer* rough) const {
   const Real begin = query.begin.offset;
   const Real oldest = functions.elapsed(begin + query.length);
-  auto errors = functions.errors(oldest, speed);
+  auto errors = functions.errors(oldest, speed, reachable[2]);
   [[maybe_unused]] const auto own_errors = errors;
   if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
   const auto curve_of = [&](int wall, const DerivativeBounds<Real>& derivatives) {
@@ -93,16 +93,14 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
     const Point start = curve.of(first);
-    const bool resting = start.value <= curve.bounds.value_error &&
-                         start.slope <= 2 * curve.bounds.slope_error &&
-                         start.slope >= -2 * curve.bounds.slope_error;
-    const Bracket found = resting ? isolate_resting(curve, start, first.curvature[wall], curve.of(last))
-                                  : isolate(curve, start, curve.of(last));
+    const Bracket found = isolate_from_start<rounded>(curve, start, first.curvature[wall], curve.of(last));
     if (found.verdict == Verdict::none) continue;
     if (found.verdict == Verdict::undecided) return {Verdict::undecided};
     // Only a start that is outside for certain makes the bracket hold the wide root too.
     if (rounded && !(found.left.value > curve.bounds.value_error)) return {Verdict::undecided};
-    const Root root = polish(curve, found);
+    const auto polished = polish(curve, found);
+    if (!polished) return {Verdict::undecided};
+    const Root& root = *polished;
     if (answer.verdict == Verdict::contact) {
       const Real later = root.t - best.t, doubt = root.doubt + best.doubt;
       if (later > doubt) continue;
@@ -209,6 +207,35 @@ WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query
         Verdict::contact, rough.wall, constants_.clock.instant(query.begin.period, root->t), false, Real(0),
         root->doubt,      root->pose};
   }
+}
+
+/// The first part of a window, where the second derivative is known too.
+template <class Real>
+template <bool rounded>
+auto WallSearch<Real>::isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
+                                          const Point& right) const -> Bracket {
+  const Bounds& b = curve.bounds;
+  if (start.value > b.value_error) return isolate(curve, start, right);
+  const bool level = start.slope <= 2 * b.slope_error && start.slope >= -2 * b.slope_error;
+  if (level) return isolate_resting(curve, start, curvature, right);
+  if constexpr (!rounded)
+    if (const auto hop = isolate_hop(curve, start, curvature, right)) return *hop;
+  return isolate(curve, start, right);
+}
+
+/// A ball that has just left, and whose gap is proven to bend downwards all along the window: the gap rises
+/// to one peak and has one root behind it.
+template <class Real>
+auto WallSearch<Real>::isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
+                                   const Point& right) const -> std::optional<Bracket> {
+  const Bounds& b = curve.bounds;
+  const Real length = right.t - left.t;
+  const bool bends = curvature + b.curvature_error + b.third * length < 0;
+  const bool ends_below = right.value < -b.value_error && right.slope < -b.slope_error;
+  if (!(bends & ends_below) || left.value < -b.value_error || !numerics::can_depart(left, b))
+    return std::nullopt;
+  const Real hint = static_cast<Real>(numerics::first_root_hint(left, curvature, length));
+  return Bracket{Verdict::contact, left, right, Real(0), left.t + hint};
 }
 
 template <class Real>
@@ -354,21 +381,28 @@ auto WallSearch<Real>::follow_overlap(const Curve& curve, const Point& start, co
 /// The bracket's root to the last digit of the scalar: the end of the last bracket where the gap is not
 /// negative.
 template <class Real>
-auto WallSearch<Real>::polish(const Curve& curve, const Bracket& bracket) const -> Root {
+auto WallSearch<Real>::polish(const Curve& curve, const Bracket& bracket) const -> std::optional<Root> {
   const Point &left = bracket.left, &right = bracket.right;
-  if (bracket.doubt > 0) return {left.t, bracket.doubt};
+  if (bracket.doubt > 0) return Root{left.t, bracket.doubt};
   const auto doubt_at = [&](const Real& slope) {
     return resolution() + (slope < 0 ? Real(-4 * curve.bounds.value_error / slope) : Real(0));
   };
-  if (left.t == right.t || left.value <= 0) return {left.t, doubt_at(left.slope)};
-  if (left.slope < 0 && right.slope < 0) {
+  const bool hop = bracket.guess > 0;
+  if (!hop && (left.t == right.t || left.value <= 0)) return Root{left.t, doubt_at(left.slope)};
+  if (hop || (left.slope < 0 && right.slope < 0)) {
     const Real width = right.t - left.t;
-    const auto root = close_in(
-        curve.functions, curve.wall, left.t, right.t,
-        {numerics::inverse_cubic_hint(left, right), static_cast<double>((right.slope - left.slope) / width),
-         static_cast<double>(curve.bounds.third * width), static_cast<double>(curve.bounds.third)},
-        curve.bounds.value_error);
-    if (root) return *root;
+    const auto root =
+        close_in(curve.functions, curve.wall, left.t, right.t,
+                 {hop ? bracket.guess : numerics::inverse_cubic_hint(left, right),
+                  static_cast<double>((right.slope - left.slope) / width),
+                  static_cast<double>(curve.bounds.third * width), static_cast<double>(curve.bounds.third)},
+                 curve.bounds.value_error);
+    if (root) return root;
+  }
+  if (hop) {  // the peak is so low that rounding hides it: cut it off
+    const Bracket behind = isolate_outside(curve, left, right, true);
+    if (behind.verdict != Verdict::contact) return std::nullopt;
+    return polish(curve, behind);
   }
   const auto gap = [&](const Real& t) { return Real(curve.at(t).value); };
   const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
@@ -378,7 +412,7 @@ auto WallSearch<Real>::polish(const Curve& curve, const Bracket& bracket) const 
   EDMILL_REQUIRE(iterations < 500, "root polishing ran out of iterations");
   const Point end = curve.at(root.first);
   EDMILL_REQUIRE(end.value >= 0, "root polishing lost the sign change");
-  return {root.first, doubt_at(end.slope)};
+  return Root{root.first, doubt_at(end.slope)};
 }
 
 /// The root of a gap that is proven to fall through zero in (from, to): Newton's iteration, which knows the
@@ -419,9 +453,9 @@ auto WallSearch<Real>::close_in(const Functions& functions, int wall, const Real
     const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
     const Real doubt = -value_error / slope;
     // Rounding moves the place where the computed gap changes its sign: step on until both signs are seen.
-    Real low = centre - unit, high = centre + unit, at_low = gap(low), at_high = gap(high);
-    for (Real reach = 4 * unit; !(at_low >= 0 && at_high <= 0); reach = 4 * reach) {
-      if (reach > 16 * (unit + doubt)) return std::nullopt;
+    Real low = centre - 2 * unit, high = centre + 2 * unit, at_low = gap(low), at_high = gap(high);
+    for (Real reach = 8 * unit; !(at_low >= 0 && at_high <= 0); reach = 4 * reach) {
+      if (reach > 32 * (unit + doubt)) return std::nullopt;
       if (at_low < 0) {
         high = low, at_high = at_low;
         low = centre - reach, at_low = gap(low);

@@ -145,10 +145,9 @@ template <class Real>
 bool Simulation<Real>::has_rivals(const Event& event) const {
   const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
   const Agenda& a = agendas_[event.ball];
-  bool another = a.forgotten_from <= limit;
-  for (int entry = 0; entry < static_cast<int>(a.times.size()); ++entry)
-    another |= (entry != a.next) & (entry != Agenda::crossing_entry) & (a.times[entry] <= limit);
-  return another || queue_.runner_up(limit) >= 0;
+  int due = (a.times[Agenda::wall_entry] <= limit) + (a.forgotten_from <= limit);
+  for (int k = 0; k < Agenda::capacity; ++k) due += a.times[Agenda::first_pair + k] <= limit;
+  return due > 1 || queue_.runner_up(limit) >= 0;  // one is the event itself
 }
 
 /// Of contacts that share a ball and are so close in time that rounding may have put them in the wrong order,
