@@ -30,8 +30,8 @@ class Chapter4 : public Outputs {
     text += "\n[[output]]\ntype = \"collisions\"\n";
     write("case.toml", text);
     const auto outcome = edmill(
-        "run case.toml --quiet --out out --set run.end_time='\"40 s\"' --set contact.collapse_time='\"1 "
-        "ms\"'");
+        "run case.toml --quiet --out out --set run.end_time='\"40 s\"' --set contact.least_separation='\"3 "
+        "cm/s\"'");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     for (const auto& row : read("collisions.csv"))
       if (number(row, "time") >= 30) recorded.push_back(row);
