@@ -50,7 +50,7 @@ PressedBall draw_pressed_ball() {
   law.friction = ball.wall == 2 ? 0 : draw<double>(0, 2);  // along the cylinder it would leave the place
   law.least_separation = std::pow(10, draw<double>(-4, 0));
   const double v = law.least_separation;
-  ball.gap = draw<double>(0, 3) * v * v / ball.acceleration;
+  ball.gap = draw<double>(0.01, 3) * v * v / ball.acceleration;
   ball.speed = draw<double>(0, 3) * v;
   return ball;
 }
