@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""What finite resolution in time does to the dose rate: all cases in edmill with larger collapse times, and four cases of the
-5 g sample in stepped/stepped_mill.cpp with exact search (a control) and with stepped ones.
+"""What finite resolution in time does to the dose rate, by stepped/stepped_mill.cpp: all cases with exact search and a
+collapse time of 0.5 ms; four cases of the 5 g sample also with other collapse times, with edmill's rule (a control), with
+losses of quick impacts left out, and with stepped search.
 
-usage: emulation.py WARD_BATCHES STEPPED_MILL FOLDER > emulation.csv    FOLDER keeps what is done
+usage: emulation.py STEPPED_MILL FOLDER [JOBS] > emulation.csv    FOLDER keeps what is done
 """
+import concurrent.futures
 import csv
 import io
 import json
@@ -14,49 +16,38 @@ import sys
 import intervals
 import tables
 import ward_runs
-from ward_runs import CASES
 
 SOURCE = pathlib.Path(__file__).resolve().parent / "stepped" / "stepped_mill.cpp"
 
 COUNTS = (7, 28, 95, 227)
 NINE_PERIODS = 9 * 60 / 1054  # of the drive [s]
-COLLAPSE_TIMES = ("1e-4", "3e-4", "5e-4", "1e-3", "2e-3")
-COLLAPSE_TIMES_OF_ALL = ("5e-4",)
-STEPPED = (  # method of emulation.csv, options of stepped_mill
-    ("control", "--search exact --collapse-time 1e-4"),
+CONTROL = "--search exact --collapse-time 0 --least-separation 0.01"  # the rule of edmill's cases
+COLLAPSE_TIME_OF_ALL = "5e-4"
+METHODS = (  # method of emulation.csv, options of stepped_mill
+    ("control", CONTROL),
+    *((f"t_c_{time}", f"--search exact --collapse-time {time}")
+      for time in ("1e-4", "3e-4", COLLAPSE_TIME_OF_ALL, "1e-3", "2e-3")),
     ("passed_through", "--search exact --collapse-time 0 --ignore 5e-4"),
     ("lossless_5e-4", "--search exact --collapse-time 1e-4 --smooth-time 5e-4"),
     ("lossless_1e-3", "--search exact --collapse-time 1e-4 --smooth-time 1e-3"),
     ("stepped", "--search stepped --collapse-time 0"),
     ("stepped_put_back", "--search stepped --collapse-time 0 --put-back 1"),
 )
-OF_MANY_BALLS = ("control", "lossless_5e-4", "stepped_put_back")  # the plain program is slow
+NOT_OF_MANY_BALLS = ("passed_through", "lossless_1e-3", "stepped")  # the program is slow
 
 
-def times_of(case, function):
-    """Start, end and batch of a run's statistics [s]: many balls settle their own mean and cost more, in the plain program above
-    all. Short runs are whole drive periods long, since where in a period they end would show."""
-    if case.count < (20 if function is stepped else 60):
+def times_of(case):
+    """Start, end and batch of a run's statistics [s]: many balls settle their own mean and cost more. Short runs are whole
+    drive periods long, since where in a period they end would show."""
+    if case.count < 20:
         return 1, 21, 0.5
-    if function is stepped:
-        return (1, 1 + 10 * NINE_PERIODS, NINE_PERIODS) if case.count < 60 else (0.5, 0.5 + 3 * NINE_PERIODS, NINE_PERIODS)
-    return 1, 1 + (10 if case.count < 200 else 4) * NINE_PERIODS, NINE_PERIODS
-
-
-def edmill(program, case, collapse_time):
-    """@return milling dose and impacts in batches"""
-    start, end, batch = times_of(case, edmill)
-    command = [program, str(CASES / f"{case.name}.toml"), "--batch", str(batch)]
-    for setting in (f"run.start_time={start} s", f"run.end_time={end} s",
-                    f"contact.collapse_time={collapse_time} s"):
-        command += ["--set", setting]
-    batches = json.loads(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout)["batches"]
-    columns = [[float(value) for value in text.split()] for text in batches.values()]
-    return columns[0], [sum(row) for row in zip(*columns[1:])]
+    if case.count < 60:
+        return 1, 1 + 10 * NINE_PERIODS, NINE_PERIODS
+    return 0.5, 0.5 + (6 if case.count < 400 else 3) * NINE_PERIODS, NINE_PERIODS
 
 
 def stepped(program, case, options):
-    start, end, batch = map(str, times_of(case, stepped))
+    start, end, batch = map(str, times_of(case))
     command = [program, "--balls", str(case.count), "--diameter-mm", case.diameter, "--restitution", case.restitution,
                "--start", start, "--end", end, "--batch", batch, *options.split()]
     table = csv.DictReader(io.StringIO(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout))
@@ -73,42 +64,45 @@ def row(case, method, batch, doses, impacts):
 
 
 def plan():
-    """All pairs of case and method, with the function that does them: (case, method, function, its last argument)."""
+    """All pairs of case and method: (case, method, options)."""
     for case in sorted(tables.cases(), key=lambda case: case.count):
         detailed = case.powder == "5" and case.count in COUNTS
-        for collapse_time in COLLAPSE_TIMES if detailed else COLLAPSE_TIMES_OF_ALL:
-            yield case, f"edmill_t_c_{collapse_time}", edmill, collapse_time
-        for method, options in STEPPED if detailed else ():
-            if case.count < 60 or method in OF_MANY_BALLS:
-                yield case, method, stepped, options
+        for method, options in METHODS:
+            if method == f"t_c_{COLLAPSE_TIME_OF_ALL}" or (
+                    detailed and (case.count < 60 or method not in NOT_OF_MANY_BALLS)):
+                yield case, method, options
 
 
-def study(ward_batches, stepped_mill, folder):
+def study(stepped_mill, folder, jobs=1):
     """Does what is not in FOLDER/emulation.jsonl yet. @return text of emulation.csv"""
-    commit, source = ward_runs.commit_of(ward_batches), ward_runs.sha256(SOURCE)
+    source = ward_runs.sha256(SOURCE)
     cache = pathlib.Path(folder) / "emulation.jsonl"
     cache.parent.mkdir(parents=True, exist_ok=True)
     known = {}
     for line in cache.read_text().splitlines() if cache.exists() else ():
         entry = json.loads(line)
-        if entry["source"] == source and ward_runs.same_core(entry["commit"], commit):
+        if entry["source"] == source:
             known[entry["key"]] = entry["row"]
+    runs = [(f"{case.name} {case.count} {case.restitution} {method} {options} {times_of(case)}", case, method, options)
+            for case, method, options in plan()]
+    waiting = [run for run in runs if run[0] not in known]
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        done = {pool.submit(stepped, stepped_mill, case, options): (key, case, method)
+                for key, case, method, options in waiting}
+        for work in concurrent.futures.as_completed(done):
+            key, case, method = done[work]
+            known[key] = row(case, method, times_of(case)[2], *work.result())
+            with open(cache, "a", encoding="utf-8") as file:
+                file.write(json.dumps({"key": key, "source": source, "row": known[key]}) + "\n")
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["case", "balls", "method", "inverse_milling_dose_rate", "inverse_milling_dose_rate_ci95",
                      "collision_rate_total"])
-    for case, method, function, how in plan():
-        key = f"{case.name} {method} {how} {times_of(case, function)[1]} {ward_runs.sha256(CASES / f'{case.name}.toml')}"
-        if key not in known:
-            program = ward_batches if function is edmill else stepped_mill
-            known[key] = row(case, method, times_of(case, function)[2], *function(program, case, how))
-            with open(cache, "a", encoding="utf-8") as file:
-                file.write(json.dumps({"key": key, "commit": commit, "source": source, "row": known[key]}) + "\n")
-        writer.writerow(known[key])
+    writer.writerows(known[run[0]] for run in runs)
     return out.getvalue()
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
+    if len(sys.argv) not in (3, 4):
         sys.exit(__doc__.strip())
-    print(study(*sys.argv[1:]), end="")
+    print(study(sys.argv[1], sys.argv[2], int((sys.argv[3:] or ["1"])[0])), end="")

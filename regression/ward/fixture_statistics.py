@@ -26,8 +26,8 @@ def make(root, ward_batches, folder, jobs):
             ward_table.provenance(folder))
 
 
-def make_emulation(ward_batches, stepped_mill, folder):
-    return {EMULATION: emulation.study(str(ward_batches), str(stepped_mill), folder)}
+def make_emulation(stepped_mill, folder, jobs):
+    return {EMULATION: emulation.study(str(stepped_mill), folder, jobs)}
 
 
 def wanted_rows(root):

@@ -40,7 +40,7 @@ mass = "{powder} g"
 model = "walton-braun"
 restitution = {restitution}
 friction = 0.4
-collapse_time = "0.1 ms"
+least_separation = "1 cm/s"
 
 [[balls]]
 count = {count}

@@ -62,8 +62,8 @@ void write(const record::Summary<double>& s, double length, const std::vector<Ba
   json.number("batch_length", length);
   json.number("milling_dose", s.milling_dose);
   json.number("energy_closure", s.energy_closure());
-  json.number("collapse_milling_dose", s.collapse_dose);
-  json.integer("collapse_impacts", s.collapse_impacts);
+  json.number("touched_milling_dose", s.touched_dose);
+  json.integer("touched_impacts", s.touched_impacts);
   json.integer("impacts_since_start", s.total_impacts);
   json.number("cpu_seconds", s.cpu_seconds);
   json.begin("batches");

@@ -62,7 +62,7 @@ def statistics_csv(folder):
             row[name], row[f"{name}_ci95"] = map(number, estimates[name][:2])
         row["replicas_alike_p"] = f"{estimates['milling_dose_rate'][2]:.4f}"
         row["largest_energy_closure"] = f"{max(abs(r['energy_closure']) / r['milling_dose'] for r in runs):.1e}"
-        row["collapse_dose_share"] = number(statistics.fmean(r["collapse_milling_dose"] / r["milling_dose"] for r in runs))
+        row["touched_dose_share"] = number(statistics.fmean(r["touched_milling_dose"] / r["milling_dose"] for r in runs))
         rows.append(row)
     return csv_text(rows)
 

@@ -242,7 +242,8 @@ void Section::require(bool good, const std::string& key, const std::string& expe
 }
 
 void Section::replaced(const std::string& key, const std::string& expected) {
-  if (const auto* node = find(key))
+  // Not by find(), which would list the key among the known ones.
+  if (const auto* node = table_ ? table_->get(key) : nullptr)
     document_->report(node, full(key), "a key that is no longer known", expected);
 }
 

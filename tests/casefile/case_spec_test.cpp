@@ -63,7 +63,7 @@ model = "walton-braun"
 restitution = 0.53
 friction = 0.4
 min_tangential = -0.5
-collapse_time = "0.2 ms"
+least_separation = "2 mm/s"
 
 [contact.ball_wall]
 restitution_normal = 0.75
@@ -181,7 +181,7 @@ TEST(CaseSpec, DefaultsAreThoseOfTheThesis) {
   for (const auto* law : {&c.ball_ball, &c.ball_wall}) {
     EXPECT_EQ(law->model, model::ContactModel::walton_braun);
     EXPECT_EQ(law->min_tangential.value, -1);
-    EXPECT_EQ(law->collapse_time.value, ratio(1, 10000));
+    EXPECT_EQ(law->least_separation.value, ratio(1, 100));
   }
   EXPECT_EQ(c.precision, "double");
   EXPECT_EQ(c.seed, 1u);
@@ -201,7 +201,7 @@ TEST(CaseSpec, AContactPairOverridesOnlyItsOwnKeys) {
   EXPECT_EQ(c.ball_wall.friction.value, ratio(2, 5));
   for (const auto* law : {&c.ball_ball, &c.ball_wall}) {
     EXPECT_EQ(law->min_tangential.value, ratio(-1, 2));
-    EXPECT_EQ(law->collapse_time.value, ratio(2, 10000));
+    EXPECT_EQ(law->least_separation.value, ratio(2, 1000));
   }
 }
 
@@ -325,7 +325,7 @@ TEST(CaseSpec, TheDigestChangesWithEveryValue) {
                              "contact.restitution=0.5300000000000000000001",
                              "contact.friction=0.41",
                              "contact.min_tangential=0",
-                             "contact.collapse_time=0 s",
+                             "contact.least_separation=0 m/s",
                              "contact.ball_wall.friction=0.5",
                              "balls.0.diameter=4.75 mm",
                              "balls.0.density=7 g/cm3",
@@ -357,7 +357,7 @@ TEST(CaseSpec, EveryProblemIsReportedOnce) {
     EXPECT_EQ(error.problems()[0],
               "--set run.seed=-1: key 'run.seed': found \"-1\", expected an integer, 0 or more");
     EXPECT_EQ(error.problems()[1],
-              "case.toml:31: key 'contact.friction': found \"-1\", expected a number of 0 or more");
+              "case.toml:31: key 'contact.friction': found \"-1\", expected a number from 0 to 1000000");
     EXPECT_EQ(
         error.problems()[2],
         "case.toml:46: key 'ball.0.position.0': found \"10 kg\" (a mass), expected a length (m, dm, cm, "

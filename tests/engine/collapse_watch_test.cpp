@@ -1,4 +1,4 @@
-// What a ball's recent impacts say: collapse, where it accumulates, rest, and impacts without time between.
+// What a ball's recent impacts say: collapse, and where it accumulates.
 #include "edmill/engine/collapse_watch.hpp"
 
 #include <gtest/gtest.h>
@@ -6,12 +6,12 @@
 namespace edmill::engine {
 namespace {
 
-constexpr double smallest_path = 1e-6, resting_path = 1e-9;
+constexpr double smallest_path = 1e-6;
 const DriveClock<double> drive_clock(0.25);
 
 /// Impacts of one ball, at intervals [s] and approach speeds [m/s] that are given.
 struct Ball {
-  CollapseWatch<double> watch{smallest_path, resting_path};
+  CollapseWatch<double> watch{smallest_path};
   RecentImpacts<double> recent;
   double time = 1;
 
@@ -70,33 +70,12 @@ TEST(CollapseWatch, TheTimeIsKnownOnlyWithOnePartner) {
   EXPECT_EQ(elastic.accumulation_time(), drive_clock.seconds(elastic.recent.last));
 }
 
-TEST(CollapseWatch, RestIsEightPathsShorterStill) {
+TEST(CollapseWatch, ImpactsWithoutTimeBetweenAreCollapseAtAnySpeed) {
   Ball ball;
   ball.hits(3, 1e-2, 1);
-  for (int k = 0; k < 8; ++k) {
-    EXPECT_FALSE(CollapseWatch<double>::resting(ball.recent));
-    ball.hits(3, 1e-5, 0.9e-4);
-  }
-  for (int k = 0; k < 300; ++k) {  // more than a count of one byte holds
-    EXPECT_TRUE(CollapseWatch<double>::resting(ball.recent));
-    EXPECT_TRUE(ball.hits(3, 1e-5, 0.9e-4));
-  }
-  ball.hits(3, 1e-5, 1.1e-4);
-  EXPECT_FALSE(CollapseWatch<double>::resting(ball.recent));
-}
-
-TEST(CollapseWatch, AThousandImpactsWithoutTimeBetweenAreStuck) {
-  Ball ball;
-  ball.hits(3, 1e-2, 1);
-  for (int k = 0; k < 1000; ++k) {
-    EXPECT_FALSE(CollapseWatch<double>::stuck(ball.recent));
-    ball.hits(3, 0, 1);
-  }
-  EXPECT_TRUE(CollapseWatch<double>::stuck(ball.recent));
-  for (int k = 0; k < 40000; ++k) ball.hits(3, 0, 1);  // more than a count of two bytes holds
-  EXPECT_TRUE(CollapseWatch<double>::stuck(ball.recent));
-  ball.hits(3, 1e-9, 1);
-  EXPECT_FALSE(CollapseWatch<double>::stuck(ball.recent));
+  for (int k = 0; k < 40000; ++k)  // more than a count of two bytes holds
+    EXPECT_EQ(ball.hits(3, 0, 1e3), k + 1 >= CollapseWatch<double>::enough) << k;
+  EXPECT_FALSE(ball.hits(3, 1e-2, 1));
 }
 
 }  // namespace

@@ -71,18 +71,19 @@ class MillOutputs : public ProgramTest {
     return {number(row, before + axes[0] + after), number(row, before + axes[1] + after),
             number(row, before + axes[2] + after)};
   }
-  /// Dissipated along the normal: by the normal velocity, relative to the partner, before and after.
+  /// Dissipated along the normal: by the normal velocity, relative to the partner, before and after. 0 where
+  /// the least separation speed supplies energy.
   static double normal_dose(const Row& impact) {
     if (impact.at("partner_kind") == "wall") {
       const double before = -number(impact, "approach_speed");
       const double change = -impulse(impact).dot(inward_normal(impact)) / mass;
-      return mass / 2 * (before * before - (before + change) * (before + change));
+      return std::max(0.0, mass / 2 * (before * before - (before + change) * (before + change)));
     }
     const Vector normal = (vector(impact, "") - vector(impact, "partner_")).normalized();
     const auto speed = [&](const std::string& when) {
       return (vector(impact, "v", when) - vector(impact, "partner_v", when)).dot(normal);
     };
-    return mass / 4 * (std::pow(speed("_before"), 2) - std::pow(speed("_after"), 2));
+    return std::max(0.0, mass / 4 * (std::pow(speed("_before"), 2) - std::pow(speed("_after"), 2)));
   }
   static Vector inward_normal(const Row& impact) {
     const Pose pose(number(impact, "time"));

@@ -81,8 +81,10 @@ struct Recomputed {
   Number energy(const State* s) const {
     return translational(s[0], 0) + rotational(s[0], 0) + translational(s[1], 1) + rotational(s[1], 1);
   }
-  Number dose() const { return wall_work() - (energy(after) - energy(before)); }
-  Number dose_normal() const {
+  Number dose() const { return wall_work() - (energy(after) - energy(before)) + supplied(); }
+  Number dose_normal() const { return std::max<Number>(0, normal_loss()); }
+  Number supplied() const { return std::max<Number>(0, -normal_loss()); }
+  Number normal_loss() const {
     const Number m = balls ? mass[0] * mass[1] / (mass[0] + mass[1]) : mass[0];
     return m / 2 * (powl(normal_part(relative(before)), 2) - powl(normal_part(relative(after)), 2));
   }
@@ -155,6 +157,7 @@ Formulas formulas() {
   all["milling_dose"] = [](const Recomputed& r) { return r.dose(); };
   all["dose_normal"] = [](const Recomputed& r) { return r.dose_normal(); };
   all["dose_tangential"] = [](const Recomputed& r) { return r.dose() - r.dose_normal(); };
+  all["supplied_energy"] = [](const Recomputed& r) { return r.supplied(); };
   all["wall_work"] = [](const Recomputed& r) { return r.wall_work(); };
   all["energy_balance"] = [](const Recomputed& r) { return r.energy(r.after) - r.energy(r.before); };
   const auto pushed = [](const Recomputed& r) {
@@ -177,6 +180,8 @@ Formulas formulas() {
 /// Follows the balls by their states after each impact, and compares.
 class Follower : public engine::Observer<double> {
  public:
+  static constexpr Number restitution = 0.8L;
+
   explicit Follower(const engine::Simulation<double>& simulation) {
     for (int i = 0; i < simulation.ball_count(); ++i) states_.push_back(seen(simulation, i, 0));
     for (const auto& v : model::impact_variables)
@@ -206,6 +211,11 @@ class Follower : public engine::Observer<double> {
           << name << " at impact " << impact.index;
     }
     EXPECT_EQ(facts.ball_ball, !impact.with_wall);
+    const Number rebound = -restitution * r.normal_part(r.relative(r.before)), least = 0.01L;
+    if (fabsl(rebound - least) > 1e-9L) {
+      EXPECT_EQ(facts.least_separation, rebound < least);
+    }
+    touched_ += facts.least_separation;
     previous_ = r.time;
     for (const int ball : {impact.ball, impact.with_wall ? impact.ball : impact.partner})
       states_[ball] = seen(simulation, ball, r.time);
@@ -213,6 +223,7 @@ class Follower : public engine::Observer<double> {
   }
 
   Number worst() const { return worst_; }
+  int touched() const { return touched_; }
   const std::array<int, 4>& impacts() const { return impacts_; }
 
  private:
@@ -269,6 +280,7 @@ class Follower : public engine::Observer<double> {
   std::vector<State> states_;
   Number previous_ = 0, worst_ = 0;
   std::array<int, 4> impacts_{};
+  int touched_ = 0;
 };
 
 TEST(Variables, AreWhatOtherFormulasGive) {
@@ -288,6 +300,7 @@ TEST(Variables, AreWhatOtherFormulasGive) {
   simulation.attach(stop);
   simulation.run_until(simulation.clock().at(60));
   for (int partner = 0; partner < 4; ++partner) EXPECT_GT(follower.impacts()[partner], 50) << partner;
+  EXPECT_GT(follower.touched(), 50);
   std::cout << "worst difference of any variable, of its size: " << follower.worst() << "\n";
 }
 

@@ -78,11 +78,18 @@ using Ids = std::vector<std::string>;
 TEST_F(Report, OfARunWithReportHasEverySection) {
   run("--report");
   const auto main = body();
-  EXPECT_EQ(ids(main, "//section"), (Ids{"results", "warnings", "animation", "thesis", "rates", "spectra",
-                                         "vessel", "speeds", "energy", "case"}));
+  EXPECT_EQ(ids(main, "//section"), (Ids{"results", "animation", "thesis", "rates", "spectra", "vessel",
+                                         "speeds", "energy", "case"}));
   EXPECT_EQ(ids(main, "//figure").size(), 11u);
   EXPECT_TRUE(main.select_nodes("//*[@class='missing']").empty());
   EXPECT_LT(page().size(), 6000000u);
+}
+
+TEST_F(Report, WarningsHaveASectionOfTheirOwn) {
+  run("--report --set 'contact.least_separation=0.5 m/s'");
+  const auto sections = ids(body(), "//section");
+  ASSERT_GE(sections.size(), 2u);
+  EXPECT_EQ(sections[1], "warnings");
 }
 
 TEST_F(Report, OfAnyRunSaysWhichOutputsItMisses) {

@@ -57,8 +57,8 @@ TEST_P(Free, IsStillAWardCase) {
   EXPECT_TRUE(ward_case_of(spec).has_value());
 }
 INSTANTIATE_TEST_SUITE_P(WardCase, Free,
-                         ::testing::Values("run.seed=7", "run.end_time=20 s", "contact.collapse_time=0.5 ms",
-                                           "balls.0.gap_ball=0.2 mm", "balls.0.diameter=0.476 cm",
-                                           "mill.speed=1054 rev/min"));
+                         ::testing::Values("run.seed=7", "run.end_time=20 s",
+                                           "contact.least_separation=1 mm/s", "balls.0.gap_ball=0.2 mm",
+                                           "balls.0.diameter=0.476 cm", "mill.speed=1054 rev/min"));
 
 }  // namespace

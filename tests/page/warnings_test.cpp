@@ -14,7 +14,7 @@ RunFacts good_facts() {
   f.start_time = 1, f.end_time = 11;
   f.collisions = {1000, 1000, 1000, 1000};
   f.milling_dose = 50, f.wall_work = 50;
-  f.collapse_dose_share = 0.03;
+  f.touched_dose_share = 0.03, f.supplied_energy = 0.4;
   return f;
 }
 
@@ -39,11 +39,20 @@ TEST(Warnings, AGoodRunHasNone) {
   EXPECT_EQ(kinds(good_facts(), {}), Kinds{});
 }
 
-TEST(Warnings, ALargeShareOfTheDoseUnderTheCollapseRuleIsTold) {
+TEST(Warnings, ALargeShareOfTheDoseByTheLeastSeparationSpeedIsTold) {
   auto f = good_facts();
-  f.collapse_dose_share = 0.0501;
-  EXPECT_EQ(kinds(f, steady()), Kinds{"collapse_share"});
+  f.touched_dose_share = 0.0501;
+  EXPECT_EQ(kinds(f, steady()), Kinds{"separation_share"});
   EXPECT_NE(warnings_of(f, steady())[0].text.find("5.0 %"), std::string::npos);
+}
+
+TEST(Warnings, MoreThanOnePercentOfTheDoseAsSuppliedEnergyIsTold) {
+  auto f = good_facts();
+  f.supplied_energy = 0.499;  // the dose is 50 J
+  EXPECT_EQ(kinds(f, steady()), Kinds{});
+  f.supplied_energy = 0.76;
+  EXPECT_EQ(kinds(f, steady()), Kinds{"supplied_energy"});
+  EXPECT_NE(warnings_of(f, steady())[0].text.find("1.5 %"), std::string::npos);
 }
 
 TEST(Warnings, AFirstBatchThatStandsApartIsATransient) {

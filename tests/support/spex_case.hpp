@@ -19,8 +19,7 @@ inline std::string batch(int count, const std::string& diameter, const std::stri
 }
 
 inline casefile::CaseSpec demo_spec(const std::string& run = "end_time = \"10 s\"") {
-  return casefile::parse_case(
-      spex_text(run, "restitution = 0.53\ncollapse_time = \"0.1 ms\"", batch(28, "4.76 mm")), "demo.toml");
+  return casefile::parse_case(spex_text(run, "restitution = 0.53", batch(28, "4.76 mm")), "demo.toml");
 }
 
 /// The mill of those cases without balls.

@@ -26,7 +26,7 @@ casefile::CaseSpec drop(const std::string& e, const std::string& x, const std::s
       "[run]\nend_time = \"1000 s\"\ngravity = [\"-9.81\", \"0\", \"0\"]\n[mill]\ntype = \"still\"\narm = "
       "\"1 m\"\n"
       "[vessel]\ndiameter = \"1 m\"\nheight = \"1 m\"\n[contact]\nrestitution = " +
-          e + "\nfriction = 0\ncollapse_time = \"0 s\"\n[[ball]]\ndiameter = \"" + diameter +
+          e + "\nfriction = 0\nleast_separation = \"0 m/s\"\n[[ball]]\ndiameter = \"" + diameter +
           "\"\ndensity = \"2600 kg/m3\"\nposition = [\"" + x + "\", \"1 m\", \"0\"]\n",
       "drop.toml");
 }

@@ -28,7 +28,7 @@ struct Gas {
             "[run]\nend_time = \"1000 s\"\nseed = " + std::to_string(seed) +
                 "\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"" + Claim::text(2 * radius, 17) +
                 " m\"\nheight = \"" + Claim::text(2 * radius, 17) +
-                " m\"\n[contact]\ncollapse_time = \"0 s\"\n" + contact +
+                " m\"\n[contact]\nleast_separation = \"0 m/s\"\n" + contact +
                 "\n[[balls]]\ncount = " + std::to_string(count) +
                 "\ndiameter = \"10 mm\"\nrandom_speed = \"1 m/s\"\ngap_ball = \"0.01 mm\"\n" +
                 "gap_wall = \"0.01 mm\"\nmax_relocations = 10000000\n",

@@ -35,12 +35,12 @@ std::string list(const Triple& v) {
 
 Triple triple(const Vec3<double>& v) { return {v[0], v[1], v[2]}; }
 
-/// edmill, with no collapse rule and no tangential rebound.
+/// edmill, with no least separation speed and no tangential rebound.
 std::vector<Checkpoint> event_driven(const Scene& scene) {
   std::string text =
       "[run]\nend_time = \"1 s\"\ngravity = \"9.8 m/s2\"\n[mill]\nspeed = \"1054 rpm\"\n"
       "[vessel]\ntype = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"\n"
-      "[contact]\ncollapse_time = \"0 s\"\nmin_tangential = 0\nrestitution = " +
+      "[contact]\nleast_separation = \"0 m/s\"\nmin_tangential = 0\nrestitution = " +
       Claim::text(scene.restitution) + "\nfriction = " + Claim::text(scene.friction) + "\n";
   for (int i = 0; i < scene.balls; ++i)
     text += "[[ball]]\ndiameter = \"9.52 mm\"\nposition = " + list(start[i].position) +
@@ -56,7 +56,7 @@ std::vector<Checkpoint> event_driven(const Scene& scene) {
   for (int k = 0; k < scene.impacts; ++k) {
     const auto& impact = events.impacts[k];
     ++(!impact.with_wall ? pairs : impact.partner == 2 ? cylinder : caps);
-    stopped += scene.friction > 0 && impact.outcome.restitution.tangential == 0;
+    stopped += scene.friction > 0 && impact.outcome.restitution_tangential == 0;
   }
   claim.say(scene.name + ", impacts: " + std::to_string(caps) + " caps, " + std::to_string(cylinder) +
             " cylinder, " + std::to_string(pairs) + " between balls; slip stopped in " +

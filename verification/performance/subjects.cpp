@@ -57,7 +57,7 @@ setup::InitialCase<double> still_gas(int balls, double packing) {
       "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = \"cylinder\"\ndiameter = " +
           metres(width) + "height = " + metres(height) +
           "[contact]\nmodel = \"constant\"\nrestitution_normal = 1\nrestitution_tangential = 1\n"
-          "collapse_time = \"0 s\"\n[[balls]]\ndiameter = \"4.76 mm\"\n",
+          "least_separation = \"0 m/s\"\n[[balls]]\ndiameter = \"4.76 mm\"\n",
       "still_gas.toml");
   setup::InitialCase<double> result;
   result.the_case.mill = setup::build_mill<double>(spec);

@@ -19,10 +19,11 @@ mutate() {
     echo "found: $name: $(grep -v '^  ' "$folder/log" | sed 's/ (.*): /: /; s/, worst.*//' | paste -sd ';') $(tail -n 1 "$folder/errors" | cut -c1-60)"
   fi
 }
-mutate "tangential impulse with the wrong sign" 's/(1 + e) + gt \*/(1 + e) - gt */'
+mutate "tangential impulse with the wrong sign" 's/jump - gt \*/jump + gt */'
 mutate "spin turned the wrong way" 's/cross(n, gt) \* (share/cross(n, gt) * (-share/'
 mutate "wall velocity at the ball's centre" 's/pose.velocity(ra - n \* R)/pose.velocity(ra)/'
-mutate "no collapse rule" 's/now_ - b.start < collapse_time_;/false;/'
-mutate "1 + e in the sliding impulse without the rule's e" 's/friction_ \* (1 + e)/friction_ * (1 + restitution_)/'
+mutate "no least separation speed" 's/T(-approach), least_separation_)/T(-approach), T(0))/'
+mutate "1 + e in the sliding impulse instead of the impulse that passes" 's/c \* jump/c * (1 + restitution_) * approach/'
+mutate "supplied energy taken off the dose" 's/std::max(T(0), T(approach \* approach - leave \* leave))/approach * approach - leave * leave/'
 mutate "arm longer by 1e-22 m" 's/mill_.arm = number("arm")/mill_.arm = number("arm") + T("1e-22")/'
 exit $status

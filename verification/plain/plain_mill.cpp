@@ -202,7 +202,7 @@ class PlainMill {
     mill_.radius = number("diameter") / 2, mill_.half_height = number("height") / 2;
     const T R = mill_.ball_radius = number("ball-diameter") / 2;
     mass_ = number("density") * 4 / 3 * boost::math::constants::pi<T>() * R * R * R;
-    inertia_ = number("reduced-inertia"), collapse_time_ = number("collapse-time");
+    inertia_ = number("reduced-inertia"), least_separation_ = number("least-separation");
     restitution_ = number("restitution"), friction_ = number("friction");
     min_tangential_ = number("min-tangential");
     std::string line, cell;
@@ -289,7 +289,6 @@ class PlainMill {
     }
   }
 
-  bool lasting(const Ball& b) const { return b.impacts > 0 && now_ - b.start < collapse_time_; }
   void restart(Ball& b, const Vec<T>& r, const Vec<T>& v, const Vec<T>& spin) {
     b.flight = {r, v, now_ * mill_.turns_per_second};
     b.spin = spin;
@@ -314,21 +313,24 @@ class PlainMill {
     const Vec<T> n = b ? (ra - rb) * (1 / sqrt(dot(ra - rb, ra - rb))) : wall_normal(pose, ra, partner);
     const Vec<T> partner_velocity = b ? velocity(*b) : pose.velocity(ra - n * R);
     const Vec<T> spins = b ? a.spin + b->spin : a.spin;
-    const Vec<T> g = va - partner_velocity - cross(spins * R, n), gn = n * dot(g, n), gt = g - gn;
+    const Vec<T> g = va - partner_velocity - cross(spins * R, n), gt = g - n * dot(g, n);
     const T approach = -dot(g, n), slip = sqrt(dot(gt, gt));
-    const T e = lasting(a) || (b && lasting(*b)) ? T(1) : restitution_;  // section 6
+    // Section 6. Bodies that part already, by rounding, are not slowed down.
+    const T leave = std::max(approach > 0 ? T(restitution_ * approach) : T(-approach), least_separation_);
+    const T jump = approach + leave;  // the normal impulse over share * mass
     T et = min_tangential_;
-    if (slip > 0) et = std::max(et, T(1 - friction_ * (1 + e) * c * approach / slip));
-    const Vec<T> change = (gn * (1 + e) + gt * ((1 - et) / c)) * -share;
+    if (slip > 0) et = std::max(et, T(1 - friction_ * c * jump / slip));
+    const Vec<T> change = (n * jump - gt * ((1 - et) / c)) * share;
     const Vec<T> turn = cross(n, gt) * (share * (1 - et) / (c * R * J));
     restart(a, ra, va + change, a.spin + turn);
     if (b) restart(*b, rb, partner_velocity - change, b->spin + turn);
-    const T dose = share * mass_ / 2 * ((1 - e * e) * approach * approach + (1 - et * et) / c * slip * slip);
+    const T normal_loss = std::max(T(0), T(approach * approach - leave * leave));  // below 0: supplied
+    const T dose = share * mass_ / 2 * (normal_loss + (1 - et * et) / c * slip * slip);
     return {approach, slip, dose, b ? T(0) : T(mass_ * dot(partner_velocity, change))};
   }
 
   Mill<T> mill_;
-  T mass_, inertia_, restitution_, friction_, min_tangential_, collapse_time_, now_{};
+  T mass_, inertia_, restitution_, friction_, min_tangential_, least_separation_, now_{};
   std::vector<Ball> balls_;
 };
 
@@ -339,7 +341,7 @@ int main(int argc, char** argv) try {
   std::istringstream defaults(
       "scalar mpfr100 rpm 1098 arm 0.1 theta-max 15 gamma-max 15 diameter 0.038 height 0.057 gravity 9.8 "
       "ball-diameter 0.00476 density 8000 reduced-inertia 0.4 restitution 0.5 friction 0.4 min-tangential -1 "
-      "collapse-time 1e-4");
+      "least-separation 0.01");
   Options options;
   for (std::string key, value; defaults >> key >> value;) options[key] = value;
   if (argc < 3 || argc % 2 == 0)

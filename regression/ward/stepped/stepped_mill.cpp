@@ -30,8 +30,9 @@ const double pi = std::acos(-1.0);
 struct Mill {
   double rpm = 1054, arm = 0.1, swing = pi / 12, radius = 0.019, half_height = 0.0285, gravity = 9.8;
   double ball_radius = 0, density = 8000, inertia = 0.4, restitution = 0, friction = 0.4;
-  double collapse_time = 1e-4;
-  std::string search = "exact";                                        // or "stepped"
+  double collapse_time = 1e-4;   // an impact so soon after the last of either body has e = 1
+  double least_separation = 0;   // bodies leave an impact no slower [m/s]
+  std::string search = "exact";  // or "stepped"
   double step = 1e-2, tolerance = 1e-5, factor = 2, refinements = 12;  // of the stepped search
   double put_back = 0;     // stepped search: 1 to put a ball back on the wall's surface at an impact
   double ignore = 0;       // exact search: walls are looked at only so long after a ball's last impact
@@ -269,7 +270,7 @@ class SteppedMill {
     const Vec n =
         b ? (ra - rb) * (1 / std::sqrt(dot(ra - rb, ra - rb))) : wall_normal(pose, ra, next.partner);
     const Vec vb = b ? velocity(*b) : pose.velocity(ra - n * R);
-    const Vec g = va - vb - cross((b ? a.spin + b->spin : a.spin) * R, n), gn = n * dot(g, n), gt = g - gn;
+    const Vec g = va - vb - cross((b ? a.spin + b->spin : a.spin) * R, n), gt = g - n * dot(g, n);
     const double approach = -dot(g, n), slip = std::sqrt(dot(gt, gt));
     if (approach <= 0) {
       ++totals_.departing;
@@ -279,16 +280,15 @@ class SteppedMill {
     }
     const bool smooth = within(m_.smooth_time, a, b);
     const double e = smooth || within(m_.collapse_time, a, b) ? 1 : m_.restitution;
-    const double et = smooth     ? 1
-                      : slip > 0 ? std::max(-1.0, 1 - m_.friction * (1 + e) * c * approach / slip)
-                                 : -1;
-    const Vec change = (gn * (1 + e) + gt * ((1 - et) / c)) * -share;
+    const double leave = std::max(e * approach, m_.least_separation), impulse = approach + leave;
+    const double et = smooth ? 1 : slip > 0 ? std::max(-1.0, 1 - m_.friction * impulse * c / slip) : -1;
+    const Vec change = (n * impulse - gt * ((1 - et) / c)) * share;
     const Vec turn = cross(n, gt) * (share * (1 - et) / (c * R * J));
     const double depth = b || m_.put_back == 0 ? 0 : gaps(m_, {ra, va, now_}, 0)[next.partner].value;
     restart(a, ra - n * depth, va + change, a.spin + turn, true);
     if (b) restart(*b, rb, vb - change, b->spin + turn, true);
-    totals_.dose +=
-        share * m_.mass() / 2 * ((1 - e * e) * approach * approach + (1 - et * et) / c * slip * slip);
+    const double normal = std::max(0.0, approach * approach - leave * leave);
+    totals_.dose += share * m_.mass() / 2 * (normal + (1 - et * et) / c * slip * slip);
     ++totals_.impacts[b ? 3 : next.partner];
   }
 
@@ -311,6 +311,7 @@ int main(int argc, char** argv) try {
                                                   {"--end", &end},
                                                   {"--batch", &batch},
                                                   {"--collapse-time", &mill.collapse_time},
+                                                  {"--least-separation", &mill.least_separation},
                                                   {"--ignore", &mill.ignore},
                                                   {"--step", &mill.step},
                                                   {"--tolerance", &mill.tolerance},
