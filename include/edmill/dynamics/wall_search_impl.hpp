@@ -234,8 +234,8 @@ auto WallSearch<Real>::isolate_hop(const Curve& curve, const Point& left, const 
   const bool ends_below = right.value < -b.value_error && right.slope < -b.slope_error;
   if (!(bends & ends_below) || left.value < -b.value_error || !numerics::can_depart(left, b))
     return std::nullopt;
-  const Real hint = static_cast<Real>(numerics::first_root_hint(left, curvature, length));
-  return Bracket{Verdict::contact, left, right, Real(0), left.t + hint};
+  const Real fraction = static_cast<Real>(numerics::last_root_hint(left, right, 1e-4));
+  return Bracket{Verdict::contact, left, right, Real(0), left.t + fraction * length};
 }
 
 template <class Real>

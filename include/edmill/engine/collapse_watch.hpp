@@ -14,10 +14,9 @@ struct RecentImpacts {
   Instant<Real> last = Instant<Real>::long_ago();
   Real accumulation{-1};  ///< time [s] to which a burst converges; negative where it is not known
   int partner = -1;
-  std::int16_t stuck = 0;  ///< impacts in a row, up to `CollapseWatch::plenty`
-  std::int8_t burst = 0;   ///< the same, up to `CollapseWatch::enough`
+  std::int8_t burst = 0;  ///< impacts in a row, up to `CollapseWatch::enough`
 
-  void archive(Archive& a) { a(last, accumulation, partner, stuck, burst); }
+  void archive(Archive& a) { a(last, accumulation, partner, burst); }
 };
 
 /// Follows the balls' recent impacts by laws without a least separation speed. A ball whose last `enough`
@@ -39,14 +38,13 @@ class CollapseWatch {
         if (restitution < 1) r.accumulation = clock.seconds(now) + interval * restitution / (1 - restitution);
       }
       if (r.partner != key) r.accumulation = -1;
-      r.burst = one_more(r.burst, enough);
+      r.burst = std::min(static_cast<std::int8_t>(r.burst + 1), enough);
     } else {
       r.burst = 0;
     }
-    r.stuck = interval > 0 ? std::int16_t{0} : one_more(r.stuck, plenty);
     r.last = now;
     r.partner = key;
-    return r.burst >= enough || r.stuck >= plenty;
+    return r.burst >= enough;
   }
 
   static Real accumulation_time(const RecentImpacts<Real>& r, const DriveClock<Real>& clock) {
@@ -54,14 +52,8 @@ class CollapseWatch {
   }
 
   static constexpr std::int8_t enough = 8;
-  static constexpr std::int16_t plenty = 1000;
 
  private:
-  template <class Count>
-  static Count one_more(Count count, Count most) {
-    return std::min(static_cast<Count>(count + 1), most);
-  }
-
   Real smallest_path_;
 };
 

@@ -89,6 +89,8 @@ class EventQueue {
   /// The ball whose event is next after that of the last `top`, if it is not later than `limit`; -1
   /// otherwise.
   int runner_up(const Instant<Real>& limit) const {
+    const bool alone = head(today_) == top_ && entries_[top_].next == none;
+    if (alone && day_of(limit) <= today_) return none;
     const std::int64_t last = std::max(day_of(limit), today_);
     for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1)) {
       const int second = first_of(day, top_);

@@ -99,9 +99,10 @@ bool proven_increasing(const Point<Real>& left, const Point<Real>& right, const 
 /// Estimate of the last root of the cubic Hermite interpolant as a fraction of [left, right]; outside (0, 1)
 /// when there is none to be had. A hint for where to split, never a decision, and so in double for every
 /// scalar.
+/// @param precision  relative change of the last but one step of Newton's iteration for the cubic
 /// @pre right.value < 0
 template <class Real>
-double last_root_hint(const Point<Real>& left, const Point<Real>& right) {
+double last_root_hint(const Point<Real>& left, const Point<Real>& right, double precision = 1.0 / 64) {
   const Real s = right.t - left.t;
   const double c0 = static_cast<double>(left.value), c1 = static_cast<double>(left.slope * s);
   const double rise = static_cast<double>(right.value - left.value);
@@ -116,7 +117,7 @@ double last_root_hint(const Point<Real>& left, const Point<Real>& right) {
     if (!(next > 0 && next < 1)) return 2;
     const double change = next - x;
     x = next;
-    if (change * change * 4096 < x * x) break;
+    if (change * change < precision * precision * (x * x)) break;
   }
   return x;
 }
