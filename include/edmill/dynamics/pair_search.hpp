@@ -49,6 +49,8 @@ class PairSearch {
     widest_ = 2 * sqrt(R * R + h * h);
     largest_sum_ = 2 * (R < h ? R : h);
     gravity_size_ = norm<Real>(gravity_);
+    const Real &one = mill.ball_ball.least_separation, &other = mill.ball_wall.least_separation;
+    least_separation_ = one < other ? one : other;
     filter_.gravity = gravity_;
     filter_.period = clock_.period();
     raise_top_speed(top_speed);
@@ -69,9 +71,12 @@ class PairSearch {
     filter_.slowest_squared = slowest * slowest;
     filter_.touching = 16 * position_error_ * smallest_sum_;
 
-    // Also so short that no two balls come from cells that are not adjacent to contact within it.
+    // Long enough for contacts at the least separation speed to be sharp, and so short that no two balls come
+    // from cells that are not adjacent to contact within it.
     using std::sqrt;
     tie_window_ = sqrt(epsilon<Real>()) * clock_.period();
+    if (least_separation_ > 0 && 64 * position_error_ > tie_window_ * least_separation_)
+      tie_window_ = 64 * position_error_ / least_separation_;
     const Real unseen = smallest_sum_ / (4096 * top_speed_);
     if (unseen < tie_window_) tie_window_ = unseen;
     // `time_error` for any two balls in the vessel: a flight that bends by no more than twice the reach gains
@@ -208,6 +213,7 @@ class PairSearch {
   Real smallest_sum_, reach_;
   Real widest_{}, largest_sum_{};  ///< bounds on the distance of two balls and on the sum of their radii [m]
   Real gravity_size_{}, top_speed_{}, position_error_{}, tie_window_{};
+  Real least_separation_{};  ///< the smaller one of balls and walls [m/s]
   PairFilter<Real> filter_;
 };
 
