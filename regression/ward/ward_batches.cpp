@@ -78,10 +78,12 @@ void write(const record::Summary<double>& s, double length, const std::vector<Ba
 int run(const std::string& file, const std::vector<std::string>& overrides, double length) {
   const auto spec = casefile::read_case(file, overrides);
   const auto built = setup::build_case<double>(spec);
-  const double start = built.the_case.statistics_start;
-  if (!built.the_case.stop.end_time) throw InputError({file + ": run.end_time: not given, expected a time"});
-  const auto count = static_cast<std::size_t>((*built.the_case.stop.end_time - start) / length + 1e-9);
-  Batches batches(start, length, count, DriveClock<double>(built.the_case.mill.motion.period));
+  const auto& the_case = built.the_case;
+  if (!the_case.stop.end_time) throw InputError({file + ": run.end_time: not given, expected a time"});
+  const DriveClock<double> clock(the_case.mill.motion.period);
+  const double seconds = clock.elapsed(the_case.statistics_start, *the_case.stop.end_time);
+  const auto count = static_cast<std::size_t>(seconds / length + 1e-9);
+  Batches batches(clock.seconds(the_case.statistics_start), length, count, clock);
   driver::Guests<double> guests;
   guests.observers = {&batches};
   const auto [summary, saved] = driver::simulate<double>(spec, built, guests);

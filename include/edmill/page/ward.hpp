@@ -22,7 +22,8 @@ struct WardCase {
 std::vector<WardCase> ward_cases();
 
 /// The one that a case is: the same mill, vessel, gravity, contact law, balls and powder, exactly. The
-/// least separation speed, which the thesis does not have, the seed, times and how the balls are placed are free.
+/// least separation speed, which the thesis does not have, the seed, times and how the balls are placed are
+/// free.
 std::optional<WardCase> ward_case_of(const casefile::CaseSpec& spec);
 
 }  // namespace edmill::page
