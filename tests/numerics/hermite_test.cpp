@@ -19,7 +19,7 @@ struct Wave {
   Point<double> at(double t) const { return {t, value(t), slope(t)}; }
   CurveBounds<double> bounds() const {
     const double s = std::abs(a);
-    return {std::abs(c2) + s * w * w, s * w * w * w, s * w * w * w * w, 1e-14, 1e-13};
+    return {std::abs(c2) + s * w * w, s * w * w * w, s * w * w * w * w, 1e-14, 1e-13, 1e-12};
   }
   /// Least value on a fine grid of [l, r], a lower estimate by the second derivative's bound.
   double least(double l, double r) const {

@@ -104,7 +104,9 @@ void expect_reduced_exactly() {
   for (const char* time : {"1000 s", "1e4 s", "1e5 s", "1e6 s", "1e9 s", "1e12 s"}) {
     const auto start = start_at<Real>(time);
     EXPECT_EQ(start.offset, exact) << time;
-    if (time == std::string("1e6 s")) EXPECT_EQ(start.period, 17566666);
+    if (time == std::string("1e6 s")) {
+      EXPECT_EQ(start.period, 17566666);
+    }
     EXPECT_GE(start.period, tenths);
     tenths = start.period;
   }

@@ -102,7 +102,8 @@ PairAnswer<Real> DecisionLadder<Real>::pair_above(const Flight<Real>& i, const F
     ++passed_up_.pair;
     const auto wide = above().ladder.pair(flight_cast<Wide>(i), flight_cast<Wide>(j), instant_cast<Wide>(now),
                                           Wide(radius_sum));
-    return {wide.verdict, static_cast<Real>(wide.delay), static_cast<Real>(wide.doubt) + rounding()};
+    const Real delay = static_cast<Real>(wide.delay);
+    return {wide.verdict, delay, static_cast<Real>(wide.doubt) + rounding() + 4 * epsilon<Real>() * delay};
   }
 }
 

@@ -162,7 +162,7 @@ class GapFunctions {
     const Real y_second = u * (32 + 16 * c_.amplitudes) * largest_acceleration(speed) + 4 * turning * y_rate +
                           2 * turning * (c_.angular_speed + turning) * y;
     if (!with_cylinder) return {{y, y, Real(0)}, {y_rate, y_rate, Real(0)}, {y_second, y_second, Real(0)}};
-    return spread(u, {y, y_rate, y_second}, speed);
+    return spread(u, {y, y_rate, y_second}, speed, elapsed);
   }
 
   /// What rounding a wider flight, radius and mill to this scalar adds to these bounds, at offsets that stand
@@ -180,7 +180,7 @@ class GapFunctions {
         turning * y;
     const Real y_second = u * (32 + 9 * c_.amplitudes) * largest_acceleration(speed) + 4 * turning * y_rate +
                           2 * turning * (c_.angular_speed + turning) * y;
-    return spread(u, {y, y_rate, y_second}, speed);
+    return spread(u, {y, y_rate, y_second}, speed, elapsed);
   }
 
  private:
@@ -195,12 +195,15 @@ class GapFunctions {
   struct CoordinateErrors {
     Real value, rate, second;
   };
-  /// Bounds for every wall from those on a coordinate.
-  GapErrors<Real> spread(const Real& u, const CoordinateErrors& y, const Real& speed) const {
+  /// Bounds for every wall from those on a coordinate. A sample lies inside the vessel or as far outside as a
+  /// flight gets that is searched beyond its contact, which is for an eighth of a period at most.
+  GapErrors<Real> spread(const Real& u, const CoordinateErrors& y, const Real& speed,
+                         const Real& elapsed) const {
     const Real turning = c_.amplitudes * c_.angular_speed;
     const Real frame_speed = speed + turning * c_.reach;
     const Real acceleration = largest_acceleration(speed);
-    const Real& R = c_.mill.vessel.radius;
+    const Real eighth = c_.clock.period() / 8;
+    const Real R = c_.mill.vessel.radius + frame_speed * (elapsed < eighth ? elapsed : eighth);
     const Real q = 3 * R * y.value + 4 * u * R * R;
     const Real q_rate = 3 * R * y.rate + 3 * frame_speed * y.value + 6 * u * R * frame_speed;
     const Real q_second = 6 * frame_speed * y.rate + 4 * R * y.second + 4 * acceleration * y.value +
