@@ -43,10 +43,17 @@ TEST_F(CompareCommand, DoubleAndFloat128PartByRoundingAndAgreeInStatistics) {
 
 TEST_F(CompareCommand, ARestitutionThatIsFivePercentOffIsFound) {
   run("a", "--set run.seed=1");
-  run("b", "--set run.seed=2");
+  // Equal cases are told to differ with a probability of 5 %: more than one of six with one of 3 %.
+  int alarms = 0;
+  for (int seed = 2; seed <= 7; ++seed) {
+    run("b", "--set run.seed=" + std::to_string(seed));
+    run("c", "--set run.seed=" + std::to_string(seed + 10));
+    const auto good = edmill("compare b c");
+    EXPECT_TRUE(good.code == 0 || good.code == 6) << good.err;
+    alarms += good.code == 6;
+  }
+  EXPECT_LE(alarms, 1);
   run("off", "--set run.seed=3 --set contact.restitution=0.5565");
-  const auto good = edmill("compare a b");
-  EXPECT_EQ(good.code, 0) << good.out;
   const auto bad = edmill("compare a off --json result.json");
   EXPECT_EQ(bad.code, 6) << bad.out;
   EXPECT_EQ(result()["statistics"]["quantities"]["milling_dose_spectrum"]["verdict"], "differ");

@@ -183,7 +183,7 @@ TEST(ElasticGas, SpinTakesHalfOfTheEnergyOfRoughBalls) {
   for (int b = 0; b < 20; ++b) {
     double share = 0;
     for (int k = 0; k < 100; ++k) {
-      gas.run(200);
+      gas.run(300);
       share += gas.spinning() / gas.kinetic() / 100;
     }
     blocks.push_back(share);

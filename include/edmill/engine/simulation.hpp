@@ -79,6 +79,11 @@ class Simulation {
   const Instant<Real>& now() const { return now_; }
   Real seconds() const { return clock_.seconds(now_); }
   const DriveClock<Real>& clock() const { return clock_; }
+  /// The instant of a record at `time` [s]; what is now but for the rounding of seconds is now.
+  Instant<Real> instant_of(const Real& time) const {
+    const Real off = time - seconds(), unit = 8 * epsilon<Real>() * (time + clock_.period());
+    return off <= unit && off >= -unit ? now_ : clock_.at(time);
+  }
   int ball_count() const { return static_cast<int>(flights_.size()); }
   const model::Mill<Real>& mill() const { return mill_; }
   const model::BallProperties<Real>& properties(int i) const { return balls_[i * stride_]; }

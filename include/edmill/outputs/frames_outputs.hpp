@@ -37,7 +37,7 @@ class FramesOutput : public SceneOutput<Real> {
   }
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
     const auto frame = [&](const Real& time) {
-      const auto when = simulation.clock().at(time);
+      const auto when = simulation.instant_of(time);
       add_frame(simulation, time, [&](int i) { return simulation.state_at(i, when); });
     };
     const Real& from = this->timer().from();

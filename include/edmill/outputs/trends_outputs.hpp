@@ -101,7 +101,7 @@ class TrendsBallsOutput : public TableOutput<Real> {
   void record(const Seen<Real>&) override {}
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
     clock_.finish(this->timer().from(), until, [&](const Real&, const Real& end) {
-      const auto when = simulation.clock().at(end);
+      const auto when = simulation.instant_of(end);
       write_row(simulation, simulation.counts().impacts, end,
                 [&](int i) { return simulation.state_at(i, when); });
     });
@@ -173,7 +173,7 @@ class TraceOutput : public TableOutput<Real> {
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
     if (at_impacts_) return;
     clock_.finish(this->timer().from(), until, [&](const Real&, const Real& end) {
-      write_row(end, simulation.state_at(ball_, simulation.clock().at(end)).position);
+      write_row(end, simulation.state_at(ball_, simulation.instant_of(end)).position);
     });
   }
 
