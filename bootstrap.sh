@@ -2,7 +2,8 @@
 # Sets edmill up on Debian 12 and runs it. Every command can be repeated.
 #
 #   ./bootstrap.sh demo    install what is missing, build, run the demo case
-#   ./bootstrap.sh test    install what is missing, build with tests, run them all
+#   ./bootstrap.sh test    install what is missing, build with tests, run all but the long studies
+#   ./bootstrap.sh verify  the same set-up and LAMMPS, then the long studies
 #   ./bootstrap.sh build   install what is missing, build the program: build/release/edmill
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -21,6 +22,8 @@ test_packages=(
   python3 python3-numpy python3-h5py python3-vtk9 view3dscene libxml2-utils
   chromium chromium-driver python3-selenium
 )
+
+long_packages=(lammps)
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -61,8 +64,14 @@ case "${1:-}" in
     say "running the tests"
     ctest --preset ci
     ;;
+  verify)
+    install_missing "${program_packages[@]}" "${test_packages[@]}" "${long_packages[@]}"
+    build ci
+    say "running the long studies"
+    ctest --preset verify
+    ;;
   *)
-    sed -n '2,6s/^# \{0,1\}//p' "$0"
+    sed -n '2,7s/^# \{0,1\}//p' "$0"
     exit 2
     ;;
 esac
