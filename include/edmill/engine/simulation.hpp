@@ -180,7 +180,6 @@ class Simulation {
     int partner;
     bool by_rule = false;  ///< a rule put it before another contact
 
-    bool is_contact() const { return kind == EventKind::wall_contact || kind == EventKind::pair_contact; }
     bool involves(int other) const {
       return ball == other || (kind == EventKind::pair_contact && partner == other);
     }
