@@ -82,8 +82,8 @@ auto WallSearch<Real>::close_in(const Functions& functions, int wall, const Real
     const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
     const Real doubt = -value_error / slope;
     // Rounding moves the place where the computed gap changes its sign: step on until both signs are seen.
-    Real low = centre - 2 * unit, high = centre + 2 * unit, at_low = gap(low), at_high = gap(high);
-    for (Real reach = 8 * unit; !(at_low >= 0 && at_high <= 0); reach = 4 * reach) {
+    Real low = centre - 4 * unit, high = centre + 4 * unit, at_low = gap(low), at_high = gap(high);
+    for (Real reach = 16 * unit; !(at_low >= 0 && at_high <= 0); reach = 4 * reach) {
       if (reach > 32 * (unit + doubt)) return std::nullopt;
       if (at_low < 0) {
         high = low, at_high = at_low;
