@@ -1,6 +1,6 @@
 # X3DOM plays the animation of a report inside its page. npm fetches it once for a build folder and checks its digest by
-# src/page/package-lock.json; without npm or a network, reports show a still picture instead.
-set(x3dom_recipe ${CMAKE_SOURCE_DIR}/src/page)
+# src/report/package-lock.json; without npm or a network, reports show a still picture instead.
+set(x3dom_recipe ${CMAKE_SOURCE_DIR}/src/report)
 file(SHA256 ${x3dom_recipe}/package-lock.json x3dom_version)
 string(SUBSTRING ${x3dom_version} 0 12 x3dom_version)
 set(x3dom_folder ${CMAKE_BINARY_DIR}/x3dom-${x3dom_version})

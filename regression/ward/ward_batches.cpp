@@ -2,10 +2,10 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "edmill/core/errors.hpp"
-#include "edmill/core/version.hpp"
-#include "edmill/instances.hpp"
-#include "edmill/record/json_text.hpp"
+#include "base/errors.hpp"
+#include "base/version.hpp"
+#include "instances/instances.hpp"
+#include "io/json_text.hpp"
 
 namespace {
 
@@ -41,7 +41,7 @@ class Batches : public engine::Observer<double> {
   std::size_t next_ = 0;
 };
 
-/// Lists of numbers, which record::JsonText does not know, are written as texts of numbers.
+/// Lists of numbers, which io::JsonText does not know, are written as texts of numbers.
 template <class Value>
 std::string list(const std::vector<Batches::Totals>& totals, Value value) {
   std::string text;
@@ -49,8 +49,8 @@ std::string list(const std::vector<Batches::Totals>& totals, Value value) {
   return text;
 }
 
-void write(const record::Summary<double>& s, double length, const std::vector<Batches::Totals>& totals) {
-  record::JsonText json;
+void write(const io::Summary<double>& s, double length, const std::vector<Batches::Totals>& totals) {
+  io::JsonText json;
   json.text("format", "edmill ward run 1");
   json.text("commit", s.provenance.commit);
   json.text("compiler", s.provenance.compiler);
@@ -77,16 +77,16 @@ void write(const record::Summary<double>& s, double length, const std::vector<Ba
 
 int run(const std::string& file, const std::vector<std::string>& overrides, double length) {
   const auto spec = casefile::read_case(file, overrides);
-  const auto built = setup::build_case<double>(spec);
+  const auto built = casefile::build_case<double>(spec);
   const auto& the_case = built.the_case;
   if (!the_case.stop.end_time) throw InputError({file + ": run.end_time: not given, expected a time"});
   const DriveClock<double> clock(the_case.mill.motion.period);
   const double seconds = clock.elapsed(the_case.statistics_start, *the_case.stop.end_time);
   const auto count = static_cast<std::size_t>(seconds / length + 1e-9);
   Batches batches(clock.seconds(the_case.statistics_start), length, count, clock);
-  driver::Guests<double> guests;
+  run::Guests<double> guests;
   guests.observers = {&batches};
-  const auto [summary, saved] = driver::simulate<double>(spec, built, guests);
+  const auto [summary, saved] = run::simulate<double>(spec, built, guests);
   write(summary, length, batches.totals());
   return summary.end_reason == "end_time" ? 0 : 3;
 }

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "case_parts.hpp"
+#include "casefile/case_parts.hpp"
 
 namespace edmill::casefile {
 

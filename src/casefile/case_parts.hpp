@@ -1,8 +1,8 @@
 // Sections of a case file that have a source file of their own.
 #pragma once
 
-#include "edmill/casefile/case_spec.hpp"
-#include "section.hpp"
+#include "casefile/case_spec.hpp"
+#include "casefile/section.hpp"
 
 namespace edmill::casefile {
 

@@ -1,15 +1,15 @@
-#include "edmill/casefile/case_spec.hpp"
+#include "casefile/case_spec.hpp"
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "case_parts.hpp"
-#include "edmill/casefile/case_of_run.hpp"
-#include "edmill/core/digest.hpp"
-#include "edmill/core/errors.hpp"
-#include "output_spec.hpp"
-#include "section.hpp"
+#include "base/digest.hpp"
+#include "base/errors.hpp"
+#include "casefile/case_of_run.hpp"
+#include "casefile/case_parts.hpp"
+#include "casefile/output_keys.hpp"
+#include "casefile/section.hpp"
 
 namespace edmill::casefile {
 

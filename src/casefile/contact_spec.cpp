@@ -1,4 +1,4 @@
-#include "case_parts.hpp"
+#include "casefile/case_parts.hpp"
 
 namespace edmill::casefile {
 

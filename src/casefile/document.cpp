@@ -4,8 +4,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "edmill/core/errors.hpp"
-#include "section.hpp"
+#include "base/errors.hpp"
+#include "casefile/section.hpp"
 
 namespace edmill::casefile {
 

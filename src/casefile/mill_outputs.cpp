@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output_spec.hpp"
+#include "casefile/output_keys.hpp"
 
 namespace edmill::casefile {
 

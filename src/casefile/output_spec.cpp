@@ -1,11 +1,10 @@
-#include "output_spec.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
-#include "edmill/model/ball_variables.hpp"
-#include "edmill/model/impact_variables.hpp"
+#include "casefile/output_keys.hpp"
+#include "model/ball_variables.hpp"
+#include "model/impact_variables.hpp"
 
 namespace edmill::casefile {
 
@@ -226,7 +225,7 @@ void read_collisions(Section& s, OutputSpec& output) { output.states = s.flag("s
 
 void read_iterations(Section&, OutputSpec&) {}
 
-/// A new output is a row here, with its keys, and a class in outputs/ with a row in make_outputs.
+/// A new output is a row here, with its keys, and a class in output/ with a row in make_outputs.
 struct Kind {
   const char* type;
   const char* extension;

@@ -1,24 +1,96 @@
-// Reading of entries [[output]].
+// What an entry [[output]] asks for. docs/outputs.md
 #pragma once
 
-#include "section.hpp"
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casefile/colour.hpp"
+#include "casefile/quantity.hpp"
 
 namespace edmill::casefile {
 
-void read_spectra(Section& s, OutputSpec& output);
-void read_rates_above(Section& s, OutputSpec& output);
-void read_vessel_load(Section& s, OutputSpec& output);
-void read_coverage(Section& s, OutputSpec& output);
-void read_animation(Section& s, OutputSpec& output);
-void read_snapshot(Section& s, OutputSpec& output);
-void read_paraview(Section& s, OutputSpec& output);
+/// When an output records. (thesis D.3.2) Of two starts the first counts, and of two ends.
+struct TimerSpec {
+  bool on = true;
+  std::optional<Quantity> start_time, end_time, duration;
+  std::optional<std::uint64_t> start_collision;  ///< index of an impact, from 0
+  std::optional<std::uint64_t> collisions;       ///< how many impacts it lasts
+  std::optional<Quantity> interval;
+  std::optional<std::uint64_t> max_rows;
+};
 
-/// Reads `interval` and `max_rows`.
-void read_interval(Section& s, TimerSpec& timer, const std::optional<Quantity>& fallback = std::nullopt);
-/// Size of a quantity, for comparisons between them.
-double size_of(const Quantity& quantity);
+/// Only impacts for which a flag or a count has this value.
+struct Restriction {
+  int variable;  ///< place in model::impact_variables
+  std::uint64_t value;
+};
 
-/// Reads one entry and adds it to the case.
-void read_output(Section entry, CaseSpec& spec);
+enum class Statistic { sum, average, minimum, maximum, rate, percentage };
+
+/// A variable that an output shows.
+struct ColumnSpec {
+  int variable = 0;  ///< place in model::impact_variables; for trends_balls in model::ball_variables
+  std::vector<Statistic> statistics;
+  std::string label;                  ///< in place of the variable's name
+  std::string true_text, false_text;  ///< for flags
+  bool with_ball = false;             ///< trends_balls: which ball has the minimum or maximum
+};
+
+struct FrequencySpec {
+  ColumnSpec variable;
+  Quantity low, high;
+  std::uint64_t intervals = 10;
+  std::string title;
+  bool wall_details = false, percentages = false, out_of_range = false;
+};
+
+struct SpectraSpec {
+  bool of_speed = false;  ///< of energy otherwise
+  Quantity low, high;     ///< [m/s] or [J]
+  std::uint64_t bins_per_decade = 10;
+};
+
+/// How the vessel's walls are cut into cells.
+struct CoverageSpec {
+  std::uint64_t angles = 36, heights = 24, rings = 6;
+};
+
+/// A sphere that marks the contact point in pictures.
+struct ContactPointSpec {
+  Quantity radius{boost::multiprecision::cpp_rational(1, 1000)};
+  Colour colour{1, 1, 0};
+};
+
+/// How an animation is played. (thesis D.4.2)
+struct AnimationSpec {
+  Quantity speed{boost::multiprecision::cpp_rational(1, 1000)};  ///< of playback; 1 is real time
+  std::uint64_t frames_per_minute = 60;                          ///< of playback
+  std::uint64_t min_frames = 8;
+};
+
+struct OutputSpec {
+  std::string type;
+  std::string file;
+  std::string folder;  ///< inside the run's folder; empty for that itself
+  bool append = false;
+  TimerSpec timer;
+  std::vector<Restriction> only;
+  std::vector<ColumnSpec> columns;
+  FrequencySpec frequency;
+  SpectraSpec spectra;
+  std::vector<Quantity> cutoffs;  ///< rates_above, ascending
+  CoverageSpec coverage;
+  std::vector<std::string> fields;                ///< milling_dose
+  bool accumulated = false;                       ///< trends: since the start instead of for each interval
+  std::uint64_t ball = 0;                         ///< trace
+  std::optional<ContactPointSpec> contact_point;  ///< pictures
+  AnimationSpec animation;
+  bool states = false;  ///< collisions: with the bodies' states before and after
+
+  /// Whether a table is to be written as HDF5.
+  bool hdf5() const { return file.ends_with(".h5"); }
+};
 
 }  // namespace edmill::casefile

@@ -1,4 +1,4 @@
-#include "edmill/casefile/quantity.hpp"
+#include "casefile/quantity.hpp"
 
 #include <array>
 #include <cctype>

@@ -1,5 +1,5 @@
 // Keys of outputs that show the balls and the vessel.
-#include "output_spec.hpp"
+#include "casefile/output_keys.hpp"
 
 namespace edmill::casefile {
 

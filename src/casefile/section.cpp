@@ -1,4 +1,4 @@
-#include "section.hpp"
+#include "casefile/section.hpp"
 
 #include <algorithm>
 #include <cctype>

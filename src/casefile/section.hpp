@@ -12,7 +12,7 @@
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
 
-#include "edmill/casefile/case_spec.hpp"
+#include "casefile/case_spec.hpp"
 
 namespace edmill::casefile {
 

@@ -1,11 +1,11 @@
-#include "edmill/casefile/study_spec.hpp"
+#include "casefile/study_spec.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
-#include "edmill/core/errors.hpp"
-#include "section.hpp"
+#include "base/errors.hpp"
+#include "casefile/section.hpp"
 
 namespace edmill::casefile {
 

@@ -1,4 +1,4 @@
-#include "edmill/engine/flight_table.hpp"
+#include "engine/flight_table.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,3 +1,3 @@
-#include "implementations.hpp"
+#include "instances/implementations.hpp"
 
 EDMILL_INSTANCES(template, mpfr50)

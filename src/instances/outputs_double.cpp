@@ -1,5 +1,5 @@
-#include "edmill/instances.hpp"
+#include "instances/instances.hpp"
 //
-#include "edmill/outputs/outputs_impl.hpp"
+#include "output/outputs_impl.hpp"
 
 EDMILL_OUTPUT_INSTANCES(template, double)

@@ -1,4 +1,4 @@
-#include "edmill/plot/chart.hpp"
+#include "plot/chart.hpp"
 
 #include <fmt/format.h>
 

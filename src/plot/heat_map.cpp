@@ -1,4 +1,4 @@
-#include "edmill/plot/heat_map.hpp"
+#include "plot/heat_map.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "edmill/plot/markup.hpp"
+#include "plot/markup.hpp"
 
 #include <sstream>
 

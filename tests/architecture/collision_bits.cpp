@@ -4,16 +4,16 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "edmill/core/scalar_list.hpp"
+#include "base/scalar_list.hpp"
 //
-#include "edmill/core/scalar_text.hpp"
-#include "edmill/dynamics/decision_ladder_impl.hpp"
-#include "edmill/dynamics/wall_search_impl.hpp"
-#include "edmill/engine/simulation_impl.hpp"
-#include "edmill/numerics/wide_trigonometry.hpp"
-#include "edmill/observe/collision_log.hpp"
-#include "edmill/record/final_state_impl.hpp"
-#include "edmill/setup/build_case_impl.hpp"
+#include "base/scalar_text.hpp"
+#include "base/wide_trigonometry.hpp"
+#include "casefile/build_case_impl.hpp"
+#include "dynamics/decision_ladder_impl.hpp"
+#include "dynamics/wall_search_impl.hpp"
+#include "engine/simulation_impl.hpp"
+#include "io/final_state_impl.hpp"
+#include "run/collision_log.hpp"
 
 namespace {
 
@@ -24,7 +24,7 @@ class Log : public edmill::engine::Observer<double> {
   explicit Log(std::uint64_t collisions) : collisions_(collisions) {}
 
   void on_impact(const edmill::engine::Impact<double>& impact, Simulation<double>& simulation) override {
-    std::cout << edmill::observe::collision_line(impact, simulation, false) << '\n';
+    std::cout << edmill::run::collision_line(impact, simulation, false) << '\n';
     if (impact.index + 1 == collisions_) simulation.request_stop(edmill::engine::EndReason::max_collisions);
   }
 
@@ -36,10 +36,10 @@ class Log : public edmill::engine::Observer<double> {
 
 int main(int argc, char** argv) {
   const auto spec = edmill::casefile::read_case(argv[1], {argv + 3, argv + argc});
-  const auto built = edmill::setup::build_case<double>(spec);
+  const auto built = edmill::casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
   Log log(std::strtoull(argv[2], nullptr, 10));
   simulation.attach(log);
-  std::cout << edmill::observe::collision_log_header << '\n';
+  std::cout << edmill::run::collision_log_header << '\n';
   simulation.run_until(*built.the_case.stop.end_time, nullptr);
 }

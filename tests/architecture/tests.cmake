@@ -15,8 +15,8 @@ if(CLANG_FORMAT)
 endif()
 
 # What same_bits_test builds with each compiler: the core in double with its ladder, nothing else.
-file(GLOB collision_bits_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/casefile/*.cpp ${CMAKE_SOURCE_DIR}/src/core/*.cpp
-     ${CMAKE_SOURCE_DIR}/src/engine/*.cpp ${CMAKE_SOURCE_DIR}/src/record/csv_reader.cpp)
+file(GLOB collision_bits_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/casefile/*.cpp ${CMAKE_SOURCE_DIR}/src/base/*.cpp
+     ${CMAKE_SOURCE_DIR}/src/engine/*.cpp ${CMAKE_SOURCE_DIR}/src/io/csv_reader.cpp)
 add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp ${collision_bits_sources})
 target_link_libraries(collision_bits PRIVATE edmill_settings OpenSSL::Crypto tomlplusplus::tomlplusplus)
 add_test(NAME same_bits_test COMMAND ${architecture}/same_bits_test.sh $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/same-bits)

@@ -1,5 +1,5 @@
 // A valid case: what is read, what is assumed, what the command line changes, and the digest.
-#include "edmill/casefile/case_spec.hpp"
+#include "casefile/case_spec.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "edmill/core/errors.hpp"
-#include "edmill/instances.hpp"
+#include "base/errors.hpp"
+#include "instances/instances.hpp"
 
 namespace edmill {
 namespace {
@@ -374,7 +374,7 @@ TEST(CaseSpec, GapsAreKeptBetweenBatchesOfOtherSizesAndGaps) {
   for (int seed = 1; seed <= 400; ++seed) {
     const CaseSpec spec =
         read(text, {"run.seed=" + std::to_string(seed), "vessel.diameter=80 mm", "vessel.height=80 mm"});
-    const auto built = setup::build_case<double>(spec);
+    const auto built = casefile::build_case<double>(spec);
     for (std::size_t a = 0; a < 6; ++a)
       for (std::size_t b = std::max<std::size_t>(a + 1, 3); b < 6; ++b, ++placed) {
         const Vec3<double> between = built.states[a].position - built.states[b].position;
@@ -402,7 +402,7 @@ TYPED_TEST(FinalState, ReadsBackEveryBit) {
     return ++n % 2 ? sized : Real(-sized);
   };
   const DriveClock<Real> clock(Real(60) / Real(1054));
-  record::SavedState<Real> saved{{123456789, clock.period() / 3}, {}};
+  io::SavedState<Real> saved{{123456789, clock.period() / 3}, {}};
   for (int k = 0; k < 500; ++k) {
     model::BallState<Real> state;
     for (auto* v : {&state.position, &state.velocity, &state.spin}) {
@@ -416,9 +416,9 @@ TYPED_TEST(FinalState, ReadsBackEveryBit) {
       std::filesystem::temp_directory_path() / ("edmill-final-state-" + std::to_string(::getpid()) + ".csv");
   {
     std::ofstream out(place, std::ios::binary);
-    record::write_final_state<Real>(out, saved, clock);
+    io::write_final_state<Real>(out, saved, clock);
   }
-  const auto found = record::read_final_state<Real>(place.string());
+  const auto found = io::read_final_state<Real>(place.string());
   std::filesystem::remove(place);
   EXPECT_EQ(found.time.period, saved.time.period);
   EXPECT_EQ(found.time.offset, saved.time.offset);
@@ -430,8 +430,8 @@ TYPED_TEST(FinalState, ReadsBackEveryBit) {
       ASSERT_EQ(found.states[k].spin[axis], saved.states[k].spin[axis]) << k;
     }
   std::ostringstream again, before;
-  record::write_final_state<Real>(again, found, clock);
-  record::write_final_state<Real>(before, saved, clock);
+  io::write_final_state<Real>(again, found, clock);
+  io::write_final_state<Real>(before, saved, clock);
   EXPECT_EQ(again.str(), before.str());
 }
 

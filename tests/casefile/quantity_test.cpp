@@ -1,5 +1,5 @@
 // Quantities with units: exact values worked out by hand, udunits2 as a second opinion, exact wide scalars.
-#include "edmill/casefile/quantity.hpp"
+#include "casefile/quantity.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "edmill/instances.hpp"
+#include "instances/instances.hpp"
 
 namespace edmill::casefile {
 namespace {

@@ -1,11 +1,11 @@
 // The bounds that certify decisions: rounding errors of the gaps and derivatives of the gap functions.
-#include "edmill/dynamics/gap_functions.hpp"
+#include "dynamics/gap_functions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <iostream>
 
-#include "edmill/setup/random.hpp"
+#include "casefile/random.hpp"
 #include "spex_case.hpp"
 
 namespace edmill::dynamics {
@@ -18,7 +18,7 @@ struct RandomFlight {
   std::int64_t period;
   double offset;
 
-  RandomFlight(setup::Random& random, const model::Mill<double>& mill, double top_speed) {
+  RandomFlight(casefile::Random& random, const model::Mill<double>& mill, double top_speed) {
     const auto uniform = [&] { return random.uniform<double>(); };
     const auto symmetric = [&] { return random.symmetric<double>(); };
     radius = 0.001 + 0.005 * uniform();
@@ -56,7 +56,7 @@ TEST_P(GapErrorsAtArm, RoundingErrorsStayBelowTheirBounds) {
       {},
       {}};
   const GapFunctions<mpfr50>::Constants wide_constants(wide_mill);
-  setup::Random random(21);
+  casefile::Random random(21);
   double worst_gap = 0, worst_rate = 0, worst_curvature = 0;
   for (int k = 0; k < 20000; ++k) {
     const RandomFlight r(random, mill, 10);
@@ -93,7 +93,7 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
   const auto mill = model::mill_cast<double>(wide_mill);
   const GapFunctions<double>::Constants constants(mill);
   const GapFunctions<mpfr50>::Constants wide_constants(wide_mill);
-  setup::Random random(23);
+  casefile::Random random(23);
   double worst_gap = 0, worst_rate = 0, worst_curvature = 0;
   for (int k = 0; k < 50000; ++k) {
     const RandomFlight r(random, mill, 10);
@@ -157,7 +157,7 @@ TEST(MotionBounds, DerivativesOfTheGapsStayBelowTheirBounds) {
   const auto narrow_mill = testing::spex_mill<double>();
   const GapFunctions<mpfr50>::Constants constants(mill);
   const BoundsTable<double> table(narrow_mill);
-  setup::Random random(22);
+  casefile::Random random(22);
   std::array<double, 3> worst_y{}, worst_q{};
   for (int k = 0; k < 5000; ++k) {
     const RandomFlight r(random, narrow_mill, 10);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "edmill/dynamics/impulse.hpp"
+#include "dynamics/impulse.hpp"
 
 namespace edmill::dynamics {
 namespace {

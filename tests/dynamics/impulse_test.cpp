@@ -1,11 +1,11 @@
 // Properties of the impact laws: (2.23'), (2.24'), (2.25), (2.28'), (2.30'), (2.31), (2.34'), (2.36'),
 // (A.82). Each holds to rounding for random bodies; run in double and, to show that it is the formula and not
 // the tolerance, in 50 digits.
-#include "edmill/dynamics/impulse.hpp"
+#include "dynamics/impulse.hpp"
 
 #include <gtest/gtest.h>
 
-#include "edmill/instances.hpp"
+#include "instances/instances.hpp"
 #include "random_physics.hpp"
 
 namespace edmill::dynamics {

@@ -1,13 +1,13 @@
 // Two balls in flight: the time of their contact and the bound on its error, against 200 digits, from
 // millimetres down to radii near the rounding of a position.
-#include "edmill/dynamics/pair_search.hpp"
+#include "dynamics/pair_search.hpp"
 
 #include <gtest/gtest.h>
 
 #include <iostream>
 
-#include "edmill/dynamics/decision_ladder.hpp"
-#include "edmill/setup/random.hpp"
+#include "casefile/random.hpp"
+#include "dynamics/decision_ladder.hpp"
 #include "spex_case.hpp"
 
 namespace edmill::dynamics {
@@ -37,7 +37,7 @@ std::optional<mpfr200> exact_delay(const Flight<double>& i, const Flight<double>
 TEST(PairSearch, TheErrorOfATimeStaysBelowItsBound) {
   const auto mill = testing::spex_mill<double>();
   const double reach = 0.14, top_speed = 20;
-  setup::Random random(20110101);
+  casefile::Random random(20110101);
   const auto somewhere = [&](double size) {
     return Vec3<double>(size * random.symmetric<double>(), size * random.symmetric<double>(),
                         size * random.symmetric<double>());

@@ -4,8 +4,8 @@
 #include <random>
 #include <string>
 
-#include "edmill/dynamics/wall_search.hpp"
-#include "edmill/instances.hpp"
+#include "dynamics/wall_search.hpp"
+#include "instances/instances.hpp"
 
 namespace edmill::dynamics {
 

@@ -1,11 +1,11 @@
 // A ball's neighbours in the grid hold every ball that may touch it, at all times.
-#include "edmill/engine/cell_grid.hpp"
+#include "engine/cell_grid.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "edmill/setup/random.hpp"
+#include "casefile/random.hpp"
 
 namespace edmill::engine {
 namespace {
@@ -24,7 +24,7 @@ struct Point {
 
 /// Points that fly freely, in and out of the region; each crosses its cells when the grid says so.
 void fly_through_cells(std::uint64_t seed, const Vec3<double>& gravity, int count) {
-  setup::Random random(seed);
+  casefile::Random random(seed);
   const Vec3<double> low(-1, -0.5, 0), high(1, 0.7, 0.9);
   const double edge = 0.11;
   CellGrid grid(low, high, edge, count);

@@ -12,12 +12,12 @@ namespace {
 template <class Real>
 struct Followed {
   explicit Followed(const casefile::CaseSpec& spec)
-      : built(setup::build_case<Real>(spec)), simulation(built.the_case, built.states, built.start) {
+      : built(casefile::build_case<Real>(spec)), simulation(built.the_case, built.states, built.start) {
     simulation.attach(recorder);
   }
   void go_to(int milliseconds) { simulation.run_until(simulation.clock().at(Real(milliseconds) / 1000)); }
 
-  setup::InitialCase<Real> built;
+  casefile::InitialCase<Real> built;
   Simulation<Real> simulation;
   testing::EventRecorder<Real> recorder;
 };
@@ -192,7 +192,7 @@ TEST(Checkpoint, AnInterruptIsSeenBeforeTheNextEvent) {
 
 TEST(Checkpoint, AnInterruptDuringTheFirstPredictionsEndsThem) {
   const std::atomic<bool> interrupt = true;
-  const auto built = setup::build_case<double>(testing::demo_spec());
+  const auto built = casefile::build_case<double>(testing::demo_spec());
   EXPECT_THROW(Simulation<double>(built.the_case, built.states, built.start, &interrupt), InterruptedError);
 }
 

@@ -1,5 +1,5 @@
 // What a ball's recent impacts say: collapse, and where it accumulates.
-#include "edmill/engine/collapse_watch.hpp"
+#include "engine/collapse_watch.hpp"
 
 #include <gtest/gtest.h>
 

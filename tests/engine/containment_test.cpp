@@ -73,7 +73,7 @@ OverlapCheck deepest_overlap(const std::string& contact, const std::string& ball
                              std::to_string(start + seconds) + " s\"",
                          contact, balls),
       "containment.toml");
-  const auto built = setup::build_case<double>(spec);
+  const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
   OverlapCheck check;
   simulation.attach(check);
@@ -114,7 +114,7 @@ TEST(Containment, NineHundredBallsNeverOverlapAtAnImpact) {
       casefile::parse_case(testing::spex_text("end_time = \"0.5 s\"", "restitution = 0.8",
                                               testing::batch(908, "2.36 mm", "gap_ball = \"0.3 mm\"\n")),
                            "dense.toml");
-  const auto built = setup::build_case<double>(spec);
+  const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
   EXPECT_EQ(simulation.run_until(simulation.clock().at(0.5)), EndReason::end_time);
   EXPECT_GT(simulation.counts().impacts, 500000u);

@@ -2,7 +2,7 @@
 // of kinetic and potential energy.
 #include <gtest/gtest.h>
 
-#include "edmill/observe/run_statistics.hpp"
+#include "run/run_statistics.hpp"
 #include "spex_case.hpp"
 
 namespace edmill::engine {
@@ -10,9 +10,9 @@ namespace {
 
 template <class Real>
 Real relative_closure(const casefile::CaseSpec& spec, const Real& seconds) {
-  const auto built = setup::build_case<Real>(spec);
+  const auto built = casefile::build_case<Real>(spec);
   Simulation<Real> simulation(built.the_case, built.states, built.start);
-  observe::RunStatistics<Real> statistics;
+  run::RunStatistics<Real> statistics;
   simulation.attach(statistics);
   const auto before = simulation.energy_at(simulation.now());
   EXPECT_EQ(simulation.run_until(simulation.clock().at(seconds)), EndReason::end_time);
@@ -47,9 +47,9 @@ TEST(EnergyClosure, ElasticBallsInAStillVesselKeepTheirEnergy) {
       "least_separation = \"0 m/s\"\n"
       "[[balls]]\ncount = 30\ndiameter = \"4.76 mm\"\nrandom_speed = \"3 m/s\"\n",
       "elastic.toml");
-  const auto built = setup::build_case<double>(spec);
+  const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
-  observe::RunStatistics<double> statistics;
+  run::RunStatistics<double> statistics;
   simulation.attach(statistics);
   const double before = simulation.energy_at(simulation.now()).kinetic;
   simulation.run_until(simulation.clock().at(2.0));

@@ -1,5 +1,5 @@
 // The queue gives the earliest entry, ties to the lower ball, whatever was set before.
-#include "edmill/engine/event_queue.hpp"
+#include "engine/event_queue.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,13 +8,13 @@
 #include <cmath>
 #include <set>
 
-#include "edmill/setup/random.hpp"
+#include "casefile/random.hpp"
 
 namespace edmill::engine {
 namespace {
 
 TEST(EventQueue, TopAndRunnerUpAreTheTwoEarliest) {
-  setup::Random random(11);
+  casefile::Random random(11);
   for (const int balls : {1, 2, 3, 7, 28, 100}) {
     EventQueue<double> queue(balls, 1.0);
     std::vector<Instant<double>> times(balls, Instant<double>::never());
@@ -54,7 +54,7 @@ TEST(EventQueue, LongGapsAreCrossed) {
 
 /// Many balls, of whose events some lie beyond the horizon, some beyond all weeks, and some never come.
 TEST(EventQueue, WhatIsPutOffComesInItsOrder) {
-  setup::Random random(13);
+  casefile::Random random(13);
   for (const int balls : {40, 3000, 40000}) {
     EventQueue<double> queue(balls, 1.0);
     std::vector<Instant<double>> times(balls, Instant<double>::never());
@@ -95,7 +95,7 @@ TEST(EventQueue, WhatIsPutOffComesInItsOrder) {
 
 TEST(EventQueue, WhatIsSaidToBeUpcomingMostlyIs) {
   constexpr int balls = 2000, steps = 5000;
-  setup::Random random(12);
+  casefile::Random random(12);
   EventQueue<double> queue(balls, 1.0);
   const auto later = [&](double now) {
     const double time = now + random.uniform<double>();

@@ -1,11 +1,11 @@
 // The pair filter for many flights says of each ball what PairSearch says of it alone.
-#include "edmill/engine/flight_table.hpp"
+#include "engine/flight_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "edmill/setup/random.hpp"
+#include "casefile/random.hpp"
 #include "spex_case.hpp"
 
 namespace edmill::engine {
@@ -21,7 +21,7 @@ struct Swarm {
   std::vector<double> radii;
   Instant<double> now{7, 0.01};
 
-  Swarm(setup::Random& random, int balls, bool alike, const Vec3<double>& gravity, double period) {
+  Swarm(casefile::Random& random, int balls, bool alike, const Vec3<double>& gravity, double period) {
     const auto somewhere = [&](double size) {
       return Vec3<double>(size * (2 * random.uniform<double>() - 1),
                           size * (2 * random.uniform<double>() - 1),
@@ -55,7 +55,7 @@ TEST(FlightTable, SeesWhatPairSearchSees) {
   auto mill = testing::spex_mill<double>();
   auto wide_mill = testing::spex_mill<float128>();
   const std::vector<Vec3<double>> gravities{mill.gravity, {0, 0, 0}, {1, -9, 0.5}};
-  setup::Random random(20110101);
+  casefile::Random random(20110101);
   std::map<std::string, int> seen;
   for (int turn = 0; turn < 400; ++turn) {
     const int balls = 1 + static_cast<int>(random.uniform<double>() * (turn % 5 == 0 ? 200 : 40));

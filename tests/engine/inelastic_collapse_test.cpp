@@ -22,7 +22,7 @@ template <class Real>
 void expect_collapse(const casefile::CaseSpec& spec, int wall, const Real& tolerance) {
   using std::abs;
   using std::sqrt;
-  const auto built = setup::build_case<Real>(spec);
+  const auto built = casefile::build_case<Real>(spec);
   Simulation<Real> simulation(built.the_case, built.states, built.start);
   ASSERT_EQ(simulation.run_until(simulation.clock().at(Real(20))), EndReason::inelastic_collapse);
   const auto& collapse = *simulation.collapse();
@@ -53,7 +53,7 @@ TEST(InelasticCollapse, SingleBallOfThesisChapterFourCollapses) {
       testing::spex_text("end_time = \"1 s\"", "restitution = 0.5\nleast_separation = \"0 m/s\"",
                          testing::batch(1, "9.52 mm")),
       "chapter4.toml");
-  const auto built = setup::build_case<double>(spec);
+  const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
   ASSERT_EQ(simulation.run_until(simulation.clock().at(1.0)), EndReason::inelastic_collapse);
   EXPECT_EQ(simulation.collapse()->partner, 2);
@@ -71,7 +71,7 @@ TEST(InelasticCollapse, ThreeBallsOnALineCollapse) {
       "[[ball]]\ndiameter = \"1 m\"\nposition = [\"0 m\", \"0\", \"0\"]\n"
       "[[ball]]\ndiameter = \"1 m\"\nposition = [\"3 m\", \"0\", \"0\"]\nvelocity = [\"-1\", \"0\", \"0\"]\n",
       "three.toml");
-  const auto built = setup::build_case<double>(spec);
+  const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
   ASSERT_EQ(simulation.run_until(simulation.clock().at(50.0)), EndReason::inelastic_collapse);
   EXPECT_FALSE(simulation.collapse()->with_wall);

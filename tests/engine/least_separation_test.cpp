@@ -80,7 +80,7 @@ TEST(LeastSeparation, ABouncingBallSettlesAtItsWall) {
       "[contact]\nrestitution = 0.6\nfriction = 0\nleast_separation = \"1 mm/s\"\n"
       "[[ball]]\ndiameter = \"1 m\"\nposition = [\"-0.5 m\", \"0.1 m\", \"0\"]\n",
       "drop.toml");
-  const auto built = setup::build_case<double>(spec);
+  const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
   EXPECT_EQ(simulation.run_until(simulation.clock().at(20.0)), EndReason::end_time);
   // The exact model collapses at 9.798 s; here hops of v_s^2 / (2 g) = 5e-7 m are left.
@@ -96,7 +96,7 @@ TEST(LeastSeparation, ABallInACornerGoesOn) {
       "[vessel]\ndiameter = \"8 m\"\nheight = \"8 m\"\n[contact]\nrestitution = 0.5\nfriction = 0.4\n"
       "[[ball]]\ndiameter = \"1 m\"\nposition = [\"-3 m\", \"-3 m\", \"0\"]\n",
       "corner.toml");
-  const auto built = setup::build_case<double>(spec);
+  const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
   EXPECT_EQ(simulation.run_until(simulation.clock().at(5.0)), EndReason::end_time);
   EXPECT_LT(simulation.counts().deepest_overlap, 1e-13);
@@ -127,7 +127,7 @@ TEST(LeastSeparation, TheDemoWithOtherFrictionMakesNoBurst) {
   // A rule by the time since the last impact let one ball of this case hit a wall 30 000 times in 50 ms.
   auto text = testing::spex_text("end_time = \"10 s\"", "restitution = 0.53", testing::batch(28, "4.76 mm"));
   const auto spec = casefile::parse_case(text, "demo.toml", {"contact.friction=0.38"});
-  const auto built = setup::build_case<double>(spec);
+  const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
   const double stretch = 0.05;
   BurstCheck bursts(stretch);

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "edmill/instances.hpp"
+#include "instances/instances.hpp"
 
 namespace edmill::engine {
 namespace {

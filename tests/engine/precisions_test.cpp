@@ -14,9 +14,9 @@ template <class Real>
 std::vector<Impact<Real>> impacts_of(const casefile::CaseSpec& spec,
                                      const std::vector<model::BallState<double>>& states,
                                      std::uint64_t count) {
-  auto built = setup::build_case<Real>(spec);
+  auto built = casefile::build_case<Real>(spec);
   // Balls and states of the double case, digit for digit.
-  const auto in_double = setup::build_case<double>(spec);
+  const auto in_double = casefile::build_case<double>(spec);
   for (std::size_t k = 0; k < in_double.the_case.balls.size(); ++k) {
     const auto& b = in_double.the_case.balls[k];
     built.the_case.balls[k] = {Real(b.radius), Real(b.mass), Real(b.reduced_inertia)};
@@ -49,7 +49,7 @@ std::size_t common_length(const std::vector<Impact<A>>& a, const std::vector<Imp
 
 TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
   const auto spec = testing::demo_spec();
-  const auto states = setup::build_case<double>(spec).states;
+  const auto states = casefile::build_case<double>(spec).states;
   constexpr std::uint64_t count = 6000;
   const auto narrow = impacts_of<double>(spec, states, count);
   const auto quad = impacts_of<float128>(spec, states, count);
@@ -63,8 +63,8 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
 
   // Rounding is the only difference: float128 and mpfr50 times of each ball's first five collisions agree.
   std::map<int, int> collisions;
-  const DriveClock<mpfr50> clock(setup::build_mill<mpfr50>(spec).motion.period);
-  const DriveClock<float128> quad_clock(setup::build_mill<float128>(spec).motion.period);
+  const DriveClock<mpfr50> clock(casefile::build_mill<mpfr50>(spec).motion.period);
+  const DriveClock<float128> quad_clock(casefile::build_mill<float128>(spec).motion.period);
   mpfr50 worst(0);
   int compared = 0;
   for (std::size_t k = 0; k < second; ++k) {
@@ -85,7 +85,7 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
 /// the contacts.
 template <class Real>
 Real deepest_overlap(double end) {
-  const auto built = setup::build_case<Real>(testing::demo_spec());
+  const auto built = casefile::build_case<Real>(testing::demo_spec());
   Simulation<Real> simulation(built.the_case, built.states, built.start);
   simulation.run_until(simulation.clock().at(Real(end)));
   EXPECT_GT(simulation.counts().impacts, 1000u);

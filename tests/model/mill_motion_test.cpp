@@ -1,11 +1,11 @@
 // The nested motion of the vessel: (2.16'), its velocity and acceleration, and why the printed (2.14) is not
 // it.
-#include "edmill/model/mill_motion.hpp"
+#include "model/mill_motion.hpp"
 
 #include <gtest/gtest.h>
 
-#include "edmill/instances.hpp"
-#include "edmill/model/nearby_pose.hpp"
+#include "instances/instances.hpp"
+#include "model/nearby_pose.hpp"
 #include "random_physics.hpp"
 #include "spex_case.hpp"
 

@@ -1,11 +1,11 @@
-#include "edmill/plot/chart.hpp"
+#include "plot/chart.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <sstream>
 
-#include "edmill/plot/heat_map.hpp"
+#include "plot/heat_map.hpp"
 
 namespace {
 

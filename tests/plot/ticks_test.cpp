@@ -1,4 +1,4 @@
-#include "edmill/plot/ticks.hpp"
+#include "plot/ticks.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "edmill/instances.hpp"
+#include "instances/instances.hpp"
 
 namespace edmill::testing {
 

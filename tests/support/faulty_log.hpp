@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "edmill/audit/audit.hpp"
-#include "edmill/core/errors.hpp"
+#include "base/errors.hpp"
+#include "check/audit.hpp"
 #include "faulty_mill.hpp"
 #include "program.hpp"
 #include "spex_case.hpp"
@@ -24,7 +24,7 @@ class FaultyLog : public ProgramTest {
 
   /// Two kinds of balls of unequal mass and inertia, gravity; the default least separation speed.
   void prepare(const std::string& contact = "restitution = 0.53") {
-    built = setup::build_case<double>(casefile::parse_case(
+    built = casefile::build_case<double>(casefile::parse_case(
         testing::spex_text(
             "end_time = \"10 s\"\nseed = 7", contact,
             testing::batch(2, "9.52 mm") + testing::batch(3, "4.76 mm", "reduced_inertia = 0.6\n")),
@@ -95,7 +95,7 @@ class FaultyLog : public ProgramTest {
     throw ContractError("no such line");
   }
 
-  setup::InitialCase<double> built;
+  casefile::InitialCase<double> built;
 };
 
 }  // namespace edmill::testing

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "edmill/dynamics/impulse.hpp"
-#include "edmill/instances.hpp"
-#include "edmill/observe/collision_log.hpp"
+#include "dynamics/impulse.hpp"
+#include "instances/instances.hpp"
+#include "run/collision_log.hpp"
 
 namespace edmill::testing {
 
@@ -51,7 +51,7 @@ class FaultyMill {
   /// Writes `count` impacts. @return how many were handled with a fault that comes every so often
   int write_log(const std::filesystem::path& place, int count) {
     std::ofstream out(place);
-    out << observe::collision_log_header << observe::collision_log_states << '\n';
+    out << run::collision_log_header << run::collision_log_states << '\n';
     for (int written = 0; written < count;) {
       const Contact next = first_contact();
       advance(next.time);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "arb_oracle.hpp"
-#include "edmill/dynamics/wall_search.hpp"
+#include "dynamics/wall_search.hpp"
 
 namespace edmill::testing {
 

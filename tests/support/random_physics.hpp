@@ -3,8 +3,8 @@
 
 #include <rapidcheck.h>
 
-#include "edmill/core/vector.hpp"
-#include "edmill/model/ball.hpp"
+#include "base/vector.hpp"
+#include "model/ball.hpp"
 
 namespace edmill::testing {
 

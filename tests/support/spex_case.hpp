@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "edmill/instances.hpp"
+#include "instances/instances.hpp"
 
 namespace edmill::testing {
 
@@ -25,7 +25,7 @@ inline casefile::CaseSpec demo_spec(const std::string& run = "end_time = \"10 s\
 /// The mill of those cases without balls.
 template <class Real>
 model::Mill<Real> spex_mill() {
-  return setup::build_mill<Real>(demo_spec());
+  return casefile::build_mill<Real>(demo_spec());
 }
 
 }  // namespace edmill::testing

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "claim.hpp"
-#include "edmill/instances.hpp"
+#include "instances/instances.hpp"
 #include "oracle_question.hpp"
 
 namespace edmill::verification {
@@ -88,7 +88,7 @@ double brent(const OracleQuestion& q, int wall, double low, double high) {
 TEST(RootSearch, EveryRootOfARealRunIsTheFirstOne) {
   gsl_set_error_handler_off();
   const auto built =
-      setup::build_case<double>(casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/demo.toml"));
+      casefile::build_case<double>(casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/demo.toml"));
   engine::Simulation<double> simulation(built.the_case, built.states, built.start);
   simulation.run_until(simulation.clock().at(0.5));  // the transient is over
   const auto& mill = built.the_case.mill;

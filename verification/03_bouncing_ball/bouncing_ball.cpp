@@ -1,8 +1,8 @@
 // Claim 03: a bouncing ball against closed forms on a still floor, and against an independent 100-digit map
 // on the swinging cap.
 #include "claim.hpp"
-#include "edmill/instances.hpp"
 #include "event_recorder.hpp"
+#include "instances/instances.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -38,7 +38,7 @@ struct Drop {
   std::optional<model::InelasticCollapse<Real>> collapse;
 
   Drop(const casefile::CaseSpec& spec, std::size_t count) {
-    const auto built = setup::build_case<Real>(spec);
+    const auto built = casefile::build_case<Real>(spec);
     engine::Simulation<Real> simulation(built.the_case, built.states, built.start);
     struct Stop : engine::Observer<Real> {
       Drop& self;

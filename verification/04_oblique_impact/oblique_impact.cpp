@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "claim.hpp"
-#include "edmill/instances.hpp"
+#include "instances/instances.hpp"
 
 namespace edmill::verification {
 namespace {

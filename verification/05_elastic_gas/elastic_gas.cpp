@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "claim.hpp"
-#include "edmill/instances.hpp"
+#include "instances/instances.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -18,13 +18,13 @@ constexpr int seed = 7;
 /// fraction.
 struct Gas {
   double radius, half_height, mass, arm;
-  setup::InitialCase<double> built;
+  casefile::InitialCase<double> built;
   engine::Simulation<double> simulation;
 
   Gas(int count, double packing, const std::string& contact)
       : radius(sigma * std::cbrt(count / (12 * packing))),
         half_height(radius),
-        built(setup::build_case<double>(casefile::parse_case(
+        built(casefile::build_case<double>(casefile::parse_case(
             "[run]\nend_time = \"1000 s\"\nseed = " + std::to_string(seed) +
                 "\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"" + Claim::text(2 * radius, 17) +
                 " m\"\nheight = \"" + Claim::text(2 * radius, 17) +

@@ -45,7 +45,7 @@ std::vector<Checkpoint> event_driven(const Scene& scene) {
   for (int i = 0; i < scene.balls; ++i)
     text += "[[ball]]\ndiameter = \"9.52 mm\"\nposition = " + list(start[i].position) +
             "\nvelocity = " + list(start[i].velocity) + "\nspin = " + list(start[i].spin) + "\n";
-  const auto built = setup::build_case<double>(casefile::parse_case(text, scene.name));
+  const auto built = casefile::build_case<double>(casefile::parse_case(text, scene.name));
   testing::EventRecorder<double> events;
   engine::Simulation<double> simulation(built.the_case, built.states, built.start);
   simulation.attach(events);

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "claim.hpp"
-#include "edmill/instances.hpp"
-#include "edmill/sweep/statistics.hpp"
+#include "instances/instances.hpp"
 #include "lammps_mill.hpp"
+#include "study/statistics.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -91,7 +91,7 @@ double sticking_restitution(const LammpsSetting& s) {
 
 /// The case's balls at rest against the inertial frame, placed as edmill places them.
 std::vector<LammpsBall> balls_of(const casefile::CaseSpec& spec) {
-  const auto built = setup::build_case<double>(spec);
+  const auto built = casefile::build_case<double>(spec);
   const auto& motion = built.the_case.mill.motion;
   const auto pose = model::pose_at<double>(motion, 0.0);
   const Triple spin = VesselFrame(spex, 0).spin;
@@ -159,20 +159,20 @@ std::vector<double> edmill_rates(const WardCase& ward, int batches) {
   claim.say(ward.name() + ", e_t of sticking contacts in LAMMPS " + Claim::text(sticking, 3));
   const auto spec = ward.spec({"contact.min_tangential=" + Claim::text(sticking, 3), "run.start_time=0 s",
                                "run.end_time=" + Claim::text(batch * (batches + 1), 15) + " s"});
-  driver::simulate<double>(spec, setup::build_case<double>(spec), {{&doses}, nullptr});
+  run::simulate<double>(spec, casefile::build_case<double>(spec), {{&doses}, nullptr});
   for (int i = 1; i <= batches; ++i) rates.push_back(doses.sums.at(i) / batch);
   return rates;
 }
 
 /// Ratio of two means, and half the width of its 95 % interval.
 std::pair<double, double> ratio(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto one = sweep::estimate(a), two = sweep::estimate(b);
+  const auto one = study::estimate(a), two = study::estimate(b);
   const double r = *one.mean / *two.mean;
   return {r, r * std::hypot(*one.half_width / *one.mean, *two.half_width / *two.mean)};
 }
 
 std::string inverse(const std::vector<double>& rates) {
-  const auto e = sweep::estimate(rates);
+  const auto e = study::estimate(rates);
   return Claim::text(1 / *e.mean, 4) + " +- " + Claim::text(*e.half_width / (*e.mean * *e.mean), 2) + " s/J";
 }
 
@@ -335,14 +335,14 @@ void agree_in_the_limit(const WardCase& ward, int lammps_batches, int edmill_bat
   std::vector<double> durations, rates, halves;
   for (const double duration : {100e-6, 50e-6, 25e-6}) {
     const auto lammps = lammps_rates(ward, duration, lammps_batches);
-    const auto estimate = sweep::estimate(lammps);
+    const auto estimate = study::estimate(lammps);
     durations.push_back(duration), rates.push_back(*estimate.mean), halves.push_back(*estimate.half_width);
     const auto [r, half] = ratio(lammps, edmill);
     claim.say(ward.name() + ", contacts of " + Claim::text(1e6 * duration) + " us: LAMMPS " +
               inverse(lammps) + ", over edmill " + Claim::text(r, 4) + " +- " + Claim::text(half, 2));
   }
   const auto [limit, half] = at_zero(durations, rates, halves);
-  const auto peer = sweep::estimate(edmill);
+  const auto peer = study::estimate(edmill);
   const double r = limit / *peer.mean, r_half = r * std::hypot(half / limit, *peer.half_width / *peer.mean);
   claim.at_most(ward.name() + ", contacts of no time: LAMMPS " + Claim::text(1 / limit, 4) + " +- " +
                     Claim::text(half / (limit * limit), 2) + " s/J, over edmill " + Claim::text(r, 4) +

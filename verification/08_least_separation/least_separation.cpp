@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "claim.hpp"
-#include "edmill/instances.hpp"
-#include "edmill/sweep/statistics.hpp"
+#include "instances/instances.hpp"
+#include "study/statistics.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -47,7 +47,7 @@ Figures figures(const Charge& charge, const char* least_separation) {
          "run.end_time=" + Claim::text((10 + charge.periods) * period, 12) + " s"});
     TouchedDoses doses;
     const auto s =
-        driver::simulate<double>(spec, setup::build_case<double>(spec), {{&doses}, nullptr}).summary;
+        run::simulate<double>(spec, casefile::build_case<double>(spec), {{&doses}, nullptr}).summary;
     EXPECT_TRUE(s.end_reason == "end_time") << s.end_reason;
     rates.push_back(s.milling_dose / s.duration());
     f.collisions += static_cast<double>(s.total_collisions()) / s.duration() / charge.seeds;
@@ -57,7 +57,7 @@ Figures figures(const Charge& charge, const char* least_separation) {
     f.normal += doses.normal / whole / charge.seeds;
     f.tangential += doses.tangential / whole / charge.seeds;
   }
-  const auto rate = sweep::estimate(rates);
+  const auto rate = study::estimate(rates);
   f.rate = *rate.mean, f.half_width = *rate.half_width;
   claim.say(std::to_string(charge.count) + " balls, v_s " + least_separation + " m/s: dose rate " +
             Claim::text(f.rate, 5) + " +- " + Claim::text(f.half_width, 2) + " W, " +

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "claim.hpp"
-#include "edmill/instances.hpp"
+#include "instances/instances.hpp"
 
 namespace edmill::verification {
 
@@ -47,7 +47,7 @@ class OneBall : engine::Observer<Real> {
 
   /// @param fastest  no acceleration [m/s2] of the ball to the wall along the normal is greater
   OneBall(const std::string& text, int wall, double fastest)
-      : built_(setup::build_case<Real>(casefile::parse_case(text, "sustained_contact.toml"))),
+      : built_(casefile::build_case<Real>(casefile::parse_case(text, "sustained_contact.toml"))),
         simulation_(built_.the_case, built_.states, built_.start),
         wall_(wall),
         fastest_(fastest) {
@@ -87,7 +87,7 @@ class OneBall : engine::Observer<Real> {
     if (watch) watch(impact);
   }
 
-  setup::InitialCase<Real> built_;
+  casefile::InitialCase<Real> built_;
   engine::Simulation<Real> simulation_;
   int wall_;
   double fastest_, shortest_ = 1e300;

@@ -25,7 +25,7 @@ WallAnswer<double> WallSearch<double>::first_contact<false>(const Functions& fun
 
 }  // namespace edmill::dynamics
 
-#include "../../src/instances/implementations.hpp"
+#include "instances/implementations.hpp"
 #include "subjects.hpp"
 
 EDMILL_INSTANCES(template, double)

@@ -61,7 +61,7 @@ class Harvest : public engine::Observer<double> {
 
 /// A run past its transient and what it asks next.
 struct Source {
-  explicit Source(const setup::InitialCase<double>& built, double warm_up)
+  explicit Source(const casefile::InitialCase<double>& built, double warm_up)
       : ladder(built.the_case.mill, 2 * built.the_case.balls.front().radius, 20.0), harvest(4096) {
     Run<double> run(built);
     run.until(warm_up);
@@ -75,7 +75,7 @@ struct Source {
 
 Source& shaken() {
   static Source source(
-      setup::build_case<double>(casefile::parse_case(spex_text(spex_subjects[1]), "bench.toml")), 0.5);
+      casefile::build_case<double>(casefile::parse_case(spex_text(spex_subjects[1]), "bench.toml")), 0.5);
   return source;
 }
 Source& gas() {

@@ -48,7 +48,7 @@ std::vector<Vec3<double>> lattice(double spacing, double side, double cap) {
 
 }  // namespace
 
-setup::InitialCase<double> still_gas(int balls, double packing) {
+casefile::InitialCase<double> still_gas(int balls, double packing) {
   const double diameter = 4.76e-3;
   // Volume of the vessel: pi/4 width^2 height with height = 1.5 width.
   const double width = diameter * std::cbrt(4.0 * balls / (9 * packing)), height = 1.5 * width;
@@ -59,8 +59,8 @@ setup::InitialCase<double> still_gas(int balls, double packing) {
           "[contact]\nmodel = \"constant\"\nrestitution_normal = 1\nrestitution_tangential = 1\n"
           "least_separation = \"0 m/s\"\n[[balls]]\ndiameter = \"4.76 mm\"\n",
       "still_gas.toml");
-  setup::InitialCase<double> result;
-  result.the_case.mill = setup::build_mill<double>(spec);
+  casefile::InitialCase<double> result;
+  result.the_case.mill = casefile::build_mill<double>(spec);
   const auto& mill = result.the_case.mill;
   result.start = DriveClock<double>(mill.motion.period).at(0);
 

@@ -38,13 +38,13 @@ std::string spex_text(const SpexSubject& subject);
 /// Elastic smooth balls of 4.76 mm without gravity in a still vessel of the SPEX vial's shape, from a
 /// close-packed lattice stretched over the vessel, at random velocities of up to 1 m/s.
 /// @throws std::invalid_argument when the lattice does not fit at this packing
-setup::InitialCase<double> still_gas(int balls, double packing);
+casefile::InitialCase<double> still_gas(int balls, double packing);
 
 /// A simulation after so many collisions. Counts are kept by asking for short stretches of time.
 template <class Real>
 class Run {
  public:
-  explicit Run(const setup::InitialCase<Real>& built)
+  explicit Run(const casefile::InitialCase<Real>& built)
       : simulation_(built.the_case, built.states, built.start) {
     end_ = simulation_.seconds();
   }

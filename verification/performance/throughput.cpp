@@ -27,7 +27,7 @@ void count_work(benchmark::State& state, const engine::EngineCounts<Real>& befor
 template <class Real>
 void spex(benchmark::State& state, const SpexSubject& subject) {
   constexpr bool wide = !std::is_same_v<Real, double>;
-  Run<Real> run(setup::build_case<Real>(casefile::parse_case(spex_text(subject), "bench.toml")));
+  Run<Real> run(casefile::build_case<Real>(casefile::parse_case(spex_text(subject), "bench.toml")));
   Real end = Real(1) / (wide ? 20 : 2);
   run.until(end);
   const auto before = run.simulation().counts();

@@ -68,7 +68,7 @@ double first_contact(const State& state, const dynamics::WallSearch<double>& wal
 
 /// States of a run past its transient, with the certified answers.
 struct Source {
-  explicit Source(const setup::InitialCase<double>& built)
+  explicit Source(const casefile::InitialCase<double>& built)
       : ladder(built.the_case.mill, 2 * built.the_case.balls.front().radius, 20.0) {
     Run<double> run(built);
     run.until(0.5);
@@ -91,7 +91,7 @@ Source& source_of(const SpexSubject& subject) {
   static std::unique_ptr<Source> source;
   if (name != subject.name)
     source = std::make_unique<Source>(
-        setup::build_case<double>(casefile::parse_case(spex_text(subject), "bench.toml")));
+        casefile::build_case<double>(casefile::parse_case(spex_text(subject), "bench.toml")));
   name = subject.name;
   return *source;
 }

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "edmill/core/scalar_list.hpp"
+#include "base/scalar_list.hpp"
 
 namespace edmill::verification {
 

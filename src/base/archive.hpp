@@ -1,0 +1,108 @@
+// Values as bytes, and back: one function of a class lists its members for both.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "base/vector.hpp"
+
+namespace edmill {
+
+/// Saves or loads everything that it is called with. A class takes part by a function that lists its members,
+/// `void archive(Archive& a) { a(x_, y_); }`; a scalar of its own by `archive_value` (base/scalar_list.hpp).
+/// Every bit is kept. The bytes are of this machine and of this build: there is no versioning of classes.
+class Archive {
+ public:
+  /// Saves.
+  Archive() : loading_(false) {}
+  /// Loads from what another one has saved. @pre `bytes` outlive it
+  explicit Archive(std::string_view bytes) : loading_(true), rest_(bytes) {}
+
+  bool loading() const { return loading_; }
+  const std::string& bytes() const { return bytes_; }
+
+  /// @throws InputError when there are too few bytes to load
+  template <class... T>
+  void operator()(T&... values) {
+    (one(values), ...);
+  }
+  void raw(void* data, std::size_t size) {
+    if (!loading_) {
+      bytes_.append(static_cast<const char*>(data), size);
+      return;
+    }
+    need(size);
+    rest_.copy(static_cast<char*>(data), size);
+    rest_.remove_prefix(size);
+  }
+  /// The number of elements that follow. @throws InputError when so many cannot follow
+  std::size_t count(std::size_t size) {
+    std::uint64_t number = size;
+    (*this)(number);
+    if (loading_) need(number);
+    return static_cast<std::size_t>(number);
+  }
+  /// @throws InputError when not everything was loaded
+  void finish() const {
+    if (loading_ && !rest_.empty()) throw InputError("found more bytes than a saved state has");
+  }
+
+ private:
+  template <class T>
+  void one(T& value);
+  void need(std::uint64_t size) const {
+    if (size > rest_.size()) throw InputError("found fewer bytes than a saved state has");
+  }
+
+  bool loading_;
+  std::string bytes_;
+  std::string_view rest_;
+};
+
+inline void archive_value(Archive& a, std::string& text) {
+  text.resize(a.count(text.size()));
+  a.raw(text.data(), text.size());
+}
+template <class T, class Allocator>
+void archive_value(Archive& a, std::vector<T, Allocator>& values) {
+  values.resize(a.count(values.size()));
+  for (auto& value : values) a(value);
+}
+template <class T, std::size_t size>
+void archive_value(Archive& a, std::array<T, size>& values) {
+  for (auto& value : values) a(value);
+}
+template <class A, class B>
+void archive_value(Archive& a, std::pair<A, B>& pair) {
+  a(pair.first, pair.second);
+}
+template <class T>
+void archive_value(Archive& a, std::optional<T>& value) {
+  bool there = value.has_value();
+  a(there);
+  if (a.loading()) value = there ? std::optional<T>(T{}) : std::nullopt;
+  if (there) a(*value);
+}
+template <class Real>
+void archive_value(Archive& a, Vec3<Real>& v) {
+  for (int axis = 0; axis < 3; ++axis) a(v[axis]);
+}
+
+template <class T>
+void Archive::one(T& value) {
+  if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>)
+    raw(&value, sizeof value);
+  else if constexpr (requires { value.archive(*this); })
+    value.archive(*this);
+  else
+    archive_value(*this, value);
+}
+
+}  // namespace edmill

@@ -1,0 +1,70 @@
+// The scalars of the core, in one place. Heavy: include it only where wide scalars are named.
+#pragma once
+
+#include <boost/multiprecision/float128.hpp>
+#include <boost/multiprecision/mpfr.hpp>
+//
+#include <boost/multiprecision/eigen.hpp>
+
+#include "base/archive.hpp"
+#include "base/scalar.hpp"
+
+namespace edmill {
+
+using float128 = boost::multiprecision::float128;
+template <unsigned digits>
+using mpfr_of = boost::multiprecision::number<
+    boost::multiprecision::mpfr_float_backend<digits, boost::multiprecision::allocate_stack>,
+    boost::multiprecision::et_off>;
+using mpfr50 = mpfr_of<50>;
+// Errors grow with every collision; these two are for certifying long sequences of events.
+using mpfr100 = mpfr_of<100>;
+using mpfr200 = mpfr_of<200>;
+
+template <>
+struct ScalarName<float128> {
+  static constexpr std::string_view value = "float128";
+};
+template <>
+struct ScalarName<mpfr50> {
+  static constexpr std::string_view value = "mpfr50";
+};
+template <>
+struct ScalarName<mpfr100> {
+  static constexpr std::string_view value = "mpfr100";
+};
+template <>
+struct ScalarName<mpfr200> {
+  static constexpr std::string_view value = "mpfr200";
+};
+
+inline void archive_value(Archive& a, float128& value) {
+  a.raw(&value.backend().value(), sizeof value.backend().value());
+}
+/// All limbs, so that no bit depends on a conversion.
+template <unsigned digits>
+void archive_value(Archive& a, mpfr_of<digits>& value) {
+  const auto number = value.backend().data();
+  a(number->_mpfr_sign, number->_mpfr_exp);
+  a.raw(number->_mpfr_d, mpfr_custom_get_size(mpfr_get_prec(number)));
+}
+
+template <>
+struct WiderScalar<double> {
+  using type = float128;
+};
+template <>
+struct WiderScalar<float128> {
+  using type = mpfr50;
+};
+
+}  // namespace edmill
+
+/// Applies `MACRO(Real)` to every scalar. Adding one takes a line here, its traits above, an instantiation
+/// file in src/instances and the line in the case file's table of precisions.
+#define EDMILL_FOR_EACH_SCALAR(MACRO) \
+  MACRO(double)                       \
+  MACRO(::edmill::float128)           \
+  MACRO(::edmill::mpfr50)             \
+  MACRO(::edmill::mpfr100)            \
+  MACRO(::edmill::mpfr200)

@@ -1,0 +1,19 @@
+// A case as a run leaves it in its folder, and outputs beside those of its file.
+#pragma once
+
+#include <string>
+
+#include "casefile/case_spec.hpp"
+
+namespace edmill::casefile {
+
+/// The case that a run left in its folder: `CaseSpec::text` as a file. The file that the run began from is
+/// not looked for; what cannot be known without it, the digest, is empty then.
+/// @throws InputError also when the text has not this digest with its settings nor without them
+CaseSpec read_case_of_run(const std::string& path, const std::string& digest);
+
+/// Adds the entries [[output]] of a text to a case.
+/// @throws InputError when one is wrong, or its file's name is taken
+void add_outputs(const std::string& text, const std::string& name, CaseSpec& spec);
+
+}  // namespace edmill::casefile

@@ -1,0 +1,104 @@
+// A case as its file says it: exact quantities, no scalar yet.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casefile/colour.hpp"
+#include "casefile/output_spec.hpp"
+#include "casefile/quantity.hpp"
+#include "model/contact_law.hpp"
+
+namespace edmill::casefile {
+
+using QuantityVector = std::array<Quantity, 3>;
+
+/// What all ways of adding balls have in common.
+struct BallSpec {
+  Quantity diameter;
+  Quantity density{8000};
+  Quantity reduced_inertia{boost::multiprecision::cpp_rational(2, 5)};
+  QuantityVector velocity{};
+  Colour colour{0, 0, 1};  ///< in pictures
+  std::string where;       ///< "case.toml:12: [[balls]] 1", for messages
+};
+
+/// A batch of balls placed at random. (thesis D.2.4)
+struct BallBatch : BallSpec {
+  int count = 1;
+  Quantity diameter_spread;
+  std::optional<Quantity> random_speed;  ///< largest; direction and size at random
+  Quantity gap_ball{boost::multiprecision::cpp_rational(1, 1000)};
+  Quantity gap_wall{boost::multiprecision::cpp_rational(1, 1000)};
+  std::uint64_t max_relocations = 100000;
+};
+
+/// A ball with its state at the initial time, in the inertial frame.
+struct ExplicitBall : BallSpec {
+  QuantityVector position{};
+  QuantityVector spin{};
+};
+
+struct ContactSpec {
+  model::ContactModel model = model::ContactModel::walton_braun;
+  Quantity restitution_normal, restitution_tangential{1}, friction, min_tangential{-1};
+  Quantity least_separation{boost::multiprecision::cpp_rational(1, 100)};
+};
+
+struct MillSpec {
+  std::string type = "spex8000";
+  Quantity arm, theta_max, gamma_max;
+  Quantity period;  ///< of the drive, or the clock unit of a still vessel [s]
+};
+
+/// Section [audit]: how another code's collision log is to be read and judged. docs/audit.md
+struct AuditSpec {
+  std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
+  std::optional<Quantity> tolerance, gap_tolerance;
+  std::optional<std::uint64_t> first_ball;
+  std::string walls;  ///< "-1, -2, -3": what stands for walls 0, 1 and 2; empty when not given
+  bool from_start = false;
+};
+
+struct CaseSpec {
+  std::string file;    ///< path of the case file
+  std::string text;    ///< of the case file, and the settings over it as comments
+  std::string digest;  ///< SHA-256 of the case's canonical text
+  std::string precision = "double";
+  std::uint64_t seed = 1;
+  Quantity initial_time, statistics_start;
+  std::optional<Quantity> end_time, max_milling_dose, max_ball_speed;
+  std::optional<std::uint64_t> max_collisions;
+  std::string initial_state;  ///< path of a final_state.csv, or empty
+  QuantityVector gravity{};
+  MillSpec mill;
+  Quantity vessel_diameter, vessel_height;
+  Colour vessel_colour{1, 1, 0};  ///< in pictures
+  ContactSpec ball_ball, ball_wall;
+  std::optional<Quantity> powder_mass;
+  std::vector<ExplicitBall> balls;
+  std::vector<BallBatch> batches;
+  std::vector<OutputSpec> outputs;
+  AuditSpec audit;  ///< no part of what is simulated, nor of the digest
+
+  std::size_t ball_count() const;
+  /// Colours of all balls, in their order.
+  std::vector<Colour> ball_colours() const;
+};
+
+/// Precisions that a case can name.
+const std::vector<std::string>& precisions();
+
+/// Reads and checks a case file.
+/// @param overrides  "section.key=value", applied over the file; a value that is not TOML is taken as text
+/// @throws InputError with every problem of the file: file, line, key, found, expected
+CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The same for a text that is at hand; `name` stands for the file in messages.
+CaseSpec parse_case(const std::string& text, const std::string& name,
+                    const std::vector<std::string>& overrides = {});
+
+}  // namespace edmill::casefile

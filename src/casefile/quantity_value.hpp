@@ -1,0 +1,48 @@
+// Implementation of Quantity::to; included by the instantiation files only.
+#pragma once
+
+#include "base/instant.hpp"
+#include "base/scalar_list.hpp"
+#include "casefile/quantity.hpp"
+
+namespace edmill::casefile {
+
+template <class Real>
+Real Quantity::to() const {
+  // Twice the digits and more, so that the last rounding is the only one that counts.
+  using Wide = mpfr_of<2 * std::numeric_limits<Real>::digits10 + 20>;
+  Wide result = Wide(numerator(value).str()) / Wide(denominator(value).str());
+  Wide pi;
+  mpfr_const_pi(pi.backend().data(), MPFR_RNDN);
+  for (int k = 0; k < pi_power; ++k) result *= pi;
+  for (int k = 0; k > pi_power; --k) result /= pi;
+  return static_cast<Real>(result);
+}
+
+/// The instant at `time` on a clock of whole drive periods, reduced exactly: the offset is as sharp at 1e6 s
+/// as at the start.
+/// @param time    not negative
+/// @param period  of the drive
+template <class Real>
+Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
+  if (time.zero()) return {};
+  std::int64_t periods;
+  Real offset;
+  if (time.pi_power == period.pi_power) {
+    const boost::multiprecision::cpp_rational count = time.value / period.value;
+    periods =
+        static_cast<std::int64_t>(boost::multiprecision::cpp_int(numerator(count) / denominator(count)));
+    offset = Quantity{time.value - periods * period.value, time.pi_power}.to<Real>();
+  } else {
+    // Up to 1e15 periods lead away that many digits more.
+    using Wide = mpfr_of<2 * std::numeric_limits<Real>::digits10 + 40>;
+    const Wide length = period.to<Wide>(), seconds = time.to<Wide>();
+    const Wide whole = floor(Wide(seconds / length));
+    periods = static_cast<std::int64_t>(whole);
+    offset = static_cast<Real>(Wide(seconds - whole * length));
+  }
+  if (offset < period.to<Real>()) return {periods, offset};
+  return {periods + 1, Real(0)};  // it is rounded to a whole period
+}
+
+}  // namespace edmill::casefile

@@ -1,0 +1,131 @@
+#include "check/audit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/instant.hpp"
+#include "check/auditor.hpp"
+
+namespace edmill::audit {
+
+namespace {
+
+double reach_of(const model::Mill<double>& mill) {
+  return mill.motion.arm + std::hypot(mill.vessel.radius, mill.vessel.half_height);
+}
+
+std::vector<Check> checks_not_made(const Findings& findings, bool any_pairs) {
+  std::vector<Check> missing;
+  for (std::size_t k = 0; k < check_count; ++k) {
+    const auto check = static_cast<Check>(k);
+    const bool only_pairs = check == Check::momentum && !any_pairs;
+    if (findings.judged_number(check) == 0 && !only_pairs) missing.push_back(check);
+  }
+  return missing;
+}
+
+std::uint64_t noted(const Tally& tally, std::string_view beginning) {
+  std::uint64_t sum = 0;
+  for (const auto& [note, count] : tally.notes)
+    if (note.starts_with(beginning)) sum += count;
+  return sum;
+}
+
+/// Which of the thesis's printed errors the findings look like, and whether a finite time step does.
+std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings) {
+  std::vector<Diagnosis> found;
+  const auto add = [&](const std::string& name, std::uint64_t events, std::uint64_t of,
+                       const std::string& text) {
+    if (events > 0 && 2 * events >= of) found.push_back({name, text, events, of});
+  };
+  const auto count = [&](Kind kind) { return findings.of(kind).count; };
+  const auto walls_off = count(Kind::rotation_order) + count(Kind::late_event) + count(Kind::early_event);
+  add("rotation_order", count(Kind::rotation_order), walls_off,
+      "printed error (2.14): the vessel stands as R_x(gamma) R_z(theta) has it; with that matrix the bodies "
+      "touch. "
+      "The rotations are nested: R_z(theta) R_x(gamma)");
+  const auto& sign = findings.of(Kind::tangential_sign);
+  add("tangential_sign", noted(sign, "(2.34)"), sign.count,
+      "printed error (2.34), (A.72): the tangential term of the velocity has the wrong sign; with it turned "
+      "round the "
+      "velocities are exactly those of the log");
+  const auto& unequal = findings.of(Kind::unequal_balls);
+  add("unequal_mass_factor", noted(unequal, "(2.24)"), unequal.count,
+      "printed error (2.24): 1 + 1/J stands for 1 + M/(m_i J_i) + M/(m_j J_j); with it the outcome is "
+      "exactly that of "
+      "the log");
+  const auto missed = auditor.flights().missed_by_wall();
+  const auto logged = auditor.with_wall(), early = auditor.early_by_wall();
+  const auto all_missed = missed[0] + missed[1] + missed[2];
+  const bool never = logged[0] == 0 && missed[0] > 0 && 2 * missed[0] > all_missed;
+  const bool at_once = early[0] > 0 && 2 * early[0] > logged[0] && early[1] + early[2] == 0;
+  if (never || at_once)
+    add("gap_sign", never ? missed[0] : early[0], never ? all_missed : logged[0],
+        std::string("printed error (2.19), (2.20): ") +
+            (never ? "no impact with the cap at -y is logged, and balls fly on through it"
+                   : "impacts with the cap at -y alone come before the ball is there") +
+            "; y - R - h/2 is negative everywhere in the vessel, the gap is h/2 + y - R");
+  return found;
+}
+
+/// Late events that a finite time step would give: never early, and hardly deeper than a step's path.
+void diagnose_step(const Findings& findings, double reach, double latest, std::vector<Diagnosis>& found) {
+  const auto late = findings.of(Kind::late_event).count, early = findings.of(Kind::early_event).count;
+  if (late < 3 || early > 0 || findings.of(Kind::late_event).worst > reach / 100) return;
+  found.push_back(
+      {"time_step",
+       fmt::format("finite steps: events are late and never early, by at most {:.2g} s; a gap tolerance of "
+                   "{:.2g} m (--gap-tolerance) accepts that and leaves what is wrong besides",
+                   latest, 1.1 * findings.of(Kind::late_event).worst),
+       late, late});
+}
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  static constexpr std::array<std::string_view, 3> names = {"clean", "violations", "too_few"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
+            const Options& options) {
+  Audit result;
+  result.options = options;
+  result.findings = Findings(options.examples);
+  result.tolerances.relative = options.tolerance;
+  result.tolerances.reach = reach_of(the_case.mill);
+  result.tolerances.gap = options.gap_tolerance.value_or(options.tolerance * result.tolerances.reach);
+  EventLog log(options.log, options.conventions, static_cast<int>(the_case.balls.size()));
+  result.log_name = log.file();
+  result.available = log.available();
+  Auditor auditor(the_case, result.available, result.tolerances, result.findings);
+  if (options.from_start)
+    auditor.begin(states, DriveClock<double>(the_case.mill.motion.period).seconds(the_case.initial_time));
+  bool any_pairs = false;
+  while (auto event = log.next()) {
+    if (options.interrupt && options.interrupt->load(std::memory_order_relaxed)) {
+      result.interrupted = true;
+      break;
+    }
+    if (result.events++ == 0) result.first = event->time;
+    result.last = std::max(result.last, event->time);
+    any_pairs = any_pairs || !event->with_wall;
+    auditor.take(*event);
+    if (options.progress && result.events % 4096 == 0) options.progress(event->time, result.events);
+  }
+  auditor.finish();
+  result.energies = auditor.energies();
+  result.undecided = auditor.flights().undecided();
+  result.not_made = checks_not_made(result.findings, any_pairs);
+  result.diagnoses = diagnose(auditor, result.findings);
+  diagnose_step(result.findings, result.tolerances.reach, auditor.latest(), result.diagnoses);
+  const bool judged =
+      result.findings.judged_number(Check::touch) + result.findings.judged_number(Check::milling_dose) > 0;
+  result.verdict = result.findings.total() > 0 ? Verdict::violations
+                   : judged                    ? Verdict::clean
+                                               : Verdict::too_few;
+  return result;
+}
+
+}  // namespace edmill::audit

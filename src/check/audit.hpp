@@ -1,0 +1,67 @@
+// Judges another code's collision log by the physics of a case. docs/audit.md
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/event_log.hpp"
+#include "check/finding.hpp"
+#include "check/impact_judge.hpp"
+#include "model/case.hpp"
+
+namespace edmill::audit {
+
+struct Options {
+  std::filesystem::path log;  ///< a CSV file, or a folder of `edmill run`
+  LogConventions conventions;
+  double tolerance = 1e-9;  ///< relative
+  std::optional<double>
+      gap_tolerance;         ///< of bodies that should touch [m]; from the relative one unless given
+  bool from_start = false;   ///< the log begins at the case's initial state
+  std::size_t examples = 3;  ///< of each kind
+  const std::atomic<bool>* interrupt = nullptr;
+  std::function<void(double time, std::uint64_t events)> progress;  ///< told now and then
+};
+
+/// One of the thesis's printed errors, and what speaks for it.
+struct Diagnosis {
+  std::string name;      ///< "rotation_order"
+  std::string text;      ///< a sentence
+  std::uint64_t events;  ///< that it explains
+  std::uint64_t of;      ///< of so many that are wrong
+};
+
+enum class Verdict { clean, violations, too_few };
+std::string_view name_of(Verdict verdict);
+
+struct Audit {
+  Options options;
+  Tolerances tolerances;
+  std::string case_name, log_name;
+  std::uint64_t events = 0;
+  double first = 0, last = 0;  ///< times [s]
+  Available available;
+  Findings findings{3};
+  Energies energies;
+  std::vector<Check> not_made;  ///< for want of columns
+  std::vector<Diagnosis> diagnoses;
+  std::uint64_t undecided = 0;  ///< questions about missed impacts that no scalar could answer
+  bool interrupted = false;
+  Verdict verdict = Verdict::too_few;
+};
+
+/// @param the_case, states  of the case; the states are its initial ones
+/// @throws InputError with the problems of the log and of the options for it
+Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
+            const Options& options);
+
+/// Lines for people.
+std::string table(const Audit& audit);
+/// docs/files.md, "Audit".
+std::string to_json(const Audit& audit);
+
+}  // namespace edmill::audit

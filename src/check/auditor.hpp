@@ -1,0 +1,65 @@
+// Takes the events of a log one by one, each with what went before it.
+#pragma once
+
+#include "check/audit.hpp"
+#include "check/flights.hpp"
+
+namespace edmill::audit {
+
+class Auditor {
+ public:
+  Auditor(const model::Case<double>& the_case, const Available& available, const Tolerances& tolerances,
+          Findings& findings);
+
+  /// The log begins with these states.
+  void begin(const std::vector<model::BallState<double>>& states, double time);
+  void take(LoggedEvent& event);
+  /// At the end of the log.
+  void finish() {
+    flights_.finish();
+    impacts_.finish();
+  }
+
+  const Energies& energies() const { return impacts_.energies(); }
+  const Flights& flights() const { return flights_; }
+  /// Logged impacts with each wall, and those of them that are too early, for the diagnosis.
+  const std::array<std::uint64_t, model::wall_count>& with_wall() const { return with_wall_; }
+  const std::array<std::uint64_t, model::wall_count>& early_by_wall() const { return early_by_wall_; }
+  /// How late events are at most [s], of those that are no grazes.
+  double latest() const { return latest_; }
+
+ private:
+  /// What a ball's last event said, to recognise the same once more.
+  struct LastEvent {
+    double time = unknown;
+    int other = -1;
+    double approach_speed = unknown;
+    Vec velocity_before{0, 0, 0}, velocity_after{0, 0, 0};
+  };
+  struct Touch {
+    bool late = false, displaced = false, usable = true;
+  };
+
+  bool is_repeated(const LoggedEvent& event) const;
+  void find_wrong_balls(LoggedEvent& event);
+  Touch judge_touch(LoggedEvent& event, Scene& scene);
+  Touch judge_wall_touch(LoggedEvent& event, Scene& scene, double allowed);
+  bool another_body_is_there(LoggedEvent& event, double allowed, double gap);
+  void tell_late(const LoggedEvent& event, const Scene& scene, double depth);
+  void complete_scene(const LoggedEvent& event, Scene& scene) const;
+  const model::BallProperties<double>& ball(int k) const { return case_.balls[static_cast<std::size_t>(k)]; }
+  void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
+            const char* note = "");
+
+  const model::Case<double>& case_;
+  const Available& available_;
+  Tolerances tolerances_;
+  Findings& findings_;
+  ImpactJudge impacts_;
+  Flights flights_;
+  std::vector<LastEvent> last_;
+  std::array<std::uint64_t, model::wall_count> with_wall_{}, early_by_wall_{};
+  double latest_ = 0;
+};
+
+}  // namespace edmill::audit

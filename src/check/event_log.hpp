@@ -1,0 +1,115 @@
+// Another code's collision log as the audit reads it: columns mapped, units turned to SI, events in order of
+// time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/vector.hpp"
+#include "io/csv_reader.hpp"
+
+namespace edmill::audit {
+
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A body of an impact: where it was, and how it moved before and after. Inertial frame, SI.
+struct BodyState {
+  Vec3<double> position = Vec3<double>::Zero(), velocity_before = Vec3<double>::Zero(),
+               spin_before = Vec3<double>::Zero(), velocity_after = Vec3<double>::Zero(),
+               spin_after = Vec3<double>::Zero();
+};
+
+struct LoggedEvent {
+  std::uint64_t line = 0;
+  double time = 0;  ///< [s]
+  int ball = 0;
+  bool with_wall = false;
+  int partner = 0;
+  double approach_speed = unknown, slip_speed = unknown, milling_dose = unknown, wall_work = unknown;
+  std::array<BodyState, 2> body;  ///< the ball and, for balls, its partner
+  double earlier_by = 0;          ///< than a line above it, when above 0 [s]
+  std::string problem;            ///< "found nan in column vx_before": of an event that cannot be judged
+  bool unknown_body = false;      ///< the problem is a ball or wall that there is not
+};
+
+/// Which values a log has.
+struct Available {
+  struct Body {
+    bool position = false, velocity_before = false, spin_before = false, velocity_after = false,
+         spin_after = false;
+  };
+  std::array<Body, 2> body;
+  bool approach_speed = false, slip_speed = false, milling_dose = false, wall_work = false;
+
+  /// Of the bodies that an event has.
+  bool positions(bool with_wall) const { return both(with_wall, &Body::position); }
+  bool velocities_before(bool with_wall) const { return both(with_wall, &Body::velocity_before); }
+  bool velocities_after(bool with_wall) const { return both(with_wall, &Body::velocity_after); }
+  bool spins(bool with_wall) const {
+    return both(with_wall, &Body::spin_before) && both(with_wall, &Body::spin_after);
+  }
+
+ private:
+  bool both(bool with_wall, bool Body::*part) const { return body[0].*part && (with_wall || body[1].*part); }
+};
+
+/// How a log is written.
+struct LogConventions {
+  std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
+  int first_ball = 0;                                        ///< number of the first ball
+  /// What stands for walls 0, 1 and 2 in the column `partner`; 0, 1, 2 beside a column partner_kind, else
+  /// -1, -2, -3.
+  std::optional<std::array<int, 3>> walls;
+};
+
+/// "-1, -2, -3" @throws InputError naming `where` when it is not three different whole numbers
+std::array<int, 3> parse_walls(const std::string& text, const std::string& where);
+
+/// Reads ahead by `window` events, so that events come in order of time from a log that is a little out of
+/// order. Bounded memory.
+class EventLog {
+ public:
+  static constexpr std::size_t window = 256;
+
+  /// @param place  a CSV file, or a folder that holds collisions.csv
+  /// @param balls  in the case
+  /// @throws InputError with every problem of the mapping and the header
+  EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls);
+
+  /// The next event; nothing at the end.
+  /// @throws InputError with the lines that cannot be read
+  std::optional<LoggedEvent> next();
+
+  const Available& available() const { return available_; }
+  const std::string& file() const { return csv_.file(); }
+
+ private:
+  struct Column {
+    std::optional<std::size_t> place;
+    double unit = 1;  ///< in SI
+  };
+  void read_header(const LogConventions& conventions);
+  std::optional<LoggedEvent> read();
+  bool read_bodies(LoggedEvent& event);
+  bool read_value(std::size_t name, double& value, LoggedEvent& event);
+
+  io::CsvReader csv_;
+  std::vector<Column> columns_;  ///< in the order of the names
+  Available available_;
+  int first_ball_, balls_;
+  std::array<int, 3> walls_{};
+  double latest_ = -std::numeric_limits<double>::infinity();
+  std::vector<LoggedEvent> ahead_;  ///< a heap, the earliest on top
+  bool at_end_ = false;
+};
+
+/// Names of the columns that an audit knows, in the order of edmill's own log.
+const std::vector<std::string>& column_names();
+
+}  // namespace edmill::audit

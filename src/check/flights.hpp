@@ -1,0 +1,106 @@
+// What happens between the impacts of a log: whether flights are ballistic, and whether an impact was missed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "check/finding.hpp"
+#include "check/impact_judge.hpp"
+#include "dynamics/decision_ladder.hpp"
+
+namespace edmill::audit {
+
+/// What the log has told of a ball last.
+struct Track {
+  bool state_known = false, spin_known = false;
+  dynamics::Flight<double> flight{Vec::Zero(), Vec::Zero(), {}};  ///< since the last impact
+  Vec spin{0, 0, 0};
+  double start = 0;        ///< of the flight [s]
+  double broken_from = 0;  ///< an impact of the flight at this time is not in the log [s]
+  bool broken = false;
+  struct Pending {  ///< a missed impact with a ball whose flight is now over
+    Finding finding;
+    double depth;
+  };
+  std::vector<Pending> pending;
+  /// A missed impact with a wall, until it is seen that the same time's next line does not tell it.
+  std::optional<Finding> held;
+};
+
+/// The end of a flight as an event tells it.
+struct FlightEnd {
+  const LoggedEvent* event;
+  std::size_t body;        ///< 0 the event's ball, 1 its partner
+  bool late = false;       ///< the event is late: its bodies have met before, which is told
+  bool displaced = false;  ///< the walls of the log are not where they should be, which is told
+};
+
+class Flights {
+ public:
+  Flights(const model::Case<double>& the_case, const Available& available, const Tolerances& tolerances,
+          Findings& findings);
+
+  Track& of(int ball) { return tracks_[static_cast<std::size_t>(ball)]; }
+  const Track& of(int ball) const { return tracks_[static_cast<std::size_t>(ball)]; }
+  int balls() const { return static_cast<int>(tracks_.size()); }
+
+  /// Where the last that is known of a ball leads [m]. @pre its state is known
+  Vec position_at(int ball, double time) const;
+  VesselFrame nested_at(double time) const;
+  VesselFrame printed_at(double time) const;
+
+  /// Judges the flight of a ball that an event ends.
+  void judge(int ball, const FlightEnd& end);
+
+  /// At the end of the log.
+  void finish();
+
+  /// Begins a new flight.
+  void begin(int ball, double time, const BodyState& state, const Available::Body& has);
+  void begin_at_start(int ball, const model::BallState<double>& state, double time);
+
+  /// Missed impacts with each wall, for the diagnosis.
+  const std::array<std::uint64_t, model::wall_count>& missed_by_wall() const { return missed_by_wall_; }
+  std::uint64_t undecided() const { return undecided_; }
+
+ private:
+  struct Contact {
+    double time = 0;
+    bool with_wall = false;
+    int partner = -1;
+    double depth = 0;  ///< the most that the bodies overlap later in the flight [m]
+  };
+  struct State {  ///< of a ball while an unlogged impact is tried
+    dynamics::Flight<double> flight;
+    Vec spin;
+    double start;
+  };
+  std::optional<Contact> first_wall(int ball, const Track& track, double until, double slack);
+  std::optional<std::pair<double, int>> wall_contact(const dynamics::Flight<double>& flight, double start,
+                                                     double radius, double until);
+  std::optional<Contact> first_ball(int ball, const Track& track, const FlightEnd& end, double slack);
+  bool explained_by_walls(int ball, const Track& track, const FlightEnd& end);
+  bool explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const;
+  bool arrives(const State& state, const FlightEnd& end) const;
+  void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it);
+  const char* look_of(const Track& track, const BodyState& state, double dt, double dv) const;
+  Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note) const;
+  void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at);
+  void settle_held(Track& track, const LoggedEvent* next);
+  bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const;
+  double deepest(int ball, const Track& track, int wall, double from, double until) const;
+  Scene scene_at(int ball, int wall, double time, const Vec& position) const;
+
+  const model::Case<double>& case_;
+  const Available& available_;
+  Tolerances tolerances_;
+  Findings& findings_;
+  DriveClock<double> clock_;
+  dynamics::DecisionLadder<double> ladder_;
+  double top_speed_;
+  std::vector<Track> tracks_;
+  std::array<std::uint64_t, model::wall_count> missed_by_wall_{};
+  std::uint64_t undecided_ = 0;
+};
+
+}  // namespace edmill::audit

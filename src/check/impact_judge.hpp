@@ -1,0 +1,107 @@
+// Judges a single impact: the contact law, conservation, and the numbers that are logged with it.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "base/compensated_sum.hpp"
+#include "check/finding.hpp"
+#include "check/mechanics.hpp"
+#include "check/tolerances.hpp"
+
+namespace edmill::audit {
+
+/// An impact and where it takes place.
+struct Scene {
+  Impact impact;  ///< with the right velocity of the wall
+  VesselFrame nested, printed;
+  bool displaced = false;  ///< judged in the printed frame, where that code has its walls
+};
+
+/// What the impacts of a log do in all, of those with velocities and spins before and after.
+struct Energies {
+  using Sum = numerics::CompensatedSum<double>;
+  std::uint64_t impacts = 0;
+  Sum wall_work;                ///< of the logged states [J]
+  Sum milling_dose;             ///< as logged, the law's where it is not [J]
+  Sum supplied;                 ///< that the case's least separation speed adds [J]
+  Sum kinetic_change;           ///< of the logged states [J]
+  std::uint64_t supplying = 0;  ///< impacts in which it adds energy
+  std::uint64_t creating = 0;   ///< impacts that create more energy than that
+  double created = 0;           ///< by them [J]
+
+  /// 0 but for rounding in a log that obeys the law [J].
+  double closure() const {
+    return (wall_work.value() - milling_dose.value()) + (supplied.value() - kinetic_change.value());
+  }
+};
+
+class ImpactJudge {
+ public:
+  ImpactJudge(const model::Mill<double>& mill, const Available& available, const Tolerances& tolerances,
+              Findings& findings)
+      : mill_(mill), available_(available), tolerances_(tolerances), findings_(findings) {}
+
+  /// With the states of the bodies.
+  void judge(const LoggedEvent& event, Scene scene);
+  /// Of a log, or for an impact, without them: the dose from the logged speeds.
+  void judge_speeds(const LoggedEvent& event, const Impact& impact);
+  /// At the end of the log.
+  void finish();
+
+  const Energies& energies() const { return energies_; }
+
+ private:
+  /// How far the impact is from each of the equations [m/s].
+  struct Residuals {
+    double normal = 0, tangential = 0, momentum = 0, spin = 0;
+    double restitution_tangential = 1;  ///< that is due
+    double largest() const;
+  };
+  /// What explains a broken impact.
+  struct Explanation {
+    Kind kind;
+    const char* note;
+    Impact impact;
+  };
+  struct Known {
+    bool velocities, spins;  ///< before and after, of all bodies
+  };
+
+  const model::ContactLaw<double>& law(const Impact& impact) const {
+    return impact.with_wall ? mill_.ball_wall : mill_.ball_ball;
+  }
+  Residuals residuals(const LoggedEvent& event, const Impact& impact, const Known& known, bool parting) const;
+  bool explain(const LoggedEvent& event, const Scene& scene, double allowed_off,
+               Explanation& explanation) const;
+  bool explain_by_formula(const LoggedEvent& event, const Scene& scene, double allowed_off,
+                          Explanation& explanation) const;
+  void tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
+                             const Known& known, double allowed_off);
+  bool leaves_by_the_other_branch(const LoggedEvent& event, const Impact& impact, double allowed_off) const;
+  void tell_normal(const LoggedEvent& event, const Impact& impact, double off, double allowed_off);
+  bool speeds_tell_another_wall_velocity(const LoggedEvent& event, const Scene& scene, const Known& known,
+                                         double allowed_off) const;
+  void judge_logged_speeds(const LoggedEvent& event, const Impact& impact, const Known& known, double scale,
+                           bool wall_velocity_told);
+  void judge_energies(const LoggedEvent& event, const Impact& right, const Impact& theirs, double scale);
+  void judge_dose(const LoggedEvent& event, const Impact& right, const Impact& theirs, double allowed_off);
+  void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
+            const char* note = "");
+
+  const model::Mill<double>& mill_;
+  const Available& available_;
+  Tolerances tolerances_;
+  Findings& findings_;
+  Energies energies_;
+  /// A least separation speed of the log that is not the case's: two impacts of different approach leave at
+  /// the same speed. The first of them is held until the second one is seen.
+  struct OtherLeast {
+    double speed = std::numeric_limits<double>::infinity(), g_n = 0, due = 0;
+    bool confirmed = false;
+    std::optional<Finding> held;
+  };
+  std::array<OtherLeast, 2> other_least_;  ///< of impacts between balls, with walls
+};
+
+}  // namespace edmill::audit

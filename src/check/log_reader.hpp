@@ -1,0 +1,74 @@
+// Collision logs, of edmill or of another code, read line by line.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/csv_reader.hpp"
+
+namespace edmill::compare {
+
+/// The numbers of an impact that two logs can be compared in; SI.
+enum Value : std::size_t { time, approach_speed, slip_speed, milling_dose, wall_work };
+inline constexpr std::size_t value_count = 5;
+inline constexpr std::array<std::string_view, value_count> value_names = {
+    "time", "approach_speed", "slip_speed", "milling_dose", "wall_work"};
+
+/// Wall 0, 1, 2 and ball-ball, as in summary.json.
+inline constexpr std::size_t partner_kinds = 4;
+
+struct Event {
+  std::array<double, value_count> values{};  ///< nan for a column that the log does not have
+  int ball = 0;
+  bool with_wall = false;
+  int partner = 0;         ///< ball or wall id
+  std::uint64_t line = 0;  ///< of the file, from 1
+
+  std::size_t partner_kind() const { return with_wall ? static_cast<std::size_t>(partner) : 3; }
+};
+
+/// Columns may stand in any order; those that are not known are passed over. Bounded memory.
+class LogReader {
+ public:
+  /// @param place  a CSV file, or a folder that holds collisions.csv
+  /// @throws InputError with every problem of the header
+  explicit LogReader(const std::filesystem::path& place);
+
+  bool has(Value value) const { return value_columns_[value].has_value(); }
+
+  /// The next event, in order of time; nothing at the end. Bad lines are passed over until there are ten of
+  /// them or the file ends.
+  /// @throws InputError with the bad lines: file, line, column, found, expected
+  std::optional<Event> next();
+
+  const std::string& file() const { return csv_.file(); }
+
+ private:
+  void read_header();
+  std::optional<Event> parse();
+
+  io::CsvReader csv_;
+  std::array<std::optional<std::size_t>, value_count> value_columns_;
+  std::size_t ball_column_ = 0, kind_column_ = 0, partner_column_ = 0;
+  double last_time_;
+};
+
+/// What one pass over a log tells.
+struct LogScan {
+  std::string file;
+  std::uint64_t events = 0;
+  double first = 0, last = 0;                        ///< times [s]
+  std::array<double, value_count> mean_magnitude{};  ///< of each column; 0 for one that is not there
+  std::array<bool, value_count> has{};
+  /// From the summary.json beside a log in a folder, when there is one.
+  std::optional<double> statistics_start;  ///< [s]
+};
+
+/// @throws InputError with the problems of the log and its summary
+LogScan scan_log(const std::filesystem::path& place);
+
+}  // namespace edmill::compare

@@ -1,0 +1,186 @@
+#include "check/mechanics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace edmill::audit {
+
+namespace {
+
+Vec cross(const Vec& a, const Vec& b) { return edmill::cross<double>(a, b); }
+
+Vec centre_of(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose) {
+  return {-pose.sin_alpha * motion.arm, pose.cos_alpha * motion.arm, 0};  // theta = alpha + pi/2
+}
+
+}  // namespace
+
+VesselFrame nested_frame(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose) {
+  const double s = pose.cos_alpha, c = -pose.sin_alpha;  // sin and cos of theta
+  const double sg = pose.sin_gamma, cg = pose.cos_gamma;
+  return {{c, s, 0},       {-s * cg, c * cg, sg}, {s * sg, -c * sg, cg}, centre_of(motion, pose),
+          pose.theta_rate, pose.gamma_rate};
+}
+
+VesselFrame printed_frame(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose) {
+  const double s = pose.cos_alpha, c = -pose.sin_alpha;
+  const double sg = pose.sin_gamma, cg = pose.cos_gamma;
+  return {{c, s * cg, s * sg},     {-s, c * cg, c * sg}, {0, -sg, cg},
+          centre_of(motion, pose), pose.theta_rate,      pose.gamma_rate};
+}
+
+double wall_gap(const VesselFrame& frame, const model::CylinderVessel<double>& vessel, int wall,
+                double radius, const Vec& position) {
+  const Vec d = position - frame.centre;
+  if (wall == 2) return vessel.radius - radius - std::hypot(dot(d, frame.x), dot(d, frame.z));
+  return vessel.half_height + (wall == 0 ? 1 : -1) * dot(d, frame.y) - radius;
+}
+
+Vec wall_normal(const VesselFrame& frame, int wall, const Vec& position) {
+  if (wall != 2) return frame.y * (wall == 0 ? 1.0 : -1.0);
+  const Vec d = position - frame.centre;
+  const Vec outward = frame.x * dot(d, frame.x) + frame.z * dot(d, frame.z);
+  const double rho = size(outward);
+  return rho > 0 ? Vec(outward * (-1 / rho)) : frame.x;
+}
+
+const char* name_of(WallVelocity formula) {
+  static constexpr std::array<const char*, wall_velocity_count> names = {
+      "",
+      "a wall at rest",
+      "the velocity of the vessel's centre for every point",
+      "the wall's velocity without the rotation by gamma",
+      "the wall's velocity without the rotation by theta",
+      "the wall's velocity with the opposite sign",
+      "the wall's velocity with the opposite sign of gamma'",
+      "gamma' about the inertial X axis instead of x'",
+      "the wall's velocity at the ball's centre instead of the contact point",
+      "the derivative of the printed matrix (2.14)"};
+  return names[static_cast<std::size_t>(formula)];
+}
+
+Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselFrame& printed,
+                  const Vec& point, const Vec& ball_centre) {
+  const Vec about_z{0, 0, nested.theta_rate}, X{1, 0, 0};
+  const Vec swing = cross(about_z, point), d = point - nested.centre;
+  const Vec roll = cross(Vec(nested.x * nested.gamma_rate), d);
+  switch (formula) {
+    case WallVelocity::nested:
+      return swing + roll;
+    case WallVelocity::none:
+      return {0, 0, 0};
+    case WallVelocity::of_the_centre:
+      return cross(about_z, nested.centre);
+    case WallVelocity::without_gamma:
+      return swing;
+    case WallVelocity::without_theta:
+      return roll;
+    case WallVelocity::reversed:
+      return -(swing + roll);
+    case WallVelocity::gamma_reversed:
+      return swing - roll;
+    case WallVelocity::gamma_about_X:
+      return swing + cross(Vec(X * nested.gamma_rate), d);
+    case WallVelocity::at_the_ball_centre:
+      return cross(about_z, ball_centre) +
+             cross(Vec(nested.x * nested.gamma_rate), Vec(ball_centre - nested.centre));
+    case WallVelocity::of_the_printed_matrix: {
+      // P = C + R_x R_z p: R_z p turns about Z, then everything but C turns about X.
+      const Vec turned_z = cross(Vec(X * nested.gamma_rate), d);
+      // The axis Z of the inner rotation as R_x leaves it is the printed frame's z.
+      return cross(about_z, nested.centre) + turned_z + cross(Vec(printed.z * nested.theta_rate), d);
+    }
+  }
+  return {0, 0, 0};
+}
+
+void Impact::set_masses() {
+  if (with_wall) {
+    effective_mass = ball[0].mass;
+    compliance = 1 + 1 / ball[0].reduced_inertia;
+    return;
+  }
+  effective_mass = 1 / (1 / ball[0].mass + 1 / ball[1].mass);
+  compliance = 1;
+  for (const auto& b : ball) compliance += effective_mass / (b.mass * b.reduced_inertia);
+}
+
+Vec Impact::contact_velocity(const Vec& v_i, const Vec& w_i, const Vec& v_j, const Vec& w_j) const {
+  // The ball's contact point is at -R n from its centre, the partner's at +R n.
+  const Vec own = v_i - cross(w_i, normal) * ball[0].radius;
+  if (with_wall) return own - wall_velocity;
+  return own - (v_j + cross(w_j, normal) * ball[1].radius);
+}
+
+Vec Impact::before(const LoggedEvent& e) const {
+  return contact_velocity(e.body[0].velocity_before, e.body[0].spin_before, e.body[1].velocity_before,
+                          e.body[1].spin_before);
+}
+Vec Impact::after(const LoggedEvent& e) const {
+  return contact_velocity(e.body[0].velocity_after, e.body[0].spin_after, e.body[1].velocity_after,
+                          e.body[1].spin_after);
+}
+
+double separation_speed(const model::ContactLaw<double>& law, double g_n) {
+  // Bodies that part by rounding leave no slower than they part.
+  return std::max({law.restitution_normal * -g_n, law.least_separation, g_n});
+}
+
+double tangential_restitution(const model::ContactLaw<double>& law, double compliance, double bounce,
+                              double slip_speed) {
+  if (law.model == model::ContactModel::constant) return law.restitution_tangential;
+  const double reversal = law.friction * compliance * bounce;  // what full sliding takes off the slip
+  if (reversal >= (1 - law.min_tangential) * slip_speed) return law.min_tangential;
+  return 1 - reversal / slip_speed;
+}
+
+std::array<BodyState, 2> outcome(const Impact& impact, const model::ContactLaw<double>& law,
+                                 const LoggedEvent& event, const Formula& formula) {
+  const Vec g = impact.before(event);
+  const double g_n = dot(g, impact.normal);
+  const Vec slip = g - impact.normal * g_n;
+  const double bounce = separation_speed(law, g_n) - g_n;
+  const double in_friction =
+      formula.friction_of_restitution ? -(1 + law.restitution_normal) * std::min(g_n, 0.0) : bounce;
+  const double c_in_law = formula.compliance_in_e_t > 0 ? formula.compliance_in_e_t : impact.compliance;
+  const double c = formula.compliance_in_impulse > 0 ? formula.compliance_in_impulse : impact.compliance;
+  const double e_t = tangential_restitution(law, c_in_law, in_friction, size(slip));
+  const Vec normal_part = impact.normal * bounce, tangential_part = slip * (-(1 - e_t) / c);
+  auto result = event.body;
+  for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
+    const auto& ball = impact.ball[k];
+    const double side = k == 0 ? 1 : -1;
+    const double share = formula.share[k] >= 0 ? formula.share[k] : impact.effective_mass / ball.mass;
+    result[k].velocity_after = event.body[k].velocity_before +
+                               (normal_part + tangential_part * formula.velocity_sign) * (side * share);
+    // Torque of the tangential impulse on an arm of -R n, of the other ball +R n: the same sign.
+    const Vec torque = cross(Vec(impact.normal * -1.0), tangential_part);
+    result[k].spin_after = event.body[k].spin_before +
+                           torque * (formula.spin_sign * share / (ball.radius * ball.reduced_inertia));
+  }
+  return result;
+}
+
+double distance(const Impact& impact, const LoggedEvent& event, const std::array<BodyState, 2>& outcome) {
+  double worst = 0;
+  for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
+    worst = std::max(worst, size(Vec(event.body[k].velocity_after - outcome[k].velocity_after)));
+    worst =
+        std::max(worst, impact.ball[k].radius * size(Vec(event.body[k].spin_after - outcome[k].spin_after)));
+  }
+  return worst;
+}
+
+double velocity_scale(const Impact& impact, const LoggedEvent& event, bool with_spins) {
+  double scale = size(impact.wall_velocity);
+  for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
+    const auto& body = event.body[k];
+    scale = std::max({scale, size(body.velocity_before), size(body.velocity_after)});
+    if (with_spins)
+      scale = std::max({scale, impact.ball[k].radius * size(body.spin_before),
+                        impact.ball[k].radius * size(body.spin_after)});
+  }
+  return scale;
+}
+
+}  // namespace edmill::audit

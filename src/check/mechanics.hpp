@@ -1,0 +1,99 @@
+// The mechanics that an audit judges by, written from the definitions and apart from the solver's own
+// impulse: where the vessel's walls are, what an impact must do, and what it does in formulas that are wrong.
+// Equations: docs/theory.md, sections 1, 2 and 5.
+#pragma once
+
+#include <array>
+
+#include "check/event_log.hpp"
+#include "model/case.hpp"
+
+namespace edmill::audit {
+
+using Vec = Vec3<double>;
+
+inline double dot(const Vec& a, const Vec& b) { return edmill::dot<double>(a, b); }
+inline double size(const Vec& a) { return edmill::norm<double>(a); }
+
+/// How the vessel stands: the turned axes x, y, z and the centre C in the inertial frame.
+struct VesselFrame {
+  Vec x, y, z, centre;
+  double theta_rate = 0, gamma_rate = 0;  ///< [rad/s]
+};
+
+/// R_z(theta) R_x(gamma), the nested model. (2.7')
+VesselFrame nested_frame(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose);
+/// R_x(gamma) R_z(theta), as (2.14) is printed.
+VesselFrame printed_frame(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose);
+
+/// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
+double wall_gap(const VesselFrame& frame, const model::CylinderVessel<double>& vessel, int wall,
+                double radius, const Vec& position);
+/// Unit, from the wall to the ball.
+Vec wall_normal(const VesselFrame& frame, int wall, const Vec& position);
+
+/// Velocities that codes give to the wall; the first is right: V = W_Z x P + (R_z W_x') x (P - C).
+enum class WallVelocity {
+  nested,
+  none,
+  of_the_centre,
+  without_gamma,
+  without_theta,
+  reversed,
+  gamma_reversed,
+  gamma_about_X,
+  at_the_ball_centre,
+  of_the_printed_matrix,
+};
+inline constexpr int wall_velocity_count = 10;
+const char* name_of(WallVelocity formula);
+/// @param point  where the wall is touched; the ball's centre is `point + normal R`
+Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselFrame& printed,
+                  const Vec& point, const Vec& ball_centre);
+
+/// What an impact's law needs to know: bodies, geometry, and the wall's velocity.
+struct Impact {
+  bool with_wall = false;
+  std::array<model::BallProperties<double>, 2> ball;  ///< the partner only for balls
+  Vec normal;                                         ///< unit, from the partner to the ball
+  Vec wall_velocity{0, 0, 0};
+  /// M, and c = 1 + M/(m_i J_i) + M/(m_j J_j), for a wall 1 + 1/J_i
+  double effective_mass = 0, compliance = 0;
+
+  void set_masses();
+  /// Relative velocity of the contact points. (2.27)
+  Vec contact_velocity(const Vec& v_i, const Vec& w_i, const Vec& v_j, const Vec& w_j) const;
+  Vec before(const LoggedEvent& e) const;
+  Vec after(const LoggedEvent& e) const;
+};
+
+/// Speed along the normal at which the contact points leave an impact, max(e_n |g_n|, v_s) [m/s]. (2.23')
+/// @param g_n  before the impact; negative while the bodies approach
+double separation_speed(const model::ContactLaw<double>& law, double g_n);
+
+/// e_t of the law for an impact that gives the normal impulse `bounce` times the effective mass. (2.24')
+/// @param bounce  |g_n| + g_n' [m/s]
+double tangential_restitution(const model::ContactLaw<double>& law, double compliance, double bounce,
+                              double slip_speed);
+
+/// A formula for the outcome of an impact: the right one, or one with a mistake.
+struct Formula {
+  double velocity_sign = 1;              ///< of the tangential term of the velocity; -1 is (2.34) as printed
+  double spin_sign = 1;                  ///< of the spin's change
+  double compliance_in_e_t = 0;          ///< instead of c in (2.24); 0 for c
+  double compliance_in_impulse = 0;      ///< instead of c in (2.28); 0 for c
+  bool friction_of_restitution = false;  ///< limited by mu (1 + e_n) |g_n| where the bodies leave at v_s
+  std::array<double, 2> share{-1, -1};   ///< M/m of each ball; the right ones when negative
+};
+
+/// Velocities and spins after the impact.
+std::array<BodyState, 2> outcome(const Impact& impact, const model::ContactLaw<double>& law,
+                                 const LoggedEvent& event, const Formula& formula);
+
+/// Largest difference of velocities, spins taken times the radius [m/s].
+double distance(const Impact& impact, const LoggedEvent& event, const std::array<BodyState, 2>& outcome);
+
+/// Size of the velocities that take part [m/s]: what tolerances are relative to.
+double velocity_scale(const Impact& impact, const LoggedEvent& event, bool with_spins);
+
+}  // namespace edmill::audit

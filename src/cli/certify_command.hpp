@@ -1,0 +1,32 @@
+// `edmill certify` and `edmill run --shadow`: one case in more than one scalar.
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "casefile/case_spec.hpp"
+
+namespace edmill::cli {
+
+struct CertifyOptions {
+  std::string file;  ///< of the certified sequence
+  std::size_t collisions = 0;
+  int digits = 25;
+  bool quiet = false;
+  const std::atomic<bool>* interrupt = nullptr;
+};
+
+/// Raises the precision until two successive ones agree on the first events, in order and in so many digits,
+/// and writes them with the evidence.
+/// @return an exit code; `undecided` when the widest two do not agree
+int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options);
+
+/// @throws InputError when `shadow` is not wider than `precision`
+void check_shadow(const std::string& precision, const std::string& shadow);
+
+/// Runs the case in both scalars side by side to its end and prints when they part: event, time, quantities,
+/// and how fast digits are lost.
+int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& shadow,
+               const std::atomic<bool>* interrupt);
+
+}  // namespace edmill::cli

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include "cli/run_case.hpp"
+#include "instances/instances.hpp"
+
+namespace edmill::cli {
+
+namespace {
+
+std::string describe_law(const model::ContactLaw<double>& law) {
+  std::string text = law.model == model::ContactModel::constant
+                         ? fmt::format("constant: normal {}, tangential {}", law.restitution_normal,
+                                       law.restitution_tangential)
+                         : fmt::format("walton-braun: restitution {}, friction {}, tangential at least {}",
+                                       law.restitution_normal, law.friction, law.min_tangential);
+  return text + (law.least_separation > 0 ? fmt::format(", least separation {:g} m/s", law.least_separation)
+                                          : ", no least separation");
+}
+
+}  // namespace
+
+std::string describe_case(const casefile::CaseSpec& spec) {
+  // The case's own scalar is the one that has to resolve it; double does for the description.
+#define EDMILL_CHECK_IN(Real) \
+  if (spec.precision == ScalarName<Real>::value) casefile::build_case<Real>(spec);
+  EDMILL_FOR_EACH_SCALAR(EDMILL_CHECK_IN)
+#undef EDMILL_CHECK_IN
+  const auto built = casefile::build_case<double>(spec, false);
+  const auto& c = built.the_case;
+  const auto& m = c.mill;
+  std::string out = fmt::format("{} is a valid case\n", spec.file);
+  const auto row = [&](const std::string& name, const std::string& value) {
+    out += fmt::format("  {:<24}{}\n", name, value);
+  };
+  row("digest", spec.digest);
+  row("precision, seed", fmt::format("{}, {}", spec.precision, spec.seed));
+  row("statistics from", fmt::format("{:g} s", spec.statistics_start.to<double>()));
+  if (spec.end_time) row("stop at time", fmt::format("{:g} s", spec.end_time->to<double>()));
+  if (c.stop.max_collisions) row("stop after collisions", fmt::format("{}", *c.stop.max_collisions));
+  if (c.stop.max_milling_dose) row("stop at milling dose", fmt::format("{:g} J", *c.stop.max_milling_dose));
+  if (c.stop.max_ball_speed) row("stop at ball speed", fmt::format("{:g} m/s", *c.stop.max_ball_speed));
+  row("gravity", fmt::format("({:g}, {:g}, {:g}) m/s^2", m.gravity[0], m.gravity[1], m.gravity[2]));
+  if (spec.mill.type == "still") {
+    row("mill", fmt::format("still, arm {:g} m", m.motion.arm));
+  } else {
+    const double w = m.motion.angular_speed();
+    row("mill", fmt::format("{}: arm {:g} m, theta_max {:g} rad, gamma_max {:g} rad", spec.mill.type,
+                            m.motion.arm, m.motion.theta_max, m.motion.gamma_max));
+    row("drive", fmt::format("{:g} rad/s, period {:g} s", w, m.motion.period));
+    row("peak wall speed",
+        fmt::format("{:g} m/s at the vessel's centre", m.motion.arm * m.motion.theta_max * w));
+  }
+  row("vessel",
+      fmt::format("cylinder: radius {:g} m, height {:g} m", m.vessel.radius, 2 * m.vessel.half_height));
+  row("contact ball-ball", describe_law(m.ball_ball));
+  row("contact ball-wall", describe_law(m.ball_wall));
+  double mass = 0, volume = 0;
+  for (const auto& ball : c.balls) {
+    mass += ball.mass;
+    volume += 4.0 / 3 * numerics::pi<double>() * ball.radius * ball.radius * ball.radius;
+  }
+  row("balls", fmt::format("{}, together {:g} kg", c.balls.size(), mass));
+  const auto kind = [&](const casefile::BallSpec& b, int count) {
+    const double d = b.diameter.to<double>(), density = b.density.to<double>();
+    row("", fmt::format("{} x {:g} m, {:g} kg/m^3: {:g} kg each", count, d, density,
+                        density * numerics::pi<double>() * d * d * d / 6));
+  };
+  for (const auto& b : spec.balls) kind(b, 1);
+  for (const auto& b : spec.batches) kind(b, b.count);
+  const double vessel_volume =
+      2 * numerics::pi<double>() * m.vessel.radius * m.vessel.radius * m.vessel.half_height;
+  row("packing fraction", fmt::format("{:.4g}", volume / vessel_volume));
+  if (spec.powder_mass)
+    row("charge ratio", fmt::format("{:.4g} on {:g} kg of powder", mass / spec.powder_mass->to<double>(),
+                                    spec.powder_mass->to<double>()));
+  for (const auto& output : spec.outputs) row("output", output.type + " to " + output.file);
+  return out;
+}
+
+}  // namespace edmill::cli

@@ -1,0 +1,16 @@
+#include "cli/report_command.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/run_case.hpp"
+#include "report/report_page.hpp"
+
+namespace edmill::cli {
+
+int run_report(const std::string& folder, bool quiet) {
+  const auto place = report::write_report(folder);
+  if (!quiet) fmt::print("The report is {}\n", place.string());
+  return ok;
+}
+
+}  // namespace edmill::cli

@@ -1,0 +1,39 @@
+#include "cli/resume_command.hpp"
+
+#include <filesystem>
+
+#include "base/errors.hpp"
+#include "cli/run_command.hpp"
+
+namespace edmill::cli {
+
+io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vector<std::string>& overrides,
+                                const std::string& precision, bool report, const std::string& interval) {
+  io::Checkpoint c;
+  c.case_file = spec.file, c.case_text = spec.text, c.case_digest = spec.digest;
+  if (!spec.initial_state.empty()) c.initial_state = std::filesystem::absolute(spec.initial_state).string();
+  c.overrides = overrides;
+  c.precision = precision;
+  c.report = report;
+  c.interval = interval;
+  return c;
+}
+
+int run_resume(const std::string& interval, RunOptions options) {
+  auto checkpoint = io::read_checkpoint(options.folder);
+  if (!interval.empty()) checkpoint.interval = interval;
+  auto overrides = checkpoint.overrides;
+  if (!checkpoint.initial_state.empty())
+    overrides.push_back("run.initial_state='" + checkpoint.initial_state + "'");
+  auto spec = casefile::parse_case(checkpoint.case_text, checkpoint.case_file, overrides);
+  spec.text = checkpoint.case_text;
+  if (spec.digest != checkpoint.case_digest)
+    throw InputError(options.folder + ": found another initial state in " + spec.initial_state +
+                     " than the run had, expected the file as it was");
+  const std::string precision = checkpoint.precision;
+  options.report = checkpoint.report;
+  options.checkpoint = std::move(checkpoint);
+  return run_and_report(precision, std::move(spec), options);
+}
+
+}  // namespace edmill::cli

@@ -1,0 +1,48 @@
+// The command `edmill run` for one scalar: build, simulate, write, print.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "casefile/case_spec.hpp"
+#include "io/checkpoint_file.hpp"
+
+namespace edmill::cli {
+
+/// Exit codes of the program; docs/usage.md explains them.
+enum ExitCode : int {
+  ok = 0,
+  internal_error = 1,
+  bad_input = 2,
+  inelastic_collapse = 3,
+  undecided = 4,
+  some_runs_failed = 5,
+  outputs_differ = 6,
+  too_few_data = 7,
+  interrupted = 128,  ///< and the signal's number, which the caller knows
+};
+
+struct RunOptions {
+  std::string folder;  ///< of the outputs
+  bool quiet = false;
+  bool report = false;  ///< write the page report.html, and the tables that it shows
+  const std::atomic<bool>* interrupt = nullptr;
+  /// Called when there begins to be something to keep; before that a signal may end the program at once.
+  std::function<void()> listen = [] {};
+  /// Called when the results are in place, while a killed run could still go on from its checkpoint.
+  std::function<void()> when_written = [] {};
+  /// What a checkpoint says besides the state, when the run leaves any; with a state, it goes on from there.
+  std::optional<io::Checkpoint> checkpoint;
+};
+
+/// @return an exit code
+/// @throws InterruptedError when the interrupt comes before the first event
+template <class Real>
+int run_case(const casefile::CaseSpec& spec, const RunOptions& options);
+
+/// The case in SI with its derived numbers, for `edmill check`.
+std::string describe_case(const casefile::CaseSpec& spec);
+
+}  // namespace edmill::cli

@@ -1,0 +1,39 @@
+// The folder of a run: its lock, its checkpoint, and what killed runs have left in it.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "cli/run_case.hpp"
+#include "io/output_folder.hpp"
+#include "run/simulate.hpp"
+
+namespace edmill::cli {
+
+class RunFolder {
+ public:
+  /// @throws InputError when the folder cannot be used, or holds the checkpoint of another run
+  RunFolder(const casefile::CaseSpec& spec, const RunOptions& options);
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+  /// Without a checkpoint there is nothing that temporary files could be kept for.
+  ~RunFolder();
+
+  const std::filesystem::path& place() const { return place_; }
+  /// What the driver is to do about checkpoints. It must not outlive this folder.
+  run::Checkpoints checkpoints();
+  void remove_checkpoint();
+
+ private:
+  void remove_temporaries(const std::string& kept);
+
+  std::filesystem::path place_;
+  const casefile::CaseSpec& spec_;
+  std::optional<io::Checkpoint> checkpoint_;
+  std::optional<io::FolderLock> lock_;
+};
+
+/// "10 min" by the clock on the wall, "0.5 s simulated". @throws InputError
+run::CheckpointInterval parse_checkpoint_interval(const std::string& text);
+
+}  // namespace edmill::cli

@@ -1,0 +1,168 @@
+// Implementation of DecisionLadder; included by the instantiation files only, where the wide scalars are
+// known.
+#pragma once
+
+#include <type_traits>
+
+#include "base/errors.hpp"
+#include "base/scalar_list.hpp"
+#include "dynamics/decision_ladder.hpp"
+
+namespace edmill::dynamics {
+
+namespace detail {
+
+template <class Real>
+std::string text(const Flight<Real>& f) {
+  std::string out = "flight from (period " + std::to_string(f.start.period) + ", offset " +
+                    to_text(f.start.offset) + " s): position";
+  for (int k = 0; k < 3; ++k) out += " " + to_text<Real>(f.position[k]);
+  out += " m, velocity";
+  for (int k = 0; k < 3; ++k) out += " " + to_text<Real>(f.velocity[k]);
+  return out + " m/s";
+}
+
+}  // namespace detail
+
+template <class Real>
+struct DecisionLadder<Real>::Above {
+  // At the top of the ladder this type is never used.
+  using Wide = std::conditional_t<std::is_void_v<Wider<Real>>, Real, Wider<Real>>;
+  DecisionLadder<Wide> ladder;
+};
+
+template <class Real>
+DecisionLadder<Real>::DecisionLadder(const model::Mill<Real>& mill, const Real& smallest_sum,
+                                     const Real& top_speed)
+    : mill_(mill),
+      smallest_sum_(smallest_sum),
+      walls_(mill),
+      pairs_(mill, smallest_sum, walls_.constants().reach, top_speed) {
+  if constexpr (!std::is_void_v<Wider<Real>>) passed_up_.scalar = ScalarName<Wider<Real>>::value;
+}
+
+template <class Real>
+DecisionLadder<Real>::~DecisionLadder() = default;
+template <class Real>
+DecisionLadder<Real>::DecisionLadder(DecisionLadder&&) noexcept = default;
+
+template <class Real>
+auto DecisionLadder<Real>::above() -> Above& {
+  using Wide = typename Above::Wide;
+  if (!above_)
+    above_.reset(new Above{
+        DecisionLadder<Wide>(model::mill_cast<Wide>(mill_), Wide(smallest_sum_), Wide(pairs_.top_speed()))});
+  return *above_;
+}
+
+template <class Real>
+void DecisionLadder<Real>::raise_top_speed(const Real& speed) {
+  pairs_.raise_top_speed(speed);
+  if (above_) above_->ladder.raise_top_speed(typename Above::Wide(speed));
+}
+
+template <class Real>
+void DecisionLadder<Real>::archive(Archive& a) {
+  bool needed_above = above_ != nullptr;
+  a(passed_up_, needed_above);
+  if constexpr (!std::is_void_v<Wider<Real>>)
+    if (needed_above) a(above().ladder);
+}
+
+template <class Real>
+WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) {
+  if constexpr (std::is_void_v<Wider<Real>>) {
+    throw UndecidedError("ball-wall contact undecided in the widest scalar: ball of radius " +
+                         to_text(query.radius) + " m, " + detail::text(query.flight) +
+                         ", window from (period " + std::to_string(query.begin.period) + ", offset " +
+                         to_text(query.begin.offset) + " s) for " + to_text(query.length) + " s");
+  } else {
+    using Wide = Wider<Real>;
+    ++passed_up_.wall;
+    const auto wide =
+        above().ladder.wall(WallQuery<Wide>{flight_cast<Wide>(query.flight), Wide(query.radius),
+                                            instant_cast<Wide>(query.begin), Wide(query.length)});
+    auto time = rounded_down<Real>(wide.time);
+    if (wide.verdict == Verdict::contact && time < query.begin) time = query.begin;
+    Real searched = static_cast<Real>(wide.searched);
+    if (Wide(searched) > wide.searched) searched -= searched * epsilon<Real>();
+    return {wide.verdict, wide.wall, time, wide.tie, searched, static_cast<Real>(wide.doubt) + rounding()};
+  }
+}
+
+template <class Real>
+PairAnswer<Real> DecisionLadder<Real>::pair_above(const Flight<Real>& i, const Flight<Real>& j,
+                                                  const Instant<Real>& now, const Real& radius_sum) {
+  if constexpr (std::is_void_v<Wider<Real>>) {
+    throw UndecidedError("ball-ball contact undecided in the widest scalar: sum of radii " +
+                         to_text(radius_sum) + " m, now (period " + std::to_string(now.period) + ", offset " +
+                         to_text(now.offset) + " s); " + detail::text(i) + "; " + detail::text(j));
+  } else {
+    using Wide = Wider<Real>;
+    ++passed_up_.pair;
+    const auto wide = above().ladder.pair(flight_cast<Wide>(i), flight_cast<Wide>(j), instant_cast<Wide>(now),
+                                          Wide(radius_sum));
+    const Real delay = static_cast<Real>(wide.delay);
+    return {wide.verdict, delay, static_cast<Real>(wide.doubt) + rounding() + 4 * epsilon<Real>() * delay};
+  }
+}
+
+template <class Real>
+auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
+  const auto& clock = pairs_.clock();
+  if (!contact.with_wall) {
+    const auto& now = contact.flight.start;
+    const auto answer = pair(contact.flight, contact.partner, now, contact.radius);
+    if (answer.verdict == Verdict::contact) return {clock.after(now, answer.delay), answer.doubt};
+    return {contact.time, tie_window()};
+  }
+  // A window that ends just after the predicted time holds the contact.
+  const Real length = walls_.longest_window() / 64;
+  auto begin = clock.after(contact.time, -length);
+  if (begin < contact.flight.start) begin = contact.flight.start;
+  const Real window = clock.elapsed(begin, contact.time) + length / 64;
+  const auto answer = wall({contact.flight, contact.radius, begin, window});
+  if (answer.verdict == Verdict::contact) return {answer.time, answer.doubt};
+  return {contact.time, tie_window()};
+}
+
+template <class Real>
+int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) {
+  const Timed first = time_of(a), second = time_of(b);
+  const Real difference = pairs_.clock().elapsed(first.time, second.time);
+  const Real doubt = first.doubt + second.doubt + 16 * epsilon<Real>() * pairs_.clock().period();
+  if (difference > doubt) return -1;
+  if (difference < -doubt) return 1;
+  if constexpr (std::is_void_v<Wider<Real>>) {
+    return 0;
+  } else {
+    using Wide = Wider<Real>;
+    ++passed_up_.order;
+    const auto widened = [](const Contact<Real>& c) {
+      return Contact<Wide>{c.with_wall, flight_cast<Wide>(c.flight), flight_cast<Wide>(c.partner),
+                           Wide(c.radius), instant_cast<Wide>(c.time)};
+    };
+    return above().ladder.order(widened(a), widened(b));
+  }
+}
+
+template <class Real>
+std::vector<Escalations> DecisionLadder<Real>::escalations() const {
+  if constexpr (std::is_void_v<Wider<Real>>) {
+    return {};
+  } else {
+    std::vector<Escalations> rows{passed_up_};
+    if (above_) {
+      const auto more = above_->ladder.escalations();
+      rows.insert(rows.end(), more.begin(), more.end());
+    } else {
+      // Rungs that were never needed still stand in the report.
+      using Wide = Wider<Real>;
+      if constexpr (!std::is_void_v<Wider<Wide>>)
+        rows.push_back({std::string(ScalarName<Wider<Wide>>::value)});
+    }
+    return rows;
+  }
+}
+
+}  // namespace edmill::dynamics

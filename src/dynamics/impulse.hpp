@@ -1,0 +1,118 @@
+// What an impact does: new velocities and spins, milling dose, wall work.
+// Equations: (2.23'), (2.28'), (2.30'), (2.34'), (2.35), (2.36'), (A.82) of docs/theory.md.
+#pragma once
+
+#include "base/vector.hpp"
+#include "model/ball.hpp"
+#include "model/contact_law.hpp"
+
+namespace edmill::dynamics {
+
+/// The quantities of one impact.
+template <class Real>
+struct ImpactOutcome {
+  Real approach_speed{};          ///< -g.n before the impact [m/s]
+  Real separation_speed{};        ///< g.n after the impact [m/s]
+  Real slip_speed{};              ///< |g_t| before the impact [m/s]
+  Real restitution_tangential{};  ///< e_t
+  bool least_separation{};        ///< the least separation speed, and not the restitution, decided g.n
+  Real normal_impulse{};          ///< [N s]
+  Real tangential_impulse{};      ///< [N s]
+  Real milling_dose{};            ///< [J], (2.30') or (2.36'); never negative
+  Real normal_dose{};             ///< the part of the dose that the motion along the normal gives up [J]
+  Real supplied_energy{};         ///< that the least separation speed adds to the motion [J]; never negative
+  Real wall_work{};               ///< [J], (A.82); zero between balls
+
+  /// Effective e_n = separation over approach speed; above 1 where energy is supplied, 1 where the bodies do
+  /// not approach each other.
+  Real restitution_normal() const {
+    return approach_speed > 0 ? Real(separation_speed / approach_speed) : Real(1);
+  }
+};
+
+namespace detail {
+
+/// The common part of both impacts.
+template <class Real>
+struct ImpulseParts {
+  Vec3<Real> per_mass;     ///< velocity change of a body of the effective mass M, with the sign for body i
+  Vec3<Real> spin_torque;  ///< n x B g_t
+  ImpactOutcome<Real> outcome;
+};
+
+/// @param compliance  1 + M/(m_i J_i) + M/(m_j J_j); the last term is zero for a wall
+template <class Real>
+ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
+                                 const Real& effective_mass, const Real& compliance,
+                                 const model::ContactLaw<Real>& law) {
+  const Real normal_speed = dot<Real>(contact_velocity, normal);  // negative while approaching
+  const Vec3<Real> slip = contact_velocity - normal * normal_speed;
+  ImpulseParts<Real> parts;
+  auto& out = parts.outcome;
+  out.approach_speed = -normal_speed;
+  out.slip_speed = norm<Real>(slip);
+  const Real approach = normal_speed < 0 ? Real(-normal_speed) : Real(0);
+  const Real separation = law.separation_speed(approach);
+  out.least_separation = separation > law.restitution_normal * approach && separation > normal_speed;
+  // Bodies that part by rounding, and faster than they would leave, go on as they are.
+  out.separation_speed = separation > normal_speed ? separation : normal_speed;
+  const Real change = out.separation_speed - normal_speed;
+  out.restitution_tangential = law.restitution_of_slip(change, out.slip_speed, compliance);
+  const Real& e_t = out.restitution_tangential;
+  const Real gain = (1 - e_t) / compliance;
+  parts.per_mass = normal * change - slip * gain;
+  parts.spin_torque = cross<Real>(normal, slip) * gain;
+  out.normal_impulse = effective_mass * change;
+  out.tangential_impulse = effective_mass * (gain * out.slip_speed);
+  const Real normal_loss = effective_mass / 2 * ((out.approach_speed - out.separation_speed) * change);
+  if (normal_loss < 0)
+    out.supplied_energy = -normal_loss;
+  else
+    out.normal_dose = normal_loss;
+  out.milling_dose = out.normal_dose +
+                     effective_mass / 2 * ((1 - e_t * e_t) / compliance * (out.slip_speed * out.slip_speed));
+  return parts;
+}
+
+}  // namespace detail
+
+/// Impact of two balls. (2.28'), (2.30')
+/// @param normal  contact normal, unit, from ball j to ball i
+template <class Real>
+ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallProperties<Real>& ball_i,
+                                  const model::BallProperties<Real>& ball_j, Vec3<Real>& velocity_i,
+                                  Vec3<Real>& spin_i, Vec3<Real>& velocity_j, Vec3<Real>& spin_j,
+                                  const model::ContactLaw<Real>& law) {
+  const Real total = ball_i.mass + ball_j.mass;
+  const Real share_i = ball_j.mass / total;  // M / m_i
+  const Real share_j = ball_i.mass / total;
+  const Real effective_mass = ball_i.mass * share_i;
+  const Real compliance = 1 + share_i / ball_i.reduced_inertia + share_j / ball_j.reduced_inertia;
+  const Vec3<Real> rolling = spin_i * ball_i.radius + spin_j * ball_j.radius;
+  const Vec3<Real> contact_velocity = (velocity_i - velocity_j) - cross<Real>(rolling, normal);
+  const auto parts = detail::impulse_parts<Real>(normal, contact_velocity, effective_mass, compliance, law);
+  velocity_i += parts.per_mass * share_i;
+  velocity_j -= parts.per_mass * share_j;
+  spin_i += parts.spin_torque * (share_i / (ball_i.radius * ball_i.reduced_inertia));
+  spin_j += parts.spin_torque * (share_j / (ball_j.radius * ball_j.reduced_inertia));
+  return parts.outcome;
+}
+
+/// Impact of a ball with a wall that moves with `wall_velocity` at the contact point. (2.34'), (2.35),
+/// (2.36')
+/// @param normal  contact normal, unit, from the wall to the ball
+template <class Real>
+ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal, const model::BallProperties<Real>& ball,
+                                      const Vec3<Real>& wall_velocity, Vec3<Real>& velocity, Vec3<Real>& spin,
+                                      const model::ContactLaw<Real>& law) {
+  const Real compliance = 1 + 1 / ball.reduced_inertia;
+  const Vec3<Real> rolling = spin * ball.radius;
+  const Vec3<Real> contact_velocity = (velocity - wall_velocity) - cross<Real>(rolling, normal);
+  auto parts = detail::impulse_parts<Real>(normal, contact_velocity, ball.mass, compliance, law);
+  velocity += parts.per_mass;
+  spin += parts.spin_torque * (1 / (ball.radius * ball.reduced_inertia));
+  parts.outcome.wall_work = ball.mass * dot<Real>(wall_velocity, parts.per_mass);
+  return parts.outcome;
+}
+
+}  // namespace edmill::dynamics

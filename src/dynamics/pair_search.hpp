@@ -1,0 +1,220 @@
+// First contact of two balls in free flight, as a certified decision. Equation (3.1) of the thesis.
+#pragma once
+
+#include "dynamics/flight.hpp"
+#include "dynamics/wall_search.hpp"
+
+namespace edmill::dynamics {
+
+template <class Real>
+struct PairAnswer {
+  Verdict verdict = Verdict::none;
+  Real delay{0};  ///< of a contact: time from now [s], >= 0
+  Real doubt{0};  ///< of a contact: bound on what rounding does to the delay [s]
+};
+
+/// Constants of the filter that proves, for nearly all pairs, that they never meet; they hold for a whole
+/// run.
+template <class Real>
+struct PairFilter {
+  Vec3<Real> gravity;
+  Real period;                               ///< of the drive [s]
+  Real relative, slowest_squared, touching;  ///< see PairSearch::raise_top_speed
+  Real grazing;  ///< a discriminant must be larger by this for a sharp time [m^4/s^2]
+
+  bool may_meet(const Real& b, const Real& c, const Real& v2, const Real& r2) const {
+    // No branch: approaching and parting are a coin toss.
+    const Real doubt = relative * (v2 * r2);
+    const bool moving = v2 > slowest_squared;
+    const bool apart = (c > touching) & ((b >= 0) | (b * b - v2 * c < -doubt));
+    const bool parting = (b > 0) & (b * b > doubt);  // touching or not, as two that have just collided
+    return !(moving & (apart | parting));
+  }
+};
+
+/// Both balls fall alike, so their relative motion is a straight line and the time is closed:
+/// with r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2:  dt = c / (-b + sqrt(b^2 - v.v c)). (3.1)
+/// Balls that overlap by rounding collide at once if they approach and never if they part.
+template <class Real>
+class PairSearch {
+ public:
+  /// @param smallest_sum  least sum of two radii [m]
+  /// @param reach         largest distance of a ball from the origin [m]
+  /// @param top_speed     no ball is faster [m/s]; see `raise_top_speed`
+  PairSearch(const model::Mill<Real>& mill, const Real& smallest_sum, const Real& reach,
+             const Real& top_speed)
+      : gravity_(mill.gravity), clock_(mill.motion.period), smallest_sum_(smallest_sum), reach_(reach) {
+    using std::sqrt;
+    const Real &R = mill.vessel.radius, &h = mill.vessel.half_height;
+    widest_ = 2 * sqrt(R * R + h * h);
+    largest_sum_ = 2 * (R < h ? R : h);
+    gravity_size_ = norm<Real>(gravity_);
+    const Real &one = mill.ball_ball.least_separation, &other = mill.ball_wall.least_separation;
+    least_separation_ = one < other ? one : other;
+    filter_.gravity = gravity_;
+    filter_.period = clock_.period();
+    raise_top_speed(top_speed);
+  }
+
+  const Real& top_speed() const { return top_speed_; }
+  /// Two contacts farther apart in time [s] are in the order of their predicted times: a time is stored only
+  /// with an error below a quarter of it.
+  const Real& tie_window() const { return tie_window_; }
+  const DriveClock<Real>& clock() const { return clock_; }
+
+  void raise_top_speed(const Real& top_speed) {
+    const Real u = epsilon<Real>() / 2;
+    top_speed_ = top_speed;
+    position_error_ = u * (24 * reach_ + 16 * top_speed_ * clock_.period());
+    filter_.relative = 4096 * (8 * position_error_ / smallest_sum_ + 16 * u);
+    const Real slowest = 64 * u * (top_speed_ + gravity_size_ * clock_.period()) / filter_.relative;
+    filter_.slowest_squared = slowest * slowest;
+    filter_.touching = 16 * position_error_ * smallest_sum_;
+
+    // Long enough for contacts at the least separation speed to be sharp, and so short that no two balls come
+    // from cells that are not adjacent to contact within it.
+    using std::sqrt;
+    tie_window_ = sqrt(epsilon<Real>()) * clock_.period();
+    if (least_separation_ > 0 && 64 * position_error_ > tie_window_ * least_separation_)
+      tie_window_ = 64 * position_error_ / least_separation_;
+    const Real unseen = smallest_sum_ / (4096 * top_speed_);
+    if (unseen < tie_window_) tie_window_ = unseen;
+    // `time_error` for any two balls in the vessel: a flight that bends by no more than twice the reach gains
+    // no more speed than this.
+    const Real fall = 4 * sqrt(reach_ * gravity_size_);
+    const Real displaced = position_error_ + u * (640 * reach_ + 12 * clock_.period() * fall);
+    const Real least_root =
+        4 * contact_error(widest_ * widest_, largest_sum_, displaced, widest_ * widest_) / tie_window_;
+    filter_.grazing = least_root * least_root;
+  }
+
+  /// A ball's flight seen from one instant, for questions about many partners.
+  struct Seen {
+    Vec3<Real> position;  ///< now [m]
+    Vec3<Real> velocity;  ///< at the start of the flight [m/s]
+    Real age;             ///< time since the start of the flight [s]
+  };
+
+  Seen seen(const Flight<Real>& flight, const Instant<Real>& now) const {
+    const Real age = clock_.elapsed(flight.start, now);
+    return {position_after(flight, gravity_, age), flight.velocity, age};
+  }
+
+  /// First contact from `now` on; both flights started before or at `now`.
+  PairAnswer<Real> operator()(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
+                              const Real& radius_sum) const {
+    return (*this)(seen(i, now), j, now, radius_sum);
+  }
+
+  /// The filter: false when the two are proven never to meet, as nearly all are, by bounds that hold for the
+  /// whole run. No branch but the last, since approaching and parting are a coin toss.
+  bool may_meet(const Seen& i, const Flight<Real>& j, const Instant<Real>& now,
+                const Real& radius_sum) const {
+    const Relative s = relative(i, j, now, radius_sum);
+    return filter_.may_meet(s.b, s.c, s.v2, s.r2);
+  }
+  const PairFilter<Real>& filter() const { return filter_; }
+
+  PairAnswer<Real> operator()(const Seen& i, const Flight<Real>& j, const Instant<Real>& now,
+                              const Real& radius_sum) const {
+    const Relative s = relative(i, j, now, radius_sum);
+    const Real discriminant = s.b * s.b - s.v2 * s.c;
+    if (!filter_.may_meet(s.b, s.c, s.v2, s.r2)) return {};
+    const Real age = i.age > s.age ? i.age : s.age;
+    if (s.v2 > filter_.slowest_squared && s.c > filter_.touching &&
+        discriminant > filter_.relative * (s.v2 * s.r2) + filter_.grazing) {
+      using std::sqrt;
+      const Real root = sqrt(discriminant);  // v.r at the contact: approach speed times R
+      const Real delay = s.c / (root - s.b);
+      return {Verdict::contact, delay, time_error(s, delay, root, radius_sum, age)};
+    }
+    return close(s, age, radius_sum);
+  }
+
+ private:
+  /// Relative motion of two balls as seen now.
+  struct Relative {
+    Real b, c, v2, r2;  ///< r.v, r.r - R^2, v.v, r.r
+    Real dt, age;       ///< difference of the ages, age of j [s]
+  };
+  Relative relative(const Seen& i, const Flight<Real>& j, const Instant<Real>& now,
+                    const Real& radius_sum) const {
+    // As DriveClock::elapsed, without its branch.
+    const Real age =
+        static_cast<Real>(now.period - j.start.period) * clock_.period() + (now.offset - j.start.offset);
+    const Vec3<Real> r = i.position - position_after(j, gravity_, age);
+    const Real dt = i.age - age;  // balls that started together keep their relative velocity exactly
+    const Vec3<Real> v{(i.velocity[0] - j.velocity[0]) + gravity_[0] * dt,
+                       (i.velocity[1] - j.velocity[1]) + gravity_[1] * dt,
+                       (i.velocity[2] - j.velocity[2]) + gravity_[2] * dt};
+    const Real r2 = dot<Real>(r, r);
+    return {dot<Real>(r, v), r2 - radius_sum * radius_sum, dot<Real>(v, v), r2, dt, age};
+  }
+
+  /// Bounds on the rounding of the relative position now and of the relative velocity.
+  Real position_error(const Real& age) const {
+    const Real u = epsilon<Real>() / 2;
+    return position_error_ + u * (16 * gravity_size_ * age * age + 16 * top_speed_ * age);
+  }
+  Real velocity_error(const Relative& s, const Real& speed, const Real& age) const {
+    const Real u = epsilon<Real>() / 2;
+    return 4 * u * speed + (s.dt == 0 ? Real(0) : Real(12 * u * gravity_size_ * (age + clock_.period())));
+  }
+
+  /// What rounding does to (r.r - R^2)/2 at the computed time, twice over: the path is displaced by
+  /// `displaced`, and the sums of (3.1) are rounded. theory.md, section 4
+  /// @param b_delay  |r.v| times the delay
+  static Real contact_error(const Real& r2, const Real& radius_sum, const Real& displaced,
+                            const Real& b_delay) {
+    const Real u = epsilon<Real>() / 2;
+    return 2 * radius_sum * displaced + 16 * u * (r2 + radius_sum * radius_sum + b_delay);
+  }
+  /// Bound on the error of a delay [s]: `contact_error` over its rate, which is the root of the discriminant.
+  Real time_error(const Relative& s, const Real& delay, const Real& root, const Real& radius_sum,
+                  const Real& age) const {
+    using std::sqrt;
+    const Real displaced = position_error(age) + velocity_error(s, sqrt(s.v2), age) * delay;
+    const Real absolute_b = s.b < 0 ? Real(-s.b) : s.b;
+    return contact_error(s.r2, radius_sum, displaced, absolute_b * delay) / root +
+           4 * epsilon<Real>() * (delay + clock_.period());
+  }
+
+  /// The same decision with bounds made for this pair: touching, grazing or slow ones.
+  PairAnswer<Real> close(const Relative& s, const Real& age, const Real& radius_sum) const {
+    using std::sqrt;
+    const Real u = epsilon<Real>() / 2;
+    const auto& [b, c, v2, r2, dt, age_of_j] = s;
+    if (v2 == 0 && (dt == 0 || gravity_size_ == 0)) return {};  // at rest to each other, exactly
+    const Real speed = sqrt(v2), distance = sqrt(r2);
+    const Real dr = position_error(age), dv = velocity_error(s, speed, age);
+    const Real c_error = 4 * distance * dr + 8 * u * (r2 + radius_sum * radius_sum);
+    const Real b_error = 2 * speed * dr + 2 * distance * dv + 8 * u * speed * distance;
+    if (b > b_error) return {};  // parting, overlapped or not
+    if (c < -c_error) {
+      if (b < -b_error) return {Verdict::contact, Real(0), Real(0)};
+      return {Verdict::undecided};
+    }
+    const Real discriminant = b * b - v2 * c;
+    const Real absolute_b = b < 0 ? Real(-b) : b, absolute_c = c < 0 ? Real(-c) : c;
+    const Real doubt = 3 * absolute_b * b_error + b_error * b_error + 2 * v2 * c_error +
+                       4 * speed * dv * (absolute_c + c_error) + 8 * u * (b * b + v2 * absolute_c);
+    if (discriminant < -doubt) return {};
+    if (discriminant > doubt && b < -b_error) {
+      const Real root = sqrt(discriminant);
+      // Touching within rounding: the contact is now, or so much later.
+      const Real delay = c <= 0 ? Real(0) : Real(c / (root - b));
+      return {Verdict::contact, delay, time_error(s, delay, root, radius_sum, age)};
+    }
+    return {Verdict::undecided};
+  }
+
+  Vec3<Real> gravity_;
+  DriveClock<Real> clock_;
+  Real smallest_sum_, reach_;
+  Real widest_{}, largest_sum_{};  ///< bounds on the distance of two balls and on the sum of their radii [m]
+  Real gravity_size_{}, top_speed_{}, position_error_{}, tie_window_{};
+  Real least_separation_{};  ///< the smaller one of balls and walls [m/s]
+  PairFilter<Real> filter_;
+};
+
+}  // namespace edmill::dynamics

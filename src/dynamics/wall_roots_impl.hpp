@@ -1,0 +1,107 @@
+// Implementation of WallSearch: from a bracket to its root; included by wall_search_impl.hpp only.
+#pragma once
+
+#include "base/errors.hpp"
+#include "dynamics/wall_search.hpp"
+#include "model/nearby_pose.hpp"
+
+namespace edmill::dynamics {
+
+/// The bracket's root to the last digit of the scalar: the end of the last bracket where the gap is not
+/// negative.
+template <class Real>
+auto WallSearch<Real>::polish(const Curve& curve, const Bracket& bracket) const -> std::optional<Root> {
+  const Point &left = bracket.left, &right = bracket.right;
+  if (bracket.doubt > 0) return Root{left.t, bracket.doubt};
+  const auto doubt_at = [&](const Real& slope) {
+    return resolution() + (slope < 0 ? Real(-4 * curve.bounds.value_error / slope) : Real(0));
+  };
+  const bool hop = bracket.guess > 0;
+  if (!hop && (left.t == right.t || left.value <= 0)) return Root{left.t, doubt_at(left.slope)};
+  if (hop || (left.slope < 0 && right.slope < 0)) {
+    const Real width = right.t - left.t;
+    const auto root =
+        close_in(curve.functions, curve.wall, left.t, right.t,
+                 {hop ? bracket.guess : numerics::inverse_cubic_hint(left, right),
+                  static_cast<double>((right.slope - left.slope) / width),
+                  static_cast<double>(curve.bounds.third * width), static_cast<double>(curve.bounds.third)},
+                 curve.bounds.value_error);
+    if (root) return root;
+  }
+  if (hop) {  // the peak is so low that rounding hides it: cut it off
+    const Bracket behind = isolate_outside(curve, left, right, true);
+    if (behind.verdict != Verdict::contact) return std::nullopt;
+    return polish(curve, behind);
+  }
+  const auto gap = [&](const Real& t) { return Real(curve.at(t).value); };
+  const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
+  std::uintmax_t iterations = 500;
+  const auto root =
+      boost::math::tools::toms748_solve(gap, left.t, right.t, left.value, right.value, closed, iterations);
+  EDMILL_REQUIRE(iterations < 500, "root polishing ran out of iterations");
+  const Point end = curve.at(root.first);
+  EDMILL_REQUIRE(end.value >= 0, "root polishing lost the sign change");
+  return Root{root.first, doubt_at(end.slope)};
+}
+
+/// The root of a gap that is proven to fall through zero in (from, to): Newton's iteration, which knows the
+/// curvature, up to where one step more would change nothing; then toms748 on the gap itself, in a bracket of
+/// a few units of the clock. Nothing when rounding does not let the signs at such a bracket be seen.
+template <class Real>
+auto WallSearch<Real>::close_in(const Functions& functions, int wall, const Real& from, const Real& to,
+                                const Approach& approach, const Real& value_error) const
+    -> std::optional<Root> {
+  const Real unit = epsilon<Real>() * constants_.clock.period();
+  const double clock_unit = static_cast<double>(unit);
+  Real t = approach.guess;
+  auto pose = functions.pose(t);
+  const auto pose_at = [&](const Real& time) {
+    return model::pose_nearby<Real>(constants_.mill.motion, constants_.angular_speed, constants_.frequency,
+                                    time, pose, t);
+  };
+  for (int step = 0; step < 8; ++step) {
+    if (!(t > from && t < to)) return std::nullopt;
+    const auto sample = functions(t, pose);
+    const Real& slope = sample.rate[wall];
+    const double flatness = static_cast<double>(slope);
+    if (!(flatness < 0)) return std::nullopt;
+    const Real newton = -sample.gap[wall] / slope;
+    const double size = static_cast<double>(newton), square = size * size;
+    const Real centre = t + (newton - Real(approach.curvature * square / (2 * flatness)));
+    const double off = (approach.curvature_error + approach.third * (size < 0 ? -size : size)) * square;
+    if (off > -flatness * clock_unit) {
+      pose = pose_at(centre);
+      t = centre;
+      continue;
+    }
+    const auto gap = [&](const Real& time) {
+      return functions.gap(wall, time,
+                           model::pose_nearby<Real, false>(constants_.mill.motion, constants_.angular_speed,
+                                                           constants_.frequency, time, pose, t));
+    };
+    const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
+    const Real doubt = -value_error / slope;
+    // Rounding moves the place where the computed gap changes its sign: step on until both signs are seen.
+    Real low = centre - 4 * unit, high = centre + 4 * unit, at_low = gap(low), at_high = gap(high);
+    for (Real reach = 16 * unit; !(at_low >= 0 && at_high <= 0); reach = 4 * reach) {
+      if (reach > 32 * (unit + doubt)) return std::nullopt;
+      if (at_low < 0) {
+        high = low, at_high = at_low;
+        low = centre - reach, at_low = gap(low);
+      } else {
+        low = high, at_low = at_high;
+        high = centre + reach, at_high = gap(high);
+      }
+    }
+    if (!(low > from && high < to)) return std::nullopt;
+    std::uintmax_t iterations = 100;
+    const Real root =
+        boost::math::tools::toms748_solve(gap, low, high, at_low, at_high, closed, iterations).first;
+    Root found{root, resolution() + 4 * doubt};
+    if constexpr (is_wide) found.pose = pose_at(root);
+    return found;
+  }
+  return std::nullopt;
+}
+
+}  // namespace edmill::dynamics

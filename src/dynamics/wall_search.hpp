@@ -1,0 +1,183 @@
+// First contact of a ball in free flight with the walls of the moving vessel, as a certified decision.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <type_traits>
+//
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include "base/taylor.hpp"
+#include "dynamics/gap_functions.hpp"
+#include "dynamics/motion_bounds.hpp"
+
+namespace edmill::dynamics {
+
+enum class Verdict { none, contact, undecided };
+
+/// Yes or no for each wall.
+using WallSet = std::array<bool, model::wall_count>;
+
+struct NoPose {
+  void archive(Archive&) {}
+};
+
+/// The vessel's pose at a contact goes with the contact in wide scalars, whose sines are dear.
+template <class Real>
+using ContactPose =
+    std::conditional_t<std::is_same_v<Real, double>, NoPose, std::optional<model::VesselPose<Real>>>;
+
+/// The answer of a search over (begin, begin + length]; `none` may hold for a shorter window than was asked.
+template <class Real>
+struct WallAnswer {
+  Verdict verdict = Verdict::none;
+  int wall = -1;         ///< of a contact
+  Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
+  bool tie = false;      ///< two walls at one time at the top of the ladder; the lower id was taken
+  Real searched{0};      ///< of none: proven from begin for this long [s]
+  Real doubt{0};         ///< of a contact: how far off rounding may put its time [s]
+  [[no_unique_address]] ContactPose<Real> pose{};  ///< of a contact, where the search knows it
+};
+
+/// One search: a ball's flight and the window that is asked about.
+template <class Real>
+struct WallQuery {
+  Flight<Real> flight;
+  Real radius;          ///< [m]
+  Instant<Real> begin;  ///< not before the flight's start
+  Real length;          ///< [s], at most WallSearch::longest_window()
+};
+
+/// What a search in double proves for a wider flight and mill that were rounded to double. Times are offsets
+/// [s] of the drive period in which the window begins.
+struct RoughAnswer {
+  Verdict verdict = Verdict::undecided;
+  double until = 0;            ///< of none: no contact up to here
+  int wall = -1;               ///< of a contact: nothing is touched before `left`, and
+  double left = 0, right = 0;  ///< the wall's gap falls all the way from `left` to `right`, through zero
+  double root = 0;             ///< about where
+  double curvature = 0;        ///< second derivative of the gap there
+  double curvature_error = 0;  ///< bound on its error
+  double third = 0;            ///< bound on the third derivative
+  double error = 0;            ///< bound on the rounding of the gap in double, that of the state left aside
+};
+
+/// Decides for a flight as stored: the first time in the window at which a gap is zero or negative and
+/// falling. A ball that starts within rounding of a wall and leaves it is not in contact until it returns;
+/// one that starts overlapped by rounding and approaches is in contact at once. Equations: theory.md
+/// (2.17')-(2.22'); source: Barahona 2011, (2.17)-(2.22), corrected.
+template <class Real>
+class WallSearch {
+ public:
+  explicit WallSearch(const model::Mill<Real>& mill)
+      : constants_(mill), bounds_(mill), rough_(model::mill_cast<double>(mill)) {}
+
+  const Real& longest_window() const { return bounds_.longest_window(); }
+
+  /// In a wide scalar double decides what it can prove for the wide flight too; the rest is searched in full.
+  /// @pre the ball is inside the vessel at `begin`, up to rounding
+  WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
+    if constexpr (is_wide) {
+      const auto answer = search_by_double(query);
+      if (answer.verdict != Verdict::undecided) return answer;
+    }
+    return search(query);
+  }
+
+  /// Of each wall, whether a ball at `position` in the vessel can reach it in a window of `length` [s] at any
+  /// velocity below `speed` [m/s], whatever its direction. No is a proof, without rates or curvatures.
+  /// theory.md, section 3
+  WallSet within_reach(const GapFunctions<Real>& functions, const Vec3<Real>& position, const Real& speed,
+                       const Real& length) const;
+
+  /// The search in this scalar alone.
+  WallAnswer<Real> search(const WallQuery<Real>& query) const;
+  /// The same where the caller knows the vessel's pose at the window's begin.
+  WallAnswer<Real> search(const model::VesselPose<Real>& pose, const WallQuery<Real>& query) const;
+
+  /// The search in double, with only the root found in this scalar; undecided is what double cannot prove.
+  /// It may see, and answer for, a few roundings of double more than the window.
+  WallAnswer<Real> search_by_double(const WallQuery<Real>& query) const;
+
+  /// The search for a wider flight, radius and mill that were rounded to this scalar, which is double.
+  RoughAnswer rough(const WallQuery<Real>& query) const;
+
+  const typename GapFunctions<Real>::Constants& constants() const { return constants_; }
+
+ private:
+  static constexpr bool is_wide = !std::is_same_v<Real, double>;
+  using Functions = GapFunctions<Real>;
+  using Point = numerics::Point<Real>;
+  using Bounds = numerics::CurveBounds<Real>;
+
+  /// One wall's gap along the flight.
+  struct Curve {
+    const Functions& functions;
+    int wall;
+    Bounds bounds;
+    Point at(const Real& t) const { return of(functions(t)); }
+    Point of(const GapSample<Real>& s) const { return {s.offset, s.gap[wall], s.rate[wall]}; }
+  };
+  /// A root is in [left, right]; left == right when it is at once.
+  struct Bracket {
+    Verdict verdict;
+    Point left{}, right{};
+    Real doubt{0};  ///< of a contact at once whose time the gap's slope does not tell [s]
+    Real guess{0};  ///< of the one root where the gap rises at first and bends downwards all along, else zero
+  };
+
+  /// With `rounded` every bound covers the rounding of the flight and the mill, and `rough` is filled.
+  template <bool rounded>
+  WallAnswer<Real> first_contact(const Functions& functions, const GapStart<Real>& first, WallSet reachable,
+                                 const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
+  void require_length(const WallQuery<Real>& query) const;
+  Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
+    return norm<Real>(velocity) + constants_.gravity * length;
+  }
+  template <bool rounded>
+  Bracket isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
+                             const Point& right) const;
+  Bracket isolate(const Curve& curve, Point left, const Point& right) const;
+  std::optional<Bracket> isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
+                                     const Point& right) const;
+  Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
+  Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
+  Bracket isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
+                          const Point& right) const;
+  Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;
+  GapSample<Real> sample_of_end(const Functions& functions, const WallSet& reachable,
+                                const GapErrors<Real>& errors, const Real& from, Real& end) const;
+  /// A root and how well the scalar knows it: the gap's rounding error over its slope.
+  struct Root {
+    Real t;
+    Real doubt;
+    [[no_unique_address]] ContactPose<Real> pose{};
+  };
+  /// What is known of a falling gap beside its root.
+  struct Approach {
+    Real guess;  ///< of the root
+    double curvature, curvature_error, third;
+  };
+  std::optional<Root> polish(const Curve& curve, const Bracket& bracket) const;
+  std::optional<Root> close_in(const Functions& functions, int wall, const Real& from, const Real& to,
+                               const Approach& approach, const Real& value_error) const;
+  /// A bracket of a root is narrow enough: less than the resolution. toms748 begins with a bracket of one
+  /// resolution, so that a first step which cuts an eighth off is its last.
+  bool is_closed(const Real& low, const Real& high) const {
+    const Real middle = low + (high - low) / 2;
+    return high - low <= resolution() * 7 / 8 || middle <= low || middle >= high;
+  }
+  /// Well above the rounding of a computed gap over its slope, or toms748 would follow noise.
+  Real resolution() const { return 8 * epsilon<Real>() * constants_.clock.period(); }
+
+  typename Functions::Constants constants_;
+  BoundsTable<Real> bounds_;
+  struct Nothing {
+    explicit Nothing(const model::Mill<double>&) {}
+  };
+  /// Of a wide scalar.
+  [[no_unique_address]] std::conditional_t<is_wide, WallSearch<double>, Nothing> rough_;
+};
+
+}  // namespace edmill::dynamics

@@ -1,0 +1,381 @@
+// Implementation of WallSearch; included by the instantiation files only.
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "base/errors.hpp"
+#include "dynamics/wall_roots_impl.hpp"
+#include "dynamics/wall_search.hpp"
+
+namespace edmill::dynamics {
+
+template <class Real>
+WallSet WallSearch<Real>::within_reach(const GapFunctions<Real>& functions, const Vec3<Real>& position,
+                                       const Real& speed, const Real& length) const {
+  // A millionth covers the rounding of all this.
+  const Real way =
+      (speed + constants_.wall_speed) * length * (1 + Real(1) / 1048576) + constants_.reach / 1048576;
+  const Real cap = functions.cap() - way, cylinder = functions.cylinder() - way;
+  const Real &x = position[0], &y = position[1], &z = position[2];
+  return {!(-y < cap), !(y < cap), !((cylinder > 0) & (x * x + z * z < cylinder * cylinder))};
+}
+
+template <class Real>
+void WallSearch<Real>::require_length(const WallQuery<Real>& query) const {
+  EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
+                 "window length out of range");
+}
+
+template <class Real>
+WallAnswer<Real> WallSearch<Real>::search(const WallQuery<Real>& query) const {
+  return search(model::pose_at<Real>(constants_.mill.motion, constants_.angular_speed, constants_.frequency,
+                                     query.begin.offset),
+                query);
+}
+
+template <class Real>
+WallAnswer<Real> WallSearch<Real>::search(const model::VesselPose<Real>& pose,
+                                          const WallQuery<Real>& query) const {
+  require_length(query);
+  const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+  const Real& begin = query.begin.offset;
+  const auto ball = functions.seen(begin, pose);
+  const Real speed = top_speed(ball.velocity, query.length);
+  const WallSet reachable = within_reach(functions, ball.state.position, speed, query.length);
+  if (!(reachable[0] | reachable[1] | reachable[2]))
+    return {Verdict::none, -1, {}, false, query.length, Real(0)};
+  return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed, query,
+                              nullptr);
+}
+
+template <class Real>
+template <bool rounded>
+WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, const GapStart<Real>& first,
+                                                 WallSet reachable, const Real& speed,
+                                                 const WallQuery<Real>& query,
+                                                 [[maybe_unused]] RoughAnswer* rough) const {
+  const Real begin = query.begin.offset;
+  const Real oldest = functions.elapsed(begin + query.length);
+  auto errors = functions.errors(oldest, speed, reachable[2]);
+  [[maybe_unused]] const auto own_errors = errors;
+  if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
+  const auto curve_of = [&](int wall, const DerivativeBounds<Real>& derivatives) {
+    const auto& d = wall == 2 ? derivatives.q : derivatives.y;
+    return Curve{
+        functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]}};
+  };
+
+  // Of most walls the state at the start alone shows that they are not hit.
+  const auto whole = bounds_.at(speed, query.length);
+  Real length = query.length;
+  bool any = false;
+  for (int wall = 0; wall < model::wall_count; ++wall) {
+    if (!reachable[wall]) continue;
+    const Curve curve = curve_of(wall, whole);
+    const Point start = curve.of(first);
+    reachable[wall] = !numerics::proven_clear(start, first.curvature[wall], query.length, curve.bounds);
+    if (!reachable[wall]) continue;
+    any = true;
+    // A little beyond the first suspected contact there is nothing to look for.
+    const Real hint =
+        static_cast<Real>(numerics::first_root_hint(start, first.curvature[wall], query.length) * 9 / 8);
+    if (hint < length && hint > 64 * resolution()) length = hint;
+  }
+  if (!any) return {Verdict::none, -1, {}, false, query.length, Real(0)};
+
+  const auto derivatives = bounds_.at(speed, length);
+  Real end = begin + length;
+  GapSample<Real> last = sample_of_end(functions, reachable, errors, begin, end);
+  WallAnswer<Real> answer{Verdict::none, -1, {}, false, end - begin, Real(0)};
+  Root best{};
+  for (int wall = 0; wall < model::wall_count; ++wall) {
+    if (!reachable[wall]) continue;
+    const Curve curve = curve_of(wall, derivatives);
+    const Point start = curve.of(first);
+    const Bracket found = isolate_from_start<rounded>(curve, start, first.curvature[wall], curve.of(last));
+    if (found.verdict == Verdict::none) continue;
+    if (found.verdict == Verdict::undecided) return {Verdict::undecided};
+    // Only a start that is outside for certain makes the bracket hold the wide root too.
+    if (rounded && !(found.left.value > curve.bounds.value_error)) return {Verdict::undecided};
+    const auto polished = polish(curve, found);
+    if (!polished) return {Verdict::undecided};
+    const Root& root = *polished;
+    if (answer.verdict == Verdict::contact) {
+      const Real later = root.t - best.t, doubt = root.doubt + best.doubt;
+      if (later > doubt) continue;
+      if (later >= -doubt) {
+        // Two walls at one time within rounding: a wider scalar decides; at the top the lower id comes first.
+        if constexpr (!std::is_void_v<Wider<Real>>) return {Verdict::undecided};
+        answer.tie = true;
+        continue;
+      }
+    }
+    best = root;
+    answer = {Verdict::contact, wall,      constants_.clock.instant(query.begin.period, root.t), false,
+              Real(0),          root.doubt};
+    if constexpr (rounded)
+      *rough = {Verdict::contact,    0, wall, found.left.t, found.right.t, root.t, 0, 0, 0,
+                own_errors.gap[wall]};
+    const bool more = (wall < 1 && reachable[1]) || (wall < 2 && reachable[2]);
+    if (!more) break;
+    // Later walls are of interest up to a little behind this root.
+    const Real behind = root.t + root.doubt + longest_window() / 1048576;
+    if (behind < end) {
+      end = behind;
+      last = sample_of_end(functions, reachable, errors, root.t, end);
+    }
+  }
+  return answer;
+}
+
+/// The gaps at the end of a window. A gap that is zero within rounding there would leave the window
+/// undecided in every scalar: the end is moved towards `from`, and what is left is for the next window.
+template <class Real>
+GapSample<Real> WallSearch<Real>::sample_of_end(const Functions& functions, const WallSet& reachable,
+                                                const GapErrors<Real>& errors, const Real& from,
+                                                Real& end) const {
+  for (int tries = 0;; ++tries) {
+    const auto sample = functions(end);
+    bool touched = false;
+    for (int wall = 0; wall < model::wall_count; ++wall)
+      touched |=
+          reachable[wall] & (sample.gap[wall] <= errors.gap[wall]) & (sample.gap[wall] >= -errors.gap[wall]);
+    if (!touched || tries == 8) return sample;
+    end = from + (end - from) * 3 / 4;
+  }
+}
+
+template <class Real>
+RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
+  if constexpr (is_wide) {
+    return {};
+  } else {
+    require_length(query);
+    const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+    const Real begin = query.begin.offset;
+    RoughAnswer rough;
+    const auto pose = functions.pose(begin);
+    const auto ball = functions.seen(begin, pose);
+    const auto answer = first_contact<true>(functions, functions.start(begin, pose, ball), {true, true, true},
+                                            top_speed(ball.velocity, query.length), query, &rough);
+    rough.verdict = answer.verdict;
+    // The sum is rounded, and the window was proven up to its exact or its rounded end.
+    if (answer.verdict == Verdict::none) rough.until = (begin + answer.searched) * (1 - epsilon<Real>());
+    if (answer.verdict == Verdict::contact) {
+      const Real speed = top_speed(ball.velocity, query.length);
+      const auto derivatives = bounds_.at(speed, query.length);
+      rough.curvature = functions.start(rough.root).curvature[rough.wall];
+      rough.curvature_error =
+          functions.errors(functions.elapsed(begin + query.length), speed).curvature[rough.wall];
+      rough.third = (rough.wall == 2 ? derivatives.q : derivatives.y)[1];
+    }
+    return rough;
+  }
+}
+
+/// The wide gap is evaluated at the rough root, an error of double away from the root, so that one step of
+/// Newton's iteration with the curvature as double knows it gives nearly three times the digits of double.
+/// That the root found is the bracket's needs no more: the gap falls all along it.
+template <class Real>
+WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query) const {
+  if constexpr (!is_wide) {
+    return search(query);
+  } else {
+    EDMILL_REQUIRE(query.length > 0, "window length out of range");
+    // The window is rounded outwards, so that nothing of it is left to be asked about again.
+    const auto begin_down = rounded_down<double>(query.begin);
+    const double length = static_cast<double>(query.length);
+    const auto rough =
+        rough_.rough({flight_cast<double>(query.flight), static_cast<double>(query.radius), begin_down,
+                      length + 4 * epsilon<double>() * (begin_down.offset + length)});
+    const Real& begin = query.begin.offset;
+    if (rough.verdict == Verdict::none) {
+      const Real searched = Real(rough.until) - begin;
+      if (searched > 0) return {Verdict::none, -1, {}, false, searched, Real(0)};
+    }
+    if (rough.verdict != Verdict::contact) return {Verdict::undecided};
+
+    const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+    const Real left(rough.left);
+    const double unit = static_cast<double>(epsilon<Real>()) / epsilon<double>();
+    const auto root = close_in(functions, rough.wall, left > begin ? left : begin, Real(rough.right),
+                               {Real(rough.root), rough.curvature, rough.curvature_error, rough.third},
+                               Real(rough.error * unit));  // bounds are proportional to epsilon
+    if (!root) return {Verdict::undecided};
+    return {
+        Verdict::contact, rough.wall, constants_.clock.instant(query.begin.period, root->t), false, Real(0),
+        root->doubt,      root->pose};
+  }
+}
+
+/// The first part of a window, where the second derivative is known too.
+template <class Real>
+template <bool rounded>
+auto WallSearch<Real>::isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
+                                          const Point& right) const -> Bracket {
+  const Bounds& b = curve.bounds;
+  if (start.value > b.value_error) return isolate(curve, start, right);
+  const bool level = start.slope <= 2 * b.slope_error && start.slope >= -2 * b.slope_error;
+  if (level) return isolate_resting(curve, start, curvature, right);
+  if constexpr (!rounded)
+    if (const auto hop = isolate_hop(curve, start, curvature, right)) return *hop;
+  return isolate(curve, start, right);
+}
+
+/// A ball that has just left, and whose gap is proven to bend downwards all along the window: the gap rises
+/// to one peak and has one root behind it.
+template <class Real>
+auto WallSearch<Real>::isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
+                                   const Point& right) const -> std::optional<Bracket> {
+  const Bounds& b = curve.bounds;
+  const Real length = right.t - left.t;
+  const bool bends = curvature + b.curvature_error + b.third * length < 0;
+  const bool ends_below = right.value < -b.value_error && right.slope < -b.slope_error;
+  if (!(bends & ends_below) || left.value < -b.value_error || !numerics::can_depart(left, b))
+    return std::nullopt;
+  const Real fraction = static_cast<Real>(numerics::last_root_hint(left, right, 1e-4));
+  return Bracket{Verdict::contact, left, right, Real(0), left.t + fraction * length};
+}
+
+template <class Real>
+auto WallSearch<Real>::isolate(const Curve& curve, Point left, const Point& right) const -> Bracket {
+  const Bounds& b = curve.bounds;
+  if (left.value > b.value_error) {
+    if (numerics::proven_positive(left, right, b)) return {Verdict::none};
+    return isolate_outside(curve, left, right, false);
+  }
+  if (left.value < -b.value_error) {
+    if (left.slope < -b.slope_error) return {Verdict::contact, left, left};
+    if (left.slope > b.slope_error) return follow_overlap(curve, left, right);
+    return {Verdict::undecided};
+  }
+  if (numerics::can_depart(left, b)) {
+    if (numerics::proven_departure(left, right, b)) return {Verdict::none};
+    return isolate_outside(curve, left, right, true);
+  }
+  if (left.slope < -2 * b.slope_error) return isolate_touching(curve, left, right);
+  return {Verdict::undecided};
+}
+
+/// Walks the window from the left over intervals that are proven free of contact, splitting where the proof
+/// fails, up to one that holds exactly one sign change.
+template <class Real>
+auto WallSearch<Real>::isolate_outside(const Curve& curve, Point left, const Point& right,
+                                       bool departing) const -> Bracket {
+  constexpr int deepest = 64;
+  std::array<Point, deepest> ends;  // right ends of intervals still to be looked at, nearest last
+  int count = 0;
+  ends[count++] = right;
+  const Bounds& b = curve.bounds;
+  while (count > 0) {
+    const Point& end = ends[count - 1];
+    if (departing ? numerics::proven_departure(left, end, b) : numerics::proven_positive(left, end, b)) {
+      left = end;
+      departing = false;
+      --count;
+      continue;
+    }
+    if (!departing && end.value < -b.value_error && numerics::proven_decreasing(left, end, b))
+      return {Verdict::contact, left, end};
+
+    const Real s = end.t - left.t;
+    if (count == deepest || s < 16 * resolution()) return {Verdict::undecided};
+    double fraction = 0.5;
+    if (end.value < 0 && end.slope < 0) {
+      const double root = numerics::last_root_hint(left, end);
+      if (root > 0 && root < 1) {
+        constexpr double margin = 1.0 / 32;
+        if (4 * root < 1)
+          fraction = 2 * root;  // a near root in a long window: cut the window first
+        else if (departing)
+          fraction = root * 7 / 8;
+        else
+          fraction = root > 2 * margin ? root - margin : root / 2;
+      }
+    }
+    // A cut within rounding of a root would decide nothing: move off it.
+    Point cut = curve.at(left.t + static_cast<Real>(fraction) * s);
+    for (int tries = 0; tries < 4 && cut.value <= b.value_error && cut.value >= -b.value_error; ++tries) {
+      fraction = fraction * 3 / 4;
+      cut = curve.at(left.t + static_cast<Real>(fraction) * s);
+    }
+    if (cut.value <= b.value_error && cut.value >= -b.value_error) return {Verdict::undecided};
+    if (!(cut.t > left.t && cut.t < end.t)) return {Verdict::undecided};
+    ends[count++] = cut;
+  }
+  return {Verdict::none};
+}
+
+/// The start is zero within rounding and falling: the contact is at the start or within rounding after it,
+/// once the gap is seen to become negative while it falls.
+template <class Real>
+auto WallSearch<Real>::isolate_touching(const Curve& curve, const Point& left, Point right) const -> Bracket {
+  while (!numerics::proven_decreasing(left, right, curve.bounds)) {
+    const Real s = (right.t - left.t) / 2;
+    if (s < 16 * resolution()) return {Verdict::undecided};
+    right = curve.at(left.t + s);
+  }
+  if (!(right.value < -curve.bounds.value_error)) return {Verdict::undecided};
+  if (left.value <= 0) return {Verdict::contact, left, left};
+  return {Verdict::contact, left, right};
+}
+
+/// The start touches and neither falls nor rises, within rounding: the second derivative decides. A ball that
+/// is pressed on the wall is in contact at once. One that is drawn off would leave the scalar in doubt
+/// whether it touched before; at the top of the ladder what is zero within rounding counts as zero, so it
+/// leaves.
+template <class Real>
+auto WallSearch<Real>::isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
+                                       const Point& right) const -> Bracket {
+  using std::sqrt;
+  const Bounds& b = curve.bounds;
+  const auto size = [](const Real& x) { return x < 0 ? Real(-x) : x; };
+  if (b.second == 0 && b.slope_error == 0) return {Verdict::none};  // at rest to the wall for good
+  const Real bend = (size(curvature) - b.curvature_error) / 2;
+  if (!(bend > 0)) return {Verdict::undecided};
+  // While |f''| > bend, bend s^2/2 exceeds what value and slope may be by rounding from this time on.
+  const Real slope = size(left.slope) + b.slope_error, value = size(left.value) + b.value_error;
+  const Real until = (slope + sqrt(slope * slope + 4 * bend * value)) / bend;
+  if (!(b.third * (2 * until) <= bend)) return {Verdict::undecided};
+  if (curvature < 0) return {Verdict::contact, left, left, until + resolution()};
+  if constexpr (!std::is_void_v<Wider<Real>>) return {Verdict::undecided};
+  const Real later = left.t + 2 * until;
+  if (!(later < right.t)) return {Verdict::undecided};
+  return isolate(curve, curve.at(later), right);
+}
+
+/// The start is overlapped for certain, by rounding, and leaves. Either the gap opens, and the search goes on
+/// outside, or the ball turns back before: the contact is where it begins to approach.
+template <class Real>
+auto WallSearch<Real>::follow_overlap(const Curve& curve, const Point& start, const Point& right) const
+    -> Bracket {
+  using std::sqrt;
+  const Bounds& b = curve.bounds;
+  const Real sharp = sqrt(epsilon<Real>()) * constants_.clock.period() / 8;  // see PairSearch::tie_window
+  Point left = start;
+  Real step = left.slope / (2 * b.second);
+  for (int k = 0; k < 400; ++k) {
+    Real t = left.t + step;
+    const bool last = !(t < right.t);
+    const Point next = last ? right : curve.at(t);
+    const bool rising = numerics::proven_increasing(left, next, b);
+    if (rising) {
+      if (next.value > b.value_error) return last ? Bracket{Verdict::none} : isolate(curve, next, right);
+      if (last) return {next.value < -b.value_error ? Verdict::none : Verdict::undecided};
+      if (!(next.value < -b.value_error) || !(next.t > left.t)) return {Verdict::undecided};
+      left = next;
+      step = 2 * step;
+      continue;
+    }
+    const bool turned = next.slope < -b.slope_error && next.value < -b.value_error;
+    if (turned && step * 65536 < next.t - start.t && step < sharp)
+      return {Verdict::contact, next, next, step + resolution()};
+    if (step < resolution())
+      return turned ? Bracket{Verdict::contact, next, next, 2 * resolution()} : Bracket{Verdict::undecided};
+    step = step / 2;
+  }
+  return {Verdict::undecided};
+}
+
+}  // namespace edmill::dynamics

@@ -1,0 +1,263 @@
+// The queue of next events: one entry for each ball, the earliest on top.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "base/instant.hpp"
+#include "base/memory.hpp"
+
+namespace edmill::engine {
+
+/// A calendar: each drive period is cut into days so short that few hold more than one event. Days up to the
+/// horizon, which is three to four weeks ahead, have a list each; what is later is put off: noted for its
+/// week, without order, and put into lists when the horizon gets there. So taking the first event and
+/// setting one cost the same for any number of balls, and the lists fit into the near caches. Equal times go
+/// to the lower ball, so the order of events does not depend on history. (Brown 1988; Tang, Goh and Thng
+/// 2005)
+template <class Real>
+class EventQueue {
+ public:
+  /// @param period  of the drive [s]
+  EventQueue(int balls, const Real& period)
+      : entries_(balls),
+        heads_(list_count(entries_.size())),
+        marks_(heads_.size() / 64),
+        notes_(weeks),
+        days_per_week_(static_cast<std::int64_t>(heads_.size() / 4)),
+        days_per_second_(static_cast<double>(days_per_period_) / static_cast<double>(period)) {
+    start_over(0);
+  }
+
+  /// The ball whose event is next.
+  int top() {
+    const std::int64_t begin = today_;
+    today_ = next_occupied(today_);
+    for (int opened = 0; horizon_ - today_ <= 3 * days_per_week_; ++opened, today_ = next_occupied(today_)) {
+      if (opened < weeks)
+        open_week();
+      else
+        start_over(earliest_day());
+    }
+    top_ = first_of(today_);
+    days_passed_ += std::min(today_ - begin, static_cast<std::int64_t>(heads_.size()));
+    if (++taken_ >= review_) review();
+    return top_;
+  }
+
+  const Instant<Real>& time(int ball) const { return entries_[ball].time; }
+
+  /// The balls of the next three events after that of the last `top`, most likely: a look at what may be
+  /// fetched early, not an answer.
+  std::array<int, 3> upcoming() const {
+    std::array<int, 3> balls{top_, top_, top_};
+    std::int64_t day = today_;
+    std::size_t found = 0;
+    if (const int same_day = entries_[top_].next; same_day >= 0) balls[found++] = same_day;
+    while (found < balls.size() && (day = next_occupied(day + 1)) < horizon_) balls[found++] = head(day);
+    return balls;
+  }
+
+  /// Asks memory for what is kept of a ball.
+  void fetch_entry(int ball) const { fetch(&entries_[ball]); }
+
+  void set(int ball, const Instant<Real>& time) {
+    unlink(ball);
+    entries_[ball].time = time;
+    put(ball);
+  }
+
+  /// All balls with an event up to `limit`, lower ones first.
+  void due_until(const Instant<Real>& limit, std::vector<int>& balls) const {
+    balls.clear();
+    const std::int64_t last = std::max(day_of(limit), today_);
+    const auto add = [&](int i) {
+      if (entries_[i].time <= limit) balls.push_back(i);
+    };
+    if (last < horizon_) {
+      for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1))
+        for (int i = head(day); i != none; i = entries_[i].next) add(i);
+      std::sort(balls.begin(), balls.end());
+    } else {
+      for (int i = 0; i < static_cast<int>(entries_.size()); ++i) add(i);
+    }
+  }
+
+  /// The ball whose event is next after that of the last `top`, if it is not later than `limit`; -1
+  /// otherwise.
+  int runner_up(const Instant<Real>& limit) const {
+    const bool alone = head(today_) == top_ && entries_[top_].next == none;
+    if (alone && day_of(limit) <= today_) return none;
+    const std::int64_t last = std::max(day_of(limit), today_);
+    for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1)) {
+      const int second = first_of(day, top_);
+      if (second != none) return entries_[second].time <= limit ? second : none;
+    }
+    if (last < horizon_) return none;
+    int second = none;
+    for (int i = 0; i < static_cast<int>(entries_.size()); ++i)
+      if (i != top_ && (second == none || before(i, second))) second = i;
+    return second != none && entries_[second].time <= limit ? second : none;
+  }
+
+ private:
+  static constexpr int none = -1, put_off = -2;                   ///< instead of a list's next ball
+  static constexpr int weeks = 256;                               ///< for which notes are kept
+  static constexpr std::int64_t far_off = std::int64_t{1} << 30;  ///< [periods], in no run
+  static constexpr std::int64_t no_day = std::int64_t{1} << 62;
+  static constexpr std::int64_t most_days = std::int64_t{1} << 31;  ///< of a period
+
+  struct Entry {
+    Instant<Real> time = Instant<Real>::never();
+    std::int64_t day = no_day;
+    int next = put_off;
+    int previous = none;  ///< or, of one that is put off, whose notes have the latest one; others are void
+  };
+
+  /// Nearly all events of few balls lie before the horizon, and most of many within the weeks.
+  static std::size_t list_count(std::size_t balls) {
+    return std::bit_ceil(std::max(std::clamp<std::size_t>(8 * balls, 1024, 16384), balls / 8));
+  }
+
+  /// Never later for an earlier time: `today` may be emptied before tomorrow is looked at.
+  std::int64_t day_of(const Instant<Real>& time) const {
+    if (time.period >= far_off) return no_day;
+    const double place = static_cast<double>(time.offset) * days_per_second_;
+    const auto day = static_cast<std::int64_t>(place);
+    return time.period * days_per_period_ + (day < days_per_period_ ? day : days_per_period_ - 1);
+  }
+  std::int64_t week_of(std::int64_t day) const { return day >> week_shift_; }
+  static int place_of(std::int64_t week) { return static_cast<int>(week & (weeks - 1)); }
+  std::size_t list_of(std::int64_t day) const { return static_cast<std::size_t>(day) & (heads_.size() - 1); }
+  int head(std::int64_t day) const { return heads_[list_of(day)]; }
+
+  /// The first day from `day` on whose list is not empty, or the horizon: a word of marks at a time, since a
+  /// loop over empty lists would end by surprise each time.
+  std::int64_t next_occupied(std::int64_t day) const {
+    for (; day < horizon_; day = (day | 63) + 1) {
+      const std::size_t at = list_of(day);
+      const std::uint64_t marks = marks_[at / 64] >> (at % 64);
+      if (marks != 0) return day + std::countr_zero(marks);
+    }
+    return horizon_;
+  }
+
+  int first_of(std::int64_t day, int except = none) const {
+    int best = none;
+    for (int i = head(day); i != none; i = entries_[i].next)
+      if (i != except && (best == none || before(i, best))) best = i;
+    return best;
+  }
+
+  bool before(int a, int b) const {
+    const auto &one = entries_[a].time, &two = entries_[b].time;
+    if (one < two) return true;
+    return one == two && a < b;
+  }
+
+  void put(int ball) {
+    Entry& e = entries_[ball];
+    e.day = std::max(day_of(e.time), today_);
+    if (e.day < horizon_) [[likely]]
+      link(ball);
+    else
+      note(ball);
+  }
+  /// Not inlined, as what follows: it would crowd the common case out of its registers.
+  [[gnu::noinline]] void note(int ball) {
+    Entry& e = entries_[ball];
+    e.next = put_off;
+    if (e.day == no_day) return;
+    // What is later than all weeks is looked at again in the last.
+    const auto week = std::min(week_of(e.day), week_of(horizon_) + (weeks - 2));
+    e.previous = place_of(week);
+    notes_[e.previous].push_back(ball);
+  }
+  void link(int ball) {
+    Entry& e = entries_[ball];
+    const std::size_t list = list_of(e.day);
+    int& first = heads_[list];
+    marks_[list / 64] |= std::uint64_t{1} << (list % 64);
+    e.previous = none;
+    e.next = first;
+    if (first != none) entries_[first].previous = ball;
+    first = ball;
+  }
+  void unlink(int ball) {
+    const Entry& e = entries_[ball];
+    if (e.next == put_off) return;
+    if (e.next != none) entries_[e.next].previous = e.previous;
+    if (e.previous != none) {
+      entries_[e.previous].next = e.next;
+      return;
+    }
+    const std::size_t list = list_of(e.day);
+    heads_[list] = e.next;
+    marks_[list / 64] &= ~(std::uint64_t{e.next == none} << (list % 64));
+  }
+
+  /// Moves the horizon by a week.
+  [[gnu::noinline]] void open_week() {
+    const int place = place_of(week_of(horizon_));
+    auto& notes = notes_[place];
+    horizon_ += days_per_week_;
+    constexpr std::size_t ahead = 8;
+    for (std::size_t k = 0; k < notes.size(); ++k) {
+      if (k + ahead < notes.size()) fetch(&entries_[notes[k + ahead]]);
+      const Entry& e = entries_[notes[k]];
+      if (e.next != put_off || e.previous != place) continue;
+      if (e.day < horizon_) [[likely]]
+        link(notes[k]);
+      else
+        note(notes[k]);
+    }
+    notes.clear();
+  }
+
+  [[gnu::noinline]] void start_over(std::int64_t day) {
+    std::fill(heads_.begin(), heads_.end(), none);
+    std::fill(marks_.begin(), marks_.end(), 0);
+    for (auto& notes : notes_) notes.clear();
+    today_ = day;
+    horizon_ = (week_of(day) + 4) * days_per_week_;
+    for (int i = 0; i < static_cast<int>(entries_.size()); ++i) put(i);
+  }
+
+  std::int64_t earliest_day() const {
+    const auto earlier = [](const Entry& a, const Entry& b) { return a.day < b.day; };
+    return std::min_element(entries_.begin(), entries_.end(), earlier)->day;
+  }
+
+  /// Days get longer when most are empty and shorter when many events share one.
+  void review() {
+    const std::int64_t events = taken_, days = days_passed_, before = days_per_period_;
+    taken_ = days_passed_ = 0;
+    if (review_ < static_cast<std::int64_t>(entries_.size())) review_ *= 2;
+    if (days > 6 * events) {
+      for (auto d = days; d > 3 * events && days_per_period_ > 1; d /= 2) days_per_period_ /= 2;
+    } else if (events > days) {
+      for (auto d = days + 1; d < 2 * events && days_per_period_ < most_days; d *= 2) days_per_period_ *= 2;
+    }
+    if (days_per_period_ == before) return;
+    days_per_second_ *= static_cast<double>(days_per_period_) / static_cast<double>(before);
+    start_over(day_of(entries_[top_].time));
+  }
+
+  LargeVector<Entry> entries_;
+  std::vector<int> heads_;               ///< of the lists of days
+  std::vector<std::uint64_t> marks_;     ///< one for each list that is not empty
+  std::vector<std::vector<int>> notes_;  ///< balls put off to each of the weeks from the horizon on
+  std::int64_t days_per_week_;           ///< a power of two
+  int week_shift_ = std::countr_zero(static_cast<std::uint64_t>(days_per_week_));
+  std::int64_t days_per_period_ = 1024;
+  double days_per_second_;
+  std::int64_t today_ = 0, horizon_ = 0;  ///< days, the latter the first of a week
+  int top_ = none;
+  std::int64_t taken_ = 0, days_passed_ = 0;  ///< since the last review
+  std::int64_t review_ = 64;                  ///< after so many events; soon at first, when nothing is known
+};
+
+}  // namespace edmill::engine

@@ -1,0 +1,63 @@
+#include "io/checkpoint_file.hpp"
+
+#include <sstream>
+
+#include "base/digest.hpp"
+#include "base/errors.hpp"
+#include "base/version.hpp"
+#include "io/output_folder.hpp"
+
+namespace edmill::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The first line; its number changes with what follows. Then a line with the SHA-256 of all bytes after it.
+const std::string magic = "edmill checkpoint 1\n";
+constexpr std::size_t digest_size = 64;
+
+}  // namespace
+
+fs::path checkpoint_place(const fs::path& folder) { return folder / "checkpoint"; }
+
+void write_checkpoint(const fs::path& folder, Checkpoint checkpoint) {
+  std::string program = version(), program_commit = commit();
+  Archive archive;
+  archive(program, program_commit, checkpoint);
+  AtomicFile file(checkpoint_place(folder));
+  file.stream() << magic << sha256(archive.bytes()) << '\n' << archive.bytes();
+  file.sync();
+  file.commit();
+  sync_to_disk(folder);
+}
+
+Checkpoint read_checkpoint(const fs::path& folder) {
+  const auto place = checkpoint_place(folder);
+  const auto fail = [&](const std::string& found) {
+    throw InputError(place.string() + ": found " + found + ", expected a checkpoint of an unfinished run");
+  };
+  std::error_code ignored;
+  std::ifstream in(place, std::ios::binary);
+  if (!in || !fs::is_regular_file(place, ignored)) fail("no such file");
+  std::ostringstream content;
+  content << in.rdbuf();
+  const std::string text = content.str();
+  const std::size_t begin = magic.size() + digest_size + 1;
+  if (in.bad() || text.size() < begin || text.substr(0, magic.size()) != magic) fail("something else");
+  const std::string_view body = std::string_view(text).substr(begin);
+  if (sha256(body) + '\n' != text.substr(magic.size(), digest_size + 1)) fail("a damaged one");
+
+  Archive archive(body);
+  std::string program, program_commit;
+  archive(program, program_commit);
+  if (program != version() || program_commit != commit())
+    throw InputError(place.string() + ": found a checkpoint of edmill " + program + " (" + program_commit +
+                     "), expected one of this program, " + version() + " (" + commit() + ")");
+  Checkpoint checkpoint;
+  archive(checkpoint);
+  archive.finish();
+  return checkpoint;
+}
+
+}  // namespace edmill::io

@@ -1,0 +1,135 @@
+#include "io/csv_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "base/errors.hpp"
+
+namespace edmill::io {
+
+namespace {
+
+constexpr std::size_t problems_told = 10;
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::optional<double> number_in(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::invalid_argument || end != text.data() + text.size()) return std::nullopt;
+  // Too small counts as 0, too large is infinite.
+  return error == std::errc::result_out_of_range ? std::strtod(std::string(text).c_str(), nullptr) : value;
+}
+
+}  // namespace
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  return text.size() <= longest ? fmt::format("'{}'", text) : fmt::format("'{}...'", text.substr(0, longest));
+}
+
+CsvReader::CsvReader(const std::filesystem::path& file, const std::string& expected) : file_(file.string()) {
+  std::error_code ignored;
+  in_.open(file_, std::ios::binary);
+  if (!std::filesystem::is_regular_file(file_, ignored) || !in_)
+    throw InputError(file_ + ": found no readable file, expected " + expected);
+  do {
+    if (!std::getline(in_, line_))
+      throw InputError(
+          fmt::format("{}:{}: found the end of the file, expected a header", file_, line_number_ + 1));
+    if (++line_number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // a byte order mark
+  } while (line_.starts_with('#'));
+  split();
+  header_.assign(fields_.begin(), fields_.end());
+}
+
+std::optional<std::size_t> CsvReader::column(std::string_view name) {
+  const auto place = std::find(header_.begin(), header_.end(), name);
+  if (place == header_.end()) return std::nullopt;
+  const auto again = std::find(place + 1, header_.end(), name);
+  if (again != header_.end())
+    bad_line(fmt::format("column {}: found '{}' again, expected it once", again - header_.begin() + 1, name));
+  return place - header_.begin();
+}
+
+std::optional<std::size_t> CsvReader::needed_column(std::string_view name) {
+  const auto place = column(name);
+  if (!place) bad_line(fmt::format("found no column '{}', expected it in the header", name));
+  return place;
+}
+
+bool CsvReader::next_row() {
+  while (problems_.size() < problems_told && std::getline(in_, line_)) {
+    ++line_number_;
+    if (trimmed(line_).empty()) continue;
+    split();
+    if (fields_.size() == header_.size()) return true;
+    bad_line(fmt::format("found {} fields, expected {}", fields_.size(), header_.size()));
+  }
+  if (in_.bad()) throw std::runtime_error(file_ + ": could not be read to its end");
+  return false;
+}
+
+std::optional<double> CsvReader::number(std::size_t column) {
+  if (const auto value = number_in(fields_[column])) return value;
+  bad_field(column, "a number");
+  return std::nullopt;
+}
+
+std::optional<double> CsvReader::finite(std::size_t column) {
+  if (const auto value = number_in(fields_[column]); value && std::isfinite(*value)) return value;
+  bad_field(column, "a finite number");
+  return std::nullopt;
+}
+
+std::optional<int> CsvReader::whole(std::size_t column, const std::string& expected, int smallest,
+                                    int largest) {
+  const auto text = fields_[column];
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size() && value >= smallest && value <= largest)
+    return value;
+  bad_field(column, expected);
+  return std::nullopt;
+}
+
+void CsvReader::split() {
+  fields_.clear();
+  std::string_view rest = line_;
+  // A field in quotes can hold commas; two quotes in it stand for one (RFC 4180).
+  const auto end_of_field = [&rest] {
+    auto from = rest.starts_with('"') ? rest.find('"', 1) : 0;
+    while (from != std::string_view::npos && rest.substr(from).starts_with("\"\""))
+      from = rest.find('"', from + 2);
+    return rest.find(',', from == std::string_view::npos ? 0 : from);
+  };
+  for (auto comma = end_of_field(); comma != std::string_view::npos; comma = end_of_field()) {
+    fields_.push_back(trimmed(rest.substr(0, comma)));
+    rest.remove_prefix(comma + 1);
+  }
+  fields_.push_back(trimmed(rest));
+}
+
+void CsvReader::bad_line(const std::string& problem) {
+  problems_.push_back(fmt::format("{}:{}: {}", file_, line_number_, problem));
+}
+
+void CsvReader::bad_field(std::size_t column, const std::string& expected) {
+  bad_line(fmt::format("column {} ({}): found {}, expected {}", column + 1, header_[column],
+                       in_quotes(fields_[column]), expected));
+}
+
+void CsvReader::throw_problems() const {
+  if (!problems_.empty()) throw InputError(problems_);
+}
+
+}  // namespace edmill::io

@@ -1,0 +1,64 @@
+// A CSV file with a header, read row by row in bounded memory, with every problem told by file, line and
+// column.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace edmill::io {
+
+/// Text between quotes for a message, cut when long.
+std::string in_quotes(std::string_view text);
+
+/// Comments (#) may come before the header; blank lines are passed over. Problems are collected; reading ends
+/// when there are ten of them.
+class CsvReader {
+ public:
+  /// @throws InputError when `file` is no readable file or has no header
+  /// @param expected  what the file should be, for messages: "a collision log"
+  CsvReader(const std::filesystem::path& file, const std::string& expected);
+
+  const std::string& file() const { return file_; }
+  std::uint64_t line() const { return line_number_; }
+  const std::vector<std::string>& header() const { return header_; }
+
+  /// Where a column stands; nothing when it is absent. A name that stands there twice is a problem.
+  std::optional<std::size_t> column(std::string_view name);
+  /// The same where absence is a problem.
+  std::optional<std::size_t> needed_column(std::string_view name);
+
+  /// Moves to the next row that has as many fields as the header.
+  /// @return false at the end of the file, or when there are too many problems
+  bool next_row();
+  std::string_view field(std::size_t column) const { return fields_[column]; }
+  /// A finite number; anything else is a problem.
+  std::optional<double> finite(std::size_t column);
+  /// A number, nan and infinity among them; anything else is a problem.
+  std::optional<double> number(std::size_t column);
+  /// A whole number from `smallest` to `largest`; anything else is a problem.
+  std::optional<int> whole(std::size_t column, const std::string& expected, int smallest, int largest);
+
+  void bad_line(const std::string& problem);
+  void bad_field(std::size_t column, const std::string& expected);
+  std::size_t problem_count() const { return problems_.size(); }
+  /// @throws InputError when there were problems
+  void throw_problems() const;
+
+ private:
+  void split();
+
+  std::string file_;
+  std::ifstream in_;
+  std::string line_;
+  std::vector<std::string_view> fields_;  ///< of line_
+  std::vector<std::string> header_;
+  std::uint64_t line_number_ = 0;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace edmill::io

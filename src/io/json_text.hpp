@@ -1,0 +1,83 @@
+// JSON written in order and with numbers of any precision, which JSON allows and common libraries do not
+// write.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/scalar.hpp"
+
+namespace edmill::io {
+
+class JsonText {
+ public:
+  JsonText() { text_ = "{"; }
+
+  void begin(std::string_view key) {
+    put_key(key);
+    text_ += "{";
+    ++depth_;
+    first_ = true;
+  }
+  void end() {
+    --depth_;
+    new_line();
+    text_ += "}";
+    first_ = false;
+  }
+  void text(std::string_view key, std::string_view value) {
+    put_key(key);
+    text_ += quoted(value);
+  }
+  template <class Integer>
+  void integer(std::string_view key, Integer value) {
+    put_key(key);
+    text_ += std::to_string(value);
+  }
+  /// nan and infinity, which JSON does not know, become null.
+  template <class Real>
+  void number(std::string_view key, const Real& value) {
+    using std::isfinite;
+    put_key(key);
+    text_ += isfinite(value) ? to_text<Real>(value) : std::string("null");
+  }
+  void null(std::string_view key) {
+    put_key(key);
+    text_ += "null";
+  }
+
+  /// The whole document; nothing can be added after it.
+  std::string finish() {
+    depth_ = 0;
+    new_line();
+    return text_ + "}\n";
+  }
+
+ private:
+  static std::string quoted(std::string_view value) {
+    std::string out = "\"";
+    for (const char c : value) {
+      if (c == '"' || c == '\\') out += '\\';
+      if (static_cast<unsigned char>(c) < 0x20) {
+        constexpr char digits[] = "0123456789abcdef";
+        out += std::string("\\u00") + digits[(c >> 4) & 15] + digits[c & 15];
+      } else {
+        out += c;
+      }
+    }
+    return out + "\"";
+  }
+  void new_line() { text_ += "\n" + std::string(2 * depth_, ' '); }
+  void put_key(std::string_view key) {
+    if (!first_) text_ += ",";
+    first_ = false;
+    new_line();
+    text_ += quoted(key) + ": ";
+  }
+
+  std::string text_;
+  std::size_t depth_ = 1;
+  bool first_ = true;
+};
+
+}  // namespace edmill::io

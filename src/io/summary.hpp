@@ -1,0 +1,61 @@
+// summary.json: what a run came to. Keys and units: docs/files.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/escalations.hpp"
+#include "model/outcome.hpp"
+#include "model/vessel.hpp"
+
+namespace edmill::io {
+
+/// Where a run came from, as text.
+struct Provenance {
+  std::string case_file, case_digest, precision, version, commit, compiler;
+  std::uint64_t seed = 0;
+};
+
+template <class Real>
+struct Summary {
+  Provenance provenance;
+  std::string end_reason;
+  std::string error;                ///< of a decision that no scalar could make
+  Real start_time{0}, end_time{0};  ///< of the statistics [s]
+  Real period{0};                   ///< of the drive [s]
+  std::array<std::uint64_t, model::partner_kinds> collisions{};
+  std::array<Real, model::partner_kinds> dose_by_partner{};
+  Real milling_dose{0}, wall_work{0};  ///< [J]
+  model::Energy<Real> energy_at_start, energy_at_end;
+  std::uint64_t touched_impacts = 0;  ///< by the least separation speed (theory.md, section 6)
+  Real touched_dose{0};               ///< of these impacts [J]
+  Real supplied_energy{0};            ///< by these impacts to the motion [J]
+  std::optional<model::InelasticCollapse<Real>> collapse;
+  std::vector<Escalations> escalations;
+  std::optional<Real> powder_mass, ball_mass;
+  std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could tell apart
+  Real deepest_overlap{0};                  ///< by rounding, at any impact [m]
+  double cpu_seconds = 0;
+  std::uint64_t total_impacts = 0;  ///< since the start of the run
+
+  Real duration() const { return end_time - start_time; }
+  std::uint64_t total_collisions() const {
+    std::uint64_t sum = 0;
+    for (const auto c : collisions) sum += c;
+    return sum;
+  }
+  /// sum WE - sum MD + supplied energy - change of (KE + PE) [J]; zero but for rounding.
+  Real energy_closure() const {
+    return wall_work - milling_dose + supplied_energy -
+           ((energy_at_end.kinetic + energy_at_end.potential) -
+            (energy_at_start.kinetic + energy_at_start.potential));
+  }
+};
+
+template <class Real>
+std::string summary_json(const Summary<Real>& summary);
+
+}  // namespace edmill::io

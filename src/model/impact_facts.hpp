@@ -1,0 +1,115 @@
+// Everything that is known of one impact, and what outputs can say of it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/vector.hpp"
+#include "model/ball.hpp"
+
+namespace edmill::model {
+
+/// One of the two bodies of an impact. A wall has a velocity, at the contact point, and nothing else.
+template <class Real>
+struct ImpactBody {
+  const BallProperties<Real>* ball = nullptr;  ///< null for a wall
+  Vec3<Real> velocity_before = Vec3<Real>::Zero(),
+             velocity_after = Vec3<Real>::Zero();  ///< of the centre, inertial frame [m/s]
+  Vec3<Real> spin_before = Vec3<Real>::Zero(), spin_after = Vec3<Real>::Zero();  ///< [rad/s]
+  Real flight_time{0};  ///< since its last impact, or the start of the run [s]
+
+  Real translational_energy(const Vec3<Real>& velocity) const {
+    return ball ? Real(ball->mass / 2 * squared_norm<Real>(velocity)) : Real(0);
+  }
+  Real spin_energy(const Vec3<Real>& spin) const {
+    return ball ? Real(ball->reduced_inertia * ball->mass * ball->radius * ball->radius / 2 *
+                       squared_norm<Real>(spin))
+                : Real(0);
+  }
+};
+
+/// Length of the parabola that ended with `velocity` after `time` in free flight [m].
+template <class Real>
+Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Real& time);
+
+/// One impact as the variables of model/impact_variables.def see it. Before and after mean just before and
+/// just after the impact; the normal points from the partner to the ball.
+template <class Real>
+struct ImpactFacts {
+  std::uint64_t index = 0;       ///< counts from 0 since the start of the run
+  Real time{}, time_previous{};  ///< of this and of the last impact of any ball, or the start of the run [s]
+  int ball = 0, partner = 0;     ///< ids; the partner's is a wall's or a ball's
+  bool ball_ball = false, least_separation = false;
+  int balls = 0, walls = 0;  ///< how many there are
+  Vec3<Real> gravity = Vec3<Real>::Zero();
+  Vec3<Real> normal = Vec3<Real>::Zero(), contact_point = Vec3<Real>::Zero();  ///< inertial frame [m]
+  ImpactBody<Real> one, two;                                                   ///< the ball, its partner
+  Real milling_dose{}, dose_normal{}, supplied_energy{}, wall_work{}, normal_impulse{}, tangential_impulse{};
+  Real restitution_normal{}, restitution_tangential{};
+
+  Vec3<Real> relative_before() const { return one.velocity_before - two.velocity_before; }
+  Vec3<Real> relative_after() const { return one.velocity_after - two.velocity_after; }
+  Vec3<Real> contact_before() const {
+    return relative_before() - cross<Real>(rolling(one.spin_before, two.spin_before), normal);
+  }
+  Vec3<Real> contact_after() const {
+    return relative_after() - cross<Real>(rolling(one.spin_after, two.spin_after), normal);
+  }
+
+  static Real size(const Vec3<Real>& v) { return norm<Real>(v); }
+  Real normal_size(const Vec3<Real>& v) const {
+    const Real part = dot<Real>(v, normal);
+    return part < 0 ? Real(-part) : part;
+  }
+  Real tangential_size(const Vec3<Real>& v) const { return norm<Real>(v - normal * dot<Real>(v, normal)); }
+  /// Between the normal and a velocity, 0 to pi; 0 for a velocity of zero [rad].
+  Real angle(const Vec3<Real>& v) const {
+    using std::atan2;
+    const Real across = tangential_size(v), along = dot<Real>(v, normal);
+    return across == 0 && along == 0 ? Real(0) : Real(atan2(across, along));
+  }
+  static Real energy(const ImpactBody<Real>& body, const Vec3<Real>& velocity, const Vec3<Real>& spin) {
+    return body.translational_energy(velocity) + body.spin_energy(spin);
+  }
+  Real free_path(const ImpactBody<Real>& body) const {
+    return body.ball ? path_length<Real>(body.velocity_before, gravity, body.flight_time) : Real(0);
+  }
+
+ private:
+  Vec3<Real> rolling(const Vec3<Real>& spin_one, const Vec3<Real>& spin_two) const {
+    const Vec3<Real> first = spin_one * one.ball->radius;
+    return two.ball ? Vec3<Real>(first + spin_two * two.ball->radius) : first;
+  }
+};
+
+template <class Real>
+Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Real& time) {
+  using std::log1p;
+  using std::sqrt;
+  const Real strength = norm<Real>(gravity);
+  if (strength == 0) return norm<Real>(velocity) * time;
+  // u: speed along gravity, w: across it. L = [u sqrt(u^2 + w^2) + w^2 asinh(u / w)] / 2g between both ends.
+  const Vec3<Real> down = gravity * (1 / strength);
+  const Real last = dot<Real>(velocity, down), first = last - strength * time;
+  const Real across2 = squared_norm<Real>(velocity - down * last);
+  const auto asinh = [&](const Real& x) { return Real(log1p(x + x * x / (1 + sqrt(1 + x * x)))); };
+  const auto positive = [](const Real& x) { return x < 0 ? Real(-x) : x; };
+  const Real u1 = positive(last), u0 = positive(first);
+  const Real q1 = sqrt(u1 * u1 + across2), q0 = sqrt(u0 * u0 + across2);
+  if ((last < 0) != (first < 0)) {  // it turned on the way: two arcs from the top
+    Real sum = u1 * q1 + u0 * q0;
+    if (across2 > 0) sum += across2 * (asinh(u1 / sqrt(across2)) + asinh(u0 / sqrt(across2)));
+    return sum / (2 * strength);
+  }
+  // One arc: differences are factored, so that short flights keep their digits.
+  const Real steps = strength * time, sum = u1 + u0;
+  if (sum == 0) return sqrt(across2) * time;
+  Real arc = steps * sum * (u1 * u1 + u0 * u0 + across2) / (u1 * q1 + u0 * q0);
+  if (across2 > 0) {
+    // asinh(a) - asinh(b) = asinh((a^2 - b^2) / (a sqrt(1 + b^2) + b sqrt(1 + a^2)))
+    arc += across2 * asinh(steps * sum / (u1 * q0 + u0 * q1));
+  }
+  return arc / (2 * strength);
+}
+
+}  // namespace edmill::model

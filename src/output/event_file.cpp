@@ -1,0 +1,178 @@
+#include "output/event_file.hpp"
+
+#include <fstream>
+#include <optional>
+
+#include "base/errors.hpp"
+#include "io/output_folder.hpp"
+#include "output/hdf5_parts.hpp"
+
+namespace edmill::output {
+
+namespace {
+constexpr hsize_t block = 16384;  ///< rows that are written at a time
+
+/// Where a chunk stands in the file [bytes].
+struct ChunkPlace {
+  std::uint64_t at = 0, size = 0;
+  std::uint64_t end() const { return at + size; }
+  void archive(Archive& a) { a(at, size); }
+  bool operator==(const ChunkPlace&) const = default;
+};
+
+ChunkPlace place_of_chunk(hid_t set, hsize_t row) {
+  const hsize_t offset[2] = {row, 0};
+  unsigned filters = 0;
+  haddr_t at = 0;
+  hsize_t size = 0;
+  hdf5_check(H5Dget_chunk_info_by_coord(set, offset, &filters, &at, &size));
+  return {at, size};
+}
+
+/// Appends a chunk that another file holds, as it is.
+void append_chunk(hid_t set, std::size_t width, hsize_t before, hsize_t rows, const std::string& bytes) {
+  const hsize_t size[2] = {before + rows, width}, offset[2] = {before, 0};
+  hdf5_check(H5Dset_extent(set, size));
+  hdf5_check(H5Dwrite_chunk(set, H5P_DEFAULT, 0, offset, bytes.size(), bytes.data()));
+}
+
+}  // namespace
+
+struct EventFile::Data {
+  struct Column {
+    EventColumn what;
+    std::unique_ptr<Handle> set;
+    std::vector<std::int64_t> integers;
+    std::vector<double> numbers;
+    std::vector<ChunkPlace> chunks;  ///< those that are full
+    std::size_t width() const { return what.type == EventColumn::Type::vector ? 3 : 1; }
+  };
+
+  std::filesystem::path place, temporary;
+  std::optional<Handle> file, group;
+  std::vector<Column> columns;
+  hsize_t written = 0, waiting = 0;
+  bool kept = false;
+
+  void write_block() {
+    for (auto& c : columns) {
+      const bool integer = c.what.type == EventColumn::Type::integer;
+      append(*c.set, integer ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE, c.width(), written, waiting,
+             integer ? static_cast<const void*>(c.integers.data()) : c.numbers.data());
+      c.integers.clear();
+      c.numbers.clear();
+      c.chunks.push_back(place_of_chunk(*c.set, written));
+    }
+    written += waiting;
+    waiting = 0;
+  }
+  /// Takes over the full blocks of a file of the same columns.
+  void take_blocks(const std::filesystem::path& from, hsize_t rows) {
+    std::ifstream in(from, std::ios::binary);
+    std::string bytes;
+    for (written = 0; written < rows; written += block)
+      for (auto& c : columns) {
+        const ChunkPlace& chunk = c.chunks.at(written / block);
+        bytes.resize(chunk.size);
+        in.seekg(static_cast<std::streamoff>(chunk.at));
+        if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+          throw std::runtime_error(from.string() + ": could not be read");
+        append_chunk(*c.set, c.width(), written, block, bytes);
+        EDMILL_REQUIRE(place_of_chunk(*c.set, written) == chunk, "a block has the place that it had");
+      }
+  }
+  void close() {
+    for (auto& c : columns) c.set.reset();
+    group.reset();
+    file.reset();
+  }
+};
+
+EventFile::EventFile(std::filesystem::path place, std::vector<EventColumn> columns,
+                     const std::vector<FileNote>& notes)
+    : data_(new Data) {
+  io::hdf5_begin();
+  data_->place = std::move(place);
+  data_->temporary = io::temporary_name(data_->place);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(data_->place, ignored))
+    throw InputError(data_->place.string() + ": found a folder, expected a place for a file");
+  data_->file.emplace(make_file(data_->temporary), H5Fclose);
+  add_notes(*data_->file, notes);
+  data_->group.emplace(make_group(*data_->file, "events"), H5Gclose);
+  for (auto& column : columns) {
+    Data::Column c{std::move(column), nullptr, {}, {}, {}};
+    const bool integer = c.what.type == EventColumn::Type::integer;
+    c.set = std::make_unique<Handle>(
+        make_set(*data_->group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, c.width(), block,
+                 integer),
+        H5Dclose);
+    note(*c.set, "unit", c.what.unit);
+    note(*c.set, "description", c.what.description);
+    data_->columns.push_back(std::move(c));
+  }
+}
+
+EventFile::~EventFile() {
+  data_->close();
+  std::error_code ignored;
+  if (!data_->kept) std::filesystem::remove(data_->temporary, ignored);  // after `commit` there is none
+}
+
+void EventFile::add(std::size_t column, std::int64_t value) {
+  data_->columns[column].integers.push_back(value);
+}
+void EventFile::add(std::size_t column, double value) { data_->columns[column].numbers.push_back(value); }
+
+void EventFile::end_row() {
+  if (++data_->waiting == block) data_->write_block();
+}
+
+void EventFile::add_table(const std::string& name, const std::string& unit, const std::string& description,
+                          const std::vector<double>& values, std::size_t width) {
+  const hsize_t rows = values.size() / width;
+  const Handle set(make_set(*data_->file, name, H5T_IEEE_F64LE, width, rows > 0 ? rows : 1, false), H5Dclose);
+  note(set, "unit", unit);
+  note(set, "description", description);
+  append(set, H5T_NATIVE_DOUBLE, width, 0, rows, values.data());
+}
+
+void EventFile::commit() {
+  if (data_->waiting > 0) data_->write_block();
+  hdf5_check(H5Fflush(*data_->file, H5F_SCOPE_GLOBAL));
+  data_->close();
+  std::filesystem::rename(data_->temporary, data_->place);
+}
+
+void EventFile::archive(Archive& a) {
+  auto& d = *data_;
+  if (!a.loading()) io::sync_to_disk(d.temporary);
+  std::string name = d.temporary.filename().string();
+  hsize_t rows = d.written;
+  a(name, rows, d.waiting);
+  for (auto& c : d.columns) a(c.integers, c.numbers, c.chunks);
+  const std::uint64_t end = rows > 0 ? d.columns.back().chunks.back().end() : 0;
+  std::optional<std::string> before;
+  if (!a.loading()) before = io::bytes_before(d.temporary, end);
+  a(before);
+  if (!a.loading()) {
+    d.kept = true;
+    return;
+  }
+
+  const auto left = std::filesystem::path(d.temporary).replace_filename(name);
+  const auto& from = std::filesystem::exists(left) ? left : d.place;
+  if (rows > 0) {
+    if (!before || io::bytes_before(from, end) != before)
+      throw InputError(d.place.string() +
+                       ": found another file than the checkpoint was made with, expected " +
+                       "the files as the run left them");
+    d.take_blocks(from, rows);
+  }
+  // The blocks have the same places in both, so that the checkpoint holds for either.
+  std::filesystem::rename(d.temporary, left);
+  d.temporary = left;
+  d.kept = true;
+}
+
+}  // namespace edmill::output

@@ -1,0 +1,55 @@
+// The event log as HDF5: one dataset for each column, so that a reader takes only what it needs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "output/file_note.hpp"
+
+namespace edmill::output {
+
+/// A column of the log.
+struct EventColumn {
+  enum class Type { integer, number, vector };  ///< 64-bit integer, 64-bit number, three of those a row
+  std::string name, unit, description;
+  Type type;
+};
+
+/// Written in blocks under a temporary name; `commit` puts it in place. The same rows make the same bytes: no
+/// time stamps. Integers are compressed; the digits of measured numbers are noise that hardly shrinks.
+class EventFile {
+ public:
+  EventFile(std::filesystem::path place, std::vector<EventColumn> columns,
+            const std::vector<FileNote>& notes);
+  EventFile(const EventFile&) = delete;
+  EventFile& operator=(const EventFile&) = delete;
+  ~EventFile();
+
+  void add(std::size_t column, std::int64_t value);
+  void add(std::size_t column, double value);
+  /// After a value, or three for a vector, was added to every column.
+  void end_row();
+
+  /// A table of its own beside the events: rows of `width` numbers.
+  void add_table(const std::string& name, const std::string& unit, const std::string& description,
+                 const std::vector<double>& values, std::size_t width);
+
+  /// @throws std::runtime_error when anything was not written; the old file is then still there
+  void commit();
+
+  /// How far it is written, for a checkpoint; the temporary file is then no longer removed without `commit`.
+  /// HDF5 cannot open a file whose writer was killed. But a block never changes once it is written, so
+  /// loading makes the file anew from the blocks, which stand where the checkpoint says.
+  /// @throws InputError when they are not there
+  void archive(Archive& a);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace edmill::output

@@ -1,0 +1,85 @@
+// Parts of the HDF5 files of outputs. Nothing in them tells the time: the same run makes the same bytes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/hdf5_handle.hpp"
+#include "output/file_note.hpp"
+
+namespace edmill::output {
+
+using io::hdf5_check;
+using Handle = io::Hdf5Handle;
+
+/// A text as an attribute, of variable length: readers then take it for a text and not for bytes.
+inline void note(hid_t object, const std::string& key, const std::string& value) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  hdf5_check(H5Tset_size(type, H5T_VARIABLE));
+  hdf5_check(H5Tset_cset(type, H5T_CSET_UTF8));
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle attribute(H5Acreate2(object, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const char* text = value.c_str();
+  hdf5_check(H5Awrite(attribute, type, &text));
+}
+
+/// A text as a dataset.
+inline void add_text(hid_t file, const std::string& name, const std::string& value) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  hdf5_check(H5Tset_size(type, value.size() + 1));
+  hdf5_check(H5Tset_cset(type, H5T_CSET_UTF8));
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  hdf5_check(H5Pset_obj_track_times(creation, false));
+  const Handle set(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
+  hdf5_check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()));
+}
+
+inline void add_notes(hid_t file, const std::vector<FileNote>& notes) {
+  for (const auto& n : notes) n.long_text ? add_text(file, n.key, n.value) : note(file, n.key, n.value);
+}
+
+/// A dataset of rows of `width` values that can grow.
+inline hid_t make_set(hid_t group, const std::string& name, hid_t type, std::size_t width, hsize_t chunk,
+                      bool compressed) {
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  hdf5_check(H5Pset_obj_track_times(creation, false));
+  const hsize_t size[2] = {0, width}, largest[2] = {H5S_UNLIMITED, width}, chunks[2] = {chunk, width};
+  const int rank = width > 1 ? 2 : 1;
+  hdf5_check(H5Pset_chunk(creation, rank, chunks));
+  if (compressed) {
+    hdf5_check(H5Pset_shuffle(creation));
+    hdf5_check(H5Pset_deflate(creation, 1));
+  }
+  const Handle space(H5Screate_simple(rank, size, largest), H5Sclose);
+  // Nothing is held back: a chunk is in the file when it is written.
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  hdf5_check(H5Pset_chunk_cache(access, 0, 0, 1));
+  return H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, creation, access);
+}
+
+inline void append(hid_t set, hid_t memory_type, std::size_t width, hsize_t before, hsize_t rows,
+                   const void* values) {
+  const int rank = width > 1 ? 2 : 1;
+  const hsize_t size[2] = {before + rows, width}, start[2] = {before, 0}, count[2] = {rows, width};
+  hdf5_check(H5Dset_extent(set, size));
+  const Handle space(H5Dget_space(set), H5Sclose);
+  hdf5_check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr));
+  const Handle memory(H5Screate_simple(rank, count, nullptr), H5Sclose);
+  hdf5_check(H5Dwrite(set, memory_type, memory, space, H5P_DEFAULT, values));
+}
+
+inline hid_t make_file(const std::filesystem::path& place) {
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  hdf5_check(H5Pset_obj_track_times(creation, false));
+  return H5Fcreate(place.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+}
+
+inline hid_t make_group(hid_t file, const char* name) {
+  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  hdf5_check(H5Pset_obj_track_times(creation, false));
+  return H5Gcreate2(file, name, H5P_DEFAULT, creation, H5P_DEFAULT);
+}
+
+}  // namespace edmill::output

@@ -1,0 +1,136 @@
+// Implementation of Outputs; included by the instantiation files only.
+#pragma once
+
+#include "output/coverage_output.hpp"
+#include "output/events_output.hpp"
+#include "output/frames_outputs.hpp"
+#include "output/rates_above_output.hpp"
+#include "output/scene_outputs.hpp"
+#include "output/simple_outputs.hpp"
+#include "output/spectra_output.hpp"
+#include "output/statistics_outputs.hpp"
+#include "output/trends_outputs.hpp"
+#include "output/vessel_load_output.hpp"
+
+namespace edmill::output {
+
+namespace detail {
+
+template <class Real, template <class> class Type>
+std::unique_ptr<Output<Real>> make(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
+                                   const RunFacts<Real>& run) {
+  return std::make_unique<Type<Real>>(spec, folder, run);
+}
+
+/// A new output is a row here and one in casefile/output_spec.cpp.
+template <class Real>
+struct Maker {
+  const char* type;
+  std::unique_ptr<Output<Real>> (*make)(const casefile::OutputSpec&, const std::filesystem::path&,
+                                        const RunFacts<Real>&);
+};
+template <class Real>
+constexpr Maker<Real> makers[] = {{"collisions", make<Real, CollisionsOutput>},
+                                  {"milling_dose", make<Real, MillingDoseOutput>},
+                                  {"frequency", make<Real, FrequencyOutput>},
+                                  {"statistics", make<Real, StatisticsOutput>},
+                                  {"trends", make<Real, TrendsOutput>},
+                                  {"trends_instant", make<Real, TrendsInstantOutput>},
+                                  {"trends_balls", make<Real, TrendsBallsOutput>},
+                                  {"trace", make<Real, TraceOutput>},
+                                  {"iterations", make<Real, IterationsOutput>},
+                                  {"events", make<Real, EventsOutput>},
+                                  {"spectra", make<Real, SpectraOutput>},
+                                  {"rates_above", make<Real, RatesAboveOutput>},
+                                  {"vessel_load", make<Real, VesselLoadOutput>},
+                                  {"coverage", make<Real, CoverageOutput>},
+                                  {"snapshot", make<Real, SnapshotOutput>},
+                                  {"animation", make<Real, AnimationOutput>},
+                                  {"paraview", make<Real, ParaviewOutput>}};
+
+template <class Real>
+std::vector<FileNote> notes_of(const casefile::CaseSpec& spec) {
+  return {{"program", "edmill " + std::string(version()) + " (" + std::string(commit()) + ")"},
+          {"compiler", std::string(compiler())},
+          {"precision", std::string(ScalarName<Real>::value)},
+          {"seed", std::to_string(spec.seed)},
+          {"case_file", spec.file},
+          {"case_digest", spec.digest},
+          {"case", spec.text, true}};
+}
+
+template <class Real>
+model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
+                                  const engine::Simulation<Real>& simulation, const Real& previous) {
+  model::ImpactFacts<Real> f;
+  f.index = impact.index;
+  f.time = simulation.clock().seconds(impact.time);
+  f.time_previous = previous;
+  f.ball = impact.ball, f.partner = impact.partner;
+  f.ball_ball = !impact.with_wall;
+  f.least_separation = impact.outcome.least_separation;
+  f.balls = simulation.ball_count(), f.walls = model::wall_count;
+  f.gravity = simulation.mill().gravity;
+  f.normal = impact.normal;
+  const auto fill = [&](model::ImpactBody<Real>& body, int place, int ball) {
+    body = {&simulation.properties(ball), impact.velocity_before[place], simulation.flight(ball).velocity,
+            impact.spin_before[place],    simulation.spin(ball),         impact.flight_time[place]};
+  };
+  fill(f.one, 0, impact.ball);
+  if (f.ball_ball)
+    fill(f.two, 1, impact.partner);
+  else
+    f.two.velocity_before = f.two.velocity_after = impact.wall_velocity;
+  f.contact_point = simulation.flight(impact.ball).position - impact.normal * f.one.ball->radius;
+  const auto& o = impact.outcome;
+  f.milling_dose = o.milling_dose, f.wall_work = o.wall_work;
+  f.normal_impulse = o.normal_impulse, f.tangential_impulse = o.tangential_impulse;
+  f.restitution_normal = o.restitution_normal(), f.restitution_tangential = o.restitution_tangential;
+  f.dose_normal = o.normal_dose, f.supplied_energy = o.supplied_energy;
+  return f;
+}
+
+}  // namespace detail
+
+template <class Real>
+Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const std::filesystem::path& folder, const Real& start)
+    : previous_(start) {
+  RunFacts<Real> run{start, std::nullopt, spec.vessel_colour, spec.ball_colours(),
+                     detail::notes_of<Real>(spec)};
+  if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();
+  for (const auto& output : spec.outputs) {
+    if (!output.folder.empty()) io::prepare_folder(folder / output.folder);
+    for (const auto& maker : detail::makers<Real>)
+      if (output.type == maker.type) outputs_.push_back(maker.make(output, folder, run));
+  }
+}
+
+template <class Real>
+Outputs<Real>::~Outputs() = default;
+
+template <class Real>
+void Outputs<Real>::on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) {
+  const auto facts = detail::facts_of<Real>(impact, simulation, previous_);
+  const Seen<Real> seen{facts, impact, simulation};
+  for (auto& output : outputs_) output->on_impact(seen);
+  previous_ = facts.time;
+}
+
+template <class Real>
+void Outputs<Real>::on_end(const engine::Simulation<Real>& simulation) {
+  for (auto& output : outputs_) output->finish(simulation);
+}
+
+template <class Real>
+void Outputs<Real>::archive(Archive& a) {
+  a(previous_);
+  for (auto& output : outputs_) a(*output);
+}
+
+template <class Real>
+void Outputs<Real>::commit(bool goes_on) {
+  for (auto& output : outputs_)
+    if (!goes_on || !output->appends()) output->commit();
+}
+
+}  // namespace edmill::output

@@ -1,0 +1,68 @@
+// Pictures of the mill as X3D (ISO/IEC 19775-1) and as VTK XML files. Plain doubles: nothing is computed from
+// them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "base/vector.hpp"
+#include "casefile/colour.hpp"
+
+namespace edmill::output {
+
+struct SceneBall {
+  double radius;  ///< [m]
+  casefile::Colour colour;
+  Vec3<double> position = Vec3<double>::Zero();  ///< inertial frame [m]
+  Vec3<double> velocity = Vec3<double>::Zero(), spin = Vec3<double>::Zero();
+  double milling_dose = 0;  ///< of the impacts that the ball had a part in [J]
+
+  void archive(Archive& a) { a(radius, colour, position, velocity, spin, milling_dose); }
+};
+
+/// The vessel's pose as angles of the nested motion, theta about Z and gamma about x'. [rad]
+struct SceneAngles {
+  double theta, gamma;
+
+  void archive(Archive& a) { a(theta, gamma); }
+};
+
+struct Scene {
+  double arm, vessel_radius, half_height;  ///< [m]
+  casefile::Colour vessel_colour;
+  SceneAngles angles;
+  std::vector<SceneBall> balls;
+  std::optional<SceneBall> contact;  ///< marks the contact point
+  double time;                       ///< [s]
+
+  void archive(Archive& a) {
+    a(arm, vessel_radius, half_height, vessel_colour, angles, balls, contact, time);
+  }
+};
+
+/// What moves in an animation: keys are fractions of its duration, from 0 to 1.
+struct SceneMotion {
+  double duration;  ///< of one playback [s]
+  std::vector<std::pair<double, SceneAngles>> vessel;
+  using Path = std::vector<std::pair<double, Vec3<double>>>;
+  std::vector<Path> balls;  ///< of each ball
+  Path contact;             ///< where the scene marks the contact point
+
+  void archive(Archive& a) { a(duration, vessel, balls, contact); }
+};
+
+/// A page of X3D 3.3, still or, with `motion`, moving and repeated for ever.
+std::string x3d_text(const Scene& scene, const SceneMotion* motion = nullptr);
+
+/// The balls as VTK PolyData: points with diameter, velocity, spin and milling dose.
+std::string vtp_balls(const Scene& scene);
+
+/// The vessel's inner surface as VTK PolyData.
+std::string vtp_vessel(const Scene& scene);
+
+/// A ParaView collection. @param frames  time and the file names of its parts
+std::string pvd_text(const std::vector<std::pair<double, std::vector<std::string>>>& frames);
+
+}  // namespace edmill::output

@@ -1,0 +1,96 @@
+// What pictures have in common, and single ones in X3D. In double: nothing is computed from them.
+#pragma once
+
+#include <cmath>
+
+#include "output/balls_before.hpp"
+#include "output/output.hpp"
+#include "output/scene.hpp"
+
+namespace edmill::output {
+
+/// Makes scenes of a run.
+template <class Real>
+class SceneOutput : public Output<Real> {
+ public:
+  SceneOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
+              const RunFacts<Real>& run)
+      : Output<Real>(spec, run),
+        place_(folder / spec.folder / spec.file),
+        contact_(spec.contact_point),
+        run_(run) {}
+
+ protected:
+  const std::filesystem::path& place() const { return place_; }
+  bool shows_contact() const { return contact_.has_value(); }
+
+  static SceneAngles angles(const engine::Simulation<Real>& simulation, double time) {
+    const auto& motion = simulation.mill().motion;
+    const double phase = static_cast<double>(motion.angular_speed()) * time;
+    return {std::acos(0.0) + static_cast<double>(motion.theta_max) * std::cos(phase),
+            static_cast<double>(motion.gamma_max) * std::sin(phase)};
+  }
+
+  SceneBall contact_at(const Vec3<Real>& point) const {
+    return {contact_->radius.template to<double>(), contact_->colour, vector_cast<double>(point)};
+  }
+
+  /// @param state_of  state of a ball by its id at `time`
+  template <class StateOf>
+  Scene scene(const engine::Simulation<Real>& simulation, const Real& time, StateOf&& state_of) const {
+    const auto& mill = simulation.mill();
+    Scene s{static_cast<double>(mill.motion.arm),
+            static_cast<double>(mill.vessel.radius),
+            static_cast<double>(mill.vessel.half_height),
+            run_.vessel_colour,
+            angles(simulation, static_cast<double>(time)),
+            {},
+            {},
+            static_cast<double>(time)};
+    for (int i = 0; i < simulation.ball_count(); ++i) {
+      const auto state = state_of(i);
+      s.balls.push_back({static_cast<double>(simulation.properties(i).radius),
+                         run_.ball_colours[static_cast<std::size_t>(i)], vector_cast<double>(state.position),
+                         vector_cast<double>(state.velocity), vector_cast<double>(state.spin)});
+    }
+    return s;
+  }
+
+ private:
+  std::filesystem::path place_;
+  std::optional<casefile::ContactPointSpec> contact_;
+  RunFacts<Real> run_;
+};
+
+/// The mill at each impact of the record, a file each: NAME_<index>.x3d. (thesis D.4.1)
+template <class Real>
+class SnapshotOutput : public SceneOutput<Real> {
+ public:
+  using SceneOutput<Real>::SceneOutput;
+
+  void commit() override {
+    for (const auto& [index, text] : pages_) {
+      auto place = this->place();
+      place.replace_filename(place.stem().string() + "_" + std::to_string(index) +
+                             place.extension().string());
+      io::AtomicFile file(place);
+      file.stream() << text;
+      file.commit();
+    }
+  }
+
+ protected:
+  void archive_record(Archive& a) override { a(pages_); }
+  void record(const Seen<Real>& seen) override {
+    const BallsBefore<Real> balls(seen);
+    const Real& time = seen.facts.time;
+    Scene s = this->scene(seen.simulation, time, [&](int i) { return balls.state(i, time); });
+    if (this->shows_contact()) s.contact = this->contact_at(seen.facts.contact_point);
+    pages_.emplace_back(seen.facts.index, x3d_text(s));
+  }
+
+ private:
+  std::vector<std::pair<std::uint64_t, std::string>> pages_;
+};
+
+}  // namespace edmill::output

@@ -1,0 +1,55 @@
+// What columns of tables are called.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "casefile/output_spec.hpp"
+#include "io/csv_cell.hpp"
+
+namespace edmill::output {
+
+using casefile::Statistic;
+using io::csv_cell;
+
+/// "milling_dose [J]", for headers.
+inline std::string title_of(const std::string& name, std::string_view unit) {
+  return name + " [" + std::string(unit) + "]";
+}
+
+inline const char* statistic_name(Statistic s) {
+  switch (s) {
+    case Statistic::sum:
+      return "sum";
+    case Statistic::average:
+      return "average";
+    case Statistic::minimum:
+      return "minimum";
+    case Statistic::maximum:
+      return "maximum";
+    case Statistic::rate:
+      return "rate";
+    case Statistic::percentage:
+      return "percentage";
+  }
+  return "?";
+}
+
+/// Unit of a statistic of a variable with that unit.
+inline std::string statistic_unit(Statistic s, std::string_view unit) {
+  if (s == Statistic::rate) return unit == "J" ? "W" : std::string(unit) + "/s";
+  return s == Statistic::percentage ? "%" : std::string(unit);
+}
+
+/// The label of a column, or else the name of its variable.
+inline std::string name_of(const casefile::ColumnSpec& column, std::string_view variable) {
+  return column.label.empty() ? std::string(variable) : column.label;
+}
+
+/// The same with one of its statistics, which a label stands for when it is the only one.
+inline std::string name_of(const casefile::ColumnSpec& column, std::string_view variable, Statistic s) {
+  const bool alone = !column.label.empty() && column.statistics.size() == 1;
+  return alone ? column.label : name_of(column, variable) + " " + statistic_name(s);
+}
+
+}  // namespace edmill::output

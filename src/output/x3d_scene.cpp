@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "output/scene.hpp"
+
+namespace edmill::output {
+
+namespace {
+
+std::string numbers(std::initializer_list<double> list) {
+  std::string text;
+  for (const double x : list) text += fmt::format("{}{}", text.empty() ? "" : " ", x);
+  return text;
+}
+std::string vector(const Vec3<double>& v) { return numbers({v[0], v[1], v[2]}); }
+
+pugi::xml_node add(pugi::xml_node parent, const char* name,
+                   std::initializer_list<std::pair<const char*, std::string>> attributes = {}) {
+  auto node = parent.append_child(name);
+  for (const auto& [key, value] : attributes) node.append_attribute(key) = value.c_str();
+  return node;
+}
+
+void add_look(pugi::xml_node shape, const casefile::Colour& c, double transparency = 0) {
+  auto material = add(add(shape, "Appearance"), "Material", {{"diffuseColor", numbers({c[0], c[1], c[2]})}});
+  if (transparency > 0) material.append_attribute("transparency") = numbers({transparency}).c_str();
+}
+
+void add_ball(pugi::xml_node parent, const SceneBall& ball, const std::string& name = "") {
+  auto place = add(parent, "Transform", {{"translation", vector(ball.position)}});
+  if (!name.empty()) place.append_attribute("DEF") = name.c_str();
+  auto shape = add(place, "Shape");
+  add_look(shape, ball.colour);
+  add(shape, "Sphere", {{"radius", numbers({ball.radius})}});
+}
+
+/// The nested motion as it stands: about Z by theta, along the arm, about the arm by gamma.
+void add_vessel(pugi::xml_node parent, const Scene& s) {
+  auto swing = add(parent, "Transform", {{"DEF", "theta"}, {"rotation", numbers({0, 0, 1, s.angles.theta})}});
+  auto arm = add(swing, "Transform", {{"translation", numbers({s.arm, 0, 0})}});
+  auto tilt = add(arm, "Transform", {{"DEF", "gamma"}, {"rotation", numbers({1, 0, 0, s.angles.gamma})}});
+  auto shape = add(tilt, "Shape");
+  add_look(shape, s.vessel_colour, 0.7);
+  add(shape, "Cylinder",
+      {{"radius", numbers({s.vessel_radius})}, {"height", numbers({2 * s.half_height})}, {"solid", "false"}});
+}
+
+void add_route(pugi::xml_node scene, const std::string& from, const char* from_field, const std::string& to,
+               const char* to_field) {
+  add(scene, "ROUTE", {{"fromNode", from}, {"fromField", from_field}, {"toNode", to}, {"toField", to_field}});
+}
+
+/// `keys` and `values` of an interpolator that drives one field of the node `target`.
+void add_interpolator(pugi::xml_node scene, const char* type, const std::string& target, const char* field,
+                      const std::string& keys, const std::string& values) {
+  const std::string name = target + "_path";
+  add(scene, type, {{"DEF", name}, {"key", keys}, {"keyValue", values}});
+  add_route(scene, "clock", "fraction_changed", name, "set_fraction");
+  add_route(scene, name, "value_changed", target, field);
+}
+
+void add_motion(pugi::xml_node scene, const SceneMotion& motion) {
+  add(scene, "TimeSensor",
+      {{"DEF", "clock"}, {"cycleInterval", numbers({motion.duration})}, {"loop", "true"}});
+  std::string keys, theta, gamma;
+  for (const auto& [key, angles] : motion.vessel) {
+    keys += fmt::format("{} ", key);
+    theta += fmt::format("0 0 1 {} ", angles.theta);
+    gamma += fmt::format("1 0 0 {} ", angles.gamma);
+  }
+  add_interpolator(scene, "OrientationInterpolator", "theta", "set_rotation", keys, theta);
+  add_interpolator(scene, "OrientationInterpolator", "gamma", "set_rotation", keys, gamma);
+  const auto add_path = [&](const SceneMotion::Path& path, const std::string& name) {
+    std::string times, places;
+    for (const auto& [key, place] : path) {
+      times += fmt::format("{} ", key);
+      places += vector(place) + " ";
+    }
+    add_interpolator(scene, "PositionInterpolator", name, "set_translation", times, places);
+  };
+  for (std::size_t i = 0; i < motion.balls.size(); ++i) add_path(motion.balls[i], fmt::format("ball_{}", i));
+  if (!motion.contact.empty()) add_path(motion.contact, "contact_point");
+}
+
+std::string text_of(const pugi::xml_document& document) {
+  std::ostringstream out;
+  document.save(out, " ", pugi::format_indent);
+  return out.str();
+}
+
+}  // namespace
+
+std::string x3d_text(const Scene& s, const SceneMotion* motion) {
+  pugi::xml_document document;
+  auto declaration = document.append_child(pugi::node_declaration);
+  declaration.append_attribute("version") = "1.0";
+  declaration.append_attribute("encoding") = "UTF-8";
+  document.append_child(pugi::node_doctype)
+      .set_value(
+          "X3D PUBLIC \"ISO//Web3D//DTD X3D 3.3//EN\" "
+          "\"http://www.web3d.org/specifications/x3d-3.3.dtd\"");
+  auto x3d = add(document, "X3D", {{"profile", "Interchange"}, {"version", "3.3"}});
+  auto head = add(x3d, "head");
+  add(head, "meta", {{"name", "generator"}, {"content", "edmill"}});
+  add(head, "meta",
+      {{"name", "description"}, {"content", fmt::format("Ball mill at {} s; lengths in metres", s.time)}});
+  auto scene = add(x3d, "Scene");
+  add(scene, "Background", {{"skyColor", "1 1 1"}});
+  // From above and in front, so that the arm points up in the picture.
+  add(scene, "Viewpoint",
+      {{"description", "mill"},
+       {"position", numbers({0, s.arm, 4 * (s.vessel_radius + s.half_height)})},
+       {"centerOfRotation", numbers({0, s.arm, 0})}});
+  add_vessel(scene, s);
+  for (std::size_t i = 0; i < s.balls.size(); ++i) add_ball(scene, s.balls[i], fmt::format("ball_{}", i));
+  if (s.contact) add_ball(scene, *s.contact, "contact_point");
+  if (motion) add_motion(scene, *motion);
+  return text_of(document);
+}
+
+}  // namespace edmill::output

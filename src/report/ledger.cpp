@@ -1,0 +1,91 @@
+// The energy ledger, and what was run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/sections.hpp"
+
+namespace edmill::report {
+
+using plot::add;
+using plot::brief;
+using plot::readable;
+
+void add_energy(pugi::xml_node main, const RunFolder& run) {
+  const auto& f = run.facts;
+  auto section = add_section(main, "energy", "Energy ledger");
+  const double kinetic = f.kinetic_end - f.kinetic_start, potential = f.potential_end - f.potential_start;
+  const auto row = [&](const std::string& name, double joules) {
+    const bool timed = f.duration() > 0;
+    return std::vector<std::string>{name, readable(joules, 6),
+                                    timed ? readable(joules / f.duration()) : "\u2013"};
+  };
+  std::vector<std::vector<std::string>> rows{row("work of the walls on the balls", f.wall_work)};
+  for (std::size_t k = 0; k < f.dose.size(); ++k)
+    rows.push_back(row(std::string("dissipated, ") + partner_names[k], f.dose[k] == 0 ? 0 : -f.dose[k]));
+  rows.push_back(row("supplied by the least separation speed", f.supplied_energy));
+  rows.push_back(row("into kinetic energy of the balls", kinetic == 0 ? 0 : -kinetic));
+  rows.push_back(row("into potential energy", potential == 0 ? 0 : -potential));
+  rows.push_back(
+      {"left over, by rounding", readable(f.closure, 2),
+       f.milling_dose > 0 ? readable(std::abs(f.closure) / f.milling_dose, 2) + " of the dose" : "\u2013"});
+  add_table(section, "ledger", "From the start of statistics to their end", {"", "energy [J]", "rate [W]"},
+            rows);
+}
+
+namespace {
+
+std::string law_text(const casefile::ContactSpec& c) {
+  const bool constant = c.model == model::ContactModel::constant;
+  return fmt::format("{}, e = {}, {}, least separation {} mm/s", constant ? "constant" : "Walton\u2013Braun",
+                     brief(c.restitution_normal.to<double>()),
+                     constant ? "e tangential = " + brief(c.restitution_tangential.to<double>())
+                              : "friction " + brief(c.friction.to<double>()),
+                     brief(1000 * c.least_separation.to<double>()));
+}
+
+std::string ball_text(const casefile::BallSpec& ball, int count) {
+  return fmt::format("{} of {} mm, {} kg/m\u00b3", count, brief(1000 * ball.diameter.to<double>()),
+                     brief(ball.density.to<double>()));
+}
+
+}  // namespace
+
+void add_case(pugi::xml_node main, const RunFolder& run) {
+  const auto& spec = run.spec;
+  const auto& f = run.facts;
+  auto section = add_section(main, "case", "Case");
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& batch : spec.batches) rows.push_back({"balls", ball_text(batch, batch.count)});
+  if (!spec.balls.empty())
+    rows.push_back(
+        {"balls placed one by one", ball_text(spec.balls.front(), static_cast<int>(spec.balls.size()))});
+  if (spec.powder_mass) rows.push_back({"powder", brief(1000 * spec.powder_mass->to<double>()) + " g"});
+  const auto mm = [](const casefile::Quantity& q) { return brief(1000 * q.to<double>()); };
+  rows.push_back({"vessel", fmt::format("cylinder, {} mm \u00d7 {} mm", mm(spec.vessel_diameter),
+                                        mm(spec.vessel_height))});
+  rows.push_back({"mill", spec.mill.type == "still"
+                              ? std::string("still")
+                              : fmt::format("SPEX 8000, {} rpm, arm {} mm",
+                                            brief(60 / spec.mill.period.to<double>()), mm(spec.mill.arm))});
+  rows.push_back({"contact of balls", law_text(spec.ball_ball)});
+  rows.push_back({"contact with walls", law_text(spec.ball_wall)});
+  rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time),
+                                            brief(f.end_time), f.end_reason)});
+  rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.seed, f.precision)});
+  rows.push_back({"at least separation speed", fmt::format("{} % of the impacts, {} % of the dose",
+                                                           readable(100 * f.touched_impact_share, 3),
+                                                           readable(100 * f.touched_dose_share, 2))});
+  rows.push_back({"deepest overlap", readable(f.deepest_overlap, 2) + " m"});
+  rows.push_back({"program", fmt::format("edmill {} ({}), {}", f.version, f.commit, f.compiler)});
+  rows.push_back({"cost", fmt::format("{} impacts in {} s of processor time",
+                                      brief(f.impacts_since_start, 12), readable(f.cpu_seconds, 3))});
+  rows.push_back({"digest of the case", f.case_digest});
+  add_table(section, "run", "What was run", {"", ""}, rows);
+  auto details = add(section, "details");
+  add(details, "summary", {}, "The case file");
+  add(add(details, "pre", {{"tabindex", "0"}}), "code", {}, spec.text);
+}
+
+}  // namespace edmill::report

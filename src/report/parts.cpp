@@ -1,0 +1,84 @@
+// What several sections of a report share.
+#include <cmath>
+
+#include "model/impact_variables.hpp"
+#include "report/sections.hpp"
+#include "study/statistics.hpp"
+
+namespace edmill::report {
+
+using plot::add;
+
+const char* const partner_names[] = {"cap \u2212y", "cap +y", "cylinder", "ball\u2013ball"};
+const char* const partner_colours[] = {"c0", "c1", "c2", "c3"};
+
+pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std::string& heading) {
+  auto section = add(main, "section", {{"id", id}, {"aria-labelledby", id + "-heading"}});
+  add(section, "h2", {{"id", id + "-heading"}}, heading);
+  return section;
+}
+
+void add_missing(pugi::xml_node section, const std::string& what, const std::string& output) {
+  auto line = add(section, "p", {{"class", "missing"}}, "No " + what + ": add an [[output]] with ");
+  add(line, "code", {}, output);
+  add(line, "span", {}, " to the case, or run it with --report.");
+}
+
+void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
+               const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows) {
+  add(section, "h3", {{"id", id}}, caption);
+  // Wide tables scroll inside their own box, which the keyboard can reach.
+  auto box = add(section, "div",
+                 {{"class", "table"}, {"tabindex", "0"}, {"role", "region"}, {"aria-labelledby", id}});
+  auto table = add(box, "table", {{"aria-labelledby", id}});
+  auto head = add(add(table, "thead"), "tr");
+  for (const auto& heading : headings) add(head, "th", {{"scope", "col"}}, heading);
+  auto body = add(table, "tbody");
+  for (const auto& row : rows) {
+    auto line = add(body, "tr");
+    for (std::size_t k = 0; k < row.size(); ++k)
+      k == 0 ? add(line, "th", {{"scope", "row"}}, row[k]) : add(line, "td", {}, row[k]);
+  }
+}
+
+namespace {
+
+/// Whether the impacts of an output are those with one partner; with any for -1.
+bool records(const casefile::OutputSpec& output, int partner) {
+  const int ball_ball = *model::find_variable("ball_ball"), id = *model::find_variable("partner");
+  if (partner < 0) return output.only.empty();
+  const auto is = [&](const casefile::Restriction& r, int variable, std::uint64_t value) {
+    return r.variable == variable && r.value == value;
+  };
+  const auto& only = output.only;
+  if (partner == model::ball_ball) return only.size() == 1 && is(only[0], ball_ball, 1);
+  const auto wall = static_cast<std::uint64_t>(partner);
+  return only.size() == 2 && ((is(only[0], ball_ball, 0) && is(only[1], id, wall)) ||
+                              (is(only[1], ball_ball, 0) && is(only[0], id, wall)));
+}
+
+}  // namespace
+
+std::optional<Series> rate_of(const RunFolder& run, const char* variable, int partner) {
+  const int row = *model::find_variable(variable);
+  const auto fits = [&](const casefile::OutputSpec& output) {
+    bool shown = false;
+    for (const auto& column : output.columns)
+      for (const auto statistic : column.statistics)
+        shown = shown || (column.variable == row && statistic == casefile::Statistic::rate);
+    return shown && !output.accumulated && !output.timer.start_collision && records(output, partner);
+  };
+  const auto* output = run.output("trends", fits);
+  if (!output) return std::nullopt;
+  const auto table = read_table(run.file_of(*output), "a table of trends");
+  if (table.numbers.empty()) return std::nullopt;
+  return series_of(*output, table, row, run.spec.initial_time.to<double>());
+}
+
+std::optional<double> half_width_of(const RunFolder& run, const char* variable) {
+  const auto series = rate_of(run, variable);
+  if (!series) return std::nullopt;
+  return study::estimate(batches_of(*series, run.facts.start_time, run.facts.end_time).means).half_width;
+}
+
+}  // namespace edmill::report

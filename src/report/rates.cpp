@@ -1,0 +1,220 @@
+// Rates over time and by partner, and how fast the balls are.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/ball_variables.hpp"
+#include "model/impact_variables.hpp"
+#include "report/sections.hpp"
+#include "study/statistics.hpp"
+
+namespace edmill::report {
+
+using plot::add;
+using plot::brief;
+using plot::readable;
+
+namespace {
+
+constexpr std::size_t most_points = 120;
+
+/// A chart over the time of the run, with the start of statistics marked when something lies before it.
+plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
+                      const std::string& y_title) {
+  plot::Chart chart;
+  chart.id = id, chart.title = title;
+  chart.x = {"time [s]", run.spec.initial_time.to<double>(), run.facts.end_time, false};
+  chart.y.title = y_title;
+  if (run.facts.start_time > chart.x.low)
+    chart.marks.push_back({run.facts.start_time, "statistics from here"});
+  return chart;
+}
+
+/// From 0, or the least value, to a little above the highest.
+void fit_heights(plot::Chart& chart) {
+  double low = 0, high = 0;
+  const auto see = [&](double y) {
+    if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
+  };
+  for (const auto& curve : chart.curves)
+    for (const auto& [x, y] : curve.points) see(y);
+  for (const auto& band : chart.bands)
+    for (const double y : band.high) see(y);
+  const double room = high > low ? 0.1 * (high - low) : 1;
+  chart.y.low = low < 0 ? low - room : 0;
+  chart.y.high = high + room;
+}
+
+void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
+  const auto series = rate_of(run, "milling_dose");
+  if (!series)
+    return add_missing(
+        grid, "dose rate over time",
+        "type = \"trends\", columns = [{ variable = \"milling_dose\", statistics = [\"rate\"] }]");
+  auto chart = over_time(run, "dose-rate", "Milling dose rate over time", "milling dose rate [W]");
+  const auto thin = coarser(whole(*series), most_points);
+  chart.curves.push_back({"", "c0", points_of(thin), false});
+  const double from = run.facts.start_time, until = run.facts.end_time;
+  const auto e = study::estimate(batches_of(*series, from, until).means);
+  if (e.half_width) {
+    chart.curves[0].name = fmt::format("over {} s", readable(thin.end[0] - thin.begin[0], 2));
+    chart.bands.push_back({"c1",
+                           {from, until},
+                           {*e.mean - *e.half_width, *e.mean - *e.half_width},
+                           {*e.mean + *e.half_width, *e.mean + *e.half_width}});
+    chart.curves.push_back({"mean with its 95 % interval", "c1", {{from, *e.mean}, {until, *e.mean}}, false});
+  }
+  fit_heights(chart);
+  chart.description =
+      fmt::format("Line of the milling dose rate in watts from {} s to {} s of simulated time.",
+                  brief(chart.x.low), brief(chart.x.high));
+  draw(grid, chart);
+}
+
+void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
+  auto chart = over_time(run, "collision-rates", "Collision rates over time", "collisions [1/s]");
+  for (int k = 0; k < model::partner_kinds; ++k)
+    if (const auto series = rate_of(run, "collision", k))
+      chart.curves.push_back(
+          {partner_names[k], partner_colours[k], points_of(coarser(whole(*series), most_points)), false});
+  if (chart.curves.empty())
+    if (const auto all = rate_of(run, "collision"))
+      chart.curves.push_back({"all", "c4", points_of(coarser(whole(*all), most_points)), false});
+  if (chart.curves.empty())
+    return add_missing(
+        grid, "collision rates over time",
+        "type = \"trends\", columns = [{ variable = \"collision\", statistics = [\"rate\"] }]");
+  fit_heights(chart);
+  chart.description = "Lines of the collisions per second with each wall and between balls.";
+  draw(grid, chart);
+}
+
+void add_partners(pugi::xml_node section, const RunFolder& run) {
+  const auto& f = run.facts;
+  std::vector<std::vector<std::string>> rows;
+  const auto row = [&](const std::string& name, double collisions, double dose) {
+    const bool timed = f.duration() > 0;
+    rows.push_back({name, brief(collisions, 12), timed ? readable(collisions / f.duration()) : "\u2013",
+                    timed ? readable(dose / f.duration()) : "\u2013",
+                    f.milling_dose > 0 ? readable(100 * dose / f.milling_dose, 3) : "\u2013",
+                    collisions > 0 ? readable(1000 * dose / collisions, 3) : "\u2013"});
+  };
+  for (std::size_t k = 0; k < f.collisions.size(); ++k) row(partner_names[k], f.collisions[k], f.dose[k]);
+  row("all", f.all_collisions(), f.milling_dose);
+  add_table(section, "by-partner", "Collisions and dose by partner",
+            {"with", "collisions", "[1/s]", "dose rate [W]", "share of the dose [%]", "mean dose [mJ]"},
+            rows);
+}
+
+void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
+  const auto* output = run.output("rates_above", [](const auto& o) { return o.only.empty(); });
+  if (!output) return add_missing(section, "rates above speed cutoffs", "type = \"rates_above\"");
+  const auto table = read_table(run.file_of(*output), "a table of rates above cutoffs");
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& numbers : table.numbers) {
+    std::vector<std::string> row{brief(numbers[0])};
+    for (const char* part : {"wall_0", "wall_1", "wall_2", "ball_ball", "total"})
+      row.push_back(readable(numbers[table.column(std::string(part) + " rate")]));
+    row.push_back(readable(numbers[table.column("total dose_rate")]));
+    rows.push_back(std::move(row));
+  }
+  add_table(section, "above-cutoffs", "Collisions per second at or above an approach speed",
+            {"approach speed [m/s]", partner_names[0], partner_names[1], partner_names[2], partner_names[3],
+             "all", "dose rate of all [W]"},
+            rows);
+}
+
+/// Mean, least and largest speed of the balls over time.
+void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
+  using casefile::Statistic;
+  const int speed = *model::find_ball_variable("speed");
+  const auto* output = run.output("trends_balls", [&](const casefile::OutputSpec& o) {
+    return o.columns.size() == 1 && o.columns[0].variable == speed && !o.columns[0].with_ball &&
+           o.columns[0].statistics == std::vector{Statistic::average, Statistic::minimum, Statistic::maximum};
+  });
+  if (!output)
+    return add_missing(grid, "ball speeds over time",
+                       "type = \"trends_balls\", columns = [{ variable = \"speed\", "
+                       "statistics = [\"average\", \"minimum\", \"maximum\"] }]");
+  const auto table = read_table(run.file_of(*output), "a table of trends of balls");
+  auto chart = over_time(run, "ball-speeds-over-time", "Ball speeds over time", "speed [m/s]");
+  // Fives, so that each point has all phases of the drive at which the report's own table looks.
+  const std::size_t together = (table.numbers.size() / most_points + 5) / 5 * 5;
+  plot::Curve mean{"mean of all balls", "c0", {}, false};
+  plot::Band range{"c0", {}, {}, {}};
+  for (std::size_t first = 0; first < table.numbers.size(); first += together) {
+    const std::size_t last = std::min(table.numbers.size(), first + together);
+    double sum = 0, low = table.numbers[first].at(3), high = 0;
+    for (std::size_t k = first; k < last; ++k) {
+      const auto& row = table.numbers[k];
+      sum += row.at(2), low = std::min(low, row.at(3)), high = std::max(high, row.at(4));
+    }
+    const double time = (table.numbers[first][0] + table.numbers[last - 1][0]) / 2;
+    mean.points.emplace_back(time, sum / static_cast<double>(last - first));
+    range.x.push_back(time), range.low.push_back(low), range.high.push_back(high);
+  }
+  chart.curves.push_back(std::move(mean));
+  chart.bands.push_back(std::move(range));
+  fit_heights(chart);
+  chart.description = "Line of the balls' mean speed, within a band from the slowest to the fastest ball.";
+  draw(grid, chart);
+}
+
+/// How fast balls are when they collide.
+void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
+  const int variable = *model::find_variable("ball_speed_before");
+  const auto* output = run.output("frequency", [&](const casefile::OutputSpec& o) {
+    return o.only.empty() && o.frequency.variable.variable == variable;
+  });
+  if (!output)
+    return add_missing(
+        grid, "distribution of ball speeds",
+        "type = \"frequency\", variable = \"ball_speed_before\", low = \"0 m/s\", high = \"10 m/s\"");
+  const auto table = read_table(run.file_of(*output), "a table of frequencies", 1);
+  const auto lower = table.column("lower"), upper = table.column("upper");
+  plot::Chart chart;
+  chart.id = "ball-speeds", chart.title = "Speed of balls at their impacts";
+  chart.description = "Histograms of the ball's speed before an impact with a wall and with another ball.";
+  double last = 0;
+  for (const auto& [name, column, colour] :
+       {std::tuple{"with walls", "walls", "c2"}, std::tuple{"with balls", "ball_ball", "c3"}}) {
+    const auto place = table.column(column);
+    double all = 0;
+    for (const auto& row : table.numbers) all += row[place];
+    plot::Curve curve{name, colour, {}, true};
+    for (const auto& row : table.numbers) {
+      if (std::isnan(row[lower]) || std::isnan(row[upper])) continue;  // out of range
+      curve.points.emplace_back(row[lower], all > 0 ? row[place] / all / (row[upper] - row[lower]) : 0);
+      if (row[place] > 0) last = std::max(last, row[upper]);
+      chart.x.low = std::min(chart.x.low, row[lower]);
+      if (&row == &table.numbers.back() || std::isnan((&row)[1][upper]))
+        curve.points.emplace_back(row[upper], 0);
+    }
+    chart.curves.push_back(std::move(curve));
+  }
+  chart.x.title = "speed before the impact [m/s]", chart.x.high = last > chart.x.low ? last : chart.x.low + 1;
+  chart.y.title = "share of impacts [1/(m/s)]";
+  fit_heights(chart);
+  draw(grid, chart);
+}
+
+}  // namespace
+
+void add_rates(pugi::xml_node main, const RunFolder& run) {
+  auto section = add_section(main, "rates", "Rates");
+  auto grid = add(section, "div", {{"class", "charts"}});
+  add_dose_rate(grid, run);
+  add_collision_rates(grid, run);
+  add_partners(section, run);
+  add_cutoffs(section, run);
+}
+
+void add_ball_speeds(pugi::xml_node main, const RunFolder& run) {
+  auto section = add_section(main, "speeds", "Ball speeds");
+  auto grid = add(section, "div", {{"class", "charts"}});
+  add_speeds_over_time(grid, run);
+  add_speed_frequency(grid, run);
+}
+
+}  // namespace edmill::report

@@ -1,0 +1,111 @@
+#include "report/report_page.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "io/output_folder.hpp"
+#include "report/embedded.hpp"
+#include "report/scene.hpp"
+#include "report/sections.hpp"
+
+namespace edmill::report {
+
+namespace {
+
+using plot::add;
+
+/// Key frames of the animation, about 30 bytes each.
+constexpr std::size_t most_keys = 60000;
+
+/// Puts values in place of {{names}}; what a value holds is not looked at again.
+std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto open = text.find("{{", at), close = text.find("}}", open == text.npos ? at : open);
+    if (open == text.npos || close == text.npos) return out.append(text.substr(at));
+    out.append(text.substr(at, open - at));
+    out.append(values.at(std::string(text.substr(open + 2, close - open - 2))));
+    at = close + 2;
+  }
+  return out;
+}
+
+std::string escaped(const std::string& text) {
+  pugi::xml_document document;
+  document.append_child(pugi::node_pcdata).set_value(text.c_str());
+  return plot::html_of(document);
+}
+
+/// What a reader sees at a glance.
+std::string subtitle_of(const RunFolder& run) {
+  const auto& spec = run.spec;
+  std::string text = fmt::format("{} balls", spec.ball_count());
+  if (spec.batches.size() == 1 && spec.balls.empty())
+    text += fmt::format(" of {} mm", plot::brief(1000 * spec.batches[0].diameter.to<double>()));
+  if (spec.powder_mass)
+    text += fmt::format(", {} g of powder", plot::brief(1000 * spec.powder_mass->to<double>()));
+  return text + (spec.mill.type == "still"
+                     ? std::string(", in a still vessel")
+                     : fmt::format(", SPEX 8000 at {} rpm", plot::brief(60 / spec.mill.period.to<double>())));
+}
+
+}  // namespace
+
+void add_animation(pugi::xml_node main, const RunFolder& run) {
+  auto section = add_section(main, "animation", "The mill at work");
+  const auto* output = run.output("animation", [](const auto&) { return true; });
+  if (!output) return add_missing(section, "animation", "type = \"animation\"");
+  const auto animation = read_animation(run.file_of(*output));
+  auto stage = add(section, "div", {{"class", "stage"}});
+  add_still(stage, animation);
+  if (x3dom_js.empty()) {
+    add(section, "p", {{"class", "missing"}},
+        "A still picture: this edmill was built without X3DOM (no npm). The animation itself is in " +
+            run.file_of(*output).filename().string() + ".");
+    return;
+  }
+  add_scene(stage, animation, most_keys);
+  add(section, "button", {{"type", "button"}, {"id", "play"}, {"aria-pressed", "false"}}, "Pause");
+  add(section, "p", {{"class", "note"}},
+      fmt::format("Slowed down {} times. Drag to turn, scroll to come nearer.",
+                  plot::readable(1 / output->animation.speed.to<double>(), 2)));
+}
+
+std::string report_page(const RunFolder& run) {
+  pugi::xml_document document;
+  auto main = add(document, "main");
+  add_headline(main, run);
+  add_warnings(main, run);
+  auto pair = add(main, "div", {{"class", "pair"}});
+  add_animation(pair, run);
+  add_ward(pair, run);
+  add_rates(main, run);
+  add_spectra(main, run);
+  add_vessel(main, run);
+  add_ball_speeds(main, run);
+  add_energy(main, run);
+  add_case(main, run);
+  const bool plays = main.select_node("//x3d") && !x3dom_js.empty();
+  const auto program = fmt::format("edmill {} ({})", run.facts.version, run.facts.commit);
+  return filled(page_html, {{"title", escaped(title_of(run))},
+                            {"subtitle", escaped(subtitle_of(run))},
+                            {"program", escaped(program)},
+                            {"main", plot::html_of(document)},
+                            {"style", std::string(page_css)},
+                            {"script", std::string(page_js)},
+                            {"x3dom_style", plays ? std::string(x3dom_css) : ""},
+                            {"x3dom_script", plays ? std::string(x3dom_js) : ""},
+                            {"x3dom_note", plays ? "The animation is played by X3DOM (MIT licence)." : ""}});
+}
+
+std::filesystem::path write_report(const std::filesystem::path& folder) {
+  const auto page = report_page(read_run_folder(folder));
+  const auto place = folder / "report.html";
+  io::AtomicFile file(place);
+  file.stream() << page;
+  file.commit();
+  return place;
+}
+
+}  // namespace edmill::report

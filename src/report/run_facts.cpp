@@ -1,0 +1,113 @@
+#include "report/run_facts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/errors.hpp"
+
+namespace edmill::report {
+
+namespace {
+
+using nlohmann::json;
+
+/// Looks keys up and gathers what is wrong with them.
+class Reader {
+ public:
+  Reader(std::string file, const json& root) : file_(std::move(file)), root_(root) {}
+
+  /// @param path  "/collisions/wall_0"
+  void number(const std::string& path, double& value) {
+    if (const json* found = find(path, "a number", [](const json& j) { return j.is_number(); }))
+      value = found->get<double>();
+  }
+  void text(const std::string& path, std::string& value) {
+    if (const json* found = find(path, "a text", [](const json& j) { return j.is_string(); }))
+      value = found->get<std::string>();
+  }
+  bool has(const std::string& path) const { return root_.contains(json::json_pointer(path)); }
+  void throw_problems() const {
+    if (!problems_.empty()) throw InputError(problems_);
+  }
+
+ private:
+  template <class Test>
+  const json* find(const std::string& path, const std::string& expected, Test&& test) {
+    const json* found = has(path) ? &root_.at(json::json_pointer(path)) : nullptr;
+    if (found && test(*found)) return found;
+    std::string key = path.substr(1);
+    std::replace(key.begin(), key.end(), '/', '.');
+    problems_.push_back(fmt::format("{}: {}: found {}, expected {}", file_, key,
+                                    found ? found->dump().substr(0, 40) : "nothing", expected));
+    return nullptr;
+  }
+
+  std::string file_;
+  const json& root_;
+  std::vector<std::string> problems_;
+};
+
+json parsed(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::error_code ignored;
+  if (!in || !std::filesystem::is_regular_file(file, ignored))
+    throw InputError(file.string() + ": found no readable file, expected the summary of a run");
+  std::ostringstream text;
+  text << in.rdbuf();
+  const std::string all = text.str();
+  try {
+    return json::parse(all);
+  } catch (const json::parse_error& error) {
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, all.size()));
+    throw InputError(fmt::format("{}:{}: found no valid JSON, expected the summary of a run", file.string(),
+                                 1 + std::count(all.begin(), end, '\n')));
+  }
+}
+
+}  // namespace
+
+RunFacts read_run_facts(const std::filesystem::path& file) {
+  const json root = parsed(file);
+  Reader reader(file.string(), root);
+  RunFacts f;
+  for (const auto& [key, value] : {std::pair{"/version", &f.version},
+                                   {"/commit", &f.commit},
+                                   {"/compiler", &f.compiler},
+                                   {"/case_file", &f.case_file},
+                                   {"/case_digest", &f.case_digest},
+                                   {"/precision", &f.precision},
+                                   {"/end_reason", &f.end_reason}})
+    reader.text(key, *value);
+  if (reader.has("/error")) reader.text("/error", f.error);
+  for (const auto& [key, value] : {std::pair{"/seed", &f.seed},
+                                   {"/start_time", &f.start_time},
+                                   {"/end_time", &f.end_time},
+                                   {"/milling_dose", &f.milling_dose},
+                                   {"/wall_work", &f.wall_work},
+                                   {"/energy/kinetic_start", &f.kinetic_start},
+                                   {"/energy/potential_start", &f.potential_start},
+                                   {"/energy/kinetic_end", &f.kinetic_end},
+                                   {"/energy/potential_end", &f.potential_end},
+                                   {"/energy/closure", &f.closure},
+                                   {"/least_separation/impact_share", &f.touched_impact_share},
+                                   {"/least_separation/milling_dose_share", &f.touched_dose_share},
+                                   {"/least_separation/supplied_energy", &f.supplied_energy},
+                                   {"/deepest_overlap", &f.deepest_overlap},
+                                   {"/impacts_since_start", &f.impacts_since_start},
+                                   {"/cpu_seconds", &f.cpu_seconds}})
+    reader.number(key, *value);
+  static constexpr const char* partners[] = {"wall_0", "wall_1", "wall_2", "ball_ball"};
+  for (std::size_t k = 0; k < f.collisions.size(); ++k) {
+    reader.number(std::string("/collisions/") + partners[k], f.collisions[k]);
+    reader.number(std::string("/milling_dose_by_partner/") + partners[k], f.dose[k]);
+  }
+  if (reader.has("/powder_mass")) reader.number("/powder_mass", f.powder_mass.emplace());
+  reader.throw_problems();
+  return f;
+}
+
+}  // namespace edmill::report

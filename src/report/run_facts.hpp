@@ -1,0 +1,39 @@
+// What summary.json says, for reading: doubles whatever the scalar of the run.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "model/vessel.hpp"
+
+namespace edmill::report {
+
+/// Names and units as in docs/files.md.
+struct RunFacts {
+  std::string version, commit, compiler, case_file, case_digest, precision, end_reason, error;
+  double seed = 0;
+  double start_time = 0, end_time = 0;                            ///< of the statistics [s]
+  std::array<double, model::partner_kinds> collisions{}, dose{};  ///< [1], [J]
+  double milling_dose = 0, wall_work = 0;                         ///< [J]
+  std::optional<double> powder_mass;                              ///< [kg]
+  double kinetic_start = 0, potential_start = 0, kinetic_end = 0, potential_end = 0;  ///< [J]
+  double closure = 0;                                                                 ///< [J]
+  double touched_impact_share = 0, touched_dose_share = 0;  ///< by the least separation speed
+  double supplied_energy = 0;                               ///< by it [J]
+  double deepest_overlap = 0;                               ///< [m]
+  double impacts_since_start = 0, cpu_seconds = 0;
+
+  double duration() const { return end_time - start_time; }
+  double all_collisions() const {
+    double sum = 0;
+    for (const double c : collisions) sum += c;
+    return sum;
+  }
+};
+
+/// @throws InputError when there is no such file, or it lacks a key
+RunFacts read_run_facts(const std::filesystem::path& file);
+
+}  // namespace edmill::report

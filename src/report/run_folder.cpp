@@ -1,0 +1,92 @@
+#include "report/run_folder.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "casefile/case_of_run.hpp"
+#include "io/output_folder.hpp"
+#include "report/embedded.hpp"
+
+namespace edmill::report {
+
+namespace {
+
+/// First line of a case.toml whose run wrote the tables of the report too.
+const std::string reported_mark = "# run with --report\n";
+
+bool starts_with_mark(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  return std::getline(in, line) && line + "\n" == reported_mark;
+}
+
+}  // namespace
+
+void write_case(const std::filesystem::path& place, const casefile::CaseSpec& spec, bool reported) {
+  io::AtomicFile file(place / "case.toml");
+  const bool marked = spec.text.starts_with(reported_mark);
+  if (reported && !marked) file.stream() << reported_mark;
+  file.stream() << (marked && !reported ? spec.text.substr(reported_mark.size()) : spec.text);
+  file.commit();
+}
+
+RunFolder read_run_folder(const std::filesystem::path& place) {
+  RunFolder folder{place, read_run_facts(place / "summary.json"), {}};
+  const auto file = place / "case.toml";
+  folder.spec = casefile::read_case_of_run(file.string(), folder.facts.case_digest);
+  if (starts_with_mark(file)) add_report_outputs(folder.spec);
+  return folder;
+}
+
+std::filesystem::path RunFolder::file_of(const casefile::OutputSpec& output) const {
+  return place / output.folder / output.file;
+}
+
+const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits& fits) const {
+  const auto is_written = [&](const casefile::OutputSpec& output) {
+    std::error_code ignored;
+    const auto file = file_of(output);
+    // The file of a record that never began is empty.
+    return std::filesystem::is_regular_file(file, ignored) && std::filesystem::file_size(file, ignored) > 0;
+  };
+  // The report's own come last, and are the ones that surely suit it.
+  for (auto output = spec.outputs.rbegin(); output != spec.outputs.rend(); ++output)
+    if (output->type == type && !output->append && output->timer.on && !output->file.ends_with(".h5") &&
+        is_written(*output) && fits(*output))
+      return &*output;
+  return nullptr;
+}
+
+void add_report_outputs(casefile::CaseSpec& spec) {
+  using casefile::Quantity;
+  const auto before = spec.outputs.size();
+  casefile::add_outputs(std::string(outputs_toml), "the outputs of the report", spec);
+  const bool moving = spec.mill.type != "still";
+  // Powers of pi in the drive's period may be rounded: these are only times at which to look.
+  const auto period = moving ? Quantity{boost::multiprecision::cpp_rational(spec.mill.period.to<double>())}
+                             : Quantity{boost::multiprecision::cpp_rational(1, 20)};
+  for (auto k = before; k < spec.outputs.size(); ++k) {
+    auto& output = spec.outputs[k];
+    if (output.type == "trends") {
+      output.timer.interval = period;  // whole turns of the drive can be compared
+    } else if (output.type == "trends_balls") {
+      output.timer.interval = Quantity{period.value * 2 / 5};  // 5 phases of the drive in turn
+    } else {
+      output.timer.start_time = spec.statistics_start;
+    }
+    if (output.type == "animation") {
+      output.timer.duration = Quantity{period.value * (spec.ball_count() > 200 ? 1 : 2)};
+      output.animation.speed = Quantity{period.value / 4};  // a turn takes 4 s
+      output.animation.frames_per_minute = 20 * 60;
+    }
+    if (output.type == "frequency" && moving) {
+      // Balls are rarely three times as fast as the vessel's centre at its fastest.
+      const auto& m = spec.mill;
+      const double fastest =
+          3 * 6.283185307179586 * m.arm.to<double>() * m.theta_max.to<double>() / m.period.to<double>();
+      if (fastest > 0) output.frequency.high = Quantity{boost::multiprecision::cpp_rational(fastest)};
+    }
+  }
+}
+
+}  // namespace edmill::report

@@ -1,0 +1,44 @@
+// The parts of a report. Each adds a <section>, or says in a line which output it misses.
+#pragma once
+
+#include "plot/markup.hpp"
+#include "report/run_folder.hpp"
+#include "report/series.hpp"
+#include "report/ward.hpp"
+#include "report/warnings.hpp"
+
+namespace edmill::report {
+
+/// Title of the page: the case file's name.
+std::string title_of(const RunFolder& run);
+
+void add_headline(pugi::xml_node main, const RunFolder& run);
+void add_ward(pugi::xml_node main, const RunFolder& run);
+void add_warnings(pugi::xml_node main, const RunFolder& run);
+void add_animation(pugi::xml_node main, const RunFolder& run);
+void add_rates(pugi::xml_node main, const RunFolder& run);
+void add_spectra(pugi::xml_node main, const RunFolder& run);
+void add_vessel(pugi::xml_node main, const RunFolder& run);
+void add_ball_speeds(pugi::xml_node main, const RunFolder& run);
+void add_energy(pugi::xml_node main, const RunFolder& run);
+void add_case(pugi::xml_node main, const RunFolder& run);
+
+/// "wall 0 (cap -y)" for readers: cap −y, cap +y, cylinder, ball–ball; and their colours.
+extern const char* const partner_names[model::partner_kinds];
+extern const char* const partner_colours[model::partner_kinds];
+
+/// A section with a heading.
+pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std::string& heading);
+/// "No ball speeds: add [[output]] type = ..."
+void add_missing(pugi::xml_node section, const std::string& what, const std::string& output);
+
+/// A table under a heading with this id, and a row of headings; the first cell of each row is its heading.
+void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
+               const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows);
+
+/// Rate of a variable of all impacts, or of those with one partner; nothing when no table has it.
+std::optional<Series> rate_of(const RunFolder& run, const char* variable, int partner = -1);
+/// Half-width of the 95 % interval of the mean of a rate over the statistics.
+std::optional<double> half_width_of(const RunFolder& run, const char* variable);
+
+}  // namespace edmill::report

@@ -1,0 +1,44 @@
+// Rates over time, and how far their means can be trusted.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "casefile/output_spec.hpp"
+#include "plot/chart.hpp"
+#include "report/table.hpp"
+
+namespace edmill::report {
+
+/// The mean of a rate over each of a row of intervals.
+struct Series {
+  std::vector<double> begin, end, rate;  ///< [s], [s], [unit/s]
+};
+
+/// A rate in a table of trends.
+/// @param start  initial time of the run, at which the first interval begins unless the table begins later
+/// [s]
+/// @return nothing when the table has no such column
+std::optional<Series> series_of(const casefile::OutputSpec& output, const Table& table, int variable,
+                                double start);
+
+/// Without a last interval that is shorter than the first: its rate has another scatter.
+Series whole(Series series);
+
+/// Intervals put together so that there are at most `most` of them; the last can be shorter.
+Series coarser(const Series& series, std::size_t most);
+
+/// Means over batches of equally many intervals.
+struct Batches {
+  std::vector<double> means;
+  double length = 0;  ///< of each [s]
+};
+
+/// Up to 20 batches of the intervals that lie inside [from, until], the last of them whole; none when that
+/// leaves fewer than 5. Intervals that are shorter than the first are left out.
+Batches batches_of(const Series& series, double from, double until);
+
+/// Points of a line through the middles of the intervals.
+plot::Points points_of(const Series& series);
+
+}  // namespace edmill::report

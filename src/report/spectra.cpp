@@ -1,0 +1,141 @@
+// How fast impacts are, and which of them dissipate the energy.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/sections.hpp"
+
+namespace edmill::report {
+
+using plot::add;
+
+namespace {
+
+static constexpr const char* parts[] = {"wall_0", "wall_1", "wall_2", "ball_ball"};
+
+/// One column of one spectrum as density over the decades of its bins.
+/// @param scale  what a unit of the column is worth
+plot::Points density(const Table& table, const std::string& spectrum, const std::string& column,
+                     double scale) {
+  const auto place = table.column(column);
+  plot::Points points;
+  double end = 0;
+  for (const auto& row : table.rows_of(spectrum)) {
+    const double low = row[0], high = row[1];
+    if (std::isnan(low) || std::isnan(high)) continue;  // below or above all bins
+    points.emplace_back(low, scale * row[place] / std::log10(high / low));
+    end = high;
+  }
+  if (!points.empty()) points.emplace_back(end, 0);
+  return points;
+}
+
+/// Shows the bins that hold something that can be seen: on a linear y axis a thousandth of the top, on a
+/// logarithmic one what is within 5 decades of it.
+void fit(plot::Chart& chart) {
+  double first = 0, last = 0, top = 0;
+  for (const auto& curve : chart.curves)
+    for (const auto& [x, y] : curve.points) top = std::max(top, y);
+  for (const auto& curve : chart.curves)
+    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k) {
+      const auto [x, y] = curve.points[k];
+      if (!(y > (chart.y.logarithmic ? 0 : 1e-3 * top))) continue;
+      first = first == 0 ? x : std::min(first, x);
+      last = std::max(last, curve.points[k + 1].first);
+    }
+  chart.x.logarithmic = true;
+  chart.x.low = first > 0 ? first : 0.1, chart.x.high = last > chart.x.low ? last : 10 * chart.x.low;
+  if (!chart.y.logarithmic) {
+    chart.y.low = 0, chart.y.high = top > 0 ? 1.06 * top : 1;
+    return;
+  }
+  chart.y.high = top > 0 ? 2 * top : 10;
+  double least = chart.y.high;
+  for (const auto& curve : chart.curves)
+    for (const auto& [x, y] : curve.points)
+      if (y > 0) least = std::min(least, y);
+  chart.y.low = std::max(least / 2, chart.y.high / 1e5);
+}
+
+std::optional<Table> spectra_of(const RunFolder& run, const std::string& of, const char* first) {
+  std::optional<Table> found;
+  run.output("spectra", [&](const casefile::OutputSpec& o) {
+    if (!o.only.empty()) return false;
+    Table table = read_table(run.file_of(o), "a table of spectra of " + of, 2);
+    if (table.numbers.empty() || table.texts[0][0] != first || !(table.duration() > 0)) return false;
+    found = std::move(table);
+    return true;
+  });
+  return found;
+}
+
+void add_energies(pugi::xml_node grid, const Table& table) {
+  plot::Chart by_partner;
+  by_partner.id = "energy-spectrum", by_partner.title = "Dose by the energy of the impact";
+  by_partner.description =
+      "Histograms on a logarithmic scale of impact energy: dose rate per decade with each wall and between "
+      "balls.";
+  by_partner.x.title = "energy that the impact dissipates [J]";
+  by_partner.y.title = "dose rate [W per decade]";
+  const double per_second = 1 / table.duration();
+  for (std::size_t k = 0; k < std::size(parts); ++k)
+    by_partner.curves.push_back({partner_names[k], partner_colours[k],
+                                 density(table, "total", std::string(parts[k]) + " energy", per_second),
+                                 true});
+  fit(by_partner);
+  draw(grid, by_partner);
+
+  plot::Chart by_direction;
+  by_direction.id = "energy-parts", by_direction.title = "Normal and tangential dose";
+  by_direction.description =
+      "Histograms of dose rate per decade: the normal part, the tangential part and both, each by its own "
+      "size.";
+  by_direction.x.title = "that part of the impact's energy [J]";
+  by_direction.y.title = "dose rate [W per decade]";
+  for (const auto& [spectrum, colour] :
+       {std::pair{"normal", "c0"}, std::pair{"tangential", "c1"}, std::pair{"total", "c4"}})
+    by_direction.curves.push_back(
+        {spectrum, colour, density(table, spectrum, "total energy", per_second), true});
+  fit(by_direction);
+  draw(grid, by_direction);
+}
+
+void add_speeds(pugi::xml_node grid, const Table& table) {
+  for (const auto& [spectrum, title] :
+       {std::pair{"approach", "Impacts by approach speed"}, std::pair{"slip", "Impacts by slip speed"}}) {
+    plot::Chart chart;
+    chart.id = std::string(spectrum) + "-speeds", chart.title = title;
+    chart.description = fmt::format(
+        "Histograms on logarithmic scales: impacts per second and decade of {} speed, with each wall and "
+        "between "
+        "balls.",
+        spectrum);
+    chart.x.title = std::string(spectrum) + " speed [m/s]";
+    chart.y.title = "impacts [1/s per decade]";
+    chart.y.logarithmic = true;
+    for (std::size_t k = 0; k < std::size(parts); ++k)
+      chart.curves.push_back(
+          {partner_names[k], partner_colours[k],
+           density(table, spectrum, std::string(parts[k]) + " impacts", 1 / table.duration()), true});
+    fit(chart);
+    draw(grid, chart);
+  }
+}
+
+}  // namespace
+
+void add_spectra(pugi::xml_node main, const RunFolder& run) {
+  auto section = add_section(main, "spectra", "Impact spectra");
+  auto grid = add(section, "div", {{"class", "charts"}});
+  if (const auto table = spectra_of(run, "speed", "approach"))
+    add_speeds(grid, *table);
+  else
+    add_missing(grid, "spectra of impact speed", "type = \"spectra\", of = \"speed\"");
+  if (const auto table = spectra_of(run, "energy", "normal"))
+    add_energies(grid, *table);
+  else
+    add_missing(grid, "spectra of impact energy", "type = \"spectra\"");
+}
+
+}  // namespace edmill::report

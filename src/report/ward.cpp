@@ -1,0 +1,89 @@
+#include "report/ward.hpp"
+
+#include <sstream>
+#include <utility>
+
+#include "report/embedded.hpp"
+
+namespace edmill::report {
+
+namespace {
+
+using casefile::CaseSpec;
+using casefile::ContactSpec;
+using casefile::Quantity;
+
+bool same(const Quantity& a, const Quantity& b) { return a.text() == b.text(); }
+
+bool same(const ContactSpec& a, const ContactSpec& b) {
+  return a.model == b.model && same(a.restitution_normal, b.restitution_normal) &&
+         same(a.friction, b.friction) && same(a.min_tangential, b.min_tangential);
+}
+
+bool same_surroundings(const CaseSpec& a, const CaseSpec& b) {
+  const auto &m = a.mill, &n = b.mill;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!same(a.gravity[axis], b.gravity[axis])) return false;
+  return m.type == n.type && same(m.arm, n.arm) && same(m.theta_max, n.theta_max) &&
+         same(m.gamma_max, n.gamma_max) && same(m.period, n.period) &&
+         same(a.vessel_diameter, b.vessel_diameter) && same(a.vessel_height, b.vessel_height);
+}
+
+bool same_ball(const casefile::BallSpec& a, const casefile::BallSpec& b) {
+  return same(a.diameter, b.diameter) && same(a.density, b.density) &&
+         same(a.reduced_inertia, b.reduced_inertia);
+}
+
+/// Whether every ball of a case is this one.
+bool all_balls_are(const CaseSpec& spec, const casefile::BallSpec& ball) {
+  for (const auto& b : spec.balls)
+    if (!same_ball(b, ball)) return false;
+  for (const auto& b : spec.batches)
+    if (!same_ball(b, ball) || !b.diameter_spread.zero()) return false;
+  return true;
+}
+
+/// A case of the table as a case file would say it.
+CaseSpec spec_of(const WardCase& ward) {
+  return casefile::parse_case(
+      std::string(ward_toml), "ward.toml",
+      {"powder.mass=" + ward.powder + " g", "balls.0.diameter=" + ward.diameter + " mm",
+       "balls.0.count=" + std::to_string(ward.balls), "contact.restitution=" + ward.restitution});
+}
+
+}  // namespace
+
+std::vector<WardCase> ward_cases() {
+  std::vector<WardCase> cases;
+  std::istringstream lines{std::string(thesis_csv)};
+  bool header = true;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    if (std::exchange(header, false)) continue;
+    std::istringstream fields(line);
+    WardCase c;
+    std::string balls, inverse, rate;
+    for (auto* field : {&c.powder, &c.charge_ratio, &c.diameter, &balls, &c.restitution, &inverse, &rate})
+      std::getline(fields, *field, ',');
+    c.balls = std::stoi(balls);
+    c.inverse_dose_rate = std::stod(inverse);
+    if (!rate.empty()) c.collision_rate = std::stod(rate);
+    cases.push_back(std::move(c));
+  }
+  return cases;
+}
+
+std::optional<WardCase> ward_case_of(const CaseSpec& spec) {
+  if (!spec.powder_mass) return std::nullopt;
+  for (const auto& ward : ward_cases()) {
+    if (static_cast<std::size_t>(ward.balls) != spec.ball_count()) continue;
+    const CaseSpec known = spec_of(ward);
+    if (same(*known.powder_mass, *spec.powder_mass) && same_surroundings(known, spec) &&
+        same(known.ball_ball, spec.ball_ball) && same(known.ball_wall, spec.ball_wall) &&
+        all_balls_are(spec, known.batches.front()))
+      return ward;
+  }
+  return std::nullopt;
+}
+
+}  // namespace edmill::report

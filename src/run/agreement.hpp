@@ -1,0 +1,36 @@
+// How far two runs of one case in two scalars agree.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "run/event_source.hpp"
+
+namespace edmill::run {
+
+/// How two sequences of events agree. Digits of a quantity are -log10 of the largest difference over the
+/// largest size of that quantity so far, so that values near zero do not count as disagreement.
+class Agreement {
+ public:
+  /// Takes the next event of both runs. @return false, and takes nothing, when the bodies differ
+  bool take(const Event& one, const Event& two);
+
+  std::size_t events() const { return events_; }
+  /// Balls that took part, counted at each event: two where balls collide.
+  std::size_t bodies() const { return bodies_; }
+  /// Digits to which all events taken agree; `most` when no difference was seen.
+  double digits(Quantity quantity) const;
+  double least_digits() const;
+  static constexpr double most = 1000;
+
+  /// Digits lost with each event, by least squares over the times of the events; none when there are fewer
+  /// than ten with a difference.
+  std::optional<double> digits_lost_per_event() const;
+
+ private:
+  std::size_t events_ = 0, bodies_ = 0;
+  std::array<Number, quantity_count> largest_difference_{}, largest_size_{};
+  double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;  // of the line through log10 of the differences in time
+};
+
+}  // namespace edmill::run

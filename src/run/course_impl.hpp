@@ -1,0 +1,112 @@
+// A run in progress; included by the instantiation files only, through simulate_impl.hpp.
+#pragma once
+
+#include <ctime>
+
+#include "run/run_statistics.hpp"
+#include "run/simulate.hpp"
+#include "run/stop_rules.hpp"
+
+namespace edmill::run {
+
+/// Of this thread: several runs can share a process.
+inline double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// The way of a run: up to the start of statistics, then with them to the end, with a checkpoint now and
+/// then.
+template <class Real>
+class Course {
+ public:
+  Course(const casefile::InitialCase<Real>& built, const Guests<Real>& guests)
+      : guests_(guests),
+        simulation_(built.the_case, built.states, built.start, guests.interrupt),
+        stop_rules_(built.the_case.stop),
+        first_(built.start) {
+    simulation_.attach(stop_rules_);
+    for (auto* observer : guests.observers) simulation_.attach(*observer);
+    start_ = built.the_case.statistics_start;
+    if (start_ < first_) start_ = first_;
+    const auto& end_time = built.the_case.stop.end_time;
+    end_ = end_time.value_or(Instant<Real>::never());
+    EDMILL_REQUIRE(start_ <= end_ || !end_time, "statistics start before the end");
+    if (!guests.checkpoints.restored.empty()) restore();
+    if (const auto& every = guests.checkpoints.every) {
+      watch_.emplace(*every, static_cast<double>(simulation_.seconds()));
+      simulation_.attach(*watch_);
+    }
+  }
+  Course(const Course&) = delete;
+  Course& operator=(const Course&) = delete;
+
+  /// @throws UndecidedError when no scalar could make a decision
+  engine::EndReason go() {
+    using engine::EndReason;
+    if (!counting_ && start_ == first_) start_counting();
+    for (;;) {
+      const auto reason = simulation_.run_until(counting_ ? end_ : start_, guests_.interrupt);
+      if (reason == EndReason::paused) {
+        save();
+      } else if (reason == EndReason::end_time && !counting_) {
+        start_counting();
+      } else {
+        if (reason == EndReason::interrupted) save();
+        return reason;
+      }
+    }
+  }
+
+  const engine::Simulation<Real>& simulation() const { return simulation_; }
+  const run::RunStatistics<Real>& statistics() const { return statistics_; }
+  /// Where statistics begin: at the present when they have not [s].
+  Real counted_from() const { return simulation_.clock().seconds(counting_ ? start_ : simulation_.now()); }
+  model::Energy<Real> energy_at_start() const {
+    return counting_ ? energy_at_start_ : simulation_.energy_at(simulation_.now());
+  }
+  double cpu_spent() const { return cpu_before_ + (cpu_seconds() - cpu_begun_); }
+
+  void archive(Archive& a) {
+    a(simulation_, stop_rules_, statistics_, counting_, energy_at_start_);
+    for (auto* observer : guests_.observers) a(*observer);
+    double cpu = cpu_spent();
+    a(cpu);
+    if (a.loading()) cpu_before_ = cpu;
+  }
+
+ private:
+  void start_counting() {
+    counting_ = true;
+    energy_at_start_ = simulation_.energy_at(start_);
+    simulation_.attach(statistics_);
+  }
+
+  void save() {
+    if (!guests_.checkpoints.save) return;
+    Archive archive;
+    archive(*this);
+    guests_.checkpoints.save(archive.bytes());
+    if (watch_) watch_->made();
+  }
+  void restore() {
+    Archive archive(guests_.checkpoints.restored);
+    archive(*this);
+    archive.finish();
+    if (counting_) simulation_.attach(statistics_);
+  }
+
+  double cpu_begun_ = cpu_seconds();
+  double cpu_before_ = 0;  ///< of the run's earlier processes [s]
+  const Guests<Real>& guests_;
+  engine::Simulation<Real> simulation_;
+  run::StopRuleWatch<Real> stop_rules_;
+  run::RunStatistics<Real> statistics_;
+  std::optional<run::CheckpointWatch<Real>> watch_;
+  Instant<Real> first_, start_, end_;  ///< of the run, of statistics, of the run
+  bool counting_ = false;              ///< statistics have begun
+  model::Energy<Real> energy_at_start_;
+};
+
+}  // namespace edmill::run

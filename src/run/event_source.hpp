@@ -1,0 +1,48 @@
+// The events of a run, one after the other, in numbers that hold those of every scalar.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "base/scalar_list.hpp"
+#include "casefile/case_spec.hpp"
+
+namespace edmill::run {
+
+/// Wide enough to hold a number of any scalar digit for digit.
+using Number = mpfr200;
+
+/// What is compared of an impact, in SI.
+enum Quantity : int { time, approach_speed, slip_speed, milling_dose, wall_work, quantity_count };
+const char* name_of(Quantity quantity);
+const char* unit_of(Quantity quantity);
+
+/// One impact of a run. Of two balls the lower number comes first.
+struct Event {
+  int ball = 0;
+  bool with_wall = false;
+  int partner = 0;  ///< ball or wall id
+  std::array<Number, quantity_count> values;
+  bool by_rule = false;  ///< another contact is at the same time, and a rule put this one first
+
+  bool same_bodies(const Event& other) const {
+    return ball == other.ball && with_wall == other.with_wall && partner == other.partner;
+  }
+};
+
+/// A run that can be asked for its next events.
+class EventSource {
+ public:
+  virtual ~EventSource() = default;
+  /// The next `count` events; fewer when the run has come to its end.
+  /// @throws UndecidedError
+  virtual std::vector<Event> next(std::size_t count) = 0;
+};
+
+/// @param spec     the balls are placed in this scalar, from the exact quantities of the case
+/// @param to_end   whether the run ends at the case's end time; otherwise it goes on as long as it is asked
+template <class Real>
+std::unique_ptr<EventSource> make_source(const casefile::CaseSpec& spec, bool to_end);
+
+}  // namespace edmill::run

@@ -1,0 +1,61 @@
+// Implementation of make_source; included by the instantiation files only.
+#pragma once
+
+#include <deque>
+
+#include "casefile/build_case.hpp"
+#include "engine/simulation.hpp"
+#include "run/event_source.hpp"
+
+namespace edmill::run {
+
+template <class Real>
+class RunningCase : public EventSource, private engine::Observer<Real> {
+ public:
+  RunningCase(const casefile::CaseSpec& spec, bool to_end)
+      : built_(casefile::build_case<Real>(spec)),
+        simulation_(built_.the_case, built_.states, built_.start),
+        reached_(built_.start) {
+    if (to_end && built_.the_case.stop.end_time) end_ = *built_.the_case.stop.end_time;
+    simulation_.attach(*this);
+  }
+
+  std::vector<Event> next(std::size_t count) override {
+    while (waiting_.size() < count && !over_) {
+      // A window that is short beside the time that so many events take, so that few are made in vain.
+      reached_ = simulation_.clock().after(reached_, simulation_.clock().period() / 16);
+      const bool last = !(reached_ < end_);
+      over_ = simulation_.run_until(last ? end_ : reached_) != engine::EndReason::end_time || last;
+    }
+    std::vector<Event> events;
+    while (events.size() < count && !waiting_.empty()) {
+      events.push_back(waiting_.front());
+      waiting_.pop_front();
+    }
+    return events;
+  }
+
+ private:
+  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+    const auto& o = impact.outcome;
+    Event event{impact.ball, impact.with_wall, impact.partner, {}, false};
+    if (!event.with_wall && event.partner < event.ball) std::swap(event.ball, event.partner);
+    event.values = {Number(simulation.clock().seconds(impact.time)), Number(o.approach_speed),
+                    Number(o.slip_speed), Number(o.milling_dose), Number(o.wall_work)};
+    event.by_rule = impact.by_rule;
+    waiting_.push_back(event);
+  }
+
+  casefile::InitialCase<Real> built_;
+  engine::Simulation<Real> simulation_;
+  Instant<Real> reached_, end_ = Instant<Real>::never();
+  std::deque<Event> waiting_;
+  bool over_ = false;
+};
+
+template <class Real>
+std::unique_ptr<EventSource> make_source(const casefile::CaseSpec& spec, bool to_end) {
+  return std::make_unique<RunningCase<Real>>(spec, to_end);
+}
+
+}  // namespace edmill::run

@@ -1,0 +1,37 @@
+#include "run/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace edmill::run {
+
+ProgressLine::ProgressLine(std::optional<double> end) : end_(end), shown_(Clock::now()) {}
+
+ProgressLine::~ProgressLine() {
+  if (visible_) fmt::print(stderr, "\r\033[K");
+}
+
+void ProgressLine::show(double now, std::uint64_t collisions, std::optional<double> milling_dose) {
+  const auto time = Clock::now();
+  if (!first_) first_ = Look{time, now, collisions};
+  if (time - shown_ < std::chrono::milliseconds(200)) return;
+  shown_ = time;
+  const double spent = std::chrono::duration<double>(time - first_->time).count();
+  const double simulated = now - first_->now;
+  std::string line = fmt::format("{:.3f} s", now);
+  if (end_) line += fmt::format(" of {:g} s", *end_);
+  line += fmt::format(" simulated, {} collisions", collisions);
+  if (spent > 0)
+    line += fmt::format(", {:.3g}/s", static_cast<double>(collisions - first_->collisions) / spent);
+  if (milling_dose && simulated > 0) line += fmt::format(", {:.3g} W", *milling_dose / simulated);
+  if (end_ && simulated > 0) {
+    const double left = spent * (*end_ - now) / simulated;
+    line += fmt::format(", {}:{:02} left", static_cast<long>(left) / 60, static_cast<long>(left) % 60);
+  }
+  fmt::print(stderr, "\r\033[K{}", line);
+  std::fflush(stderr);
+  visible_ = true;
+}
+
+}  // namespace edmill::run

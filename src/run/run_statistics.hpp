@@ -1,0 +1,69 @@
+// Totals of a run from the start of statistics on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/compensated_sum.hpp"
+#include "engine/observer.hpp"
+#include "model/vessel.hpp"
+
+namespace edmill::run {
+
+template <class Real>
+class RunStatistics : public engine::Observer<Real> {
+ public:
+  struct Totals {
+    std::uint64_t collisions = 0;
+    std::uint64_t touched = 0;  ///< by the least separation speed
+    numerics::CompensatedSum<Real> milling_dose;
+    numerics::CompensatedSum<Real> touched_dose;
+    numerics::CompensatedSum<Real> supplied_energy;
+    numerics::CompensatedSum<Real> wall_work;
+
+    void archive(Archive& a) {
+      a(collisions, touched, milling_dose, touched_dose, supplied_energy, wall_work);
+    }
+  };
+
+  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>&) override {
+    Totals& t = totals_[impact.with_wall ? impact.partner : model::ball_ball];
+    const auto& outcome = impact.outcome;
+    ++t.collisions;
+    t.milling_dose += outcome.milling_dose;
+    if (impact.with_wall) t.wall_work += outcome.wall_work;
+    if (outcome.least_separation) {
+      ++t.touched;
+      t.touched_dose += outcome.milling_dose;
+      t.supplied_energy += outcome.supplied_energy;
+    }
+  }
+
+  void archive(Archive& a) override { a(totals_); }
+
+  const std::array<Totals, model::partner_kinds>& by_partner() const { return totals_; }
+
+  std::uint64_t collisions() const { return count(&Totals::collisions); }
+  /// Impacts whose speed of separation is the least one.
+  std::uint64_t touched() const { return count(&Totals::touched); }
+  Real milling_dose() const { return sum(&Totals::milling_dose); }
+  /// Dose of those impacts [J].
+  Real touched_dose() const { return sum(&Totals::touched_dose); }
+  Real supplied_energy() const { return sum(&Totals::supplied_energy); }
+  Real wall_work() const { return sum(&Totals::wall_work); }
+
+ private:
+  std::uint64_t count(std::uint64_t Totals::*part) const {
+    std::uint64_t total = 0;
+    for (const auto& t : totals_) total += t.*part;
+    return total;
+  }
+  Real sum(numerics::CompensatedSum<Real> Totals::*part) const {
+    numerics::CompensatedSum<Real> total;
+    for (const auto& t : totals_) total += (t.*part).value();
+    return total.value();
+  }
+  std::array<Totals, model::partner_kinds> totals_{};
+};
+
+}  // namespace edmill::run

@@ -1,0 +1,49 @@
+// One case from its initial state to its summary, without files and without the terminal.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/instant.hpp"
+#include "casefile/build_case.hpp"
+#include "engine/observer.hpp"
+#include "io/final_state.hpp"
+#include "io/summary.hpp"
+#include "run/checkpoint_watch.hpp"
+
+namespace edmill::run {
+
+/// States of a run from which it can go on.
+struct Checkpoints {
+  std::optional<run::CheckpointInterval> every;
+  /// Takes a state of the run: each time that one is due, and when the run is interrupted.
+  std::function<void(const std::string& state)> save;
+  /// The state to go on from; empty at the start of a run. It must be of the same case and program.
+  std::string_view restored;
+};
+
+template <class Real>
+struct Guests {
+  std::vector<engine::Observer<Real>*> observers;  ///< told of every impact, in this order
+  const std::atomic<bool>* interrupt = nullptr;    ///< ends the run when it becomes true
+  Checkpoints checkpoints{};                       ///< they hold the observers too
+};
+
+template <class Real>
+struct Result {
+  io::Summary<Real> summary;
+  io::SavedState<Real> saved;  ///< at the end of the run
+};
+
+/// Runs `built` to the end that `spec` asks for. A decision that no scalar could make is told in the summary.
+/// @pre `built` was made of `spec`
+/// @throws InterruptedError when the interrupt comes before the first event
+template <class Real>
+Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
+                      const Guests<Real>& guests);
+
+}  // namespace edmill::run

@@ -1,0 +1,114 @@
+#include "study/executor.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "study/workers.hpp"
+
+namespace edmill::study {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+// Messages. From rank 0: "stop", or the lines of a job; to rank 0: a number of threads, or a record.
+constexpr const char* stop_message = "stop";
+
+std::string to_message(const Job& job) {
+  std::string text = "job\n" + job.digest + "\n" + job.case_file;
+  for (const auto& o : job.overrides) text += "\n" + o;
+  return text;
+}
+
+Job to_job(const std::string& message) {
+  Job job;
+  std::istringstream lines(message);
+  std::string line;
+  std::getline(lines, line);
+  std::getline(lines, job.digest);
+  std::getline(lines, job.case_file);
+  while (std::getline(lines, line)) job.overrides.push_back(line);
+  return job;
+}
+
+}  // namespace
+
+Executor::Executor(Ranks& ranks, int threads, RunFunction run, std::atomic<bool>& interrupt)
+    : ranks_(ranks),
+      interrupt_(interrupt),
+      workers_(std::make_unique<Workers>(threads, std::move(run))),
+      free_slots_(static_cast<std::size_t>(ranks.size()), 0) {}
+
+Executor::~Executor() {
+  if (running_ > 0) interrupt_ = true;
+  for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, stop_message);
+}
+
+bool Executor::hand_out(const Job& job) {
+  if (workers_->has_idle()) {
+    workers_->start(job);
+  } else {
+    const auto slots = std::find_if(free_slots_.begin(), free_slots_.end(), [](int n) { return n > 0; });
+    if (slots == free_slots_.end()) return false;
+    --*slots;
+    ranks_.send(static_cast<int>(slots - free_slots_.begin()), to_message(job));
+  }
+  ++running_;
+  return true;
+}
+
+void Executor::take(const RunRecord& record, const std::function<void(const RunRecord&)>& done) {
+  --running_;
+  // A signal that reached another rank only ends the whole.
+  if (record.status == "interrupted")
+    interrupt_ = true;
+  else
+    done(record);
+}
+
+void Executor::take_messages(const std::function<void(const RunRecord&)>& done) {
+  while (const auto message = ranks_.receive()) {
+    auto& slots = free_slots_[static_cast<std::size_t>(message->first)];
+    if (!message->second.starts_with("{")) {
+      slots = std::stoi(message->second);
+      continue;
+    }
+    ++slots;
+    const auto record = from_json(message->second);
+    if (!record) throw std::runtime_error("a rank runs another version of edmill");
+    take(*record, done);
+  }
+}
+
+void Executor::run(std::vector<Job> jobs, const std::function<void(const RunRecord&)>& done,
+                   const std::function<void()>& tick) {
+  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost > b.cost; });
+  std::size_t next = 0;
+  while (running_ > 0 || (next < jobs.size() && !interrupt_)) {
+    take_messages(done);
+    while (next < jobs.size() && !interrupt_ && hand_out(jobs[next])) ++next;
+    // Threads of this process wake it; messages of other ranks do not.
+    for (const auto& record : workers_->finished(milliseconds(ranks_.size() > 1 ? 2 : 50)))
+      take(record, done);
+    tick();
+    // Other ranks would end their runs first: they are left to the destructor.
+    if (interrupt_ && !workers_->busy()) break;
+  }
+}
+
+void serve(Ranks& ranks, int threads, const RunFunction& run, std::atomic<bool>& interrupt) {
+  Workers workers(threads, run);
+  ranks.send(0, std::to_string(workers.threads()));
+  for (;;) {
+    while (const auto message = ranks.receive()) {
+      if (message->second == stop_message) {
+        interrupt = true;
+        return;
+      }
+      workers.start(to_job(message->second));
+    }
+    for (const auto& record : workers.finished(milliseconds(2))) ranks.send(0, to_json(record));
+  }
+}
+
+}  // namespace edmill::study

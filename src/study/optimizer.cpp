@@ -1,0 +1,214 @@
+#include "study/optimizer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace edmill::study {
+
+namespace {
+
+using casefile::OptimizeSpec;
+using casefile::OptimizeVariable;
+using Coordinates = std::vector<double>;  ///< a value for each variable; an index into `values` for those
+
+class Search {
+ public:
+  Search(const OptimizeSpec& spec, Study& study) : spec_(spec), study_(study), quantity_(quantity_of(spec)) {
+    for (const auto& v : spec.variables) {
+      const double intervals = static_cast<double>(spec.points - 1);
+      steps_.push_back(v.values.empty() ? (v.high - v.low) / intervals : 0);
+    }
+  }
+
+  Optimum run() {
+    add_grid();
+    study_.require_a_good_case();
+    study_.run();
+    for (std::uint64_t round = 0;; ++round) {
+      separate();
+      if (stopped() || round == spec_.refinements || !refine()) break;
+      study_.run();
+    }
+    Optimum optimum;
+    optimum.best = best();
+    if (optimum.best) optimum.contenders = contenders(*optimum.best);
+    optimum.why = study_.interrupted() ? "interrupted"
+                  : out_of_budget_     ? "the budget of runs_max is used"
+                                       : "the grid is as fine as asked for";
+    return optimum;
+  }
+
+ private:
+  static std::size_t quantity_of(const OptimizeSpec& spec) {
+    return static_cast<std::size_t>(std::find(quantity_names.begin(), quantity_names.end(), spec.objective) -
+                                    quantity_names.begin());
+  }
+
+  bool stopped() const { return out_of_budget_ || study_.interrupted(); }
+
+  /// Adds runs unless that would exceed the budget.
+  bool add_runs(std::size_t point, std::uint64_t count) {
+    if (used_ + count > spec_.runs_max) return out_of_budget_ = true, false;
+    used_ += count;
+    study_.add_runs(point, count);
+    return true;
+  }
+
+  std::string text_of(const OptimizeVariable& v, double x) const {
+    return v.values.empty() ? fmt::format("{:.6g}", x) + v.unit : v.values[static_cast<std::size_t>(x)];
+  }
+
+  /// A point that is new, within bounds and the budget.
+  bool add_point(Coordinates at) {
+    Point point;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const auto& v = spec_.variables[k];
+      if (v.integer) at[k] = std::round(at[k]);
+      const double slack = 1e-9 * (v.high - v.low);
+      if (v.values.empty() && (at[k] < v.low - slack || at[k] > v.high + slack)) return false;
+      point.settings.emplace_back(v.key, text_of(v, at[k]));
+    }
+    if (seen_.contains(point.settings)) return false;
+    if (used_ + spec_.replicas_first > spec_.runs_max) return out_of_budget_ = true, false;
+    seen_.insert(point.settings);
+    places_.push_back(at);
+    return add_runs(study_.add_point(std::move(point)), spec_.replicas_first);
+  }
+
+  /// All combinations of a list of values for each variable, the last one changing fastest.
+  bool add_product(const std::vector<Coordinates>& lists) {
+    std::vector<Coordinates> places{{}};
+    for (const auto& list : lists) {
+      std::vector<Coordinates> longer;
+      for (const auto& place : places)
+        for (const double x : list) {
+          longer.push_back(place);
+          longer.back().push_back(x);
+        }
+      places = std::move(longer);
+    }
+    bool added = false;
+    for (const auto& place : places) added = add_point(place) || added;
+    return added;
+  }
+
+  void add_grid() {
+    std::vector<Coordinates> lists;
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      const auto& v = spec_.variables[k];
+      const auto count = v.values.empty() ? spec_.points : v.values.size();
+      Coordinates list;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double index = static_cast<double>(i);
+        list.push_back(v.values.empty() ? v.low + index * steps_[k] : index);
+      }
+      lists.push_back(list);
+    }
+    add_product(lists);
+  }
+
+  /// Half the step, one step to both sides of the best point.
+  bool refine() {
+    const auto centre = best();
+    if (!centre) return false;
+    std::vector<Coordinates> lists;
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      const double x = places_[*centre][k];
+      if (spec_.variables[k].integer && steps_[k] <= 1) steps_[k] = 0;
+      steps_[k] /= 2;
+      if (spec_.variables[k].integer && steps_[k] > 0) steps_[k] = std::max(steps_[k], 1.0);
+      lists.push_back(steps_[k] > 0 ? Coordinates{x, x - steps_[k], x + steps_[k]} : Coordinates{x});
+    }
+    return add_product(lists);
+  }
+
+  /// Doubles the runs of all that may be the best until one is left or they have all that they may have.
+  void separate() {
+    while (!stopped()) {
+      const auto leader = best();
+      if (!leader) return;
+      auto group = contenders(*leader);
+      if (group.empty()) return;
+      group.insert(group.begin(), *leader);
+      bool added = false;
+      for (const auto k : group) {
+        const auto have = study_.points()[k].runs.size();
+        const auto want = std::min<std::uint64_t>(2 * have, spec_.replicas_max);
+        if (want > have) added = add_runs(k, want - have) || added;
+      }
+      if (!added) return;
+      study_.run();
+    }
+  }
+
+  std::vector<double> values(std::size_t point) const { return study_.points()[point].values(quantity_); }
+
+  /// The largest mean of points without a failure; the first of equals.
+  std::optional<std::size_t> best() const {
+    std::optional<std::size_t> best;
+    double largest = 0;
+    for (std::size_t k = 0; k < study_.points().size(); ++k) {
+      const auto mean = estimate(values(k)).mean;
+      if (!mean || study_.points()[k].failed() > 0) continue;
+      if (!best || *mean > largest) best = k, largest = *mean;
+    }
+    return best;
+  }
+
+  /// At 5 % for all comparisons together.
+  std::vector<std::size_t> contenders(std::size_t leader) const {
+    std::vector<std::size_t> group;
+    const auto count = study_.points().size();
+    const double significance = 0.05 / static_cast<double>(std::max<std::size_t>(count - 1, 1));
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k == leader || study_.points()[k].failed() > 0 || values(k).empty()) continue;
+      if (!differ(values(k), values(leader), significance)) group.push_back(k);
+    }
+    return group;
+  }
+
+  const OptimizeSpec& spec_;
+  Study& study_;
+  std::size_t quantity_;
+  std::vector<double> steps_;  ///< of the present grid; 0 for a variable that is not refined
+  std::vector<Coordinates> places_;
+  std::set<std::vector<casefile::Setting>> seen_;
+  std::uint64_t used_ = 0;
+  bool out_of_budget_ = false;
+};
+
+std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t index) {
+  const auto& point = study.points()[index];
+  std::string line = fmt::format("  point {}:", index + 1);
+  for (const auto& [key, value] : point.settings) line += fmt::format(" {} = {},", key, value);
+  std::size_t quantity = 0;
+  while (quantity_names[quantity] != spec.objective) ++quantity;
+  const auto e = estimate(point.values(quantity));
+  const std::string unit = spec.objective == "milling_dose_rate" ? "W" : "W/kg";
+  return line + fmt::format(" {:.6g} +- {:.2g} {} ({} runs)\n", e.mean.value_or(0), e.half_width.value_or(0),
+                            unit, point.done());
+}
+
+}  // namespace
+
+Optimum optimize(const OptimizeSpec& spec, Study& study) { return Search(spec, study).run(); }
+
+std::string describe(const OptimizeSpec& spec, const Study& study, const Optimum& optimum) {
+  if (!optimum.best) return "no point has a value of " + spec.objective + "\n";
+  std::string text = fmt::format("largest {} of {} points, 95 % interval; the search ended: {}\n",
+                                 spec.objective, study.points().size(), optimum.why);
+  text += line_of(spec, study, *optimum.best);
+  text += optimum.contenders.empty() ? "every other point is less, at 5 % for all comparisons together\n"
+                                     : "not to be told apart from it, at 5 % for all comparisons together:\n";
+  for (const auto k : optimum.contenders) text += line_of(spec, study, k);
+  const auto& points = study.points();
+  const auto excluded =
+      std::count_if(points.begin(), points.end(), [](const Point& p) { return p.failed() > 0; });
+  if (excluded > 0) text += fmt::format("{} points with failed runs were left out\n", excluded);
+  return text;
+}
+
+}  // namespace edmill::study

@@ -1,0 +1,73 @@
+// What a study keeps of a run: enough for its tables, and to know it again.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/summary.hpp"
+
+namespace edmill::study {
+
+struct RunRecord {
+  std::string digest;  ///< of the case
+  std::string status;  ///< done, inelastic_collapse, undecided, bad_case, error or interrupted
+  std::string end_reason, message;
+  double start_time = 0, end_time = 0;  ///< of the statistics [s]
+  std::array<std::uint64_t, model::partner_kinds> collisions{};
+  double milling_dose = 0, wall_work = 0;  ///< [J]
+  std::optional<double> powder_mass, ball_mass;
+  double cpu_seconds = 0;
+
+  bool done() const { return status == "done"; }
+  /// Whether the same run would come to the same again.
+  bool lasting() const { return done() || status == "inelastic_collapse" || status == "undecided"; }
+};
+
+template <class Real>
+RunRecord record_of(const io::Summary<Real>& s) {
+  const auto in_double = [](const std::optional<Real>& x) {
+    return x ? std::optional<double>(static_cast<double>(*x)) : std::nullopt;
+  };
+  RunRecord r;
+  r.digest = s.provenance.case_digest;
+  const bool special =
+      s.end_reason == "inelastic_collapse" || s.end_reason == "undecided" || s.end_reason == "interrupted";
+  r.status = special ? s.end_reason : "done";
+  r.end_reason = s.end_reason;
+  r.message = s.error;
+  if (s.collapse)
+    r.message = "ball " + std::to_string(s.collapse->ball) + " came to rest in a series of impacts";
+  r.start_time = static_cast<double>(s.start_time);
+  r.end_time = static_cast<double>(s.end_time);
+  r.collisions = s.collisions;
+  r.milling_dose = static_cast<double>(s.milling_dose);
+  r.wall_work = static_cast<double>(s.wall_work);
+  r.powder_mass = in_double(s.powder_mass);
+  r.ball_mass = in_double(s.ball_mass);
+  r.cpu_seconds = s.cpu_seconds;
+  return r;
+}
+
+/// The record of a run that could not start.
+RunRecord failed_run(const std::string& digest, const std::string& status, const std::string& message);
+
+/// One line of JSON, with version and commit of this program.
+std::string to_json(const RunRecord& record);
+/// Nothing for a text that is no record, or one of another version or commit.
+std::optional<RunRecord> from_json(const std::string& text);
+
+/// The numbers that tables average.
+inline constexpr std::array<std::string_view, 9> quantity_names = {
+    "inverse_milling_dose_rate",  "milling_dose_rate",
+    "specific_milling_dose_rate", "wall_work_rate",
+    "collision_rate_wall_0",      "collision_rate_wall_1",
+    "collision_rate_wall_2",      "collision_rate_ball_ball",
+    "collision_rate_total"};
+using Quantities = std::array<std::optional<double>, quantity_names.size()>;
+
+Quantities quantities_of(const RunRecord& record);
+
+}  // namespace edmill::study

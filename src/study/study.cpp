@@ -1,0 +1,142 @@
+#include "study/study.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "casefile/case_spec.hpp"
+#include "io/output_folder.hpp"
+
+namespace edmill::study {
+
+namespace {
+
+void write_file(const std::filesystem::path& place, const std::string& bytes) {
+  io::AtomicFile file(place);
+  file.stream() << bytes;
+  file.commit();
+}
+
+std::optional<RunRecord> read_record(const std::filesystem::path& place) {
+  std::ifstream in(place, std::ios::binary);
+  if (!in) return std::nullopt;
+  std::ostringstream text;
+  text << in.rdbuf();
+  return from_json(text.str());
+}
+
+}  // namespace
+
+Study::Study(casefile::StudySpec spec, std::filesystem::path folder, std::string name, Executor& executor,
+             bool show)
+    : spec_(std::move(spec)),
+      folder_(std::move(folder)),
+      name_(std::move(name)),
+      executor_(executor),
+      show_(show && ::isatty(STDERR_FILENO)) {}
+
+Study::~Study() {
+  if (show_) fmt::print(stderr, "\r\033[K");
+}
+
+std::size_t Study::add_point(Point point) {
+  points_.push_back(std::move(point));
+  return points_.size() - 1;
+}
+
+void Study::add_runs(std::size_t point, std::uint64_t count) {
+  auto& p = points_[point];
+  for (std::uint64_t k = 0; k < count; ++k) p.runs.push_back(make_run(spec_, p, spec_.seed + p.runs.size()));
+}
+
+void Study::require_a_good_case() const {
+  if (points_.empty())
+    throw InputError(spec_.file + ": found a budget of too few runs for a point, expected more");
+  for (const auto& point : points_)
+    for (const auto& run : point.runs)
+      if (!run.record) return;
+  // Once more, for its problems one by one.
+  const auto& job = points_.front().runs.front();
+  casefile::read_case(job.job.case_file, job.job.overrides);
+  throw InputError(spec_.file + ": at every point: " + job.record->message);
+}
+
+std::filesystem::path Study::record_file(const std::string& digest) const {
+  return folder_ / "runs" / (digest + ".json");
+}
+
+std::vector<Job> Study::collect_jobs() {
+  std::vector<Job> jobs;
+  waiting_.clear();
+  for (auto& point : points_)
+    for (auto& run : point.runs) {
+      if (run.record) continue;
+      if (!waiting_.contains(run.job.digest)) {
+        run.record = read_record(record_file(run.job.digest));
+        if (run.record && run.record->digest == run.job.digest && run.record->lasting()) {
+          log_.emplace_back("kept", run.record->cpu_seconds);
+          ++kept_;
+          continue;
+        }
+        run.record.reset();
+        jobs.push_back(run.job);
+      }
+      waiting_.emplace(run.job.digest, &run);
+    }
+  return jobs;
+}
+
+void Study::put(const RunRecord& record) {
+  if (record.lasting()) write_file(record_file(record.digest), to_json(record));
+  const auto [first, last] = waiting_.equal_range(record.digest);
+  for (auto entry = first; entry != last; ++entry) entry->second->record = record;
+  log_.emplace_back("ran", record.cpu_seconds);
+  ++ran_;
+}
+
+void Study::tick() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_write_) return;
+  write_tables();
+  // Large tables take their time: no more than a twentieth of all.
+  const auto after = std::chrono::steady_clock::now();
+  next_write_ = after + std::max<std::chrono::nanoseconds>(std::chrono::seconds(1), 20 * (after - now));
+  if (!show_) return;
+  const auto c = counts();
+  fmt::print(stderr, "\r\033[K{} of {} runs, {} failed", c.kept + c.ran, c.total, c.failed);
+}
+
+void Study::run() {
+  io::prepare_folder(folder_);
+  io::prepare_folder(folder_ / "runs");
+  const auto jobs = collect_jobs();
+  write_tables();
+  executor_.run(
+      jobs, [this](const RunRecord& r) { put(r); }, [this] { tick(); });
+  write_tables();
+}
+
+void Study::write_tables() const {
+  const auto points = point_table(), runs = run_table();
+  write_file(folder_ / (name_ + ".csv"), points.csv());
+  write_file(folder_ / "runs.csv", runs.csv());
+  write_file(folder_ / (name_ + ".h5"), hdf5_image({{"points", points}, {"runs", runs}}));
+  write_file(folder_ / (name_ + "_log.csv"), log_table().csv());
+}
+
+StudyCounts Study::counts() const {
+  StudyCounts c;
+  for (const auto& point : points_) {
+    c.total += point.runs.size();
+    c.failed += point.failed();
+  }
+  c.kept = kept_;
+  c.ran = ran_;
+  return c;
+}
+
+}  // namespace edmill::study

@@ -1,0 +1,64 @@
+// Many runs of one case: which are to do, which are known from an earlier time, and their tables on disk.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+
+#include "study/point.hpp"
+#include "study/table.hpp"
+
+namespace edmill::study {
+
+/// How many runs were found on disk, done now, and failed.
+struct StudyCounts {
+  std::size_t total = 0, kept = 0, ran = 0, failed = 0;
+};
+
+class Study {
+ public:
+  /// @param name  of the files: `name`.csv, `name`.h5, `name`_log.csv
+  /// @param show  whether a progress line is wanted
+  Study(casefile::StudySpec spec, std::filesystem::path folder, std::string name, Executor& executor,
+        bool show);
+  ~Study();
+
+  std::size_t add_point(Point point);
+  /// The next seeds of a point. Nothing is read from disk or run before `run`.
+  void add_runs(std::size_t point, std::uint64_t count);
+
+  /// @throws InputError with the problems of the first point when no point has a good case
+  void require_a_good_case() const;
+
+  /// Does every run that is not known, then writes the tables.
+  void run();
+  void write_tables() const;
+
+  const std::vector<Point>& points() const { return points_; }
+  StudyCounts counts() const;
+  bool interrupted() const { return executor_.interrupted(); }
+
+  Table point_table() const;
+  Table run_table() const;
+
+ private:
+  std::vector<Job> collect_jobs();
+  void put(const RunRecord& record);
+  void tick();
+  Table log_table() const;
+  std::filesystem::path record_file(const std::string& digest) const;
+  std::vector<std::string> keys() const;
+
+  casefile::StudySpec spec_;
+  std::filesystem::path folder_;
+  std::string name_;
+  Executor& executor_;
+  bool show_;
+  std::vector<Point> points_;
+  std::multimap<std::string, Run*> waiting_;  ///< by digest: points can share a case
+  std::vector<std::pair<std::string, double>> log_;
+  std::size_t kept_ = 0, ran_ = 0;
+  std::chrono::steady_clock::time_point next_write_{};
+};
+
+}  // namespace edmill::study

@@ -1,3 +1,0 @@
-edmill_test(agreement_test certify/agreement_test.cpp)
-edmill_test(certify_test certify/certify_test.cpp TIMEOUT 300 LABELS verification)
-add_dependencies(certify_test edmill_cli)

@@ -1,0 +1,2 @@
+edmill_test(checkpoint_file_test io/checkpoint_file_test.cpp)
+add_dependencies(checkpoint_file_test edmill_cli)

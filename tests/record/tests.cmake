@@ -1,2 +1,0 @@
-edmill_test(checkpoint_file_test record/checkpoint_file_test.cpp)
-add_dependencies(checkpoint_file_test edmill_cli)

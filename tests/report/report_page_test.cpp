@@ -1,0 +1,321 @@
+// `edmill run --report` and `edmill report` as a user calls them.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "report/embedded.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path source = EDMILL_SOURCE_DIR;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+struct Outcome {
+  int code;
+  std::string messages;
+};
+
+class Report : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    place = fs::temp_directory_path() / ("edmill_report_" + std::to_string(::getpid()) + "_" + test->name());
+    fs::remove_all(place);
+    fs::create_directories(place);
+    folder = place / "run";
+  }
+  void TearDown() override { fs::remove_all(place); }
+
+  Outcome edmill(const std::string& arguments) {
+    const auto log = place / "stderr";
+    const std::string command = std::string(EDMILL_BINARY) + " " + arguments + " > " +
+                                (place / "stdout").string() + " 2> " + log.string();
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), text_of(log)};
+  }
+  /// The demo for 1.5 s.
+  void run(const std::string& options) {
+    const auto done = edmill("run " + (source / "docs/examples/demo.toml").string() +
+                             " --quiet --set 'run.end_time=1.5 s' --out " + folder.string() + " " + options);
+    ASSERT_EQ(done.code, 0) << done.messages;
+  }
+  std::string page() const { return text_of(folder / "report.html"); }
+  /// <main> of the page, which is XML.
+  pugi::xml_document body() const {
+    const std::string all = page();
+    const auto begin = all.find("<main>"), end = all.find("</main>");
+    pugi::xml_document document;
+    EXPECT_TRUE(document.load_string(all.substr(begin, end + 7 - begin).c_str()));
+    return document;
+  }
+  fs::path place, folder;
+};
+
+std::vector<std::string> ids(const pugi::xml_document& body, const char* what) {
+  std::vector<std::string> list;
+  for (const auto& found : body.select_nodes(what)) list.push_back(found.node().attribute("id").as_string());
+  return list;
+}
+
+using Ids = std::vector<std::string>;
+
+TEST_F(Report, OfARunWithReportHasEverySection) {
+  run("--report");
+  const auto main = body();
+  EXPECT_EQ(ids(main, "//section"), (Ids{"results", "animation", "thesis", "rates", "spectra", "vessel",
+                                         "speeds", "energy", "case"}));
+  EXPECT_EQ(ids(main, "//figure").size(), 11u);
+  EXPECT_TRUE(main.select_nodes("//*[@class='missing']").empty());
+  EXPECT_LT(page().size(), 6000000u);
+}
+
+TEST_F(Report, WarningsHaveASectionOfTheirOwn) {
+  run("--report --set 'contact.least_separation=0.5 m/s'");
+  const auto sections = ids(body(), "//section");
+  ASSERT_GE(sections.size(), 2u);
+  EXPECT_EQ(sections[1], "warnings");
+}
+
+TEST_F(Report, OfAnyRunSaysWhichOutputsItMisses) {
+  run("");
+  const auto done = edmill("report " + folder.string());
+  ASSERT_EQ(done.code, 0) << done.messages;
+  const auto main = body();
+  EXPECT_TRUE(main.select_nodes("//figure").empty());
+  std::string missing;
+  for (const auto& found : main.select_nodes("//*[@class='missing']/code"))
+    missing += found.node().text().as_string();
+  for (const char* type :
+       {"trends", "trends_balls", "frequency", "spectra", "rates_above", "coverage", "animation"})
+    EXPECT_NE(missing.find("type = \"" + std::string(type) + "\""), std::string::npos) << type;
+  EXPECT_LT(page().size(), 100000u);  // without the player
+}
+
+TEST_F(Report, IsTheSameWhenItIsMadeAgain) {
+  run("--report");
+  const auto first = page();
+  fs::remove(folder / "report.html");
+  ASSERT_EQ(edmill("report " + folder.string()).code, 0);
+  EXPECT_EQ(page(), first);
+}
+
+TEST_F(Report, ShowsTheNumbersOfTheSummary) {
+  run("--report");
+  const std::string summary = text_of(folder / "summary.json");
+  const auto number = [&](const std::string& key) {
+    return std::stod(summary.substr(summary.find("\"" + key + "\":") + key.size() + 3));
+  };
+  const auto main = body();
+  const auto card = main.select_node("//div[@class='card'][dt='Milling dose rate']/dd/strong").node();
+  EXPECT_NEAR(card.text().as_double(), number("milling_dose_rate"), 0.0006);
+  const auto thesis = main.select_nodes("//section[@id='thesis']//tbody/tr[1]/td");
+  EXPECT_NEAR(thesis[0].node().text().as_double(), number("inverse_milling_dose_rate"), 0.002);
+  EXPECT_NEAR(thesis[1].node().text().as_double(), 0.2123, 1e-9);
+}
+
+/// Ends of the tick labels of an axis: place and value.
+double at_ticks(const pugi::xml_node& figure, const std::string& axis, const char* coordinate, double place) {
+  std::vector<std::pair<double, double>> ticks;
+  for (const auto& found :
+       figure.select_nodes((".//g[contains(@class,'" + axis + "')]/text[@class='label']").c_str())) {
+    std::string label = found.node().text().as_string();
+    for (auto at = label.find("\u202f"); at != std::string::npos; at = label.find("\u202f"))
+      label.erase(at, 3);
+    ticks.emplace_back(found.node().attribute(coordinate).as_double(), std::stod(label));
+  }
+  const auto [p0, v0] = ticks.front();
+  const auto [p1, v1] = ticks.back();
+  return v0 + (place - p0) * (v1 - v0) / (p1 - p0);
+}
+
+TEST_F(Report, TheLastPointOfTheDoseRateIsTheLastWholeIntervalOfItsTable) {
+  run("--report");
+  std::istringstream rows(text_of(folder / "report/trends.csv"));
+  std::vector<std::vector<double>> table;
+  std::string line;
+  std::getline(rows, line);
+  while (std::getline(rows, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line);
+    table.emplace_back(std::istream_iterator<double>(fields), std::istream_iterator<double>());
+  }
+  ASSERT_GT(table.size(), 20u);
+  ASSERT_LE(table.size(), 120u);  // drawn one by one
+  ASSERT_LT(table.back()[0] - table[table.size() - 2][0], 0.99 * 60 / 1054);
+  table.pop_back();
+  const auto main = body();
+  const auto figure = main.select_node("//figure[@id='dose-rate']").node();
+  const std::string path = figure.select_node(".//path[@class='curve c0']").node().attribute("d").as_string();
+  EXPECT_EQ(std::count(path.begin(), path.end(), 'L') + 1, static_cast<std::ptrdiff_t>(table.size()));
+  std::istringstream last(path.substr(path.rfind('L') + 1));
+  double x = 0, y = 0;
+  last >> x >> y;
+  const double end = table.back()[0], begin = table[table.size() - 2][0];
+  EXPECT_NEAR(at_ticks(figure, "x-axis", "x", x), (begin + end) / 2, 2e-4);
+  EXPECT_NEAR(at_ticks(figure, "y-axis", "y", y + 4), table.back()[1], 2e-3);
+}
+
+std::vector<double> numbers(const pugi::xml_node& node, const char* attribute) {
+  std::istringstream text(node.attribute(attribute).as_string());
+  return {std::istream_iterator<double>(text), std::istream_iterator<double>()};
+}
+
+TEST_F(Report, TheAnimationBeginsWithTheStatisticsAndHasEveryBallInTheVessel) {
+  run("--report");
+  pugi::xml_document animation;
+  ASSERT_TRUE(animation.load_file((folder / "report/animation.x3d").c_str()));
+  const auto scene = animation.child("X3D").child("Scene");
+  const double period = 60.0 / 1054, degree = std::acos(-1.0) / 180;
+  for (int ball = 0; ball < 28; ++ball) {
+    const auto path =
+        scene.find_child_by_attribute("DEF", ("ball_" + std::to_string(ball) + "_path").c_str());
+    const auto keys = numbers(path, "key"), places = numbers(path, "keyValue");
+    ASSERT_EQ(places.size(), 3 * keys.size());
+    EXPECT_EQ(keys.front(), 0);
+    EXPECT_EQ(keys.back(), 1);
+    EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const double phase = 2 * std::acos(-1.0) * (0.5 / period + 2 * keys[k]);  // two turns from 0.5 s on
+      const double theta = (90 + 15 * std::cos(phase)) * degree, gamma = 15 * std::sin(phase) * degree;
+      const double *place = &places[3 * k], x = place[0], y = place[1], z = place[2];
+      const double along = std::cos(theta) * x + std::sin(theta) * y - 0.1;
+      const double across = -std::sin(theta) * x + std::cos(theta) * y;
+      const double axial = across * std::cos(gamma) + z * std::sin(gamma);
+      const double side = -across * std::sin(gamma) + z * std::cos(gamma);
+      ASSERT_LT(std::abs(axial), 0.0285 - 0.00238 + 1e-9) << "ball " << ball << ", key " << keys[k];
+      ASSERT_LT(std::hypot(along, side), 0.019 - 0.00238 + 1e-9) << "ball " << ball << ", key " << keys[k];
+    }
+  }
+  // The still picture shows them.
+  const auto main = body();
+  const double width = numbers(main.select_node("//svg[@class='still']").node(), "viewBox")[2];
+  for (const auto& found : main.select_nodes("//svg[@class='still']//circle"))
+    for (const char* at : {"cx", "cy"}) {
+      EXPECT_GT(found.node().attribute(at).as_double(), 0);
+      EXPECT_LT(found.node().attribute(at).as_double(), width);
+    }
+}
+
+TEST_F(Report, TablesOfAnEarlierRunInTheFolderAreNotShown) {
+  run("--report");
+  run("--set run.seed=2");
+  ASSERT_EQ(edmill("report " + folder.string()).code, 0);
+  EXPECT_TRUE(body().select_nodes("//figure").empty());
+}
+
+TEST_F(Report, OfARunThatEndsBeforeItsStatisticsSaysThatTheyAreMissing) {
+  run("--report --set run.max_collisions=100");
+  const auto main = body();
+  for (const char* section : {"animation", "spectra", "vessel"})
+    EXPECT_FALSE(
+        main.select_nodes((std::string("//section[@id='") + section + "']//*[@class='missing']").c_str())
+            .empty())
+        << section;
+}
+
+TEST_F(Report, UsesTablesThatTheCaseAskedFor) {
+  run("--set 'output=[{type=\"coverage\"},{type=\"animation\",duration=\"10 ms\"}]'");
+  ASSERT_EQ(edmill("report " + folder.string()).code, 0);
+  const auto main = body();
+  EXPECT_EQ(ids(main, "//figure"), (Ids{"cylinder", "cap-0", "cap-1"}));
+  EXPECT_EQ(main.select_nodes("//svg[@class='still']//circle").size(), 28u);
+}
+
+TEST_F(Report, ReadsTablesWhoseHeadersHoldCommasAndQuotes) {
+  run("--set 'output=[{type=\"trends\",interval=\"50 ms\",columns=[{variable=\"milling_dose\",label=\"dose, "
+      "\\\"real\\\"\","
+      "statistics=[\"rate\"]}]}]'");
+  ASSERT_NE(text_of(folder / "trends.csv").find("\"dose, \"\"real\"\" [W]\""), std::string::npos);
+  const auto done = edmill("report " + folder.string());
+  ASSERT_EQ(done.code, 0) << done.messages;
+  EXPECT_EQ(ids(body(), "//figure"), Ids{"dose-rate"});
+}
+
+TEST_F(Report, TextsOfTheCaseAreNoMarkup) {
+  const auto file = place / "<b>&.toml";
+  write(file, "# </pre><script>alert(1)</script>\n" + text_of(source / "docs/examples/demo.toml"));
+  const auto done = edmill("run '" + file.string() + "' --quiet --set 'run.end_time=0.6 s' --out " +
+                           folder.string() + " --report");
+  ASSERT_EQ(done.code, 0) << done.messages;
+  EXPECT_NE(page().find("<h1>&lt;b&gt;&amp;.toml</h1>"), std::string::npos);
+  EXPECT_EQ(page().find("<script>alert"), std::string::npos);
+}
+
+TEST_F(Report, AFolderWithoutARunIsBadInput) {
+  const auto done = edmill("report " + place.string());
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.messages.find("summary.json: found no readable file"), std::string::npos) << done.messages;
+}
+
+TEST_F(Report, BrokenFilesAreToldByFileLineAndKey) {
+  run("--report");
+  const auto breaks = [&](const std::string& file, const std::string& from, const std::string& to,
+                          const std::string& message) {
+    const auto good = text_of(folder / file);
+    auto bad = good;
+    ASSERT_NE(bad.find(from), std::string::npos) << file;
+    bad.replace(bad.find(from), from.size(), to);
+    write(folder / file, bad);
+    const auto done = edmill("report " + folder.string());
+    EXPECT_EQ(done.code, 2) << file;
+    EXPECT_NE(done.messages.find(message), std::string::npos) << done.messages;
+    write(folder / file, good);
+  };
+  const auto summary = text_of(folder / "summary.json");
+  const auto energy = summary.begin() + static_cast<std::ptrdiff_t>(summary.find("\"energy\""));
+  const auto line = 1 + std::count(summary.begin(), energy, '\n');
+  breaks("summary.json", "\"energy\": {", "\"energy\" {",
+         "summary.json:" + std::to_string(line) + ": found no valid JSON");
+  breaks("summary.json", "\"wall_work\"", "\"work\"",
+         "summary.json: wall_work: found nothing, expected a number");
+  breaks("summary.json", "\"end_reason\": \"end_time\"", "\"end_reason\": 3",
+         "end_reason: found 3, expected a text");
+  breaks("case.toml", "friction = 0.4", "friction = 0.5", "case.toml: found a case with digest ");
+  breaks("case.toml", "friction = 0.4", "friction = ", "case.toml:");
+  breaks("report/trends.csv", ",", ",what,", "trends.csv:2: found 4 fields, expected 5");
+  breaks("report/coverage.csv", "dose_per_area", "dose", "coverage.csv: found no column 'dose_per_area'");
+  breaks("report/animation.x3d", "</Scene>", "", "animation.x3d: found no valid XML");
+  fs::remove(folder / "case.toml");
+  const auto done = edmill("report " + folder.string());
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.messages.find("case.toml: found no readable file"), std::string::npos) << done.messages;
+}
+
+TEST_F(Report, IsMadeOfARunThatBeganFromASavedState) {
+  run("");
+  const auto saved = folder / "final_state.csv";
+  const auto next = place / "next";
+  const auto done =
+      edmill("run " + (source / "docs/examples/demo.toml").string() + " --quiet --report --out " +
+             next.string() + " --set run.initial_state=" + saved.string() +
+             " --set 'run.start_time=1.6 s' --set 'run.initial_time=1.5 s' --set 'run.end_time=1.7 s'");
+  ASSERT_EQ(done.code, 0) << done.messages;
+  fs::remove(saved);  // a report needs its own folder only
+  EXPECT_EQ(edmill("report " + next.string()).code, 0);
+}
+
+TEST(Embedded, FilesAreThereByteForByte) {
+  using namespace edmill::report;
+  EXPECT_EQ(page_css, text_of(source / "src/report/page.css"));
+  EXPECT_EQ(page_html, text_of(source / "src/report/page.html"));
+  EXPECT_EQ(thesis_csv, text_of(source / "regression/ward/thesis.csv"));
+  EXPECT_EQ(x3dom_js, text_of(fs::path(EDMILL_X3DOM) / "x3dom.js"));
+}
+
+}  // namespace

@@ -1,0 +1,80 @@
+#include "report/series.hpp"
+
+#include <gtest/gtest.h>
+
+#include "model/impact_variables.hpp"
+
+namespace {
+
+using namespace edmill;
+using report::Series;
+
+/// Intervals of one length, from 0; the rate of each is its number.
+Series counting(std::size_t count, double length) {
+  Series s;
+  for (std::size_t k = 0; k < count; ++k) {
+    s.begin.push_back(static_cast<double>(k) * length);
+    s.end.push_back(static_cast<double>(k + 1) * length);
+    s.rate.push_back(static_cast<double>(k));
+  }
+  return s;
+}
+
+TEST(Batches, AreTwentyOfEquallyManyIntervalsAndEndWithTheStatistics) {
+  const auto batches = report::batches_of(counting(100, 0.1), 1.0, 9.0);
+  ASSERT_EQ(batches.means.size(), 20u);  // intervals 10 to 89, 4 in each
+  EXPECT_NEAR(batches.length, 0.4, 1e-12);
+  EXPECT_EQ(batches.means.front(), (10 + 11 + 12 + 13) / 4.0);
+  EXPECT_EQ(batches.means.back(), (86 + 87 + 88 + 89) / 4.0);
+}
+
+TEST(Batches, LeaveOutTheFirstIntervalsThatDoNotFit) {
+  const auto batches = report::batches_of(counting(47, 1), 0, 47);
+  ASSERT_EQ(batches.means.size(), 20u);  // of 2, the last 40
+  EXPECT_EQ(batches.means.front(), 7.5);
+  EXPECT_EQ(batches.means.back(), 45.5);
+}
+
+TEST(Batches, LeaveOutAShorterLastInterval) {
+  auto series = counting(11, 1);
+  series.end.back() = 10.25;
+  series.rate.back() = 1e9;
+  const auto batches = report::batches_of(series, 0, 10.25);
+  ASSERT_EQ(batches.means.size(), 10u);
+  EXPECT_EQ(batches.means.back(), 9);
+}
+
+TEST(Batches, OfFewerThanFiveIntervalsThereAreNone) {
+  EXPECT_TRUE(report::batches_of(counting(4, 1), 0, 4).means.empty());
+  EXPECT_EQ(report::batches_of(counting(5, 1), 0, 5).means.size(), 5u);
+}
+
+TEST(Series, CoarserIntervalsKeepTheAmount) {
+  auto fine = counting(10, 1);
+  fine.end.back() = 9.5;
+  const auto coarse = report::coarser(fine, 4);
+  ASSERT_EQ(coarse.rate.size(), 4u);  // 3, 3, 3, 1
+  EXPECT_DOUBLE_EQ(coarse.rate[0], 1);
+  EXPECT_DOUBLE_EQ(coarse.rate[3], 9);
+  double amount = 0, whole = 0;
+  for (std::size_t k = 0; k < 4; ++k) amount += coarse.rate[k] * (coarse.end[k] - coarse.begin[k]);
+  for (std::size_t k = 0; k < 10; ++k) whole += fine.rate[k] * (fine.end[k] - fine.begin[k]);
+  EXPECT_DOUBLE_EQ(amount, whole);
+}
+
+TEST(Series, FindsItsColumnAmongOthers) {
+  using casefile::Statistic;
+  casefile::OutputSpec output;
+  const int dose = *model::find_variable("milling_dose"), work = *model::find_variable("wall_work");
+  output.columns.push_back({work, {Statistic::sum, Statistic::rate}, "", "", "", false});
+  output.columns.push_back({dose, {Statistic::sum, Statistic::rate}, "", "", "", false});
+  report::Table table;
+  table.numbers = {{1, 10, 11, 12, 13}, {2, 20, 21, 22, 23}};
+  const auto series = report::series_of(output, table, dose, 0.5);
+  ASSERT_TRUE(series.has_value());
+  EXPECT_EQ(series->rate, (std::vector<double>{13, 23}));
+  EXPECT_EQ(series->begin, (std::vector<double>{0.5, 1}));
+  EXPECT_FALSE(report::series_of(output, table, *model::find_variable("collision"), 0).has_value());
+}
+
+}  // namespace

@@ -1,7 +1,0 @@
-foreach(name sweep_runs_test study_file_test optimizer_test sweep_statistics_test)
-  edmill_test(${name} sweep/${name}.cpp TIMEOUT 600)
-  add_dependencies(${name} edmill_cli)
-endforeach()
-if(MPI_CXX_FOUND)
-  target_compile_definitions(sweep_runs_test PRIVATE EDMILL_MPIEXEC="${MPIEXEC_EXECUTABLE}")
-endif()
