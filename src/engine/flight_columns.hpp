@@ -9,8 +9,8 @@
 
 namespace edmill::engine {
 
-/// One ball as seen now, and what would make another one worth a closer look.
-struct PairQuestion {
+/// One ball as seen now, and what would make another one a candidate.
+struct PairFilterQuery {
   const dynamics::PairSearch<double>::Seen& seen;
   double radius;
   Instant<double> now;
@@ -26,8 +26,8 @@ struct alignas(64) FlightBatch {
   double radius[capacity];                              ///< the first one serves for all when they are alike
 };
 
-/// What the filter saw of each ball looked at, and which of them are left: the suspects. Room only grows.
-class Looks {
+/// What the filter found of each ball, and which of them are left: the candidates. Room only grows.
+class PairFilterResult {
  public:
   /// For so many balls, rounded up to a multiple of four.
   void make_room(int count) {
@@ -35,43 +35,44 @@ class Looks {
       grow(count);
   }
 
-  /// Until the contact with the k-th ball looked at [s]; negative where only a closer look can tell. (3.1)
+  /// Until the contact with the k-th ball filtered [s]; negative where only the search itself can decide.
+  /// (3.1)
   double delay(int k) const {
     return discriminant_[k] < 0 ? -1.0 : gap_[k] / (std::sqrt(discriminant_[k]) - approach_[k]);
   }
 
-  int* suspects() { return suspects_.data(); }     ///< places of the suspects among the balls looked at
-  double* approach() { return approach_.data(); }  ///< b = r.v of (3.1)
-  double* gap() { return gap_.data(); }            ///< c = r.r - R^2
+  int* candidates() { return candidates_.data(); }  ///< places of the candidates among the balls filtered
+  double* approach() { return approach_.data(); }   ///< b = r.v of (3.1)
+  double* gap() { return gap_.data(); }             ///< c = r.r - R^2
   double* discriminant() { return discriminant_.data(); }  ///< b^2 - v.v c; -1 where its sign is open
 
  private:
   void grow(int count);
 
   int room_ = 0;
-  std::vector<int> suspects_;
+  std::vector<int> candidates_;
   std::vector<double> approach_, gap_, discriminant_;
 };
 
-/// Looks at a list of balls and finds the suspects among them. Compiled for several instruction sets, all
-/// with the same bits since nothing is contracted.
+/// PairFilterResult at a list of balls and finds the candidates among them. Compiled for several instruction
+/// sets, all with the same bits since nothing is contracted.
 /// @param flights, radii  of all balls; ball i has radius radii[i * stride]
-/// @param self            the ball of the question, which is never a suspect
-/// @param balls, looks    with room for three more than `count`
-/// @return how many suspects there are
-int look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
-            const PairQuestion& question, int self, int* balls, int count, Looks& looks);
+/// @param self            the ball of the query, which is never a suspect
+/// @param balls, result    with room for three more than `count`
+/// @return how many candidates there are
+int filter_pairs(const dynamics::Flight<double>* flights, const double* radii, int stride,
+                 const PairFilterQuery& query, int self, int* balls, int count, PairFilterResult& result);
 
 /// The same for the first `balls` of `batches`, which have room for a multiple of four: those beyond the last
-/// are looked at, too.
-int look_at_all(const FlightBatch* batches, int balls, bool alike, const PairQuestion& question,
-                Looks& looks);
+/// are filtered, too.
+int filter_all_pairs(const FlightBatch* batches, int balls, bool alike, const PairFilterQuery& query,
+                     PairFilterResult& result);
 
-/// Where cells are of no use this looks at every ball.
-class FlightTable {
+/// Where cells are of no use this result at every ball.
+class FlightColumns {
  public:
   /// @param alike  whether all balls have one radius
-  FlightTable(int balls, bool alike)
+  FlightColumns(int balls, bool alike)
       : balls_(balls), alike_(alike), batches_(balls / FlightBatch::capacity + 1) {}
 
   void set(int ball, const dynamics::Flight<double>& flight, double radius) {
@@ -84,9 +85,9 @@ class FlightTable {
     batch.radius[place] = radius;
   }
 
-  /// Finds the suspects among all balls; the k-th ball looked at is ball k.
+  /// Finds the candidates among all balls; the k-th ball filtered is ball k.
   /// @return how many there are
-  int look(const PairQuestion& question, Looks& looks) const;
+  int filter(const PairFilterQuery& query, PairFilterResult& result) const;
 
  private:
   int balls_;

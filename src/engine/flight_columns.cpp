@@ -1,4 +1,4 @@
-#include "engine/flight_table.hpp"
+#include "engine/flight_columns.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,16 +60,16 @@ EDMILL_INTO_CLONES void gather(const dynamics::Flight<double>* flights, const do
 }
 
 /// Times since the starts.
-EDMILL_INTO_CLONES void find_ages(const FlightBatch& batch, const PairQuestion& question, int count,
+EDMILL_INTO_CLONES void find_ages(const FlightBatch& batch, const PairFilterQuery& query, int count,
                                   Column& ages) {
   // Whole periods, below 2^51: as the low bits of a double they need no conversion.
   constexpr double shift = 6755399441055744.0;  // 1.5 x 2^52
   constexpr std::int64_t bits_of_shift = 0x4338000000000000;
-  const double drive = question.filter.period, now = question.now.offset;
+  const double drive = query.filter.period, now = query.now.offset;
   for (int k = 0; k < count; k += 4) {
     FourIntegers started;
     std::memcpy(&started, batch.period + k, sizeof started);
-    const FourIntegers shifted = (question.now.period - started) + bits_of_shift;
+    const FourIntegers shifted = (query.now.period - started) + bits_of_shift;
     Four periods, offset;
     std::memcpy(&periods, &shifted, sizeof shifted);
     load(batch.offset + k, offset);
@@ -77,11 +77,11 @@ EDMILL_INTO_CLONES void find_ages(const FlightBatch& batch, const PairQuestion& 
   }
 }
 
-/// One coordinate of the motion of the question's ball relative to each of the batch.
-EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairQuestion& question, int axis,
+/// One coordinate of the motion of the query's ball relative to each of the batch.
+EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairFilterQuery& query, int axis,
                                     int count, const Column& ages, Column& r, Column& v) {
-  const double position = question.seen.position[axis], velocity = question.seen.velocity[axis];
-  const double gravity = question.filter.gravity[axis];
+  const double position = query.seen.position[axis], velocity = query.seen.velocity[axis];
+  const double gravity = query.filter.gravity[axis];
   Four x, u, age;
   if (gravity == 0) {  // which changes no bit of a contact
     for (int k = 0; k < count; k += 4) {
@@ -93,7 +93,7 @@ EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairQuestion
     for (int k = 0; k < count; k += 4) {
       load(batch.position[axis] + k, x), load(batch.velocity[axis] + k, u), load(ages + k, age);
       store(r + k, position - (x + age * (u + (age * 0.5) * gravity)));
-      store(v + k, (velocity - u) + gravity * (question.seen.age - age));
+      store(v + k, (velocity - u) + gravity * (query.seen.age - age));
     }
   }
 }
@@ -136,25 +136,25 @@ constexpr auto lanes_by_bits = [] {
 }();
 constexpr std::uint64_t counts_by_bits = 0x4332322132212110;
 
-/// The pair filter, see PairFilter, for balls `first` and on of those looked at. Each step is a short chain
+/// The pair filter, see PairFilter, for balls `first` and on of those filtered. Each step is a short chain
 /// of operations, so that the processor works on several fours at once; one chain of all would leave it
-/// waiting. A ball in the very same place is the question's own.
-/// @param found  how many suspects there are before
+/// waiting. A ball in the very same place is the query's own.
+/// @param found  how many candidates there are before
 /// @return how many there are then
-EDMILL_INTO_CLONES int judge(const FlightBatch& batch, const PairQuestion& question, bool alike, int first,
-                             int count, Looks& looks, int found) {
+EDMILL_INTO_CLONES int filter_batch(const FlightBatch& batch, const PairFilterQuery& query, bool alike,
+                                    int first, int count, PairFilterResult& result, int found) {
   alignas(64) Column ages, rx, ry, rz, vx, vy, vz, squares;
-  find_ages(batch, question, count, ages);
-  find_motion(batch, question, 0, count, ages, rx, vx);
-  find_motion(batch, question, 1, count, ages, ry, vy);
-  find_motion(batch, question, 2, count, ages, rz, vz);
-  find_squares(batch, question.radius, alike, count, squares);
+  find_ages(batch, query, count, ages);
+  find_motion(batch, query, 0, count, ages, rx, vx);
+  find_motion(batch, query, 1, count, ages, ry, vy);
+  find_motion(batch, query, 2, count, ages, rz, vz);
+  find_squares(batch, query.radius, alike, count, squares);
   const int next_square = alike ? 0 : 1;
-  const double relative = question.filter.relative, slowest = question.filter.slowest_squared,
-               touching = question.filter.touching, grazing = question.filter.grazing;
-  double *approach = looks.approach() + first, *gap = looks.gap() + first,
-         *discriminants = looks.discriminant() + first;
-  int* suspects = looks.suspects();
+  const double relative = query.filter.relative, slowest = query.filter.slowest_squared,
+               touching = query.filter.touching, grazing = query.filter.grazing;
+  double *approach = result.approach() + first, *gap = result.gap() + first,
+         *discriminants = result.discriminant() + first;
+  int* candidates = result.candidates();
   for (int k = 0; k < count; k += 4) {
     Four x, y, z, u, v, w, square;
     load(rx + k, x), load(ry + k, y), load(rz + k, z), load(vx + k, u), load(vy + k, v), load(vz + k, w);
@@ -163,20 +163,20 @@ EDMILL_INTO_CLONES int judge(const FlightBatch& batch, const PairQuestion& quest
     const Four r2 = x * x + y * y + z * z;
     const Four v2 = u * u + v * v + w * w;
     const Four c = r2 - square;
-    const Four discriminant = b * b - v2 * c, doubt = relative * (v2 * r2);
+    const Four discriminant = b * b - v2 * c, error = relative * (v2 * r2);
     const FourIntegers moving = v2 > slowest, clear = moving & (c > touching);
-    const FourIntegers apart = (c > touching) & ((b >= 0) | (discriminant < -doubt));
-    const FourIntegers parting = (b > 0) & (b * b > doubt);
+    const FourIntegers apart = (c > touching) & ((b >= 0) | (discriminant < -error));
+    const FourIntegers parting = (b > 0) & (b * b > error);
     const FourIntegers meets = ~((moving & (apart | parting)) | (r2 == 0));
     store(approach + k, b);
     store(gap + k, c);
-    store(discriminants + k, (clear & (discriminant > doubt + grazing)) ? discriminant : Four{} - 1.0);
+    store(discriminants + k, (clear & (discriminant > error + grazing)) ? discriminant : Four{} - 1.0);
     // Without branches: which of them is one is anybody's guess.
     const unsigned bits = bits_of(meets);
     FourPlaces places;
     std::memcpy(&places, &lanes_by_bits[bits], sizeof places);
     places += first + k;
-    std::memcpy(suspects + found, &places, sizeof places);
+    std::memcpy(candidates + found, &places, sizeof places);
     found += static_cast<int>(counts_by_bits >> (4 * bits) & 15);
   }
   return found;
@@ -184,42 +184,42 @@ EDMILL_INTO_CLONES int judge(const FlightBatch& batch, const PairQuestion& quest
 
 }  // namespace
 
-EDMILL_FOR_SEVERAL_CPUS int look_at(const dynamics::Flight<double>* flights, const double* radii, int stride,
-                                    const PairQuestion& question, int self, int* balls, int count,
-                                    Looks& looks) {
+EDMILL_FOR_SEVERAL_CPUS int filter_pairs(const dynamics::Flight<double>* flights, const double* radii,
+                                         int stride, const PairFilterQuery& query, int self, int* balls,
+                                         int count, PairFilterResult& result) {
   balls[count] = balls[count + 1] = balls[count + 2] = self;
   FlightBatch batch;
   int found = 0;
   for (int first = 0; first < count; first += FlightBatch::capacity) {
     const int here = std::min(count - first, FlightBatch::capacity);
     gather(flights, radii, stride, balls + first, here, batch);
-    found = judge(batch, question, stride == 0, first, here, looks, found);
+    found = filter_batch(batch, query, stride == 0, first, here, result, found);
   }
   return found;
 }
 
-EDMILL_FOR_SEVERAL_CPUS int look_at_all(const FlightBatch* batches, int balls, bool alike,
-                                        const PairQuestion& question, Looks& looks) {
+EDMILL_FOR_SEVERAL_CPUS int filter_all_pairs(const FlightBatch* batches, int balls, bool alike,
+                                             const PairFilterQuery& query, PairFilterResult& result) {
   int found = 0;
   for (int first = 0; first < balls; first += FlightBatch::capacity) {
     const int here = std::min(balls - first, FlightBatch::capacity);
-    found = judge(batches[first / FlightBatch::capacity], question, alike, first, here, looks, found);
+    found = filter_batch(batches[first / FlightBatch::capacity], query, alike, first, here, result, found);
   }
   return found;
 }
 
-int FlightTable::look(const PairQuestion& question, Looks& looks) const {
-  looks.make_room(balls_);
-  int found = look_at_all(batches_.data(), balls_, alike_, question, looks);
+int FlightColumns::filter(const PairFilterQuery& query, PairFilterResult& result) const {
+  result.make_room(balls_);
+  int found = filter_all_pairs(batches_.data(), balls_, alike_, query, result);
   if (balls_ % 4 != 0)  // the last four of a batch are not all balls
-    while (found > 0 && looks.suspects()[found - 1] >= balls_) --found;
+    while (found > 0 && result.candidates()[found - 1] >= balls_) --found;
   return found;
 }
 
-void Looks::grow(int count) {
+void PairFilterResult::grow(int count) {
   room_ = 2 * count;
   const auto size = static_cast<std::size_t>(room_) + 8;
-  suspects_.resize(size);
+  candidates_.resize(size);
   for (auto* column : {&approach_, &gap_, &discriminant_}) column->resize(size);
 }
 

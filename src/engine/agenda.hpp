@@ -1,0 +1,129 @@
+// What each ball expects next, and which of its pair contacts are void.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/instant.hpp"
+#include "base/memory.hpp"
+#include "dynamics/wall_search.hpp"
+
+namespace edmill::engine {
+
+/// What one ball expects. Its pair contacts are those that it predicted itself, in any order; one is void
+/// once the partner has had an impact since, and for a pair that both predicted the later prediction is the
+/// valid one. Which entry is the earliest cannot be predicted by the processor, so it is found without
+/// branches.
+template <class Real>
+struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
+  static constexpr int capacity = 3;  ///< of pair contacts
+  static constexpr int wall_entry = 0, crossing_entry = 1, first_pair = 2;
+  std::array<Instant<Real>, first_pair + capacity> times;  ///< of wall, crossing, pairs; never() where free
+  [[no_unique_address]] dynamics::ContactPose<Real> wall_pose;  ///< at the wall's time
+  Instant<Real> forgotten_from;  ///< contacts from this time on found no room; never() when all are kept
+  std::array<int, capacity> partners{};
+  std::array<std::uint32_t, capacity> known;  ///< number of the latest impact of all, when predicted
+  std::uint32_t last_impact = 0;              ///< number of the ball's latest
+  std::int8_t pair_count = 0;
+  /// A wall id, or -1 when the wall's time only ends what has been searched; `tied` more when another wall
+  /// is hit at the same time.
+  std::int8_t wall = -1;
+  std::int8_t crossing_face = 0;  ///< twice the axis, and 1 more when upwards
+  std::int8_t next = wall_entry;  ///< the entry that was queued
+
+  Agenda() {
+    times.fill(Instant<Real>::never());
+    drop_pairs();
+  }
+
+  /// Entries of the earliest and the latest pair contact, when there are any.
+  int nearest() const {
+    const int first = first_pair + (times[first_pair + 1] < times[first_pair]);
+    return select(times[first_pair + 2] < times[first], first_pair + 2, first);
+  }
+  int farthest() const {
+    const int last = first_pair + (times[first_pair + 1] > times[first_pair]);
+    return select(times[first_pair + 2] > times[last], first_pair + 2, last);
+  }
+  /// The earliest entry; at equal times a wall comes before a ball, and contacts before the rest.
+  int earliest() const {
+    const int pair = nearest();
+    const bool pair_first =
+        (times[pair] < times[wall_entry]) | ((!hits_wall()) & (times[pair] == times[wall_entry]));
+    const int contact = select(pair_first, pair, wall_entry);
+    return select(times[crossing_entry] < times[contact], crossing_entry, contact);
+  }
+
+  static constexpr int tied = 64;
+  bool hits_wall() const { return wall >= 0; }
+  bool wall_is_tied() const { return wall >= tied; }
+  int wall_id() const { return wall % tied; }
+  int crossing_axis() const { return crossing_face / 2; }
+  int crossing_step() const { return crossing_face % 2 ? 1 : -1; }
+  int partner_at(int entry) const { return partners[entry - first_pair]; }
+
+  void put_pair(int entry, const Instant<Real>& time, int partner, std::uint32_t latest_impact) {
+    times[entry] = time;
+    partners[entry - first_pair] = partner;
+    known[entry - first_pair] = latest_impact;
+  }
+  void drop_nearest() {
+    const int first = nearest(), last = first_pair + --pair_count;
+    put_pair(first, times[last], partners[last - first_pair], known[last - first_pair]);
+    times[last] = Instant<Real>::never();
+  }
+  void drop_pairs() {
+    for (int k = 0; k < capacity; ++k) times[first_pair + k] = Instant<Real>::never();
+    pair_count = 0;
+    forgotten_from = Instant<Real>::never();
+  }
+
+  void archive(Archive& a) {
+    a(times, wall_pose, forgotten_from, partners, known, last_impact, pair_count, wall, crossing_face);
+  }
+
+ private:
+  static int select(bool condition, int yes, int no) {
+    return no ^ ((yes ^ no) & -static_cast<int>(condition));
+  }
+};
+
+/// The agendas of all balls. Impacts are numbered, so that a pair contact whose partner has had an impact
+/// since its prediction is known to be void.
+template <class Real>
+class Agendas {
+ public:
+  explicit Agendas(std::size_t balls) : agendas_(balls) {}
+
+  std::size_t size() const { return agendas_.size(); }
+  Agenda<Real>& operator[](int ball) { return agendas_[ball]; }
+  const Agenda<Real>& operator[](int ball) const { return agendas_[ball]; }
+
+  bool still_holds(const Agenda<Real>& a, int pair_entry) const {
+    return agendas_[a.partner_at(pair_entry)].last_impact <= a.known[pair_entry - Agenda<Real>::first_pair];
+  }
+
+  /// The next impact is that of these balls, which may be one and the same.
+  void number_impact(int ball, int partner) {
+    if (latest_impact_ == 1 << 20) renumber_impacts();
+    agendas_[ball].last_impact = agendas_[partner].last_impact = ++latest_impact_;
+  }
+  /// Of the latest impact of all.
+  std::uint32_t latest_impact() const { return latest_impact_; }
+
+  /// Makes the numbers of impacts small again. Pair contacts that hold go on holding, and no others do.
+  [[gnu::noinline]] void renumber_impacts() {
+    for (auto& a : agendas_)
+      for (int k = 0; k < a.pair_count; ++k) a.known[k] = still_holds(a, Agenda<Real>::first_pair + k);
+    for (auto& a : agendas_) a.last_impact = 1;
+    latest_impact_ = 1;
+  }
+
+  void archive(Archive& a) { a(agendas_, latest_impact_); }
+
+ private:
+  LargeVector<Agenda<Real>> agendas_;
+  std::uint32_t latest_impact_ = 0;
+};
+
+}  // namespace edmill::engine

@@ -1,0 +1,46 @@
+// Bounds that hold for every ball of a run.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "model/case.hpp"
+
+namespace edmill::engine {
+
+template <class Real>
+bool all_alike(const std::vector<model::BallProperties<Real>>& balls) {
+  return std::all_of(balls.begin(), balls.end(), [&](const auto& b) { return b == balls.front(); });
+}
+
+template <class Real>
+Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
+  Real smallest = balls.front().radius;
+  for (const auto& b : balls) smallest = b.radius < smallest ? b.radius : smallest;
+  return smallest;
+}
+
+/// The most that gravity adds to a ball's speed in one flight: one that stays within `reach` of the fulcrum
+/// bends by g t^2/8 < 2 reach [m/s].
+template <class Real>
+Real largest_fall(const model::Mill<Real>& mill) {
+  using std::sqrt;
+  const Real &R = mill.vessel.radius, &h = mill.vessel.half_height;
+  const Real reach = mill.motion.arm + sqrt(R * R + h * h);
+  return 4 * sqrt(reach * norm<Real>(mill.gravity));
+}
+
+/// Of any ball until impacts make one faster than twice the fastest ball or wall at the start [m/s].
+template <class Real>
+Real largest_speed(const std::vector<model::BallState<Real>>& states, const model::Mill<Real>& mill) {
+  Real largest{1};
+  for (const auto& s : states) {
+    const Real speed = norm<Real>(s.velocity);
+    if (speed > largest) largest = speed;
+  }
+  const Real wall = (mill.motion.theta_max + mill.motion.gamma_max) * mill.motion.angular_speed() *
+                    (mill.motion.arm + mill.vessel.radius + mill.vessel.half_height);
+  return 2 * (largest + wall) + largest_fall(mill);
+}
+
+}  // namespace edmill::engine

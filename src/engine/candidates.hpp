@@ -1,0 +1,102 @@
+// Which balls a ball may meet: neighbouring cells or all balls, sifted by the pair filter.
+#pragma once
+
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "base/memory.hpp"
+#include "engine/cell_grid.hpp"
+#include "engine/flight_columns.hpp"
+#include "model/case.hpp"
+
+namespace edmill::engine {
+
+/// Pairs are filtered in double whatever the scalar: the bounds of the filter cover the rounding of the
+/// flights to double. Cells are crossed in double too: their margin covers it.
+template <class Real>
+class Candidates {
+ public:
+  /// A ball's flight as seen now, in double.
+  using DoubleState = dynamics::PairSearch<double>::Seen;
+
+  /// @param flights    of all balls; must outlive this
+  /// @param reach      largest distance of a ball from the origin [m]
+  /// @param top_speed  no ball is faster [m/s]
+  Candidates(const model::Mill<Real>& mill, const std::vector<model::BallProperties<Real>>& balls,
+             const LargeVector<dynamics::Flight<Real>>& flights, const Real& reach, const Real& top_speed);
+
+  bool uses_cells() const { return !columns_; }
+  const CellGrid& grid() const { return grid_; }
+  const dynamics::PairFilter<double>& filter() const { return pairs_.filter(); }
+
+  /// @return the cell that the ball begins in
+  CellOfBall insert(int ball);
+  /// The ball has a new flight.
+  void update(int ball) {
+    if constexpr (!is_double) double_flights_[ball] = dynamics::flight_cast<double>((*flights_)[ball]);
+    if (columns_) columns_->set(ball, flights()[ball], radii_[ball * stride_]);
+  }
+  void raise_top_speed(const Real& speed) { pairs_.raise_top_speed(static_cast<double>(speed)); }
+
+  DoubleState state(int ball, const Instant<Real>& now) const {
+    return pairs_.seen(flights()[ball], dynamics::instant_cast<double>(now));
+  }
+
+  /// The balls of the adjacent cells, where cells are used.
+  void neighbours(const CellOfBall& cell, FoundBalls& near) const {
+    if (!columns_) grid_.neighbours(cell, near);
+  }
+  /// The ball leaves `cell`, which becomes the adjacent one; finds the balls of cells that are new to it.
+  void cross(int ball, CellOfBall& cell, int axis, int step, FoundBalls& near) {
+    grid_.move(ball, cell, axis, step);
+    grid_.new_neighbours(cell, axis, step, near);
+  }
+
+  /// Finds the candidates among all balls that the ball may meet.
+  /// @param near  of `neighbours`
+  /// @return how many there are
+  int find(int ball, const DoubleState& state, const Instant<Real>& now, FoundBalls& near) {
+    if (columns_) return columns_->filter(query(ball, state, now), result_);
+    return find_among(ball, state, now, near);
+  }
+  /// The same among the balls of `near` alone.
+  int find_among(int ball, const DoubleState& state, const Instant<Real>& now, FoundBalls& near) {
+    result_.make_room(near.count);
+    return filter_pairs(flights(), radii_.data(), stride_, query(ball, state, now), ball, near.balls.data(),
+                        near.count, result_);
+  }
+  /// Places of the candidates found among the balls filtered.
+  const int* places() { return result_.candidates(); }
+  /// The ball at a place.
+  int ball_at(int place, const FoundBalls& near) const { return columns_ ? place : near.balls[place]; }
+  /// See PairFilterResult::delay.
+  double delay(int place) const { return result_.delay(place); }
+
+  const dynamics::Flight<double>* flights() const {
+    if constexpr (is_double)
+      return flights_->data();
+    else
+      return double_flights_.data();
+  }
+
+  void archive(Archive& a) { a(grid_); }
+
+ private:
+  static constexpr bool is_double = std::is_same_v<Real, double>;
+
+  PairFilterQuery query(int ball, const DoubleState& state, const Instant<Real>& now) const {
+    return {state, radii_[ball * stride_], dynamics::instant_cast<double>(now), pairs_.filter()};
+  }
+
+  const LargeVector<dynamics::Flight<Real>>* flights_;
+  dynamics::PairSearch<double> pairs_;
+  LargeVector<dynamics::Flight<double>> double_flights_;  ///< empty when the scalar is double
+  std::vector<double> radii_;                             ///< rounded too
+  int stride_;  ///< 0 when all balls are alike: then the first radius serves for every ball
+  CellGrid grid_;
+  std::optional<FlightColumns> columns_;  ///< instead of the grid when that has one cell
+  PairFilterResult result_;               ///< scratch
+};
+
+}  // namespace edmill::engine

@@ -1,0 +1,145 @@
+// Implementation of Simulation: impacts; included by the instantiation files only.
+#pragma once
+
+#include "base/errors.hpp"
+#include "engine/simulation.hpp"
+
+namespace edmill::engine {
+
+/// Advances the balls of a contact to it and applies the impulse.
+template <class Real>
+Impact<Real> Simulation<Real>::collide(const Event<Real>& event) {
+  if (event.by_rule) ++counts_.simultaneous_contacts;
+  auto impact = event.kind == EventKind::wall_contact ? collide_with_wall(event) : collide_pair(event);
+  impact.index = counts_.impacts++;
+  impact.time = now_;
+  impact.ball = event.ball;
+  impact.with_wall = event.kind == EventKind::wall_contact;
+  impact.partner = event.partner;
+  impact.by_rule = event.by_rule;
+  if (impact.overlap > counts_.deepest_overlap) counts_.deepest_overlap = impact.overlap;
+  EDMILL_REQUIRE(impact.overlap < tolerated_overlap_,
+                 "an impact was missed: bodies overlap by " + to_text(impact.overlap) + " m");
+  raise_top_speed(event.ball);
+  if (!impact.with_wall) raise_top_speed(event.partner);
+  return impact;
+}
+
+template <class Real>
+model::VesselPose<Real> Simulation<Real>::pose_now() const {
+  const auto& constants = ladder_.walls().constants();
+  return model::pose_at<Real>(mill_.motion, constants.angular_speed, constants.frequency, now_.offset);
+}
+
+/// The pose now, when the ball's predicted wall contact is due.
+template <class Real>
+model::VesselPose<Real> Simulation<Real>::pose_at_wall_contact(int ball) const {
+  if constexpr (!std::is_same_v<Real, double>) {
+    const Agenda<Real>& a = agendas_[ball];
+    if (a.wall_pose && a.times[Agenda<Real>::wall_entry] == now_) return *a.wall_pose;
+  }
+  return pose_now();
+}
+
+template <class Real>
+Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
+  const int ball = event.ball, wall = event.partner;
+  find_neighbours(ball, near_);
+  auto& flight = flights_[ball];
+  const Real flight_time = dynamics::fly_to(flight, mill_.gravity, clock_, now_);
+  pose_ = pose_at_wall_contact(ball);
+  const auto local = model::to_vessel_frame<Real>(pose_, mill_.motion.arm, flight.position, flight.velocity);
+  const Real radius = properties(ball).radius;
+
+  Impact<Real> impact{};
+  Vec3<Real>& normal = impact.normal;
+  if (wall == 2) {
+    using std::sqrt;
+    const Real &x = local.position[0], &z = local.position[2];
+    const Real rho = sqrt(x * x + z * z);
+    normal = model::vessel_axis_x(pose_) * (-x / rho) + model::vessel_axis_z(pose_) * (-z / rho);
+    impact.overlap = rho - (mill_.vessel.radius - radius);
+  } else {
+    const Real side(wall == 0 ? 1 : -1);
+    normal = model::vessel_axis_y(pose_) * side;
+    impact.overlap = -side * local.position[1] - (mill_.vessel.half_height - radius);
+  }
+  const Vec3<Real> contact_point = flight.position - normal * radius;
+  const Vec3<Real> wall_velocity = model::wall_velocity<Real>(pose_, mill_.motion.arm, contact_point);
+  impact.velocity_before[0] = flight.velocity;
+  impact.spin_before[0] = bodies_[ball].spin;
+  impact.flight_time[0] = flight_time;
+  impact.wall_velocity = wall_velocity;
+  impact.outcome = dynamics::collide_with_wall<Real>(normal, properties(ball), wall_velocity, flight.velocity,
+                                                     bodies_[ball].spin, mill_.ball_wall);
+  agendas_.number_impact(ball, ball);
+  candidates_.update(ball);
+  return impact;
+}
+
+template <class Real>
+Impact<Real> Simulation<Real>::collide_pair(const Event<Real>& event) {
+  const int ball = event.ball, partner = event.partner;
+  find_neighbours(ball, near_);
+  auto &one = flights_[ball], &two = flights_[partner];
+  const Real flight_times[2] = {dynamics::fly_to(one, mill_.gravity, clock_, now_),
+                                dynamics::fly_to(two, mill_.gravity, clock_, now_)};
+  const Vec3<Real> between = one.position - two.position;
+  const Real distance = norm<Real>(between);
+
+  Impact<Real> impact{};
+  impact.normal = between * (1 / distance);
+  impact.overlap = properties(ball).radius + properties(partner).radius - distance;
+  impact.velocity_before[0] = one.velocity;
+  impact.velocity_before[1] = two.velocity;
+  impact.spin_before[0] = bodies_[ball].spin;
+  impact.spin_before[1] = bodies_[partner].spin;
+  impact.flight_time[0] = flight_times[0], impact.flight_time[1] = flight_times[1];
+  impact.outcome =
+      dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner), one.velocity,
+                                    bodies_[ball].spin, two.velocity, bodies_[partner].spin, mill_.ball_ball);
+  agendas_.number_impact(ball, partner);
+  candidates_.update(ball);
+  candidates_.update(partner);
+  find_neighbours(partner, near_partner_);
+  return impact;
+}
+
+/// Bounds that grow with the speed of the fastest ball follow the ball's new velocity.
+template <class Real>
+void Simulation<Real>::raise_top_speed(int ball) {
+  const Real fastest = top_speed_ - fall_;
+  const Real speed_squared = squared_norm<Real>(flights_[ball].velocity);
+  if (!(speed_squared > fastest * fastest)) return;
+  using std::sqrt;
+  top_speed_ = 2 * sqrt(speed_squared) + fall_;
+  ladder_.raise_top_speed(top_speed_);
+  candidates_.raise_top_speed(top_speed_);
+}
+
+/// Whether the impact is one of infinitely many in finite time; then everybody who watches is told of it.
+template <class Real>
+void Simulation<Real>::notify(const Impact<Real>& impact) {
+  if (impact.with_wall) {
+    note_collapse(impact, impact.ball, ball_count() + impact.partner, true, impact.partner);
+  } else {
+    note_collapse(impact, impact.ball, impact.partner, false, impact.partner);
+    note_collapse(impact, impact.partner, impact.ball, false, impact.ball);
+  }
+  for (auto* observer : observers_) observer->on_impact(impact, *this);
+}
+
+template <class Real>
+void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall,
+                                     int partner) {
+  const auto& law = with_wall ? mill_.ball_wall : mill_.ball_ball;
+  if (law.least_separation > 0) return;
+  const bool collapsing = collapse_watch_.note(bodies_[ball].recent, key, now_, impact.outcome.approach_speed,
+                                               law.restitution_normal, clock_);
+  if (!collapsing) return;
+  collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner,
+                                             collapse_watch_.accumulation_time(bodies_[ball].recent, clock_)};
+  stop_ = EndReason::inelastic_collapse;
+}
+
+}  // namespace edmill::engine

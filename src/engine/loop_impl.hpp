@@ -1,0 +1,101 @@
+// Implementation of Simulation: the loop; included by the instantiation files only.
+#pragma once
+
+#include "engine/simulation.hpp"
+
+namespace edmill::engine {
+
+/// Processes every event up to `end`.
+template <class Real>
+EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt) {
+  stop_.reset();
+  while (queue_.time(queue_.top()) <= end) {
+    if (interrupt && interrupt->load(std::memory_order_relaxed)) return EndReason::interrupted;
+    const auto event = next_event();  // of near ties the first
+    const auto prefetching = prefetcher_.scope();
+    now_ = event.time;
+    switch (event.kind) {
+      case EventKind::void_contact:
+        drop_void_contact(event.ball);
+        break;
+      case EventKind::cell_crossing:
+        cross_cell(event.ball);
+        break;
+      case EventKind::wall_horizon:
+        continue_wall_search(event.ball, now_);
+        break;
+      case EventKind::wall_contact:
+      case EventKind::pair_contact: {
+        const auto impact = collide(event);
+        notify(impact);
+        if (stop_ != EndReason::inelastic_collapse) predict(impact);
+      }
+    }
+    if (stop_) return *stop_;
+  }
+  now_ = end;
+  return EndReason::end_time;
+}
+
+/// What is queued next. The top entry is the earliest, but it may be a contact that is void by now, or
+/// another contact may be as early within rounding.
+template <class Real>
+auto Simulation<Real>::next_event() -> Event<Real> {
+  const auto event = queued_event(queue_.top());
+  now_ = event.time;
+  const bool is_contact = event.kind == EventKind::wall_contact || event.kind == EventKind::pair_contact;
+  return is_contact && has_rivals(event) ? settle_ties(event) : event;
+}
+
+/// What was queued for a ball.
+template <class Real>
+auto Simulation<Real>::queued_event(int ball) const -> Event<Real> {
+  const Agenda<Real>& a = agendas_[ball];
+  const Instant<Real>& time = a.times[a.next];
+  if (a.next == Agenda<Real>::wall_entry)
+    return a.hits_wall() ? Event<Real>{EventKind::wall_contact, time, ball, a.wall_id(), a.wall_is_tied()}
+                         : Event<Real>{EventKind::wall_horizon, time, ball};
+  if (a.next == Agenda<Real>::crossing_entry) return {EventKind::cell_crossing, time, ball};
+  const auto kind = agendas_.still_holds(a, a.next) ? EventKind::pair_contact : EventKind::void_contact;
+  return {kind, time, ball, a.partner_at(a.next)};
+}
+
+/// Queues the earliest entry of a ball's agenda.
+template <class Real>
+void Simulation<Real>::requeue(int ball) {
+  Agenda<Real>& a = agendas_[ball];
+  a.next = static_cast<std::int8_t>(a.earliest());
+  queue_.set(ball, a.times[a.next]);
+}
+
+/// The next pair contact takes the place of the nearest one, which is void.
+template <class Real>
+void Simulation<Real>::drop_void_contact(int ball) {
+  ++counts_.stale_events;
+  Agenda<Real>& a = agendas_[ball];
+  a.drop_nearest();
+  if (a.pair_count == 0 && a.forgotten_from < Instant<Real>::never()) {
+    find_neighbours(ball, near_);
+    a.drop_pairs();
+    const auto state = candidates_.state(ball, now_);
+    const int found = candidates_.find(ball, state, now_, near_);
+    predict_pairs(ball, -1, state, found, near_);
+  }
+  requeue(ball);
+}
+
+/// The ball may meet the balls of the cells that are new to it.
+template <class Real>
+void Simulation<Real>::cross_cell(int ball) {
+  ++counts_.cell_crossings;
+  const int axis = agendas_[ball].crossing_axis(), step = agendas_[ball].crossing_step();
+  candidates_.cross(ball, bodies_[ball].cell, axis, step, near_);
+  prefetcher_.flights_of(near_);
+  const auto state = candidates_.state(ball, now_);
+  const int found = candidates_.find_among(ball, state, now_, near_);
+  predict_crossing(ball, state);
+  predict_pairs(ball, -1, state, found, near_);
+  requeue(ball);
+}
+
+}  // namespace edmill::engine

@@ -1,0 +1,106 @@
+// Implementation of Simulation: which of contacts that are close in time is first; included by the
+// instantiation files only.
+#pragma once
+
+#include "engine/simulation.hpp"
+
+namespace edmill::engine {
+
+/// Whether anything else is due so soon after a contact that it may be first. Rarely.
+template <class Real>
+bool Simulation<Real>::has_rivals(const Event<Real>& event) const {
+  const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
+  const Agenda<Real>& a = agendas_[event.ball];
+  int due = (a.times[Agenda<Real>::wall_entry] <= limit) + (a.forgotten_from <= limit);
+  for (int k = 0; k < Agenda<Real>::capacity; ++k) due += a.times[Agenda<Real>::first_pair + k] <= limit;
+  return due > 1 || queue_.runner_up(limit) >= 0;  // one is the event itself
+}
+
+/// Of contacts that share a ball and are so close in time that rounding may have put them in the wrong order,
+/// the first: wider scalars time them anew. What no scalar can tell apart is put in order by a rule, and
+/// marked.
+template <class Real>
+auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
+  std::vector<Event<Real>> passed;  // that went behind another one
+  for (;;) {
+    const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
+    finish_wall_searches(event, limit);
+    find_rivals(event, limit);
+    std::optional<Event<Real>> first;
+    for (const Event<Real>& rival : rivals_) {
+      const auto same = [&](const Event<Real>& e) { return e.same_bodies(rival); };
+      if (std::any_of(passed.begin(), passed.end(), same)) continue;
+      const int order = ladder_.order(contact_of(event), contact_of(rival));
+      event.by_rule |= order == 0;
+      if (order > 0 || (order == 0 && rival.goes_before(event))) {
+        first = rival;
+        first->by_rule |= order == 0;
+        break;
+      }
+    }
+    if (!first) return event;
+    passed.push_back(event);
+    event = *first;
+  }
+}
+
+/// A search that ends so soon may end just before a contact.
+template <class Real>
+void Simulation<Real>::finish_wall_searches(const Event<Real>& event, const Instant<Real>& limit) {
+  const auto finish = [&](int ball) {
+    const Agenda<Real>& a = agendas_[ball];
+    while (!a.hits_wall() && a.times[Agenda<Real>::wall_entry] <= limit)
+      continue_wall_search(ball, Instant<Real>(a.times[Agenda<Real>::wall_entry]));
+  };
+  finish(event.ball);
+  if (event.kind == EventKind::pair_contact) finish(event.partner);
+}
+
+/// Fills `rivals_` with the contacts up to `limit` that share a ball with the event.
+template <class Real>
+void Simulation<Real>::find_rivals(const Event<Real>& event, const Instant<Real>& limit) {
+  rivals_.clear();
+  queue_.due_until(limit, due_);
+  for (const int ball : due_) {
+    const Agenda<Real>& a = agendas_[ball];
+    const auto add = [&](const Event<Real>& rival) {
+      if (rival.shares_ball(event) && !rival.same_bodies(event)) rivals_.push_back(rival);
+    };
+    if (a.hits_wall() && a.times[Agenda<Real>::wall_entry] <= limit)
+      add({EventKind::wall_contact, a.times[Agenda<Real>::wall_entry], ball, a.wall_id(), a.wall_is_tied()});
+    for (int entry = Agenda<Real>::first_pair; entry < Agenda<Real>::first_pair + a.pair_count; ++entry)
+      if (a.times[entry] <= limit && agendas_.still_holds(a, entry))
+        add({EventKind::pair_contact, a.times[entry], ball, a.partner_at(entry)});
+    if (a.forgotten_from <= limit) add_rivals_of_full_agenda(ball, event, limit);
+  }
+}
+
+/// Contacts that the ball's agenda had no room for are predicted anew.
+template <class Real>
+void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event<Real>& event,
+                                                 const Instant<Real>& limit) {
+  for (int other = 0; other < ball_count(); ++other) {
+    if (other == ball) continue;
+    Event<Real> rival{EventKind::pair_contact, limit, ball, other};
+    if (!rival.shares_ball(event) || rival.same_bodies(event)) continue;
+    const auto contact = contact_of(rival);
+    const auto& begin = contact.flight.start;
+    const auto answer = ladder_.pair(contact.flight, contact.partner, begin, contact.radius);
+    if (answer.verdict != dynamics::Verdict::contact) continue;
+    rival.time = clock_.after(begin, answer.delay);
+    if (rival.time <= limit) rivals_.push_back(rival);
+  }
+}
+
+template <class Real>
+dynamics::Contact<Real> Simulation<Real>::contact_of(const Event<Real>& event) const {
+  const auto& flight = flights_[event.ball];
+  if (event.kind == EventKind::wall_contact)
+    return {true, flight, flight, properties(event.ball).radius, event.time};
+  const auto& partner = flights_[event.partner];
+  const Real sum = properties(event.ball).radius + properties(event.partner).radius;
+  if (flight.start < partner.start) return {false, partner, flight, sum, event.time};
+  return {false, flight, partner, sum, event.time};
+}
+
+}  // namespace edmill::engine
