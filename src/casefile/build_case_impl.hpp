@@ -24,14 +24,7 @@ Vec3<Real> to_vector(const casefile::QuantityVector& q) {
 
 template <class Real>
 model::ContactLaw<Real> to_law(const casefile::ContactSpec& spec) {
-  model::ContactLaw<Real> law;
-  law.model = spec.model;
-  law.restitution_normal = spec.restitution_normal.to<Real>();
-  law.restitution_tangential = spec.restitution_tangential.to<Real>();
-  law.friction = spec.friction.to<Real>();
-  law.min_tangential = spec.min_tangential.to<Real>();
-  law.least_separation = spec.least_separation.to<Real>();
-  return law;
+  return model::convert_law<Real>(spec, [](const casefile::Quantity& q) { return q.to<Real>(); });
 }
 
 template <class Real>

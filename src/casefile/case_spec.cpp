@@ -134,11 +134,11 @@ std::string canonical_text(const CaseSpec& c) {
       << "\nmill " << c.mill.type << " " << c.mill.arm.text() << " " << c.mill.theta_max.text() << " "
       << c.mill.gamma_max.text() << " " << c.mill.period.text() << "\nvessel cylinder "
       << c.vessel_diameter.text() << " " << c.vessel_height.text() << "\n";
-  for (const auto* law : {&c.ball_ball, &c.ball_wall})
-    out << "contact " << (law->model == model::ContactModel::constant ? "constant " : "walton-braun ")
-        << law->restitution_normal.text() << " " << law->restitution_tangential.text() << " "
-        << law->friction.text() << " " << law->min_tangential.text() << " " << law->least_separation.text()
-        << "\n";
+  for (const auto* law : {&c.ball_ball, &c.ball_wall}) {
+    out << "contact " << law->name();
+    law->parameters([&](const model::LawParameter&, const Quantity& value) { out << " " << value.text(); });
+    out << " " << law->least_separation.text() << "\n";
+  }
   for (const auto& b : c.balls)
     out << "ball " << b.diameter.text() << " " << b.density.text() << " " << b.reduced_inertia.text() << " "
         << vector(b.position) << " " << vector(b.velocity) << " " << vector(b.spin) << "\n";

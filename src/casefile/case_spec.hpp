@@ -42,11 +42,7 @@ struct ExplicitBall : BallSpec {
   QuantityVector spin{};
 };
 
-struct ContactSpec {
-  model::ContactModel model = model::ContactModel::walton_braun;
-  Quantity restitution_normal, restitution_tangential{1}, friction, min_tangential{-1};
-  Quantity least_separation{boost::multiprecision::cpp_rational(1, 100)};
-};
+using ContactSpec = model::ContactLaw<Quantity>;
 
 struct MillSpec {
   std::string type = "spex8000";

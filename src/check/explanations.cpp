@@ -72,7 +72,7 @@ bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const Imp
                                              double allowed_off) const {
   const auto& l = law(impact);
   const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
-  const double by_restitution = l.restitution_normal * -g_n;
+  const double by_restitution = l.restitution(-g_n) * -g_n;
   const double other = separation_speed(l, g_n) > by_restitution ? by_restitution : l.least_separation;
   return l.least_separation > 0 && std::abs(left - other) <= allowed_off;
 }
@@ -82,7 +82,7 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, do
                               double allowed_off) {
   const auto& l = law(impact);
   const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
-  const double right = separation_speed(l, g_n), by_restitution = l.restitution_normal * -g_n;
+  const double right = separation_speed(l, g_n), by_restitution = l.restitution(-g_n) * -g_n;
   const auto finding = [&](Kind kind, double found, double expected, const char* note) {
     return Finding{kind,          off,   event.line, event.time, event.ball, event.with_wall,
                    event.partner, found, expected,   note};

@@ -88,7 +88,7 @@ auto ImpactJudge::residuals(const LoggedEvent& event, const Impact& impact, cons
     }
   const double bounce = std::max(0.0, dot(impulse[0], impact.normal)) / impact.effective_mass;
   off.normal = std::abs(g_n_after - separation_speed(law(impact), g_n));
-  if (parting) off.normal = std::min(off.normal, std::abs(g_n_after + law(impact).restitution_normal * g_n));
+  if (parting) off.normal = std::min(off.normal, std::abs(g_n_after + law(impact).restitution(-g_n) * g_n));
   off.restitution_tangential = tangential_restitution(law(impact), impact.compliance, bounce, size(slip));
   if (known.spins) off.tangential = size(Vec(slip_after - slip * off.restitution_tangential));
   return off;
@@ -110,7 +110,8 @@ void ImpactJudge::tell_broken_equations(const LoggedEvent& event, const Scene& s
     const double v_n = dot(event.body[0].velocity_before, impact.normal);
     const double v_n_after = dot(event.body[0].velocity_after, impact.normal);
     const auto& l = law(impact);
-    double implied = v_n + (v_n_after - v_n) / (1 + l.restitution_normal);
+    const double e_n = l.restitution(-dot(impact.before(event), impact.normal));
+    double implied = v_n + (v_n_after - v_n) / (1 + e_n);
     if (v_n_after - implied < l.least_separation) implied = v_n_after - l.least_separation;
     return tell(Kind::wall_velocity, event, std::max(off.normal, off.tangential), implied,
                 dot(impact.wall_velocity, impact.normal));
@@ -153,8 +154,8 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
     if (!event.with_wall) findings_.judged(Check::momentum);
     if (known.spins) findings_.judged(Check::tangential_law), findings_.judged(Check::spin_change);
     const auto off = residuals(event, impact, known, g_n > allowed_off);
-    const double friction =
-        law(impact).model == model::ContactModel::walton_braun ? std::min(law(impact).friction, 10.0) : 0;
+    const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law(impact).law);
+    const double friction = coulomb ? std::min(coulomb->friction, 10.0) : 0;
     const double slack = allowed_off * (1 + friction * impact.compliance);
     if (off.largest() > slack) {
       Explanation explanation;

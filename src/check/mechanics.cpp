@@ -123,15 +123,18 @@ Vec Impact::after(const LoggedEvent& e) const {
 
 double separation_speed(const model::ContactLaw<double>& law, double g_n) {
   // Bodies that part by rounding leave no slower than they part.
-  return std::max({law.restitution_normal * -g_n, law.least_separation, g_n});
+  return std::max({law.restitution(-g_n) * -g_n, law.least_separation, g_n});
 }
 
 double tangential_restitution(const model::ContactLaw<double>& law, double compliance, double bounce,
                               double slip_speed) {
-  if (law.model == model::ContactModel::constant) return law.restitution_tangential;
-  const double reversal = law.friction * compliance * bounce;  // what full sliding takes off the slip
-  if (reversal >= (1 - law.min_tangential) * slip_speed) return law.min_tangential;
-  return 1 - reversal / slip_speed;
+  // A formula of its own where balls slide, so that a mistake in the law that runs use is seen.
+  if (const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law.law)) {
+    const double reversal = coulomb->friction * compliance * bounce;  // what full sliding takes off the slip
+    if (reversal >= (1 - coulomb->min_tangential) * slip_speed) return coulomb->min_tangential;
+    return 1 - reversal / slip_speed;
+  }
+  return law.restitution_of_slip(bounce, slip_speed, compliance);
 }
 
 std::array<BodyState, 2> outcome(const Impact& impact, const model::ContactLaw<double>& law,
@@ -141,7 +144,7 @@ std::array<BodyState, 2> outcome(const Impact& impact, const model::ContactLaw<d
   const Vec slip = g - impact.normal * g_n;
   const double bounce = separation_speed(law, g_n) - g_n;
   const double in_friction =
-      formula.friction_of_restitution ? -(1 + law.restitution_normal) * std::min(g_n, 0.0) : bounce;
+      formula.friction_of_restitution ? -(1 + law.restitution(-g_n)) * std::min(g_n, 0.0) : bounce;
   const double c_in_law = formula.compliance_in_e_t > 0 ? formula.compliance_in_e_t : impact.compliance;
   const double c = formula.compliance_in_impulse > 0 ? formula.compliance_in_impulse : impact.compliance;
   const double e_t = tangential_restitution(law, c_in_law, in_friction, size(slip));

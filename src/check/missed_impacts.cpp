@@ -82,7 +82,7 @@ auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, dou
   const double until = end.event->time;
   const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
   const auto& pairs = ladder_.pairs();
-  const auto seen_at_start = pairs.seen(track.flight, track.flight.start);
+  const auto seen_at_start = pairs.state(track.flight, track.flight.start);
   std::optional<Contact> first;
   for (int other = 0; other < balls(); ++other) {
     const Track& theirs = of(other);
@@ -93,7 +93,7 @@ auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, dou
     if (from >= to) continue;
     const auto& now = later ? theirs.flight.start : track.flight.start;
     const double sum = radius + case_.balls[static_cast<std::size_t>(other)].radius;
-    const auto seen = later ? pairs.seen(track.flight, now) : seen_at_start;
+    const auto seen = later ? pairs.state(track.flight, now) : seen_at_start;
     dynamics::PairAnswer<double> answer;
     try {
       answer = ladder_.pair(seen, track.flight, theirs.flight, now, sum - slack);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "cli/run_case.hpp"
 #include "instances/instances.hpp"
 
@@ -8,11 +10,11 @@ namespace edmill::cli {
 namespace {
 
 std::string describe_law(const model::ContactLaw<double>& law) {
-  std::string text = law.model == model::ContactModel::constant
-                         ? fmt::format("constant: normal {}, tangential {}", law.restitution_normal,
-                                       law.restitution_tangential)
-                         : fmt::format("walton-braun: restitution {}, friction {}, tangential at least {}",
-                                       law.restitution_normal, law.friction, law.min_tangential);
+  std::string text = law.name();
+  const char* separator = ": ";
+  law.parameters([&](const model::LawParameter& p, double value) {
+    text += fmt::format("{}{} {}", std::exchange(separator, ", "), p.key, value);
+  });
   return text + (law.least_separation > 0 ? fmt::format(", least separation {:g} m/s", law.least_separation)
                                           : ", no least separation");
 }

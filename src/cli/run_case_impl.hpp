@@ -37,7 +37,7 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   const auto [summary, saved] = run::simulate<Real>(spec, built, guests);
   progress.reset();
 
-  const bool goes_on = options.checkpoint && summary.end_reason == "interrupted";
+  const bool goes_on = options.checkpoint && summary.end_reason == model::EndReason::interrupted;
   outputs.commit(goes_on);
   io::AtomicFile state_file(folder.place() / "final_state.csv");
   io::write_final_state<Real>(state_file.stream(), saved, clock);
@@ -56,8 +56,8 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
     fmt::print(stderr, "edmill: {}\n", summary.error);
     return undecided;
   }
-  if (summary.end_reason == "interrupted") return interrupted;
-  return summary.end_reason == "inelastic_collapse" ? inelastic_collapse : ok;
+  if (summary.end_reason == model::EndReason::interrupted) return interrupted;
+  return summary.end_reason == model::EndReason::inelastic_collapse ? inelastic_collapse : ok;
 }
 
 }  // namespace edmill::cli

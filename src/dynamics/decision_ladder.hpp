@@ -46,9 +46,9 @@ class DecisionLadder {
   /// @throws UndecidedError as above
   PairAnswer<Real> pair(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                         const Real& radius_sum) {
-    return pair(pairs_.seen(i, now), i, j, now, radius_sum);
+    return pair(pairs_.state(i, now), i, j, now, radius_sum);
   }
-  PairAnswer<Real> pair(const typename PairSearch<Real>::Seen& seen, const Flight<Real>& i,
+  PairAnswer<Real> pair(const typename PairSearch<Real>::State& seen, const Flight<Real>& i,
                         const Flight<Real>& j, const Instant<Real>& now, const Real& radius_sum) {
     const auto answer = pairs_(seen, j, now, radius_sum);
     return is_settled(answer) ? answer : pair_above(i, j, now, radius_sum);
@@ -78,7 +78,8 @@ class DecisionLadder {
   bool is_settled(const Answer& answer) const {
     if (answer.verdict == Verdict::undecided) return false;
     // The top has nothing above that knows a time better.
-    return std::is_void_v<Wider<Real>> || answer.verdict == Verdict::none || 4 * answer.doubt <= tie_window();
+    return std::is_void_v<Wider<Real>> || answer.verdict == Verdict::none ||
+           4 * answer.time_error <= tie_window();
   }
   WallAnswer<Real> wall_above(const WallQuery<Real>& query);
   PairAnswer<Real> pair_above(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
@@ -87,7 +88,7 @@ class DecisionLadder {
   Real rounding() const { return 4 * epsilon<Real>() * pairs_.clock().period(); }
   struct Timed {
     Instant<Real> time;
-    Real doubt;  ///< [s]
+    Real time_error;  ///< [s]
   };
   Timed time_of(const Contact<Real>& contact);
 

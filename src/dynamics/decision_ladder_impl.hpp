@@ -86,7 +86,8 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
     if (wide.verdict == Verdict::contact && time < query.begin) time = query.begin;
     Real searched = static_cast<Real>(wide.searched);
     if (Wide(searched) > wide.searched) searched -= searched * epsilon<Real>();
-    return {wide.verdict, wide.wall, time, wide.tie, searched, static_cast<Real>(wide.doubt) + rounding()};
+    return {wide.verdict, wide.wall, time,
+            wide.tie,     searched,  static_cast<Real>(wide.time_error) + rounding()};
   }
 }
 
@@ -103,7 +104,8 @@ PairAnswer<Real> DecisionLadder<Real>::pair_above(const Flight<Real>& i, const F
     const auto wide = above().ladder.pair(flight_cast<Wide>(i), flight_cast<Wide>(j), instant_cast<Wide>(now),
                                           Wide(radius_sum));
     const Real delay = static_cast<Real>(wide.delay);
-    return {wide.verdict, delay, static_cast<Real>(wide.doubt) + rounding() + 4 * epsilon<Real>() * delay};
+    return {wide.verdict, delay,
+            static_cast<Real>(wide.time_error) + rounding() + 4 * epsilon<Real>() * delay};
   }
 }
 
@@ -113,7 +115,7 @@ auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
   if (!contact.with_wall) {
     const auto& now = contact.flight.start;
     const auto answer = pair(contact.flight, contact.partner, now, contact.radius);
-    if (answer.verdict == Verdict::contact) return {clock.after(now, answer.delay), answer.doubt};
+    if (answer.verdict == Verdict::contact) return {clock.after(now, answer.delay), answer.time_error};
     return {contact.time, tie_window()};
   }
   // A window that ends just after the predicted time holds the contact.
@@ -122,7 +124,7 @@ auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
   if (begin < contact.flight.start) begin = contact.flight.start;
   const Real window = clock.elapsed(begin, contact.time) + length / 64;
   const auto answer = wall({contact.flight, contact.radius, begin, window});
-  if (answer.verdict == Verdict::contact) return {answer.time, answer.doubt};
+  if (answer.verdict == Verdict::contact) return {answer.time, answer.time_error};
   return {contact.time, tie_window()};
 }
 
@@ -130,9 +132,9 @@ template <class Real>
 int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) {
   const Timed first = time_of(a), second = time_of(b);
   const Real difference = pairs_.clock().elapsed(first.time, second.time);
-  const Real doubt = first.doubt + second.doubt + 16 * epsilon<Real>() * pairs_.clock().period();
-  if (difference > doubt) return -1;
-  if (difference < -doubt) return 1;
+  const Real error = first.time_error + second.time_error + 16 * epsilon<Real>() * pairs_.clock().period();
+  if (difference > error) return -1;
+  if (difference < -error) return 1;
   if constexpr (std::is_void_v<Wider<Real>>) {
     return 0;
   } else {

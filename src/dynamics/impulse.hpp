@@ -52,9 +52,10 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
   out.approach_speed = -normal_speed;
   out.slip_speed = norm<Real>(slip);
   const Real approach = normal_speed < 0 ? Real(-normal_speed) : Real(0);
-  const Real separation = law.separation_speed(approach);
-  out.least_separation = separation > law.restitution_normal * approach && separation > normal_speed;
-  // Bodies that part by rounding, and faster than they would leave, go on as they are.
+  const Real by_restitution = law.restitution(approach) * approach;
+  const Real separation = by_restitution < law.least_separation ? law.least_separation : by_restitution;
+  out.least_separation = separation > by_restitution && separation > normal_speed;
+  // Bodies that separate by rounding, and faster than they would leave, go on as they are.
   out.separation_speed = separation > normal_speed ? separation : normal_speed;
   const Real change = out.separation_speed - normal_speed;
   out.restitution_tangential = law.restitution_of_slip(change, out.slip_speed, compliance);

@@ -9,8 +9,8 @@ namespace edmill::dynamics {
 template <class Real>
 struct PairAnswer {
   Verdict verdict = Verdict::none;
-  Real delay{0};  ///< of a contact: time from now [s], >= 0
-  Real doubt{0};  ///< of a contact: bound on what rounding does to the delay [s]
+  Real delay{0};       ///< of a contact: time from now [s], >= 0
+  Real time_error{0};  ///< of a contact: bound on what rounding does to the delay [s]
 };
 
 /// Constants of the filter that proves, for nearly all pairs, that they never meet; they hold for a whole
@@ -23,18 +23,18 @@ struct PairFilter {
   Real grazing;  ///< a discriminant must be larger by this for a sharp time [m^4/s^2]
 
   bool may_meet(const Real& b, const Real& c, const Real& v2, const Real& r2) const {
-    // No branch: approaching and parting are a coin toss.
-    const Real doubt = relative * (v2 * r2);
+    // No branch: whether two balls approach cannot be predicted by the processor.
+    const Real error = relative * (v2 * r2);
     const bool moving = v2 > slowest_squared;
-    const bool apart = (c > touching) & ((b >= 0) | (b * b - v2 * c < -doubt));
-    const bool parting = (b > 0) & (b * b > doubt);  // touching or not, as two that have just collided
-    return !(moving & (apart | parting));
+    const bool apart = (c > touching) & ((b >= 0) | (b * b - v2 * c < -error));
+    const bool separating = (b > 0) & (b * b > error);  // touching or not, as two that have just collided
+    return !(moving & (apart | separating));
   }
 };
 
 /// Both balls fall alike, so their relative motion is a straight line and the time is closed:
 /// with r = r_i - r_j, v = v_i - v_j, b = r.v < 0, c = r.r - R^2:  dt = c / (-b + sqrt(b^2 - v.v c)). (3.1)
-/// Balls that overlap by rounding collide at once if they approach and never if they part.
+/// Balls that overlap by rounding collide at once if they approach and never if they separate.
 template <class Real>
 class PairSearch {
  public:
@@ -88,14 +88,14 @@ class PairSearch {
     filter_.grazing = least_root * least_root;
   }
 
-  /// A ball's flight seen from one instant, for questions about many partners.
-  struct Seen {
+  /// A flight at one instant, for questions about many partners.
+  struct State {
     Vec3<Real> position;  ///< now [m]
     Vec3<Real> velocity;  ///< at the start of the flight [m/s]
     Real age;             ///< time since the start of the flight [s]
   };
 
-  Seen seen(const Flight<Real>& flight, const Instant<Real>& now) const {
+  State state(const Flight<Real>& flight, const Instant<Real>& now) const {
     const Real age = clock_.elapsed(flight.start, now);
     return {position_after(flight, gravity_, age), flight.velocity, age};
   }
@@ -103,19 +103,19 @@ class PairSearch {
   /// First contact from `now` on; both flights started before or at `now`.
   PairAnswer<Real> operator()(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                               const Real& radius_sum) const {
-    return (*this)(seen(i, now), j, now, radius_sum);
+    return (*this)(state(i, now), j, now, radius_sum);
   }
 
   /// The filter: false when the two are proven never to meet, as nearly all are, by bounds that hold for the
-  /// whole run. No branch but the last, since approaching and parting are a coin toss.
-  bool may_meet(const Seen& i, const Flight<Real>& j, const Instant<Real>& now,
+  /// whole run. No branch but the last.
+  bool may_meet(const State& i, const Flight<Real>& j, const Instant<Real>& now,
                 const Real& radius_sum) const {
     const Relative s = relative(i, j, now, radius_sum);
     return filter_.may_meet(s.b, s.c, s.v2, s.r2);
   }
   const PairFilter<Real>& filter() const { return filter_; }
 
-  PairAnswer<Real> operator()(const Seen& i, const Flight<Real>& j, const Instant<Real>& now,
+  PairAnswer<Real> operator()(const State& i, const Flight<Real>& j, const Instant<Real>& now,
                               const Real& radius_sum) const {
     const Relative s = relative(i, j, now, radius_sum);
     const Real discriminant = s.b * s.b - s.v2 * s.c;
@@ -132,12 +132,12 @@ class PairSearch {
   }
 
  private:
-  /// Relative motion of two balls as seen now.
+  /// Relative motion of two balls now.
   struct Relative {
     Real b, c, v2, r2;  ///< r.v, r.r - R^2, v.v, r.r
     Real dt, age;       ///< difference of the ages, age of j [s]
   };
-  Relative relative(const Seen& i, const Flight<Real>& j, const Instant<Real>& now,
+  Relative relative(const State& i, const Flight<Real>& j, const Instant<Real>& now,
                     const Real& radius_sum) const {
     // As DriveClock::elapsed, without its branch.
     const Real age =
@@ -189,17 +189,17 @@ class PairSearch {
     const Real dr = position_error(age), dv = velocity_error(s, speed, age);
     const Real c_error = 4 * distance * dr + 8 * u * (r2 + radius_sum * radius_sum);
     const Real b_error = 2 * speed * dr + 2 * distance * dv + 8 * u * speed * distance;
-    if (b > b_error) return {};  // parting, overlapped or not
+    if (b > b_error) return {};  // separating, overlapped or not
     if (c < -c_error) {
       if (b < -b_error) return {Verdict::contact, Real(0), Real(0)};
       return {Verdict::undecided};
     }
     const Real discriminant = b * b - v2 * c;
     const Real absolute_b = b < 0 ? Real(-b) : b, absolute_c = c < 0 ? Real(-c) : c;
-    const Real doubt = 3 * absolute_b * b_error + b_error * b_error + 2 * v2 * c_error +
+    const Real error = 3 * absolute_b * b_error + b_error * b_error + 2 * v2 * c_error +
                        4 * speed * dv * (absolute_c + c_error) + 8 * u * (b * b + v2 * absolute_c);
-    if (discriminant < -doubt) return {};
-    if (discriminant > doubt && b < -b_error) {
+    if (discriminant < -error) return {};
+    if (discriminant > error && b < -b_error) {
       const Real root = sqrt(discriminant);
       // Touching within rounding: the contact is now, or so much later.
       const Real delay = c <= 0 ? Real(0) : Real(c / (root - b));

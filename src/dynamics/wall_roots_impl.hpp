@@ -12,12 +12,12 @@ namespace edmill::dynamics {
 template <class Real>
 auto WallSearch<Real>::polish(const Curve& curve, const Bracket& bracket) const -> std::optional<Root> {
   const Point &left = bracket.left, &right = bracket.right;
-  if (bracket.doubt > 0) return Root{left.t, bracket.doubt};
-  const auto doubt_at = [&](const Real& slope) {
+  if (bracket.time_error > 0) return Root{left.t, bracket.time_error};
+  const auto time_error_at = [&](const Real& slope) {
     return resolution() + (slope < 0 ? Real(-4 * curve.bounds.value_error / slope) : Real(0));
   };
   const bool hop = bracket.guess > 0;
-  if (!hop && (left.t == right.t || left.value <= 0)) return Root{left.t, doubt_at(left.slope)};
+  if (!hop && (left.t == right.t || left.value <= 0)) return Root{left.t, time_error_at(left.slope)};
   if (hop || (left.slope < 0 && right.slope < 0)) {
     const Real width = right.t - left.t;
     const auto root =
@@ -41,7 +41,7 @@ auto WallSearch<Real>::polish(const Curve& curve, const Bracket& bracket) const 
   EDMILL_REQUIRE(iterations < 500, "root polishing ran out of iterations");
   const Point end = curve.at(root.first);
   EDMILL_REQUIRE(end.value >= 0, "root polishing lost the sign change");
-  return Root{root.first, doubt_at(end.slope)};
+  return Root{root.first, time_error_at(end.slope)};
 }
 
 /// The root of a gap that is proven to fall through zero in (from, to): Newton's iteration, which knows the
@@ -80,11 +80,11 @@ auto WallSearch<Real>::close_in(const Functions& functions, int wall, const Real
                                                            constants_.frequency, time, pose, t));
     };
     const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
-    const Real doubt = -value_error / slope;
+    const Real time_error = -value_error / slope;
     // Rounding moves the place where the computed gap changes its sign: step on until both signs are seen.
     Real low = centre - 4 * unit, high = centre + 4 * unit, at_low = gap(low), at_high = gap(high);
     for (Real reach = 16 * unit; !(at_low >= 0 && at_high <= 0); reach = 4 * reach) {
-      if (reach > 32 * (unit + doubt)) return std::nullopt;
+      if (reach > 32 * (unit + time_error)) return std::nullopt;
       if (at_low < 0) {
         high = low, at_high = at_low;
         low = centre - reach, at_low = gap(low);
@@ -97,7 +97,7 @@ auto WallSearch<Real>::close_in(const Functions& functions, int wall, const Real
     std::uintmax_t iterations = 100;
     const Real root =
         boost::math::tools::toms748_solve(gap, low, high, at_low, at_high, closed, iterations).first;
-    Root found{root, resolution() + 4 * doubt};
+    Root found{root, resolution() + 4 * time_error};
     if constexpr (is_wide) found.pose = pose_at(root);
     return found;
   }

@@ -23,7 +23,7 @@ struct NoPose {
   void archive(Archive&) {}
 };
 
-/// The vessel's pose at a contact goes with the contact in wide scalars, whose sines are dear.
+/// The vessel's pose at a contact goes with the contact in wide scalars, where sines are expensive.
 template <class Real>
 using ContactPose =
     std::conditional_t<std::is_same_v<Real, double>, NoPose, std::optional<model::VesselPose<Real>>>;
@@ -36,7 +36,7 @@ struct WallAnswer {
   Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
   bool tie = false;      ///< two walls at one time at the top of the ladder; the lower id was taken
   Real searched{0};      ///< of none: proven from begin for this long [s]
-  Real doubt{0};         ///< of a contact: how far off rounding may put its time [s]
+  Real time_error{0};    ///< of a contact: how far off rounding may put its time [s]
   [[no_unique_address]] ContactPose<Real> pose{};  ///< of a contact, where the search knows it
 };
 
@@ -123,7 +123,7 @@ class WallSearch {
   struct Bracket {
     Verdict verdict;
     Point left{}, right{};
-    Real doubt{0};  ///< of a contact at once whose time the gap's slope does not tell [s]
+    Real time_error{0};  ///< of a contact at once whose time the gap's slope does not tell [s]
     Real guess{0};  ///< of the one root where the gap rises at first and bends downwards all along, else zero
   };
 
@@ -148,10 +148,10 @@ class WallSearch {
   Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;
   GapSample<Real> sample_of_end(const Functions& functions, const WallSet& reachable,
                                 const GapErrors<Real>& errors, const Real& from, Real& end) const;
-  /// A root and how well the scalar knows it: the gap's rounding error over its slope.
+  /// A root and how well the scalar knows its time: the gap's rounding error over its slope.
   struct Root {
     Real t;
-    Real doubt;
+    Real time_error;
     [[no_unique_address]] ContactPose<Real> pose{};
   };
   /// What is known of a falling gap beside its root.

@@ -77,7 +77,7 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
     reachable[wall] = !numerics::proven_clear(start, first.curvature[wall], query.length, curve.bounds);
     if (!reachable[wall]) continue;
     any = true;
-    // A little beyond the first suspected contact there is nothing to look for.
+    // A little beyond the first possible contact there is nothing to look for.
     const Real hint =
         static_cast<Real>(numerics::first_root_hint(start, first.curvature[wall], query.length) * 9 / 8);
     if (hint < length && hint > 64 * resolution()) length = hint;
@@ -102,9 +102,9 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
     if (!polished) return {Verdict::undecided};
     const Root& root = *polished;
     if (answer.verdict == Verdict::contact) {
-      const Real later = root.t - best.t, doubt = root.doubt + best.doubt;
-      if (later > doubt) continue;
-      if (later >= -doubt) {
+      const Real later = root.t - best.t, error = root.time_error + best.time_error;
+      if (later > error) continue;
+      if (later >= -error) {
         // Two walls at one time within rounding: a wider scalar decides; at the top the lower id comes first.
         if constexpr (!std::is_void_v<Wider<Real>>) return {Verdict::undecided};
         answer.tie = true;
@@ -112,15 +112,15 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
       }
     }
     best = root;
-    answer = {Verdict::contact, wall,      constants_.clock.instant(query.begin.period, root.t), false,
-              Real(0),          root.doubt};
+    answer = {Verdict::contact, wall,           constants_.clock.instant(query.begin.period, root.t), false,
+              Real(0),          root.time_error};
     if constexpr (rounded)
       *rough = {Verdict::contact,    0, wall, found.left.t, found.right.t, root.t, 0, 0, 0,
                 own_errors.gap[wall]};
     const bool more = (wall < 1 && reachable[1]) || (wall < 2 && reachable[2]);
     if (!more) break;
     // Later walls are of interest up to a little behind this root.
-    const Real behind = root.t + root.doubt + longest_window() / 1048576;
+    const Real behind = root.t + root.time_error + longest_window() / 1048576;
     if (behind < end) {
       end = behind;
       last = sample_of_end(functions, reachable, errors, root.t, end);
@@ -205,7 +205,7 @@ WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query
     if (!root) return {Verdict::undecided};
     return {
         Verdict::contact, rough.wall, constants_.clock.instant(query.begin.period, root->t), false, Real(0),
-        root->doubt,      root->pose};
+        root->time_error, root->pose};
   }
 }
 

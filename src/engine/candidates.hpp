@@ -18,7 +18,7 @@ template <class Real>
 class Candidates {
  public:
   /// A ball's flight as seen now, in double.
-  using DoubleState = dynamics::PairSearch<double>::Seen;
+  using DoubleState = dynamics::PairSearch<double>::State;
 
   /// @param flights    of all balls; must outlive this
   /// @param reach      largest distance of a ball from the origin [m]
@@ -40,7 +40,7 @@ class Candidates {
   void raise_top_speed(const Real& speed) { pairs_.raise_top_speed(static_cast<double>(speed)); }
 
   DoubleState state(int ball, const Instant<Real>& now) const {
-    return pairs_.seen(flights()[ball], dynamics::instant_cast<double>(now));
+    return pairs_.state(flights()[ball], dynamics::instant_cast<double>(now));
   }
 
   /// The balls of the adjacent cells, where cells are used.

@@ -135,7 +135,7 @@ void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int k
   const auto& law = with_wall ? mill_.ball_wall : mill_.ball_ball;
   if (law.least_separation > 0) return;
   const bool collapsing = collapse_watch_.note(bodies_[ball].recent, key, now_, impact.outcome.approach_speed,
-                                               law.restitution_normal, clock_);
+                                               law.restitution(impact.outcome.approach_speed), clock_);
   if (!collapsing) return;
   collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner,
                                              collapse_watch_.accumulation_time(bodies_[ball].recent, clock_)};

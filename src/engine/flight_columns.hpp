@@ -11,7 +11,7 @@ namespace edmill::engine {
 
 /// One ball as seen now, and what would make another one a candidate.
 struct PairFilterQuery {
-  const dynamics::PairSearch<double>::Seen& seen;
+  const dynamics::PairSearch<double>::State& state;
   double radius;
   Instant<double> now;
   const dynamics::PairFilter<double>& filter;

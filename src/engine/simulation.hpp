@@ -18,20 +18,12 @@
 #include "engine/observer.hpp"
 #include "engine/prefetcher.hpp"
 #include "model/case.hpp"
+#include "model/end_reason.hpp"
 #include "model/outcome.hpp"
 
 namespace edmill::engine {
 
-/// Why a run ended.
-enum class EndReason {
-  end_time,
-  max_collisions,
-  max_milling_dose,
-  max_ball_speed,
-  inelastic_collapse,
-  interrupted,
-  paused,  ///< an observer wants to look at it between two events
-};
+using model::EndReason;
 
 /// What the engine counts about itself.
 template <class Real>
@@ -142,7 +134,7 @@ class Simulation {
     if constexpr (std::is_same_v<Real, double>)
       return (state);
     else
-      return ladder_.pairs().seen(flights_[ball], now_);
+      return ladder_.pairs().state(flights_[ball], now_);
   }
 
   model::Mill<Real> mill_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/escalations.hpp"
+#include "model/end_reason.hpp"
 #include "model/outcome.hpp"
 #include "model/vessel.hpp"
 
@@ -22,7 +23,7 @@ struct Provenance {
 template <class Real>
 struct Summary {
   Provenance provenance;
-  std::string end_reason;
+  model::EndReason end_reason{};
   std::string error;                ///< of a decision that no scalar could make
   Real start_time{0}, end_time{0};  ///< of the statistics [s]
   Real period{0};                   ///< of the drive [s]

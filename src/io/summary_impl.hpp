@@ -9,84 +9,104 @@ namespace edmill::io {
 inline constexpr std::array<std::string_view, model::partner_kinds> partner_names = {"wall_0", "wall_1",
                                                                                      "wall_2", "ball_ball"};
 
+namespace detail {
+
+/// Writes a summary, a group of keys a function, in the order of the file.
 template <class Real>
-std::string summary_json(const Summary<Real>& s) {
-  JsonText json;
-  json.text("format", "edmill summary 1");
-  const auto& p = s.provenance;
-  json.text("version", p.version);
-  json.text("commit", p.commit);
-  json.text("compiler", p.compiler);
-  json.text("case_file", p.case_file);
-  json.text("case_digest", p.case_digest);
-  json.integer("seed", p.seed);
-  json.text("precision", p.precision);
-  json.text("end_reason", s.end_reason);
-  if (!s.error.empty()) json.text("error", s.error);
-  json.number("start_time", s.start_time);
-  json.number("end_time", s.end_time);
-  json.number("duration", s.duration());
+class SummaryWriter {
+ public:
+  explicit SummaryWriter(const Summary<Real>& summary) : s(summary) {}
 
-  json.begin("collisions");
-  for (int k = 0; k < model::partner_kinds; ++k) json.integer(partner_names[k], s.collisions[k]);
-  json.integer("total", s.total_collisions());
-  json.end();
-  const bool timed = s.duration() > 0;
-  const auto rate = [&](std::string_view key, const Real& amount) {
-    if (timed)
-      json.number(key, Real(amount / s.duration()));
+  std::string text() {
+    add_run();
+    add_collisions();
+    add_doses();
+    add_energy();
+    add_least_separation();
+    if (s.collapse) add_collapse();
+    add_engine();
+    return json.finish();
+  }
+
+ private:
+  void add_run() {
+    json.text("format", "edmill summary 1");
+    const auto& p = s.provenance;
+    json.text("version", p.version);
+    json.text("commit", p.commit);
+    json.text("compiler", p.compiler);
+    json.text("case_file", p.case_file);
+    json.text("case_digest", p.case_digest);
+    json.integer("seed", p.seed);
+    json.text("precision", p.precision);
+    json.text("end_reason", std::string(model::name(s.end_reason)));
+    if (!s.error.empty()) json.text("error", s.error);
+    json.number("start_time", s.start_time);
+    json.number("end_time", s.end_time);
+    json.number("duration", s.duration());
+  }
+
+  void add_collisions() {
+    json.begin("collisions");
+    for (int k = 0; k < model::partner_kinds; ++k) json.integer(partner_names[k], s.collisions[k]);
+    json.integer("total", s.total_collisions());
+    json.end();
+    json.begin("collision_rate");
+    for (int k = 0; k < model::partner_kinds; ++k)
+      rate(partner_names[k], Real(static_cast<std::int64_t>(s.collisions[k])));
+    rate("total", Real(static_cast<std::int64_t>(s.total_collisions())));
+    json.end();
+  }
+
+  void add_doses() {
+    json.number("milling_dose", s.milling_dose);
+    rate("milling_dose_rate", s.milling_dose);
+    if (s.duration() > 0 && s.milling_dose > 0)
+      json.number("inverse_milling_dose_rate", Real(s.duration() / s.milling_dose));
     else
-      json.null(key);
-  };
-  json.begin("collision_rate");
-  for (int k = 0; k < model::partner_kinds; ++k)
-    rate(partner_names[k], Real(static_cast<std::int64_t>(s.collisions[k])));
-  rate("total", Real(static_cast<std::int64_t>(s.total_collisions())));
-  json.end();
-
-  json.number("milling_dose", s.milling_dose);
-  rate("milling_dose_rate", s.milling_dose);
-  if (timed && s.milling_dose > 0)
-    json.number("inverse_milling_dose_rate", Real(s.duration() / s.milling_dose));
-  else
-    json.null("inverse_milling_dose_rate");
-  json.begin("milling_dose_by_partner");
-  for (int k = 0; k < model::partner_kinds; ++k) json.number(partner_names[k], s.dose_by_partner[k]);
-  json.end();
-  if (s.powder_mass) {
+      json.null("inverse_milling_dose_rate");
+    json.begin("milling_dose_by_partner");
+    for (int k = 0; k < model::partner_kinds; ++k) json.number(partner_names[k], s.dose_by_partner[k]);
+    json.end();
+    if (!s.powder_mass) return;
     json.number("powder_mass", *s.powder_mass);
     json.number("charge_ratio", Real(*s.ball_mass / *s.powder_mass));
     json.number("specific_milling_dose", Real(s.milling_dose / *s.powder_mass));
     rate("specific_milling_dose_rate", Real(s.milling_dose / *s.powder_mass));
   }
-  json.number("wall_work", s.wall_work);
-  rate("wall_work_rate", s.wall_work);
-  json.begin("energy");
-  json.number("kinetic_start", s.energy_at_start.kinetic);
-  json.number("potential_start", s.energy_at_start.potential);
-  json.number("kinetic_end", s.energy_at_end.kinetic);
-  json.number("potential_end", s.energy_at_end.potential);
-  json.number("closure", s.energy_closure());
-  if (s.milling_dose > 0)
-    json.number("closure_relative", Real(s.energy_closure() / s.milling_dose));
-  else
-    json.null("closure_relative");
-  json.end();
 
-  json.begin("least_separation");
-  json.integer("impacts", s.touched_impacts);
-  const auto total = s.total_collisions();
-  json.number("impact_share",
-              total > 0 ? static_cast<double>(s.touched_impacts) / static_cast<double>(total) : 0.0);
-  const auto share_of_dose = [&](const Real& energy) {
-    return s.milling_dose > 0 ? Real(energy / s.milling_dose) : Real(0);
-  };
-  json.number("milling_dose", s.touched_dose);
-  json.number("milling_dose_share", share_of_dose(s.touched_dose));
-  json.number("supplied_energy", s.supplied_energy);
-  json.number("supplied_energy_share", share_of_dose(s.supplied_energy));
-  json.end();
-  if (s.collapse) {
+  void add_energy() {
+    json.number("wall_work", s.wall_work);
+    rate("wall_work_rate", s.wall_work);
+    json.begin("energy");
+    json.number("kinetic_start", s.energy_at_start.kinetic);
+    json.number("potential_start", s.energy_at_start.potential);
+    json.number("kinetic_end", s.energy_at_end.kinetic);
+    json.number("potential_end", s.energy_at_end.potential);
+    json.number("closure", s.energy_closure());
+    if (s.milling_dose > 0)
+      json.number("closure_relative", Real(s.energy_closure() / s.milling_dose));
+    else
+      json.null("closure_relative");
+    json.end();
+  }
+
+  void add_least_separation() {
+    const auto total = static_cast<double>(s.total_collisions());
+    const auto share_of_dose = [&](const Real& energy) {
+      return s.milling_dose > 0 ? Real(energy / s.milling_dose) : Real(0);
+    };
+    json.begin("least_separation");
+    json.integer("impacts", s.touched_impacts);
+    json.number("impact_share", total > 0 ? static_cast<double>(s.touched_impacts) / total : 0.0);
+    json.number("milling_dose", s.touched_dose);
+    json.number("milling_dose_share", share_of_dose(s.touched_dose));
+    json.number("supplied_energy", s.supplied_energy);
+    json.number("supplied_energy_share", share_of_dose(s.supplied_energy));
+    json.end();
+  }
+
+  void add_collapse() {
     json.begin("inelastic_collapse");
     json.integer("ball", s.collapse->ball);
     json.text("partner_kind", s.collapse->with_wall ? "wall" : "ball");
@@ -94,22 +114,42 @@ std::string summary_json(const Summary<Real>& s) {
     json.number("accumulation_time", s.collapse->accumulation_time);
     json.end();
   }
-  json.begin("escalations");
-  for (const auto& e : s.escalations) {
-    json.begin(e.scalar);
-    json.integer("wall", e.wall);
-    json.integer("pair", e.pair);
-    json.integer("order", e.order);
+
+  void add_engine() {
+    json.begin("escalations");
+    for (const auto& e : s.escalations) {
+      json.begin(e.scalar);
+      json.integer("wall", e.wall);
+      json.integer("pair", e.pair);
+      json.integer("order", e.order);
+      json.end();
+    }
     json.end();
+    json.integer("simultaneous_contacts", s.simultaneous_contacts);
+    json.number("deepest_overlap", s.deepest_overlap);
+    json.integer("impacts_since_start", s.total_impacts);
+    json.number("cpu_seconds", s.cpu_seconds);
+    json.number("collisions_per_cpu_second",
+                s.cpu_seconds > 0 ? static_cast<double>(s.total_impacts) / s.cpu_seconds : 0.0);
   }
-  json.end();
-  json.integer("simultaneous_contacts", s.simultaneous_contacts);
-  json.number("deepest_overlap", s.deepest_overlap);
-  json.integer("impacts_since_start", s.total_impacts);
-  json.number("cpu_seconds", s.cpu_seconds);
-  json.number("collisions_per_cpu_second",
-              s.cpu_seconds > 0 ? static_cast<double>(s.total_impacts) / s.cpu_seconds : 0.0);
-  return json.finish();
+
+  /// Of the time simulated; null when that is none.
+  void rate(std::string_view key, const Real& amount) {
+    if (s.duration() > 0)
+      json.number(key, Real(amount / s.duration()));
+    else
+      json.null(key);
+  }
+
+  const Summary<Real>& s;
+  JsonText json;
+};
+
+}  // namespace detail
+
+template <class Real>
+std::string summary_json(const Summary<Real>& s) {
+  return detail::SummaryWriter<Real>(s).text();
 }
 
 }  // namespace edmill::io

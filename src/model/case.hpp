@@ -38,12 +38,7 @@ struct Mill {
 template <class To, class From>
 Mill<To> mill_cast(const Mill<From>& m) {
   const auto law = [](const ContactLaw<From>& l) {
-    return ContactLaw<To>{l.model,
-                          static_cast<To>(l.restitution_normal),
-                          static_cast<To>(l.restitution_tangential),
-                          static_cast<To>(l.friction),
-                          static_cast<To>(l.min_tangential),
-                          static_cast<To>(l.least_separation)};
+    return convert_law<To>(l, [](const From& x) { return static_cast<To>(x); });
   };
   return {{static_cast<To>(m.motion.arm), static_cast<To>(m.motion.theta_max),
            static_cast<To>(m.motion.gamma_max), static_cast<To>(m.motion.period)},

@@ -1,28 +1,55 @@
 // Contact laws: how fast two bodies leave an impact, and how much of their slip is left. (2.23'), (2.24')
 #pragma once
 
+#include <cstddef>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "model/laws/constant.hpp"
+#include "model/laws/custom.hpp"
+#include "model/laws/walton_braun.hpp"
+
 namespace edmill::model {
 
-enum class ContactModel {
-  walton_braun,  ///< Coulomb sliding with a lowest tangential restitution; (2.24') for balls of any mass
-  constant,      ///< both restitutions given
-};
+/// The laws that a case file can name, the default first. A new law is a file in model/laws/ and a line here:
+/// its parameters are read, described and passed to every scalar by its list of them.
+template <class Number>
+using NamedLaws = std::variant<WaltonBraun<Number>,  //
+                               ConstantRestitution<Number>>;
 
-/// A new law is a new enumerator here, a branch in `restitution_of_slip` and a row in
-/// casefile/contact_spec.cpp.
-template <class Real>
+namespace detail {
+template <class Law, class Variant>
+struct VariantWith;
+template <class Law, class... Others>
+struct VariantWith<Law, std::variant<Others...>> {
+  using type = std::variant<Others..., Law>;
+};
+}  // namespace detail
+
+/// @tparam Number  the scalar of a run, or the exact quantity of a case file
+template <class Number>
 struct ContactLaw {
-  ContactModel model = ContactModel::walton_braun;
-  Real restitution_normal{1};      ///< e_n in [0, 1]
-  Real restitution_tangential{1};  ///< of `constant`, in [-1, 1]
-  Real friction{0};                ///< mu of `walton_braun`
-  Real min_tangential{-1};         ///< lowest e_t of `walton_braun`
-  Real least_separation{0};        ///< v_s [m/s]: bodies leave an impact no slower; theory.md, section 6
+  typename detail::VariantWith<LawOfProgram<Number>, NamedLaws<Number>>::type law;
+  Number least_separation{0};  ///< v_s [m/s]: bodies leave an impact no slower; theory.md, section 6
+
+  const char* name() const {
+    return std::visit([](const auto& l) { return l.name; }, law);
+  }
+  /// Calls visit(LawParameter, value) for every parameter of the law.
+  template <class Visit>
+  void parameters(Visit&& visit) const {
+    std::visit([&](const auto& l) { l.parameters(l, visit); }, law);
+  }
+
+  /// e_n in [0, 1]. @param approach_speed  |g_n| >= 0 [m/s]
+  Number restitution(const Number& approach_speed) const {
+    return std::visit([&](const auto& l) { return Number(l.restitution(approach_speed)); }, law);
+  }
 
   /// Speed at which the contact points leave each other along the normal, max(e_n |g_n|, v_s) [m/s]. (2.23')
-  /// @param approach_speed  |g_n| >= 0 [m/s]
-  Real separation_speed(const Real& approach_speed) const {
-    const Real by_restitution = restitution_normal * approach_speed;
+  Number separation_speed(const Number& approach_speed) const {
+    const Number by_restitution = restitution(approach_speed) * approach_speed;
     return by_restitution < least_separation ? least_separation : by_restitution;
   }
 
@@ -31,13 +58,41 @@ struct ContactLaw {
   /// @param slip_speed     |g_t| >= 0 [m/s]
   /// @param compliance     1 + M/(m_i J_i) + M/(m_j J_j), for a wall 1 + 1/J_i; makes the tangential impulse
   ///                       exactly mu times the normal impulse while sliding (theory.md, section 5)
-  Real restitution_of_slip(const Real& normal_change, const Real& slip_speed, const Real& compliance) const {
-    if (model == ContactModel::constant) return restitution_tangential;
-    const Real sliding = friction * compliance * normal_change;
-    // 1 - sliding / slip >= min_tangential, without dividing by a vanishing slip.
-    if (sliding >= (1 - min_tangential) * slip_speed) return slip_speed > 0 ? min_tangential : Real(1);
-    return 1 - sliding / slip_speed;
+  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
+                             const Number& compliance) const {
+    return std::visit(
+        [&](const auto& l) { return Number(l.restitution_of_slip(normal_change, slip_speed, compliance)); },
+        law);
   }
 };
+
+namespace detail {
+
+/// The same kind of law with other parameters.
+template <template <class> class Law, class To, class From, class Convert>
+Law<To> converted(const Law<From>& from, const Convert& convert) {
+  Law<To> to{};
+  std::vector<To> values;
+  from.parameters(from, [&](const LawParameter&, const From& value) { values.push_back(convert(value)); });
+  std::size_t next = 0;
+  to.parameters(to, [&](const LawParameter&, To& value) { value = values[next++]; });
+  return to;
+}
+
+template <class To, template <class> class Law, class From, class Convert>
+Law<To> convert_law(const Law<From>& from, const Convert& convert) {
+  return converted<Law, To>(from, convert);
+}
+
+}  // namespace detail
+
+/// The law with each of its numbers converted.
+template <class To, class From, class Convert>
+ContactLaw<To> convert_law(const ContactLaw<From>& from, const Convert& convert) {
+  ContactLaw<To> to;
+  std::visit([&](const auto& law) { to.law = detail::convert_law<To>(law, convert); }, from.law);
+  to.least_separation = convert(from.least_separation);
+  return to;
+}
 
 }  // namespace edmill::model

@@ -1,4 +1,4 @@
-// The vessel's pose a moment before or after a known one, without sines, which are dear in wide scalars.
+// The vessel's pose a moment before or after a known one, without sines, which are expensive in wide scalars.
 #pragma once
 
 #include <limits>

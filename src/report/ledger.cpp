@@ -37,12 +37,11 @@ void add_energy(pugi::xml_node main, const RunFolder& run) {
 namespace {
 
 std::string law_text(const casefile::ContactSpec& c) {
-  const bool constant = c.model == model::ContactModel::constant;
-  return fmt::format("{}, e = {}, {}, least separation {} mm/s", constant ? "constant" : "Walton\u2013Braun",
-                     brief(c.restitution_normal.to<double>()),
-                     constant ? "e tangential = " + brief(c.restitution_tangential.to<double>())
-                              : "friction " + brief(c.friction.to<double>()),
-                     brief(1000 * c.least_separation.to<double>()));
+  std::string text = c.name();
+  c.parameters([&](const model::LawParameter& p, const casefile::Quantity& value) {
+    text += fmt::format(", {} = {}", p.key, brief(value.to<double>()));
+  });
+  return text + fmt::format(", least separation {} mm/s", brief(1000 * c.least_separation.to<double>()));
 }
 
 std::string ball_text(const casefile::BallSpec& ball, int count) {
@@ -72,7 +71,7 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   rows.push_back({"contact of balls", law_text(spec.ball_ball)});
   rows.push_back({"contact with walls", law_text(spec.ball_wall)});
   rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time),
-                                            brief(f.end_time), f.end_reason)});
+                                            brief(f.end_time), model::name(f.end_reason))});
   rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.seed, f.precision)});
   rows.push_back({"at least separation speed", fmt::format("{} % of the impacts, {} % of the dose",
                                                            readable(100 * f.touched_impact_share, 3),

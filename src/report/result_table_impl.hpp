@@ -15,7 +15,8 @@ std::string result_table(const io::Summary<Real>& s) {
   const auto row = [&](const std::string& name, const std::string& value) {
     out += fmt::format("  {:<28}{}\n", name, value);
   };
-  out += fmt::format("{} in {}, ended by {}\n", s.provenance.case_file, s.provenance.precision, s.end_reason);
+  out += fmt::format("{} in {}, ended by {}\n", s.provenance.case_file, s.provenance.precision,
+                     model::name(s.end_reason));
   row("statistics", fmt::format("{:g} s to {:g} s", real(s.start_time), real(s.end_time)));
   static constexpr const char* names[] = {"wall 0 (cap -y)", "wall 1 (cap +y)", "wall 2 (cylinder)",
                                           "ball-ball"};

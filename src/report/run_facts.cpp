@@ -29,6 +29,13 @@ class Reader {
     if (const json* found = find(path, "a text", [](const json& j) { return j.is_string(); }))
       value = found->get<std::string>();
   }
+  void end_reason(const std::string& path, model::EndReason& value) {
+    const auto known = [](const json& j) {
+      return j.is_string() && model::end_reason_named(j.get<std::string>()).has_value();
+    };
+    if (const json* found = find(path, "why the run ended", known))
+      value = *model::end_reason_named(found->get<std::string>());
+  }
   bool has(const std::string& path) const { return root_.contains(json::json_pointer(path)); }
   void throw_problems() const {
     if (!problems_.empty()) throw InputError(problems_);
@@ -79,9 +86,9 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
                                    {"/compiler", &f.compiler},
                                    {"/case_file", &f.case_file},
                                    {"/case_digest", &f.case_digest},
-                                   {"/precision", &f.precision},
-                                   {"/end_reason", &f.end_reason}})
+                                   {"/precision", &f.precision}})
     reader.text(key, *value);
+  reader.end_reason("/end_reason", f.end_reason);
   if (reader.has("/error")) reader.text("/error", f.error);
   for (const auto& [key, value] : {std::pair{"/seed", &f.seed},
                                    {"/start_time", &f.start_time},

@@ -6,13 +6,15 @@
 #include <optional>
 #include <string>
 
+#include "model/end_reason.hpp"
 #include "model/vessel.hpp"
 
 namespace edmill::report {
 
 /// Names and units as in docs/files.md.
 struct RunFacts {
-  std::string version, commit, compiler, case_file, case_digest, precision, end_reason, error;
+  std::string version, commit, compiler, case_file, case_digest, precision, error;
+  model::EndReason end_reason{};
   double seed = 0;
   double start_time = 0, end_time = 0;                            ///< of the statistics [s]
   std::array<double, model::partner_kinds> collisions{}, dose{};  ///< [1], [J]

@@ -15,10 +15,14 @@ using casefile::Quantity;
 
 bool same(const Quantity& a, const Quantity& b) { return a.text() == b.text(); }
 
-bool same(const ContactSpec& a, const ContactSpec& b) {
-  return a.model == b.model && same(a.restitution_normal, b.restitution_normal) &&
-         same(a.friction, b.friction) && same(a.min_tangential, b.min_tangential);
+/// Law and parameters in one line.
+std::string text_of(const ContactSpec& c) {
+  std::string text = c.name();
+  c.parameters([&](const model::LawParameter&, const Quantity& value) { text += " " + value.text(); });
+  return text;
 }
+
+bool same(const ContactSpec& a, const ContactSpec& b) { return text_of(a) == text_of(b); }
 
 bool same_surroundings(const CaseSpec& a, const CaseSpec& b) {
   const auto &m = a.mill, &n = b.mill;

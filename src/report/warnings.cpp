@@ -18,11 +18,13 @@ constexpr double touched_share_limit = 0.05, supplied_share_limit = 0.01, closur
 constexpr double fewest_collisions = 1000;
 
 void check_end(const RunFacts& f, std::vector<Warning>& list) {
+  using model::EndReason;
   const auto warn = [&](const std::string& text) { list.push_back({"end_reason", text}); };
-  if (f.end_reason == "interrupted") warn("The run was interrupted; everything here is up to that moment.");
-  if (f.end_reason == "inelastic_collapse")
+  if (f.end_reason == EndReason::interrupted)
+    warn("The run was interrupted; everything here is up to that moment.");
+  if (f.end_reason == EndReason::inelastic_collapse)
     warn("The run ended in inelastic collapse: a ball met another body infinitely often in a finite time.");
-  if (f.end_reason == "undecided")
+  if (f.end_reason == EndReason::undecided)
     warn("The run ended at a decision that no scalar could make; everything here is up to that moment.");
 }
 

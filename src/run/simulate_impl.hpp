@@ -3,29 +3,9 @@
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
-#include "run/course_impl.hpp"
+#include "run/run_driver_impl.hpp"
 
 namespace edmill::run {
-
-inline std::string end_reason_name(engine::EndReason reason) {
-  switch (reason) {
-    case engine::EndReason::end_time:
-      return "end_time";
-    case engine::EndReason::max_collisions:
-      return "max_collisions";
-    case engine::EndReason::max_milling_dose:
-      return "max_milling_dose";
-    case engine::EndReason::max_ball_speed:
-      return "max_ball_speed";
-    case engine::EndReason::inelastic_collapse:
-      return "inelastic_collapse";
-    case engine::EndReason::interrupted:
-      return "interrupted";
-    case engine::EndReason::paused:
-      break;  // the course goes on
-  }
-  return "?";
-}
 
 template <class Real>
 void note_totals(const engine::Simulation<Real>& simulation, const run::RunStatistics<Real>& statistics,
@@ -51,42 +31,67 @@ void note_totals(const engine::Simulation<Real>& simulation, const run::RunStati
 }
 
 template <class Real>
-Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
-                      const Guests<Real>& guests) {
-  std::optional<Course<Real>> course;
-  Result<Real> result;
-  auto& summary = result.summary;
-  try {
-    course.emplace(built, guests);
-    summary.end_reason = end_reason_name(course->go());
-  } catch (const UndecidedError& error) {
-    summary.end_reason = "undecided";
-    summary.error = error.what();
-  }
-  if (course) {
-    const auto& simulation = course->simulation();
-    for (auto* observer : guests.observers) observer->on_end(simulation);
-    summary.cpu_seconds = course->cpu_spent();
-    summary.start_time = course->counted_from();
-    summary.energy_at_start = course->energy_at_start();
-    note_totals(simulation, course->statistics(), summary);
-    result.saved.time = simulation.now();
-    for (int k = 0; k < simulation.ball_count(); ++k)
-      result.saved.states.push_back(simulation.state_at(k, simulation.now()));
-  } else {
-    // Not even the first contacts of the balls could be told.
-    summary.period = built.the_case.mill.motion.period;
-    summary.start_time = summary.end_time = DriveClock<Real>(summary.period).seconds(built.start);
-    summary.energy_at_start = summary.energy_at_end =
-        model::energy_of(built.the_case.balls, built.states, built.the_case.mill.gravity);
-    result.saved = {built.start, built.states};
-  }
+void note_origin(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
+                 io::Summary<Real>& summary) {
   if (spec.powder_mass) summary.powder_mass = spec.powder_mass->template to<Real>();
   Real ball_mass{0};
   for (const auto& ball : built.the_case.balls) ball_mass += ball.mass;
   summary.ball_mass = ball_mass;
   summary.provenance = {spec.file,  spec.digest, std::string(ScalarName<Real>::value), version(), commit(),
                         compiler(), spec.seed};
+}
+
+/// Of what has been simulated so far.
+template <class Real>
+io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
+                             const RunDriver<Real>& driver) {
+  io::Summary<Real> summary;
+  summary.cpu_seconds = driver.cpu_spent();
+  summary.start_time = driver.counted_from();
+  summary.energy_at_start = driver.energy_at_start();
+  note_totals(driver.simulation(), driver.statistics(), summary);
+  note_origin(spec, built, summary);
+  return summary;
+}
+
+/// Of a run whose balls' first contacts could not be decided.
+template <class Real>
+io::Summary<Real> empty_summary(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built) {
+  io::Summary<Real> summary;
+  summary.period = built.the_case.mill.motion.period;
+  summary.start_time = summary.end_time = DriveClock<Real>(summary.period).seconds(built.start);
+  summary.energy_at_start = summary.energy_at_end =
+      model::energy_of(built.the_case.balls, built.states, built.the_case.mill.gravity);
+  note_origin(spec, built, summary);
+  return summary;
+}
+
+template <class Real>
+Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
+                      const Guests<Real>& guests) {
+  std::optional<RunDriver<Real>> driver;
+  auto end_reason = model::EndReason::undecided;
+  std::string error;
+  try {
+    driver.emplace(built, guests);
+    end_reason = driver->go();
+  } catch (const UndecidedError& undecided) {
+    error = undecided.what();
+  }
+  Result<Real> result;
+  if (driver) {
+    const auto& simulation = driver->simulation();
+    for (auto* observer : guests.observers) observer->on_end(simulation);
+    result.summary = summary_of(spec, built, *driver);
+    result.saved.time = simulation.now();
+    for (int k = 0; k < simulation.ball_count(); ++k)
+      result.saved.states.push_back(simulation.state_at(k, simulation.now()));
+  } else {
+    result.summary = empty_summary(spec, built);
+    result.saved = {built.start, built.states};
+  }
+  result.summary.end_reason = end_reason;
+  result.summary.error = error;
   return result;
 }
 

@@ -23,7 +23,10 @@ struct RunRecord {
 
   bool done() const { return status == "done"; }
   /// Whether the same run would come to the same again.
-  bool lasting() const { return done() || status == "inelastic_collapse" || status == "undecided"; }
+  bool lasting() const {
+    return done() || status == model::name(model::EndReason::inelastic_collapse) ||
+           status == model::name(model::EndReason::undecided);
+  }
 };
 
 template <class Real>
@@ -33,10 +36,16 @@ RunRecord record_of(const io::Summary<Real>& s) {
   };
   RunRecord r;
   r.digest = s.provenance.case_digest;
-  const bool special =
-      s.end_reason == "inelastic_collapse" || s.end_reason == "undecided" || s.end_reason == "interrupted";
-  r.status = special ? s.end_reason : "done";
-  r.end_reason = s.end_reason;
+  r.end_reason = model::name(s.end_reason);
+  switch (s.end_reason) {
+    case model::EndReason::inelastic_collapse:
+    case model::EndReason::undecided:
+    case model::EndReason::interrupted:
+      r.status = r.end_reason;
+      break;
+    default:
+      r.status = "done";
+  }
   r.message = s.error;
   if (s.collapse)
     r.message = "ball " + std::to_string(s.collapse->ball) + " came to rest in a series of impacts";

@@ -17,6 +17,8 @@ namespace {
 using boost::multiprecision::cpp_rational;
 using casefile::CaseSpec;
 using casefile::parse_case;
+using casefile::Quantity;
+using WaltonBraun = model::WaltonBraun<Quantity>;
 using Overrides = std::vector<std::string>;
 
 const std::string least = R"([run]
@@ -179,8 +181,7 @@ TEST(CaseSpec, DefaultsAreThoseOfTheThesis) {
   EXPECT_EQ(c.batches[0].count, 1);
   EXPECT_FALSE(c.batches[0].random_speed);
   for (const auto* law : {&c.ball_ball, &c.ball_wall}) {
-    EXPECT_EQ(law->model, model::ContactModel::walton_braun);
-    EXPECT_EQ(law->min_tangential.value, -1);
+    EXPECT_EQ(std::get<WaltonBraun>(law->law).min_tangential.value, -1);
     EXPECT_EQ(law->least_separation.value, ratio(1, 100));
   }
   EXPECT_EQ(c.precision, "double");
@@ -193,16 +194,14 @@ TEST(CaseSpec, DefaultsAreThoseOfTheThesis) {
 
 TEST(CaseSpec, AContactPairOverridesOnlyItsOwnKeys) {
   const CaseSpec c = read(full);
-  EXPECT_EQ(c.ball_ball.model, model::ContactModel::constant);
-  EXPECT_EQ(c.ball_ball.restitution_normal.value, ratio(53, 100));
-  EXPECT_EQ(c.ball_ball.restitution_tangential.value, ratio(1, 4));
-  EXPECT_EQ(c.ball_wall.model, model::ContactModel::walton_braun);
-  EXPECT_EQ(c.ball_wall.restitution_normal.value, ratio(3, 4));
-  EXPECT_EQ(c.ball_wall.friction.value, ratio(2, 5));
-  for (const auto* law : {&c.ball_ball, &c.ball_wall}) {
-    EXPECT_EQ(law->min_tangential.value, ratio(-1, 2));
-    EXPECT_EQ(law->least_separation.value, ratio(2, 1000));
-  }
+  const auto& balls = std::get<model::ConstantRestitution<Quantity>>(c.ball_ball.law);
+  EXPECT_EQ(balls.normal.value, ratio(53, 100));
+  EXPECT_EQ(balls.tangential.value, ratio(1, 4));
+  const auto& walls = std::get<WaltonBraun>(c.ball_wall.law);
+  EXPECT_EQ(walls.normal.value, ratio(3, 4));
+  EXPECT_EQ(walls.friction.value, ratio(2, 5));
+  EXPECT_EQ(walls.min_tangential.value, ratio(-1, 2));
+  for (const auto* law : {&c.ball_ball, &c.ball_wall}) EXPECT_EQ(law->least_separation.value, ratio(2, 1000));
 }
 
 TEST(CaseSpec, TwoPairsTogetherReplaceTheCommonKeys) {

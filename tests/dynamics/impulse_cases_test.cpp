@@ -12,9 +12,7 @@ TEST(ImpulseErrata, PrintedSignOfTheTangentialTermBreaksTheRestitutionLaw) {
   // (2.34) as printed has -(e_t - 1)/(1 + 1/J) g_t: the slip would grow instead of following e_t.
   const model::BallProperties<double> ball{0.005, 0.004, 0.4};
   const Vec3<double> normal(0, 1, 0), wall(0, 0, 0);
-  model::ContactLaw<double> law;
-  law.restitution_normal = 0.5;
-  law.friction = 0.4;
+  const model::ContactLaw<double> law{model::WaltonBraun<double>{.normal = 0.5, .friction = 0.4}};
   Vec3<double> v(3, -1, 0), w(0, 0, 0);
   const auto o = collide_with_wall<double>(normal, ball, wall, v, w, law);
   const double gt = 3, e_t = o.restitution_tangential;
@@ -33,9 +31,7 @@ TEST(ImpulseErrata, PrintedCompliancePutsTheSlidingImpulseOffForBallsOfUnequalIn
   // M/(m_j J_j).
   const model::BallProperties<double> i{0.004, 2e-3, 0.4}, j{0.005, 4.2e-3, 0.66};
   Vec3<double> vi(0, -1, 4), wi(0, 0, 0), vj(0, 0, 0), wj(0, 0, 0);
-  model::ContactLaw<double> law;
-  law.restitution_normal = 0.5;
-  law.friction = 0.1;
+  const model::ContactLaw<double> law{model::WaltonBraun<double>{.normal = 0.5, .friction = 0.1}};
   const auto o = collide_balls<double>(Vec3<double>(0, 1, 0), i, j, vi, wi, vj, wj, law);
   EXPECT_NEAR(o.tangential_impulse / o.normal_impulse, 0.1, 1e-15);
   const double m = i.mass * j.mass / (i.mass + j.mass);
@@ -50,10 +46,8 @@ struct FloorHit {
   Vec3<double> v, w{0, 0, 0};
 
   FloorHit(double approach, double least_separation) : v(slip, -approach, 0) {
-    model::ContactLaw<double> law;
-    law.restitution_normal = 0.5;
-    law.friction = 0.25;
-    law.least_separation = least_separation;
+    const model::ContactLaw<double> law{model::WaltonBraun<double>{.normal = 0.5, .friction = 0.25},
+                                        least_separation};
     outcome = collide_with_wall<double>({0, 1, 0}, {1, mass, 0.4}, {0, 0, 0}, v, w, law);
   }
 };

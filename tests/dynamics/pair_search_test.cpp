@@ -65,7 +65,7 @@ TEST(PairSearch, TheErrorOfATimeStaysBelowItsBound) {
       const auto exact = exact_delay(i, j, now, 2 * radius, mill);
       ASSERT_TRUE(exact.has_value());
       ++contacts;
-      worst = std::max(worst, static_cast<double>(abs(mpfr200(answer.delay) - *exact)) / answer.doubt);
+      worst = std::max(worst, static_cast<double>(abs(mpfr200(answer.delay) - *exact)) / answer.time_error);
     }
     std::cout << "radius " << radius << " m: " << contacts << " contacts, largest error over its bound "
               << worst << "\n";
@@ -87,8 +87,8 @@ TEST(PairSearch, AGrazingContactIsTimedByAWiderScalar) {
   ASSERT_EQ(answer.verdict, Verdict::contact);
   EXPECT_EQ(ladder.escalations()[0].pair, 1u);
   const auto exact = exact_delay(i, j, now, 0.004, mill);
-  EXPECT_LE(static_cast<double>(abs(mpfr200(answer.delay) - *exact)), answer.doubt);
-  EXPECT_LE(4 * answer.doubt, ladder.tie_window());
+  EXPECT_LE(static_cast<double>(abs(mpfr200(answer.delay) - *exact)), answer.time_error);
+  EXPECT_LE(4 * answer.time_error, ladder.tie_window());
 }
 
 }  // namespace

@@ -343,7 +343,8 @@ TYPED_TEST(WideWallSearch, InDoubleFirstDecidesAsTheFullSearch) {
     EXPECT_EQ(full.wall, first.wall) << name(kind) << " " << k;
     // The bound on the rounding is several times what it usually is: a quarter of it, and some ulps.
     const Real apart = abs(clock.elapsed(first.time, full.time));
-    const Real allowed = (first.doubt > full.doubt ? first.doubt : full.doubt) / 4 + 8 * ulp;
+    const Real allowed =
+        (first.time_error > full.time_error ? first.time_error : full.time_error) / 4 + 8 * ulp;
     if (apart / allowed > worst) worst = apart / allowed;
     EXPECT_LE(apart, allowed) << name(kind) << " " << k;
     ASSERT_TRUE(first.pose.has_value());

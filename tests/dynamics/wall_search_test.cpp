@@ -315,8 +315,8 @@ TYPED_TEST(WideWallSearch, ARootIsClosedToTheLastDigitOfTheScalar) {
     const typename GapFunctions<Real>::Constants constants(mill);
     const GapFunctions<Real> gaps(constants, query.flight, query.radius, query.begin.period);
     const Real unit = epsilon<Real>() * mill.motion.period;
-    EXPECT_GE(gaps(Real(answer.time.offset - 16 * answer.doubt)).gap[answer.wall], 0);
-    EXPECT_LT(gaps(Real(answer.time.offset + 2 * unit + 16 * answer.doubt)).gap[answer.wall], 0);
+    EXPECT_GE(gaps(Real(answer.time.offset - 16 * answer.time_error)).gap[answer.wall], 0);
+    EXPECT_LT(gaps(Real(answer.time.offset + 2 * unit + 16 * answer.time_error)).gap[answer.wall], 0);
   }
   EXPECT_GT(contacts, 60);
 }

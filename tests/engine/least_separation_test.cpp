@@ -46,8 +46,10 @@ PressedBall draw_pressed_ball() {
   ball.wall = *rc::gen::inRange(0, 3);
   ball.acceleration = draw<double>(0.1, 100);
   auto& law = ball.law;
-  law.restitution_normal = *rc::gen::inRange(0, 4) == 0 ? 0.0 : draw<double>(0, 1);
-  law.friction = ball.wall == 2 ? 0 : draw<double>(0, 2);  // along the cylinder it would leave the place
+  model::WaltonBraun<double> coulomb;
+  coulomb.normal = *rc::gen::inRange(0, 4) == 0 ? 0.0 : draw<double>(0, 1);
+  coulomb.friction = ball.wall == 2 ? 0 : draw<double>(0, 2);  // along the cylinder it would leave the place
+  law.law = coulomb;
   law.least_separation = std::pow(10, draw<double>(-4, 0));
   const double v = law.least_separation;
   ball.gap = draw<double>(0.01, 3) * v * v / ball.acceleration;
@@ -67,8 +69,7 @@ TEST(LeastSeparation, APressedBallHitsItsWallNoMoreOftenThanItsHopsAllow) {
 TEST(LeastSeparation, ABallWithoutRestitutionHopsForEver) {
   // From the first impact on it hops with v_s: impact k = 0, 1, ... is at t_0 + k 2 v_s / a.
   PressedBall ball{1, 10, 0.05, 0, {}};
-  ball.law.restitution_normal = 0;
-  ball.law.least_separation = 0.01;
+  ball.law = {model::WaltonBraun<double>{.normal = 0}, 0.01};
   const double first = std::sqrt(2 * 0.05 / 10), hop = 2 * 0.01 / 10;
   EXPECT_EQ(ball.impacts(first + 999.5 * hop), 1000u);
 }

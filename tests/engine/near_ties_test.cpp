@@ -86,7 +86,7 @@ First first_impact(const Scene& scene) {
   the_case.mill.motion = {Real(0), Real(0), Real(0), Real(1) / 16};
   the_case.mill.vessel = {number(scene.vessel_radius), number(scene.half_height)};
   the_case.mill.gravity = {Real(0), Real(0), Real(0)};
-  the_case.mill.ball_ball.restitution_normal = the_case.mill.ball_wall.restitution_normal = Real(1) / 2;
+  the_case.mill.ball_ball.law = the_case.mill.ball_wall.law = model::WaltonBraun<Real>{.normal = Real(1) / 2};
   std::vector<model::BallState<Real>> states;
   for (const auto& ball : scene.balls) {
     the_case.balls.push_back({number(scene.radius), Real(1), Real(2) / 5});

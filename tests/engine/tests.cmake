@@ -1,7 +1,7 @@
 edmill_test(cell_grid_test engine/cell_grid_test.cpp)
 edmill_test(collapse_watch_test engine/collapse_watch_test.cpp)
 edmill_test(event_queue_test engine/event_queue_test.cpp)
-edmill_test(flight_table_test engine/flight_table_test.cpp)
+edmill_test(flight_columns_test engine/flight_columns_test.cpp)
 edmill_test(energy_test engine/energy_test.cpp TIMEOUT 300)
 edmill_test(containment_test engine/containment_test.cpp TIMEOUT 600)
 edmill_test(precisions_test engine/precisions_test.cpp TIMEOUT 300)

@@ -285,7 +285,9 @@ TEST_F(Report, BrokenFilesAreToldByFileLineAndKey) {
   breaks("summary.json", "\"wall_work\"", "\"work\"",
          "summary.json: wall_work: found nothing, expected a number");
   breaks("summary.json", "\"end_reason\": \"end_time\"", "\"end_reason\": 3",
-         "end_reason: found 3, expected a text");
+         "end_reason: found 3, expected why the run ended");
+  breaks("summary.json", "\"end_reason\": \"end_time\"", "\"end_reason\": \"bored\"",
+         "end_reason: found \"bored\", expected why the run ended");
   breaks("case.toml", "friction = 0.4", "friction = 0.5", "case.toml: found a case with digest ");
   breaks("case.toml", "friction = 0.4", "friction = ", "case.toml:");
   breaks("report/trends.csv", ",", ",what,", "trends.csv:2: found 4 fields, expected 5");

@@ -10,7 +10,7 @@ using namespace edmill::report;
 
 RunFacts good_facts() {
   RunFacts f;
-  f.end_reason = "end_time";
+  f.end_reason = model::EndReason::end_time;
   f.start_time = 1, f.end_time = 11;
   f.collisions = {1000, 1000, 1000, 1000};
   f.milling_dose = 50, f.wall_work = 50;
@@ -106,7 +106,7 @@ TEST(Warnings, EnergyThatDoesNotCloseIsTold) {
 TEST(Warnings, ARunThatDidNotReachItsEndIsTold) {
   for (const std::string reason : {"interrupted", "inelastic_collapse", "undecided"}) {
     auto f = good_facts();
-    f.end_reason = reason;
+    f.end_reason = *model::end_reason_named(reason);
     EXPECT_EQ(kinds(f, steady()), Kinds{"end_reason"}) << reason;
   }
 }

@@ -187,9 +187,9 @@ class FaultyMill {
   static void fix_friction(model::ContactLaw<double>& law, const Vec& g, const Vec& normal,
                            double compliance) {
     const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();
-    law.restitution_tangential =
-        law.restitution_of_slip((1 + law.restitution_normal) * std::max(0.0, -g_n), slip, compliance);
-    law.model = model::ContactModel::constant;
+    const double e_n = law.restitution(-g_n);
+    law.law = model::ConstantRestitution<double>{
+        e_n, law.restitution_of_slip((1 + e_n) * std::max(0.0, -g_n), slip, compliance)};
   }
 
   std::string collide(const Contact& c) {
@@ -198,7 +198,7 @@ class FaultyMill {
     auto& two = states_[c.with_wall ? c.ball : c.partner];
     if (faults_.spin_lost) one.spin = two.spin = Vec(0, 0, 0);
     const auto before = std::pair(one, two);
-    if (faults_.restitution >= 0) law.restitution_normal = faults_.restitution;
+    if (faults_.restitution >= 0) std::get<model::WaltonBraun<double>>(law.law).normal = faults_.restitution;
     if (faults_.least_separation >= 0) law.least_separation = faults_.least_separation;
     dynamics::ImpactOutcome<double> o;
     Vec normal, wall(0, 0, 0);
@@ -229,9 +229,9 @@ class FaultyMill {
           one.velocity - two.velocity - Vec(one.spin * bi.radius + two.spin * bj.radius).cross(normal);
       if (faults_.printed_compliance) {
         const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();
-        law.restitution_tangential =
-            law.restitution_of_slip(law.separation_speed(-g_n) - g_n, slip, 1 + 1 / bi.reduced_inertia);
-        law.model = model::ContactModel::constant;
+        law.law = model::ConstantRestitution<double>{
+            law.restitution(-g_n),
+            law.restitution_of_slip(law.separation_speed(-g_n) - g_n, slip, 1 + 1 / bi.reduced_inertia)};
       }
       if (faults_.restitution_friction) {
         const double total = bi.mass + bj.mass;

@@ -124,7 +124,7 @@ TEST(RootSearch, EveryRootOfARealRunIsTheFirstOne) {
       continue;
     }
     // The enclosure: the time with its doubt and the digits of the clock on both sides.
-    const double width = 2 * answer.doubt + 8 * resolution;
+    const double width = 2 * answer.time_error + 8 * resolution;
     auto around = question;
     around.begin_period = answer.time.period;
     around.begin_offset = answer.time.offset;

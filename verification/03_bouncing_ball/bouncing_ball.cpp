@@ -188,7 +188,7 @@ std::vector<Real> simulated_times() {
                    {Real(-g), Real(0), Real(0)},
                    {},
                    {}};
-  the_case.mill.ball_wall = {model::ContactModel::walton_braun, Real(e), Real(1), Real(0), Real(-1), Real(0)};
+  the_case.mill.ball_wall = {model::WaltonBraun<Real>{.normal = Real(e)}, Real(0)};
   the_case.mill.ball_ball = the_case.mill.ball_wall;
   the_case.balls = {{Real(radius), Real(1), Real(2) / 5}};
   const Vec3<Real> zero(Real(0), Real(0), Real(0));

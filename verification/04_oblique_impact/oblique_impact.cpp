@@ -52,7 +52,7 @@ struct Throw {
   void run() {
     model::Case<double> the_case{};
     the_case.mill = {{1, 0, 0, 1}, {1, 1}, {0, 0, 0}, {}, {}};
-    the_case.mill.ball_wall = {model::ContactModel::walton_braun, e, 1, mu, min_tangential, 0};
+    the_case.mill.ball_wall = {model::WaltonBraun<double>{e, mu, min_tangential}, 0};
     the_case.mill.ball_ball = the_case.mill.ball_wall;
     const auto state = [](double x, const Motion& m) {
       return model::BallState<double>{{x, 1, 0}, {m.normal, m.tangent, 0}, {0, 0, m.spin}};

@@ -48,7 +48,7 @@ Figures figures(const Charge& charge, const char* least_separation) {
     TouchedDoses doses;
     const auto s =
         run::simulate<double>(spec, casefile::build_case<double>(spec), {{&doses}, nullptr}).summary;
-    EXPECT_TRUE(s.end_reason == "end_time") << s.end_reason;
+    EXPECT_TRUE(s.end_reason == model::EndReason::end_time) << model::name(s.end_reason);
     rates.push_back(s.milling_dose / s.duration());
     f.collisions += static_cast<double>(s.total_collisions()) / s.duration() / charge.seeds;
     f.supplied += s.supplied_energy / s.milling_dose / charge.seeds;

@@ -39,12 +39,12 @@ class Harvest : public engine::Observer<double> {
   void take(int ball, const engine::Simulation<double>& s) {
     const auto& pairs = ladder_->pairs();
     const auto now = s.now();
-    const auto own = pairs.seen(s.flight(ball), now);
+    const auto own = pairs.state(s.flight(ball), now);
     double length = ladder_->walls().longest_window();
     for (int other = 0; other < s.ball_count(); ++other) {
       if (other == ball) continue;
       const double sum = s.properties(ball).radius + s.properties(other).radius;
-      const auto seen = pairs.seen(s.flight(other), now);
+      const auto seen = pairs.state(s.flight(other), now);
       if (norm<double>(own.position - seen.position) > 3 * sum) continue;
       const auto answer = pairs(own, s.flight(other), now, sum);
       if (answer.verdict == dynamics::Verdict::contact) length = std::min(length, answer.delay);
@@ -96,8 +96,8 @@ void wall_query(benchmark::State& state, Source& source, bool whole_window) {
 
 void pair_query(benchmark::State& state, Source& source) {
   const auto& questions = source.harvest.questions.pairs;
-  std::vector<dynamics::PairSearch<double>::Seen> seen;
-  for (const auto& q : questions) seen.push_back(source.ladder.pairs().seen(q.one, q.now));
+  std::vector<dynamics::PairSearch<double>::State> seen;
+  for (const auto& q : questions) seen.push_back(source.ladder.pairs().state(q.one, q.now));
   std::size_t k = 0;
   for (auto _ : state) {
     const auto& q = questions[k];

@@ -32,7 +32,7 @@ class StateHarvest : public engine::Observer<double> {
 
  private:
   void take(int ball, const engine::Simulation<double>& s) {
-    const auto own = pairs_.seen(s.flight(ball), s.now());
+    const auto own = pairs_.state(s.flight(ball), s.now());
     double until = s.clock().period();
     for (int other = 0; other < s.ball_count(); ++other) {
       if (other == ball) continue;

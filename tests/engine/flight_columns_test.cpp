@@ -1,5 +1,5 @@
 // The pair filter for many flights says of each ball what PairSearch says of it alone.
-#include "engine/flight_table.hpp"
+#include "engine/flight_columns.hpp"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ struct Swarm {
   }
 };
 
-TEST(FlightTable, SeesWhatPairSearchSees) {
+TEST(FlightColumns, DecidesAsPairSearchDoes) {
   auto mill = testing::spex_mill<double>();
   auto wide_mill = testing::spex_mill<float128>();
   const std::vector<Vec3<double>> gravities{mill.gravity, {0, 0, 0}, {1, -9, 0.5}};
@@ -65,30 +65,31 @@ TEST(FlightTable, SeesWhatPairSearchSees) {
     const Swarm swarm(random, balls, alike, mill.gravity, mill.motion.period);
     const PairSearch<double> search(mill, 0.002, 0.1, 10);
     const PairSearch<float128> wide(wide_mill, float128(0.002), float128(0.1), float128(10));
-    FlightTable table(balls, alike);
+    FlightColumns table(balls, alike);
     for (int i = 0; i < balls; ++i) table.set(i, swarm.flights[i], swarm.radii[i]);
 
     const int self = static_cast<int>(random.uniform<double>() * balls);
-    const auto own = search.seen(swarm.flights[self], swarm.now);
-    const PairQuestion question{own, swarm.radii[self], swarm.now, search.filter()};
+    const auto own = search.state(swarm.flights[self], swarm.now);
+    const PairFilterQuery query{own, swarm.radii[self], swarm.now, search.filter()};
     std::vector<int> list;  // some of the balls, out of order
     for (int i = balls - 1; i >= 0; --i)
       if (random.uniform<double>() < 0.8) list.push_back(i);
     const int count = static_cast<int>(list.size());
     list.resize(list.size() + 3);
 
-    const auto delays_of = [](Looks& looks, int found, auto ball_at) {
+    const auto delays_of = [](PairFilterResult& result, int found, auto ball_at) {
       std::map<int, double> delays;
-      for (int k = 0; k < found; ++k) delays[ball_at(looks.suspects()[k])] = looks.delay(looks.suspects()[k]);
+      for (int k = 0; k < found; ++k)
+        delays[ball_at(result.candidates()[k])] = result.delay(result.candidates()[k]);
       EXPECT_EQ(static_cast<int>(delays.size()), found);
       return delays;
     };
-    Looks looks;
-    const auto all = delays_of(looks, table.look(question, looks), [](int place) { return place; });
-    looks.make_room(count);
-    const auto some = delays_of(looks,
-                                look_at(swarm.flights.data(), swarm.radii.data(), alike ? 0 : 1, question,
-                                        self, list.data(), count, looks),
+    PairFilterResult result;
+    const auto all = delays_of(result, table.filter(query, result), [](int place) { return place; });
+    result.make_room(count);
+    const auto some = delays_of(result,
+                                filter_pairs(swarm.flights.data(), swarm.radii.data(), alike ? 0 : 1, query,
+                                             self, list.data(), count, result),
                                 [&](int place) { return list[place]; });
 
     EXPECT_EQ(all.count(self), 0u);
@@ -97,10 +98,10 @@ TEST(FlightTable, SeesWhatPairSearchSees) {
       if (other == self) continue;
       const double sum = swarm.radii[self] + swarm.radii[other];
       const auto& flight = swarm.flights[other];
-      const bool suspect = search.may_meet(own, flight, swarm.now, sum);
-      ASSERT_EQ(all.count(other) == 1, suspect);
+      const bool candidate = search.may_meet(own, flight, swarm.now, sum);
+      ASSERT_EQ(all.count(other) == 1, candidate);
       const auto answer = search(own, flight, swarm.now, sum);
-      if (!suspect) {
+      if (!candidate) {
         ++seen["passed"];
         // The proof holds in the wide scalar, too.
         const auto truth = wide(dynamics::flight_cast<float128>(swarm.flights[self]),
@@ -129,43 +130,43 @@ TEST(FlightTable, SeesWhatPairSearchSees) {
 
 /// What is found of a ball at rest and one more.
 struct Pair {
-  int suspects;
-  double delay;  ///< of the suspect, if any
+  int candidates;
+  double delay;  ///< of the candidate, if any
 };
-Pair look_at_pair(const Vec3<double>& position, const Vec3<double>& velocity) {
+Pair filter_pair(const Vec3<double>& position, const Vec3<double>& velocity) {
   auto mill = testing::spex_mill<double>();
   mill.gravity = Vec3<double>::Zero();
   const PairSearch<double> search(mill, 0.004, 0.1, 10);
   const Instant<double> now{3, 0.02};
   const std::vector<Flight<double>> flights{{{0, 0, 0}, {0, 0, 0}, now}, {position, velocity, now}};
   const std::vector<double> radii{0.002, 0.002};
-  const auto own = search.seen(flights[0], now);
+  const auto own = search.state(flights[0], now);
   std::vector<int> list{0, 1, 0, 0, 0};
-  Looks looks;
-  looks.make_room(2);
-  const int found =
-      look_at(flights.data(), radii.data(), 0, {own, 0.002, now, search.filter()}, 0, list.data(), 2, looks);
-  return {found, found == 0 ? 0.0 : looks.delay(looks.suspects()[0])};
+  PairFilterResult result;
+  result.make_room(2);
+  const int found = filter_pairs(flights.data(), radii.data(), 0, {own, 0.002, now, search.filter()}, 0,
+                                 list.data(), 2, result);
+  return {found, found == 0 ? 0.0 : result.delay(result.candidates()[0])};
 }
 
-TEST(FlightTable, TwoThatHaveJustCollidedAndPartAreNoSuspects) {
-  EXPECT_EQ(look_at_pair({0.004, 0, 0}, {0.1, 0.5, 0}).suspects, 0);
+TEST(FlightColumns, TwoThatHaveJustCollidedAndSeparateAreNoCandidates) {
+  EXPECT_EQ(filter_pair({0.004, 0, 0}, {0.1, 0.5, 0}).candidates, 0);
 }
 
-TEST(FlightTable, OnlyACloserLookCanTellWhatTouchesOrGrazes) {
+TEST(FlightColumns, WhatTouchesOrGrazesIsLeftToTheSearch) {
   for (const auto& [position, velocity] : std::vector<std::pair<Vec3<double>, Vec3<double>>>{
            {{0.004, 0, 0}, {-0.1, 0.5, 0}},                // touch and approach
            {{0.004 * (1 + 1e-15), 0, 0}, {-0.1, 0.5, 0}},  // the same, with a gap by rounding
            {{0.004, 0, 0}, {0, 0.5, 0}},                   // touch and slide
            {{-0.01, 0.004, 0}, {1, 0, 0}}}) {              // will graze
-    const auto [suspects, delay] = look_at_pair(position, velocity);
-    EXPECT_EQ(suspects, 1);
+    const auto [candidates, delay] = filter_pair(position, velocity);
+    EXPECT_EQ(candidates, 1);
     EXPECT_LT(delay, 0);
   }
-  EXPECT_EQ(look_at_pair({-0.01, 0.004 * (1 + 1e-5), 0}, {1, 0, 0}).suspects, 0);  // passes
+  EXPECT_EQ(filter_pair({-0.01, 0.004 * (1 + 1e-5), 0}, {1, 0, 0}).candidates, 0);  // passes
   // r.v = -0.01 and v.v = 1: at the contact the centres are 0.004 apart across 0.0039. (3.1)
   const double contact = 0.01 - std::sqrt(0.004 * 0.004 - 0.0039 * 0.0039);
-  EXPECT_NEAR(look_at_pair({-0.01, 0.0039, 0}, {1, 0, 0}).delay, contact, 1e-15);
+  EXPECT_NEAR(filter_pair({-0.01, 0.0039, 0}, {1, 0, 0}).delay, contact, 1e-15);
 }
 
 }  // namespace

@@ -16,12 +16,11 @@ inline double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// The way of a run: up to the start of statistics, then with them to the end, with a checkpoint now and
-/// then.
+/// Takes a run to the start of statistics, then with them to its end, with a checkpoint now and then.
 template <class Real>
-class Course {
+class RunDriver {
  public:
-  Course(const casefile::InitialCase<Real>& built, const Guests<Real>& guests)
+  RunDriver(const casefile::InitialCase<Real>& built, const Guests<Real>& guests)
       : guests_(guests),
         simulation_(built.the_case, built.states, built.start, guests.interrupt),
         stop_rules_(built.the_case.stop),
@@ -39,17 +38,23 @@ class Course {
       simulation_.attach(*watch_);
     }
   }
-  Course(const Course&) = delete;
-  Course& operator=(const Course&) = delete;
+  RunDriver(const RunDriver&) = delete;
+  RunDriver& operator=(const RunDriver&) = delete;
 
+  /// To the end of the run, or to `limit` when that is earlier.
+  /// @return paused at the limit
   /// @throws UndecidedError when no scalar could make a decision
-  engine::EndReason go() {
+  engine::EndReason go(const Instant<Real>& limit = Instant<Real>::never()) {
     using engine::EndReason;
     if (!counting_ && start_ == first_) start_counting();
     for (;;) {
-      const auto reason = simulation_.run_until(counting_ ? end_ : start_, guests_.interrupt);
+      const auto& goal = counting_ ? end_ : start_;
+      const bool limited = limit < goal;
+      const auto reason = simulation_.run_until(limited ? limit : goal, guests_.interrupt);
       if (reason == EndReason::paused) {
         save();
+      } else if (reason == EndReason::end_time && limited) {
+        return EndReason::paused;
       } else if (reason == EndReason::end_time && !counting_) {
         start_counting();
       } else {
@@ -59,6 +64,7 @@ class Course {
     }
   }
 
+  engine::Simulation<Real>& simulation() { return simulation_; }
   const engine::Simulation<Real>& simulation() const { return simulation_; }
   const run::RunStatistics<Real>& statistics() const { return statistics_; }
   /// Where statistics begin: at the present when they have not [s].

@@ -1,0 +1,41 @@
+// A case: everything that a run depends on.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace edmill {
+
+namespace casefile {
+struct CaseSpec;
+}
+
+template <class Real>
+class Run;
+
+/// A case as its file states it, in exact quantities: no scalar is chosen yet. Copies share what was read.
+class Case {
+ public:
+  /// Reads and checks a case file; its keys: docs/files.md.
+  /// @param settings  "section.key=value" over the file, as `edmill run --set`
+  /// @throws InputError with every problem of the file
+  static Case read(const std::string& path, const std::vector<std::string>& settings = {});
+  /// The same for a text; `name` stands for the file in messages.
+  static Case parse(const std::string& text, const std::string& name = "case.toml",
+                    const std::vector<std::string>& settings = {});
+
+  /// SHA-256 of the canonical text: cases with the same digest give the same bits.
+  const std::string& digest() const;
+  /// Of the run, unless the program chooses another: "double", "float128", ...
+  const std::string& precision() const;
+  int ball_count() const;
+
+ private:
+  template <class Real>
+  friend class Run;
+  explicit Case(casefile::CaseSpec spec);
+  std::shared_ptr<const casefile::CaseSpec> spec_;
+};
+
+}  // namespace edmill

@@ -1,0 +1,48 @@
+// Errors that edmill throws.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace edmill {
+
+/// Input that a user can correct; every problem of a file at once, each with file, line, key, what was found
+/// and what was expected. The program exits with 2.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<std::string> problems)
+      : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
+  explicit InputError(std::string problem) : InputError(std::vector<std::string>{std::move(problem)}) {}
+
+  const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  static std::string joined(const std::vector<std::string>& problems) {
+    std::string text;
+    for (const auto& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+    return text;
+  }
+  std::vector<std::string> problems_;
+};
+
+/// A decision that the widest scalar could not make; the text holds the state that reproduces it.
+class UndecidedError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The user ended the program before there were any results.
+class InterruptedError : public std::runtime_error {
+ public:
+  InterruptedError() : std::runtime_error("interrupted before the first event; there are no results") {}
+};
+
+/// A broken precondition inside edmill.
+class ContractError : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+}  // namespace edmill

@@ -1,0 +1,20 @@
+// What watches a run.
+#pragma once
+
+#include "edmill/impact.hpp"
+
+namespace edmill {
+
+template <class Real>
+class Run;
+
+/// Is told of every impact just after it happened.
+template <class Real>
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// @param run  at the time of the impact; `run.stop()` ends the run after it
+  virtual void on_impact(const Impact<Real>& impact, Run<Real>& run) = 0;
+};
+
+}  // namespace edmill

@@ -1,0 +1,54 @@
+// A run of a case.
+#pragma once
+
+#include <memory>
+
+#include "edmill/case.hpp"
+#include "edmill/contact_law.hpp"
+#include "edmill/observer.hpp"
+#include "edmill/summary.hpp"
+
+namespace edmill {
+
+/// Laws of the user's own; empty ones leave the case's.
+template <class Real>
+struct Laws {
+  std::shared_ptr<const CustomLaw<Real>> ball_ball, ball_wall;
+};
+
+/// A case from its initial state on, in one scalar: double, float128, mpfr50, mpfr100 or mpfr200.
+template <class Real>
+class Run {
+ public:
+  /// Places the balls and predicts their first contacts.
+  /// @throws InputError when the balls find no place or the scalar cannot resolve the case
+  /// @throws UndecidedError when no scalar can decide about a first contact
+  explicit Run(const Case& the_case, const Laws<Real>& laws = {});
+  ~Run();
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  /// Observers are told of every impact, in the order of attachment; they must outlive the run.
+  void attach(Observer<Real>& observer);
+
+  /// Simulates up to `time` [s], or to where a stop rule of the case or an observer ends the run.
+  /// @return whether the run can go on
+  /// @throws UndecidedError when no scalar can make a decision
+  bool advance_to(const Real& time);
+  /// To the end that the case asks for.
+  void finish();
+  /// Ends the run after the present impact; for observers.
+  void stop();
+
+  Real time() const;  ///< [s]
+  int ball_count() const;
+  /// State of a ball now.
+  BallState<Real> ball(int i) const;
+  Summary<Real> summary() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace edmill

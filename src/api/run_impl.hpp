@@ -1,0 +1,152 @@
+// Implementation of Run; included by the instantiation files only.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "casefile/build_case.hpp"
+#include "edmill/run.hpp"
+#include "io/summary_impl.hpp"
+#include "run/simulate_impl.hpp"
+
+namespace edmill {
+
+namespace detail {
+
+template <class Real>
+Vector<Real> to_vector(const Vec3<Real>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+template <class Real>
+Impact<Real> to_public(const engine::Impact<Real>& i, const Real& time) {
+  const auto& o = i.outcome;
+  return {i.index,
+          time,
+          i.ball,
+          i.with_wall,
+          i.partner,
+          to_vector<Real>(i.normal),
+          o.approach_speed,
+          o.slip_speed,
+          o.separation_speed,
+          o.restitution_tangential,
+          o.normal_impulse,
+          o.tangential_impulse,
+          o.milling_dose,
+          o.supplied_energy,
+          o.wall_work};
+}
+
+template <class Real>
+casefile::InitialCase<Real> with_laws(casefile::InitialCase<Real> built, const Laws<Real>& laws) {
+  auto& mill = built.the_case.mill;
+  if (laws.ball_ball) mill.ball_ball.law = model::LawOfProgram<Real>{laws.ball_ball};
+  if (laws.ball_wall) mill.ball_wall.law = model::LawOfProgram<Real>{laws.ball_wall};
+  return built;
+}
+
+}  // namespace detail
+
+template <class Real>
+class Run<Real>::Implementation : public engine::Observer<Real> {
+ public:
+  Implementation(const Case& the_case, const Laws<Real>& laws, Run& run)
+      : run_(run),
+        case_(the_case),
+        built_(detail::with_laws(casefile::build_case<Real>(*the_case.spec_), laws)),
+        guests_{{this}, nullptr},
+        driver_(built_, guests_) {}
+
+  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+    if (observers.empty()) return;
+    const auto seen = detail::to_public<Real>(impact, simulation.seconds());
+    for (auto* observer : observers) observer->on_impact(seen, run_);
+  }
+
+  /// @param limit  nothing for the end of the case
+  bool advance(const std::optional<Real>& limit) {
+    if (end_reason_ != model::EndReason::paused) return false;
+    const auto& simulation = driver_.simulation();
+    if (limit && !(*limit > simulation.seconds())) return true;
+    end_reason_ = limit ? driver_.go(simulation.clock().at(*limit)) : driver_.go();
+    return end_reason_ == model::EndReason::paused;
+  }
+
+  void stop() { driver_.simulation().request_stop(model::EndReason::stopped); }
+  const engine::Simulation<Real>& simulation() const { return driver_.simulation(); }
+
+  Summary<Real> summary() const {
+    auto s = run::summary_of(*case_.spec_, built_, driver_);
+    s.end_reason = end_reason_;
+    Summary<Real> out;
+    out.start_time = s.start_time, out.end_time = s.end_time;
+    out.partners.assign(io::partner_names.begin(), io::partner_names.end());
+    out.collisions.assign(s.collisions.begin(), s.collisions.end());
+    out.dose_by_partner.assign(s.dose_by_partner.begin(), s.dose_by_partner.end());
+    out.milling_dose = s.milling_dose, out.wall_work = s.wall_work, out.supplied_energy = s.supplied_energy;
+    out.energy_closure = s.energy_closure();
+    out.simultaneous_contacts = s.simultaneous_contacts;
+    out.cpu_seconds = s.cpu_seconds;
+    out.end_reason = model::name(end_reason_);
+    out.json = io::summary_json(s);
+    return out;
+  }
+
+  std::vector<edmill::Observer<Real>*> observers;
+
+ private:
+  Run& run_;
+  Case case_;
+  casefile::InitialCase<Real> built_;
+  run::Guests<Real> guests_;
+  run::RunDriver<Real> driver_;
+  model::EndReason end_reason_ = model::EndReason::paused;
+};
+
+template <class Real>
+Run<Real>::Run(const Case& the_case, const Laws<Real>& laws)
+    : implementation_(std::make_unique<Implementation>(the_case, laws, *this)) {}
+template <class Real>
+Run<Real>::~Run() = default;
+
+template <class Real>
+void Run<Real>::attach(Observer<Real>& observer) {
+  implementation_->observers.push_back(&observer);
+}
+template <class Real>
+bool Run<Real>::advance_to(const Real& time) {
+  return implementation_->advance(time);
+}
+template <class Real>
+void Run<Real>::finish() {
+  implementation_->advance(std::nullopt);
+}
+template <class Real>
+void Run<Real>::stop() {
+  implementation_->stop();
+}
+template <class Real>
+Real Run<Real>::time() const {
+  return implementation_->simulation().seconds();
+}
+template <class Real>
+int Run<Real>::ball_count() const {
+  return implementation_->simulation().ball_count();
+}
+template <class Real>
+BallState<Real> Run<Real>::ball(int i) const {
+  const auto& simulation = implementation_->simulation();
+  EDMILL_REQUIRE(i >= 0 && i < simulation.ball_count(), "the number of a ball");
+  const auto state = simulation.state_at(i, simulation.now());
+  return {detail::to_vector<Real>(state.position), detail::to_vector<Real>(state.velocity),
+          detail::to_vector<Real>(state.spin)};
+}
+template <class Real>
+Summary<Real> Run<Real>::summary() const {
+  return implementation_->summary();
+}
+
+}  // namespace edmill

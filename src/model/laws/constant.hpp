@@ -1,0 +1,25 @@
+// Both restitutions given.
+#pragma once
+
+#include "model/laws/parameter.hpp"
+
+namespace edmill::model {
+
+template <class Number>
+struct ConstantRestitution {
+  static constexpr const char* name = "constant";
+
+  Number normal{1};      ///< e_n
+  Number tangential{1};  ///< e_t
+
+  template <class Law, class Visit>
+  static void parameters(Law& law, Visit&& visit) {
+    visit(LawParameter{"restitution", 0, 1}, law.normal);
+    visit(LawParameter{"restitution_tangential", -1, 1}, law.tangential);
+  }
+
+  const Number& restitution(const Number&) const { return normal; }
+  const Number& restitution_of_slip(const Number&, const Number&, const Number&) const { return tangential; }
+};
+
+}  // namespace edmill::model

@@ -1,0 +1,35 @@
+// Coulomb friction while sliding, a lowest tangential restitution while sticking. (2.24')
+#pragma once
+
+#include "model/laws/parameter.hpp"
+
+namespace edmill::model {
+
+/// Source: Walton and Braun 1986; Barahona 2011, (2.24), for balls of any mass as in docs/theory.md, section
+/// 5.
+template <class Number>
+struct WaltonBraun {
+  static constexpr const char* name = "walton-braun";
+
+  Number normal{1};           ///< e_n
+  Number friction{0};         ///< mu
+  Number min_tangential{-1};  ///< lowest e_t
+
+  template <class Law, class Visit>
+  static void parameters(Law& law, Visit&& visit) {
+    visit(LawParameter{"restitution", 0, 1}, law.normal);
+    visit(LawParameter{"friction", 0, 1000000}, law.friction);
+    visit(LawParameter{"min_tangential", -1, 1, -1}, law.min_tangential);
+  }
+
+  const Number& restitution(const Number&) const { return normal; }
+  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
+                             const Number& compliance) const {
+    const Number sliding = friction * compliance * normal_change;
+    // 1 - sliding / slip >= min_tangential, without dividing by a vanishing slip.
+    if (sliding >= (1 - min_tangential) * slip_speed) return slip_speed > 0 ? min_tangential : Number(1);
+    return 1 - sliding / slip_speed;
+  }
+};
+
+}  // namespace edmill::model

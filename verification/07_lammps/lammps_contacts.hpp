@@ -1,0 +1,101 @@
+// LAMMPS's contacts as laws of an impact: their restitution and what they leave of a slip.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "lammps_mill.hpp"
+#include "edmill/contact_law.hpp"
+
+namespace edmill::verification {
+
+/// Young's modulus at which a ball that meets a wall at v = 1 m/s touches it for `duration` by Hertz's
+/// theory: 2.9432 x / v, with the depth x = (5 m v^2 / (4 k))^(2/5), the force k x^(3/2), k = (4/3) E / (2 (1
+/// - nu^2)) sqrt(R).
+inline double modulus_of(double duration, double diameter, const LammpsSetting& s) {
+  const double radius = diameter / 2, mass = s.density * 4 / 3 * pi * std::pow(radius, 3);
+  const double k = 5 * mass / 4 / std::pow(duration / 2.9432, 2.5);
+  return k * 3 / 4 / std::sqrt(radius) * 2 * (1 - s.poisson * s.poisson);
+}
+
+inline LammpsSetting setting_of(double diameter, double contact_duration, double friction = 0.4) {
+  LammpsSetting s;
+  s.vessel_radius = 0.019, s.vessel_half_height = 0.0285;
+  s.ball_diameter = diameter, s.density = 8000, s.friction = friction;
+  s.modulus = modulus_of(contact_duration, diameter, s);
+  s.time_step = contact_duration / 50;
+  return s;
+}
+
+/// Speed after a head-on impact over the speed before: of a ball with a cap, or of two balls. The mean over
+/// impacts that begin at different places within a step.
+inline double rebound(const LammpsSetting& s, bool pair, double speed, int phases = 8) {
+  const double radius = s.ball_diameter / 2;
+  double sum = 0;
+  for (int k = 0; k < phases; ++k) {
+    const double start = speed * s.time_step * (1 + (k + 0.5) / phases);
+    std::vector<LammpsBall> balls{{{0, s.vessel_half_height - radius - start, 0}, {0, speed, 0}, {}}};
+    if (pair)
+      balls = {{{0, -radius - start / 2, 0}, {0, speed / 2, 0}, {}},
+               {{0, radius + start / 2, 0}, {0, -speed / 2, 0}, {}}};
+    LammpsMill mill(s, balls);
+    mill.run(static_cast<std::int64_t>(200e-6 / s.time_step));
+    sum -= mill.balls()[0].velocity[1] / balls[0].velocity[1];
+  }
+  return sum / phases;
+}
+
+/// The number for `damping tsuji` at which LAMMPS's own balls rebound with `restitution`, in fine steps.
+inline double damping_for(double restitution, LammpsSetting s) {
+  s.time_step /= 8;
+  double low = 0.1, high = 0.99;
+  for (int i = 0; i < 20; ++i) {
+    s.damping = (low + high) / 2;
+    (rebound(s, false, 1, 1) < restitution ? low : high) = s.damping;
+  }
+  return (low + high) / 2;
+}
+
+/// Velocity of the contact point along the wall after an impact over that before: e_t of a contact that
+/// sticks. `slip` is that of an approach of 1 m/s.
+inline double tangential_restitution(LammpsSetting s, double slip) {
+  s.time_step /= 8;
+  const double radius = s.ball_diameter / 2;
+  LammpsMill mill(s, {{{0, s.vessel_half_height - radius - 1e-6, 0}, {slip, 1, 0}, {}}});
+  mill.run(static_cast<std::int64_t>(200e-6 / s.time_step));
+  const LammpsBall after = mill.balls()[0];
+  return (after.velocity[0] - after.spin[2] * radius) / slip;
+}
+
+/// Walton and Braun's law turns from sticking to sliding at once; a Mindlin contact slips in part between
+/// them. This law has the restitution of LAMMPS's balls and e_t as measured on its contacts, by slip over
+/// approach.
+class MindlinLaw : public CustomLaw<double> {
+ public:
+  MindlinLaw(double restitution, const LammpsSetting& s) : restitution_(restitution) {
+    for (double slip = 0.125; slip <= 8; slip += slip < 3 ? 0.125 : 0.5) {
+      slips_.push_back(slip);
+      left_.push_back(tangential_restitution(s, slip));
+    }
+  }
+
+  double restitution(const double&) const override { return restitution_; }
+  double restitution_of_slip(const double& normal_change, const double& slip_speed,
+                             const double& /*compliance*/) const override {
+    if (!(normal_change > 0)) return 1;
+    const double slip = slip_speed * (1 + restitution_) / normal_change;  // over the approach
+    if (slip <= slips_.front()) return left_.front();
+    if (slip >= slips_.back()) return 1 - (1 - left_.back()) * slips_.back() / slip;  // all of it slides
+    const auto k = std::upper_bound(slips_.begin(), slips_.end(), slip) - slips_.begin();
+    const double share = (slip - slips_[k - 1]) / (slips_[k] - slips_[k - 1]);
+    return left_[k - 1] + share * (left_[k] - left_[k - 1]);
+  }
+
+ private:
+  double restitution_;
+  std::vector<double> slips_, left_;
+};
+
+}  // namespace edmill::verification
