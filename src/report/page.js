@@ -1,30 +1,46 @@
 // Plays the mill: the frames of the page's JSON, on demand. Lengths in millimetres, times in milliseconds.
 "use strict";
 
-const mostFineBalls = 200; // more balls are drawn with fewer triangles each
+// A ball is a square that faces the eye, shaded as a sphere: cheap, and round however near.
+const ballVertex = `
+  attribute vec3 place, colour;
+  attribute float radius;
+  varying vec3 tint;
+  varying vec2 across;
+  void main() {
+    tint = colour;
+    across = position.xy;
+    vec4 centre = viewMatrix * vec4(place, 1.0);
+    gl_Position = projectionMatrix * (centre + vec4(radius * across, 0.0, 0.0));
+  }`;
+const ballFragment = `
+  varying vec3 tint;
+  varying vec2 across;
+  void main() {
+    float r = length(across), edge = clamp((1.0 - r) / fwidth(r) + 0.5, 0.0, 1.0);
+    if (edge == 0.0) discard;
+    vec3 normal = vec3(across, sqrt(max(0.0, 1.0 - r * r)));
+    float light = 0.55 + 0.6 * max(0.0, dot(normal, normalize(vec3(-0.4, 0.7, 1.0))));
+    gl_FragColor = vec4(light * tint, edge);
+  }`;
 
-/** The balls of one colour. Returns a function that puts them where they are between two frames. */
-function addBalls(scene, spheres, places, colour) {
-  const members = [...spheres.colours.keys()].filter((i) => spheres.colours[i] === colour);
-  const count = spheres.radii.length;
-  const sphere = count > mostFineBalls ? [12, 8] : [24, 16];
-  const mesh = new THREE.InstancedMesh(
-    new THREE.SphereBufferGeometry(1, ...sphere), new THREE.MeshLambertMaterial({ color: colour }), members.length);
-  mesh.frustumCulled = false; // its bounds are those of one ball at the origin
-  mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
-  members.forEach((i, k) => {
-    const r = spheres.radii[i];
-    mesh.setMatrixAt(k, new THREE.Matrix4().makeScale(r, r, r));
-  });
+/** The balls. Returns a function that puts them where they are between two frames. */
+function addBalls(scene, spheres) {
+  const size = 3 * spheres.radii.length, places = Float32Array.from(spheres.places);
+  const colours = spheres.colours.flatMap((colour) => new THREE.Color(colour).toArray());
+  const place = new THREE.InstancedBufferAttribute(new Float32Array(size), 3).setUsage(THREE.DynamicDrawUsage);
+  const squares = new THREE.InstancedBufferGeometry().copy(new THREE.PlaneBufferGeometry(2, 2));
+  squares.setAttribute("place", place);
+  squares.setAttribute("radius", new THREE.InstancedBufferAttribute(Float32Array.from(spheres.radii), 1));
+  squares.setAttribute("colour", new THREE.InstancedBufferAttribute(Float32Array.from(colours), 3));
+  const mesh = new THREE.Mesh(squares, new THREE.ShaderMaterial({
+    vertexShader: ballVertex, fragmentShader: ballFragment, transparent: true, extensions: { derivatives: true } }));
+  mesh.frustumCulled = false; // its bounds are those of one square at the origin
   scene.add(mesh);
-  const matrices = mesh.instanceMatrix.array;
   return (frame, share) => {
-    members.forEach((i, k) => {
-      const from = 3 * (frame * count + i), to = from + 3 * count;
-      for (let axis = 0; axis < 3; ++axis)
-        matrices[16 * k + 12 + axis] = (1 - share) * places[from + axis] + share * places[to + axis];
-    });
-    mesh.instanceMatrix.needsUpdate = true;
+    const from = size * frame, to = from + size;
+    for (let k = 0; k < size; ++k) place.array[k] = (1 - share) * places[from + k] + share * places[to + k];
+    place.needsUpdate = true;
   };
 }
 
@@ -34,6 +50,7 @@ function addVessel(scene, vessel) {
     new THREE.CylinderBufferGeometry(vessel.radius, vessel.radius, vessel.height, 48),
     new THREE.MeshLambertMaterial({
       color: vessel.colour, opacity: vessel.opacity, transparent: true, depthWrite: false, side: THREE.DoubleSide }));
+  mesh.renderOrder = 1; // after the balls, which are seen through it
   scene.add(mesh);
   const place = new THREE.Vector3(), turn = new THREE.Quaternion();
   return (frame, share) => {
@@ -63,12 +80,10 @@ function play(renderer) {
   const button = document.getElementById("play"), slider = document.getElementById("time");
   const clock = document.getElementById("clock");
   const end = Number(slider.max), frames = mill.vessel.poses.length / 7;
-  const places = Float32Array.from(mill.spheres.places);
 
   const scene = new THREE.Scene();
   const camera = addCamera(scene, mill.eye, mill.target);
-  const movers = [...new Set(mill.spheres.colours)].map((colour) => addBalls(scene, mill.spheres, places, colour));
-  movers.push(addVessel(scene, mill.vessel)); // in front of the balls: it is transparent
+  const moveBalls = addBalls(scene, mill.spheres), moveVessel = addVessel(scene, mill.vessel);
 
   let time = 0, playing = false, last = null, asked = false;
   const draw = (now) => {
@@ -80,7 +95,8 @@ function play(renderer) {
       ask();
     }
     const at = (time / end) * (frames - 1), frame = Math.min(Math.floor(at), frames - 2);
-    for (const move of movers) move(frame, at - frame);
+    moveBalls(frame, at - frame);
+    moveVessel(frame, at - frame);
     clock.textContent = time.toFixed(1) + " ms";
     slider.setAttribute("aria-valuetext", clock.textContent);
     renderer.render(scene, camera);

@@ -104,6 +104,10 @@ class Report(unittest.TestCase):
         picture = self.browser.execute_cdp_cmd("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True})
         (self.folder / name).write_bytes(base64.b64decode(picture["data"]))
 
+    def shown(self, *selectors):
+        return self.script("return arguments[0].map(s => getComputedStyle(document.querySelector(s)).display !== 'none')",
+                           selectors)
+
     def canvas(self):
         return self.browser.find_element("css selector", ".stage canvas")
 
@@ -123,8 +127,9 @@ class Report(unittest.TestCase):
             slider.dispatchEvent(new Event('input'));""", fraction)
         time.sleep(0.3)
 
-    def blue_pixels(self, circles):
-        """Of the scene's picture: blue pixels in the circles, in the circles, blue ones anywhere."""
+    def ball_pixels(self, circles):
+        """Of the scene's picture: pixels of balls in the circles, in the circles, of balls anywhere. Balls are blue, the
+        vessel is yellow and the page white, so that balls alone have little red, behind the vessel's walls too."""
         return self.browser.execute_async_script("""
             const [png, circles, done] = arguments, image = new Image();
             image.onload = () => {
@@ -132,14 +137,14 @@ class Report(unittest.TestCase):
               canvas.width = image.width; canvas.height = image.height;
               context.drawImage(image, 0, 0);
               const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
-              let both = 0, inside = 0, blue = 0;
+              let both = 0, inside = 0, balls = 0;
               for (let y = 0, k = 0; y < canvas.height; ++y)
                 for (let x = 0; x < canvas.width; ++x, k += 4) {
-                  const is_blue = data[k + 2] > data[k] + 40;
+                  const is_ball = data[k] < 160;
                   const is_inside = circles.some(c => Math.hypot(x + 0.5 - c[0], y + 0.5 - c[1]) < c[2]);
-                  both += is_blue && is_inside; inside += is_inside; blue += is_blue;
+                  both += is_ball && is_inside; inside += is_inside; balls += is_ball;
                 }
-              done([both, inside, blue]);
+              done([both, inside, balls]);
             };
             image.src = 'data:image/png;base64,' + png;""", base64.b64encode(self.scene_picture()).decode(), circles)
 
@@ -209,15 +214,15 @@ class Report(unittest.TestCase):
                 self.show(fraction)
                 here = discs(self.folder / "run/report/animation.x3d", fraction, size["width"], size["height"])
                 self.assertEqual(len(here), 28)
-                both, inside, blue = self.blue_pixels(here)
-                self.assertGreater(inside, 5000)
-                self.assertGreater(both, 0.95 * inside)
-                self.assertGreater(both, 0.95 * blue)
+                both, inside, balls = self.ball_pixels(here)
+                self.assertGreater(inside, 3000)
+                self.assertGreater(both, 0.96 * inside)
+                self.assertGreater(both, 0.98 * balls)
                 # 1 % of the playback away, 1.1 ms, they are elsewhere.
                 near = abs(fraction - 0.01)
-                both, inside, blue = self.blue_pixels(
+                both, inside, balls = self.ball_pixels(
                     discs(self.folder / "run/report/animation.x3d", near, size["width"], size["height"]))
-                self.assertLess(both, 0.95 * inside)
+                self.assertLess(both, 0.7 * inside)
 
     def test_4_pause_stops_the_scene_and_its_drawing(self):
         self.play(True)
@@ -243,12 +248,12 @@ class Report(unittest.TestCase):
         time.sleep(0.3)
         turned = self.scene_picture()
         self.assertNotEqual(first, turned)
-        before = self.blue_pixels([])[2]
+        before = self.ball_pixels([])[2]
         self.script("""
             const canvas = document.querySelector('.stage canvas');
             canvas.dispatchEvent(new WheelEvent('wheel', {deltaY: -100, cancelable: true}));""")
         time.sleep(0.3)
-        self.assertGreater(self.blue_pixels([])[2], 1.05 * before)
+        self.assertGreater(self.ball_pixels([])[2], 1.05 * before)
 
     def test_4_controls_have_names_and_take_the_keyboard(self):
         self.show(0.5)
@@ -295,8 +300,7 @@ class Report(unittest.TestCase):
 
     def test_6_paper_shows_the_still_picture(self):
         self.media(kind="print")
-        shown = self.script("""
-            return ['.still', '.stage canvas', '#player'].map(s => getComputedStyle(document.querySelector(s)).display !== 'none')""")
+        shown = self.shown(".still", ".stage canvas", "#player")
         pdf = self.browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "paperWidth": 8.27, "paperHeight": 11.69})
         self.media()
         self.assertEqual(shown, [True, False, False])
@@ -313,10 +317,18 @@ class Report(unittest.TestCase):
         self.assertLess(seconds, 3)
         size = self.canvas().size
         self.show(0.5)
-        both, inside, blue = self.blue_pixels(
+        both, inside, balls = self.ball_pixels(
             discs(self.folder / "run-908/report/animation.x3d", 0.5, size["width"], size["height"]))
         self.assertGreater(both, 0.9 * inside)
-        self.assertGreater(both, 0.9 * blue)
+        self.assertGreater(both, 0.9 * balls)
+
+    def test_8_without_webgl_the_still_picture_stays(self):
+        script = self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument",
+                                              {"source": "HTMLCanvasElement.prototype.getContext = () => null;"})
+        self.browser.get((self.folder / "run/report.html").as_uri())
+        self.browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
+        self.assertEqual(self.shown(".still", "#player"), [True, False])
+        self.assertEqual(self.script("return document.querySelectorAll('.stage canvas').length"), 0)
 
 
 if __name__ == "__main__":
