@@ -61,7 +61,7 @@ function addVessel(scene, vessel) {
 
 /** Who looks, with a lamp over the shoulder. */
 function addCamera(scene, eye, target) {
-  const camera = new THREE.PerspectiveCamera(THREE.Math.radToDeg(0.6)); // the swing just fills it
+  const camera = new THREE.PerspectiveCamera(0.6 * 180 / Math.PI); // the swing just fills it
   camera.position.fromArray(eye);
   const distance = camera.position.distanceTo(new THREE.Vector3().fromArray(target));
   camera.near = distance / 50;
@@ -74,19 +74,40 @@ function addCamera(scene, eye, target) {
   return camera;
 }
 
+/** Who looks, and a function that draws the mill at a fraction of its playback. */
+function makePicture(renderer, mill) {
+  const scene = new THREE.Scene(), camera = addCamera(scene, mill.eye, mill.target);
+  const moveBalls = addBalls(scene, mill.spheres), moveVessel = addVessel(scene, mill.vessel);
+  const steps = mill.vessel.poses.length / 7 - 1;
+  const draw = (fraction) => {
+    const frame = Math.min(Math.floor(fraction * steps), steps - 1), share = fraction * steps - frame;
+    moveBalls(frame, share);
+    moveVessel(frame, share);
+    renderer.render(scene, camera);
+  };
+  return { camera, draw };
+}
+
+/** Turning and coming nearer with the mouse or fingers. */
+function addControls(camera, canvas, target, onChange) {
+  const controls = new THREE.OrbitControls(camera, canvas);
+  controls.enableKeys = false; // they scroll the page
+  canvas.tabIndex = -1;
+  controls.maxDistance = camera.far / 2;
+  controls.target.fromArray(target);
+  controls.update();
+  controls.addEventListener("change", onChange);
+}
+
 function play(renderer) {
   const mill = JSON.parse(document.getElementById("frames").textContent);
   const stage = document.querySelector(".stage"), canvas = renderer.domElement;
   const button = document.getElementById("play"), slider = document.getElementById("time");
   const clock = document.getElementById("clock");
-  const end = Number(slider.max), frames = mill.vessel.poses.length / 7;
-
-  const scene = new THREE.Scene();
-  const camera = addCamera(scene, mill.eye, mill.target);
-  const moveBalls = addBalls(scene, mill.spheres), moveVessel = addVessel(scene, mill.vessel);
+  const end = Number(slider.max), { camera, draw } = makePicture(renderer, mill);
 
   let time = 0, playing = false, last = null, asked = false;
-  const draw = (now) => {
+  const update = (now) => {
     asked = false;
     if (playing) {
       time = (time + (now - (last ?? now)) * end / (1000 * mill.duration)) % end;
@@ -94,16 +115,13 @@ function play(renderer) {
       slider.value = time;
       ask();
     }
-    const at = (time / end) * (frames - 1), frame = Math.min(Math.floor(at), frames - 2);
-    moveBalls(frame, at - frame);
-    moveVessel(frame, at - frame);
+    draw(time / end);
     clock.textContent = time.toFixed(1) + " ms";
     slider.setAttribute("aria-valuetext", clock.textContent);
-    renderer.render(scene, camera);
   };
   /** Draws once before the next repaint. */
   const ask = () => {
-    if (!asked) requestAnimationFrame(draw);
+    if (!asked) requestAnimationFrame(update);
     asked = true;
   };
   const setPlaying = (on) => {
@@ -113,12 +131,7 @@ function play(renderer) {
     ask();
   };
 
-  const controls = new THREE.OrbitControls(camera, canvas);
-  controls.enableKeys = false; // they scroll the page
-  canvas.tabIndex = -1;
-  controls.target.fromArray(mill.target);
-  controls.update();
-  controls.addEventListener("change", ask);
+  addControls(camera, canvas, mill.target, ask);
   button.addEventListener("click", () => setPlaying(!playing));
   slider.addEventListener("input", () => {
     time = slider.valueAsNumber;

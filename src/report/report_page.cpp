@@ -56,7 +56,7 @@ void add_player(pugi::xml_node section, const Animation& animation, double speed
       {{"type", "range"},
        {"id", "time"},
        {"min", "0"},
-       {"max", fmt::format("{:.3f}", 1000 * animation.duration * speed)},
+       {"max", fmt::format("{}", 1000 * animation.duration * speed)},
        {"step", "any"},
        {"value", "0"},
        {"aria-label", "Time from the beginning of the animation"}});
