@@ -29,7 +29,8 @@ function addBalls(scene, spheres) {
   const size = 3 * spheres.radii.length, places = Float32Array.from(spheres.places);
   const colours = spheres.colours.flatMap((colour) => new THREE.Color(colour).toArray());
   const place = new THREE.InstancedBufferAttribute(new Float32Array(size), 3).setUsage(THREE.DynamicDrawUsage);
-  const squares = new THREE.InstancedBufferGeometry().copy(new THREE.PlaneBufferGeometry(2, 2));
+  const square = new THREE.PlaneBufferGeometry(2.4, 2.4); // the ball has radius 1; the rest is room for its soft edge
+  const squares = new THREE.InstancedBufferGeometry().copy(square);
   squares.setAttribute("place", place);
   squares.setAttribute("radius", new THREE.InstancedBufferAttribute(Float32Array.from(spheres.radii), 1));
   squares.setAttribute("colour", new THREE.InstancedBufferAttribute(Float32Array.from(colours), 3));

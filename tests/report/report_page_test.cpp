@@ -84,6 +84,7 @@ TEST_F(Report, OfARunWithReportHasEverySection) {
   EXPECT_EQ(ids(main, "//figure").size(), 11u);
   EXPECT_TRUE(main.select_nodes("//*[@class='missing']").empty());
   EXPECT_LT(page().size(), 6000000u);
+  EXPECT_NE(page().find(edmill::report::three_licence), std::string::npos);  // it asks for that
 }
 
 TEST_F(Report, WarningsHaveASectionOfTheirOwn) {
