@@ -12,9 +12,8 @@ program_packages=(
   g++ cmake ninja-build git ca-certificates
   libboost1.81-dev libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
   libmpfr-dev libgmp-dev libssl-dev libtbb-dev libhdf5-dev libpugixml-dev libopenmpi-dev openmpi-bin
-  nlohmann-json3-dev
+  nlohmann-json3-dev libjs-three
 )
-command -v npm >/dev/null || program_packages+=(npm) # fetches what plays the animation of a report
 
 test_packages=(
   libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev libgsl-dev

@@ -1,14 +1,163 @@
-// Play and pause; people who want less motion start with a pause.
+// Plays the mill: the frames of the page's JSON, on demand. Lengths in millimetres, times in milliseconds.
 "use strict";
-const button = document.getElementById("play");
-const clock = document.querySelector("x3d TimeSensor");
-if (button && clock) {
-  const play = (on) => {
-    clock.setAttribute("enabled", String(on));
-    button.textContent = on ? "Pause" : "Play";
-    button.setAttribute("aria-pressed", String(!on));
+
+// A ball is a square that faces the eye, shaded as a sphere: cheap, and round however near.
+const ballVertex = `
+  attribute vec3 place, colour;
+  attribute float radius;
+  varying vec3 tint;
+  varying vec2 across;
+  void main() {
+    tint = colour;
+    across = position.xy;
+    vec4 centre = viewMatrix * vec4(place, 1.0);
+    gl_Position = projectionMatrix * (centre + vec4(radius * across, 0.0, 0.0));
+  }`;
+const ballFragment = `
+  varying vec3 tint;
+  varying vec2 across;
+  void main() {
+    float r = length(across), edge = clamp((1.0 - r) / fwidth(r) + 0.5, 0.0, 1.0);
+    if (edge == 0.0) discard;
+    vec3 normal = vec3(across, sqrt(max(0.0, 1.0 - r * r)));
+    float light = 0.55 + 0.6 * max(0.0, dot(normal, normalize(vec3(-0.4, 0.7, 1.0))));
+    gl_FragColor = vec4(light * tint, edge);
+  }`;
+
+/** The balls. Returns a function that puts them where they are between two frames. */
+function addBalls(scene, spheres) {
+  const size = 3 * spheres.radii.length, places = Float32Array.from(spheres.places);
+  const colours = spheres.colours.flatMap((colour) => new THREE.Color(colour).toArray());
+  const place = new THREE.InstancedBufferAttribute(new Float32Array(size), 3).setUsage(THREE.DynamicDrawUsage);
+  const square = new THREE.PlaneBufferGeometry(2.4, 2.4); // the ball has radius 1; the rest is room for its soft edge
+  const squares = new THREE.InstancedBufferGeometry().copy(square);
+  squares.setAttribute("place", place);
+  squares.setAttribute("radius", new THREE.InstancedBufferAttribute(Float32Array.from(spheres.radii), 1));
+  squares.setAttribute("colour", new THREE.InstancedBufferAttribute(Float32Array.from(colours), 3));
+  const mesh = new THREE.Mesh(squares, new THREE.ShaderMaterial({
+    vertexShader: ballVertex, fragmentShader: ballFragment, transparent: true, extensions: { derivatives: true } }));
+  mesh.frustumCulled = false; // its bounds are those of one square at the origin
+  scene.add(mesh);
+  return (frame, share) => {
+    const from = size * frame, to = from + size;
+    for (let k = 0; k < size; ++k) place.array[k] = (1 - share) * places[from + k] + share * places[to + k];
+    place.needsUpdate = true;
   };
-  button.addEventListener("click", () => play(clock.getAttribute("enabled") === "false"));
-  if (matchMedia("(prefers-reduced-motion: reduce)").matches) play(false);
-  document.body.classList.add("plays");
 }
+
+/** The vessel. Returns a function that puts it where it is between two frames. */
+function addVessel(scene, vessel) {
+  const mesh = new THREE.Mesh(
+    new THREE.CylinderBufferGeometry(vessel.radius, vessel.radius, vessel.height, 48),
+    new THREE.MeshLambertMaterial({
+      color: vessel.colour, opacity: vessel.opacity, transparent: true, depthWrite: false, side: THREE.DoubleSide }));
+  mesh.renderOrder = 1; // after the balls, which are seen through it
+  scene.add(mesh);
+  const place = new THREE.Vector3(), turn = new THREE.Quaternion();
+  return (frame, share) => {
+    mesh.position.fromArray(vessel.poses, 7 * frame).lerp(place.fromArray(vessel.poses, 7 * (frame + 1)), share);
+    mesh.quaternion.fromArray(vessel.poses, 7 * frame + 3).slerp(turn.fromArray(vessel.poses, 7 * (frame + 1) + 3), share);
+  };
+}
+
+/** Who looks, with a lamp over the shoulder. */
+function addCamera(scene, eye, target) {
+  const camera = new THREE.PerspectiveCamera(0.6 * 180 / Math.PI); // the swing just fills it
+  camera.position.fromArray(eye);
+  const distance = camera.position.distanceTo(new THREE.Vector3().fromArray(target));
+  camera.near = distance / 50;
+  camera.far = 10 * distance;
+  const lamp = new THREE.DirectionalLight(0xffffff, 0.7);
+  lamp.position.set(-0.4, 0.7, 1);
+  lamp.target = camera;
+  camera.add(lamp);
+  scene.add(camera, new THREE.AmbientLight(0xffffff, 0.5));
+  return camera;
+}
+
+/** Who looks, and a function that draws the mill at a fraction of its playback. */
+function makePicture(renderer, mill) {
+  const scene = new THREE.Scene(), camera = addCamera(scene, mill.eye, mill.target);
+  const moveBalls = addBalls(scene, mill.spheres), moveVessel = addVessel(scene, mill.vessel);
+  const steps = mill.vessel.poses.length / 7 - 1;
+  const draw = (fraction) => {
+    const frame = Math.min(Math.floor(fraction * steps), steps - 1), share = fraction * steps - frame;
+    moveBalls(frame, share);
+    moveVessel(frame, share);
+    renderer.render(scene, camera);
+  };
+  return { camera, draw };
+}
+
+/** Turning and coming nearer with the mouse or fingers. */
+function addControls(camera, canvas, target, onChange) {
+  const controls = new THREE.OrbitControls(camera, canvas);
+  controls.enableKeys = false; // they scroll the page
+  canvas.tabIndex = -1;
+  controls.maxDistance = camera.far / 2;
+  controls.target.fromArray(target);
+  controls.update();
+  controls.addEventListener("change", onChange);
+}
+
+function play(renderer) {
+  const mill = JSON.parse(document.getElementById("frames").textContent);
+  const stage = document.querySelector(".stage"), canvas = renderer.domElement;
+  const button = document.getElementById("play"), slider = document.getElementById("time");
+  const clock = document.getElementById("clock");
+  const end = Number(slider.max), { camera, draw } = makePicture(renderer, mill);
+
+  let time = 0, playing = false, last = null, asked = false;
+  const update = (now) => {
+    asked = false;
+    if (playing) {
+      time = (time + (now - (last ?? now)) * end / (1000 * mill.duration)) % end;
+      last = now;
+      slider.value = time;
+      ask();
+    }
+    draw(time / end);
+    clock.textContent = time.toFixed(1) + " ms";
+    slider.setAttribute("aria-valuetext", clock.textContent);
+  };
+  /** Draws once before the next repaint. */
+  const ask = () => {
+    if (!asked) requestAnimationFrame(update);
+    asked = true;
+  };
+  const setPlaying = (on) => {
+    playing = on;
+    last = null;
+    button.textContent = on ? "Pause" : "Play";
+    ask();
+  };
+
+  addControls(camera, canvas, mill.target, ask);
+  button.addEventListener("click", () => setPlaying(!playing));
+  slider.addEventListener("input", () => {
+    time = slider.valueAsNumber;
+    ask();
+  });
+  new ResizeObserver(() => {
+    camera.aspect = stage.clientWidth / stage.clientHeight;
+    camera.updateProjectionMatrix();
+    renderer.setPixelRatio(devicePixelRatio);
+    renderer.setSize(stage.clientWidth, stage.clientHeight);
+    ask();
+  }).observe(stage);
+
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", "The vessel and its balls as they move");
+  stage.append(canvas);
+  document.getElementById("player").hidden = false;
+  document.body.classList.add("plays"); // in place of the still picture
+  setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
+}
+
+let renderer = null;
+try {
+  renderer = new THREE.WebGLRenderer({ alpha: true, antialias: true });
+} catch {
+  // Without WebGL the still picture stays; three.js has told the console why.
+}
+if (renderer) play(renderer);

@@ -15,9 +15,6 @@ namespace {
 
 using plot::add;
 
-/// Key frames of the animation, about 30 bytes each.
-constexpr std::size_t most_keys = 60000;
-
 /// Puts values in place of {{names}}; what a value holds is not looked at again.
 std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
   std::string out;
@@ -50,6 +47,31 @@ std::string subtitle_of(const RunFolder& run) {
                      : fmt::format(", SPEX 8000 at {} rpm", plot::brief(60 / spec.mill.period.to<double>())));
 }
 
+/// The controls, hidden until page.js plays. The slider counts milliseconds in the mill.
+void add_player(pugi::xml_node section, const Animation& animation, double speed) {
+  auto player = add(section, "div", {{"id", "player"}, {"hidden", "hidden"}});
+  auto controls = add(player, "div", {{"class", "controls"}});
+  add(controls, "button", {{"type", "button"}, {"id", "play"}}, "Play");
+  add(controls, "input",
+      {{"type", "range"},
+       {"id", "time"},
+       {"min", "0"},
+       {"max", fmt::format("{}", 1000 * animation.duration * speed)},
+       {"step", "any"},
+       {"value", "0"},
+       {"aria-label", "Time from the beginning of the animation"}});
+  add(controls, "span", {{"id", "clock"}, {"aria-hidden", "true"}}, "0.0 ms");
+  add(player, "p", {{"class", "note"}},
+      fmt::format("Slowed down {} times. Drag to turn, scroll to come nearer.",
+                  plot::readable(1 / speed, 2)));
+}
+
+/// The scripts that play the animation.
+std::string player() {
+  return fmt::format("<script>\n/* {}*/\n{}\n{}</script>\n<script>\n{}</script>\n", three_licence, three_js,
+                     three_orbit_js, page_js);
+}
+
 }  // namespace
 
 void add_animation(pugi::xml_node main, const RunFolder& run) {
@@ -59,17 +81,15 @@ void add_animation(pugi::xml_node main, const RunFolder& run) {
   const auto animation = read_animation(run.file_of(*output));
   auto stage = add(section, "div", {{"class", "stage"}});
   add_still(stage, animation);
-  if (x3dom_js.empty()) {
+  if (three_js.empty()) {
     add(section, "p", {{"class", "missing"}},
-        "A still picture: this edmill was built without X3DOM (no npm). The animation itself is in " +
+        "A still picture: this edmill was built without three.js (Debian: libjs-three). The animation itself "
+        "is in " +
             run.file_of(*output).filename().string() + ".");
     return;
   }
-  add_scene(stage, animation, most_keys);
-  add(section, "button", {{"type", "button"}, {"id", "play"}, {"aria-pressed", "false"}}, "Pause");
-  add(section, "p", {{"class", "note"}},
-      fmt::format("Slowed down {} times. Drag to turn, scroll to come nearer.",
-                  plot::readable(1 / output->animation.speed.to<double>(), 2)));
+  add_frames(section, animation);
+  add_player(section, animation, output->animation.speed.to<double>());
 }
 
 std::string report_page(const RunFolder& run) {
@@ -86,17 +106,16 @@ std::string report_page(const RunFolder& run) {
   add_ball_speeds(main, run);
   add_energy(main, run);
   add_case(main, run);
-  const bool plays = main.select_node("//x3d") && !x3dom_js.empty();
+  const bool plays = static_cast<bool>(main.select_node("//div[@id='player']"));
   const auto program = fmt::format("edmill {} ({})", run.facts.version, run.facts.commit);
-  return filled(page_html, {{"title", escaped(title_of(run))},
-                            {"subtitle", escaped(subtitle_of(run))},
-                            {"program", escaped(program)},
-                            {"main", plot::html_of(document)},
-                            {"style", std::string(page_css)},
-                            {"script", std::string(page_js)},
-                            {"x3dom_style", plays ? std::string(x3dom_css) : ""},
-                            {"x3dom_script", plays ? std::string(x3dom_js) : ""},
-                            {"x3dom_note", plays ? "The animation is played by X3DOM (MIT licence)." : ""}});
+  return filled(page_html,
+                {{"title", escaped(title_of(run))},
+                 {"subtitle", escaped(subtitle_of(run))},
+                 {"program", escaped(program)},
+                 {"main", plot::html_of(document)},
+                 {"style", std::string(page_css)},
+                 {"player", plays ? player() : ""},
+                 {"player_note", plays ? "The animation is played by three.js (MIT licence)." : ""}});
 }
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {

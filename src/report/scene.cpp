@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "base/errors.hpp"
 #include "plot/markup.hpp"
 
 namespace edmill::report {
@@ -16,163 +15,96 @@ namespace edmill::report {
 namespace {
 
 using plot::add;
+using Json = nlohmann::json;
 
-std::vector<double> numbers_of(const pugi::xml_attribute& attribute) {
-  std::istringstream text(attribute.as_string());
-  std::vector<double> numbers;
-  for (double x = 0; text >> x;) numbers.push_back(x);
-  return numbers;
+/// Places of spheres in all frames together: about 20 bytes each.
+constexpr std::size_t most_places = 100000;
+
+/// Adds numbers to a JSON array, rounded: 0.01 mm is less than a pixel.
+template <class Vector>
+void append(Json& array, const Vector& numbers, double steps) {
+  for (const double x : numbers) array.push_back(std::round(x * steps) / steps);
 }
 
-/// Key frames of an interpolator, thinned and rounded: 0.01 mm is less than a pixel.
-void copy_path(pugi::xml_node target, const pugi::xml_node& source, std::size_t most_keys) {
-  const auto keys = numbers_of(source.attribute("key")), values = numbers_of(source.attribute("keyValue"));
-  if (keys.empty() || values.size() % keys.size() != 0) return;
-  const std::size_t width = values.size() / keys.size(), step = 1 + (keys.size() - 1) / most_keys;
-  std::string key_text, value_text;
-  for (std::size_t k = 0; k < keys.size(); k += step) {
-    if (k + step >= keys.size()) k = keys.size() - 1;  // the last one always
-    key_text += fmt::format("{:.5g} ", keys[k]);
-    for (std::size_t c = 0; c < width; ++c) value_text += fmt::format("{:.5f} ", values[k * width + c]);
-  }
-  target.append_attribute("key") = key_text.c_str();
-  target.append_attribute("keyValue") = value_text.c_str();
+Json millimetres(const Vec3<double>& place) {
+  Json array = Json::array();
+  append(array, 1000 * place, 100);
+  return array;
 }
 
-/// How much of a scene a page can bear.
-struct Limits {
-  std::size_t keys;              ///< of each path
-  const char* sphere_divisions;  ///< of longitude and latitude
-};
-
-void copy(pugi::xml_node parent, const pugi::xml_node& source, const Limits& limits) {
-  const std::string name = source.name();
-  if (name == "Background") return;  // the page's own shows
-  auto target = parent.append_child(name.c_str());
-  const bool path = name.ends_with("Interpolator");
-  for (const auto& attribute : source.attributes()) {
-    const std::string key = attribute.name();
-    if (!path || (key != "key" && key != "keyValue")) target.append_copy(attribute);
-  }
-  if (name == "Viewpoint") target.append_attribute("fieldOfView") = "0.6";  // the swing just fills it
-  if (name == "Sphere") target.append_attribute("subdivision") = limits.sphere_divisions;
-  if (path) copy_path(target, source, limits.keys);
-  for (const auto& child : source.children()) copy(target, child, limits);
-}
-
-struct Point {
-  double x, y, z;
-};
-
-Point point_of(const pugi::xml_attribute& attribute) {
-  const auto n = numbers_of(attribute);
-  return n.size() == 3 ? Point{n[0], n[1], n[2]} : Point{0, 0, 0};
-}
-
-double angle_of(const pugi::xml_node& transform) {
-  const auto n = numbers_of(transform.attribute("rotation"));
-  return n.size() == 4 ? n[3] : 0;
-}
-
-/// The vessel as it stands in the first frame: places of its own frame in the inertial one.
-struct Vessel {
-  double theta, gamma, arm, radius, half_height;
-
-  Point place(double x, double y, double z) const {
-    const double y1 = y * std::cos(gamma) - z * std::sin(gamma),
-                 z1 = y * std::sin(gamma) + z * std::cos(gamma);
-    const double x1 = x + arm;
-    return {x1 * std::cos(theta) - y1 * std::sin(theta), x1 * std::sin(theta) + y1 * std::cos(theta), z1};
-  }
-};
-
-Vessel vessel_of(const pugi::xml_node& scene) {
-  const auto swing = scene.find_child_by_attribute("Transform", "DEF", "theta");
-  const auto arm = swing.child("Transform"), tilt = arm.child("Transform");
-  const auto cylinder = tilt.child("Shape").child("Cylinder");
-  return {angle_of(swing), angle_of(tilt), point_of(arm.attribute("translation")).x,
-          cylinder.attribute("radius").as_double(), cylinder.attribute("height").as_double() / 2};
-}
-
-std::string colour_of(const pugi::xml_node& shape) {
-  const auto c = numbers_of(shape.child("Appearance").child("Material").attribute("diffuseColor"));
-  if (c.size() != 3) return "#888888";
-  const auto part = [&](std::size_t k) { return static_cast<int>(std::lround(255 * c[k])); };
-  return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
+std::size_t frame_count(const Animation& animation) {
+  return 1 +
+         std::clamp<std::size_t>(most_places / std::max<std::size_t>(1, animation.spheres.size()), 40, 640);
 }
 
 }  // namespace
 
-pugi::xml_document read_animation(const std::filesystem::path& file) {
-  pugi::xml_document document;
-  const auto result = document.load_file(file.c_str());
-  if (!result)
-    throw InputError(fmt::format("{}: found no valid XML at byte {} ({}), expected an animation",
-                                 file.string(), result.offset, result.description()));
-  const auto scene = document.child("X3D").child("Scene");
-  if (!scene.child("TimeSensor") || !scene.find_child_by_attribute("Transform", "DEF", "theta"))
-    throw InputError(file.string() + ": found X3D without moving vessel, expected an animation");
-  return document;
+void add_frames(pugi::xml_node parent, const Animation& animation) {
+  const auto& vessel = animation.vessel;
+  const std::size_t frames = frame_count(animation);
+  Json poses = Json::array(), places = Json::array(), radii = Json::array(), colours = Json::array();
+  for (const auto& sphere : animation.spheres) {
+    radii.push_back(1000 * sphere.radius);
+    colours.push_back(sphere.colour);
+  }
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    const double fraction = static_cast<double>(frame) / static_cast<double>(frames - 1);
+    const auto pose = vessel.pose(fraction);
+    append(poses, 1000 * pose.translation(), 100);
+    append(poses, Eigen::Quaterniond(pose.rotation()).coeffs(), 1e6);
+    for (const auto& sphere : animation.spheres) append(places, 1000 * sphere.place.at(fraction), 100);
+  }
+  const Json scene = {{"duration", animation.duration},
+                      {"eye", millimetres(animation.eye)},
+                      {"target", millimetres(animation.target)},
+                      {"vessel",
+                       {{"radius", 1000 * vessel.radius},
+                        {"height", 1000 * vessel.height},
+                        {"colour", vessel.colour},
+                        {"opacity", vessel.opacity},
+                        {"poses", poses}}},
+                      {"spheres", {{"radii", radii}, {"colours", colours}, {"places", places}}}};
+  add(parent, "script", {{"type", "application/json"}, {"id", "frames"}}, scene.dump());
 }
 
-void add_scene(pugi::xml_node parent, const pugi::xml_document& animation, std::size_t most_keys) {
-  const auto scene = animation.child("X3D").child("Scene");
-  std::size_t paths = 0;
-  for (const auto& child : scene.children())
-    paths += std::string_view(child.name()) == "PositionInterpolator";
-  auto x3d = add(parent, "x3d",
-                 {{"id", "scene"}, {"disableKeys", "true"}, {"showLog", "false"}, {"showStat", "false"}});
-  auto target = add(x3d, "scene");
-  add(target, "NavigationInfo", {{"type", "EXAMINE"}});
-  const Limits limits{std::max<std::size_t>(16, most_keys / std::max<std::size_t>(1, paths)),
-                      paths > 200 ? "10 10" : "24 24"};
-  for (const auto& child : scene.children()) copy(target, child, limits);
-}
-
-void add_still(pugi::xml_node parent, const pugi::xml_document& animation) {
-  const auto scene = animation.child("X3D").child("Scene");
-  const Vessel vessel = vessel_of(scene);
-  const Point centre = vessel.place(0, 0, 0);
-  const double reach = 1.25 * std::hypot(vessel.radius, vessel.half_height);
+void add_still(pugi::xml_node parent, const Animation& animation) {
+  const auto& vessel = animation.vessel;
+  const auto pose = vessel.pose(0);
+  const Vec3<double> centre = pose.translation();
+  const double half_height = vessel.height / 2, reach = 1.25 * std::hypot(vessel.radius, half_height);
   // In millimetres, y upwards.
-  const auto x = [&](double value) { return 1000 * (value - centre.x + reach); };
-  const auto y = [&](double value) { return 1000 * (centre.y + reach - value); };
+  const auto x = [&](const Vec3<double>& place) { return 1000 * (place[0] - centre[0] + reach); };
+  const auto y = [&](const Vec3<double>& place) { return 1000 * (centre[1] + reach - place[1]); };
   auto svg = add(parent, "svg",
                  {{"class", "still"},
                   {"viewBox", fmt::format("0 0 {0:.1f} {0:.1f}", 2000 * reach)},
                   {"role", "img"},
                   {"aria-label", "The vessel and its balls at the beginning of the animation"}});
-  const auto outline = [&](const std::vector<Point>& points, const char* style) {
+  const auto outline = [&](const std::vector<Vec3<double>>& points) {
     std::string path;
-    for (const auto& p : points)
-      path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", x(p.x), y(p.y));
-    add(svg, "path", {{"class", style}, {"d", path + "Z"}});
+    for (const auto& p : points) path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", x(p), y(p));
+    add(svg, "path", {{"class", "vessel"}, {"d", path + "Z"}});
   };
-  std::vector<std::vector<Point>> caps(2);
-  for (std::size_t cap = 0; cap < 2; ++cap)
-    for (int k = 0; k < 60; ++k) {
-      const double angle = k * 3.14159265358979 / 30;
-      caps[cap].push_back(vessel.place(vessel.radius * std::cos(angle),
-                                       cap == 0 ? -vessel.half_height : vessel.half_height,
-                                       vessel.radius * std::sin(angle)));
-    }
-  outline({caps[0][0], caps[0][30], caps[1][30], caps[1][0]}, "vessel");
-  for (const auto& cap : caps) outline(cap, "vessel");
-  std::vector<std::pair<double, pugi::xml_node>> balls;
-  for (const auto& transform : scene.children("Transform"))
-    if (std::string_view(transform.attribute("DEF").as_string()).starts_with("ball_"))
-      balls.emplace_back(point_of(transform.attribute("translation")).z, transform);
-  std::sort(balls.begin(), balls.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [depth, transform] : balls) {
-    const Point place = point_of(transform.attribute("translation"));
-    const auto shape = transform.child("Shape");
+  std::vector<Vec3<double>> caps[2];
+  for (int k = 0; k < 60; ++k) {
+    const double angle = k * 3.14159265358979 / 30, a = vessel.radius * std::cos(angle),
+                 b = vessel.radius * std::sin(angle);
+    caps[0].push_back(pose * Vec3<double>(a, -half_height, b));
+    caps[1].push_back(pose * Vec3<double>(a, half_height, b));
+  }
+  outline({caps[0][0], caps[0][30], caps[1][30], caps[1][0]});
+  for (const auto& cap : caps) outline(cap);
+  std::vector<std::pair<Vec3<double>, const MovingSphere*>> spheres;
+  for (const auto& sphere : animation.spheres) spheres.emplace_back(sphere.place.at(0), &sphere);
+  std::stable_sort(spheres.begin(), spheres.end(),
+                   [](const auto& a, const auto& b) { return a.first[2] < b.first[2]; });
+  for (const auto& [place, sphere] : spheres)
     add(svg, "circle",
         {{"class", "ball"},
-         {"cx", fmt::format("{:.2f}", x(place.x))},
-         {"cy", fmt::format("{:.2f}", y(place.y))},
-         {"r", fmt::format("{:.2f}", 1000 * shape.child("Sphere").attribute("radius").as_double())},
-         {"fill", colour_of(shape)}});
-  }
+         {"cx", fmt::format("{:.2f}", x(place))},
+         {"cy", fmt::format("{:.2f}", y(place))},
+         {"r", fmt::format("{:.2f}", 1000 * sphere->radius)},
+         {"fill", sphere->colour}});
 }
 
 }  // namespace edmill::report

@@ -1,20 +1,20 @@
-// An X3D page of a run as part of an HTML page: for X3DOM, and as a still drawing.
+// An animation as part of an HTML page: the frames that its player shows, and a still drawing.
 #pragma once
 
-#include <filesystem>
 #include <pugixml.hpp>
+
+#include "report/animation.hpp"
 
 namespace edmill::report {
 
-/// The page that an `animation` wrote. @throws InputError when it is not one
-pugi::xml_document read_animation(const std::filesystem::path& file);
+/// Adds <script type="application/json" id="frames">, which page.js plays. Lengths in millimetres:
+///   {duration, eye, target,
+///    vessel: {radius, height, colour, opacity, poses: [x, y, z, qx, qy, qz, qw of each frame]},
+///    spheres: {radii, colours, places: [x, y, z of each sphere, frame by frame]}}
+/// Frames divide the playback into equal parts, from its beginning to its end.
+void add_frames(pugi::xml_node parent, const Animation& animation);
 
-/// Adds <x3d> with the scene: without its background, and with numbers and key frames that suffice for the
-/// eye.
-/// @param most_keys  of all moving things together
-void add_scene(pugi::xml_node parent, const pugi::xml_document& animation, std::size_t most_keys);
-
-/// Adds an <svg> of the scene's first frame, seen along the Z axis.
-void add_still(pugi::xml_node parent, const pugi::xml_document& animation);
+/// Adds an <svg> of the first frame, seen along the Z axis.
+void add_still(pugi::xml_node parent, const Animation& animation);
 
 }  // namespace edmill::report

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """A report in headless Chromium: no message on the console, no request, axes with units, a scene that moves, a phone's width,
-dark colours. Debian: chromium, chromium-driver, python3-selenium.
+dark colours; and how fast a report of 908 balls opens. Debian: chromium, chromium-driver, python3-selenium.
 
 usage: report_browser_test.py EDMILL [FOLDER]    FOLDER keeps the run and the screenshots
 """
 import base64
+import bisect
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -13,8 +15,11 @@ import sys
 import tempfile
 import time
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 from selenium import webdriver
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.chrome.service import Service
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -32,20 +37,49 @@ def browser(profile):
     return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
 
 
+def run(folder, *settings):
+    """The page of the demo with other settings."""
+    given = [word for setting in settings for word in ("--set", setting)]
+    subprocess.run([EDMILL, "run", ROOT / "docs/examples/demo.toml", "--report", "--quiet", "--out", folder, *given], check=True)
+    return (folder / "report.html").as_uri()
+
+
+def floats(text):
+    return [float(word) for word in text.split()]
+
+
+def discs(animation, fraction, width, height):
+    """Circles (x, y, radius) in pixels where the balls of an X3D animation are seen at a fraction of its playback."""
+    scene = ElementTree.parse(animation).getroot().find("Scene")
+    paths = {node.get("DEF"): node for node in scene.iter("PositionInterpolator")}
+    eye = floats(scene.find("Viewpoint").get("position"))  # looks along -Z
+    pixels = height / 2 / math.tan(0.3)  # the field of view is 0.6 rad
+    seen = []
+    for ball in scene.findall("Transform"):
+        path = paths.get(f"{ball.get('DEF')}_path")
+        if path is None:
+            continue
+        keys, values = floats(path.get("key")), floats(path.get("keyValue"))
+        k = min(max(bisect.bisect_right(keys, fraction), 1), len(keys) - 1)
+        share = (fraction - keys[k - 1]) / (keys[k] - keys[k - 1])
+        x, y, z = (values[3 * k - 3 + c] + share * (values[3 * k + c] - values[3 * k - 3 + c]) - eye[c] for c in range(3))
+        radius = float(ball.find("Shape/Sphere").get("radius"))
+        seen.append([width / 2 - pixels * x / z, height / 2 + pixels * y / z, -pixels * radius / z])
+    return seen
+
+
 class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(FOLDER or cls.temporary.name)
         cls.folder.mkdir(parents=True, exist_ok=True)
-        subprocess.run([EDMILL, "run", ROOT / "docs/examples/demo.toml", "--report", "--quiet", "--out", cls.folder / "run",
-                        "--set", "run.end_time=3 s"], check=True)
+        page = run(cls.folder / "run", "run.end_time=3 s")
         cls.browser = browser(cls.folder / "profile")
         cls.browser.set_script_timeout(120)
         cls.size(1280, 900)
         cls.browser.get_log("performance")  # what the browser does before
-        cls.browser.get((cls.folder / "run/report.html").as_uri())
-        cls.wait_for_scene()
+        cls.browser.get(page)
 
     @classmethod
     def tearDownClass(cls):
@@ -61,14 +95,6 @@ class Report(unittest.TestCase):
         cls.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                     {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
 
-    @classmethod
-    def wait_for_scene(cls):
-        for _ in range(600):
-            if cls.script("return !!document.querySelector('x3d canvas') && !!document.querySelector('x3d').runtime"):
-                break
-            time.sleep(0.1)
-        time.sleep(1)
-
     def media(self, scheme="light", kind="screen"):
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
             "media": kind, "features": [{"name": "prefers-color-scheme", "value": scheme}]})
@@ -78,8 +104,49 @@ class Report(unittest.TestCase):
         picture = self.browser.execute_cdp_cmd("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True})
         (self.folder / name).write_bytes(base64.b64decode(picture["data"]))
 
+    def shown(self, *selectors):
+        return self.script("return arguments[0].map(s => getComputedStyle(document.querySelector(s)).display !== 'none')",
+                           selectors)
+
+    def canvas(self):
+        return self.browser.find_element("css selector", ".stage canvas")
+
     def scene_picture(self):
-        return self.browser.find_element("css selector", ".stage").screenshot_as_png
+        return self.canvas().screenshot_as_png
+
+    def play(self, on):
+        self.script("const b = document.getElementById('play'); if (b.textContent !== arguments[0]) b.click()",
+                    "Pause" if on else "Play")
+
+    def show(self, fraction):
+        """The paused scene at a fraction of its playback."""
+        self.play(False)
+        self.script("""
+            const slider = document.getElementById('time');
+            slider.value = arguments[0] * slider.max;
+            slider.dispatchEvent(new Event('input'));""", fraction)
+        time.sleep(0.3)
+
+    def ball_pixels(self, circles):
+        """Of the scene's picture: pixels of balls in the circles, in the circles, of balls anywhere. Balls are blue, the
+        vessel is yellow and the page white, so that balls alone have little red, behind the vessel's walls too."""
+        return self.browser.execute_async_script("""
+            const [png, circles, done] = arguments, image = new Image();
+            image.onload = () => {
+              const canvas = document.createElement('canvas'), context = canvas.getContext('2d');
+              canvas.width = image.width; canvas.height = image.height;
+              context.drawImage(image, 0, 0);
+              const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
+              let both = 0, inside = 0, balls = 0;
+              for (let y = 0, k = 0; y < canvas.height; ++y)
+                for (let x = 0; x < canvas.width; ++x, k += 4) {
+                  const is_ball = data[k] < 160;
+                  const is_inside = circles.some(c => Math.hypot(x + 0.5 - c[0], y + 0.5 - c[1]) < c[2]);
+                  both += is_ball && is_inside; inside += is_inside; balls += is_ball;
+                }
+              done([both, inside, balls]);
+            };
+            image.src = 'data:image/png;base64,' + png;""", base64.b64encode(self.scene_picture()).decode(), circles)
 
     def test_1_the_console_is_silent(self):
         # The driver grumbles about drawing without a graphics card.
@@ -133,36 +200,71 @@ class Report(unittest.TestCase):
         for text in intervals:
             self.assertTrue(re.match(r"± [0-9.\u202f×⁻⁰¹²³⁴⁵⁶⁷⁸⁹ ]+ [A-Za-z/1]+$", text), text)
 
-    def test_3_the_scene_renders_and_moves(self):
-        # In its own picture, without the page around it.
-        drawn = self.script("""
-            const picture = document.querySelector('x3d').runtime.getScreenshot();
-            return new Promise((done, failed) => {
-              const image = new Image();
-              image.onerror = failed;
-              image.onload = () => {
-                const canvas = document.createElement('canvas'), context = canvas.getContext('2d');
-                canvas.width = image.width; canvas.height = image.height;
-                context.drawImage(image, 0, 0);
-                const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
-                let blue = 0;
-                for (let k = 0; k < data.length; k += 4) blue += data[k + 3] > 0 && data[k + 2] > data[k] + 40;
-                done(blue / (data.length / 4));
-              };
-              image.src = picture;
-            });""")
-        self.assertGreater(drawn, 0.01, "blue balls")
-        first = self.scene_picture()
-        time.sleep(3)
+    def test_3_the_scene_moves(self):
+        self.play(True)
+        first, begin = self.scene_picture(), self.script("return document.getElementById('time').valueAsNumber")
+        time.sleep(1)
         self.assertNotEqual(first, self.scene_picture())
+        self.assertNotEqual(begin, self.script("return document.getElementById('time').valueAsNumber"))
 
-    def test_4_pause_stops_the_scene(self):
-        self.script("document.getElementById('play').click()")
+    def test_3_balls_are_where_the_animation_has_them(self):
+        size = self.canvas().size
+        for fraction in (0, 0.31, 0.77, 1):
+            with self.subTest(fraction):
+                self.show(fraction)
+                here = discs(self.folder / "run/report/animation.x3d", fraction, size["width"], size["height"])
+                self.assertEqual(len(here), 28)
+                both, inside, balls = self.ball_pixels(here)
+                self.assertGreater(inside, 3000)
+                self.assertGreater(both, 0.96 * inside)
+                self.assertGreater(both, 0.98 * balls)
+                # 1 % of the playback away, 1.1 ms, they are elsewhere.
+                near = abs(fraction - 0.01)
+                both, inside, balls = self.ball_pixels(
+                    discs(self.folder / "run/report/animation.x3d", near, size["width"], size["height"]))
+                self.assertLess(both, 0.7 * inside)
+
+    def test_4_pause_stops_the_scene_and_its_drawing(self):
+        self.play(True)
+        time.sleep(0.3)
+        self.play(False)
+        self.script("""
+            window.asked = 0;
+            const ask = window.requestAnimationFrame;
+            window.requestAnimationFrame = (f) => { ++window.asked; return ask(f); };""")
         time.sleep(0.7)
         first = self.scene_picture()
         time.sleep(0.7)
         self.assertEqual(first, self.scene_picture())
-        self.script("document.getElementById('play').click()")
+        self.assertEqual(self.script("return window.asked"), 0)
+        self.play(True)
+        time.sleep(0.7)
+        self.assertGreater(self.script("return window.asked"), 2)
+
+    def test_4_the_mouse_turns_and_enlarges_the_paused_scene(self):
+        self.show(0.5)
+        first = self.scene_picture()
+        ActionChains(self.browser).drag_and_drop_by_offset(self.canvas(), 80, 30).perform()
+        time.sleep(0.3)
+        turned = self.scene_picture()
+        self.assertNotEqual(first, turned)
+        before = self.ball_pixels([])[2]
+        self.script("""
+            const canvas = document.querySelector('.stage canvas');
+            canvas.dispatchEvent(new WheelEvent('wheel', {deltaY: -100, cancelable: true}));""")
+        time.sleep(0.3)
+        self.assertGreater(self.ball_pixels([])[2], 1.05 * before)
+
+    def test_4_controls_have_names_and_take_the_keyboard(self):
+        self.show(0.5)
+        names = self.script("""
+            return ['play', 'time'].map(id => document.getElementById(id)).map(e => [e.tabIndex, e.computedName ??
+                e.getAttribute('aria-label') ?? e.textContent, e.getAttribute('aria-valuetext')])""")
+        self.assertEqual(names, [[0, "Play", None], [0, "Time from the beginning of the animation", "56.9 ms"]])
+        slider = self.browser.find_element("id", "time")
+        slider.send_keys(Keys.ARROW_RIGHT)
+        time.sleep(0.3)
+        self.assertEqual(self.script("return document.getElementById('clock').textContent"), "58.1 ms")
 
     def test_5_tables_fit_a_desktop(self):
         wide = "return [...document.querySelectorAll('.table')].filter(t => t.scrollWidth > t.clientWidth).map(t => t.textContent)"
@@ -198,12 +300,35 @@ class Report(unittest.TestCase):
 
     def test_6_paper_shows_the_still_picture(self):
         self.media(kind="print")
-        shown = self.script("""
-            return ['.still', 'x3d', '#play'].map(s => getComputedStyle(document.querySelector(s)).display !== 'none')""")
+        shown = self.shown(".still", ".stage canvas", "#player")
         pdf = self.browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "paperWidth": 8.27, "paperHeight": 11.69})
         self.media()
         self.assertEqual(shown, [True, False, False])
         (self.folder / "report.pdf").write_bytes(base64.b64decode(pdf["data"]))
+
+    def test_7_a_report_of_908_balls_opens_within_3_seconds(self):
+        page = run(self.folder / "run-908", "balls.0.count=908", "balls.0.diameter=2.36 mm", "balls.0.gap_ball=0.2 mm",
+                   "contact.restitution=0.8", "run.start_time=0.1 s", "run.end_time=0.2 s")
+        begin = time.monotonic()
+        self.browser.get(page)
+        self.scene_picture()
+        seconds = time.monotonic() - begin
+        print(f"{seconds:.2f} s", end=" ", flush=True)
+        self.assertLess(seconds, 3)
+        size = self.canvas().size
+        self.show(0.5)
+        both, inside, balls = self.ball_pixels(
+            discs(self.folder / "run-908/report/animation.x3d", 0.5, size["width"], size["height"]))
+        self.assertGreater(both, 0.9 * inside)
+        self.assertGreater(both, 0.9 * balls)
+
+    def test_8_without_webgl_the_still_picture_stays(self):
+        script = self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument",
+                                              {"source": "HTMLCanvasElement.prototype.getContext = () => null;"})
+        self.browser.get((self.folder / "run/report.html").as_uri())
+        self.browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
+        self.assertEqual(self.shown(".still", "#player"), [True, False])
+        self.assertEqual(self.script("return document.querySelectorAll('.stage canvas').length"), 0)
 
 
 if __name__ == "__main__":

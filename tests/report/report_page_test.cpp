@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -83,6 +84,7 @@ TEST_F(Report, OfARunWithReportHasEverySection) {
   EXPECT_EQ(ids(main, "//figure").size(), 11u);
   EXPECT_TRUE(main.select_nodes("//*[@class='missing']").empty());
   EXPECT_LT(page().size(), 6000000u);
+  EXPECT_NE(page().find(edmill::report::three_licence), std::string::npos);  // it asks for that
 }
 
 TEST_F(Report, WarningsHaveASectionOfTheirOwn) {
@@ -212,6 +214,64 @@ TEST_F(Report, TheAnimationBeginsWithTheStatisticsAndHasEveryBallInTheVessel) {
     }
 }
 
+/// Where ball `ball` is at a fraction of the animation: straight between the keys of its path.
+std::array<double, 3> place_at(const pugi::xml_node& scene, std::size_t ball, double fraction) {
+  const auto path = scene.find_child_by_attribute("DEF", ("ball_" + std::to_string(ball) + "_path").c_str());
+  const auto keys = numbers(path, "key"), values = numbers(path, "keyValue");
+  std::size_t k = 1;
+  while (k + 1 < keys.size() && keys[k] < fraction) ++k;
+  const double share = (fraction - keys[k - 1]) / (keys[k] - keys[k - 1]);
+  std::array<double, 3> place;
+  for (std::size_t c = 0; c < 3; ++c)
+    place[c] = values[3 * (k - 1) + c] + share * (values[3 * k + c] - values[3 * (k - 1) + c]);
+  return place;
+}
+
+TEST_F(Report, TheFramesOfThePageShowTheAnimation) {
+  run("--report");
+  pugi::xml_document animation;
+  ASSERT_TRUE(animation.load_file((folder / "report/animation.x3d").c_str()));
+  const auto scene = animation.child("X3D").child("Scene");
+  const auto main = body();
+  const auto frames = nlohmann::json::parse(main.select_node("//script[@id='frames']").node().text().get());
+  const auto slider = main.select_node("//input[@id='time']").node();
+  EXPECT_NEAR(slider.attribute("max").as_double(), 1000 * 2 * 60.0 / 1054, 1e-3);
+  EXPECT_NEAR(frames["duration"], 8, 1e-9);
+  EXPECT_EQ(frames["eye"], (std::vector<double>{0, 100, 190}));
+  EXPECT_EQ(frames["target"], (std::vector<double>{0, 100, 0}));
+  EXPECT_NEAR(frames["vessel"]["radius"], 19, 1e-9);
+  EXPECT_NEAR(frames["vessel"]["height"], 57, 1e-9);
+  EXPECT_NEAR(frames["vessel"]["opacity"], 0.3, 1e-9);
+  EXPECT_EQ(frames["vessel"]["colour"], "#ffff00");
+  EXPECT_EQ(frames["spheres"]["colours"], std::vector<std::string>(28, "#0000ff"));
+  for (const double radius : frames["spheres"]["radii"]) EXPECT_NEAR(radius, 2.38, 1e-9);
+  const std::vector<double> poses = frames["vessel"]["poses"], places = frames["spheres"]["places"];
+  const std::size_t count = poses.size() / 7;
+  ASSERT_GT(count, 100u);
+  ASSERT_EQ(poses.size(), 7 * count);
+  ASSERT_EQ(places.size(), 3 * 28 * count);
+  const double turn = 2 * std::acos(-1.0), degree = turn / 360;
+  for (std::size_t frame = 0; frame < count; frame += 20) {
+    const double fraction = static_cast<double>(frame) / static_cast<double>(count - 1);
+    for (std::size_t ball = 0; ball < 28; ++ball) {
+      const auto place = place_at(scene, ball, fraction);
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_NEAR(places[3 * (28 * frame + ball) + c], 1000 * place[c], 0.0051) << ball << " " << frame;
+    }
+    // Angles are straight between keys, 80 each turn: up to 0.2 mrad off.
+    const double phase = turn * (0.5 * 1054 / 60 + 2 * fraction);
+    const double theta = (90 + 15 * std::cos(phase)) * degree, gamma = 15 * std::sin(phase) * degree;
+    const double* pose = &poses[7 * frame];
+    EXPECT_NEAR(pose[0], 100 * std::cos(theta), 0.03);
+    EXPECT_NEAR(pose[1], 100 * std::sin(theta), 0.03);
+    EXPECT_NEAR(pose[2], 0, 0.005);
+    EXPECT_NEAR(pose[3], std::cos(theta / 2) * std::sin(gamma / 2), 2e-4);
+    EXPECT_NEAR(pose[4], std::sin(theta / 2) * std::sin(gamma / 2), 2e-4);
+    EXPECT_NEAR(pose[5], std::sin(theta / 2) * std::cos(gamma / 2), 2e-4);
+    EXPECT_NEAR(pose[6], std::cos(theta / 2) * std::cos(gamma / 2), 2e-4);
+  }
+}
+
 TEST_F(Report, TablesOfAnEarlierRunInTheFolderAreNotShown) {
   run("--report");
   run("--set run.seed=2");
@@ -293,6 +353,11 @@ TEST_F(Report, BrokenFilesAreToldByFileLineAndKey) {
   breaks("report/trends.csv", ",", ",what,", "trends.csv:2: found 4 fields, expected 5");
   breaks("report/coverage.csv", "dose_per_area", "dose", "coverage.csv: found no column 'dose_per_area'");
   breaks("report/animation.x3d", "</Scene>", "", "animation.x3d: found no valid XML");
+  breaks("report/animation.x3d", "\"theta\"", "\"other\"", "animation.x3d: found X3D without moving vessel");
+  breaks("report/animation.x3d", "DEF=\"ball_7_path\" key=\"", "DEF=\"ball_7_path\" key=\"0 ",
+         "numbers in 'ball_7_path', expected 3 numbers for each key");
+  breaks("report/animation.x3d", "translation=\"", "translation=\"1 ",
+         "animation.x3d: found 4 numbers, expected 3 for 'translation' of <Transform>");
   fs::remove(folder / "case.toml");
   const auto done = edmill("report " + folder.string());
   EXPECT_EQ(done.code, 2);
@@ -317,7 +382,9 @@ TEST(Embedded, FilesAreThereByteForByte) {
   EXPECT_EQ(page_css, text_of(source / "src/report/page.css"));
   EXPECT_EQ(page_html, text_of(source / "src/report/page.html"));
   EXPECT_EQ(thesis_csv, text_of(source / "regression/ward/thesis.csv"));
-  EXPECT_EQ(x3dom_js, text_of(fs::path(EDMILL_X3DOM) / "x3dom.js"));
+  EXPECT_EQ(page_js, text_of(source / "src/report/page.js"));
+  EXPECT_EQ(three_js, text_of(EDMILL_THREE_JS));
+  EXPECT_EQ(three_orbit_js, text_of(EDMILL_THREE_ORBIT_JS));
 }
 
 }  // namespace
