@@ -1,11 +1,17 @@
 # Files that become part of the program.
 set(edmill_embed_script ${CMAKE_CURRENT_LIST_DIR}/WriteEmbedded.cmake)
 
-# edmill_embed(sources name file): report::name holds the text of the file; its source is added to the list `sources`.
-function(edmill_embed sources name file)
+# edmill_embed(target file [name]): report::name holds the text of the file in the target; the name is that of the file, with
+# its dot as an underscore, unless it is given.
+function(edmill_embed target file)
+  get_filename_component(name ${file} NAME)
+  string(REPLACE "." "_" name ${name})
+  if(ARGC GREATER 2)
+    set(name ${ARGV2})
+  endif()
   set(source ${CMAKE_BINARY_DIR}/embedded/${name}.cpp)
   add_custom_command(OUTPUT ${source} DEPENDS ${file} ${edmill_embed_script}
                      COMMAND ${CMAKE_COMMAND} -DNAME=${name} -DFILE=${file} -DTARGET=${source} -P ${edmill_embed_script}
                      VERBATIM)
-  set(${sources} ${${sources}} ${source} PARENT_SCOPE)
+  target_sources(${target} PRIVATE ${source})
 endfunction()

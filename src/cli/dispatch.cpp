@@ -1,7 +1,7 @@
 #include "cli/dispatch.hpp"
 
 #include "base/errors.hpp"
-#include "instances/instances.hpp"
+#include "instances/tools/instances.hpp"
 
 namespace edmill::cli {
 

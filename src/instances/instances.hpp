@@ -3,16 +3,15 @@
 
 #include "base/scalar_list.hpp"
 //
+#include "base/scalar_text.hpp"
 #include "base/wide_trigonometry.hpp"
 #include "casefile/build_case.hpp"
-#include "cli/run_case.hpp"
 #include "dynamics/decision_ladder.hpp"
 #include "dynamics/wall_search.hpp"
+#include "edmill/run.hpp"
 #include "engine/simulation.hpp"
 #include "io/final_state.hpp"
 #include "io/summary.hpp"
-#include "output/output.hpp"
-#include "report/result_table.hpp"
 #include "run/event_source.hpp"
 #include "run/simulate.hpp"
 
@@ -31,22 +30,13 @@
                                           const DriveClock<Real>&);                                 \
   prefix io::SavedState<Real> io::read_final_state<Real>(const std::string&);                       \
   prefix std::string io::summary_json<Real>(const io::Summary<Real>&);                              \
-  prefix std::string report::result_table<Real>(const io::Summary<Real>&);                          \
   prefix run::Result<Real> run::simulate<Real>(const casefile::CaseSpec&,                           \
                                                const casefile::InitialCase<Real>&,                  \
                                                const run::Guests<Real>&);                           \
   prefix std::unique_ptr<run::EventSource> run::make_source<Real>(const casefile::CaseSpec&, bool); \
-  prefix int cli::run_case<Real>(const casefile::CaseSpec&, const cli::RunOptions&);                \
+  prefix class Run<Real>;                                                                           \
   }
 
-/// Outputs are compiled apart: they change more often than the core.
-#define EDMILL_OUTPUT_INSTANCES(prefix, Real) \
-  namespace edmill {                          \
-  prefix class output::Outputs<Real>;         \
-  }
-
-#define EDMILL_DECLARE_INSTANCES(Real)    \
-  EDMILL_INSTANCES(extern template, Real) \
-  EDMILL_OUTPUT_INSTANCES(extern template, Real)
+#define EDMILL_DECLARE_INSTANCES(Real) EDMILL_INSTANCES(extern template, Real)
 EDMILL_FOR_EACH_SCALAR(EDMILL_DECLARE_INSTANCES)
 #undef EDMILL_DECLARE_INSTANCES

@@ -16,12 +16,12 @@ enum class EndReason {
   undecided,           ///< no scalar could make a decision
   interrupted,
   stopped,  ///< by an observer
-  paused,  ///< an observer wants something done between two events; the run goes on
+  paused,   ///< an observer wants something done between two events; the run goes on
 };
 
 inline constexpr std::array<std::string_view, 9> end_reason_names = {
-    "end_time",           "max_collisions", "max_milling_dose", "max_ball_speed",
-    "inelastic_collapse", "undecided",      "interrupted",      "stopped", "paused"};
+    "end_time",  "max_collisions", "max_milling_dose", "max_ball_speed", "inelastic_collapse",
+    "undecided", "interrupted",    "stopped",          "paused"};
 
 /// As in `summary.json`.
 inline constexpr std::string_view name(EndReason reason) {

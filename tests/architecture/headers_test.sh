@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
-# Every header compiles on its own.
-# usage: headers_test.sh COMPILER [FLAGS...]
+# Every header that users include compiles on its own, needs no header of src/, and states its subject in the first line.
+# usage: headers_test.sh COMPILER
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 compiler=$1
-shift
 status=0
-check() {
-  local header=$1
-  shift
-  echo "#include \"${header#src/}\"" | "$@" -x c++ -std=gnu++20 -fsyntax-only -Isrc - || {
+for header in include/edmill/*.hpp; do
+  echo "#include \"${header#include/}\"" |
+    "$compiler" -x c++ -std=gnu++20 -Wall -Wextra -Werror -fsyntax-only -Iinclude - || {
     echo "$header does not compile on its own"
-    return 1
+    status=1
   }
-}
-export -f check
-find src -name '*.hpp' | sort | xargs -P 2 -I{} bash -c 'check "$@"' _ {} "$compiler" "$@" || status=1
-[ $status = 0 ] && echo "$(find src -name '*.hpp' | wc -l) headers compile on their own"
+  head -n 1 "$header" | grep -q '^// .*\.$' || {
+    echo "$header: the first line does not state what it is for"
+    status=1
+  }
+done
+[ $status = 0 ] && echo "$(ls include/edmill/*.hpp | wc -l) headers compile on their own"
 exit $status

@@ -5,31 +5,34 @@ cd "$(dirname "$0")/../../src"
 
 declare -A allowed=(
   [base]=""
-  [model]="base"
+  [model]="base model/laws"
+  [model/laws]=""
   [dynamics]="base model"
   [engine]="base model dynamics"
   [io]="base model"
   [casefile]="base model io"
   [run]="base model dynamics engine io casefile"
+  [api]="base model engine io casefile run"
   [output]="base model engine io casefile run"
   [study]="base model io casefile"
   [check]="base model dynamics io casefile study" # never the engine: a judge that shares its code proves nothing
   [plot]=""
   [report]="base model io casefile study plot"
-  [cli]="base model dynamics engine io casefile run output study check report instances"
-  [instances]="base model dynamics engine io casefile run output report cli" # where everything meets every scalar
+  [cli]="base model dynamics engine io casefile run output study check report instances instances/tools"
+  [instances]="base model dynamics engine io casefile run api" # the core in every scalar
+  [instances/tools]="base io casefile output report cli instances" # and what is around it
 )
 
 status=0
-for room in */; do
-  room=${room%/}
+for room in $(find . -mindepth 1 -type d -printf "%P\n" | sort); do
   if [ -z "${allowed[$room]+known}" ]; then
     echo "unknown room '$room': add it to $0"
     status=1
     continue
   fi
   while IFS=: read -r file line text; do
-    used=$(sed -E 's|.*"([a-z_]+)/.*|\1|' <<<"$text")
+    used=$(sed -E 's|.*"(.+)/[^/]*"|\1|' <<<"$text")
+    [ "$used" = edmill ] && continue # what users include, of plain types
     case " $room ${allowed[$room]} " in
       *" $used "*) ;;
       *)
@@ -37,7 +40,7 @@ for room in */; do
         status=1
         ;;
     esac
-  done < <(grep -rnE '#include "' "$room" || true)
+  done < <(grep -nE '#include "' "$room"/*.[ch]pp || true)
 done
 [ $status = 0 ] && echo "every include follows the layers"
 exit $status

@@ -1,23 +1,35 @@
 # What keeps the house in order.
 set(architecture ${CMAKE_CURRENT_SOURCE_DIR}/architecture)
-# Folders of headers that the compiler does not know by itself.
-set(include_flags)
-foreach(package Eigen3::Eigen hdf5::hdf5)
-  get_target_property(folders ${package} INTERFACE_INCLUDE_DIRECTORIES)
-  list(TRANSFORM folders PREPEND -I)
-  list(APPEND include_flags ${folders})
-endforeach()
 add_test(NAME layers_test COMMAND ${architecture}/layers_test.sh)
-add_test(NAME headers_test COMMAND ${architecture}/headers_test.sh ${CMAKE_CXX_COMPILER} ${include_flags} -DEIGEN_DONT_VECTORIZE)
+add_test(NAME headers_test COMMAND ${architecture}/headers_test.sh ${CMAKE_CXX_COMPILER})
 find_program(CLANG_FORMAT clang-format)
 if(CLANG_FORMAT)
   add_test(NAME format_test COMMAND ${architecture}/format_test.sh)
 endif()
+add_test(NAME examples_test
+         COMMAND ${architecture}/examples_test.sh ${CMAKE_BINARY_DIR} ${CMAKE_BINARY_DIR}/examples ${CMAKE_CXX_COMPILER})
+set_tests_properties(examples_test PROPERTIES TIMEOUT 600)
+add_test(NAME extending_test
+         COMMAND ${architecture}/extending_test.sh ${CMAKE_BINARY_DIR}/extending ${CMAKE_CXX_COMPILER})
+set_tests_properties(extending_test PROPERTIES TIMEOUT 900)
 
-# What same_bits_test builds with each compiler: the core in double with its ladder, nothing else.
-file(GLOB collision_bits_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/casefile/*.cpp ${CMAKE_SOURCE_DIR}/src/base/*.cpp
-     ${CMAKE_SOURCE_DIR}/src/engine/*.cpp ${CMAKE_SOURCE_DIR}/src/io/csv_reader.cpp)
-add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp ${collision_bits_sources})
+# A program of the core in double alone, for other trees and compilers.
+set(collision_bits_sources)
+foreach(room casefile base engine)
+  file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
+  list(APPEND collision_bits_sources ${of_room})
+endforeach()
+add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp ${collision_bits_sources}
+                                               ${CMAKE_SOURCE_DIR}/src/io/csv_reader.cpp)
 target_link_libraries(collision_bits PRIVATE edmill_settings OpenSSL::Crypto tomlplusplus::tomlplusplus)
-add_test(NAME same_bits_test COMMAND ${architecture}/same_bits_test.sh $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/same-bits)
-set_tests_properties(same_bits_test PROPERTIES TIMEOUT 1800 RUN_SERIAL TRUE)
+
+get_target_property(bits_options edmill_settings INTERFACE_COMPILE_OPTIONS)
+list(FILTER bits_options INCLUDE REGEX "^-f")
+get_target_property(bits_definitions edmill_settings INTERFACE_COMPILE_DEFINITIONS)
+list(TRANSFORM bits_definitions PREPEND -D)
+get_target_property(eigen_folders Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+list(TRANSFORM eigen_folders PREPEND -isystem)
+add_test(NAME same_bits_test
+         COMMAND ${architecture}/same_bits_test.sh $<TARGET_FILE:edmill_cli> $<TARGET_FILE:edmill_core> ${CMAKE_BINARY_DIR}/same-bits
+                 ${bits_options} ${bits_definitions} ${eigen_folders})
+set_tests_properties(same_bits_test PROPERTIES TIMEOUT 1800)

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "lammps_mill.hpp"
 #include "edmill/contact_law.hpp"
+#include "lammps_mill.hpp"
 
 namespace edmill::verification {
 

@@ -1,0 +1,14 @@
+# edmill_library(name ROOMS room...): a static library of the sources of these folders of src/. Dependencies between rooms go one
+# way, which tests/architecture checks.
+function(edmill_library name)
+  cmake_parse_arguments(ARG "" "" "ROOMS" ${ARGN})
+  set(sources)
+  foreach(room ${ARG_ROOMS})
+    file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
+    list(APPEND sources ${of_room})
+  endforeach()
+  list(FILTER sources EXCLUDE REGEX "/main.cpp$")
+  add_library(${name} STATIC ${sources})
+  target_link_libraries(${name} PUBLIC edmill_settings)
+  target_compile_options(${name} PRIVATE ${edmill_warnings})
+endfunction()

@@ -1,5 +1,0 @@
-#include "instances/instances.hpp"
-//
-#include "output/outputs_impl.hpp"
-
-EDMILL_OUTPUT_INSTANCES(template, mpfr100)

@@ -1,0 +1,8 @@
+// Every implementation around the core that is compiled once for each scalar.
+#pragma once
+
+#include "instances/tools/instances.hpp"
+//
+#include "cli/run_case_impl.hpp"
+#include "output/outputs_impl.hpp"
+#include "report/result_table_impl.hpp"

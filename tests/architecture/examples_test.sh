@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# The programs of docs/examples build against the installed package and run.
+# usage: examples_test.sh BUILD FOLDER COMPILER
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+build=$1
+folder=$2
+compiler=$3
+rm -rf "$folder"
+cmake --install "$build" --prefix "$folder/installed" >"$folder.log"
+[ "$(find "$folder/installed/include" -name '*.hpp' | wc -l)" = "$(find include -name '*.hpp' | wc -l)" ]
+"$folder/installed/bin/edmill" --version >/dev/null
+
+cmake -S docs/examples -B "$folder/build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$folder/installed" \
+  -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" >>"$folder.log"
+cmake --build "$folder/build" >>"$folder.log" || {
+  tail -n 30 "$folder.log" >&2
+  exit 1
+}
+
+expect() { # words, then a command
+  local words=$1 output
+  shift
+  output=$("$@")
+  echo "$output"
+  grep -qE "$words" <<<"$output" || {
+    echo "$1: expected '$words'" >&2
+    exit 1
+  }
+}
+demo=docs/examples/demo.toml
+# The dose that the program itself gives for these two seconds.
+"$folder/installed/bin/edmill" run $demo --quiet --out "$folder/run" --set 'run.end_time="2 s"'
+dose=$(python3 -c "import json; print('%.6g' % json.load(open('$folder/run/summary.json'))['milling_dose'])")
+expect "^milling dose ${dose//./\\.} J in 2 s$" "$folder/build/own_observer" $demo
+expect "^viscoelastic: [0-9.]+ W$" "$folder/build/own_contact_law" $demo
+expect "^stopped at [0-9.]+ s$" "$folder/build/own_stop_rule" $demo
+for example in own_observer own_contact_law own_stop_rule; do
+  code=0
+  "$folder/build/$example" no_such_case.toml 2>/dev/null || code=$?
+  [ $code = 2 ] || {
+    echo "$example: exit code $code for a file that is not there, expected 2" >&2
+    exit 1
+  }
+  [ "$(wc -l <docs/examples/$example.cpp)" -lt 60 ]
+done
+echo "the examples build against the installed package and run"

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# The changes shown in docs/extending.md apply to the tree, and what they add works.
+# usage: extending_test.sh FOLDER COMPILER
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+folder=$1
+compiler=$2
+rm -rf "$folder"
+mkdir -p "$folder"
+cp -r CMakeLists.txt cmake src include docs tests regression "$folder"
+sed -n '/^```diff$/,/^```$/{/^```/!p}' docs/extending.md >"$folder/change.diff"
+grep -q '^+' "$folder/change.diff" || {
+  echo "docs/extending.md shows no change" >&2
+  exit 1
+}
+(cd "$folder" && patch -p1 --forward --fuzz=0 <change.diff)
+
+# The core in double is enough: collision_bits prints the log of a run.
+cmake -S "$folder" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS=-O0 \
+  -DEDMILL_BENCHMARKS=OFF >"$folder/log" 2>&1 && cmake --build "$folder/build" --target collision_bits >>"$folder/log" 2>&1 || {
+  tail -n 30 "$folder/log" >&2
+  exit 1
+}
+run() { "$folder/build/tests/collision_bits" docs/examples/demo.toml 50 "contact.model=$1" | sha256sum; }
+[ "$(run power)" != "$(run walton-braun)" ] || {
+  echo "model = \"power\" gives the same run as walton-braun" >&2
+  exit 1
+}
+if "$folder/build/tests/collision_bits" docs/examples/demo.toml 50 contact.model=power contact.restitution=2 2>"$folder/error"; then
+  echo "a restitution of 2 is accepted" >&2
+  exit 1
+fi
+echo "the changes of docs/extending.md apply and work"
