@@ -11,7 +11,7 @@
 #include "engine/simulation.hpp"
 #include "io/final_state.hpp"
 #include "io/summary.hpp"
-#include "output/output.hpp"
+#include "output/outputs.hpp"
 #include "report/result_table.hpp"
 #include "run/event_source.hpp"
 #include "run/simulate.hpp"
