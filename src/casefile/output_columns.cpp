@@ -12,19 +12,10 @@ namespace {
 using model::impact_variables;
 using model::VariableKind;
 
-const std::vector<std::pair<std::string, Statistic>> statistic_names{
-    {"sum", Statistic::sum},         {"average", Statistic::average}, {"minimum", Statistic::minimum},
-    {"maximum", Statistic::maximum}, {"rate", Statistic::rate},       {"percentage", Statistic::percentage}};
-
-bool is_one_of(const std::vector<Statistic>& list, Statistic s) {
-  return std::find(list.begin(), list.end(), s) != list.end();
-}
-
 std::string names_of(const std::vector<Statistic>& list) {
-  std::string text;
-  for (const auto& [name, statistic] : statistic_names)
-    if (is_one_of(list, statistic)) text += (text.empty() ? "" : ", ") + name;
-  return text;
+  std::vector<std::string> names;
+  for (const auto s : list) names.push_back(statistic_name(s));
+  return listed(names);
 }
 
 }  // namespace
@@ -65,11 +56,10 @@ std::vector<Statistic> read_statistics(Section& s, const std::vector<Statistic>&
     return list;
   }
   for (const auto& name : s.settings("statistics")) {
-    const auto row = std::find_if(statistic_names.begin(), statistic_names.end(),
-                                  [&](const auto& known) { return known.first == name; });
-    const bool good = row != statistic_names.end() && is_one_of(allowed, row->second);
-    if (good)
-      list.push_back(row->second);
+    const auto found = std::find_if(allowed.begin(), allowed.end(),
+                                    [&](Statistic known) { return statistic_name(known) == name; });
+    if (found != allowed.end())
+      list.push_back(*found);
     else
       s.problem("statistics", "\"" + name + "\"", "an array of " + names_of(allowed));
   }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <any>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "casefile/colour.hpp"
@@ -29,6 +31,12 @@ struct Restriction {
 };
 
 enum class Statistic { sum, average, minimum, maximum, rate, percentage };
+/// In the order of the enumerators.
+inline constexpr std::array<std::string_view, 6> statistic_names{"sum",     "average", "minimum",
+                                                                 "maximum", "rate",    "percentage"};
+inline std::string statistic_name(Statistic s) {
+  return std::string(statistic_names[static_cast<std::size_t>(s)]);
+}
 
 /// A variable that an output shows.
 struct ColumnSpec {

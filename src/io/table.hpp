@@ -27,6 +27,12 @@ struct Column {
   std::string title() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 
+/// The value of a formula where there is one; nothing is an empty cell.
+template <class Formula>
+auto value_if(bool defined, const Formula& formula) {
+  return defined ? std::optional(formula()) : std::nullopt;
+}
+
 /// @tparam Real  scalar of the numbers, which CSV shows in all of its digits
 template <class Real>
 class Table {

@@ -7,6 +7,7 @@
 #include "base/compensated_sum.hpp"
 #include "base/scalar.hpp"
 #include "casefile/output_spec.hpp"
+#include "io/table.hpp"
 
 namespace edmill::output {
 
@@ -38,22 +39,19 @@ class Accumulator {
   /// @param duration  that the sum is spread over [s]
   /// @param whole     that the sum is a share of
   std::optional<Real> value(Statistic s, const Real& duration, const Real& whole) const {
-    const auto if_defined = [](bool defined, const auto& formula) {
-      return defined ? std::optional<Real>(formula()) : std::nullopt;
-    };
     switch (s) {
       case Statistic::sum:
         return sum();
       case Statistic::average:
-        return if_defined(count_ > 0, [&] { return sum() / Real(count_); });
+        return io::value_if(count_ > 0, [&] { return Real(sum() / Real(count_)); });
       case Statistic::minimum:
-        return if_defined(count_ > 0, [&] { return least_; });
+        return io::value_if(count_ > 0, [&] { return least_; });
       case Statistic::maximum:
-        return if_defined(count_ > 0, [&] { return largest_; });
+        return io::value_if(count_ > 0, [&] { return largest_; });
       case Statistic::rate:
-        return if_defined(duration > 0, [&] { return sum() / duration; });
+        return io::value_if(duration > 0, [&] { return Real(sum() / duration); });
       case Statistic::percentage:
-        return if_defined(whole != 0, [&] { return 100 * sum() / whole; });
+        return io::value_if(whole != 0, [&] { return Real(100 * sum() / whole); });
     }
     return std::nullopt;
   }

@@ -18,8 +18,7 @@ inline void read_animation(casefile::Section& s, const casefile::CaseSpec&, case
   s.require(a.min_frames > 0, "min_frames", "at least 1");
 }
 
-/// Keys of a ball are its impacts, and frames
-/// between them: it flies straight as far as one sees.
+/// Keys of a ball are its impacts, and frames between them: it flies straight as far as one sees.
 template <class Real>
 class AnimationOutput : public FramesOutput<Real> {
  public:

@@ -102,12 +102,10 @@ class FrequencyOutput : public TableOutput<Real> {
   }
 
   void write_row(const std::string& name, std::size_t k) {
-    const auto if_there = [](bool there, const Real& value) {
-      return there ? std::optional<Real>(value) : std::nullopt;
-    };
     const bool has_lower = k > 0, has_upper = k + 1 < counts_.size(), inside = has_lower && has_upper;
-    this->put(name, if_there(has_lower, bound(k - 1)), if_there(has_upper, bound(k)),
-              if_there(inside, (bound(k - 1) + bound(k)) / 2));
+    this->put(name, io::value_if(has_lower, [&] { return bound(k - 1); }),
+              io::value_if(has_upper, [&] { return bound(k); }),
+              io::value_if(inside, [&] { return Real((bound(k - 1) + bound(k)) / 2); }));
     const auto sum = [&](std::size_t row, const Part& part) {
       std::uint64_t count = 0;
       for (int p = part.first; p <= part.last; ++p) count += counts_[row][p];
@@ -119,7 +117,8 @@ class FrequencyOutput : public TableOutput<Real> {
         std::uint64_t whole = 0;  // of the impacts in this table
         for (std::size_t row = 0; row < counts_.size(); ++row)
           if (spec_.out_of_range || (row > 0 && row + 1 < counts_.size())) whole += sum(row, part);
-        this->put(if_there(whole > 0, Real(100) * Real(sum(k, part)) / Real(whole > 0 ? whole : 1)));
+        this->put(
+            io::value_if(whole > 0, [&] { return Real(Real(100) * Real(sum(k, part)) / Real(whole)); }));
       }
   }
 

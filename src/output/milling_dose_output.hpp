@@ -1,6 +1,8 @@
 // Milling dose of the record and what follows from it. (thesis 4.3.3)
 #pragma once
 
+#include <algorithm>
+
 #include "base/compensated_sum.hpp"
 #include "casefile/output_columns.hpp"
 #include "output/table_output.hpp"
@@ -54,18 +56,15 @@ class MillingDoseOutput : public TableOutput<Real> {
     const Real time = until - this->timer().from(), dose = dose_.value();
     Real ball_mass{0};
     for (int i = 0; i < simulation.ball_count(); ++i) ball_mass += simulation.properties(i).mass;
-    const auto if_defined = [](bool defined, const auto& formula) {
-      return defined ? std::optional<Real>(formula()) : std::nullopt;
-    };
     const bool timed = time > 0, powder = powder_mass_.has_value();
     const std::optional<Real> values[] = {
         dose,
-        if_defined(timed, [&] { return Real(dose / time); }),
-        if_defined(dose > 0, [&] { return Real(time / dose); }),
-        if_defined(powder, [&] { return Real(dose / *powder_mass_); }),
-        if_defined(powder && timed, [&] { return Real(dose / time / *powder_mass_); }),
+        io::value_if(timed, [&] { return Real(dose / time); }),
+        io::value_if(dose > 0, [&] { return Real(time / dose); }),
+        io::value_if(powder, [&] { return Real(dose / *powder_mass_); }),
+        io::value_if(powder && timed, [&] { return Real(dose / time / *powder_mass_); }),
         powder_mass_,
-        if_defined(powder, [&] { return Real(ball_mass / *powder_mass_); })};
+        io::value_if(powder, [&] { return Real(ball_mass / *powder_mass_); })};
     std::vector<Column> columns;
     for (const int field : fields_) columns.push_back(dose_fields()[field]);
     this->begin(std::move(columns));

@@ -1,6 +1,8 @@
 // Rates of the impacts above speed cutoffs. docs/outputs.md, "rates_above"
 #pragma once
 
+#include <algorithm>
+
 #include "casefile/output_columns.hpp"
 #include "output/by_partner.hpp"
 #include "output/log_bins.hpp"

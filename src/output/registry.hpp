@@ -4,6 +4,7 @@
 #include <memory>
 #include <tuple>
 
+#include "base/errors.hpp"
 #include "casefile/output_entry.hpp"
 #include "output/animation_output.hpp"
 #include "output/collisions_output.hpp"

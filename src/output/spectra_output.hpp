@@ -82,8 +82,8 @@ class SpectraOutput : public TableOutput<Real> {
       for (std::size_t bin = 0; bin < spectra_[s].size(); ++bin) {
         const bool below = bin == 0, above = bin == edges_.size();
         this->put(names[s], below ? "below" : above ? "above" : std::to_string(bin));
-        this->put(below ? std::nullopt : std::optional<Real>(edges_[bin - 1]),
-                  above ? std::nullopt : std::optional<Real>(edges_[bin]));
+        this->put(io::value_if(!below, [&] { return edges_[bin - 1]; }),
+                  io::value_if(!above, [&] { return edges_[bin]; }));
         const auto& tally = spectra_[s][bin];
         const auto put = [&](const auto& value) { this->put(value); };
         put_partners<std::uint64_t>([&](int k) { return tally.impacts[k]; }, put);

@@ -15,7 +15,7 @@ inline void read_statistics_output(casefile::Section& s, const casefile::CaseSpe
                                    casefile::OutputSpec& output) {
   using enum casefile::Statistic;
   casefile::read_columns(
-      s, {true, false, true, {sum, percentage, rate}, {sum, average, minimum, maximum, rate, percentage}},
+      s, {true, false, true, {sum, rate, percentage}, {sum, average, minimum, maximum, rate, percentage}},
       output);
 }
 

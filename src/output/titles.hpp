@@ -11,25 +11,8 @@
 namespace edmill::output {
 
 using casefile::Statistic;
+using casefile::statistic_name;
 using io::Column;
-
-inline const char* statistic_name(Statistic s) {
-  switch (s) {
-    case Statistic::sum:
-      return "sum";
-    case Statistic::average:
-      return "average";
-    case Statistic::minimum:
-      return "minimum";
-    case Statistic::maximum:
-      return "maximum";
-    case Statistic::rate:
-      return "rate";
-    case Statistic::percentage:
-      return "percentage";
-  }
-  return "?";
-}
 
 /// Unit of a statistic of a variable with that unit.
 inline std::string statistic_unit(Statistic s, std::string_view unit) {

@@ -43,7 +43,7 @@ class TrendsBallsOutput : public TableOutput<Real> {
       for (const Statistic s : c.statistics) {
         const std::string name = name_of(c, v.name, s);
         columns.push_back({name, Column::Type::number, std::string(v.unit),
-                           std::string(statistic_name(s)) + " over the balls: " + std::string(v.meaning)});
+                           statistic_name(s) + " over the balls: " + std::string(v.meaning)});
         if (shows_ball(c, s))
           columns.push_back({name + " ball", Column::Type::integer, "1", "which ball has it"});
       }

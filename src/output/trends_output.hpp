@@ -28,7 +28,7 @@ class TrendsOutput : public TableOutput<Real> {
       const auto& v = model::impact_variables[c.variable];
       for (const Statistic s : c.statistics)
         columns.push_back({name_of(c, v.name, s), Column::Type::number, statistic_unit(s, v.unit),
-                           std::string(statistic_name(s)) + ": " + std::string(v.meaning)});
+                           statistic_name(s) + ": " + std::string(v.meaning)});
     }
     this->begin(std::move(columns));
   }
