@@ -8,7 +8,7 @@
 #include "base/errors.hpp"
 #include "casefile/case_of_run.hpp"
 #include "casefile/case_parts.hpp"
-#include "casefile/output_keys.hpp"
+#include "casefile/output_entry.hpp"
 #include "casefile/section.hpp"
 
 namespace edmill::casefile {

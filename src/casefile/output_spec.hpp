@@ -1,9 +1,12 @@
 // What an entry [[output]] asks for. docs/outputs.md
 #pragma once
 
+#include <any>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "casefile/colour.hpp"
@@ -28,6 +31,12 @@ struct Restriction {
 };
 
 enum class Statistic { sum, average, minimum, maximum, rate, percentage };
+/// In the order of the enumerators.
+inline constexpr std::array<std::string_view, 6> statistic_names{"sum",     "average", "minimum",
+                                                                 "maximum", "rate",    "percentage"};
+inline std::string statistic_name(Statistic s) {
+  return std::string(statistic_names[static_cast<std::size_t>(s)]);
+}
 
 /// A variable that an output shows.
 struct ColumnSpec {
@@ -46,17 +55,6 @@ struct FrequencySpec {
   bool wall_details = false, percentages = false, out_of_range = false;
 };
 
-struct SpectraSpec {
-  bool of_speed = false;  ///< of energy otherwise
-  Quantity low, high;     ///< [m/s] or [J]
-  std::uint64_t bins_per_decade = 10;
-};
-
-/// How the vessel's walls are cut into cells.
-struct CoverageSpec {
-  std::uint64_t angles = 36, heights = 24, rings = 6;
-};
-
 /// A sphere that marks the contact point in pictures.
 struct ContactPointSpec {
   Quantity radius{boost::multiprecision::cpp_rational(1, 1000)};
@@ -70,6 +68,7 @@ struct AnimationSpec {
   std::uint64_t min_frames = 8;
 };
 
+/// What every entry says, what several types share, and what reports ask for.
 struct OutputSpec {
   std::string type;
   std::string file;
@@ -79,16 +78,16 @@ struct OutputSpec {
   std::vector<Restriction> only;
   std::vector<ColumnSpec> columns;
   FrequencySpec frequency;
-  SpectraSpec spectra;
-  std::vector<Quantity> cutoffs;  ///< rates_above, ascending
-  CoverageSpec coverage;
-  std::vector<std::string> fields;                ///< milling_dose
   bool accumulated = false;                       ///< trends: since the start instead of for each interval
-  std::uint64_t ball = 0;                         ///< trace
   std::optional<ContactPointSpec> contact_point;  ///< pictures
   AnimationSpec animation;
-  bool states = false;  ///< collisions: with the bodies' states before and after
+  std::any own;  ///< keys that only this type of output has, as its reader left them
 
+  /// @pre the reader of this type left keys of this kind
+  template <class Keys>
+  const Keys& own_keys() const {
+    return std::any_cast<const Keys&>(own);
+  }
   /// Whether a table is to be written as HDF5.
   bool hdf5() const { return file.ends_with(".h5"); }
 };

@@ -40,17 +40,17 @@ std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const Ba
   return batches;
 }
 
-Series ratio_series(const Series& sums, const Series& numbers) {
+BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers) {
   const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
   const double number = std::accumulate(numbers.begin(), numbers.end(), 0.0);
   const double ratio = sum / number, mean_number = number / static_cast<double>(numbers.size());
-  Series series(sums.size());
+  BatchValues values(sums.size());
   for (std::size_t k = 0; k < sums.size(); ++k)
-    series[k] = ratio + (sums[k] - ratio * numbers[k]) / mean_number;
-  return series;
+    values[k] = ratio + (sums[k] - ratio * numbers[k]) / mean_number;
+  return values;
 }
 
-double paired_t_probability(const Series& differences) {
+double paired_t_probability(const BatchValues& differences) {
   const double n = static_cast<double>(differences.size());
   const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / n;
   double squares = 0;
@@ -64,19 +64,19 @@ double paired_t_probability(const Series& differences) {
 SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum) {
   // The exchanges below work on sums and differences. Classes that are empty in both logs are left out.
   std::vector<std::size_t> used;
-  Series both;
+  BatchValues both;
   for (std::size_t c = 0; c < SpectrumClasses::count; ++c) {
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].spectra[spectrum][c] + b[k].spectra[spectrum][c];
     if (sum != 0) used.push_back(c), both.push_back(sum);
   }
-  std::vector<Series> differences(a.size());
+  std::vector<BatchValues> differences(a.size());
   for (std::size_t k = 0; k < a.size(); ++k)
     for (const auto c : used) differences[k].push_back(a[k].spectra[spectrum][c] - b[k].spectra[spectrum][c]);
   const double all = std::accumulate(both.begin(), both.end(), 0.0);
 
   // With s the sum of +-(A - B): A holds (both + s)/2, B (both - s)/2.
-  Series s(used.size());
+  BatchValues s(used.size());
   const auto distance = [&](auto&& sign_of) {
     std::fill(s.begin(), s.end(), 0.0);
     for (std::size_t k = 0; k < differences.size(); ++k) {
@@ -98,7 +98,7 @@ SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>&
   SpectrumTest test;
   test.distance = distance([](std::size_t) { return 1.0; });
   std::mt19937_64 random(20110101);
-  Series distances;
+  BatchValues distances;
   std::size_t as_far = 1;  // the present one counts too
   for (std::size_t e = 0; e < exchanges; ++e) {
     std::uint64_t bits = 0;

@@ -52,16 +52,16 @@ std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const Ba
                                     const SpectrumClasses& dose_classes);
 
 /// A quantity of a run in each batch.
-using Series = std::vector<double>;
+using BatchValues = std::vector<double>;
 
 /// Batch values whose plain mean is sum / number of the whole and whose scatter is that of this ratio, to
 /// first order (the linearised ratio estimator).
 /// @pre the numbers are not all 0
-Series ratio_series(const Series& sums, const Series& numbers);
+BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers);
 
 /// Probability that the mean of `differences` is at least as far from 0 when 0 is expected: Student's t,
 /// two-sided. @pre at least two values
-double paired_t_probability(const Series& differences);
+double paired_t_probability(const BatchValues& differences);
 
 /// Largest distance between the distribution functions of two spectra, tested by exchanging batches.
 struct SpectrumTest {

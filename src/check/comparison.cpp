@@ -60,10 +60,10 @@ BatchTimes common_times(const LogScan& a, const LogScan& b, const Options& optio
 }
 
 template <class Get>
-Series series_of(const std::vector<Batch>& batches, const Get& get) {
-  Series series;
-  for (const auto& batch : batches) series.push_back(get(batch));
-  return series;
+BatchValues values_of(const std::vector<Batch>& batches, const Get& get) {
+  BatchValues values;
+  for (const auto& batch : batches) values.push_back(get(batch));
+  return values;
 }
 
 Quantity named(const std::string& name, const std::string& unit) {
@@ -79,10 +79,10 @@ class Judge {
       : a_(a), b_(b), tolerance_(tolerance) {}
 
   /// A mean over the batches. @param events  that it rests on, in A and B together
-  void mean(const std::string& name, const std::string& unit, double events, const Series& a,
-            const Series& b) {
+  void mean(const std::string& name, const std::string& unit, double events, const BatchValues& a,
+            const BatchValues& b) {
     Quantity q = named(name, unit);
-    Series differences;
+    BatchValues differences;
     for (std::size_t k = 0; k < a.size(); ++k) differences.push_back(b[k] - a[k]);
     const auto of_a = study::estimate(a), of_b = study::estimate(b), of_both = study::estimate(differences);
     q.a = of_a.mean, q.a_half_width = of_a.half_width;
@@ -119,7 +119,7 @@ class Judge {
 
   /// @param same  every event agrees, so that nothing is left to test
   std::vector<Quantity> rows(bool same) {
-    Series tested;
+    BatchValues tested;
     for (const auto& q : rows_)
       if (q.probability) tested.push_back(*q.probability);
     const auto adjusted = holm(tested);
@@ -173,7 +173,7 @@ std::vector<Quantity> judge(const Comparison& c) {
       for (const auto& batch : *batches) events += batch.events[k];
     const auto name = std::string("collision_rate_") + partners[k];
     if (events > 0)
-      judge.mean(name, "1/s", events, series_of(a, rate), series_of(b, rate));
+      judge.mean(name, "1/s", events, values_of(a, rate), values_of(b, rate));
     else
       judge.skip(name, "1/s", "no such collisions");
   }
@@ -183,7 +183,7 @@ std::vector<Quantity> judge(const Comparison& c) {
   const auto power = [&](Value v, const std::string& name, double Batch::*energy) {
     const auto rate = [&](const Batch& batch) { return batch.*energy / length; };
     if (c.a.has[v] && c.b.has[v])
-      judge.mean(name, "W", all, series_of(a, rate), series_of(b, rate));
+      judge.mean(name, "W", all, values_of(a, rate), values_of(b, rate));
     else
       judge.skip(name, "W", missing(v));
   };
@@ -192,8 +192,8 @@ std::vector<Quantity> judge(const Comparison& c) {
   const auto speed = [](const Batch& batch) { return batch.approach_speed; };
   const auto events = [](const Batch& batch) { return batch.all_events(); };
   if (Judge::events(a) > 0 && Judge::events(b) > 0)
-    judge.mean("mean_approach_speed", "m/s", all, ratio_series(series_of(a, speed), series_of(a, events)),
-               ratio_series(series_of(b, speed), series_of(b, events)));
+    judge.mean("mean_approach_speed", "m/s", all, ratio_values(values_of(a, speed), values_of(a, events)),
+               ratio_values(values_of(b, speed), values_of(b, events)));
   else
     judge.skip("mean_approach_speed", "m/s", "no collisions in one log");
   judge.spectrum("wall_approach_speed_spectrum", wall_speeds, all - events_of_kind[3]);

@@ -8,7 +8,7 @@
 
 #include "cli/run_case.hpp"
 #include "cli/run_folder.hpp"
-#include "output/output.hpp"
+#include "output/outputs.hpp"
 #include "report/result_table.hpp"
 #include "run/progress.hpp"
 #include "run/simulate.hpp"

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <optional>
 
 #include "base/compensated_sum.hpp"
 #include "base/scalar.hpp"
-#include "output/titles.hpp"
+#include "casefile/output_spec.hpp"
+#include "io/table.hpp"
 
 namespace edmill::output {
+
+using casefile::Statistic;
 
 template <class Real>
 class Accumulator {
@@ -32,25 +35,25 @@ class Accumulator {
 
   void archive(Archive& a) { a(count_, sum_, least_, largest_); }
 
-  /// The statistic as text; empty where nothing defines it, such as the average of nothing.
+  /// Nothing where nothing defines the statistic, such as the average of nothing.
   /// @param duration  that the sum is spread over [s]
   /// @param whole     that the sum is a share of
-  std::string text(Statistic s, const Real& duration, const Real& whole) const {
+  std::optional<Real> value(Statistic s, const Real& duration, const Real& whole) const {
     switch (s) {
       case Statistic::sum:
-        return to_text<Real>(sum());
+        return sum();
       case Statistic::average:
-        return count_ == 0 ? "" : to_text<Real>(sum() / Real(count_));
+        return io::value_if(count_ > 0, [&] { return Real(sum() / Real(count_)); });
       case Statistic::minimum:
-        return count_ == 0 ? "" : to_text<Real>(least_);
+        return io::value_if(count_ > 0, [&] { return least_; });
       case Statistic::maximum:
-        return count_ == 0 ? "" : to_text<Real>(largest_);
+        return io::value_if(count_ > 0, [&] { return largest_; });
       case Statistic::rate:
-        return duration > 0 ? to_text<Real>(sum() / duration) : "";
+        return io::value_if(duration > 0, [&] { return Real(sum() / duration); });
       case Statistic::percentage:
-        return whole != 0 ? to_text<Real>(100 * sum() / whole) : "";
+        return io::value_if(whole != 0, [&] { return Real(100 * sum() / whole); });
     }
-    return "";
+    return std::nullopt;
   }
 
  private:

@@ -3,13 +3,14 @@
 
 #include <array>
 #include <cstdint>
-#include <ostream>
+#include <string>
+#include <vector>
 
 #include "base/compensated_sum.hpp"
 #include "base/scalar.hpp"
+#include "io/table.hpp"
 #include "model/impact_facts.hpp"
 #include "model/vessel.hpp"
-#include "output/titles.hpp"
 
 namespace edmill::output {
 
@@ -19,12 +20,22 @@ int partner_of(const model::ImpactFacts<Real>& f) {
   return f.ball_ball ? model::ball_ball : f.partner;
 }
 
-/// ",wall_0 energy [J],...,total energy [J]"
-inline std::string partner_titles(const std::string& name, const std::string& unit) {
-  std::string titles;
-  for (const std::string partner : {"wall_0", "wall_1", "wall_2", "ball_ball", "total"})
-    titles += "," + title_of(partner + " " + name, unit);
-  return titles;
+/// A partner, or several together, as columns of tables count them.
+struct PartnerColumn {
+  const char *name, *meaning;
+};
+inline constexpr PartnerColumn wall_columns[] = {{"wall_0", "with wall 0, the cap at -y"},
+                                                 {"wall_1", "with wall 1, the cap at +y"},
+                                                 {"wall_2", "with wall 2, the cylinder"}};
+inline constexpr PartnerColumn all_walls{"walls", "with all walls"}, balls{"ball_ball", "between balls"},
+    all_impacts{"total", "of all impacts"};
+
+/// Adds "wall_0 energy [J]" and so on to "total energy [J]".
+inline void add_partner_columns(std::vector<io::Column>& columns, const io::Column& of_each) {
+  for (const auto& [partner, meaning] :
+       {wall_columns[0], wall_columns[1], wall_columns[2], balls, all_impacts})
+    columns.push_back(
+        {partner + (" " + of_each.name), of_each.type, of_each.unit, of_each.description + ", " + meaning});
 }
 
 /// Impacts and an energy [J] of each partner.
@@ -46,23 +57,17 @@ struct PartnerTally {
   void archive(Archive& a) { a(impacts, energy); }
 };
 
-/// ",value" of each partner and of their total.
+/// Calls `put` with the value of each partner and with their total.
 /// @param value_of  of a place
-template <class Value, class ValueOf>
-void write_partners(std::ostream& out, ValueOf&& value_of) {
+template <class Value, class ValueOf, class Put>
+void put_partners(ValueOf&& value_of, Put&& put) {
   Value total{0};
-  const auto write = [&](const Value& value) {
-    if constexpr (std::is_integral_v<Value>)
-      out << ',' << value;
-    else
-      out << ',' << to_text<Value>(value);
-  };
   for (int k = 0; k < model::partner_kinds; ++k) {
     const Value value = value_of(k);
-    write(value);
+    put(value);
     total += value;
   }
-  write(total);
+  put(total);
 }
 
 }  // namespace edmill::output

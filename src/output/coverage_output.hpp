@@ -2,20 +2,32 @@
 #pragma once
 
 #include "base/trigonometry.hpp"
-#include "output/output.hpp"
+#include "casefile/output_columns.hpp"
 #include "output/sectors.hpp"
+#include "output/table_output.hpp"
 
 namespace edmill::output {
+
+/// How the vessel's walls are cut into cells.
+struct CoverageKeys {
+  std::uint64_t angles, heights, rings;
+};
+
+inline void read_coverage(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  using casefile::read_size;
+  output.own =
+      CoverageKeys{read_size(s, "angles", 36), read_size(s, "heights", 24), read_size(s, "rings", 6)};
+}
 
 template <class Real>
 class CoverageOutput : public TableOutput<Real> {
  public:
   CoverageOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                 const RunFacts<Real>& run)
+                 const RunContext<Real>& run)
       : TableOutput<Real>(spec, folder, run),
-        heights_(spec.coverage.heights),
-        rings_(spec.coverage.rings),
-        sectors_(spec.coverage.angles),
+        heights_(spec.own_keys<CoverageKeys>().heights),
+        rings_(spec.own_keys<CoverageKeys>().rings),
+        sectors_(spec.own_keys<CoverageKeys>().angles),
         cells_((2 * rings_ + heights_) * sectors_.count()) {}
 
  protected:
@@ -37,19 +49,22 @@ class CoverageOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
-    for (const auto& [column, meaning] :
-         {std::pair{"wall", "0 the cap at -y, 1 the cap at +y, 2 the cylinder"},
-          {"angle_low", "about the vessel's axis from x, the arm, to z"},
-          {"angle_high", "about the vessel's axis from x, the arm, to z"},
-          {"height_low", "along y from the vessel's centre; none on caps"},
-          {"height_high", "along y from the vessel's centre; none on caps"},
-          {"radius_low", "from the vessel's axis; none on the cylinder"},
-          {"radius_high", "from the vessel's axis; none on the cylinder"}})
-      this->describe(column, meaning);
-    this->write_window(until);
-    this->out() << '\n';
-    this->out() << "wall,angle_low [rad],angle_high [rad],height_low [m],height_high [m],radius_low [m],"
-                   "radius_high [m],area [m2],impacts [1],dose [J],dose_per_area [J/m2]\n";
+    using enum Column::Type;
+    const char *const angle = "about the vessel's axis from x, the arm, to z",
+                      *const height = "along y from the vessel's centre; none on caps",
+                      *const radius = "from the vessel's axis; none on the cylinder";
+    this->begin({{"wall", integer, "", "0 the cap at -y, 1 the cap at +y, 2 the cylinder"},
+                 {"angle_low", number, "rad", angle},
+                 {"angle_high", number, "rad", angle},
+                 {"height_low", number, "m", height},
+                 {"height_high", number, "m", height},
+                 {"radius_low", number, "m", radius},
+                 {"radius_high", number, "m", radius},
+                 {"area", number, "m2", "area of the cell"},
+                 {"impacts", integer, "1", "number of impacts"},
+                 {"dose", number, "J", "milling dose"},
+                 {"dose_per_area", number, "J/m2", "milling dose of the cell over its area"}},
+                {this->window(until)});
     for (int wall = 0; wall < model::wall_count; ++wall)
       for (std::size_t b = 0; b < (wall == 2 ? heights_ : rings_); ++b)
         for (std::size_t a = 0; a < sectors_.count(); ++a) write_cell(simulation.mill().vessel, wall, b, a);
@@ -74,25 +89,23 @@ class CoverageOutput : public TableOutput<Real> {
 
   void write_cell(const model::CylinderVessel<Real>& vessel, int wall, std::size_t band, std::size_t sector) {
     using std::sqrt;
-    auto& out = this->out();
     const Real turn = 2 * numerics::pi<Real>(), angles = Real(sectors_.count());
-    out << wall << ',' << to_text<Real>(turn * Real(sector) / angles) << ','
-        << to_text<Real>(turn * Real(sector + 1) / angles);
+    const std::optional<Real> none;
+    this->put(wall, Real(turn * Real(sector) / angles), Real(turn * Real(sector + 1) / angles));
     Real area;
     if (wall == 2) {
       for (const std::size_t edge : {band, band + 1})
-        out << ',' << to_text<Real>(vessel.half_height * (2 * Real(edge) / Real(heights_) - 1));
-      out << ",,";
+        this->put(Real(vessel.half_height * (2 * Real(edge) / Real(heights_) - 1)));
+      this->put(none, none);
       area = turn * vessel.radius * 2 * vessel.half_height / (angles * Real(heights_));
     } else {
-      out << ",,";
+      this->put(none, none);
       for (const std::size_t edge : {band, band + 1})
-        out << ',' << to_text<Real>(vessel.radius * sqrt(Real(edge) / Real(rings_)));
+        this->put(Real(vessel.radius * sqrt(Real(edge) / Real(rings_))));
       area = turn / 2 * (vessel.radius * vessel.radius) / (angles * Real(rings_));
     }
     const auto& cell = cells_[cell_of(wall, band, sector)];
-    out << ',' << to_text<Real>(area) << ',' << cell.impacts << ',' << to_text<Real>(cell.dose) << ','
-        << to_text<Real>(cell.dose / area) << '\n';
+    this->put(area, cell.impacts, cell.dose, Real(cell.dose / area));
   }
 
   std::size_t heights_, rings_;

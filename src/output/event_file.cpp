@@ -4,10 +4,13 @@
 #include <optional>
 
 #include "base/errors.hpp"
+#include "io/hdf5_parts.hpp"
 #include "io/output_folder.hpp"
-#include "output/hdf5_parts.hpp"
 
 namespace edmill::output {
+
+using io::Handle;
+using io::hdf5_check;
 
 namespace {
 constexpr hsize_t block = 16384;  ///< rows that are written at a time
@@ -57,8 +60,8 @@ struct EventFile::Data {
   void write_block() {
     for (auto& c : columns) {
       const bool integer = c.what.type == EventColumn::Type::integer;
-      append(*c.set, integer ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE, c.width(), written, waiting,
-             integer ? static_cast<const void*>(c.integers.data()) : c.numbers.data());
+      io::append(*c.set, integer ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE, c.width(), written, waiting,
+                 integer ? static_cast<const void*>(c.integers.data()) : c.numbers.data());
       c.integers.clear();
       c.numbers.clear();
       c.chunks.push_back(place_of_chunk(*c.set, written));
@@ -89,7 +92,7 @@ struct EventFile::Data {
 };
 
 EventFile::EventFile(std::filesystem::path place, std::vector<EventColumn> columns,
-                     const std::vector<FileNote>& notes)
+                     const std::vector<io::FileNote>& notes)
     : data_(new Data) {
   io::hdf5_begin();
   data_->place = std::move(place);
@@ -97,18 +100,18 @@ EventFile::EventFile(std::filesystem::path place, std::vector<EventColumn> colum
   std::error_code ignored;
   if (std::filesystem::is_directory(data_->place, ignored))
     throw InputError(data_->place.string() + ": found a folder, expected a place for a file");
-  data_->file.emplace(make_file(data_->temporary), H5Fclose);
-  add_notes(*data_->file, notes);
-  data_->group.emplace(make_group(*data_->file, "events"), H5Gclose);
+  data_->file.emplace(io::make_file(data_->temporary), H5Fclose);
+  io::add_notes(*data_->file, notes);
+  data_->group.emplace(io::make_group(*data_->file, "events"), H5Gclose);
   for (auto& column : columns) {
     Data::Column c{std::move(column), nullptr, {}, {}, {}};
     const bool integer = c.what.type == EventColumn::Type::integer;
     c.set = std::make_unique<Handle>(
-        make_set(*data_->group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, c.width(), block,
-                 integer),
+        io::make_set(*data_->group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, c.width(), block,
+                     integer),
         H5Dclose);
-    note(*c.set, "unit", c.what.unit);
-    note(*c.set, "description", c.what.description);
+    io::note(*c.set, "unit", c.what.unit);
+    io::note(*c.set, "description", c.what.description);
     data_->columns.push_back(std::move(c));
   }
 }
@@ -131,10 +134,11 @@ void EventFile::end_row() {
 void EventFile::add_table(const std::string& name, const std::string& unit, const std::string& description,
                           const std::vector<double>& values, std::size_t width) {
   const hsize_t rows = values.size() / width;
-  const Handle set(make_set(*data_->file, name, H5T_IEEE_F64LE, width, rows > 0 ? rows : 1, false), H5Dclose);
-  note(set, "unit", unit);
-  note(set, "description", description);
-  append(set, H5T_NATIVE_DOUBLE, width, 0, rows, values.data());
+  const Handle set(io::make_set(*data_->file, name, H5T_IEEE_F64LE, width, rows > 0 ? rows : 1, false),
+                   H5Dclose);
+  io::note(set, "unit", unit);
+  io::note(set, "description", description);
+  io::append(set, H5T_NATIVE_DOUBLE, width, 0, rows, values.data());
 }
 
 void EventFile::commit() {

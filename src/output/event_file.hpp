@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
-#include "output/file_note.hpp"
+#include "io/file_note.hpp"
 
 namespace edmill::output {
 
@@ -24,7 +24,7 @@ struct EventColumn {
 class EventFile {
  public:
   EventFile(std::filesystem::path place, std::vector<EventColumn> columns,
-            const std::vector<FileNote>& notes);
+            const std::vector<io::FileNote>& notes);
   EventFile(const EventFile&) = delete;
   EventFile& operator=(const EventFile&) = delete;
   ~EventFile();

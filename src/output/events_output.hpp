@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "base/version.hpp"
+#include "output/collisions_output.hpp"
 #include "output/event_file.hpp"
 #include "output/output.hpp"
 
@@ -36,16 +36,21 @@ inline std::vector<EventColumn> event_columns(bool states) {
 
 }  // namespace detail
 
+inline void read_events(casefile::Section& s, const casefile::CaseSpec& spec, casefile::OutputSpec& output) {
+  read_states_key(s, spec, output);
+}
+
 /// NAME.h5: /events with a dataset for each column, the balls and their final state beside it. Numbers
 /// are 64-bit whatever the scalar: the digits of a wide run are in the CSV.
 template <class Real>
 class EventsOutput : public Output<Real> {
  public:
   EventsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-               const RunFacts<Real>& run)
+               const RunContext<Real>& run)
       : Output<Real>(spec, run),
-        states_(spec.states),
-        file_(folder / spec.folder / spec.file, detail::event_columns(spec.states), run.notes) {}
+        states_(spec.own_keys<StatesKey>().states),
+        file_(folder / spec.folder / spec.file, detail::event_columns(spec.own_keys<StatesKey>().states),
+              run.notes) {}
 
   void commit() override { file_.commit(); }
 

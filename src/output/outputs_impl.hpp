@@ -1,55 +1,16 @@
 // Implementation of Outputs; included by the instantiation files only.
 #pragma once
 
-#include "output/coverage_output.hpp"
-#include "output/events_output.hpp"
-#include "output/frames_outputs.hpp"
-#include "output/rates_above_output.hpp"
-#include "output/scene_outputs.hpp"
-#include "output/simple_outputs.hpp"
-#include "output/spectra_output.hpp"
-#include "output/statistics_outputs.hpp"
-#include "output/trends_outputs.hpp"
-#include "output/vessel_load_output.hpp"
+#include "base/version.hpp"
+#include "output/outputs.hpp"
+#include "output/registry.hpp"
 
 namespace edmill::output {
 
 namespace detail {
 
-template <class Real, template <class> class Type>
-std::unique_ptr<Output<Real>> make(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                                   const RunFacts<Real>& run) {
-  return std::make_unique<Type<Real>>(spec, folder, run);
-}
-
-/// A new output is a row here and one in casefile/output_spec.cpp.
 template <class Real>
-struct Maker {
-  const char* type;
-  std::unique_ptr<Output<Real>> (*make)(const casefile::OutputSpec&, const std::filesystem::path&,
-                                        const RunFacts<Real>&);
-};
-template <class Real>
-constexpr Maker<Real> makers[] = {{"collisions", make<Real, CollisionsOutput>},
-                                  {"milling_dose", make<Real, MillingDoseOutput>},
-                                  {"frequency", make<Real, FrequencyOutput>},
-                                  {"statistics", make<Real, StatisticsOutput>},
-                                  {"trends", make<Real, TrendsOutput>},
-                                  {"trends_instant", make<Real, TrendsInstantOutput>},
-                                  {"trends_balls", make<Real, TrendsBallsOutput>},
-                                  {"trace", make<Real, TraceOutput>},
-                                  {"iterations", make<Real, IterationsOutput>},
-                                  {"events", make<Real, EventsOutput>},
-                                  {"spectra", make<Real, SpectraOutput>},
-                                  {"rates_above", make<Real, RatesAboveOutput>},
-                                  {"vessel_load", make<Real, VesselLoadOutput>},
-                                  {"coverage", make<Real, CoverageOutput>},
-                                  {"snapshot", make<Real, SnapshotOutput>},
-                                  {"animation", make<Real, AnimationOutput>},
-                                  {"paraview", make<Real, ParaviewOutput>}};
-
-template <class Real>
-std::vector<FileNote> notes_of(const casefile::CaseSpec& spec) {
+std::vector<io::FileNote> notes_of(const casefile::CaseSpec& spec) {
   return {{"program", "edmill " + std::string(version()) + " (" + std::string(commit()) + ")"},
           {"compiler", std::string(compiler())},
           {"precision", std::string(ScalarName<Real>::value)},
@@ -95,13 +56,12 @@ model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
 template <class Real>
 Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
-  RunFacts<Real> run{start, std::nullopt, spec.vessel_colour, spec.ball_colours(),
-                     detail::notes_of<Real>(spec)};
+  RunContext<Real> run{start, std::nullopt, spec.vessel_colour, spec.ball_colours(),
+                       detail::notes_of<Real>(spec)};
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();
   for (const auto& output : spec.outputs) {
     if (!output.folder.empty()) io::prepare_folder(folder / output.folder);
-    for (const auto& maker : detail::makers<Real>)
-      if (output.type == maker.type) outputs_.push_back(maker.make(output, folder, run));
+    outputs_.push_back(make_output<Real>(output, folder, run));
   }
 }
 

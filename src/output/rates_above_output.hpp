@@ -1,19 +1,50 @@
 // Rates of the impacts above speed cutoffs. docs/outputs.md, "rates_above"
 #pragma once
 
+#include <algorithm>
+
+#include "casefile/output_columns.hpp"
 #include "output/by_partner.hpp"
 #include "output/log_bins.hpp"
-#include "output/output.hpp"
+#include "output/table_output.hpp"
 
 namespace edmill::output {
+
+using Cutoffs = std::vector<casefile::Quantity>;  ///< ascending [m/s]
+
+inline void read_rates_above(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  Cutoffs cutoffs;
+  if (!s.has("cutoffs")) {
+    cutoffs.push_back(casefile::Quantity{0});
+    for (const int per_metre : {1000, 100, 10, 1})
+      cutoffs.push_back(casefile::Quantity{casefile::Rational(1, per_metre)});
+    output.own = std::move(cutoffs);
+    return;
+  }
+  const std::string expected = "an array of speeds of 0 or more";
+  for (const auto& text : s.settings("cutoffs")) {
+    const auto speed = casefile::parse_quantity(text, casefile::Dimension::speed);
+    const auto* quantity = std::get_if<casefile::Quantity>(&speed);
+    if (!quantity)
+      s.problem("cutoffs", std::get<casefile::QuantityProblem>(speed).found, expected);
+    else if (quantity->negative())
+      s.problem("cutoffs", "\"" + text + "\"", expected);
+    else
+      cutoffs.push_back(*quantity);
+  }
+  std::sort(cutoffs.begin(), cutoffs.end(), [](const casefile::Quantity& a, const casefile::Quantity& b) {
+    return casefile::size_of(a) < casefile::size_of(b);
+  });
+  output.own = std::move(cutoffs);
+}
 
 template <class Real>
 class RatesAboveOutput : public TableOutput<Real> {
  public:
   RatesAboveOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                   const RunFacts<Real>& run)
+                   const RunContext<Real>& run)
       : TableOutput<Real>(spec, folder, run) {
-    for (const auto& cutoff : spec.cutoffs) cutoffs_.push_back(cutoff.to<Real>());
+    for (const auto& cutoff : spec.own_keys<Cutoffs>()) cutoffs_.push_back(cutoff.to<Real>());
     from_.resize(cutoffs_.size() + 1);
   }
 
@@ -27,23 +58,20 @@ class RatesAboveOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
-    this->write_window(until);
-    this->out() << '\n';
-    this->describe("cutoff", "the approach speed from which on impacts count");
-    this->describe("rate", "collision rate");
-    this->describe("dose_rate", "milling dose rate");
-    auto& out = this->out();
-    out << title_of("cutoff", "m/s") << partner_titles("rate", "1/s") << partner_titles("dose_rate", "W")
-        << '\n';
+    std::vector<Column> columns{
+        {"cutoff", Column::Type::number, "m/s", "the approach speed from which on impacts count"}};
+    add_partner_columns(columns, {"rate", Column::Type::number, "1/s", "collision rate"});
+    add_partner_columns(columns, {"dose_rate", Column::Type::number, "W", "milling dose rate"});
+    this->begin(std::move(columns), {this->window(until)});
     const Real duration = until - this->timer().from();
     if (!(duration > 0)) return;  // nothing defines a rate
     for (std::size_t k = 0; k < cutoffs_.size(); ++k) {
       PartnerTally<Real> above;
       for (std::size_t bin = cutoffs_.size(); bin > k; --bin) above.add(from_[bin]);
-      out << to_text<Real>(cutoffs_[k]);
-      write_partners<Real>(out, [&](int p) { return Real(Real(above.impacts[p]) / duration); });
-      write_partners<Real>(out, [&](int p) { return Real(above.energy[p].value() / duration); });
-      out << '\n';
+      this->put(cutoffs_[k]);
+      const auto put = [&](const Real& value) { this->put(value); };
+      put_partners<Real>([&](int p) { return Real(Real(above.impacts[p]) / duration); }, put);
+      put_partners<Real>([&](int p) { return Real(above.energy[p].value() / duration); }, put);
     }
   }
 

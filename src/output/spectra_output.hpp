@@ -1,20 +1,49 @@
 // Impacts by energy or by speed. docs/outputs.md, "spectra"
 #pragma once
 
+#include <cmath>
+
+#include "casefile/output_columns.hpp"
 #include "output/by_partner.hpp"
 #include "output/log_bins.hpp"
-#include "output/output.hpp"
+#include "output/table_output.hpp"
 
 namespace edmill::output {
+
+struct SpectraKeys {
+  bool of_speed = false;         ///< of energy otherwise
+  casefile::Quantity low, high;  ///< [m/s] or [J]
+  std::uint64_t bins_per_decade = 10;
+};
+
+inline void read_spectra(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  SpectraKeys spectra;
+  spectra.of_speed = s.choice("of", {"energy", "speed"}) == "speed";
+  const bool speed = spectra.of_speed;
+  const auto dimension = speed ? casefile::Dimension::speed : casefile::Dimension::energy;
+  spectra.low =
+      s.quantity("low", dimension,
+                 casefile::Quantity{speed ? casefile::Rational(1, 1000) : casefile::Rational(1, 1000000000)});
+  spectra.high = s.quantity("high", dimension,
+                            casefile::Quantity{speed ? casefile::Rational(10) : casefile::Rational(1)});
+  s.require(spectra.low.positive(), "low", "a value above 0: the bins are logarithmic");
+  const double low = casefile::size_of(spectra.low), high = casefile::size_of(spectra.high);
+  const bool ascending = low > 0 && high > low * (1 + 1e-6) && std::isfinite(high);
+  const bool low_is_wrong = s.has("low") && !s.has("high");
+  s.require(ascending || !spectra.low.positive(), low_is_wrong ? "low" : "high",
+            low_is_wrong ? "a value below high" : "a value above low");
+  spectra.bins_per_decade = casefile::read_size(s, "bins_per_decade", 10);
+  output.own = spectra;
+}
 
 template <class Real>
 class SpectraOutput : public TableOutput<Real> {
  public:
   SpectraOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                const RunFacts<Real>& run)
+                const RunContext<Real>& run)
       : TableOutput<Real>(spec, folder, run),
-        of_speed_(spec.spectra.of_speed),
-        edges_(log_edges<Real>(spec.spectra.low, spec.spectra.high, spec.spectra.bins_per_decade)),
+        of_speed_(spec.own_keys<SpectraKeys>().of_speed),
+        edges_(edges_of(spec.own_keys<SpectraKeys>())),
         spectra_(of_speed_ ? 2 : 3, Spectrum(edges_.size() + 1)) {}
 
  protected:
@@ -35,37 +64,39 @@ class SpectraOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
-    this->write_window(until);
-    this->out() << '\n';
-    this->describe("low", "lower edge of the bin");
-    this->describe("high", "upper edge of the bin, not in it");
-    this->describe("energy", of_speed_ ? "dose of the impacts" : "this part of the dose of the impacts");
+    using enum Column::Type;
     const std::string unit = of_speed_ ? "m/s" : "J";
-    auto& out = this->out();
-    out << "spectrum,bin," << title_of("low", unit) << ',' << title_of("high", unit)
-        << partner_titles("impacts", "1") << partner_titles("energy", "J") << '\n';
+    std::vector<Column> columns{{"spectrum", text, "", "the part of the dose, or the speed, that is binned"},
+                                {"bin", text, "", "number of the bin from 1, or below or above all"},
+                                {"low", number, unit, "lower edge of the bin"},
+                                {"high", number, unit, "upper edge of the bin, not in it"}};
+    add_partner_columns(columns, {"impacts", integer, "1", "number of impacts"});
+    add_partner_columns(
+        columns,
+        {"energy", number, "J", of_speed_ ? "dose of the impacts" : "this part of the dose of the impacts"});
+    this->begin(std::move(columns), {this->window(until)});
     const std::vector<std::string> names = of_speed_
                                                ? std::vector<std::string>{"approach", "slip"}
                                                : std::vector<std::string>{"normal", "tangential", "total"};
     for (std::size_t s = 0; s < spectra_.size(); ++s)
       for (std::size_t bin = 0; bin < spectra_[s].size(); ++bin) {
         const bool below = bin == 0, above = bin == edges_.size();
-        out << names[s] << ','
-            << (below   ? "below"
-                : above ? "above"
-                        : std::to_string(bin))
-            << ',' << (below ? "" : to_text<Real>(edges_[bin - 1])) << ','
-            << (above ? "" : to_text<Real>(edges_[bin]));
+        this->put(names[s], below ? "below" : above ? "above" : std::to_string(bin));
+        this->put(io::value_if(!below, [&] { return edges_[bin - 1]; }),
+                  io::value_if(!above, [&] { return edges_[bin]; }));
         const auto& tally = spectra_[s][bin];
-        write_partners<std::uint64_t>(out, [&](int k) { return tally.impacts[k]; });
-        write_partners<Real>(out, [&](int k) { return tally.energy[k].value(); });
-        out << '\n';
+        const auto put = [&](const auto& value) { this->put(value); };
+        put_partners<std::uint64_t>([&](int k) { return tally.impacts[k]; }, put);
+        put_partners<Real>([&](int k) { return tally.energy[k].value(); }, put);
       }
   }
 
  private:
   using Spectrum = std::vector<PartnerTally<Real>>;  ///< below the first edge, the bins, above the last
 
+  static std::vector<Real> edges_of(const SpectraKeys& keys) {
+    return log_edges<Real>(keys.low, keys.high, keys.bins_per_decade);
+  }
   void add(const model::ImpactFacts<Real>& f, std::size_t spectrum, const Real& value, const Real& energy) {
     spectra_[spectrum][bin_of<Real>(edges_, value)].add(partner_of(f), energy);
   }

@@ -5,35 +5,14 @@
 #include <string_view>
 
 #include "casefile/output_spec.hpp"
-#include "io/csv_cell.hpp"
+#include "io/table.hpp"
+#include "model/impact_variables.hpp"
 
 namespace edmill::output {
 
 using casefile::Statistic;
-using io::csv_cell;
-
-/// "milling_dose [J]", for headers.
-inline std::string title_of(const std::string& name, std::string_view unit) {
-  return name + " [" + std::string(unit) + "]";
-}
-
-inline const char* statistic_name(Statistic s) {
-  switch (s) {
-    case Statistic::sum:
-      return "sum";
-    case Statistic::average:
-      return "average";
-    case Statistic::minimum:
-      return "minimum";
-    case Statistic::maximum:
-      return "maximum";
-    case Statistic::rate:
-      return "rate";
-    case Statistic::percentage:
-      return "percentage";
-  }
-  return "?";
-}
+using casefile::statistic_name;
+using io::Column;
 
 /// Unit of a statistic of a variable with that unit.
 inline std::string statistic_unit(Statistic s, std::string_view unit) {
@@ -50,6 +29,16 @@ inline std::string name_of(const casefile::ColumnSpec& column, std::string_view 
 inline std::string name_of(const casefile::ColumnSpec& column, std::string_view variable, Statistic s) {
   const bool alone = !column.label.empty() && column.statistics.size() == 1;
   return alone ? column.label : name_of(column, variable) + " " + statistic_name(s);
+}
+
+/// Flags and counts are integers.
+inline Column::Type type_of(const model::ImpactVariable& variable) {
+  return variable.kind == model::VariableKind::number ? Column::Type::number : Column::Type::integer;
+}
+
+/// What a variable of an impact means, by its name.
+inline std::string meaning_of(std::string_view variable) {
+  return std::string(model::impact_variables[*model::find_variable(variable)].meaning);
 }
 
 }  // namespace edmill::output

@@ -1,36 +1,36 @@
 // What the balls do to the vessel. docs/outputs.md, "vessel_load"
 #pragma once
 
-#include "output/output.hpp"
-#include "output/titles.hpp"
+#include "casefile/output_columns.hpp"
+#include "output/table_output.hpp"
 
 namespace edmill::output {
+
+inline void read_vessel_load(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  casefile::read_interval(s, output.timer, casefile::Quantity{casefile::Rational(1, 100)});
+  if (!output.timer.max_rows) output.timer.max_rows = 32000;
+}
 
 template <class Real>
 class VesselLoadOutput : public TableOutput<Real> {
  public:
   VesselLoadOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                   const RunFacts<Real>& run)
+                   const RunContext<Real>& run)
       : TableOutput<Real>(spec, folder, run), clock_(spec.timer) {
-    auto& out = this->out();
-    out << title_of("time", "s") << ',' << title_of("duration", "s");
-    for (const auto& [name, unit] : {std::pair{"impulse", "N s"},
-                                     {"force", "N"},
-                                     {"torque", "N m"},
-                                     {"vessel_force", "N"},
-                                     {"vessel_torque", "N m"}})
-      for (const auto* axis : {"_x", "_y", "_z"}) out << ',' << title_of(std::string(name) + axis, unit);
-    this->describe("time", "end of the interval");
-    this->describe("work", "of the walls on the balls");
-    this->describe("power", "of the walls on the balls");
-    for (const std::string axis : {"_x", "_y", "_z"}) {
-      this->describe("impulse" + axis, "on the vessel, inertial frame");
-      this->describe("force" + axis, "mean force on the vessel, inertial frame");
-      this->describe("torque" + axis, "mean torque on the vessel about the fulcrum, inertial frame");
-      this->describe("vessel_force" + axis, "mean force on the vessel, vessel frame");
-      this->describe("vessel_torque" + axis, "mean torque on the vessel about its centre, vessel frame");
-    }
-    out << ',' << title_of("work", "J") << ',' << title_of("power", "W") << '\n';
+    using enum Column::Type;
+    std::vector<Column> columns{{"time", number, "s", "end of the interval"},
+                                {"duration", number, "s", "length of the interval"}};
+    const auto add = [&](const std::string& name, const char* unit, const char* meaning) {
+      for (const auto* axis : {"_x", "_y", "_z"}) columns.push_back({name + axis, number, unit, meaning});
+    };
+    add("impulse", "N s", "on the vessel, inertial frame");
+    add("force", "N", "mean force on the vessel, inertial frame");
+    add("torque", "N m", "mean torque on the vessel about the fulcrum, inertial frame");
+    add("vessel_force", "N", "mean force on the vessel, vessel frame");
+    add("vessel_torque", "N m", "mean torque on the vessel about its centre, vessel frame");
+    columns.push_back({"work", number, "J", "of the walls on the balls"});
+    columns.push_back({"power", number, "W", "of the walls on the balls"});
+    this->begin(std::move(columns));
   }
 
  protected:
@@ -66,14 +66,11 @@ class VesselLoadOutput : public TableOutput<Real> {
  private:
   void write_row(const Real& begin, const Real& end) {
     const Real duration = end - begin;
-    auto& out = this->out();
-    out << to_text<Real>(end) << ',' << to_text<Real>(duration);
-    const auto write = [&](const Vec3<Real>& vector, const Real& over) {
-      for (int axis = 0; axis < 3; ++axis) out << ',' << to_text<Real>(vector[axis] / over);
-    };
-    write(impulse_, Real(1));
-    for (const auto* sum : {&impulse_, &moment_, &vessel_impulse_, &vessel_moment_}) write(*sum, duration);
-    out << ',' << to_text<Real>(work_) << ',' << to_text<Real>(work_ / duration) << '\n';
+    this->put(end, duration);
+    this->put(impulse_);
+    for (const auto* sum : {&impulse_, &moment_, &vessel_impulse_, &vessel_moment_})
+      this->put(Vec3<Real>(*sum / duration));
+    this->put(work_, Real(work_ / duration));
     for (auto* sum : {&impulse_, &moment_, &vessel_impulse_, &vessel_moment_}) sum->setZero();
     work_ = Real(0);
   }

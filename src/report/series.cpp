@@ -5,7 +5,7 @@
 
 namespace edmill::report {
 
-std::optional<Series> series_of(const casefile::OutputSpec& output, const Table& table, int variable,
+std::optional<Series> series_of(const casefile::OutputSpec& output, const OutputTable& table, int variable,
                                 double start) {
   std::size_t place = 1;  // after the time
   for (const auto& column : output.columns)

@@ -6,7 +6,7 @@
 
 #include "casefile/output_spec.hpp"
 #include "plot/chart.hpp"
-#include "report/table.hpp"
+#include "report/output_table.hpp"
 
 namespace edmill::report {
 
@@ -19,7 +19,7 @@ struct Series {
 /// @param start  initial time of the run, at which the first interval begins unless the table begins later
 /// [s]
 /// @return nothing when the table has no such column
-std::optional<Series> series_of(const casefile::OutputSpec& output, const Table& table, int variable,
+std::optional<Series> series_of(const casefile::OutputSpec& output, const OutputTable& table, int variable,
                                 double start);
 
 /// Without a last interval that is shorter than the first: its rate has another scatter.

@@ -16,7 +16,7 @@ static constexpr const char* parts[] = {"wall_0", "wall_1", "wall_2", "ball_ball
 
 /// One column of one spectrum as density over the decades of its bins.
 /// @param scale  what a unit of the column is worth
-plot::Points density(const Table& table, const std::string& spectrum, const std::string& column,
+plot::Points density(const OutputTable& table, const std::string& spectrum, const std::string& column,
                      double scale) {
   const auto place = table.column(column);
   plot::Points points;
@@ -58,11 +58,11 @@ void fit(plot::Chart& chart) {
   chart.y.low = std::max(least / 2, chart.y.high / 1e5);
 }
 
-std::optional<Table> spectra_of(const RunFolder& run, const std::string& of, const char* first) {
-  std::optional<Table> found;
+std::optional<OutputTable> spectra_of(const RunFolder& run, const std::string& of, const char* first) {
+  std::optional<OutputTable> found;
   run.output("spectra", [&](const casefile::OutputSpec& o) {
     if (!o.only.empty()) return false;
-    Table table = read_table(run.file_of(o), "a table of spectra of " + of, 2);
+    OutputTable table = read_table(run.file_of(o), "a table of spectra of " + of, 2);
     if (table.numbers.empty() || table.texts[0][0] != first || !(table.duration() > 0)) return false;
     found = std::move(table);
     return true;
@@ -70,7 +70,7 @@ std::optional<Table> spectra_of(const RunFolder& run, const std::string& of, con
   return found;
 }
 
-void add_energies(pugi::xml_node grid, const Table& table) {
+void add_energies(pugi::xml_node grid, const OutputTable& table) {
   plot::Chart by_partner;
   by_partner.id = "energy-spectrum", by_partner.title = "Dose by the energy of the impact";
   by_partner.description =
@@ -101,7 +101,7 @@ void add_energies(pugi::xml_node grid, const Table& table) {
   draw(grid, by_direction);
 }
 
-void add_speeds(pugi::xml_node grid, const Table& table) {
+void add_speeds(pugi::xml_node grid, const OutputTable& table) {
   for (const auto& [spectrum, title] :
        {std::pair{"approach", "Impacts by approach speed"}, std::pair{"slip", "Impacts by slip speed"}}) {
     plot::Chart chart;

@@ -124,7 +124,7 @@ void Study::write_tables() const {
   const auto points = point_table(), runs = run_table();
   write_file(folder_ / (name_ + ".csv"), points.csv());
   write_file(folder_ / "runs.csv", runs.csv());
-  write_file(folder_ / (name_ + ".h5"), hdf5_image({{"points", points}, {"runs", runs}}));
+  write_file(folder_ / (name_ + ".h5"), io::hdf5_compounds({{"points", points}, {"runs", runs}}));
   write_file(folder_ / (name_ + "_log.csv"), log_table().csv());
 }
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <map>
 
+#include "io/table.hpp"
 #include "study/point.hpp"
-#include "study/table.hpp"
 
 namespace edmill::study {
 
@@ -38,14 +38,14 @@ class Study {
   StudyCounts counts() const;
   bool interrupted() const { return executor_.interrupted(); }
 
-  Table point_table() const;
-  Table run_table() const;
+  io::Table<double> point_table() const;
+  io::Table<double> run_table() const;
 
  private:
   std::vector<Job> collect_jobs();
   void put(const RunRecord& record);
   void tick();
-  Table log_table() const;
+  io::Table<double> log_table() const;
   std::filesystem::path record_file(const std::string& digest) const;
   std::vector<std::string> keys() const;
 

@@ -5,6 +5,10 @@
 
 namespace edmill::study {
 
+using Table = io::Table<double>;
+using io::Column;
+using Type = Column::Type;
+
 namespace {
 
 std::string setting_of(const Point& point, const std::string& key) {
@@ -13,10 +17,16 @@ std::string setting_of(const Point& point, const std::string& key) {
   return "";
 }
 
+/// What both tables begin with.
+std::vector<Column> point_columns(const std::vector<std::string>& keys) {
+  std::vector<Column> columns{{"point", Type::integer}, {"name", Type::text}};
+  for (const auto& key : keys) columns.push_back({key, Type::text});
+  return columns;
+}
+
 void put_point(Table& table, std::size_t index, const Point& point, const std::vector<std::string>& keys) {
-  table.integer("point", index + 1);
-  table.text("name", point.name);
-  for (const auto& key : keys) table.text(key, setting_of(point, key));
+  table.put(index + 1, point.name);
+  for (const auto& key : keys) table.put(setting_of(point, key));
 }
 
 std::optional<double> charge_ratio(const RunRecord& r) {
@@ -35,55 +45,53 @@ std::vector<std::string> Study::keys() const {
 }
 
 Table Study::point_table() const {
-  Table table;
   const auto varied = keys();
+  auto columns = point_columns(varied);
+  for (const auto* name : {"replicas", "done", "failed"}) columns.push_back({name, Type::integer});
+  for (const auto& name : quantity_names)
+    for (const auto* what : {"", "_ci95"}) columns.push_back({std::string(name) + what, Type::number});
+  Table table(std::move(columns));
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto& point = points_[k];
     put_point(table, k, point, varied);
-    table.integer("replicas", point.runs.size());
-    table.integer("done", point.done());
-    table.integer("failed", point.failed());
+    table.put(point.runs.size(), point.done(), point.failed());
     for (std::size_t q = 0; q < quantity_names.size(); ++q) {
       const auto e = estimate(point.values(q));
-      table.number(std::string(quantity_names[q]), e.mean);
-      table.number(std::string(quantity_names[q]) + "_ci95", e.half_width);
+      table.put(e.mean, e.half_width);
     }
   }
   return table;
 }
 
 Table Study::run_table() const {
-  Table table;
   const auto varied = keys();
+  auto columns = point_columns(varied);
+  columns.push_back({"seed", Type::integer});
+  for (const auto* name : {"status", "end_reason"}) columns.push_back({name, Type::text});
+  for (const auto* name : {"start_time", "end_time", "charge_ratio_reached", "milling_dose", "wall_work"})
+    columns.push_back({name, Type::number});
+  for (const auto& name : quantity_names) columns.push_back({std::string(name), Type::number});
+  for (const auto* name : {"digest", "message"}) columns.push_back({name, Type::text});
+  Table table(std::move(columns));
   for (std::size_t k = 0; k < points_.size(); ++k)
     for (const auto& run : points_[k].runs) {
       const auto record = run.record.value_or(RunRecord{});
       const bool ran = run.record && !run.record->end_reason.empty();
       const auto if_ran = [&](double x) { return ran ? std::optional<double>(x) : std::nullopt; };
       put_point(table, k, points_[k], varied);
-      table.integer("seed", run.seed);
-      table.text("status", run.record ? record.status : "pending");
-      table.text("end_reason", record.end_reason);
-      table.number("start_time", if_ran(record.start_time));
-      table.number("end_time", if_ran(record.end_time));
-      table.number("charge_ratio_reached", charge_ratio(record));
-      table.number("milling_dose", if_ran(record.milling_dose));
-      table.number("wall_work", if_ran(record.wall_work));
-      const auto quantities = quantities_of(record);
-      for (std::size_t q = 0; q < quantities.size(); ++q)
-        table.number(std::string(quantity_names[q]), quantities[q]);
-      table.text("digest", run.job.digest);
-      table.text("message", record.message);
+      table.put(run.seed, run.record ? record.status : "pending", record.end_reason);
+      table.put(if_ran(record.start_time), if_ran(record.end_time), charge_ratio(record),
+                if_ran(record.milling_dose), if_ran(record.wall_work));
+      for (const auto& quantity : quantities_of(record)) table.put(quantity);
+      table.put(run.job.digest, record.message);
     }
   return table;
 }
 
 Table Study::log_table() const {
-  Table table;
-  for (const auto& [what, seconds] : log_) {
-    table.text("run", what);
-    table.number("cpu_seconds", seconds);
-  }
+  if (log_.empty()) return {};
+  Table table({{"run", Type::text}, {"cpu_seconds", Type::number}});
+  for (const auto& [what, seconds] : log_) table.put(what, seconds);
   return table;
 }
 

@@ -2,13 +2,18 @@
 # A double run gives the same bits from g++ -O0, g++ -O3 -march=native and clang++ -O2, and from the program as it was
 # built: the SHA-256 of the logs of 28 balls, which are all looked at, of 600 in cells, and of 2000, for which memory is
 # asked early.
-# usage: same_bits_test.sh PROGRAM LIBRARY FOLDER FLAGS...
+# usage: same_bits_test.sh PROGRAM FOLDER LIBRARY... -- FLAG...
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 program=$1
-library=$2
-builds=$3
-common=("${@:4}" -std=gnu++20 -Isrc -Iinclude)
+builds=$2
+shift 2
+libraries=()
+while [ "$1" != -- ]; do
+  libraries+=("$1")
+  shift
+done
+common=("${@:2}" -std=gnu++20 -Isrc -Iinclude)
 case_file=docs/examples/demo.toml
 cases=("28 20000" "600 20000" "2000 20000") # balls, collisions
 small=(balls.0.diameter="2.36 mm" balls.0.gap_ball="0.2 mm" contact.restitution=0.8)
@@ -33,7 +38,7 @@ build() { # name compiler flags...
   for source in tests/architecture/collision_bits.cpp src/engine/flight_columns.cpp; do
     "$@" "${common[@]}" -c "$source" -o "$builds/$name-$(basename "$source").o"
   done
-  "$@" "$builds/$name"-*.o "$library" -lfmt -lmpfr -lgmp -lquadmath -lcrypto -ltomlplusplus -o "$builds/$name"
+  "$@" "$builds/$name"-*.o "${libraries[@]}" -lfmt -lmpfr -lgmp -lquadmath -lcrypto -ltomlplusplus -o "$builds/$name"
 }
 
 hash_of_build() { # name balls collisions

@@ -15,13 +15,13 @@ set_tests_properties(extending_test PROPERTIES TIMEOUT 900)
 
 # A program of the core in double alone, for other trees and compilers.
 set(collision_bits_sources)
-foreach(room casefile base engine)
+foreach(room base engine io casefile output)
   file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
   list(APPEND collision_bits_sources ${of_room})
 endforeach()
 add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp ${collision_bits_sources}
-                                               ${CMAKE_SOURCE_DIR}/src/io/csv_reader.cpp)
-target_link_libraries(collision_bits PRIVATE edmill_settings OpenSSL::Crypto tomlplusplus::tomlplusplus)
+)
+target_link_libraries(collision_bits PRIVATE edmill_settings OpenSSL::Crypto tomlplusplus::tomlplusplus hdf5::hdf5 pugixml::pugixml)
 
 get_target_property(bits_options edmill_settings INTERFACE_COMPILE_OPTIONS)
 list(FILTER bits_options INCLUDE REGEX "^-f")
@@ -30,6 +30,6 @@ list(TRANSFORM bits_definitions PREPEND -D)
 get_target_property(eigen_folders Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 list(TRANSFORM eigen_folders PREPEND -isystem)
 add_test(NAME same_bits_test
-         COMMAND ${architecture}/same_bits_test.sh $<TARGET_FILE:edmill_cli> $<TARGET_FILE:edmill_core> ${CMAKE_BINARY_DIR}/same-bits
-                 ${bits_options} ${bits_definitions} ${eigen_folders})
+         COMMAND ${architecture}/same_bits_test.sh $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/same-bits
+                 $<TARGET_FILE:edmill_core> $<TARGET_FILE:hdf5::hdf5> $<TARGET_FILE:pugixml::pugixml> -- ${bits_options} ${bits_definitions} ${eigen_folders})
 set_tests_properties(same_bits_test PROPERTIES TIMEOUT 1800)

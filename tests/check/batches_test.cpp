@@ -30,11 +30,11 @@ TEST(Batches, HolmsProbabilitiesAreThoseOfTheTextbook) {
   EXPECT_TRUE(holm({}).empty());
 }
 
-TEST(Batches, TheMeanOfARatioSeriesIsTheRatioOfTheSums) {
-  const auto series = ratio_series({1, 5, 2}, {1, 2, 4});
-  EXPECT_NEAR((series[0] + series[1] + series[2]) / 3, 8.0 / 7, 1e-15);
+TEST(Batches, TheMeanOfRatioValuesIsTheRatioOfTheSums) {
+  const auto values = ratio_values({1, 5, 2}, {1, 2, 4});
+  EXPECT_NEAR((values[0] + values[1] + values[2]) / 3, 8.0 / 7, 1e-15);
   // Sums in proportion to the numbers: no scatter.
-  for (const double r : ratio_series({3, 6, 12}, {1, 2, 4})) EXPECT_NEAR(r, 3, 1e-15);
+  for (const double r : ratio_values({3, 6, 12}, {1, 2, 4})) EXPECT_NEAR(r, 3, 1e-15);
 }
 
 TEST(Batches, AnOctaveHas16Classes) {

@@ -68,7 +68,7 @@ TEST(Series, FindsItsColumnAmongOthers) {
   const int dose = *model::find_variable("milling_dose"), work = *model::find_variable("wall_work");
   output.columns.push_back({work, {Statistic::sum, Statistic::rate}, "", "", "", false});
   output.columns.push_back({dose, {Statistic::sum, Statistic::rate}, "", "", "", false});
-  report::Table table;
+  report::OutputTable table;
   table.numbers = {{1, 10, 11, 12, 13}, {2, 20, 21, 22, 23}};
   const auto series = report::series_of(output, table, dose, 0.5);
   ASSERT_TRUE(series.has_value());

@@ -7,7 +7,6 @@
 
 #include "program.hpp"
 #include "study/statistics.hpp"
-#include "study/table.hpp"
 
 namespace edmill {
 namespace {
@@ -95,13 +94,6 @@ TEST_F(SweepIntervals, TheTableHoldsWhatTheRunsGive) {
                 1e-9 * mean)
         << name;
   }
-}
-
-TEST(SweepTable, TextsAreQuotedOnlyWhereTheyNeedIt) {
-  study::Table table;
-  for (const auto* text : {"plain", "a,b", "say \"no\""})
-    table.text("text", text), table.number("x", std::nullopt);
-  EXPECT_EQ(table.csv(), "text,x\nplain,\n\"a,b\",\n\"say \"\"no\"\"\",\n");
 }
 
 }  // namespace

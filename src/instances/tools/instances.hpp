@@ -4,7 +4,7 @@
 #include "instances/instances.hpp"
 //
 #include "cli/run_case.hpp"
-#include "output/output.hpp"
+#include "output/outputs.hpp"
 #include "report/result_table.hpp"
 
 /// `prefix` is `extern template` to declare and `template` to define.

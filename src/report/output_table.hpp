@@ -9,7 +9,7 @@
 
 namespace edmill::report {
 
-struct Table {
+struct OutputTable {
   std::string file;
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> texts;  ///< of each row, the first columns
@@ -27,6 +27,6 @@ struct Table {
 /// @param expected  "a table of trends", for messages
 /// @param texts     how many columns of text there are before the numbers
 /// @throws InputError when it is no such table
-Table read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts = 0);
+OutputTable read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts = 0);
 
 }  // namespace edmill::report

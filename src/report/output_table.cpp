@@ -1,4 +1,4 @@
-#include "report/table.hpp"
+#include "report/output_table.hpp"
 
 #include <cstdio>
 #include <fstream>
@@ -12,7 +12,7 @@ namespace edmill::report {
 namespace {
 
 /// "# from 0.5 s to 10 s: ..." in the first line.
-void read_times(Table& table) {
+void read_times(OutputTable& table) {
   std::ifstream in(table.file);
   std::string line;
   double from = 0, until = 0;
@@ -22,23 +22,23 @@ void read_times(Table& table) {
 
 }  // namespace
 
-std::size_t Table::column(std::string_view name) const {
+std::size_t OutputTable::column(std::string_view name) const {
   const std::size_t text_columns = texts.empty() ? 0 : texts.front().size();
   for (std::size_t k = text_columns; k < header.size(); ++k)
     if (header[k] == name || header[k].starts_with(std::string(name) + " [")) return k - text_columns;
   throw InputError(file + ": found no column '" + std::string(name) + "', expected it in the header");
 }
 
-std::vector<std::vector<double>> Table::rows_of(std::string_view text) const {
+std::vector<std::vector<double>> OutputTable::rows_of(std::string_view text) const {
   std::vector<std::vector<double>> rows;
   for (std::size_t k = 0; k < numbers.size(); ++k)
     if (texts[k].front() == text) rows.push_back(numbers[k]);
   return rows;
 }
 
-Table read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts) {
+OutputTable read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts) {
   io::CsvReader reader(file, expected);
-  Table table;
+  OutputTable table;
   table.file = file.string();
   table.header = reader.header();
   read_times(table);

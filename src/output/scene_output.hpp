@@ -1,4 +1,4 @@
-// What pictures have in common, and single ones in X3D. In double: nothing is computed from them.
+// What pictures have in common. In double: nothing is computed from them.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ template <class Real>
 class SceneOutput : public Output<Real> {
  public:
   SceneOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-              const RunFacts<Real>& run)
+              const RunContext<Real>& run)
       : Output<Real>(spec, run),
         place_(folder / spec.folder / spec.file),
         contact_(spec.contact_point),
@@ -59,38 +59,7 @@ class SceneOutput : public Output<Real> {
  private:
   std::filesystem::path place_;
   std::optional<casefile::ContactPointSpec> contact_;
-  RunFacts<Real> run_;
-};
-
-/// The mill at each impact of the record, a file each: NAME_<index>.x3d. (thesis D.4.1)
-template <class Real>
-class SnapshotOutput : public SceneOutput<Real> {
- public:
-  using SceneOutput<Real>::SceneOutput;
-
-  void commit() override {
-    for (const auto& [index, text] : pages_) {
-      auto place = this->place();
-      place.replace_filename(place.stem().string() + "_" + std::to_string(index) +
-                             place.extension().string());
-      io::AtomicFile file(place);
-      file.stream() << text;
-      file.commit();
-    }
-  }
-
- protected:
-  void archive_record(Archive& a) override { a(pages_); }
-  void record(const Seen<Real>& seen) override {
-    const BallsBefore<Real> balls(seen);
-    const Real& time = seen.facts.time;
-    Scene s = this->scene(seen.simulation, time, [&](int i) { return balls.state(i, time); });
-    if (this->shows_contact()) s.contact = this->contact_at(seen.facts.contact_point);
-    pages_.emplace_back(seen.facts.index, x3d_text(s));
-  }
-
- private:
-  std::vector<std::pair<std::uint64_t, std::string>> pages_;
+  RunContext<Real> run_;
 };
 
 }  // namespace edmill::output

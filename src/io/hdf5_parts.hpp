@@ -1,17 +1,16 @@
-// Parts of the HDF5 files of outputs. Nothing in them tells the time: the same run makes the same bytes.
+// Parts of HDF5 files. Nothing in them tells the time: the same run makes the same bytes.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "io/file_note.hpp"
 #include "io/hdf5_handle.hpp"
-#include "output/file_note.hpp"
 
-namespace edmill::output {
+namespace edmill::io {
 
-using io::hdf5_check;
-using Handle = io::Hdf5Handle;
+using Handle = Hdf5Handle;
 
 /// A text as an attribute, of variable length: readers then take it for a text and not for bytes.
 inline void note(hid_t object, const std::string& key, const std::string& value) {
@@ -82,4 +81,4 @@ inline hid_t make_group(hid_t file, const char* name) {
   return H5Gcreate2(file, name, H5P_DEFAULT, creation, H5P_DEFAULT);
 }
 
-}  // namespace edmill::output
+}  // namespace edmill::io

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace edmill::output {
+namespace edmill::io {
 
 /// A text of the whole file: an attribute, or a dataset when it is `long_text`.
 struct FileNote {
@@ -11,4 +11,4 @@ struct FileNote {
   bool long_text = false;
 };
 
-}  // namespace edmill::output
+}  // namespace edmill::io

@@ -1,0 +1,26 @@
+// How an entry [[output]] is read. What is special to a type of output stands with that output:
+// output/registry.hpp
+#pragma once
+
+#include <span>
+
+#include "casefile/section.hpp"
+
+namespace edmill::casefile {
+
+/// Reads the keys that an entry of one type has beyond those of every entry.
+using ReadOutputKeys = void(Section& entry, const CaseSpec& spec, OutputSpec& output);
+
+struct OutputType {
+  std::string_view name;       ///< `type` in a case
+  std::string_view extension;  ///< of its file unless the entry names one; ".csv" for tables
+  ReadOutputKeys* read;
+};
+
+/// Every type of output. The registry of the outputs defines it, and makes outputs from the same rows.
+std::span<const OutputType> output_types();
+
+/// Reads one entry and adds it to the case.
+void read_output(Section entry, CaseSpec& spec);
+
+}  // namespace edmill::casefile

@@ -1,0 +1,149 @@
+#include "io/table_hdf5.hpp"
+
+#include <charconv>
+#include <cstring>
+#include <limits>
+#include <set>
+
+#include "io/hdf5_parts.hpp"
+
+namespace edmill::io {
+
+namespace {
+
+using DoubleTable = Table<double>;
+using Texts = DoubleTable::Texts;
+using Integers = DoubleTable::Integers;
+using Numbers = DoubleTable::Numbers;
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+/// All texts as numbers, or nothing.
+template <class Number>
+std::optional<std::vector<Number>> numbers_in(const Texts& texts) {
+  std::vector<Number> values;
+  for (const auto& text : texts) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    values.push_back(value);
+  }
+  return values;
+}
+
+std::size_t longest(const Texts& texts) {
+  std::size_t width = 1;
+  for (const auto& text : texts) width = std::max(width, text.size());
+  return width;
+}
+
+/// Texts one after the other, each filled up to the width.
+std::string padded(const Texts& texts, std::size_t width) {
+  std::string bytes(width * texts.size(), '\0');
+  for (std::size_t k = 0; k < texts.size(); ++k) texts[k].copy(&bytes[k * width], width);
+  return bytes;
+}
+
+Handle text_type(std::size_t width) {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  hdf5_check(H5Tset_size(type, width));
+  hdf5_check(H5Tset_strpad(type, H5T_STR_NULLPAD));
+  hdf5_check(H5Tset_cset(type, H5T_CSET_UTF8));
+  return type;
+}
+
+/// Cells as bytes in the order of rows, with their type in the file.
+struct Packed {
+  Handle type;
+  std::size_t width;  ///< of a cell [bytes]
+  std::string bytes;
+};
+
+Packed packed(const DoubleTable::Cells& cells) {
+  if (const auto* texts = std::get_if<Texts>(&cells)) {
+    const std::size_t width = longest(*texts);
+    return {text_type(width), width, padded(*texts, width)};
+  }
+  const auto bytes_of = [](const auto& values) {
+    return std::string(reinterpret_cast<const char*>(values.data()), 8 * values.size());
+  };
+  if (const auto* integers = std::get_if<Integers>(&cells))
+    return {Handle(H5Tcopy(H5T_STD_I64LE), H5Tclose), 8, bytes_of(*integers)};
+  std::vector<double> doubles;
+  for (const auto& number : std::get<Numbers>(cells)) doubles.push_back(number.value_or(no_number));
+  return {Handle(H5Tcopy(H5T_IEEE_F64LE), H5Tclose), 8, bytes_of(doubles)};
+}
+
+/// The name of a dataset: none has a slash, and no two are the same.
+std::string dataset_name(std::string name, std::set<std::string>& taken) {
+  std::replace(name.begin(), name.end(), '/', '_');
+  if (name.empty() || name == ".") name = "column";
+  std::string free = name;
+  for (int k = 2; !taken.insert(free).second; ++k) free = name + " " + std::to_string(k);
+  return free;
+}
+
+void add_column(hid_t file, const std::string& name, const StoredColumn& column) {
+  const Packed cells = packed(column.cells);
+  const hsize_t rows = cells.bytes.size() / cells.width, chunk = std::clamp<hsize_t>(rows, 1, 16384);
+  const Handle set(make_set(file, name, cells.type, 1, chunk, true), H5Dclose);
+  append(set, cells.type, 1, 0, rows, cells.bytes.data());
+  note(set, "title", column.what.title());
+  if (!column.what.unit.empty()) note(set, "unit", column.what.unit);
+  note(set, "description", column.what.description.empty() ? column.what.name : column.what.description);
+}
+
+void add_compound(hid_t file, const std::string& name, const DoubleTable& table) {
+  std::vector<Packed> columns;
+  std::size_t size = 0;
+  for (std::size_t k = 0; k < table.columns().size(); ++k) {
+    columns.push_back(packed(table.cells(k)));
+    size += columns.back().width;
+  }
+  const Handle row_type(H5Tcreate(H5T_COMPOUND, size), H5Tclose);
+  std::string rows(size * table.rows(), '\0');
+  std::size_t offset = 0;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto& [type, width, bytes] = columns[k];
+    hdf5_check(H5Tinsert(row_type, table.columns()[k].name.c_str(), offset, type));
+    for (std::size_t row = 0; row < table.rows(); ++row)
+      bytes.copy(&rows[row * size + offset], width, row * width);
+    offset += width;
+  }
+  const hsize_t count = table.rows();
+  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  hdf5_check(H5Pset_obj_track_times(creation, false));
+  const Handle set(H5Dcreate2(file, name.c_str(), row_type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                   H5Dclose);
+  hdf5_check(H5Dwrite(set, row_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()));
+}
+
+}  // namespace
+
+Table<double>::Cells stored_texts(const std::vector<std::string>& texts) {
+  if (auto integers = numbers_in<std::int64_t>(texts)) return std::move(*integers);
+  if (const auto doubles = numbers_in<double>(texts)) return Numbers(doubles->begin(), doubles->end());
+  return texts;
+}
+
+std::string hdf5_columns(const std::vector<StoredColumn>& columns, const std::vector<std::string>& comments,
+                         const std::vector<FileNote>& notes) {
+  return hdf5_image([&](hid_t file) {
+    add_notes(file, notes);
+    std::string comment;
+    for (const auto& line : comments) comment += (comment.empty() ? "" : "\n") + line;
+    if (!comment.empty()) note(file, "comment", comment);
+    std::set<std::string> taken;
+    for (const auto& n : notes) taken.insert(n.key);
+    for (const auto& column : columns) add_column(file, dataset_name(column.what.name, taken), column);
+  });
+}
+
+std::string hdf5_compounds(const std::vector<std::pair<std::string, Table<double>>>& tables) {
+  return hdf5_image([&](hid_t file) {
+    for (const auto& [name, table] : tables) add_compound(file, name, table);
+  });
+}
+
+}  // namespace edmill::io

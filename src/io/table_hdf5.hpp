@@ -1,0 +1,65 @@
+// Tables in HDF5: a dataset for each column, or a compound dataset for each table.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/file_note.hpp"
+#include "io/table.hpp"
+
+namespace edmill::io {
+
+/// A column as HDF5 holds it: no number has more than 64 bits.
+struct StoredColumn {
+  Column what;
+  Table<double>::Cells cells;
+};
+
+/// Numbers in double, or as integers when all of them are whole.
+template <class Real>
+Table<double>::Cells stored_numbers(const std::vector<std::optional<Real>>& numbers) {
+  const auto whole = [](const std::optional<Real>& number) {
+    using std::floor;
+    return number && *number == floor(*number) && *number > Real(-1e16) && *number < Real(1e16);
+  };
+  if (std::all_of(numbers.begin(), numbers.end(), whole)) {
+    Table<double>::Integers integers;
+    for (const auto& number : numbers) integers.push_back(static_cast<std::int64_t>(*number));
+    return integers;
+  }
+  Table<double>::Numbers doubles;
+  for (const auto& number : numbers)
+    doubles.push_back(number ? std::optional(static_cast<double>(*number)) : std::nullopt);
+  return doubles;
+}
+
+/// A column of texts that are all numbers, such as flags shown as 1 and 0, holds numbers.
+Table<double>::Cells stored_texts(const std::vector<std::string>& texts);
+
+/// Bytes of an HDF5 file with a dataset for each column. No number is nan. Attributes of a dataset are its
+/// `title`, `unit` and `description`; those of the file are the notes, and the comments as `comment`.
+std::string hdf5_columns(const std::vector<StoredColumn>& columns, const std::vector<std::string>& comments,
+                         const std::vector<FileNote>& notes);
+
+template <class Real>
+std::string hdf5_columns(const Table<Real>& table, const std::vector<FileNote>& notes) {
+  using Cells = Table<Real>;
+  std::vector<StoredColumn> stored;
+  for (std::size_t k = 0; k < table.columns().size(); ++k) {
+    stored.push_back({table.columns()[k], Table<double>::Numbers{}});
+    if (table.rows() == 0) continue;
+    const auto& cells = table.cells(k);
+    if (const auto* texts = std::get_if<typename Cells::Texts>(&cells))
+      stored.back().cells = stored_texts(*texts);
+    else if (const auto* integers = std::get_if<typename Cells::Integers>(&cells))
+      stored.back().cells = *integers;
+    else
+      stored.back().cells = stored_numbers<Real>(std::get<typename Cells::Numbers>(cells));
+  }
+  return hdf5_columns(stored, table.comments(), notes);
+}
+
+/// Bytes of an HDF5 file with a compound dataset for each table.
+std::string hdf5_compounds(const std::vector<std::pair<std::string, Table<double>>>& tables);
+
+}  // namespace edmill::io

@@ -1,0 +1,108 @@
+// The record as one X3D page that plays it. (thesis D.4.2)
+#pragma once
+
+#include "casefile/output_columns.hpp"
+#include "io/output_folder.hpp"
+#include "output/frames_output.hpp"
+
+namespace edmill::output {
+
+inline void read_animation(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  casefile::read_contact_point(s, output);
+  auto& a = output.animation;
+  a.speed = s.quantity("speed", casefile::Dimension::none, a.speed);
+  s.require(a.speed.positive(), "speed", "a positive number; 1 is real time");
+  a.frames_per_minute = s.count("frames_per_minute").value_or(a.frames_per_minute);
+  s.require(a.frames_per_minute > 0, "frames_per_minute", "at least 1");
+  a.min_frames = s.count("min_frames").value_or(a.min_frames);
+  s.require(a.min_frames > 0, "min_frames", "at least 1");
+}
+
+/// Keys of a ball are its impacts, and frames between them: it flies straight as far as one sees.
+template <class Real>
+class AnimationOutput : public FramesOutput<Real> {
+ public:
+  AnimationOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
+                  const RunContext<Real>& run)
+      : FramesOutput<Real>(spec, folder, run, frames_of(spec.animation)),
+        file_(this->place()),
+        speed_(spec.animation.speed.to<double>()),
+        min_frames_(spec.animation.min_frames) {}
+
+  void commit() override { file_.commit(); }
+
+ protected:
+  void before(const Seen<Real>& seen) override {
+    FramesOutput<Real>::before(seen);
+    const auto& f = seen.facts;
+    if (f.time < this->timer().from() || this->timer().until(f.time) < f.time) return;
+    for (const int ball : {f.ball, f.ball_ball ? f.partner : f.ball})
+      add_key(ball, f.time, seen.simulation.flight(ball).position);
+  }
+  void record(const Seen<Real>& seen) override {
+    if (!this->shows_contact()) return;
+    const auto key = static_cast<double>(seen.facts.time);
+    const SceneBall contact = this->contact_at(seen.facts.contact_point);
+    // It stays where it was up to this impact, then jumps.
+    if (!first_->contact) first_->contact = contact;
+    paths_.contact.emplace_back(key,
+                                paths_.contact.empty() ? contact.position : paths_.contact.back().second);
+    paths_.contact.emplace_back(key, contact.position);
+  }
+  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+    FramesOutput<Real>::end_of_record(simulation, until);
+    write(simulation, static_cast<double>(this->timer().from()), static_cast<double>(until));
+  }
+  void archive_record(Archive& a) override {
+    FramesOutput<Real>::archive_record(a);
+    a(file_, first_, paths_, times_);
+  }
+
+ private:
+  static casefile::TimerSpec frames_of(const casefile::AnimationSpec& a) {
+    casefile::TimerSpec timer;
+    timer.interval = casefile::Quantity{a.speed.value * 60 / a.frames_per_minute};
+    return timer;
+  }
+
+  void add_frame(const engine::Simulation<Real>& simulation, const Real& time,
+                 const typename FramesOutput<Real>::StateOf& state_of) override {
+    if (!first_) {
+      first_ = this->scene(simulation, time, state_of);
+      paths_.balls.resize(first_->balls.size());
+    }
+    for (int i = 0; i < simulation.ball_count(); ++i) add_key(i, time, state_of(i).position);
+    times_.push_back(static_cast<double>(time));
+  }
+  void add_key(int ball, const Real& time, const Vec3<Real>& place) {
+    paths_.balls[static_cast<std::size_t>(ball)].emplace_back(static_cast<double>(time),
+                                                              vector_cast<double>(place));
+  }
+
+  void write(const engine::Simulation<Real>& simulation, double from, double until) {
+    const double length = until > from ? until - from : 1;
+    const auto to_fractions = [&](SceneMotion::Path& path) {
+      for (auto& [key, place] : path) key = (key - from) / length;
+    };
+    for (auto& path : paths_.balls) to_fractions(path);
+    to_fractions(paths_.contact);
+    if (times_.size() < min_frames_ + 1) {
+      times_.clear();
+      for (std::uint64_t k = 0; k <= min_frames_; ++k)
+        times_.push_back(from + length * static_cast<double>(k) / static_cast<double>(min_frames_));
+    }
+    for (const double time : times_)
+      paths_.vessel.emplace_back((time - from) / length, this->angles(simulation, time));
+    paths_.duration = length / speed_;
+    file_.stream() << x3d_text(*first_, &paths_);
+  }
+
+  io::AtomicFile file_;
+  double speed_;
+  std::uint64_t min_frames_;
+  std::optional<Scene> first_;
+  SceneMotion paths_{};
+  std::vector<double> times_;
+};
+
+}  // namespace edmill::output

@@ -1,0 +1,131 @@
+// How often a variable falls into each of equal intervals [lower, upper). (thesis D.4.4)
+#pragma once
+
+#include <array>
+
+#include "casefile/output_columns.hpp"
+#include "output/by_partner.hpp"
+#include "output/table_output.hpp"
+
+namespace edmill::output {
+
+inline void read_frequency(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  auto& f = output.frequency;
+  const auto variable = casefile::read_variable(s, false, false, true);
+  f.variable.variable = variable.value_or(0);
+  f.variable.label = s.text("label").value_or("");
+  const auto dimension = casefile::dimension_of(model::impact_variables[f.variable.variable].unit);
+  for (const auto& [key, bound] : {std::pair{"low", &f.low}, {"high", &f.high}}) {
+    if (variable)
+      *bound = s.required(key, dimension);
+    else
+      s.setting(key);  // of unknown dimension: nothing to check it against
+  }
+  if (variable && s.has("low") && s.has("high"))
+    s.require(casefile::size_of(f.high) > casefile::size_of(f.low), "high", "a value above low");
+  f.intervals = s.count("intervals").value_or(10);
+  s.require(f.intervals > 0 && f.intervals <= 1000000, "intervals", "1 to 1000000");
+  f.title = s.text("title").value_or("");
+  f.wall_details = s.flag("wall_details");
+  f.percentages = s.flag("percentages");
+  f.out_of_range = s.flag("out_of_range");
+}
+
+template <class Real>
+class FrequencyOutput : public TableOutput<Real> {
+ public:
+  FrequencyOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
+                  const RunContext<Real>& run)
+      : TableOutput<Real>(spec, folder, run),
+        spec_(spec.frequency),
+        formula_(variable_formula<Real>(spec.frequency.variable.variable)),
+        low_(spec.frequency.low.to<Real>()),
+        high_(spec.frequency.high.to<Real>()),
+        counts_(spec.frequency.intervals + 2) {}
+
+ protected:
+  void archive_record(Archive& a) override { a(counts_); }
+  void record(const Seen<Real>& seen) override {
+    const auto& f = seen.facts;
+    ++counts_[row_of(formula_(f))][partner_of(f)];
+  }
+
+  void end_of_record(const engine::Simulation<Real>&, const Real&) override {
+    const auto& variable = model::impact_variables[spec_.variable.variable];
+    std::vector<Column> columns{
+        {"interval", Column::Type::text, "", "number of the interval from 1, or below or above all"},
+        {"lower", Column::Type::number, "", "lower end, in the interval"},
+        {"upper", Column::Type::number, "", "upper end, not in the interval"},
+        {"mean", Column::Type::number, "", "middle of the interval"}};
+    for (const auto& part : parts())
+      columns.push_back({part.column.name, Column::Type::integer, "", part.column.meaning});
+    if (spec_.percentages)
+      for (const auto& part : parts())
+        columns.push_back({std::string(part.column.name) + "_percentage", Column::Type::number});
+    std::vector<std::string> comments;
+    if (!spec_.title.empty()) comments.push_back(spec_.title);
+    comments.push_back(name_of(spec_.variable, variable.name) + " [" + std::string(variable.unit) +
+                       "]: impacts with lower <= value < upper");
+    this->begin(std::move(columns), std::move(comments));
+    if (spec_.out_of_range) write_row("below", 0);
+    for (std::size_t k = 1; k + 1 < counts_.size(); ++k) write_row(std::to_string(k), k);
+    if (spec_.out_of_range) write_row("above", counts_.size() - 1);
+  }
+
+ private:
+  using Row = std::array<std::uint64_t, model::partner_kinds>;
+  struct Part {
+    PartnerColumn column;
+    int first, last;  ///< of the partners that it counts
+  };
+
+  std::vector<Part> parts() const {
+    std::vector<Part> list;
+    if (spec_.wall_details)
+      for (int wall = 0; wall < model::wall_count; ++wall) list.push_back({wall_columns[wall], wall, wall});
+    list.push_back({all_walls, 0, model::wall_count - 1});
+    list.push_back({balls, model::ball_ball, model::ball_ball});
+    list.push_back({all_impacts, 0, model::ball_ball});
+    return list;
+  }
+
+  Real bound(std::size_t k) const { return low_ + (high_ - low_) * Real(k) / Real(spec_.intervals); }
+
+  /// 0 below the range, then the intervals, then one above the range. The bounds decide, not a quotient.
+  std::size_t row_of(const Real& value) const {
+    if (value < low_) return 0;
+    if (!(value < high_)) return counts_.size() - 1;
+    auto k = static_cast<std::size_t>((value - low_) / (high_ - low_) * Real(spec_.intervals));
+    while (k > 0 && value < bound(k)) --k;
+    while (k + 1 < spec_.intervals && value >= bound(k + 1)) ++k;
+    return k + 1;
+  }
+
+  void write_row(const std::string& name, std::size_t k) {
+    const bool has_lower = k > 0, has_upper = k + 1 < counts_.size(), inside = has_lower && has_upper;
+    this->put(name, io::value_if(has_lower, [&] { return bound(k - 1); }),
+              io::value_if(has_upper, [&] { return bound(k); }),
+              io::value_if(inside, [&] { return Real((bound(k - 1) + bound(k)) / 2); }));
+    const auto sum = [&](std::size_t row, const Part& part) {
+      std::uint64_t count = 0;
+      for (int p = part.first; p <= part.last; ++p) count += counts_[row][p];
+      return count;
+    };
+    for (const auto& part : parts()) this->put(sum(k, part));
+    if (spec_.percentages)
+      for (const auto& part : parts()) {
+        std::uint64_t whole = 0;  // of the impacts in this table
+        for (std::size_t row = 0; row < counts_.size(); ++row)
+          if (spec_.out_of_range || (row > 0 && row + 1 < counts_.size())) whole += sum(row, part);
+        this->put(
+            io::value_if(whole > 0, [&] { return Real(Real(100) * Real(sum(k, part)) / Real(whole)); }));
+      }
+  }
+
+  casefile::FrequencySpec spec_;
+  VariableFormula<Real> formula_;
+  Real low_, high_;
+  std::vector<Row> counts_;
+};
+
+}  // namespace edmill::output

@@ -1,0 +1,31 @@
+// All variables of each impact. (thesis D.4.9)
+#pragma once
+
+#include "casefile/section.hpp"
+#include "output/table_output.hpp"
+
+namespace edmill::output {
+
+inline void read_iterations(casefile::Section&, const casefile::CaseSpec&, casefile::OutputSpec&) {}
+
+template <class Real>
+class IterationsOutput : public TableOutput<Real> {
+ public:
+  IterationsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
+                   const RunContext<Real>& run)
+      : TableOutput<Real>(spec, folder, run) {
+    std::vector<Column> columns;
+    for (const auto& v : model::impact_variables)
+      columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), std::string(v.meaning)});
+    this->begin(std::move(columns));
+  }
+
+ protected:
+  void archive_record(Archive&) override {}
+  void record(const Seen<Real>& seen) override {
+    for (int k = 0; k < static_cast<int>(model::impact_variables.size()); ++k)
+      this->put_variable(k, variable_formula<Real>(k)(seen.facts));
+  }
+};
+
+}  // namespace edmill::output

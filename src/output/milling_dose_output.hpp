@@ -1,0 +1,80 @@
+// Milling dose of the record and what follows from it. (thesis 4.3.3)
+#pragma once
+
+#include <algorithm>
+
+#include "base/compensated_sum.hpp"
+#include "casefile/output_columns.hpp"
+#include "output/table_output.hpp"
+
+namespace edmill::output {
+
+/// What the table can show; a field has no value where nothing defines it, such as specific doses without
+/// powder.
+inline const std::vector<Column>& dose_fields() {
+  using enum Column::Type;
+  static const std::vector<Column> fields{
+      {"milling_dose", number, "J", meaning_of("milling_dose")},
+      {"milling_dose_rate", number, "W", "milling dose per second of the record"},
+      {"inverse_milling_dose_rate", number, "s/J", "time of the record over its milling dose"},
+      {"specific_milling_dose", number, "J/kg", "milling dose over the mass of the powder"},
+      {"specific_milling_dose_rate", number, "W/kg", "milling dose per second over the mass of the powder"},
+      {"powder_mass", number, "kg", "mass of the powder"},
+      {"charge_ratio", number, "1", "mass of the balls over the mass of the powder"}};
+  return fields;
+}
+
+/// Its own keys are the places of its fields in dose_fields.
+inline void read_milling_dose(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  std::vector<std::string> known;
+  for (const auto& field : dose_fields()) known.push_back(field.name);
+  std::vector<int> fields;
+  for (const auto& name : s.has("fields") ? s.settings("fields") : known) {
+    const auto row = std::find(known.begin(), known.end(), name);
+    if (row != known.end())
+      fields.push_back(static_cast<int>(row - known.begin()));
+    else
+      s.problem("fields", "\"" + name + "\"", "an array of " + casefile::listed(known));
+  }
+  output.own = std::move(fields);
+}
+
+template <class Real>
+class MillingDoseOutput : public TableOutput<Real> {
+ public:
+  MillingDoseOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
+                    const RunContext<Real>& run)
+      : TableOutput<Real>(spec, folder, run),
+        fields_(spec.own_keys<std::vector<int>>()),
+        powder_mass_(run.powder_mass) {}
+
+ protected:
+  void archive_record(Archive& a) override { a(dose_); }
+  void record(const Seen<Real>& seen) override { dose_ += seen.facts.milling_dose; }
+
+  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+    const Real time = until - this->timer().from(), dose = dose_.value();
+    Real ball_mass{0};
+    for (int i = 0; i < simulation.ball_count(); ++i) ball_mass += simulation.properties(i).mass;
+    const bool timed = time > 0, powder = powder_mass_.has_value();
+    const std::optional<Real> values[] = {
+        dose,
+        io::value_if(timed, [&] { return Real(dose / time); }),
+        io::value_if(dose > 0, [&] { return Real(time / dose); }),
+        io::value_if(powder, [&] { return Real(dose / *powder_mass_); }),
+        io::value_if(powder && timed, [&] { return Real(dose / time / *powder_mass_); }),
+        powder_mass_,
+        io::value_if(powder, [&] { return Real(ball_mass / *powder_mass_); })};
+    std::vector<Column> columns;
+    for (const int field : fields_) columns.push_back(dose_fields()[field]);
+    this->begin(std::move(columns));
+    for (const int field : fields_) this->put(values[field]);
+  }
+
+ private:
+  std::vector<int> fields_;  ///< places in dose_fields
+  std::optional<Real> powder_mass_;
+  numerics::CompensatedSum<Real> dose_;
+};
+
+}  // namespace edmill::output

@@ -1,0 +1,64 @@
+// Frames for ParaView: NAME.pvd, and a folder NAME with balls and vessel of each frame as VTP.
+#pragma once
+
+#include "casefile/output_columns.hpp"
+#include "io/atomic_folder.hpp"
+#include "io/output_folder.hpp"
+#include "output/frames_output.hpp"
+
+namespace edmill::output {
+
+inline void read_paraview(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  casefile::read_interval(s, output.timer, casefile::Quantity{casefile::Rational(1, 100)});
+}
+
+template <class Real>
+class ParaviewOutput : public FramesOutput<Real> {
+ public:
+  ParaviewOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
+                 const RunContext<Real>& run)
+      : FramesOutput<Real>(spec, folder, run, spec.timer),
+        index_(this->place()),
+        frames_(std::filesystem::path(this->place()).replace_extension()) {}
+
+  void commit() override {
+    frames_.commit();
+    index_.stream() << pvd_text(list_);
+    index_.commit();
+  }
+
+ protected:
+  void record(const Seen<Real>& seen) override {
+    const auto& f = seen.facts;
+    doses_.resize(static_cast<std::size_t>(f.balls), 0);
+    const auto dose = static_cast<double>(f.milling_dose);
+    doses_[static_cast<std::size_t>(f.ball)] += dose;
+    if (f.ball_ball) doses_[static_cast<std::size_t>(f.partner)] += dose;
+  }
+  void archive_record(Archive& a) override {
+    FramesOutput<Real>::archive_record(a);
+    a(index_, frames_, list_, doses_);
+  }
+
+ private:
+  void add_frame(const engine::Simulation<Real>& simulation, const Real& time,
+                 const typename FramesOutput<Real>::StateOf& state_of) override {
+    Scene s = this->scene(simulation, time, state_of);
+    for (std::size_t i = 0; i < doses_.size(); ++i) s.balls[i].milling_dose = doses_[i];
+    const std::string number = std::to_string(list_.size());
+    list_.push_back({s.time, {}});
+    const auto write = [&](const std::string& name, const std::string& text) {
+      frames_.add(name, text);
+      list_.back().second.push_back(frames_.place().filename().string() + "/" + name);
+    };
+    write("balls_" + number + ".vtp", vtp_balls(s));
+    write("vessel_" + number + ".vtp", vtp_vessel(s));
+  }
+
+  io::AtomicFile index_;
+  io::AtomicFolder frames_;
+  std::vector<std::pair<double, std::vector<std::string>>> list_;
+  std::vector<double> doses_;
+};
+
+}  // namespace edmill::output

@@ -1,0 +1,46 @@
+// The mill at each impact of the record, a file each: NAME_<index>.x3d. (thesis D.4.1)
+#pragma once
+
+#include "casefile/output_columns.hpp"
+#include "io/output_folder.hpp"
+#include "output/scene_output.hpp"
+
+namespace edmill::output {
+
+/// Of one impact unless told: there is a file for each.
+inline void read_snapshot(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  casefile::read_contact_point(s, output);
+  if (!output.timer.collisions) output.timer.collisions = 1;
+}
+
+template <class Real>
+class SnapshotOutput : public SceneOutput<Real> {
+ public:
+  using SceneOutput<Real>::SceneOutput;
+
+  void commit() override {
+    for (const auto& [index, text] : pages_) {
+      auto place = this->place();
+      place.replace_filename(place.stem().string() + "_" + std::to_string(index) +
+                             place.extension().string());
+      io::AtomicFile file(place);
+      file.stream() << text;
+      file.commit();
+    }
+  }
+
+ protected:
+  void archive_record(Archive& a) override { a(pages_); }
+  void record(const Seen<Real>& seen) override {
+    const BallsBefore<Real> balls(seen);
+    const Real& time = seen.facts.time;
+    Scene s = this->scene(seen.simulation, time, [&](int i) { return balls.state(i, time); });
+    if (this->shows_contact()) s.contact = this->contact_at(seen.facts.contact_point);
+    pages_.emplace_back(seen.facts.index, x3d_text(s));
+  }
+
+ private:
+  std::vector<std::pair<std::uint64_t, std::string>> pages_;
+};
+
+}  // namespace edmill::output

@@ -1,0 +1,70 @@
+// An output that is one table.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/output_folder.hpp"
+#include "io/table_hdf5.hpp"
+#include "output/output.hpp"
+#include "output/titles.hpp"
+
+namespace edmill::output {
+
+/// CSV, which takes each row when it is complete, or HDF5 when the file's name ends in .h5, made at the end.
+template <class Real>
+class TableOutput : public Output<Real> {
+ public:
+  TableOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
+              const RunContext<Real>& run)
+      : Output<Real>(spec, run), hdf5_(spec.hdf5()), file_(folder / spec.folder / spec.file, spec.append) {
+    if (hdf5_) notes_ = run.notes;
+  }
+  void commit() override {
+    if (hdf5_) file_.stream() << io::hdf5_columns(table_, notes_);
+    file_.commit();
+  }
+  void archive(Archive& a) override {
+    Output<Real>::archive(a);
+    a(file_, table_);
+  }
+
+ protected:
+  /// To be called once: in the constructor when rows come during the run, else before the first row.
+  void begin(std::vector<io::Column> columns, std::vector<std::string> comments = {}) {
+    table_ = io::Table<Real>(std::move(columns), std::move(comments));
+    if (!hdf5_) file_.stream() << table_.csv_head();
+  }
+  /// The next cells of the row, from left to right.
+  template <class... Cell>
+  void put(const Cell&... cells) {
+    table_.put(cells...);
+    if (hdf5_ || !table_.at_row_end()) return;
+    file_.stream() << table_.csv_rows();
+    table_.clear_rows();
+  }
+  void put(const Vec3<Real>& vector) {
+    for (int axis = 0; axis < 3; ++axis) put(Real(vector[axis]));
+  }
+  void put_variable(int variable, const Real& value) {
+    if (type_of(model::impact_variables[variable]) == Column::Type::integer)
+      put(static_cast<std::uint64_t>(value));
+    else
+      put(value);
+  }
+  /// "from 0.5 s to 10 s: 9.5 s", which rates are per.
+  std::string window(const Real& until) const {
+    const Real &from = this->timer().from(), duration = until - from;
+    return "from " + to_text<Real>(from) + " s to " + to_text<Real>(until) +
+           " s: " + to_text<Real>(duration) + " s";
+  }
+
+ private:
+  bool hdf5_;
+  io::AtomicFile file_;
+  io::Table<Real> table_;
+  std::vector<io::FileNote> notes_;  ///< of HDF5
+};
+
+}  // namespace edmill::output

@@ -1,0 +1,130 @@
+// Snapshots, animations and frames for ParaView, each against the run that it shows.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <pugixml.hpp>
+#include <vector>
+
+#include "run_with_outputs.hpp"
+
+namespace edmill {
+namespace {
+
+/// Numbers of an attribute.
+std::vector<double> list(const pugi::xml_node& node, const char* attribute) {
+  std::istringstream in(node.attribute(attribute).value());
+  std::vector<double> numbers;
+  for (double x; in >> x;) numbers.push_back(x);
+  return numbers;
+}
+
+pugi::xml_node named(const pugi::xml_document& page, const std::string& name) {
+  return page.find_node([&](const pugi::xml_node& n) { return n.attribute("DEF").value() == name; });
+}
+
+TEST_F(Chapter4, SnapshotShowsTheBallWhereItTouches) {
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/snapshot_0.x3d"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/snapshot_3.x3d"));
+  for (const std::string index : {"1", "2"}) {
+    pugi::xml_document page;
+    ASSERT_TRUE(page.load_file((scratch / "out" / ("snapshot_" + index + ".x3d")).c_str()));
+    const auto ball = list(named(page, "ball_0"), "translation"),
+               contact = list(named(page, "contact_point"), "translation");
+    ASSERT_EQ(ball.size(), 3u);
+    ASSERT_EQ(contact.size(), 3u);
+    EXPECT_NEAR(std::hypot(ball[0] - contact[0], ball[1] - contact[1], ball[2] - contact[2]), 0.00476, 1e-9);
+    EXPECT_EQ(list(named(page, "contact_point").child("Shape").child("Sphere"), "radius"),
+              std::vector<double>{0.001});
+    EXPECT_EQ(
+        list(named(page, "ball_0").child("Shape").child("Appearance").child("Material"), "diffuseColor"),
+        (std::vector<double>{0, 0, 1}));
+    // The vessel's frame: back by theta, the arm, and gamma; the ball is inside and touches.
+    const double theta = list(named(page, "theta"), "rotation")[3],
+                 gamma = list(named(page, "gamma"), "rotation")[3];
+    const double a = ball[0] * std::cos(theta) + ball[1] * std::sin(theta) - 0.1;
+    const double b = ball[1] * std::cos(theta) - ball[0] * std::sin(theta);
+    const double y = b * std::cos(gamma) + ball[2] * std::sin(gamma),
+                 z = ball[2] * std::cos(gamma) - b * std::sin(gamma);
+    const double gap = std::min(0.0285 - 0.00476 - std::abs(y), 0.019 - 0.00476 - std::hypot(a, z));
+    EXPECT_NEAR(gap, 0, 1e-9);
+  }
+}
+
+TEST_F(Chapter4, AnimationPlaysTheFirstImpacts) {
+  pugi::xml_document page;
+  ASSERT_TRUE(page.load_file((scratch / "out/animation.x3d").c_str()));
+  const auto log = read("collisions.csv");
+  const double length = number(log[3], "time");  // it ends with the fourth impact
+  EXPECT_NEAR(list(named(page, "clock"), "cycleInterval")[0], length / 0.001, 1e-9);
+  for (const std::string name : {"theta_path", "gamma_path", "ball_0_path", "contact_point_path"}) {
+    const auto keys = list(named(page, name), "key"), values = list(named(page, name), "keyValue");
+    ASSERT_GE(keys.size(), 4u) << name;
+    EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end())) << name;
+    EXPECT_GE(keys.front(), 0);
+    EXPECT_LE(keys.back(), 1 + 1e-12);
+    EXPECT_EQ(values.size(), keys.size() * (name.starts_with("theta") || name.starts_with("gamma") ? 4 : 3))
+        << name;
+  }
+  const auto keys = list(named(page, "theta_path"), "key"),
+             angles = list(named(page, "theta_path"), "keyValue");
+  EXPECT_GE(keys.size(), 25u);
+  EXPECT_EQ(keys.back(), 1);
+  const double turn = 2 * std::acos(-1.0) * 1054 / 60 * length;
+  EXPECT_NEAR(angles[3], std::acos(-1.0) * 105 / 180, 1e-12);
+  EXPECT_NEAR(angles.back(), std::acos(-1.0) * (90 + 15 * std::cos(turn)) / 180, 1e-9);
+  // The ball has a key at each impact.
+  const auto ball_keys = list(named(page, "ball_0_path"), "key");
+  for (int k = 0; k < 4; ++k)
+    EXPECT_TRUE(std::any_of(ball_keys.begin(), ball_keys.end(), [&](double key) {
+      return std::abs(key * length - number(log[k], "time")) < 1e-12;
+    }));
+  int routes = 0;
+  for (const auto& node : page.child("X3D").child("Scene").children("ROUTE")) {
+    EXPECT_TRUE(named(page, node.attribute("fromNode").value()));
+    EXPECT_TRUE(named(page, node.attribute("toNode").value()));
+    ++routes;
+  }
+  EXPECT_EQ(routes, 8);
+}
+
+TEST_F(Outputs, ParaviewFramesHoldBallsAndVessel) {
+  write("case.toml", std::string(small_case) +
+                         "[[output]]\ntype = \"paraview\"\nfolder = \"movie\"\ninterval = \"30 ms\"\n");
+  for (int repeat = 0; repeat < 2; ++repeat)  // the second replaces the first
+    ASSERT_EQ(edmill("run case.toml --quiet --out out").code, 0);
+  pugi::xml_document index;
+  ASSERT_TRUE(index.load_file((scratch / "out/movie/paraview.pvd").c_str()));
+  std::vector<double> times;
+  for (const auto& set : index.child("VTKFile").child("Collection").children("DataSet")) {
+    const std::string file = set.attribute("file").value();
+    pugi::xml_document part;
+    ASSERT_TRUE(part.load_file((scratch / "out/movie" / file).c_str())) << file;
+    const auto piece = part.child("VTKFile").child("PolyData").child("Piece");
+    const auto count = [](const pugi::xml_node& array) {
+      std::istringstream in(array.text().get());
+      std::size_t n = 0;
+      for (std::string word; in >> word;) ++n;
+      return n;
+    };
+    const auto points = piece.attribute("NumberOfPoints").as_ullong();
+    EXPECT_EQ(count(piece.child("Points").child("DataArray")), 3 * points);
+    for (const auto& array : piece.child("PointData").children())
+      EXPECT_EQ(count(array), points * array.attribute("NumberOfComponents").as_ullong())
+          << array.attribute("Name").value();
+    if (set.attribute("part").as_int() == 0) {
+      EXPECT_EQ(points, 5u);
+      times.push_back(set.attribute("timestep").as_double());
+    }
+  }
+  ASSERT_EQ(times.size(), 8u);  // 0, 30, ... 180 ms and the end
+  for (std::size_t k = 0; k < 7; ++k) EXPECT_NEAR(times[k], 0.03 * static_cast<double>(k), 1e-15);
+  EXPECT_EQ(times.back(), 0.2);
+  std::size_t entries = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scratch / "out/movie"))
+    entries += entry.exists();
+  EXPECT_EQ(entries, 2u);  // nothing partial is left
+}
+
+}  // namespace
+}  // namespace edmill
