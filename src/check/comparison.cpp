@@ -102,7 +102,7 @@ class Judge {
       });
     };
     if (empty(a_) || empty(b_)) {
-      skip(name, "1", "nothing in one log");
+      skip(name, "1", "no impacts in one log");
       return;
     }
     Quantity q = named(name, "1");

@@ -68,7 +68,7 @@ std::string table(const Comparison& c) {
       fmt::format("{} agree within {:g}{}{}", e.agreeing, c.options.tolerance,
                   e.agreeing > 0 ? fmt::format(", up to {:g} s", e.horizon) : "",
                   c.events_verdict
-                      ? fmt::format(": {} ({} asked for)", name_of(*c.events_verdict), *c.options.events)
+                      ? fmt::format(": {} ({} required)", name_of(*c.events_verdict), *c.options.events)
                       : ""));
   if (e.first) {
     row("  same partners", fmt::format("{} events", e.same_partners));

@@ -207,7 +207,7 @@ std::optional<LoggedEvent> EventLog::read() {
     if (!time || !read_bodies(event)) continue;
     event.time = *time * columns_[time_name].unit;
     if (!std::isfinite(event.time)) {
-      event.problem = "found no finite time";
+      event.problem = "found a time that is not finite";
       event.unknown_body = false;
       event.time = latest_;  // it has no place of its own
     }

@@ -23,14 +23,14 @@ bool ImpactJudge::explain_by_formula(const LoggedEvent& event, const Scene& scen
   f.spin_sign = -1;
   if (fits(f)) return found(Kind::tangential_sign, "velocity and spin both have the wrong sign");
   f.velocity_sign = 1;
-  if (fits(f)) return found(Kind::spin_change, "the spin turns the wrong way");
+  if (fits(f)) return found(Kind::spin_change, "the spin has the wrong sign");
   f.spin_sign = 0;
-  if (fits(f)) return found(Kind::spin_change, "the spin stays as it was");
+  if (fits(f)) return found(Kind::spin_change, "the spin does not change");
   f = {};
   f.friction_of_restitution = true;
   if (fits(f))
     return found(Kind::tangential_restitution,
-                 "friction is limited by mu (1 + e_n) |g_n|, not by the impulse that passes at v_s");
+                 "friction is limited by mu (1 + e_n) |g_n|, not by the actual impulse at v_s");
   if (!impact.with_wall) {
     for (const auto& ball : impact.ball) {
       f = {};
@@ -41,7 +41,7 @@ bool ImpactJudge::explain_by_formula(const LoggedEvent& event, const Scene& scen
     }
     f = {};
     f.share = {0.5, 0.5};
-    if (fits(f)) return found(Kind::unequal_balls, "the formula of equal masses");
+    if (fits(f)) return found(Kind::unequal_balls, "the formula for equal masses");
     f.share = {impact.effective_mass / impact.ball[1].mass, impact.effective_mass / impact.ball[0].mass};
     if (fits(f)) return found(Kind::unequal_balls, "the masses are exchanged");
   }
@@ -91,8 +91,8 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, do
     findings_.add(finding(Kind::separation_law, left, right, note));
   };
   if (leaves_by_the_other_branch(event, impact, allowed_off))
-    return tell_separation(right > by_restitution ? "leaves at e_n |g_n|, which is below v_s"
-                                                  : "leaves at v_s, which is below e_n |g_n|");
+    return tell_separation(right > by_restitution ? "separates at e_n |g_n|, which is below v_s"
+                                                  : "separates at v_s, which is below e_n |g_n|");
   const auto by_ratio = g_n != 0 ? finding(Kind::normal_restitution, -left / g_n, -right / g_n, "")
                                  : finding(Kind::normal_restitution, unknown, unknown, "");
   if (left <= by_restitution + allowed_off) return findings_.add(by_ratio);
@@ -101,7 +101,7 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, do
     if (!(std::abs(left - other.speed) <= allowed_off &&
           other.speed * std::abs(g_n - other.g_n) > 2 * allowed_off * std::abs(g_n)))
       continue;
-    constexpr const char* note = "leaves at a least separation speed that is not the case's";
+    constexpr const char* note = "separates at another least separation speed than the case's";
     if (other.held) {
       Finding first = *other.held;
       first.kind = Kind::separation_law, first.note = note;

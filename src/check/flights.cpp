@@ -98,8 +98,8 @@ void Flights::judge(int ball, const FlightEnd& end) {
     const bool explained = off > 0 && explained_by_walls(ball, track, end);
     if (explained || deep(*missed)) {
       track.held = missed_finding(ball, *missed, end,
-                                  explained  ? "the state changes as by this impact: it is not logged"
-                                  : off == 0 ? "the ball flew on through the wall"
+                                  explained  ? "the state changes as in this impact, which is not logged"
+                                  : off == 0 ? "the ball flew through the wall"
                                              : "");
       told = true;
       missed_at = missed->time;
@@ -110,7 +110,7 @@ void Flights::judge(int ball, const FlightEnd& end) {
     Track& other = of(pair->partner);
     if (explained) {
       findings_.add(
-          missed_finding(ball, *pair, end, "the state changes as by this impact: it is not logged"));
+          missed_finding(ball, *pair, end, "the state changes as in this impact, which is not logged"));
       if (!other.broken || pair->time < other.broken_from) other.broken_from = pair->time;
       other.broken = told = true;
       missed_at = pair->time;
@@ -124,7 +124,7 @@ void Flights::judge(int ball, const FlightEnd& end) {
                             pair->partner,
                             unknown,
                             unknown,
-                            off == 0 ? "the balls flew on through each other" : ""};
+                            off == 0 ? "the balls flew through each other" : ""};
       other.pending.push_back({finding, pair->depth});
       told = told || off > 0;
       missed_at = pair->time;
@@ -216,8 +216,8 @@ const char* Flights::look_of(const Track& track, const BodyState& state, double 
   const auto moving = [&](double share) {
     return size(Vec(state.velocity_before - v - g * (share * dt))) <= close_v;
   };
-  if (moving(0) && size(Vec(state.position - at(0))) <= close_p) return "flown without gravity";
-  if (moving(-1) && size(Vec(state.position - at(-1))) <= close_p) return "flown with the opposite gravity";
+  if (moving(0) && size(Vec(state.position - at(0))) <= close_p) return "flight without gravity";
+  if (moving(-1) && size(Vec(state.position - at(-1))) <= close_p) return "flight with the opposite gravity";
   const Vec rest = state.position - at(1);
   const Vec across = rest - g * (dot(rest, g) / dot(g, g));
   if (dv <= close_v && size(across) <= close_p)

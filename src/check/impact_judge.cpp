@@ -240,7 +240,7 @@ void ImpactJudge::judge_dose(const LoggedEvent& event, const Impact& right, cons
   if (none_is_due) off = std::min({off, away(balance(right)), away(balance(theirs))});
   if (off > allowed_off)
     tell(Kind::milling_dose, event, off, event.milling_dose, expected,
-         away(balance(right)) <= allowed_off ? "the energy that v_s supplies is taken off" : "");
+         away(balance(right)) <= allowed_off ? "the energy that v_s supplies is subtracted" : "");
 }
 
 void ImpactJudge::judge_speeds(const LoggedEvent& event, const Impact& impact) {

@@ -127,7 +127,7 @@ int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options) {
     evidence.push_back(evidence_line(narrow, wide, agreement));
     if (!options.quiet) fmt::print("{} ({:.1f} s)\n", evidence.back(), narrow.seconds + wide.seconds);
     if (wide.events.size() < options.collisions)
-      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are asked for", spec.file,
+      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec.file,
                                    wide.events.size(), options.collisions));
     const auto by_rule = std::find_if(wide.events.begin(), wide.events.end(),
                                       [](const Event& event) { return event.by_rule; });
@@ -135,7 +135,7 @@ int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options) {
       fmt::print(
           stderr,
           "edmill: event {}, {}, has another contact of its ball at the same time in every scalar: a rule "
-          "and not the equations puts one first; nothing is written\n",
+          "and not the equations orders them; nothing is written\n",
           by_rule - wide.events.begin(), describe(*by_rule));
       return undecided;
     }
@@ -176,18 +176,19 @@ int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, con
       if (!agreement.take(one[k], two[k])) parted = {one[k], two[k]};
     uneven = !parted && one.size() != two.size();
   }
-  fmt::print("Shadow run: {} beside {}, {} events in common\n", shadow, precision, agreement.events());
+  fmt::print("Shadow run: {} and {}, {} events in common\n", shadow, precision, agreement.events());
   if (parted)
-    fmt::print("  they part at event {}: {} has {},\n  {} has {}\n", agreement.events(), precision,
+    fmt::print("  they diverge at event {}: {} has {},\n  {} has {}\n", agreement.events(), precision,
                describe(parted->first), shadow, describe(parted->second));
   else
-    fmt::print("  {}\n", uneven ? "one has an event more before the end" : "they do not part before the end");
+    fmt::print("  {}\n",
+               uneven ? "one has one event more before the end" : "they do not diverge before the end");
   for (int k = 0; k < run::quantity_count; ++k)
     fmt::print("  {:<16} agrees to {} digits\n", name_of(static_cast<Quantity>(k)),
                digits_text(agreement.digits(static_cast<Quantity>(k))));
   if (const auto lost = agreement.digits_lost_per_event()) {
     const double each = static_cast<double>(agreement.bodies()) / static_cast<double>(spec.ball_count());
-    fmt::print("  digits lost: {:.4f} an event, {:.2f} a collision of a ball\n", *lost,
+    fmt::print("  digits lost: {:.4f} per event, {:.2f} per collision of a ball\n", *lost,
                *lost * static_cast<double>(agreement.events()) / each);
   }
   return ok;

@@ -20,7 +20,7 @@ void prepare_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder))
-    throw InputError(folder.string() + ": found no folder and none can be made (" + error.message() +
+    throw InputError(folder.string() + ": found no folder and cannot create it (" + error.message() +
                      "), expected an output folder");
   for (const auto* name : {"summary.json", "final_state.csv"})
     if (fs::is_directory(folder / name, error))
@@ -36,7 +36,7 @@ FolderLock::FolderLock(const fs::path& folder, bool alone)
   if (descriptor_ >= 0 && ::flock(descriptor_, (alone ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0 &&
       errno == EWOULDBLOCK) {
     ::close(descriptor_);
-    throw InputError(folder.string() + ": found another run at work, expected a folder " +
+    throw InputError(folder.string() + ": found another run in progress, expected a folder " +
                      (alone ? "for this run alone" : "without a run that leaves checkpoints"));
   }
 }

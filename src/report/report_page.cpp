@@ -53,7 +53,7 @@ std::string subtitle_of(const RunFolder& run) {
 }  // namespace
 
 void add_animation(pugi::xml_node main, const RunFolder& run) {
-  auto section = add_section(main, "animation", "The mill at work");
+  auto section = add_section(main, "animation", "The mill in motion");
   const auto* output = run.output("animation", [](const auto&) { return true; });
   if (!output) return add_missing(section, "animation", "type = \"animation\"");
   const auto animation = read_animation(run.file_of(*output));
@@ -68,7 +68,7 @@ void add_animation(pugi::xml_node main, const RunFolder& run) {
   add_scene(stage, animation, most_keys);
   add(section, "button", {{"type", "button"}, {"id", "play"}, {"aria-pressed", "false"}}, "Pause");
   add(section, "p", {{"class", "note"}},
-      fmt::format("Slowed down {} times. Drag to turn, scroll to come nearer.",
+      fmt::format("Slowed down {} times. Drag to rotate, scroll to zoom.",
                   plot::readable(1 / output->animation.speed.to<double>(), 2)));
 }
 

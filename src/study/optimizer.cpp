@@ -36,8 +36,8 @@ class Search {
     optimum.best = best();
     if (optimum.best) optimum.contenders = contenders(*optimum.best);
     optimum.why = study_.interrupted() ? "interrupted"
-                  : out_of_budget_     ? "the budget of runs_max is used"
-                                       : "the grid is as fine as asked for";
+                  : out_of_budget_     ? "the budget of runs_max is used up"
+                                       : "the grid is as fine as requested";
     return optimum;
   }
 
@@ -201,8 +201,8 @@ std::string describe(const OptimizeSpec& spec, const Study& study, const Optimum
   std::string text = fmt::format("largest {} of {} points, 95 % interval; the search ended: {}\n",
                                  spec.objective, study.points().size(), optimum.why);
   text += line_of(spec, study, *optimum.best);
-  text += optimum.contenders.empty() ? "every other point is less, at 5 % for all comparisons together\n"
-                                     : "not to be told apart from it, at 5 % for all comparisons together:\n";
+  text += optimum.contenders.empty() ? "every other point is smaller, at 5 % for all comparisons together\n"
+                                     : "indistinguishable from it, at 5 % for all comparisons together:\n";
   for (const auto k : optimum.contenders) text += line_of(spec, study, k);
   const auto& points = study.points();
   const auto excluded =

@@ -141,7 +141,7 @@ TEST_F(Faulty, NonBallisticFlight) {
   simulate(faults);
   const auto audit = judged();
   expect_kinds(audit, {Kind::non_ballistic});
-  EXPECT_EQ(audit.findings.of(Kind::non_ballistic).notes.count("flown without gravity"), 1u);
+  EXPECT_EQ(audit.findings.of(Kind::non_ballistic).notes.count("flight without gravity"), 1u);
 }
 
 TEST_F(Faulty, WrongDoseAndWork) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs with checkpoints and a report that are killed, interrupted and resumed end like one that was left in peace.
+"""Runs with checkpoints and a report that are killed, interrupted and resumed end like an uninterrupted run.
 
 usage: kill_test.py EDMILL [KILLS]
 Moments are drawn with a fixed seed, but the machine's load decides what a moment hits.

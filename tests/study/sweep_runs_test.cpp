@@ -68,7 +68,7 @@ class Sweep : public ProgramTest {
     ASSERT_LT(before.size(), 12u);
     const auto outcome = edmill("sweep a.sweep.toml --out part");
     EXPECT_EQ(outcome.code, code) << outcome.err;
-    const std::string told = "12 runs: " + std::to_string(before.size()) + " known from before, " +
+    const std::string told = "12 runs: " + std::to_string(before.size()) + " reused, " +
                              std::to_string(12 - before.size()) + " run now";
     EXPECT_NE(outcome.out.find(told), std::string::npos) << outcome.out;
     const auto after = records("part");
@@ -119,7 +119,7 @@ TEST_F(Sweep, ABrokenRecordIsRunAgain) {
   const auto record = scratch / "one/runs" / records("one").begin()->first;
   std::ofstream(record) << contents(record).substr(0, 100);
   const auto outcome = edmill("sweep a.sweep.toml --out one");
-  EXPECT_NE(outcome.out.find("3 known from before, 1 run now"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("3 reused, 1 run now"), std::string::npos) << outcome.out;
   EXPECT_EQ(contents(scratch / "one/runs.csv"), table);
 }
 
