@@ -32,7 +32,7 @@ std::uint64_t noted(const Tally& tally, std::string_view beginning) {
   return sum;
 }
 
-/// Which of the thesis's printed errors the findings look like, and whether a finite time step does.
+/// Which of the thesis's printed errors explain the findings, and whether a finite time step does.
 std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings) {
   std::vector<Diagnosis> found;
   const auto add = [&](const std::string& name, std::uint64_t events, std::uint64_t of,
@@ -66,7 +66,7 @@ std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings
   return found;
 }
 
-/// Late events that a finite time step would give: never early, and hardly deeper than a step's path.
+/// Late events as a finite time step causes them: never early, and hardly deeper than the path of one step.
 void diagnose_step(const Findings& findings, double reach, double latest, std::vector<Diagnosis>& found) {
   const auto late = findings.of(Kind::late_event).count, early = findings.of(Kind::early_event).count;
   if (late < 3 || early > 0 || findings.of(Kind::late_event).worst > reach / 100) return;

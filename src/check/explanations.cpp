@@ -1,4 +1,4 @@
-// ImpactJudge: one mistake that gives exactly the outcome that is logged.
+// ImpactJudge: one mistake that reproduces the logged outcome.
 #include <algorithm>
 #include <cmath>
 
@@ -48,7 +48,7 @@ bool ImpactJudge::explain_by_formula(const LoggedEvent& event, const Scene& scen
   return false;
 }
 
-/// Looks for one mistake that gives exactly the outcome that is logged.
+/// Finds one mistake that reproduces the logged outcome.
 bool ImpactJudge::explain(const LoggedEvent& event, const Scene& scene, double allowed_off,
                           Explanation& explanation) const {
   const Impact& impact = scene.impact;
@@ -67,7 +67,7 @@ bool ImpactJudge::explain(const LoggedEvent& event, const Scene& scene, double a
   return false;
 }
 
-/// The bodies leave at e_n |g_n| where v_s is due, or the reverse.
+/// The bodies separate at e_n |g_n| where v_s applies, or the reverse.
 bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const Impact& impact,
                                              double allowed_off) const {
   const auto& l = law(impact);
@@ -77,7 +77,7 @@ bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const Imp
   return l.least_separation > 0 && std::abs(left - other) <= allowed_off;
 }
 
-/// Tells a wrong speed of separation: by the law's other branch, at another least speed, or neither.
+/// Reports a wrong speed of separation: the law's other branch, another least speed, or neither.
 void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, double off,
                               double allowed_off) {
   const auto& l = law(impact);
@@ -125,7 +125,7 @@ void ImpactJudge::finish() {
   }
 }
 
-/// The log's own speeds show that its code saw another velocity of the contact point.
+/// The logged speeds show that the code used another velocity of the contact point.
 bool ImpactJudge::speeds_tell_another_wall_velocity(const LoggedEvent& event, const Scene& scene,
                                                     const Known& known, double allowed_off) const {
   if (!event.with_wall) return false;

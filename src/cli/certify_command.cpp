@@ -37,7 +37,7 @@ bool stop_asked(const std::atomic<bool>* interrupt) {
   return interrupt && interrupt->load(std::memory_order_relaxed);
 }
 
-/// The first events of a case in one scalar, and what they cost.
+/// The first events of a case in one scalar, and their CPU time.
 struct Sequence {
   std::string precision;
   std::vector<Event> events;
@@ -100,7 +100,7 @@ void write_reference(const casefile::CaseSpec& spec, const CertifyOptions& optio
   out << run::collision_log_header << '\n';
   for (std::size_t k = 0; k < sequence.events.size(); ++k) {
     const Event& e = sequence.events[k];
-    // Two digits more than are certified: the text's own rounding is not to count.
+    // Two digits more than are certified, so that the rounding of the text does not count.
     const auto text = [&](int q) { return e.values[q].str(options.digits + 2, std::ios_base::scientific); };
     out << k << ',' << text(run::time) << ',' << e.ball << (e.with_wall ? ",wall," : ",ball,") << e.partner;
     for (int q = run::approach_speed; q < run::quantity_count; ++q) out << ',' << text(q);

@@ -29,7 +29,7 @@ edmill::cli::RunOptions run_options(const std::string& folder, bool quiet) {
   return options;
 }
 
-/// For work that reports no interruption itself.
+/// For work that does not report interruptions itself.
 template <class Work, class Options>
 int interruptible(const Work& work, Options& options) {
   using namespace edmill::cli;
@@ -82,7 +82,7 @@ int audit(const std::string& case_file, const std::vector<std::string>& override
   return interruptible([&] { return cli::run_audit(spec, options); }, options);
 }
 
-/// One line a problem, whatever characters a case file put into it.
+/// One line per problem; control characters are escaped.
 void print_problem(const std::string& problem) {
   std::string line;
   for (const char c : problem)

@@ -44,7 +44,7 @@ run::Checkpoints RunFolder::checkpoints() {
 
 void RunFolder::remove_checkpoint() {
   if (!checkpoint_) return;
-  // First: once the checkpoint is gone, nobody looks for what killed processes of this run have left.
+  // First: without the checkpoint, files left by killed processes of this run are no longer found.
   remove_temporaries("");
   fs::remove(io::checkpoint_place(place_));
 }

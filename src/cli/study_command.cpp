@@ -34,7 +34,7 @@ std::string folder_of(const StudyOptions& options) {
   return "out/" + name.stem().string();
 }
 
-/// Gives rank 0 to `command`; the other ranks do its runs.
+/// Rank 0 executes `command`; the other ranks do its runs.
 template <class Command>
 int on_all_ranks(const StudyOptions& options, const Command& command) {
   const auto* interrupt = options.interrupt;

@@ -17,7 +17,7 @@ struct Optimum {
 /// the grid finer around the best, until the budget is used. Depends on the results only, not on their order.
 Optimum optimize(const casefile::OptimizeSpec& spec, Study& study);
 
-/// Lines for people.
+/// The result as text.
 std::string describe(const casefile::OptimizeSpec& spec, const Study& study, const Optimum& optimum);
 
 }  // namespace edmill::study
