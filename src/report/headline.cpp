@@ -1,4 +1,4 @@
-// The results that come first, what the thesis has for them, and warnings.
+// The main results, the comparison with the thesis, and warnings.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The energy ledger, and what was run.
+// The energy balance, and the case.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -18,7 +18,7 @@ using plot::add;
 /// Key frames of the animation, about 30 bytes each.
 constexpr std::size_t most_keys = 60000;
 
-/// Puts values in place of {{names}}; what a value holds is not looked at again.
+/// Replaces {{names}} by values; values are not expanded again.
 std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -37,7 +37,7 @@ std::string escaped(const std::string& text) {
   return plot::html_of(document);
 }
 
-/// What a reader sees at a glance.
+/// One line that identifies the case.
 std::string subtitle_of(const RunFolder& run) {
   const auto& spec = run.spec;
   std::string text = fmt::format("{} balls", spec.ball_count());

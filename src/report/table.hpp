@@ -1,4 +1,4 @@
-// A table that an output wrote, as numbers.
+// A table of an output, as numbers.
 #pragma once
 
 #include <filesystem>
@@ -17,16 +17,16 @@ struct Table {
   std::optional<double> from, until;            ///< of the record, where the table says so [s]
 
   double duration() const { return from && until ? *until - *from : 0; }
-  /// Place in `numbers` of a column whose name begins so ("total energy").
+  /// Index in `numbers` of the column whose name begins with this text ("total energy").
   /// @throws InputError when there is none
   std::size_t column(std::string_view name) const;
-  /// Rows whose first text is this one.
+  /// Rows with this first text.
   std::vector<std::vector<double>> rows_of(std::string_view text) const;
 };
 
 /// @param expected  "a table of trends", for messages
 /// @param texts     how many columns of text there are before the numbers
-/// @throws InputError when it is no such table
+/// @throws InputError when it is not such a table
 Table read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts = 0);
 
 }  // namespace edmill::report

@@ -1,4 +1,4 @@
-// Where on the vessel the dose lands.
+// Distribution of the dose over the vessel.
 #include <fmt/format.h>
 
 #include <algorithm>

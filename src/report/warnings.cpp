@@ -26,7 +26,8 @@ void check_end(const RunFacts& f, std::vector<Warning>& list) {
     warn("The run ended at a decision that no scalar could make; the results cover the time up to then.");
 }
 
-/// Whether the mill was still warming up: the first batch stands apart from the others, or the halves differ.
+/// Whether the transient is not over: the first batch is outside the others' prediction interval, or the
+/// halves differ.
 bool drifts(const std::vector<double>& means) {
   const auto half = means.begin() + static_cast<std::ptrdiff_t>(means.size() / 2);
   return study::stands_apart(means.front(), {means.begin() + 1, means.end()}, 0.01) ||

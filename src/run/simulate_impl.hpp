@@ -22,7 +22,7 @@ inline std::string end_reason_name(engine::EndReason reason) {
     case engine::EndReason::interrupted:
       return "interrupted";
     case engine::EndReason::paused:
-      break;  // the course goes on
+      break;  // the run continues
   }
   return "?";
 }
@@ -74,7 +74,7 @@ Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCas
     for (int k = 0; k < simulation.ball_count(); ++k)
       result.saved.states.push_back(simulation.state_at(k, simulation.now()));
   } else {
-    // Not even the first contacts of the balls could be told.
+    // Not even the first contacts of the balls could be decided.
     summary.period = built.the_case.mill.motion.period;
     summary.start_time = summary.end_time = DriveClock<Real>(summary.period).seconds(built.start);
     summary.energy_at_start = summary.energy_at_end =

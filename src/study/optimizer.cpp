@@ -61,7 +61,7 @@ class Search {
     return v.values.empty() ? fmt::format("{:.6g}", x) + v.unit : v.values[static_cast<std::size_t>(x)];
   }
 
-  /// A point that is new, within bounds and the budget.
+  /// A new point, within bounds and the budget.
   bool add_point(Coordinates at) {
     Point point;
     for (std::size_t k = 0; k < at.size(); ++k) {
@@ -110,7 +110,7 @@ class Search {
     add_product(lists);
   }
 
-  /// Half the step, one step to both sides of the best point.
+  /// Halves the step and adds one step to both sides of the best point.
   bool refine() {
     const auto centre = best();
     if (!centre) return false;
@@ -125,7 +125,7 @@ class Search {
     return add_product(lists);
   }
 
-  /// Doubles the runs of all that may be the best until one is left or they have all that they may have.
+  /// Doubles the runs of all points that may be the best until one is left or all have the most runs allowed.
   void separate() {
     while (!stopped()) {
       const auto leader = best();
