@@ -1,6 +1,6 @@
-# What keeps the house in order.
+# Tests of the source tree.
 set(architecture ${CMAKE_CURRENT_SOURCE_DIR}/architecture)
-# Folders of headers that the compiler does not know by itself.
+# Include folders that are not the compiler's own.
 set(include_flags)
 foreach(package Eigen3::Eigen hdf5::hdf5)
   get_target_property(folders ${package} INTERFACE_INCLUDE_DIRECTORIES)

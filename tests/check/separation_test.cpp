@@ -1,5 +1,5 @@
-// The speed at which bodies leave an impact, max(e_n |g_n|, v_s): logs of codes with another v_s, with none,
-// and with a friction or a dose that does not know of it.
+// The speed at which bodies separate, max(e_n |g_n|, v_s): logs of codes with another v_s, with none,
+// and with a friction or a dose that ignores it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class Separation : public testing::FaultyLog {
     for (std::size_t k = 1; k < all.size(); ++k) speeds.push_back(std::stod(fields(all[k])[5]));
     return speeds;
   }
-  /// Impacts after which e_n |g_n| lies below this speed.
+  /// Impacts in which e_n |g_n| is below this speed.
   std::uint64_t slower_than(double speed) const {
     std::uint64_t slower = 0;
     for (const double approach : approach_speeds())
@@ -65,7 +65,7 @@ TEST_F(Separation, NoLeastSpeedInTheCase) {
   expect_all_separation_law(audit, touched, another);
   EXPECT_EQ(audit.energies.supplying, 0u);
   EXPECT_GT(audit.energies.creating, 0u);
-  // Found and expected are speeds, of the impact that was held back too.
+  // Found and expected are speeds, also for the impact that was kept back.
   for (const auto& example : audit.findings.of(Kind::separation_law).examples) {
     EXPECT_NEAR(example.found, 0.01, 1e-8);
     EXPECT_LT(example.expected, 0.01);
@@ -106,7 +106,7 @@ TEST_F(Separation, ALogWithoutSpins) {
 }
 
 TEST_F(Separation, AWrongRestitutionIsNoLeastSpeed) {
-  // At a loose tolerance many impacts leave at the same speed within it.
+  // With a loose tolerance many impacts separate at the same speed within it.
   prepare(contact(0.01));
   simulate({.restitution = 0.6});
   Options options;

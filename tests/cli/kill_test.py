@@ -196,7 +196,7 @@ def checkpoint(place):
 
 
 def has_ended(place):
-    """A kill can come when all is done."""
+    """The run may have ended before the kill."""
     return os.path.exists(os.path.join(place, "summary.json")) and not os.path.exists(checkpoint(place))
 
 
@@ -210,7 +210,7 @@ whole = time.monotonic() - begun
 expected = results(reference)
 check(len(expected) > 30 and expected["all_runs.csv"].startswith(b"rows of another run\n"), "the reference run")
 
-# Checkpoints change nothing.
+# Checkpoints do not change the results.
 undisturbed = folder("undisturbed")
 subprocess.run(begin(undisturbed, "0.05 s simulated"), cwd=scratch, check=True)
 check_same(undisturbed, expected, "a run with checkpoints")

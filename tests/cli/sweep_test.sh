@@ -41,7 +41,7 @@ else
   echo "skipped: mpirun is not installed"
 fi
 
-# Mean and half-width of the first point, computed anew: Student's t for three values is 4.302653 at 95 %.
+# Mean and half-width of the first point, recomputed: Student's t for three values is 4.302653 at 95 %.
 check "confidence interval is the one of Student" python3 - <<'EOF'
 import csv, math, statistics
 runs = [r for r in csv.DictReader(open("one/runs.csv")) if r["point"] == "1"]

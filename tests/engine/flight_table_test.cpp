@@ -1,4 +1,4 @@
-// The pair filter for many flights says of each ball what PairSearch says of it alone.
+// The pair filter for many flights gives for each ball the result of PairSearch for this ball alone.
 #include "engine/flight_table.hpp"
 
 #include <gtest/gtest.h>
@@ -130,7 +130,7 @@ TEST(FlightTable, SeesWhatPairSearchSees) {
 /// What is found of a ball at rest and one more.
 struct Pair {
   int suspects;
-  double delay;  ///< of the suspect, if any
+  double delay;  ///< of the candidate, if any
 };
 Pair look_at_pair(const Vec3<double>& position, const Vec3<double>& velocity) {
   auto mill = testing::spex_mill<double>();

@@ -82,7 +82,7 @@ class Report(unittest.TestCase):
         return self.browser.find_element("css selector", ".stage").screenshot_as_png
 
     def test_1_the_console_is_silent(self):
-        # The driver grumbles about drawing without a graphics card.
+        # The driver warns about rendering without a graphics card.
         ours = [entry for entry in self.browser.get_log("browser")
                 if entry["level"] in ("WARNING", "SEVERE") and "GL Driver Message" not in entry["message"]]
         self.assertEqual(ours, [])

@@ -1,4 +1,4 @@
-// The program makes the reference sequences again from nothing, and says when it cannot.
+// The program reproduces the reference sequences from the cases, and reports when it cannot.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,7 +62,7 @@ TEST_F(CertifyTest, ShadowTellsWhereTheRunsPart) {
   ASSERT_EQ(std::sscanf(outcome.out.c_str(), "Shadow run: float128 and double, %d events in common", &common),
             1)
       << outcome.out;
-  // 16 digits, of which each ball loses about 0.1 a collision.
+  // 16 digits, of which each ball loses about 0.1 per collision.
   EXPECT_GT(common, 500);
   EXPECT_LT(common, 3000);
   EXPECT_NE(outcome.out.find("they diverge at event " + std::to_string(common)), std::string::npos)

@@ -1,4 +1,4 @@
-// Sweeps: one table whatever does the runs, nothing lost, nothing done twice.
+// Sweeps: the same table from any threads and ranks, no run lost, no run repeated.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 
@@ -165,7 +165,7 @@ TEST_F(Sweep, ChargeRatiosOfTheThesisGiveItsNumbersOfBalls) {
   }
   EXPECT_EQ(points, 24);
   const auto digests = [&](const std::string& name, std::string text) {
-    // So short that it costs nothing.
+    // So short that its cost is negligible.
     const auto after = text.find("replicas = 1\n") + 13;
     text.insert(after, "grid = { \"run.start_time\" = [\"0 s\"], \"run.end_time\" = [\"1 us\"] }\n");
     write(name + ".toml", text);
