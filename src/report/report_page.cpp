@@ -18,7 +18,7 @@ using plot::add;
 /// Key frames of the animation, about 30 bytes each.
 constexpr std::size_t most_keys = 60000;
 
-/// Replaces {{names}} by values; values are not expanded again.
+/// Puts values in place of {{names}}; what a value holds is not looked at again.
 std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -68,7 +68,7 @@ void add_animation(pugi::xml_node main, const RunFolder& run) {
   add_scene(stage, animation, most_keys);
   add(section, "button", {{"type", "button"}, {"id", "play"}, {"aria-pressed", "false"}}, "Pause");
   add(section, "p", {{"class", "note"}},
-      fmt::format("Slowed down {} times. Drag to rotate, scroll to zoom.",
+      fmt::format("Slowed down {} times. Drag to turn, scroll to come nearer.",
                   plot::readable(1 / output->animation.speed.to<double>(), 2)));
 }
 
