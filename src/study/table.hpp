@@ -1,4 +1,4 @@
-// A table of texts and numbers, as CSV and in HDF5. Equal tables give equal bytes.
+// A table of texts and numbers, as CSV and in HDF5. The same table gives the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class Table {
  public:
   using Texts = std::vector<std::string>;
   using Integers = std::vector<std::int64_t>;
-  using Numbers = std::vector<double>;  ///< nan for no value
+  using Numbers = std::vector<double>;  ///< nan stands for no value
   struct Column {
     std::string name;
     std::variant<Texts, Integers, Numbers> values;
@@ -31,7 +31,7 @@ class Table {
   const std::vector<Column>& columns() const { return columns_; }
   std::size_t rows() const;
 
-  /// Header and rows; texts are quoted where necessary, a missing value is an empty field.
+  /// Header and rows; texts are quoted where they need it, no value is an empty field.
   std::string csv() const;
 
  private:
