@@ -166,20 +166,20 @@ int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, con
                const std::atomic<bool>* interrupt) {
   const auto narrow = source_in(precision, spec, true), wide = source_in(shadow, spec, true);
   Agreement agreement;
-  std::optional<std::pair<Event, Event>> parted;
+  std::optional<std::pair<Event, Event>> diverged;
   bool uneven = false;
-  while (!parted && !uneven && !stop_asked(interrupt)) {
+  while (!diverged && !uneven && !stop_asked(interrupt)) {
     const auto one = narrow->next(64), two = wide->next(64);
     if (one.empty() && two.empty()) break;
     const std::size_t count = std::min(one.size(), two.size());
-    for (std::size_t k = 0; k < count && !parted; ++k)
-      if (!agreement.take(one[k], two[k])) parted = {one[k], two[k]};
-    uneven = !parted && one.size() != two.size();
+    for (std::size_t k = 0; k < count && !diverged; ++k)
+      if (!agreement.take(one[k], two[k])) diverged = {one[k], two[k]};
+    uneven = !diverged && one.size() != two.size();
   }
   fmt::print("Shadow run: {} and {}, {} events in common\n", shadow, precision, agreement.events());
-  if (parted)
+  if (diverged)
     fmt::print("  they diverge at event {}: {} has {},\n  {} has {}\n", agreement.events(), precision,
-               describe(parted->first), shadow, describe(parted->second));
+               describe(diverged->first), shadow, describe(diverged->second));
   else
     fmt::print("  {}\n",
                uneven ? "one has one event more before the end" : "they do not diverge before the end");

@@ -53,7 +53,7 @@ limited 1000 run --set "$all" --checkpoint "0.1 s simulated"
 grep -q "the disk may be full" error || fail "no clear message: $(cat error)"
 diff before <(files out | grep -v 'checkpoint\|partial') || fail "files of the earlier run changed"
 "$program" resume out --quiet
-diff <(grep -v summary.json whole) <(files out | grep -v summary.json) || fail "the run did not go on"
+diff <(grep -v summary.json whole) <(files out | grep -v summary.json) || fail "the run did not resume"
 
 if ! unshare -rm true 2>/dev/null && ! unshare -m true 2>/dev/null; then
   echo "skipped: no tmpfs can be mounted here"
@@ -80,4 +80,4 @@ dd if=/dev/zero of=filler bs=1k 2>/dev/null || true
 (cd .. && expect_full "a tmpfs without a byte" small/out)
 INNER
 "${space[@]}" bash on_tmpfs.sh
-echo "a full disk is told, and nothing is lost"
+echo "a full disk is reported, and nothing is lost"

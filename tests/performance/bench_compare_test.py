@@ -94,9 +94,9 @@ class Compare(unittest.TestCase):
         self.assertNotEqual(line[2:], ["[1.000,", "3.000]"])
 
     def test_files_that_ran_together_are_compared_round_by_round(self):
-        mood = [random_source.uniform(0.4, 1) for _ in range(9)]  # of the machine, much more than the difference
-        a = figures(x=(True, [1e6 * m for m in mood]))
-        b = figures(x=(True, [1.05e6 * m * random_source.gauss(1, 0.004) for m in mood]))
+        load = [random_source.uniform(0.4, 1) for _ in range(9)]  # of the machine: varies much more than the difference
+        a = figures(x=(True, [1e6 * m for m in load]))
+        b = figures(x=(True, [1.05e6 * m * random_source.gauss(1, 0.004) for m in load]))
         self.assertIn("1 no difference", self.compare(a, b).stdout)
         a["together"], b["together"] = "one run", "another"
         self.assertIn("1 no difference", self.compare(a, b).stdout)
