@@ -52,7 +52,7 @@ std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const Ba
                                     const SpectrumClasses& speed_classes,
                                     const SpectrumClasses& dose_classes);
 
-/// Values of a quantity in each batch.
+/// A quantity of a run in each batch.
 using Series = std::vector<double>;
 
 /// Batch values whose plain mean is sum / number of the whole and whose scatter is that of this ratio, to

@@ -78,7 +78,7 @@ class Judge {
   Judge(const std::vector<Batch>& a, const std::vector<Batch>& b, double tolerance)
       : a_(a), b_(b), tolerance_(tolerance) {}
 
-  /// A mean over the batches. @param events  that contribute to it, in A and B together
+  /// A mean over the batches. @param events  that it rests on, in A and B together
   void mean(const std::string& name, const std::string& unit, double events, const Series& a,
             const Series& b) {
     Quantity q = named(name, unit);

@@ -15,7 +15,7 @@ namespace {
 static constexpr const char* parts[] = {"wall_0", "wall_1", "wall_2", "ball_ball"};
 
 /// One column of one spectrum as density over the decades of its bins.
-/// @param scale  factor on the column
+/// @param scale  what a unit of the column is worth
 plot::Points density(const Table& table, const std::string& spectrum, const std::string& column,
                      double scale) {
   const auto place = table.column(column);

@@ -26,7 +26,7 @@ struct Table {
 
 /// @param expected  "a table of trends", for messages
 /// @param texts     how many columns of text there are before the numbers
-/// @throws InputError when it is not such a table
+/// @throws InputError when it is no such table
 Table read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts = 0);
 
 }  // namespace edmill::report
