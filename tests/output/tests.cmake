@@ -4,7 +4,7 @@ edmill_test(outputs_test output/outputs_test.cpp LIBRARIES pugixml::pugixml hdf5
 add_dependencies(outputs_test edmill_cli)
 edmill_test(mill_outputs_test output/mill_outputs_test.cpp)
 add_dependencies(mill_outputs_test edmill_cli)
-# Debian's Python, for which Debian's modules are built.
+# Debian's Python, which Debian's modules are for.
 find_program(DEBIAN_PYTHON3 python3 HINTS /usr/bin REQUIRED)
 add_test(NAME files_test COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/output/files_test.py $<TARGET_FILE:edmill_cli>)
 set_tests_properties(files_test PROPERTIES TIMEOUT 300)
