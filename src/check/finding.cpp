@@ -30,7 +30,7 @@ constexpr std::array<KindInfo, kind_count> kinds = {{
     {"slip_speed", "m/s", "differs from that of the logged states", Check::slip_speed},
     {"milling_dose", "J", "not the dissipated energy", Check::milling_dose},
     {"wall_work", "J", "not the work of the wall", Check::wall_work},
-    {"non_ballistic", "m", "not the end of a free flight", Check::flight},
+    {"non_ballistic", "m", "not the end point of the free flight", Check::flight},
     {"lost_spin", "m/s", "spin changed in flight", Check::spin_kept},
     {"missed_event", "m", "an earlier impact is not logged", Check::missed},
 }};
