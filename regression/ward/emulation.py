@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What finite resolution in time does to the dose rate, by stepped/stepped_mill.cpp: all cases with exact search and a
+"""The effect of finite time resolution on the dose rate, by stepped/stepped_mill.cpp: all cases with exact search and a
 collapse time of 0.5 ms; four cases of the 5 g sample also with other collapse times, with edmill's rule (a control), with
 losses of quick impacts left out, and with stepped search.
 
@@ -37,7 +37,7 @@ NOT_OF_MANY_BALLS = ("passed_through", "lossless_1e-3", "stepped")  # the progra
 
 
 def times_of(case):
-    """Start, end and batch of a run's statistics [s]: many balls settle their own mean and cost more. Short runs are whole
+    """Start, end and batch of a run's statistics [s]: the mean over many balls settles quickly, and they cost more. Short runs are whole
     drive periods long, since where in a period they end would show."""
     if case.count < 20:
         return 1, 21, 0.5

@@ -22,7 +22,7 @@ METHODS = (
     ("t_c_1e-3", "t_c 1 ms"), ("t_c_2e-3", "t_c 2 ms"),
     ("lossless_5e-4", "impacts within 0.5 ms of the last lose nothing"),
     ("lossless_1e-3", "impacts within 1 ms of the last lose nothing"),
-    ("passed_through", "walls not looked at for 0.5 ms after an impact"),
+    ("passed_through", "walls ignored for 0.5 ms after an impact"),
     ("stepped", "stepped search"), ("stepped_put_back", "stepped search, ball put back on the wall"),
 )
 

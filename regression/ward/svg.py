@@ -1,7 +1,7 @@
 """Line plots as SVG, written directly: axes with units, error bars, a legend. Readable on light and on dark ground."""
 import math
 
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")  # Okabe and Ito: told apart by colour-blind readers
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")  # Okabe and Ito: distinguishable for colour-blind readers
 STYLE = """<style>
 text { font: 13px sans-serif; fill: #333 } .axis { stroke: #333; fill: none } .grid { stroke: #8886 }
 .title { font-weight: bold } svg { background: #fff }

@@ -21,8 +21,8 @@ CASES = pathlib.Path(__file__).resolve().parent / "cases"
 
 
 def plan(case, short=False):
-    """Seeds, start, end and batch of a case's runs [s]. The thesis leaves out 30 s of 150 s. Many balls are in their steady
-    state within half a second (thesis, chapter 5) and settle their own mean: short runs are enough."""
+    """Seeds, start, end and batch of a case's runs [s]. The thesis leaves out 30 s of 150 s. Many balls are steady
+    within half a second (thesis, chapter 5), and their mean settles quickly: short runs are enough."""
     if short:
         return range(1, 4 if case.count < 60 else 1), 1, 5.1, 0.512334
     if case.count < 60:

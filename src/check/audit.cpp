@@ -32,7 +32,7 @@ std::uint64_t noted(const Tally& tally, std::string_view beginning) {
   return sum;
 }
 
-/// Which of the thesis's printed errors the findings look like, and whether a finite time step does.
+/// Which of the thesis's printed errors explain the findings, and whether a finite time step does.
 std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings) {
   std::vector<Diagnosis> found;
   const auto add = [&](const std::string& name, std::uint64_t events, std::uint64_t of,
@@ -42,19 +42,16 @@ std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings
   const auto count = [&](Kind kind) { return findings.of(kind).count; };
   const auto walls_off = count(Kind::rotation_order) + count(Kind::late_event) + count(Kind::early_event);
   add("rotation_order", count(Kind::rotation_order), walls_off,
-      "printed error (2.14): the vessel stands as R_x(gamma) R_z(theta) has it; with that matrix the bodies "
-      "touch. "
-      "The rotations are nested: R_z(theta) R_x(gamma)");
+      "printed error (2.14): the vessel is rotated by R_x(gamma) R_z(theta); with that matrix the bodies "
+      "touch. The rotations are nested: R_z(theta) R_x(gamma)");
   const auto& sign = findings.of(Kind::tangential_sign);
   add("tangential_sign", noted(sign, "(2.34)"), sign.count,
-      "printed error (2.34), (A.72): the tangential term of the velocity has the wrong sign; with it turned "
-      "round the "
-      "velocities are exactly those of the log");
+      "printed error (2.34), (A.72): the tangential term of the velocity has the wrong sign; with the "
+      "printed sign the velocities are exactly those of the log");
   const auto& unequal = findings.of(Kind::unequal_balls);
   add("unequal_mass_factor", noted(unequal, "(2.24)"), unequal.count,
-      "printed error (2.24): 1 + 1/J stands for 1 + M/(m_i J_i) + M/(m_j J_j); with it the outcome is "
-      "exactly that of "
-      "the log");
+      "printed error (2.24): 1 + 1/J instead of 1 + M/(m_i J_i) + M/(m_j J_j); with it the outcome is "
+      "exactly that of the log");
   const auto missed = auditor.flights().missed_by_wall();
   const auto logged = auditor.with_wall(), early = auditor.early_by_wall();
   const auto all_missed = missed[0] + missed[1] + missed[2];
@@ -63,20 +60,20 @@ std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings
   if (never || at_once)
     add("gap_sign", never ? missed[0] : early[0], never ? all_missed : logged[0],
         std::string("printed error (2.19), (2.20): ") +
-            (never ? "no impact with the cap at -y is logged, and balls fly on through it"
-                   : "impacts with the cap at -y alone come before the ball is there") +
+            (never ? "no impact with the cap at -y is logged, and balls fly through it"
+                   : "only impacts with the cap at -y come before the ball reaches the wall") +
             "; y - R - h/2 is negative everywhere in the vessel, the gap is h/2 + y - R");
   return found;
 }
 
-/// Late events that a finite time step would give: never early, and hardly deeper than a step's path.
+/// Late events as a finite time step causes them: never early, and hardly deeper than the path of one step.
 void diagnose_step(const Findings& findings, double reach, double latest, std::vector<Diagnosis>& found) {
   const auto late = findings.of(Kind::late_event).count, early = findings.of(Kind::early_event).count;
   if (late < 3 || early > 0 || findings.of(Kind::late_event).worst > reach / 100) return;
   found.push_back(
       {"time_step",
        fmt::format("finite steps: events are late and never early, by at most {:.2g} s; a gap tolerance of "
-                   "{:.2g} m (--gap-tolerance) accepts that and leaves what is wrong besides",
+                   "{:.2g} m (--gap-tolerance) accepts them and leaves any other violation",
                    latest, 1.1 * findings.of(Kind::late_event).worst),
        late, late});
 }

@@ -1,4 +1,4 @@
-// Judges another code's collision log by the physics of a case. docs/audit.md
+// Checks another code's collision log against the physics of a case. docs/audit.md
 #pragma once
 
 #include <atomic>
@@ -18,21 +18,21 @@ namespace edmill::audit {
 struct Options {
   std::filesystem::path log;  ///< a CSV file, or a folder of `edmill run`
   LogConventions conventions;
-  double tolerance = 1e-9;  ///< relative
-  std::optional<double>
-      gap_tolerance;         ///< of bodies that should touch [m]; from the relative one unless given
-  bool from_start = false;   ///< the log begins at the case's initial state
-  std::size_t examples = 3;  ///< of each kind
+  double tolerance = 1e-9;              ///< relative
+  std::optional<double> gap_tolerance;  ///< largest gap or overlap of bodies in contact [m]; from the
+                                        ///< relative tolerance unless given
+  bool from_start = false;              ///< the log begins at the case's initial state
+  std::size_t examples = 3;             ///< of each kind
   const std::atomic<bool>* interrupt = nullptr;
-  std::function<void(double time, std::uint64_t events)> progress;  ///< told now and then
+  std::function<void(double time, std::uint64_t events)> progress;  ///< called regularly
 };
 
-/// One of the thesis's printed errors, and what speaks for it.
+/// One of the thesis's printed errors, with its evidence.
 struct Diagnosis {
   std::string name;      ///< "rotation_order"
   std::string text;      ///< a sentence
   std::uint64_t events;  ///< that it explains
-  std::uint64_t of;      ///< of so many that are wrong
+  std::uint64_t of;      ///< number of events that are wrong
 };
 
 enum class Verdict { clean, violations, too_few };
@@ -47,7 +47,7 @@ struct Audit {
   Available available;
   Findings findings{3};
   Energies energies;
-  std::vector<Check> not_made;  ///< for want of columns
+  std::vector<Check> not_made;  ///< since columns are missing
   std::vector<Diagnosis> diagnoses;
   std::uint64_t undecided = 0;  ///< questions about missed impacts that no scalar could answer
   bool interrupted = false;
@@ -59,7 +59,7 @@ struct Audit {
 Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
             const Options& options);
 
-/// Lines for people.
+/// The result as text.
 std::string table(const Audit& audit);
 /// docs/files.md, "Audit".
 std::string to_json(const Audit& audit);

@@ -45,7 +45,7 @@ void put_finding(io::JsonText& json, std::string_view key, const Finding& f) {
 
 std::string table(const Audit& a) {
   std::string out =
-      fmt::format("{}: {} impacts, {:g} s to {:g} s{}\njudged by {}, tolerance {:g}, gaps {:.3g} m\n",
+      fmt::format("{}: {} impacts, {:g} s to {:g} s{}\nchecked with {}, tolerance {:g}, gaps {:.3g} m\n",
                   a.log_name, a.events, a.first, a.last, a.interrupted ? " (interrupted)" : "", a.case_name,
                   a.tolerances.relative, a.tolerances.gap);
   if (a.findings.total() > 0)
@@ -72,12 +72,11 @@ std::string table(const Audit& a) {
   if (!a.diagnoses.empty()) out += "\n  the log looks like\n";
   for (const auto& d : a.diagnoses)
     out += fmt::format("    {} ({} of {}): {}\n", d.name, d.events, d.of, d.text);
-  if (!a.not_made.empty() && a.events > 0) out += "\n  not checked, for want of columns\n";
+  if (!a.not_made.empty() && a.events > 0) out += "\n  not checked, since columns are missing\n";
   if (a.events > 0)
     for (const Check check : a.not_made)
       out += fmt::format("    {:<24}needs {}\n", info(check).name, info(check).columns);
-  if (a.undecided > 0)
-    out += fmt::format("\n  {} questions about missed impacts are undecided\n", a.undecided);
+  if (a.undecided > 0) out += fmt::format("\n  {} searches for missed impacts are undecided\n", a.undecided);
   out += fmt::format("\n  checked");
   bool first = true;
   for (std::size_t k = 0; k < check_count; ++k)

@@ -7,10 +7,10 @@ namespace edmill::audit {
 
 namespace {
 
-/// Bodies of an event: the ball, and its partner when that is a ball.
+/// Bodies of an event: the ball, and its partner if that is a ball.
 std::size_t bodies(const LoggedEvent& event) { return event.with_wall ? 1 : 2; }
 int ball_of(const LoggedEvent& event, std::size_t body) { return body == 0 ? event.ball : event.partner; }
-/// What a ball has met: the other ball, or -1 - wall.
+/// What a ball has hit: the other ball, or -1 - wall.
 int other_of(const LoggedEvent& event, std::size_t body) {
   if (event.with_wall) return -1 - event.partner;
   return body == 0 ? event.partner : event.ball;
@@ -72,19 +72,20 @@ void Auditor::take(LoggedEvent& event) {
   }
 }
 
-/// Bodies that have parted cannot meet again in the same way at the same time.
+/// Bodies that have separated cannot have the same impact again at the same time.
 bool Auditor::is_repeated(const LoggedEvent& event) const {
   const LastEvent& last = last_[static_cast<std::size_t>(event.ball)];
   if (last.time != event.time || last.other != other_of(event, 0)) return false;
   if (available_.body[0].velocity_before && available_.body[0].velocity_after) {
-    // Of a line that changes roles, the other ball's states are here.
+    // In a line with the roles exchanged, these are the states of the other ball.
     return last.velocity_before == event.body[0].velocity_before &&
            last.velocity_after == event.body[0].velocity_after && last.velocity_before != last.velocity_after;
   }
   return last.approach_speed == event.approach_speed && event.approach_speed > 0;
 }
 
-/// A ball that is not where its flight leads, while another ball's flight leads there, has the wrong number.
+/// A ball that is not at the end of its flight, but at the end of another ball's flight, has the wrong
+/// number.
 void Auditor::find_wrong_balls(LoggedEvent& event) {
   for (std::size_t body = 0; body < bodies(event); ++body) {
     if (!available_.body[body].position || !available_.body[body].velocity_before) continue;
@@ -161,7 +162,7 @@ auto Auditor::judge_wall_touch(LoggedEvent& event, Scene& scene, double allowed)
   const double printed_gap = wall_gap(scene.printed, vessel, event.partner, radius, position);
   if (std::abs(printed_gap) <= allowed) {
     tell(Kind::rotation_order, event, std::abs(gap), gap, 0, "touches with the printed matrix (2.14)");
-    // The rest is judged where that code has its wall.
+    // The other checks use the wall as that code has it.
     scene.displaced = true;
     scene.impact.normal = wall_normal(scene.printed, event.partner, position);
     const Vec point = position - scene.impact.normal * radius;
@@ -183,7 +184,7 @@ auto Auditor::judge_wall_touch(LoggedEvent& event, Scene& scene, double allowed)
   return {};
 }
 
-/// Looks for the body that is really touched; the event is then judged with it.
+/// Finds the body that is actually touched; the other checks of the event use it.
 bool Auditor::another_body_is_there(LoggedEvent& event, double allowed, double gap) {
   const auto frame = flights_.nested_at(event.time);
   const double radius = ball(event.ball).radius;

@@ -1,4 +1,4 @@
-// Takes the events of a log one by one, each with what went before it.
+// Takes the events of a log one by one, with the state that precedes each.
 #pragma once
 
 #include "check/audit.hpp"
@@ -22,14 +22,14 @@ class Auditor {
 
   const Energies& energies() const { return impacts_.energies(); }
   const Flights& flights() const { return flights_; }
-  /// Logged impacts with each wall, and those of them that are too early, for the diagnosis.
+  /// Logged impacts with each wall, and the number of early ones, for the diagnosis.
   const std::array<std::uint64_t, model::wall_count>& with_wall() const { return with_wall_; }
   const std::array<std::uint64_t, model::wall_count>& early_by_wall() const { return early_by_wall_; }
-  /// How late events are at most [s], of those that are no grazes.
+  /// Largest delay of the events that are not grazes [s].
   double latest() const { return latest_; }
 
  private:
-  /// What a ball's last event said, to recognise the same once more.
+  /// The last event of a ball, to recognise a duplicate.
   struct LastEvent {
     double time = unknown;
     int other = -1;

@@ -62,7 +62,7 @@ double paired_t_probability(const BatchValues& differences) {
 }
 
 SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum) {
-  // The exchanges below work on sums and differences. Classes that are empty in both logs are left out.
+  // The permutations below use sums and differences. Classes that are empty in both logs are left out.
   std::vector<std::size_t> used;
   BatchValues both;
   for (std::size_t c = 0; c < SpectrumClasses::count; ++c) {
@@ -84,7 +84,7 @@ SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>&
       for (std::size_t c = 0; c < s.size(); ++c) s[c] += sign * differences[k][c];
     }
     const double excess = std::accumulate(s.begin(), s.end(), 0.0);
-    if (std::abs(excess) >= all) return 1.0;  // one side has nothing at all
+    if (std::abs(excess) >= all) return 1.0;  // one log is empty
     double up_to_a = 0, up_to_b = 0, largest = 0;
     for (std::size_t c = 0; c < s.size(); ++c) {
       up_to_a += (both[c] + s[c]) / (all + excess);
@@ -106,7 +106,7 @@ SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>&
       if (k % 64 == 0) bits = random();
       return (bits >> (k % 64)) & 1 ? 1.0 : -1.0;
     }));
-    // Swapping all or the same batches gives the same distance but for the rounding of sums.
+    // Swapping all batches or none gives the same distance up to the rounding of sums.
     if (distances.back() >= test.distance * (1 - 1e-12)) ++as_far;
   }
   test.probability = static_cast<double>(as_far) / (exchanges + 1);

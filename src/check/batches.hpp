@@ -1,4 +1,4 @@
-// A log cut into batches of equal time, and tests on two series of batches.
+// A log divided into batches of equal duration, and tests on two series of batches.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct BatchTimes {
 };
 
 /// Classes of a spectrum on a logarithmic scale, 16 an octave. Values up to `floor` share the first class:
-/// rounding noise around zero is no spectrum.
+/// rounding noise around zero is not resolved.
 class SpectrumClasses {
  public:
   static constexpr std::size_t count = 1 + 16 * 48;
@@ -30,11 +30,12 @@ class SpectrumClasses {
 };
 
 /// Number of impacts by approach speed, on walls and between balls; milling dose by dose of the impact. The
-/// dose is weighed by itself because mills have many impacts of hardly any dose, whose number varies much.
+/// dose has a spectrum of its own because mills have many impacts of negligible dose, whose number varies
+/// much.
 enum Spectrum : std::size_t { wall_speeds, ball_speeds, doses };
 inline constexpr std::size_t spectrum_count = 3;
 
-/// What happened in one batch.
+/// Totals of one batch.
 struct Batch {
   std::array<double, partner_kinds> events{};
   double approach_speed = 0;               ///< sum [m/s]
@@ -63,18 +64,18 @@ BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers);
 /// two-sided. @pre at least two values
 double paired_t_probability(const BatchValues& differences);
 
-/// Largest distance between the distribution functions of two spectra, tested by exchanging batches.
+/// Largest distance between the distribution functions of two spectra, with a permutation test over batches.
 struct SpectrumTest {
   double distance = 0;     ///< Kolmogorov's, over the bounds of the classes
-  double limit = 0;        ///< exceeded in 5 % of the exchanges
+  double limit = 0;        ///< exceeded in 5 % of the permutations
   double probability = 1;  ///< of at least this distance when A and B are alike
 };
 
-/// Each of 9999 exchanges swaps batch k of A and B, or not, at random for every k; seeded, so that the same
-/// logs give the same answer. @pre as many batches in A as in B, and something in both spectra
+/// Each of 9999 permutations swaps batch k of A and B, or not, at random for every k; seeded, so that the
+/// same logs give the same result. @pre as many batches in A as in B, and both spectra are not empty
 SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum);
 
-/// Holm's adjusted probabilities: rejecting those up to 5 % errs at all in at most 5 % of families.
+/// Holm's adjusted probabilities: rejecting those up to 5 % has a familywise error rate of at most 5 %.
 std::vector<double> holm(const std::vector<double>& probabilities);
 
 }  // namespace edmill::compare

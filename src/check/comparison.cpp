@@ -72,7 +72,7 @@ Quantity named(const std::string& name, const std::string& unit) {
   return q;
 }
 
-/// Makes the rows of the table; judges them when all are there.
+/// Makes the rows of the table; the verdicts follow when all rows exist.
 class Judge {
  public:
   Judge(const std::vector<Batch>& a, const std::vector<Batch>& b, double tolerance)
@@ -88,7 +88,7 @@ class Judge {
     q.a = of_a.mean, q.a_half_width = of_a.half_width;
     q.b = of_b.mean, q.b_half_width = of_b.half_width;
     q.difference = of_both.mean, q.half_width = of_both.half_width;
-    // What the tolerance forgives in every event it forgives in their mean.
+    // The tolerance on single events also applies to their mean.
     const double scale = std::max(std::abs(*q.a), std::abs(*q.b));
     const bool within = std::abs(*q.difference) <= tolerance_ * scale;
     add(std::move(q), events, within ? 1 : paired_t_probability(differences));
@@ -102,7 +102,7 @@ class Judge {
       });
     };
     if (empty(a_) || empty(b_)) {
-      skip(name, "1", "nothing in one log");
+      skip(name, "1", "no impacts in one log");
       return;
     }
     Quantity q = named(name, "1");
@@ -117,7 +117,7 @@ class Judge {
     rows_.push_back(std::move(q));
   }
 
-  /// @param same  every event agrees, so that nothing is left to test
+  /// @param same  every event agrees, so there is nothing to test
   std::vector<Quantity> rows(bool same) {
     BatchValues tested;
     for (const auto& q : rows_)
@@ -155,7 +155,7 @@ class Judge {
 };
 
 std::vector<Quantity> judge(const Comparison& c) {
-  // Spectra in classes above what counts as 0: far below the mean, and what the tolerance forgives.
+  // Spectra in classes above what counts as 0: far below the mean, and within the tolerance.
   const double zero = std::max(c.options.tolerance, 1e-9);
   const SpectrumClasses speed_classes(zero * c.a.mean_magnitude[approach_speed]);
   const SpectrumClasses dose_classes(zero * c.a.mean_magnitude[milling_dose]);

@@ -21,9 +21,9 @@ struct Quantity {
   std::string name, unit;
   std::optional<double> a, b;                        ///< means over the common time; nothing for a spectrum
   std::optional<double> a_half_width, b_half_width;  ///< of the 95 % intervals of the means
-  /// B - A and its 95 % interval; for a spectrum Kolmogorov's distance, and what 5 % of exchanges exceed.
+  /// B - A and its 95 % interval; for a spectrum Kolmogorov's distance, and what 5 % of permutations exceed.
   std::optional<double> difference, half_width;
-  std::optional<double> probability;  ///< of such a difference between equals, after Holm; nothing untested
+  std::optional<double> probability;  ///< of such a difference by chance, after Holm; nothing if not tested
   Verdict verdict = Verdict::not_compared;
   std::string reason;  ///< of not_compared
 };
@@ -32,22 +32,22 @@ struct Comparison {
   Options options;
   LogScan a, b;
   EventComparison events;
-  std::optional<Verdict> events_verdict;  ///< when a number of events was asked for
+  std::optional<Verdict> events_verdict;  ///< when a number of events was required
   BatchTimes times;                       ///< no batches when the logs have too little time in common
   std::vector<Quantity> quantities;
   Verdict verdict = Verdict::too_few;  ///< of everything: agree, differ or too_few
 };
 
-/// Families of tests err, by calling equals different, in at most this share.
+/// Familywise error rate: probability of any false difference between equivalent runs.
 inline constexpr double significance = 0.05;
 inline constexpr std::size_t fewest_batches = 10, most_batches = 200;
-/// A rate or a mean of fewer events in A and B together, for each batch, is not judged.
+/// A rate or a mean of fewer events per batch, in A and B together, is not tested.
 inline constexpr double fewest_events_per_batch = 5;
 
 /// @throws InputError with every problem of the two logs, or of the options for them
 Comparison compare(const Options& options);
 
-/// Lines for people.
+/// The result as text.
 std::string table(const Comparison& comparison);
 
 /// docs/files.md, "comparison".

@@ -23,7 +23,7 @@ std::string describe(const Event& e) {
   return text;
 }
 
-/// "12.3 +- 0.4", or less when there is less.
+/// "12.3 +- 0.4", without what is missing.
 std::string with_interval(const std::optional<double>& value, const std::optional<double>& half_width) {
   if (!value) return "-";
   return half_width ? fmt::format("{:.6g} +- {:.2g}", *value, *half_width) : fmt::format("{:.6g}", *value);
@@ -68,7 +68,7 @@ std::string table(const Comparison& c) {
       fmt::format("{} agree within {:g}{}{}", e.agreeing, c.options.tolerance,
                   e.agreeing > 0 ? fmt::format(", up to {:g} s", e.horizon) : "",
                   c.events_verdict
-                      ? fmt::format(": {} ({} asked for)", name_of(*c.events_verdict), *c.options.events)
+                      ? fmt::format(": {} ({} required)", name_of(*c.events_verdict), *c.options.events)
                       : ""));
   if (e.first) {
     row("  same partners", fmt::format("{} events", e.same_partners));
@@ -93,7 +93,7 @@ std::string table(const Comparison& c) {
     out +=
         fmt::format("  {:<32}{:>22}{:>22}{:>22}{:>9}  {}\n", "quantity", "A", "B", "B - A", "p", "verdict");
     for (const auto& q : c.quantities) {
-      // A distance is told with its limit, which is no interval.
+      // A distance is printed with its limit, which is not an interval.
       const bool spectrum = q.difference && !q.a;
       out += fmt::format("  {:<32}{:>22}{:>22}{:>22}{:>9}  {}{}\n", q.name + " [" + q.unit + "]",
                          with_interval(q.a, q.a_half_width), with_interval(q.b, q.b_half_width),

@@ -50,7 +50,7 @@ EventComparison compare_events(const std::filesystem::path& place_a, const std::
   Line growth;
   for (;;) {
     const auto a = next_within(log_a, limits), b = next_within(log_b, limits);
-    if (!a || !b) break;  // what only one log covers is not compared
+    if (!a || !b) break;  // events beyond the end of either log are not compared
     if (!same_partners(*a, *b)) {
       if (!result.first) result.first = {*a, *b, "partners", std::numeric_limits<double>::quiet_NaN()};
       break;

@@ -1,4 +1,4 @@
-// Two logs side by side: up to which event they tell the same.
+// Two logs side by side: up to which event they agree.
 #pragma once
 
 #include "check/log_reader.hpp"
@@ -29,8 +29,8 @@ struct EventComparison {
   bool agree_throughout() const { return !first && agreeing > 0; }
 };
 
-/// Takes the events of both logs in turn. A value of an event is compared with the larger of itself in A and
-/// the mean size of its column in A.
+/// Compares the events of both logs in order. A value of an event is compared with the larger of itself in A
+/// and the mean magnitude of its column in A.
 /// @param tolerance  on the relative difference of every value that both logs have
 /// @throws InputError when a log cannot be read
 EventComparison compare_events(const std::filesystem::path& a, const std::filesystem::path& b,

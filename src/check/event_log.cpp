@@ -157,7 +157,7 @@ void EventLog::read_header(const LogConventions& conventions) {
     }
 }
 
-/// @return false when the field is no number at all, which is told
+/// @return false when the field is not a number, which is reported
 bool EventLog::read_value(std::size_t name, double& value, LoggedEvent& event) {
   const Column& column = columns_[name];
   if (!column.place) return true;
@@ -207,9 +207,9 @@ std::optional<LoggedEvent> EventLog::read() {
     if (!time || !read_bodies(event)) continue;
     event.time = *time * columns_[time_name].unit;
     if (!std::isfinite(event.time)) {
-      event.problem = "found no finite time";
+      event.problem = "found a time that is not finite";
       event.unknown_body = false;
-      event.time = latest_;  // it has no place of its own
+      event.time = latest_;  // it has no time of its own
     }
     bool good = true;
     const std::array<double*, 4> values = {&event.approach_speed, &event.slip_speed, &event.milling_dose,

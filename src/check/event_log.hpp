@@ -1,5 +1,5 @@
-// Another code's collision log as the audit reads it: columns mapped, units turned to SI, events in order of
-// time.
+// Another code's collision log as the audit reads it: columns mapped, units converted to SI, events in order
+// of time.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace edmill::audit {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// A body of an impact: where it was, and how it moved before and after. Inertial frame, SI.
+/// A body of an impact: position, and velocity and spin before and after. Inertial frame, SI.
 struct BodyState {
   Vec3<double> position = Vec3<double>::Zero(), velocity_before = Vec3<double>::Zero(),
                spin_before = Vec3<double>::Zero(), velocity_after = Vec3<double>::Zero(),
@@ -34,8 +34,8 @@ struct LoggedEvent {
   double approach_speed = unknown, slip_speed = unknown, milling_dose = unknown, wall_work = unknown;
   std::array<BodyState, 2> body;  ///< the ball and, for balls, its partner
   double earlier_by = 0;          ///< than a line above it, when above 0 [s]
-  std::string problem;            ///< "found nan in column vx_before": of an event that cannot be judged
-  bool unknown_body = false;      ///< the problem is a ball or wall that there is not
+  std::string problem;            ///< "found nan in column vx_before": of an event that cannot be checked
+  bool unknown_body = false;      ///< the problem is a ball or wall that does not exist
 };
 
 /// Which values a log has.
@@ -63,7 +63,7 @@ struct Available {
 struct LogConventions {
   std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
   int first_ball = 0;                                        ///< number of the first ball
-  /// What stands for walls 0, 1 and 2 in the column `partner`; 0, 1, 2 beside a column partner_kind, else
+  /// Numbers of walls 0, 1 and 2 in the column `partner`; 0, 1, 2 with a column partner_kind, else
   /// -1, -2, -3.
   std::optional<std::array<int, 3>> walls;
 };
@@ -71,7 +71,7 @@ struct LogConventions {
 /// "-1, -2, -3" @throws InputError naming `where` when it is not three different whole numbers
 std::array<int, 3> parse_walls(const std::string& text, const std::string& where);
 
-/// Reads ahead by `window` events, so that events come in order of time from a log that is a little out of
+/// Reads ahead by `window` events, so that events come in order of time from a log that is slightly out of
 /// order. Bounded memory.
 class EventLog {
  public:

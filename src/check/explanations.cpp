@@ -1,4 +1,4 @@
-// ImpactJudge: one mistake that gives exactly the outcome that is logged.
+// ImpactJudge: one mistake that reproduces the logged outcome.
 #include <algorithm>
 #include <cmath>
 
@@ -23,14 +23,14 @@ bool ImpactJudge::explain_by_formula(const LoggedEvent& event, const Scene& scen
   f.spin_sign = -1;
   if (fits(f)) return found(Kind::tangential_sign, "velocity and spin both have the wrong sign");
   f.velocity_sign = 1;
-  if (fits(f)) return found(Kind::spin_change, "the spin turns the wrong way");
+  if (fits(f)) return found(Kind::spin_change, "the spin has the wrong sign");
   f.spin_sign = 0;
-  if (fits(f)) return found(Kind::spin_change, "the spin stays as it was");
+  if (fits(f)) return found(Kind::spin_change, "the spin does not change");
   f = {};
   f.friction_of_restitution = true;
   if (fits(f))
     return found(Kind::tangential_restitution,
-                 "friction is limited by mu (1 + e_n) |g_n|, not by the impulse that passes at v_s");
+                 "friction is limited by mu (1 + e_n) |g_n|, not by the actual impulse at v_s");
   if (!impact.with_wall) {
     for (const auto& ball : impact.ball) {
       f = {};
@@ -41,14 +41,14 @@ bool ImpactJudge::explain_by_formula(const LoggedEvent& event, const Scene& scen
     }
     f = {};
     f.share = {0.5, 0.5};
-    if (fits(f)) return found(Kind::unequal_balls, "the formula of equal masses");
+    if (fits(f)) return found(Kind::unequal_balls, "the formula for equal masses");
     f.share = {impact.effective_mass / impact.ball[1].mass, impact.effective_mass / impact.ball[0].mass};
     if (fits(f)) return found(Kind::unequal_balls, "the masses are exchanged");
   }
   return false;
 }
 
-/// Looks for one mistake that gives exactly the outcome that is logged.
+/// Finds one mistake that reproduces the logged outcome.
 bool ImpactJudge::explain(const LoggedEvent& event, const Scene& scene, double allowed_off,
                           Explanation& explanation) const {
   const Impact& impact = scene.impact;
@@ -67,7 +67,7 @@ bool ImpactJudge::explain(const LoggedEvent& event, const Scene& scene, double a
   return false;
 }
 
-/// The bodies leave at e_n |g_n| where v_s is due, or the reverse.
+/// The bodies separate at e_n |g_n| where v_s applies, or the reverse.
 bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const Impact& impact,
                                              double allowed_off) const {
   const auto& l = law(impact);
@@ -77,7 +77,7 @@ bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const Imp
   return l.least_separation > 0 && std::abs(left - other) <= allowed_off;
 }
 
-/// Tells a wrong speed of separation: by the law's other branch, at another least speed, or neither.
+/// Reports a wrong speed of separation: the law's other branch, another least speed, or neither.
 void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, double off,
                               double allowed_off) {
   const auto& l = law(impact);
@@ -91,8 +91,8 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, do
     findings_.add(finding(Kind::separation_law, left, right, note));
   };
   if (leaves_by_the_other_branch(event, impact, allowed_off))
-    return tell_separation(right > by_restitution ? "leaves at e_n |g_n|, which is below v_s"
-                                                  : "leaves at v_s, which is below e_n |g_n|");
+    return tell_separation(right > by_restitution ? "separates at e_n |g_n|, which is below v_s"
+                                                  : "separates at v_s, which is below e_n |g_n|");
   const auto by_ratio = g_n != 0 ? finding(Kind::normal_restitution, -left / g_n, -right / g_n, "")
                                  : finding(Kind::normal_restitution, unknown, unknown, "");
   if (left <= by_restitution + allowed_off) return findings_.add(by_ratio);
@@ -101,7 +101,7 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, do
     if (!(std::abs(left - other.speed) <= allowed_off &&
           other.speed * std::abs(g_n - other.g_n) > 2 * allowed_off * std::abs(g_n)))
       continue;
-    constexpr const char* note = "leaves at a least separation speed that is not the case's";
+    constexpr const char* note = "separates at another least separation speed than the case's";
     if (other.held) {
       Finding first = *other.held;
       first.kind = Kind::separation_law, first.note = note;
@@ -125,7 +125,7 @@ void ImpactJudge::finish() {
   }
 }
 
-/// The log's own speeds show that its code saw another velocity of the contact point.
+/// The logged speeds show that the code used another velocity of the contact point.
 bool ImpactJudge::speeds_tell_another_wall_velocity(const LoggedEvent& event, const Scene& scene,
                                                     const Known& known, double allowed_off) const {
   if (!event.with_wall) return false;

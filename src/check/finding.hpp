@@ -1,4 +1,4 @@
-// What an audit can find, and how findings are kept: counts and the worst examples of each kind.
+// The kinds of findings of an audit, and their storage: counts and the worst examples of each kind.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace edmill::audit {
 
-/// docs/audit.md says what each kind means.
+/// docs/audit.md defines each kind.
 enum class Kind : std::size_t {
   out_of_order,
   duplicate,
@@ -38,7 +38,7 @@ enum class Kind : std::size_t {
 };
 inline constexpr std::size_t kind_count = 24;
 
-/// What is looked at; its number of judgements is what a kind's count is a share of.
+/// The checks; the share of a kind is relative to how often its check was made.
 enum class Check : std::size_t {
   order,
   bodies,
@@ -73,13 +73,13 @@ const CheckInfo& info(Check check);
 
 struct Finding {
   Kind kind;
-  double size;         ///< how far off, in the kind's unit
+  double size;         ///< size of the violation, in the unit of the kind
   std::uint64_t line;  ///< of the log
   double time;         ///< [s]
   int ball;
   bool with_wall;
   int partner;
-  double found, expected;  ///< nan where there is nothing to say
+  double found, expected;  ///< nan where they do not apply
   const char* note = "";   ///< a literal: what the finding looks like
 };
 

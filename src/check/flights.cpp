@@ -17,7 +17,7 @@ constexpr double fastest_judged = 1e4;  // [m/s]
 double smallest_sum(const model::Case<double>& c) {
   double smallest = c.balls.front().radius;
   for (const auto& ball : c.balls) smallest = std::min(smallest, ball.radius);
-  return smallest;  // half of what two balls have: radii are made smaller by tolerances
+  return smallest;  // half of that of two balls: radii are reduced by tolerances
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ void Flights::judge(int ball, const FlightEnd& end) {
   const double time = end.event->time;
   settle_held(track, end.event);
   if (!track.state_known || time < track.start) return;
-  double off = 0;  // how far the flight ends from where it should [m]
+  double off = 0;  // distance of the logged position from the end of the flight [m]
   judge_state(ball, track, end, off, false);
   findings_.judged(Check::missed);
 
@@ -98,8 +98,8 @@ void Flights::judge(int ball, const FlightEnd& end) {
     const bool explained = off > 0 && explained_by_walls(ball, track, end);
     if (explained || deep(*missed)) {
       track.held = missed_finding(ball, *missed, end,
-                                  explained  ? "the state changes as by this impact: it is not logged"
-                                  : off == 0 ? "the ball flew on through the wall"
+                                  explained  ? "the state changes as in this impact, which is not logged"
+                                  : off == 0 ? "the ball flew through the wall"
                                              : "");
       told = true;
       missed_at = missed->time;
@@ -110,7 +110,7 @@ void Flights::judge(int ball, const FlightEnd& end) {
     Track& other = of(pair->partner);
     if (explained) {
       findings_.add(
-          missed_finding(ball, *pair, end, "the state changes as by this impact: it is not logged"));
+          missed_finding(ball, *pair, end, "the state changes as in this impact, which is not logged"));
       if (!other.broken || pair->time < other.broken_from) other.broken_from = pair->time;
       other.broken = told = true;
       missed_at = pair->time;
@@ -124,7 +124,7 @@ void Flights::judge(int ball, const FlightEnd& end) {
                             pair->partner,
                             unknown,
                             unknown,
-                            off == 0 ? "the balls flew on through each other" : ""};
+                            off == 0 ? "the balls flew through each other" : ""};
       other.pending.push_back({finding, pair->depth});
       told = told || off > 0;
       missed_at = pair->time;
@@ -134,7 +134,7 @@ void Flights::judge(int ball, const FlightEnd& end) {
   if (!told) judge_state(ball, track, end, off, true);
 }
 
-/// Missed impacts that other balls' flights have found are true if this flight was as the log says.
+/// Missed impacts that were found with other balls' flights are confirmed if this flight agrees with the log.
 void Flights::settle_pending(Track& track, const FlightEnd& end, double off, double missed_at) {
   const int other = end.body == 0 ? end.event->partner : end.event->ball;
   for (const auto& p : track.pending) {
@@ -145,7 +145,7 @@ void Flights::settle_pending(Track& track, const FlightEnd& end, double off, dou
   track.pending.clear();
 }
 
-/// Codes that step in time tell several impacts of a ball at one time: the second one is late and not missed.
+/// Time-stepping codes log several impacts of a ball at one time: the second one is late, not missed.
 void Flights::settle_held(Track& track, const LoggedEvent* next) {
   if (!track.held) return;
   const bool told =
@@ -168,7 +168,7 @@ Finding Flights::missed_finding(int ball, const Contact& contact, const FlightEn
 }
 
 /// Position, velocity and spin at the end of a flight.
-/// @param off  becomes the distance from where the flight should end, 0 when within the tolerances
+/// @param off  becomes the distance from the end of the flight, 0 when within the tolerances
 void Flights::judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it) {
   const LoggedEvent& event = *end.event;
   const BodyState& state = event.body[end.body];
@@ -205,7 +205,7 @@ void Flights::judge_state(int ball, const Track& track, const FlightEnd& end, do
   }
 }
 
-/// What a wrong flight looks like.
+/// The known mistake that explains a wrong flight.
 const char* Flights::look_of(const Track& track, const BodyState& state, double dt, double dv) const {
   const Vec &p = track.flight.position, &v = track.flight.velocity, &g = case_.mill.gravity;
   const double speed = std::max(size(v), size(state.velocity_before));
@@ -216,8 +216,8 @@ const char* Flights::look_of(const Track& track, const BodyState& state, double 
   const auto moving = [&](double share) {
     return size(Vec(state.velocity_before - v - g * (share * dt))) <= close_v;
   };
-  if (moving(0) && size(Vec(state.position - at(0))) <= close_p) return "flown without gravity";
-  if (moving(-1) && size(Vec(state.position - at(-1))) <= close_p) return "flown with the opposite gravity";
+  if (moving(0) && size(Vec(state.position - at(0))) <= close_p) return "flight without gravity";
+  if (moving(-1) && size(Vec(state.position - at(-1))) <= close_p) return "flight with the opposite gravity";
   const Vec rest = state.position - at(1);
   const Vec across = rest - g * (dot(rest, g) / dot(g, g));
   if (dv <= close_v && size(across) <= close_p)

@@ -10,7 +10,7 @@
 
 namespace edmill::audit {
 
-/// What the log has told of a ball last.
+/// The last logged state of a ball.
 struct Track {
   bool state_known = false, spin_known = false;
   dynamics::Flight<double> flight{Vec::Zero(), Vec::Zero(), {}};  ///< since the last impact
@@ -23,16 +23,16 @@ struct Track {
     double depth;
   };
   std::vector<Pending> pending;
-  /// A missed impact with a wall, until it is seen that the same time's next line does not tell it.
+  /// A missed impact with a wall, until the next line is seen not to log it at the same time.
   std::optional<Finding> held;
 };
 
-/// The end of a flight as an event tells it.
+/// The end of a flight as logged by an event.
 struct FlightEnd {
   const LoggedEvent* event;
   std::size_t body;        ///< 0 the event's ball, 1 its partner
-  bool late = false;       ///< the event is late: its bodies have met before, which is told
-  bool displaced = false;  ///< the walls of the log are not where they should be, which is told
+  bool late = false;       ///< the event is late: its bodies have met before, which is reported
+  bool displaced = false;  ///< the walls of the log are displaced, which is reported
 };
 
 class Flights {
@@ -44,12 +44,12 @@ class Flights {
   const Track& of(int ball) const { return tracks_[static_cast<std::size_t>(ball)]; }
   int balls() const { return static_cast<int>(tracks_.size()); }
 
-  /// Where the last that is known of a ball leads [m]. @pre its state is known
+  /// Position of a ball, extrapolated from its last known state [m]. @pre its state is known
   Vec position_at(int ball, double time) const;
   VesselFrame nested_at(double time) const;
   VesselFrame printed_at(double time) const;
 
-  /// Judges the flight of a ball that an event ends.
+  /// Checks the flight of a ball that an event ends.
   void judge(int ball, const FlightEnd& end);
 
   /// At the end of the log.
@@ -68,7 +68,7 @@ class Flights {
     double time = 0;
     bool with_wall = false;
     int partner = -1;
-    double depth = 0;  ///< the most that the bodies overlap later in the flight [m]
+    double depth = 0;  ///< largest overlap of the bodies later in the flight [m]
   };
   struct State {  ///< of a ball while an unlogged impact is tried
     dynamics::Flight<double> flight;

@@ -40,7 +40,7 @@ Speeds speeds_before(const LoggedEvent& event, const Impact& impact) {
   return {g_n, size(Vec(g - impact.normal * g_n))};
 }
 
-/// Energy that an impact adds along the normal [J]; 0 where it takes some.
+/// Energy that an impact adds along the normal [J]; 0 where it dissipates.
 double supplied(const Impact& impact, double g_n, double separation) {
   return std::max(0.0, impact.effective_mass / 2 * (separation - g_n) * (separation + g_n));
 }
@@ -65,8 +65,8 @@ void ImpactJudge::tell(Kind kind, const LoggedEvent& event, double size, double 
                  expected, note});
 }
 
-/// The equations themselves: momentum, torque, and how the contact points leave each other.
-/// @param parting  the bodies do not approach, which is told: a code may then reflect g_n as always
+/// The equations themselves: momentum, torque, and the separation of the contact points.
+/// @param parting  the bodies do not approach, which is reported: a code may then reflect g_n as usual
 auto ImpactJudge::residuals(const LoggedEvent& event, const Impact& impact, const Known& known,
                             bool parting) const -> Residuals {
   Residuals off;
@@ -94,7 +94,7 @@ auto ImpactJudge::residuals(const LoggedEvent& event, const Impact& impact, cons
   return off;
 }
 
-/// Names what is broken by the equation that does not hold.
+/// Names the violation by the equation that does not hold.
 void ImpactJudge::tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
                                         const Known& known, double allowed_off) {
   const Impact& impact = scene.impact;
@@ -117,7 +117,7 @@ void ImpactJudge::tell_broken_equations(const LoggedEvent& event, const Scene& s
                 dot(impact.wall_velocity, impact.normal));
   }
   if (normal) tell_normal(event, impact, off.normal, allowed_off);
-  // Without the right torque the slip after the impact tells nothing of its own.
+  // With a wrong torque the slip after the impact carries no further information.
   if (tangential && !spin) {
     const Vec slip = g - impact.normal * g_n, slip_after = g_after - impact.normal * g_n_after;
     tell(Kind::tangential_restitution, event, off.tangential,
@@ -132,7 +132,7 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
   }
   const Known known{available_.velocities_after(event.with_wall), available_.spins(event.with_wall)};
   if (scene.displaced && known.velocities) {
-    // With the printed matrix goes either its own derivative or the printed velocity.
+    // The printed matrix is used either with its own derivative or with the printed velocity.
     Impact other = scene.impact;
     const Vec& centre = event.body[0].position;
     other.wall_velocity = wall_velocity(WallVelocity::of_the_printed_matrix, scene.nested, scene.printed,
@@ -159,7 +159,7 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
     const double slack = allowed_off * (1 + friction * impact.compliance);
     if (off.largest() > slack) {
       Explanation explanation;
-      // First: next to no impulse is also that of a wall which the ball would leave behind.
+      // First: a vanishing impulse also results from a wall from which the ball moves away.
       const bool separation_alone = std::max({off.tangential, off.momentum, off.spin}) <= slack &&
                                     leaves_by_the_other_branch(event, impact, slack);
       if (known.spins && !separation_alone && explain(event, scene, slack, explanation)) {
@@ -193,8 +193,8 @@ void ImpactJudge::judge_logged_speeds(const LoggedEvent& event, const Impact& im
     compare(Check::slip_speed, Kind::slip_speed, event.slip_speed, size(Vec(g - impact.normal * g_n)));
 }
 
-/// What is lost is what the wall gave and the least separation speed supplied, less what the balls have
-/// gained.
+/// The dose is the wall work plus the energy that the least separation speed supplies, minus what the balls
+/// have gained.
 void ImpactJudge::judge_energies(const LoggedEvent& event, const Impact& right, const Impact& theirs,
                                  double scale) {
   const double allowed_off = 4 * tolerances_.relative * right.effective_mass * scale * scale;
@@ -221,8 +221,8 @@ void ImpactJudge::judge_energies(const LoggedEvent& event, const Impact& right, 
   }
 }
 
-/// The dose of a broken impact may also be the law's for the same speeds, and its balance without what v_s
-/// supplies in the log alone: then its law is to blame and not its dose.
+/// The dose of a violating impact may also be that of the law for the same speeds, and its balance without
+/// what v_s supplies in the log: then the law is wrong and not the dose.
 void ImpactJudge::judge_dose(const LoggedEvent& event, const Impact& right, const Impact& theirs,
                              double allowed_off) {
   findings_.judged(Check::milling_dose);
@@ -241,7 +241,7 @@ void ImpactJudge::judge_dose(const LoggedEvent& event, const Impact& right, cons
   if (none_is_due) off = std::min({off, away(balance(right)), away(balance(theirs))});
   if (off > allowed_off)
     tell(Kind::milling_dose, event, off, event.milling_dose, expected,
-         away(balance(right)) <= allowed_off ? "the energy that v_s supplies is taken off" : "");
+         away(balance(right)) <= allowed_off ? "the energy that v_s supplies is subtracted" : "");
 }
 
 void ImpactJudge::judge_speeds(const LoggedEvent& event, const Impact& impact) {

@@ -1,4 +1,4 @@
-// Judges a single impact: the contact law, conservation, and the numbers that are logged with it.
+// Checks a single impact: the contact law, conservation, and the values logged with it.
 #pragma once
 
 #include <limits>
@@ -15,22 +15,22 @@ namespace edmill::audit {
 struct Scene {
   Impact impact;  ///< with the right velocity of the wall
   VesselFrame nested, printed;
-  bool displaced = false;  ///< judged in the printed frame, where that code has its walls
+  bool displaced = false;  ///< checked in the printed frame, where that code has its walls
 };
 
-/// What the impacts of a log do in all, of those with velocities and spins before and after.
+/// Totals over the impacts of a log that have velocities and spins before and after.
 struct Energies {
   using Sum = numerics::CompensatedSum<double>;
   std::uint64_t impacts = 0;
   Sum wall_work;                ///< of the logged states [J]
-  Sum milling_dose;             ///< as logged, the law's where it is not [J]
+  Sum milling_dose;             ///< as logged, otherwise from the law [J]
   Sum supplied;                 ///< that the case's least separation speed adds [J]
   Sum kinetic_change;           ///< of the logged states [J]
   std::uint64_t supplying = 0;  ///< impacts in which it adds energy
   std::uint64_t creating = 0;   ///< impacts that create more energy than that
   double created = 0;           ///< by them [J]
 
-  /// 0 but for rounding in a log that obeys the law [J].
+  /// 0 up to rounding in a log that obeys the law [J].
   double closure() const {
     return (wall_work.value() - milling_dose.value()) + (supplied.value() - kinetic_change.value());
   }
@@ -52,13 +52,13 @@ class ImpactJudge {
   const Energies& energies() const { return energies_; }
 
  private:
-  /// How far the impact is from each of the equations [m/s].
+  /// Residuals of the impact in each equation [m/s].
   struct Residuals {
     double normal = 0, tangential = 0, momentum = 0, spin = 0;
-    double restitution_tangential = 1;  ///< that is due
+    double restitution_tangential = 1;  ///< that applies
     double largest() const;
   };
-  /// What explains a broken impact.
+  /// The explanation of a violating impact.
   struct Explanation {
     Kind kind;
     const char* note;
@@ -94,8 +94,8 @@ class ImpactJudge {
   Tolerances tolerances_;
   Findings& findings_;
   Energies energies_;
-  /// A least separation speed of the log that is not the case's: two impacts of different approach leave at
-  /// the same speed. The first of them is held until the second one is seen.
+  /// A least separation speed in the log other than the case's: two impacts of different approach speed
+  /// separate at the same speed. The first of them is kept until the second one is found.
   struct OtherLeast {
     double speed = std::numeric_limits<double>::infinity(), g_n = 0, due = 0;
     bool confirmed = false;

@@ -12,7 +12,7 @@
 
 namespace edmill::compare {
 
-/// The numbers of an impact that two logs can be compared in; SI.
+/// The values of an impact that are compared between two logs; SI.
 enum Value : std::size_t { time, approach_speed, slip_speed, milling_dose, wall_work };
 inline constexpr std::size_t value_count = 5;
 inline constexpr std::array<std::string_view, value_count> value_names = {
@@ -31,7 +31,7 @@ struct Event {
   std::size_t partner_kind() const { return with_wall ? static_cast<std::size_t>(partner) : 3; }
 };
 
-/// Columns may stand in any order; those that are not known are passed over. Bounded memory.
+/// Columns may be in any order; unknown ones are skipped. Bounded memory.
 class LogReader {
  public:
   /// @param place  a CSV file, or a folder that holds collisions.csv
@@ -40,7 +40,7 @@ class LogReader {
 
   bool has(Value value) const { return value_columns_[value].has_value(); }
 
-  /// The next event, in order of time; nothing at the end. Bad lines are passed over until there are ten of
+  /// The next event, in order of time; nothing at the end. Bad lines are skipped until there are ten of
   /// them or the file ends.
   /// @throws InputError with the bad lines: file, line, column, found, expected
   std::optional<Event> next();
@@ -57,12 +57,12 @@ class LogReader {
   double last_time_;
 };
 
-/// What one pass over a log tells.
+/// Result of one pass over a log.
 struct LogScan {
   std::string file;
   std::uint64_t events = 0;
   double first = 0, last = 0;                        ///< times [s]
-  std::array<double, value_count> mean_magnitude{};  ///< of each column; 0 for one that is not there
+  std::array<double, value_count> mean_magnitude{};  ///< of each column; 0 for an absent one
   std::array<bool, value_count> has{};
   /// From the summary.json beside a log in a folder, when there is one.
   std::optional<double> statistics_start;  ///< [s]

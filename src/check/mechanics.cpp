@@ -85,7 +85,7 @@ Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselF
       return cross(about_z, ball_centre) +
              cross(Vec(nested.x * nested.gamma_rate), Vec(ball_centre - nested.centre));
     case WallVelocity::of_the_printed_matrix: {
-      // P = C + R_x R_z p: R_z p turns about Z, then everything but C turns about X.
+      // P = C + R_x R_z p: R_z p rotates about Z, then everything but C rotates about X.
       const Vec turned_z = cross(Vec(X * nested.gamma_rate), d);
       // The axis Z of the inner rotation as R_x leaves it is the printed frame's z.
       return cross(about_z, nested.centre) + turned_z + cross(Vec(printed.z * nested.theta_rate), d);
@@ -122,7 +122,7 @@ Vec Impact::after(const LoggedEvent& e) const {
 }
 
 double separation_speed(const model::ContactLaw<double>& law, double g_n) {
-  // Bodies that part by rounding leave no slower than they part.
+  // Bodies that already separate, by rounding, do not leave more slowly.
   return std::max({law.restitution(-g_n) * -g_n, law.least_separation, g_n});
 }
 
@@ -130,7 +130,7 @@ double tangential_restitution(const model::ContactLaw<double>& law, double compl
                               double slip_speed) {
   // A formula of its own where balls slide, so that a mistake in the law that runs use is seen.
   if (const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law.law)) {
-    const double reversal = coulomb->friction * compliance * bounce;  // what full sliding takes off the slip
+    const double reversal = coulomb->friction * compliance * bounce;  // reduction of the slip by full sliding
     if (reversal >= (1 - coulomb->min_tangential) * slip_speed) return coulomb->min_tangential;
     return 1 - reversal / slip_speed;
   }

@@ -1,5 +1,5 @@
-// The mechanics that an audit judges by, written from the definitions and apart from the solver's own
-// impulse: where the vessel's walls are, what an impact must do, and what it does in formulas that are wrong.
+// The mechanics of the audit, written from the definitions and independently of the solver's own
+// impulse: the vessel's walls, the correct outcome of an impact, and its outcome with wrong formulas.
 // Equations: docs/theory.md, sections 1, 2 and 5.
 #pragma once
 
@@ -15,7 +15,7 @@ using Vec = Vec3<double>;
 inline double dot(const Vec& a, const Vec& b) { return edmill::dot<double>(a, b); }
 inline double size(const Vec& a) { return edmill::norm<double>(a); }
 
-/// How the vessel stands: the turned axes x, y, z and the centre C in the inertial frame.
+/// Pose of the vessel: the rotated axes x, y, z and the centre C in the inertial frame.
 struct VesselFrame {
   Vec x, y, z, centre;
   double theta_rate = 0, gamma_rate = 0;  ///< [rad/s]
@@ -32,7 +32,7 @@ double wall_gap(const VesselFrame& frame, const model::CylinderVessel<double>& v
 /// Unit, from the wall to the ball.
 Vec wall_normal(const VesselFrame& frame, int wall, const Vec& position);
 
-/// Velocities that codes give to the wall; the first is right: V = W_Z x P + (R_z W_x') x (P - C).
+/// Velocities of the wall in different codes; the first is right: V = W_Z x P + (R_z W_x') x (P - C).
 enum class WallVelocity {
   nested,
   none,
@@ -47,11 +47,11 @@ enum class WallVelocity {
 };
 inline constexpr int wall_velocity_count = 10;
 const char* name_of(WallVelocity formula);
-/// @param point  where the wall is touched; the ball's centre is `point + normal R`
+/// @param point  contact point on the wall; the ball's centre is `point + normal R`
 Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselFrame& printed,
                   const Vec& point, const Vec& ball_centre);
 
-/// What an impact's law needs to know: bodies, geometry, and the wall's velocity.
+/// Input of the contact law: bodies, geometry, and the wall's velocity.
 struct Impact {
   bool with_wall = false;
   std::array<model::BallProperties<double>, 2> ball;  ///< the partner only for balls
@@ -67,7 +67,7 @@ struct Impact {
   Vec after(const LoggedEvent& e) const;
 };
 
-/// Speed along the normal at which the contact points leave an impact, max(e_n |g_n|, v_s) [m/s]. (2.23')
+/// Speed along the normal at which the contact points separate, max(e_n |g_n|, v_s) [m/s]. (2.23')
 /// @param g_n  before the impact; negative while the bodies approach
 double separation_speed(const model::ContactLaw<double>& law, double g_n);
 
@@ -82,7 +82,7 @@ struct Formula {
   double spin_sign = 1;                  ///< of the spin's change
   double compliance_in_e_t = 0;          ///< instead of c in (2.24); 0 for c
   double compliance_in_impulse = 0;      ///< instead of c in (2.28); 0 for c
-  bool friction_of_restitution = false;  ///< limited by mu (1 + e_n) |g_n| where the bodies leave at v_s
+  bool friction_of_restitution = false;  ///< limited by mu (1 + e_n) |g_n| where the bodies separate at v_s
   std::array<double, 2> share{-1, -1};   ///< M/m of each ball; the right ones when negative
 };
 
@@ -90,10 +90,10 @@ struct Formula {
 std::array<BodyState, 2> outcome(const Impact& impact, const model::ContactLaw<double>& law,
                                  const LoggedEvent& event, const Formula& formula);
 
-/// Largest difference of velocities, spins taken times the radius [m/s].
+/// Largest difference of velocities, with spins times the radius [m/s].
 double distance(const Impact& impact, const LoggedEvent& event, const std::array<BodyState, 2>& outcome);
 
-/// Size of the velocities that take part [m/s]: what tolerances are relative to.
+/// Magnitude of the velocities involved [m/s], to which tolerances are relative.
 double velocity_scale(const Impact& impact, const LoggedEvent& event, bool with_spins);
 
 }  // namespace edmill::audit

@@ -1,4 +1,4 @@
-// Flights: which impacts a flight passes over, and whether one that is not logged explains how it ends.
+// Flights: impacts that are missing in a flight, and whether an unlogged one explains its end.
 #include <algorithm>
 
 #include "base/errors.hpp"
@@ -34,7 +34,7 @@ std::optional<std::pair<double, int>> Flights::wall_contact(const dynamics::Flig
   return std::nullopt;
 }
 
-/// The search is for a ball that is smaller by what is forgiven, so that a contact is an overlap for certain.
+/// The ball is searched with its radius reduced by the tolerance, so that a contact is certainly an overlap.
 auto Flights::first_wall(int ball, const Track& track, double until, double slack) -> std::optional<Contact> {
   const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
   const auto frame = nested_at(track.start);
@@ -42,7 +42,7 @@ auto Flights::first_wall(int ball, const Track& track, double until, double slac
   for (int wall = 0; wall < model::wall_count; ++wall)
     overlap = std::max(overlap, -wall_gap(frame, case_.mill.vessel, wall, radius, track.flight.position));
   const double smaller = radius - overlap - slack;
-  if (smaller < radius / 2) return std::nullopt;  // outside of the vessel, which was told before
+  if (smaller < radius / 2) return std::nullopt;  // outside the vessel, which was reported before
   const auto contact = wall_contact(track.flight, track.start, smaller, until);
   if (!contact) return std::nullopt;
   return Contact{contact->first, true, contact->second,
@@ -61,7 +61,7 @@ double Flights::deepest(int ball, const Track& track, int wall, double from, dou
   return depth;
 }
 
-/// Whether the log's walls stand as the printed matrix has them, which was told, and the flight ends inside
+/// Whether the log's walls are those of the printed matrix, which was reported, and the flight ends inside
 /// of them.
 bool Flights::stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const {
   if (findings_.of(Kind::rotation_order).count < 3) return false;
@@ -103,7 +103,7 @@ auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, dou
     if (answer.verdict != dynamics::Verdict::contact || from + answer.delay > to) continue;
     if (first && first->time <= from + answer.delay) continue;
     const Vec apart = position_at(ball, from) - position_at(other, from);
-    if (size(apart) < sum - slack) continue;  // they overlapped already, which was told before
+    if (size(apart) < sum - slack) continue;  // they overlapped already, which was reported before
     const bool the_end =
         !end.event->with_wall && (end.body == 0 ? end.event->partner : end.event->ball) == other;
     if (the_end && end.late) continue;
@@ -129,7 +129,7 @@ Scene Flights::scene_at(int ball, int wall, double time, const Vec& position) co
   return scene;
 }
 
-/// Whether a ball in this state comes to the end of the flight as it is logged.
+/// Whether a ball in this state reaches the logged end of the flight.
 bool Flights::arrives(const State& state, const FlightEnd& end) const {
   const double dt = end.event->time - state.start;
   const auto& logged = end.event->body[end.body];
@@ -140,7 +140,7 @@ bool Flights::arrives(const State& state, const FlightEnd& end) const {
          size(Vec(logged.velocity_before - velocity)) <= 10 * near * std::max(size(velocity), 1.0);
 }
 
-/// Tries up to four impacts with walls that the log does not have.
+/// Tries up to four impacts with walls that are not in the log.
 bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& end) {
   if (!track.spin_known) return false;
   State state{track.flight, track.spin, track.start};
@@ -162,7 +162,7 @@ bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& 
   return false;
 }
 
-/// Tries the impact with a ball that the log does not have.
+/// Tries the impact with a ball that is not in the log.
 bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const {
   const Track &own = of(ball), &other = of(contact.partner);
   if (!own.spin_known || !other.spin_known) return false;
@@ -171,7 +171,7 @@ bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEn
   impact.ball = {case_.balls[static_cast<std::size_t>(ball)],
                  case_.balls[static_cast<std::size_t>(contact.partner)]};
   impact.set_masses();
-  // The contact of the balls as they are, a little before that of the smaller ones.
+  // The contact of the actual balls, slightly before that of the reduced ones.
   const double sum = impact.ball[0].radius + impact.ball[1].radius;
   Vec apart = position_at(ball, contact.time) - position_at(contact.partner, contact.time);
   const auto velocity = [&](const Track& track) {

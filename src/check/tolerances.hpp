@@ -1,4 +1,4 @@
-// How much rounding an audit forgives. docs/audit.md, "Tolerances"
+// Tolerances of an audit. docs/audit.md, "Tolerances"
 #pragma once
 
 #include <cmath>
@@ -8,10 +8,10 @@ namespace edmill::audit {
 
 struct Tolerances {
   double relative = 1e-9;
-  double gap = 0;    ///< between bodies that should touch [m]
+  double gap = 0;    ///< between bodies in contact [m]
   double reach = 0;  ///< largest distance of a ball from the fulcrum [m]
 
-  /// What the rounding of a time in the log leaves open [s].
+  /// Uncertainty of a logged time by rounding [s].
   static double time(double t) { return 4 * std::numeric_limits<double>::epsilon() * std::abs(t); }
   double touch(double t, double speed) const { return gap + time(t) * speed; }
   double position(double t, double path, double speed) const {

@@ -15,7 +15,7 @@ namespace edmill::cli {
 
 namespace {
 
-/// The case's section [audit] with the command line's options over it.
+/// The case's section [audit], overridden by the command line's options.
 audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given) {
   audit::Options options;
   const auto& s = spec.audit;

@@ -9,7 +9,7 @@
 
 namespace edmill::cli {
 
-/// What the command line says; it goes over the case's section [audit].
+/// Options of the command line; they override the case's section [audit].
 struct AuditOptions {
   std::string log;
   std::vector<std::string> columns;  ///< "ours=theirs [unit]"

@@ -37,7 +37,7 @@ bool stop_asked(const std::atomic<bool>* interrupt) {
   return interrupt && interrupt->load(std::memory_order_relaxed);
 }
 
-/// The first events of a case in one scalar, and what they cost.
+/// The first events of a case in one scalar, and their CPU time.
 struct Sequence {
   std::string precision;
   std::vector<Event> events;
@@ -100,7 +100,7 @@ void write_reference(const casefile::CaseSpec& spec, const CertifyOptions& optio
   out << run::collision_log_header << '\n';
   for (std::size_t k = 0; k < sequence.events.size(); ++k) {
     const Event& e = sequence.events[k];
-    // Two digits more than are certified: the text's own rounding is not to count.
+    // Two digits more than are certified, so that the rounding of the text does not count.
     const auto text = [&](int q) { return e.values[q].str(options.digits + 2, std::ios_base::scientific); };
     out << k << ',' << text(run::time) << ',' << e.ball << (e.with_wall ? ",wall," : ",ball,") << e.partner;
     for (int q = run::approach_speed; q < run::quantity_count; ++q) out << ',' << text(q);
@@ -127,7 +127,7 @@ int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options) {
     evidence.push_back(evidence_line(narrow, wide, agreement));
     if (!options.quiet) fmt::print("{} ({:.1f} s)\n", evidence.back(), narrow.seconds + wide.seconds);
     if (wide.events.size() < options.collisions)
-      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are asked for", spec.file,
+      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec.file,
                                    wide.events.size(), options.collisions));
     const auto by_rule = std::find_if(wide.events.begin(), wide.events.end(),
                                       [](const Event& event) { return event.by_rule; });
@@ -135,7 +135,7 @@ int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options) {
       fmt::print(
           stderr,
           "edmill: event {}, {}, has another contact of its ball at the same time in every scalar: a rule "
-          "and not the equations puts one first; nothing is written\n",
+          "and not the equations orders them; nothing is written\n",
           by_rule - wide.events.begin(), describe(*by_rule));
       return undecided;
     }
@@ -166,28 +166,29 @@ int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, con
                const std::atomic<bool>* interrupt) {
   const auto narrow = source_in(precision, spec, true), wide = source_in(shadow, spec, true);
   Agreement agreement;
-  std::optional<std::pair<Event, Event>> parted;
+  std::optional<std::pair<Event, Event>> diverged;
   bool uneven = false;
-  while (!parted && !uneven && !stop_asked(interrupt)) {
+  while (!diverged && !uneven && !stop_asked(interrupt)) {
     const auto one = narrow->next(64), two = wide->next(64);
     if (one.empty() && two.empty()) break;
     const std::size_t count = std::min(one.size(), two.size());
-    for (std::size_t k = 0; k < count && !parted; ++k)
-      if (!agreement.take(one[k], two[k])) parted = {one[k], two[k]};
-    uneven = !parted && one.size() != two.size();
+    for (std::size_t k = 0; k < count && !diverged; ++k)
+      if (!agreement.take(one[k], two[k])) diverged = {one[k], two[k]};
+    uneven = !diverged && one.size() != two.size();
   }
-  fmt::print("Shadow run: {} beside {}, {} events in common\n", shadow, precision, agreement.events());
-  if (parted)
-    fmt::print("  they part at event {}: {} has {},\n  {} has {}\n", agreement.events(), precision,
-               describe(parted->first), shadow, describe(parted->second));
+  fmt::print("Shadow run: {} and {}, {} events in common\n", shadow, precision, agreement.events());
+  if (diverged)
+    fmt::print("  they diverge at event {}: {} has {},\n  {} has {}\n", agreement.events(), precision,
+               describe(diverged->first), shadow, describe(diverged->second));
   else
-    fmt::print("  {}\n", uneven ? "one has an event more before the end" : "they do not part before the end");
+    fmt::print("  {}\n",
+               uneven ? "one has one event more before the end" : "they do not diverge before the end");
   for (int k = 0; k < run::quantity_count; ++k)
     fmt::print("  {:<16} agrees to {} digits\n", name_of(static_cast<Quantity>(k)),
                digits_text(agreement.digits(static_cast<Quantity>(k))));
   if (const auto lost = agreement.digits_lost_per_event()) {
     const double each = static_cast<double>(agreement.bodies()) / static_cast<double>(spec.ball_count());
-    fmt::print("  digits lost: {:.4f} an event, {:.2f} a collision of a ball\n", *lost,
+    fmt::print("  digits lost: {:.4f} per event, {:.2f} per collision of a ball\n", *lost,
                *lost * static_cast<double>(agreement.events()) / each);
   }
   return ok;

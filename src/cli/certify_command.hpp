@@ -16,16 +16,16 @@ struct CertifyOptions {
   const std::atomic<bool>* interrupt = nullptr;
 };
 
-/// Raises the precision until two successive ones agree on the first events, in order and in so many digits,
-/// and writes them with the evidence.
+/// Raises the precision until two successive scalars agree on the first events, in order and in the digits
+/// required, and writes them with the evidence.
 /// @return an exit code; `undecided` when the widest two do not agree
 int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options);
 
 /// @throws InputError when `shadow` is not wider than `precision`
 void check_shadow(const std::string& precision, const std::string& shadow);
 
-/// Runs the case in both scalars side by side to its end and prints when they part: event, time, quantities,
-/// and how fast digits are lost.
+/// Runs the case in both scalars side by side to its end and prints where they diverge: event, time,
+/// quantities, and how fast digits are lost.
 int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& shadow,
                const std::atomic<bool>* interrupt);
 

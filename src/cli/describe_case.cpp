@@ -22,7 +22,7 @@ std::string describe_law(const model::ContactLaw<double>& law) {
 }  // namespace
 
 std::string describe_case(const casefile::CaseSpec& spec) {
-  // The case's own scalar is the one that has to resolve it; double does for the description.
+  // The case must be valid in its own scalar; double is sufficient for the description.
 #define EDMILL_CHECK_IN(Real) \
   if (spec.precision == ScalarName<Real>::value) casefile::build_case<Real>(spec);
   EDMILL_FOR_EACH_SCALAR(EDMILL_CHECK_IN)

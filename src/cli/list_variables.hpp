@@ -5,7 +5,7 @@
 
 namespace edmill::cli {
 
-/// All variables that outputs can show, as Markdown tables; docs/variables.md is made of it.
+/// All variables that outputs can contain, as Markdown tables; docs/variables.md contains them.
 std::string list_variables();
 
 }  // namespace edmill::cli

@@ -29,7 +29,7 @@ edmill::cli::RunOptions run_options(const std::string& folder, bool quiet) {
   return options;
 }
 
-/// For work that reports no interruption itself.
+/// For work that does not report interruptions itself.
 template <class Work, class Options>
 int interruptible(const Work& work, Options& options) {
   using namespace edmill::cli;
@@ -82,7 +82,7 @@ int audit(const std::string& case_file, const std::vector<std::string>& override
   return interruptible([&] { return cli::run_audit(spec, options); }, options);
 }
 
-/// One line a problem, whatever characters a case file put into it.
+/// One line per problem; control characters are escaped.
 void print_problem(const std::string& problem) {
   std::string line;
   for (const char c : problem)
@@ -108,9 +108,8 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done, 2 bad input, 3 ended in inelastic collapse, 4 a decision that no scalar could "
       "make,\n"
-      "5 some runs of a sweep failed, 6 the compared outputs differ or the audited log is wrong, 7 they hold "
-      "too few "
-      "data to say,\n"
+      "5 some runs of a sweep failed, 6 the compared outputs differ or the audited log has violations, 7 too "
+      "few data to decide,\n"
       "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
   std::string case_file, folder, precision, shadow, checkpoint;
   std::vector<std::string> overrides;
@@ -119,22 +118,22 @@ int main(int argc, char** argv) {
   auto* run_command = app.add_subcommand("run", "simulate a case and write its results");
   run_command->add_option("case", case_file, "case file (TOML)")->required();
   run_command->add_option("--out", folder, "folder for the results; out/<case name> unless given");
-  run_command->add_option("--precision", precision, "scalar of the run, over the case's own")
+  run_command->add_option("--precision", precision, "scalar of the run, overrides that of the case")
       ->check(CLI::IsMember(edmill::casefile::precisions()));
-  run_command->add_option("--set", overrides, "section.key=value, over the case file; can be repeated")
+  run_command->add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
       ->take_all()
       ->expected(1);
   run_command->add_flag("--quiet", quiet, "no progress line and no result table");
 
   auto* shadow_option =
       run_command
-          ->add_option("--shadow", shadow, "run beside it in this wider scalar and tell when the two part")
+          ->add_option("--shadow", shadow, "also run in this wider scalar and report when the two diverge")
           ->check(CLI::IsMember(edmill::casefile::precisions()));
   const std::string every = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
   run_command->add_option("--checkpoint", checkpoint, every + "; never unless given")
       ->excludes(shadow_option);
 
-  auto* resume_command = app.add_subcommand("resume", "go on with an unfinished run from its checkpoint");
+  auto* resume_command = app.add_subcommand("resume", "continue an unfinished run from its checkpoint");
   resume_command->add_option("folder", folder, "folder of the run")->required();
   resume_command->add_option("--checkpoint", checkpoint, every + "; as before unless given");
   resume_command->add_flag("--quiet", quiet, "no progress line and no result table");
@@ -143,11 +142,11 @@ int main(int argc, char** argv) {
 
   auto* report_command = app.add_subcommand("report", "make the HTML page of a run from its files");
   report_command->add_option("folder", folder, "folder of the run")->required();
-  report_command->add_flag("--quiet", quiet, "do not tell where the page is");
+  report_command->add_flag("--quiet", quiet, "do not print the path of the page");
 
   edmill::cli::CertifyOptions certification;
   auto* certify_command =
-      app.add_subcommand("certify", "raise the precision until the first events are certain; write them");
+      app.add_subcommand("certify", "raise the precision until the first events are certain, and write them");
   certify_command->add_option("case", case_file, "case file (TOML)")->required();
   certify_command->add_option("--collisions", certification.collisions, "how many events")
       ->required()
@@ -156,7 +155,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 90));
   certify_command->add_option("--out", certification.file,
                               "file; out/<case name>.reference.csv unless given");
-  certify_command->add_option("--set", overrides, "section.key=value, over the case file; can be repeated")
+  certify_command
+      ->add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
       ->take_all()
       ->expected(1);
   certify_command->add_flag("--quiet", certification.quiet, "no progress and no report");
@@ -164,7 +164,7 @@ int main(int argc, char** argv) {
   auto* check_command =
       app.add_subcommand("check", "read and check a case; print it in SI with derived numbers");
   check_command->add_option("case", case_file, "case file (TOML)")->required();
-  check_command->add_option("--set", overrides, "section.key=value, over the case file; can be repeated")
+  check_command->add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
       ->take_all()
       ->expected(1);
 
@@ -174,7 +174,7 @@ int main(int argc, char** argv) {
   edmill::cli::StudyOptions study;
   const auto add_study = [&](const std::string& name, const std::string& what) {
     auto* command = app.add_subcommand(name, what);
-    command->add_option("file", study.file, "file that says what to vary (TOML)")->required();
+    command->add_option("file", study.file, "sweep or optimisation file (TOML)")->required();
     command->add_option("--out", study.folder, "folder for the tables; out/<name of the file> unless given");
     command->add_option("--jobs", study.jobs, "runs at a time in each process; all cores unless given")
         ->check(CLI::Range(1, 4096));
@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
   compare_command
       ->add_option("--tolerance", compare.tolerance, "relative, for single events; 1e-9 unless given")
       ->check(CLI::Range(0.0, 1.0));
-  compare_command->add_option("--events", compare.events, "so many must agree one by one");
+  compare_command->add_option("--events", compare.events, "number of events that must agree one by one");
   compare_command->add_option("--from", compare.limits.from, "time in s to begin at");
   compare_command->add_option("--until", compare.limits.until, "time in s to end at");
   compare_command->add_option("--batch", compare.batch, "length of a batch in s; a twentieth unless given")
@@ -203,7 +203,7 @@ int main(int argc, char** argv) {
 
   edmill::cli::AuditOptions audited;
   auto* audit_command =
-      app.add_subcommand("audit", "judge another code's collision log by the physics of a case");
+      app.add_subcommand("audit", "check another code's collision log against the physics of a case");
   audit_command->add_option("case", case_file, "case file (TOML)")->required();
   audit_command->add_option("log", audited.log, "collision log (CSV), or folder of a run")->required();
   audit_command
@@ -214,16 +214,18 @@ int main(int argc, char** argv) {
       ->add_option("--first-ball", audited.first_ball, "number of the log's first ball; 0 unless given")
       ->check(CLI::Range(0, 1000000000));
   audit_command->add_option("--walls", audited.walls,
-                            "what stands for the caps at -y and +y and the cylinder, e.g. \"1, 2, 3\"");
+                            "numbers of the caps at -y and +y and the cylinder, e.g. \"1, 2, 3\"");
   audit_command->add_option("--tolerance", audited.tolerance, "relative; 1e-9 unless given")
       ->check(CLI::Range(1e-15, 0.5));
-  audit_command->add_option("--gap-tolerance", audited.gap_tolerance, "of bodies that should touch, in m")
+  audit_command
+      ->add_option("--gap-tolerance", audited.gap_tolerance,
+                   "largest gap or overlap of bodies in contact, in m")
       ->check(CLI::PositiveNumber);
   audit_command->add_flag("--from-start", audited.from_start, "the log begins at the case's initial state");
   audit_command->add_option("--examples", audited.examples, "of each kind of violation; 3 unless given")
       ->check(CLI::Range(0, 1000));
   audit_command->add_option("--json", audited.json, "file for the result in JSON");
-  audit_command->add_option("--set", overrides, "section.key=value, over the case file; can be repeated")
+  audit_command->add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
       ->take_all()
       ->expected(1);
   audit_command->add_flag("--quiet", audited.quiet, "no progress line and no table");

@@ -5,7 +5,7 @@
 
 namespace edmill::cli {
 
-/// Makes the page of a run's folder and says where it is. @return an exit code
+/// Makes the page of a run's folder and prints its path. @return an exit code
 int run_report(const std::string& folder, bool quiet);
 
 }  // namespace edmill::cli

@@ -29,7 +29,7 @@ int run_resume(const std::string& interval, RunOptions options) {
   spec.text = checkpoint.case_text;
   if (spec.digest != checkpoint.case_digest)
     throw InputError(options.folder + ": found another initial state in " + spec.initial_state +
-                     " than the run had, expected the file as it was");
+                     " than the run had, expected the unchanged file");
   const std::string precision = checkpoint.precision;
   options.report = checkpoint.report;
   options.checkpoint = std::move(checkpoint);

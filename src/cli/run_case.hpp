@@ -21,7 +21,7 @@ enum ExitCode : int {
   some_runs_failed = 5,
   outputs_differ = 6,
   too_few_data = 7,
-  interrupted = 128,  ///< and the signal's number, which the caller knows
+  interrupted = 128,  ///< plus the number of the signal, which the caller adds
 };
 
 struct RunOptions {
@@ -29,11 +29,12 @@ struct RunOptions {
   bool quiet = false;
   bool report = false;  ///< write the page report.html, and the tables that it shows
   const std::atomic<bool>* interrupt = nullptr;
-  /// Called when there begins to be something to keep; before that a signal may end the program at once.
+  /// Called when the run has results to keep; before that a signal may end the program at once.
   std::function<void()> listen = [] {};
-  /// Called when the results are in place, while a killed run could still go on from its checkpoint.
+  /// Called when the results are in place, while a killed run could still continue from its checkpoint.
   std::function<void()> when_written = [] {};
-  /// What a checkpoint says besides the state, when the run leaves any; with a state, it goes on from there.
+  /// Content of the checkpoints besides the state, if the run makes any; with a state, it continues from
+  /// there.
   std::optional<io::Checkpoint> checkpoint;
 };
 

@@ -50,7 +50,7 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
 
   if (!options.quiet) {
     fmt::print("{}\nResults are in {}\n", report::result_table(summary), options.folder);
-    if (goes_on) fmt::print("Go on with: edmill resume {}\n", options.folder);
+    if (goes_on) fmt::print("Continue with: edmill resume {}\n", options.folder);
   }
   if (!summary.error.empty()) {
     fmt::print(stderr, "edmill: {}\n", summary.error);

@@ -1,4 +1,4 @@
-// A run with what belongs beside its results: the case, and the page when it was asked for.
+// A run with the files beside its results: the case, and the page on request.
 #pragma once
 
 #include "cli/run_case.hpp"

@@ -14,7 +14,7 @@ RunFolder::RunFolder(const casefile::CaseSpec& spec, const RunOptions& options)
   const bool begins = !checkpoint_ || checkpoint_->state.empty();
   if (const auto found = io::checkpoint_place(place_); begins && fs::exists(found))
     throw InputError(found.string() +
-                     ": found the checkpoint of an unfinished run, expected none: go on with " +
+                     ": found the checkpoint of an unfinished run, expected none: continue with " +
                      "`edmill resume " + place_.string() + "`, or remove it");
   if (!checkpoint_) return;
   if (begins) checkpoint_->temporary_mark = io::temporary_mark();
@@ -44,7 +44,7 @@ run::Checkpoints RunFolder::checkpoints() {
 
 void RunFolder::remove_checkpoint() {
   if (!checkpoint_) return;
-  // First: once the checkpoint is gone, nobody looks for what killed processes of this run have left.
+  // First: without the checkpoint, files left by killed processes of this run are no longer found.
   remove_temporaries("");
   fs::remove(io::checkpoint_place(place_));
 }

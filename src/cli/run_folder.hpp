@@ -1,4 +1,4 @@
-// The folder of a run: its lock, its checkpoint, and what killed runs have left in it.
+// The folder of a run: its lock, its checkpoint, and the temporary files of killed runs.
 #pragma once
 
 #include <filesystem>
@@ -16,11 +16,11 @@ class RunFolder {
   RunFolder(const casefile::CaseSpec& spec, const RunOptions& options);
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
-  /// Without a checkpoint there is nothing that temporary files could be kept for.
+  /// Without a checkpoint temporary files are of no further use.
   ~RunFolder();
 
   const std::filesystem::path& place() const { return place_; }
-  /// What the driver is to do about checkpoints. It must not outlive this folder.
+  /// Instructions to the driver about checkpoints. They must not outlive this folder.
   run::Checkpoints checkpoints();
   void remove_checkpoint();
 
@@ -33,7 +33,7 @@ class RunFolder {
   std::optional<io::FolderLock> lock_;
 };
 
-/// "10 min" by the clock on the wall, "0.5 s simulated". @throws InputError
+/// "10 min" of wall-clock time, "0.5 s simulated". @throws InputError
 run::CheckpointInterval parse_checkpoint_interval(const std::string& text);
 
 }  // namespace edmill::cli

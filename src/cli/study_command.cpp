@@ -34,7 +34,7 @@ std::string folder_of(const StudyOptions& options) {
   return "out/" + name.stem().string();
 }
 
-/// Gives rank 0 to `command`; the other ranks do its runs.
+/// Rank 0 executes `command`; the other ranks do its runs.
 template <class Command>
 int on_all_ranks(const StudyOptions& options, const Command& command) {
   const auto* interrupt = options.interrupt;
@@ -51,8 +51,8 @@ int on_all_ranks(const StudyOptions& options, const Command& command) {
 int end_of(const study::Study& study, const StudyOptions& options) {
   const auto c = study.counts();
   if (!options.quiet)
-    fmt::print("{} runs: {} known from before, {} run now, {} failed{}\nTables are in {}\n", c.total, c.kept,
-               c.ran, c.failed, study.interrupted() ? ", interrupted" : "", folder_of(options));
+    fmt::print("{} runs: {} reused, {} run now, {} failed{}\nTables are in {}\n", c.total, c.kept, c.ran,
+               c.failed, study.interrupted() ? ", interrupted" : "", folder_of(options));
   return c.failed > 0 ? some_runs_failed : ok;
 }
 

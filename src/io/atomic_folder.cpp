@@ -15,7 +15,7 @@ AtomicFolder::AtomicFolder(fs::path place) : place_(std::move(place)), temporary
 
 AtomicFolder::~AtomicFolder() {
   std::error_code ignored;
-  if (!kept_) fs::remove_all(temporary_, ignored);  // after `commit` there is none
+  if (!kept_) fs::remove_all(temporary_, ignored);  // absent after `commit`
 }
 
 void AtomicFolder::add(const std::string& name, const std::string& text) {

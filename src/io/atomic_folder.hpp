@@ -8,7 +8,7 @@
 
 namespace edmill::io {
 
-/// Files are written into a temporary folder; `commit` puts it in place of what stood there.
+/// Files are written into a temporary folder; `commit` replaces the old folder by it.
 class AtomicFolder {
  public:
   /// @throws InputError when the temporary folder cannot be made
@@ -22,9 +22,9 @@ class AtomicFolder {
   void add(const std::string& name, const std::string& text);
   void commit();
 
-  /// For a checkpoint; the temporary folder is then no longer removed without `commit`. Files that were added
-  /// later stay in it: a run that goes on adds the same names again. Loading goes on with that folder, or
-  /// with a copy of what was put in place when it is gone.
+  /// For a checkpoint; the temporary folder is then kept even without `commit`. Files that were added
+  /// later stay in it: a resumed run adds the same names again. Loading continues with that folder, or
+  /// with a copy of the committed one when it is gone.
   void archive(Archive& a);
 
  private:

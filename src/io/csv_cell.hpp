@@ -5,7 +5,7 @@
 
 namespace edmill::io {
 
-/// A text as a cell: quoted where it needs it.
+/// A text as a cell, quoted where necessary.
 inline std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";

@@ -105,7 +105,7 @@ std::optional<int> CsvReader::whole(std::size_t column, const std::string& expec
 void CsvReader::split() {
   fields_.clear();
   std::string_view rest = line_;
-  // A field in quotes can hold commas; two quotes in it stand for one (RFC 4180).
+  // A field in quotes can hold commas; two quotes in it mean one (RFC 4180).
   const auto end_of_field = [&rest] {
     auto from = rest.starts_with('"') ? rest.find('"', 1) : 0;
     while (from != std::string_view::npos && rest.substr(from).starts_with("\"\""))

@@ -1,4 +1,4 @@
-// A CSV file with a header, read row by row in bounded memory, with every problem told by file, line and
+// A CSV file with a header, read row by row in bounded memory; every problem is reported with file, line and
 // column.
 #pragma once
 
@@ -15,11 +15,11 @@ namespace edmill::io {
 /// Text between quotes for a message, cut when long.
 std::string in_quotes(std::string_view text);
 
-/// Comments (#) may come before the header; blank lines are passed over. Problems are collected; reading ends
+/// Comments (#) may precede the header; blank lines are skipped. Problems are collected; reading ends
 /// when there are ten of them.
 class CsvReader {
  public:
-  /// @throws InputError when `file` is no readable file or has no header
+  /// @throws InputError when `file` is not readable or has no header
   /// @param expected  what the file should be, for messages: "a collision log"
   CsvReader(const std::filesystem::path& file, const std::string& expected);
 
@@ -27,9 +27,9 @@ class CsvReader {
   std::uint64_t line() const { return line_number_; }
   const std::vector<std::string>& header() const { return header_; }
 
-  /// Where a column stands; nothing when it is absent. A name that stands there twice is a problem.
+  /// Index of a column; nothing when it is absent. A repeated name is a problem.
   std::optional<std::size_t> column(std::string_view name);
-  /// The same where absence is a problem.
+  /// The same for a required column.
   std::optional<std::size_t> needed_column(std::string_view name);
 
   /// Moves to the next row that has as many fields as the header.

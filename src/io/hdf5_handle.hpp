@@ -1,4 +1,4 @@
-// What everything that writes HDF5 needs. Heavy: include it in source files only.
+// Common parts of everything that writes HDF5. Heavy: include it in source files only.
 #pragma once
 
 #include <hdf5.h>
@@ -12,9 +12,9 @@ namespace edmill::io {
 /// An HDF5 object, closed at the end of its scope.
 class Hdf5Handle {
  public:
-  /// @throws std::runtime_error when `id` is that of a failure
+  /// @throws std::runtime_error when `id` indicates a failure
   Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id < 0) throw std::runtime_error("HDF5 could not make an object; the disk may be full");
+    if (id < 0) throw std::runtime_error("HDF5 could not create an object; the disk may be full");
   }
   Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Hdf5Handle& operator=(Hdf5Handle&&) = delete;
@@ -28,8 +28,8 @@ class Hdf5Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// To be called before anything else of HDF5: failures are told by exceptions, and a file that could not be
-/// written to a full disk is not closed once more at the program's end, which would crash.
+/// To be called before any other HDF5 function: failures become exceptions, and a file that could not be
+/// written to a full disk is not closed again at the end of the program, which would crash.
 inline void hdf5_begin() {
   static const herr_t once = H5dont_atexit();
   static_cast<void>(once);

@@ -1,4 +1,4 @@
-// JSON written in order and with numbers of any precision, which JSON allows and common libraries do not
+// JSON written in order and with numbers of any precision, as JSON allows but common libraries do not
 // write.
 #pragma once
 
@@ -34,7 +34,7 @@ class JsonText {
     put_key(key);
     text_ += std::to_string(value);
   }
-  /// nan and infinity, which JSON does not know, become null.
+  /// nan and infinity, which JSON does not have, become null.
   template <class Real>
   void number(std::string_view key, const Real& value) {
     using std::isfinite;

@@ -20,7 +20,7 @@ void prepare_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder))
-    throw InputError(folder.string() + ": found no folder and none can be made (" + error.message() +
+    throw InputError(folder.string() + ": found no folder and cannot create it (" + error.message() +
                      "), expected an output folder");
   for (const auto* name : {"summary.json", "final_state.csv"})
     if (fs::is_directory(folder / name, error))
@@ -32,11 +32,11 @@ void prepare_folder(const fs::path& folder) {
 
 FolderLock::FolderLock(const fs::path& folder, bool alone)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  // Where the file system knows no locks there is none.
+  // No lock where the file system does not support locks.
   if (descriptor_ >= 0 && ::flock(descriptor_, (alone ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0 &&
       errno == EWOULDBLOCK) {
     ::close(descriptor_);
-    throw InputError(folder.string() + ": found another run at work, expected a folder " +
+    throw InputError(folder.string() + ": found another run in progress, expected a folder " +
                      (alone ? "for this run alone" : "without a run that leaves checkpoints"));
   }
 }
@@ -71,7 +71,7 @@ void copy_part(const fs::path& from, const fs::path& to, std::uintmax_t begin, s
   if (!in || !out) throw not_written(to);
 }
 
-/// Whether the addition, of which `before` ends at `size`, stands already behind what stands in `place`.
+/// Whether `place` already ends with the addition, of which `before` ends at `size`.
 bool is_joined(const fs::path& place, const fs::path& addition, std::uint64_t size,
                const std::string& before) {
   std::error_code error;
@@ -79,7 +79,7 @@ bool is_joined(const fs::path& place, const fs::path& addition, std::uint64_t si
   return !error && bytes && bytes->ends_with(before);
 }
 
-/// What stood in `place`, then what is in `addition`, under the latter's name.
+/// The content of `place`, then that of `addition`, under the latter's name.
 void prepend(const fs::path& place, const fs::path& addition) {
   const fs::path joined = temporary_name(place);
   std::ofstream out(joined, std::ios::binary | std::ios::trunc);
@@ -99,13 +99,13 @@ void prepend(const fs::path& place, const fs::path& addition) {
 }  // namespace
 
 const std::string& temporary_mark() {
-  // Not the process id: in a container every run may have the same.
+  // Not the process id: runs in containers may share it.
   static const std::string mark = partial + std::to_string(std::random_device()());
   return mark;
 }
 
 fs::path temporary_name(const fs::path& place) {
-  static std::atomic<int> count = 0;  // two files of one run can have the same place
+  static std::atomic<int> count = 0;  // two files of one run can have the same path
   return place.string() + temporary_mark() + "-" + std::to_string(count++);
 }
 
@@ -150,7 +150,7 @@ AtomicFile::AtomicFile(fs::path place, bool append)
 AtomicFile::~AtomicFile() {
   stream_.close();
   std::error_code ignored;
-  if (!kept_) fs::remove(temporary_, ignored);  // after `commit` there is none
+  if (!kept_) fs::remove(temporary_, ignored);  // absent after `commit`
 }
 
 void AtomicFile::commit() {
@@ -186,7 +186,7 @@ void AtomicFile::archive(Archive& a) {
   const fs::path fresh = temporary_;
   temporary_.replace_filename(name);
   if (append_ && !fs::exists(temporary_)) {
-    // Only `commit` has taken it away: the rows stand in their place, and those of this process go nowhere.
+    // Only `commit` can have removed it: the rows are in place, and those of this process are dropped.
     temporary_ = fresh;
     place_.clear();
     return;

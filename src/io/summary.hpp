@@ -1,4 +1,4 @@
-// summary.json: what a run came to. Keys and units: docs/files.md.
+// summary.json: the result of a run. Keys and units: docs/files.md.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace edmill::io {
 
-/// Where a run came from, as text.
+/// Provenance of a run, as text.
 struct Provenance {
   std::string case_file, case_digest, precision, version, commit, compiler;
   std::uint64_t seed = 0;
@@ -33,11 +33,11 @@ struct Summary {
   model::Energy<Real> energy_at_start, energy_at_end;
   std::uint64_t touched_impacts = 0;  ///< by the least separation speed (theory.md, section 6)
   Real touched_dose{0};               ///< of these impacts [J]
-  Real supplied_energy{0};            ///< by these impacts to the motion [J]
+  Real supplied_energy{0};            ///< by these impacts [J]
   std::optional<model::InelasticCollapse<Real>> collapse;
   std::vector<Escalations> escalations;
   std::optional<Real> powder_mass, ball_mass;
-  std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could tell apart
+  std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could separate
   Real deepest_overlap{0};                  ///< by rounding, at any impact [m]
   double cpu_seconds = 0;
   std::uint64_t total_impacts = 0;  ///< since the start of the run
@@ -48,7 +48,7 @@ struct Summary {
     for (const auto c : collisions) sum += c;
     return sum;
   }
-  /// sum WE - sum MD + supplied energy - change of (KE + PE) [J]; zero but for rounding.
+  /// sum WE - sum MD + supplied energy - change of (KE + PE) [J]; zero up to rounding.
   Real energy_closure() const {
     return wall_work - milling_dose + supplied_energy -
            ((energy_at_end.kinetic + energy_at_end.potential) -

@@ -1,4 +1,4 @@
-// The results that come first, what the thesis has for them, and warnings.
+// The main results, the comparison with the thesis, and warnings.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -69,10 +69,9 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
   if (const auto series = rate_of(run, "milling_dose"); series && any) {
     const auto batches = batches_of(*series, f.start_time, f.end_time);
     add(section, "p", {{"class", "note"}},
-        fmt::format(
-            "\u00b1: 95 % interval of this run, Student\u2019s t over {} batches of {} s. It holds for "
-            "longer runs of the same mill; other seeds may settle elsewhere (edmill sweep).",
-            batches.means.size(), readable(batches.length)));
+        fmt::format("\u00b1: 95 % interval of this run, Student\u2019s t over {} batches of {} s. It covers "
+                    "longer runs of the same mill; other seeds may settle at another mean (edmill sweep).",
+                    batches.means.size(), readable(batches.length)));
   } else if (!series) {
     add_missing(section, "intervals",
                 "type = \"trends\", columns = [{ variable = \"milling_dose\", statistics = [\"rate\"] }]");
@@ -85,7 +84,7 @@ void add_ward(pugi::xml_node main, const RunFolder& run) {
   const auto ward = ward_case_of(run.spec);
   const auto& f = run.facts;
   if (!ward || !(f.duration() > 0) || !(f.milling_dose > 0)) return;
-  auto section = add_section(main, "thesis", "Beside the thesis");
+  auto section = add_section(main, "thesis", "Comparison with the thesis");
   const double inverse = f.duration() / f.milling_dose, rate = f.all_collisions() / f.duration();
   const auto width = half_width_of(run, "milling_dose");
   const auto [here, interval] = plot::with_interval(inverse, width.value_or(0) * inverse * inverse);
@@ -101,10 +100,8 @@ void add_ward(pugi::xml_node main, const RunFolder& run) {
             {"quantity", "this run", "thesis", "thesis / this run"}, rows);
   add(section, "p", {{"class", "note"}},
       "A case of Ward et al. (2005) as Barahona (2011) ran it in chapter 5. The thesis's inverse dose rates "
-      "lie above "
-      "edmill's in all 24 cases: they come out when impacts in quick succession lose nothing (docs/ward.md). "
-      "Its "
-      "collision rates depend on how sustained contact is counted.");
+      "are higher than edmill's in all 24 cases: they result when impacts in quick succession lose no energy "
+      "(docs/ward.md). Its collision rates depend on the treatment of sustained contact.");
 }
 
 void add_warnings(pugi::xml_node main, const RunFolder& run) {

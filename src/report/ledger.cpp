@@ -1,4 +1,4 @@
-// The energy ledger, and what was run.
+// The energy balance, and the case.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using plot::readable;
 
 void add_energy(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
-  auto section = add_section(main, "energy", "Energy ledger");
+  auto section = add_section(main, "energy", "Energy balance");
   const double kinetic = f.kinetic_end - f.kinetic_start, potential = f.potential_end - f.potential_start;
   const auto row = [&](const std::string& name, double joules) {
     const bool timed = f.duration() > 0;
@@ -25,10 +25,10 @@ void add_energy(pugi::xml_node main, const RunFolder& run) {
   for (std::size_t k = 0; k < f.dose.size(); ++k)
     rows.push_back(row(std::string("dissipated, ") + partner_names[k], f.dose[k] == 0 ? 0 : -f.dose[k]));
   rows.push_back(row("supplied by the least separation speed", f.supplied_energy));
-  rows.push_back(row("into kinetic energy of the balls", kinetic == 0 ? 0 : -kinetic));
-  rows.push_back(row("into potential energy", potential == 0 ? 0 : -potential));
+  rows.push_back(row("stored as kinetic energy of the balls", kinetic == 0 ? 0 : -kinetic));
+  rows.push_back(row("stored as potential energy", potential == 0 ? 0 : -potential));
   rows.push_back(
-      {"left over, by rounding", readable(f.closure, 2),
+      {"closure error, by rounding", readable(f.closure, 2),
        f.milling_dose > 0 ? readable(std::abs(f.closure) / f.milling_dose, 2) + " of the dose" : "\u2013"});
   add_table(section, "ledger", "From the start of statistics to their end", {"", "energy [J]", "rate [W]"},
             rows);
@@ -59,7 +59,7 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   for (const auto& batch : spec.batches) rows.push_back({"balls", ball_text(batch, batch.count)});
   if (!spec.balls.empty())
     rows.push_back(
-        {"balls placed one by one", ball_text(spec.balls.front(), static_cast<int>(spec.balls.size()))});
+        {"balls placed individually", ball_text(spec.balls.front(), static_cast<int>(spec.balls.size()))});
   if (spec.powder_mass) rows.push_back({"powder", brief(1000 * spec.powder_mass->to<double>()) + " g"});
   const auto mm = [](const casefile::Quantity& q) { return brief(1000 * q.to<double>()); };
   rows.push_back({"vessel", fmt::format("cylinder, {} mm \u00d7 {} mm", mm(spec.vessel_diameter),
@@ -73,15 +73,15 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time),
                                             brief(f.end_time), model::name(f.end_reason))});
   rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.seed, f.precision)});
-  rows.push_back({"at least separation speed", fmt::format("{} % of the impacts, {} % of the dose",
-                                                           readable(100 * f.touched_impact_share, 3),
-                                                           readable(100 * f.touched_dose_share, 2))});
+  rows.push_back({"least separation speed", fmt::format("{} % of the impacts, {} % of the dose",
+                                                        readable(100 * f.touched_impact_share, 3),
+                                                        readable(100 * f.touched_dose_share, 2))});
   rows.push_back({"deepest overlap", readable(f.deepest_overlap, 2) + " m"});
   rows.push_back({"program", fmt::format("edmill {} ({}), {}", f.version, f.commit, f.compiler)});
-  rows.push_back({"cost", fmt::format("{} impacts in {} s of processor time",
-                                      brief(f.impacts_since_start, 12), readable(f.cpu_seconds, 3))});
+  rows.push_back({"CPU time", fmt::format("{} s for {} impacts", readable(f.cpu_seconds, 3),
+                                          brief(f.impacts_since_start, 12))});
   rows.push_back({"digest of the case", f.case_digest});
-  add_table(section, "run", "What was run", {"", ""}, rows);
+  add_table(section, "run", "Run", {"", ""}, rows);
   auto details = add(section, "details");
   add(details, "summary", {}, "The case file");
   add(add(details, "pre", {{"tabindex", "0"}}), "code", {}, spec.text);

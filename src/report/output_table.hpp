@@ -1,4 +1,4 @@
-// A table that an output wrote, as numbers.
+// A table of an output, as numbers.
 #pragma once
 
 #include <filesystem>
@@ -17,10 +17,10 @@ struct OutputTable {
   std::optional<double> from, until;            ///< of the record, where the table says so [s]
 
   double duration() const { return from && until ? *until - *from : 0; }
-  /// Place in `numbers` of a column whose name begins so ("total energy").
+  /// Index in `numbers` of the column whose name begins with this text ("total energy").
   /// @throws InputError when there is none
   std::size_t column(std::string_view name) const;
-  /// Rows whose first text is this one.
+  /// Rows with this first text.
   std::vector<std::vector<double>> rows_of(std::string_view text) const;
 };
 

@@ -1,4 +1,4 @@
-// What several sections of a report share.
+// Common parts of the sections of a report.
 #include <cmath>
 
 #include "model/impact_variables.hpp"
@@ -27,7 +27,7 @@ void add_missing(pugi::xml_node section, const std::string& what, const std::str
 void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
                const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows) {
   add(section, "h3", {{"id", id}}, caption);
-  // Wide tables scroll inside their own box, which the keyboard can reach.
+  // Wide tables scroll inside their own box, which can be focused by keyboard.
   auto box = add(section, "div",
                  {{"class", "table"}, {"tabindex", "0"}, {"role", "region"}, {"aria-labelledby", id}});
   auto table = add(box, "table", {{"aria-labelledby", id}});
@@ -43,7 +43,7 @@ void add_table(pugi::xml_node section, const std::string& id, const std::string&
 
 namespace {
 
-/// Whether the impacts of an output are those with one partner; with any for -1.
+/// Whether an output contains the impacts with one partner; with any for -1.
 bool records(const casefile::OutputSpec& output, int partner) {
   const int ball_ball = *model::find_variable("ball_ball"), id = *model::find_variable("partner");
   if (partner < 0) return output.only.empty();

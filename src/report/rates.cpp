@@ -1,4 +1,4 @@
-// Rates over time and by partner, and how fast the balls are.
+// Rates over time and by partner, and speeds of the balls.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_points = 120;
 
-/// A chart over the time of the run, with the start of statistics marked when something lies before it.
+/// A chart over the time of the run, with the start of statistics marked unless it is the beginning.
 plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
                       const std::string& y_title) {
   plot::Chart chart;
@@ -139,7 +139,7 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
                        "statistics = [\"average\", \"minimum\", \"maximum\"] }]");
   const auto table = read_table(run.file_of(*output), "a table of trends of balls");
   auto chart = over_time(run, "ball-speeds-over-time", "Ball speeds over time", "speed [m/s]");
-  // Fives, so that each point has all phases of the drive at which the report's own table looks.
+  // Groups of five, so that each point covers all phases of the drive that the report's own table samples.
   const std::size_t together = (table.numbers.size() / most_points + 5) / 5 * 5;
   plot::Curve mean{"mean of all balls", "c0", {}, false};
   plot::Band range{"c0", {}, {}, {}};
@@ -161,7 +161,7 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
   draw(grid, chart);
 }
 
-/// How fast balls are when they collide.
+/// Speeds of the balls at their impacts.
 void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
   const int variable = *model::find_variable("ball_speed_before");
   const auto* output = run.output("frequency", [&](const casefile::OutputSpec& o) {

@@ -34,7 +34,7 @@ std::string escaped(const std::string& text) {
   return plot::html_of(document);
 }
 
-/// What a reader sees at a glance.
+/// One line that identifies the case.
 std::string subtitle_of(const RunFolder& run) {
   const auto& spec = run.spec;
   std::string text = fmt::format("{} balls", spec.ball_count());
@@ -75,7 +75,7 @@ std::string player() {
 }  // namespace
 
 void add_animation(pugi::xml_node main, const RunFolder& run) {
-  auto section = add_section(main, "animation", "The mill at work");
+  auto section = add_section(main, "animation", "The mill in motion");
   const auto* output = run.output("animation", [](const auto&) { return true; });
   if (!output) return add_missing(section, "animation", "type = \"animation\"");
   const auto animation = read_animation(run.file_of(*output));

@@ -1,4 +1,4 @@
-// `edmill report`: what a run left, as one HTML page that needs nothing else.
+// `edmill report`: the files of a run as one self-contained HTML page.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ std::string report_page(const RunFolder& run);
 
 /// Writes report.html into the folder of a run.
 /// @return its place
-/// @throws InputError when the folder holds no run, or a broken one
+/// @throws InputError when the folder holds no complete run
 std::filesystem::path write_report(const std::filesystem::path& folder);
 
 }  // namespace edmill::report

@@ -43,7 +43,7 @@ std::string result_table(const io::Summary<Real>& s) {
   const auto of_dose = [&](const Real& energy) {
     return s.milling_dose > 0 ? 100 * real(energy) / real(s.milling_dose) : 0.0;
   };
-  row("at least separation speed",
+  row("least separation speed",
       fmt::format(
           "{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of the dose",
           total > 0 ? 100.0 * static_cast<double>(s.touched_impacts) / static_cast<double>(total) : 0.0,

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Looks keys up and gathers what is wrong with them.
+/// Looks up keys and collects their problems.
 class Reader {
  public:
   Reader(std::string file, const json& root) : file_(std::move(file)), root_(root) {}

@@ -1,4 +1,4 @@
-// What summary.json says, for reading: doubles whatever the scalar of the run.
+// The content of summary.json, in double for any scalar of the run.
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@ namespace edmill::report {
 
 namespace {
 
-/// First line of a case.toml whose run wrote the tables of the report too.
+/// First line of the case.toml of a run with --report.
 const std::string reported_mark = "# run with --report\n";
 
 bool starts_with_mark(const std::filesystem::path& file) {
@@ -49,7 +49,7 @@ const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits&
     // The file of a record that never began is empty.
     return std::filesystem::is_regular_file(file, ignored) && std::filesystem::file_size(file, ignored) > 0;
   };
-  // The report's own come last, and are the ones that surely suit it.
+  // The report's own outputs come last, and are certain to fit.
   for (auto output = spec.outputs.rbegin(); output != spec.outputs.rend(); ++output)
     if (output->type == type && !output->append && output->timer.on && !output->file.ends_with(".h5") &&
         is_written(*output) && fits(*output))
@@ -62,13 +62,13 @@ void add_report_outputs(casefile::CaseSpec& spec) {
   const auto before = spec.outputs.size();
   casefile::add_outputs(std::string(outputs_toml), "the outputs of the report", spec);
   const bool moving = spec.mill.type != "still";
-  // Powers of pi in the drive's period may be rounded: these are only times at which to look.
+  // Powers of pi in the drive's period may be rounded: these are only sampling times.
   const auto period = moving ? Quantity{boost::multiprecision::cpp_rational(spec.mill.period.to<double>())}
                              : Quantity{boost::multiprecision::cpp_rational(1, 20)};
   for (auto k = before; k < spec.outputs.size(); ++k) {
     auto& output = spec.outputs[k];
     if (output.type == "trends") {
-      output.timer.interval = period;  // whole turns of the drive can be compared
+      output.timer.interval = period;  // whole drive periods can be compared
     } else if (output.type == "trends_balls") {
       output.timer.interval = Quantity{period.value * 2 / 5};  // 5 phases of the drive in turn
     } else {
@@ -76,11 +76,11 @@ void add_report_outputs(casefile::CaseSpec& spec) {
     }
     if (output.type == "animation") {
       output.timer.duration = Quantity{period.value * (spec.ball_count() > 200 ? 1 : 2)};
-      output.animation.speed = Quantity{period.value / 4};  // a turn takes 4 s
+      output.animation.speed = Quantity{period.value / 4};  // a period takes 4 s
       output.animation.frames_per_minute = 20 * 60;
     }
     if (output.type == "frequency" && moving) {
-      // Balls are rarely three times as fast as the vessel's centre at its fastest.
+      // Balls are rarely faster than three times the peak speed of the vessel's centre.
       const auto& m = spec.mill;
       const double fastest =
           3 * 6.283185307179586 * m.arm.to<double>() * m.theta_max.to<double>() / m.period.to<double>();

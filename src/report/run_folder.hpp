@@ -1,4 +1,4 @@
-// What `edmill run` left in a folder, as the report reads it.
+// The folder of `edmill run`, as the report reads it.
 #pragma once
 
 #include <filesystem>
@@ -12,27 +12,27 @@
 
 namespace edmill::report {
 
-/// summary.json and case.toml of a run, and the tables that the case asked for.
+/// summary.json and case.toml of a run, and the tables of the case.
 struct RunFolder {
   std::filesystem::path place;
   RunFacts facts;
-  casefile::CaseSpec spec;  ///< with the outputs of the report when the run was made with them
+  casefile::CaseSpec spec;  ///< with the outputs of the report if the run had them
 
   using Fits = std::function<bool(const casefile::OutputSpec&)>;
   /// An output of a type, of which `fits` holds, that is CSV (or X3D), not appended to others, and
-  /// whose file is there and not empty; null when there is none. The last such output of the case.
+  /// whose file exists and is not empty; null when there is none. The last such output of the case.
   const casefile::OutputSpec* output(std::string_view type, const Fits& fits) const;
   std::filesystem::path file_of(const casefile::OutputSpec& output) const;
 };
 
-/// Writes case.toml, which a report needs: the case as it was run.
+/// Writes case.toml, which the report reads: the case as it was run.
 /// @param reported  the outputs of the report were added to it
 void write_case(const std::filesystem::path& place, const casefile::CaseSpec& spec, bool reported);
 
 /// @throws InputError when a file is missing or wrong
 RunFolder read_run_folder(const std::filesystem::path& place);
 
-/// Adds to a case what a report shows; their files are in the folder `report`.
+/// Adds the outputs of the report to a case; their files are in the folder `report`.
 void add_report_outputs(casefile::CaseSpec& spec);
 
 }  // namespace edmill::report

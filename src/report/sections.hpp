@@ -1,4 +1,4 @@
-// The parts of a report. Each adds a <section>, or says in a line which output it misses.
+// The parts of a report. Each adds a <section>, or one line that names the missing output.
 #pragma once
 
 #include "plot/markup.hpp"

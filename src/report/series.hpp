@@ -1,4 +1,4 @@
-// Rates over time, and how far their means can be trusted.
+// Rates over time, and the intervals of their means.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace edmill::report {
 
-/// The mean of a rate over each of a row of intervals.
+/// The mean of a rate over each of successive intervals.
 struct Series {
   std::vector<double> begin, end, rate;  ///< [s], [s], [unit/s]
 };
@@ -22,10 +22,10 @@ struct Series {
 std::optional<Series> series_of(const casefile::OutputSpec& output, const OutputTable& table, int variable,
                                 double start);
 
-/// Without a last interval that is shorter than the first: its rate has another scatter.
+/// Drops a last interval that is shorter than the first: its rate has another variance.
 Series whole(Series series);
 
-/// Intervals put together so that there are at most `most` of them; the last can be shorter.
+/// Intervals merged so that there are at most `most` of them; the last can be shorter.
 Series coarser(const Series& series, std::size_t most);
 
 /// Means over batches of equally many intervals.
@@ -38,7 +38,7 @@ struct Batches {
 /// leaves fewer than 5. Intervals that are shorter than the first are left out.
 Batches batches_of(const Series& series, double from, double until);
 
-/// Points of a line through the middles of the intervals.
+/// Points of a line through the midpoints of the intervals.
 plot::Points points_of(const Series& series);
 
 }  // namespace edmill::report

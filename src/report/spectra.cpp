@@ -1,4 +1,4 @@
-// How fast impacts are, and which of them dissipate the energy.
+// Impact speeds, and the energies at which dissipation takes place.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,8 +31,8 @@ plot::Points density(const OutputTable& table, const std::string& spectrum, cons
   return points;
 }
 
-/// Shows the bins that hold something that can be seen: on a linear y axis a thousandth of the top, on a
-/// logarithmic one what is within 5 decades of it.
+/// Shows the bins with a visible value: on a linear y axis a thousandth of the top, on a
+/// logarithmic one within 5 decades of it.
 void fit(plot::Chart& chart) {
   double first = 0, last = 0, top = 0;
   for (const auto& curve : chart.curves)

@@ -1,4 +1,4 @@
-// Where on the vessel the dose lands.
+// Distribution of the dose over the vessel.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,9 +79,8 @@ void add_vessel(pugi::xml_node main, const RunFolder& run) {
     draw(grid, map);
   }
   add(section, "p", {{"class", "note"}},
-      "Angles begin at the side that points along the arm, away from the fulcrum. Cells of one wall have "
-      "equal areas. "
-      "The caps share a scale.");
+      "Angles are measured from the direction along the arm, away from the fulcrum. Cells of one wall have "
+      "equal areas. The caps share a scale.");
 }
 
 }  // namespace edmill::report

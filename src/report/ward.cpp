@@ -38,7 +38,7 @@ bool same_ball(const casefile::BallSpec& a, const casefile::BallSpec& b) {
          same(a.reduced_inertia, b.reduced_inertia);
 }
 
-/// Whether every ball of a case is this one.
+/// Whether every ball of a case equals this one.
 bool all_balls_are(const CaseSpec& spec, const casefile::BallSpec& ball) {
   for (const auto& b : spec.balls)
     if (!same_ball(b, ball)) return false;
@@ -47,7 +47,7 @@ bool all_balls_are(const CaseSpec& spec, const casefile::BallSpec& ball) {
   return true;
 }
 
-/// A case of the table as a case file would say it.
+/// A case of the table as a case file.
 CaseSpec spec_of(const WardCase& ward) {
   return casefile::parse_case(
       std::string(ward_toml), "ward.toml",

@@ -1,4 +1,4 @@
-// The 24 cases of the thesis's chapter 5 (Ward et al. 2005), known by what they are.
+// The 24 cases of the thesis's chapter 5 (Ward et al. 2005), recognised by their parameters.
 #pragma once
 
 #include <optional>
@@ -21,8 +21,8 @@ struct WardCase {
 /// All of them.
 std::vector<WardCase> ward_cases();
 
-/// The one that a case is: the same mill, vessel, gravity, contact law, balls and powder, exactly. The
-/// least separation speed, which the thesis does not have, the seed, times and how the balls are placed are
+/// The case of the thesis with exactly the same mill, vessel, gravity, contact law, balls and powder. The
+/// least separation speed, which the thesis does not have, the seed, times and the placement of the balls are
 /// free.
 std::optional<WardCase> ward_case_of(const casefile::CaseSpec& spec);
 

@@ -21,14 +21,15 @@ void check_end(const RunFacts& f, std::vector<Warning>& list) {
   using model::EndReason;
   const auto warn = [&](const std::string& text) { list.push_back({"end_reason", text}); };
   if (f.end_reason == EndReason::interrupted)
-    warn("The run was interrupted; everything here is up to that moment.");
+    warn("The run was interrupted; the results cover the time up to then.");
   if (f.end_reason == EndReason::inelastic_collapse)
     warn("The run ended in inelastic collapse: a ball met another body infinitely often in a finite time.");
   if (f.end_reason == EndReason::undecided)
-    warn("The run ended at a decision that no scalar could make; everything here is up to that moment.");
+    warn("The run ended at a decision that no scalar could make; the results cover the time up to then.");
 }
 
-/// Whether the mill was still warming up: the first batch stands apart from the others, or the halves differ.
+/// Whether the transient is not over: the first batch is outside the others' prediction interval, or the
+/// halves differ.
 bool drifts(const std::vector<double>& means) {
   const auto half = means.begin() + static_cast<std::ptrdiff_t>(means.size() / 2);
   return study::stands_apart(means.front(), {means.begin() + 1, means.end()}, 0.01) ||
@@ -42,14 +43,14 @@ std::vector<Warning> warnings_of(const RunFacts& f, const Batches& dose_rate) {
   check_end(f, list);
   if (f.all_collisions() < fewest_collisions)
     list.push_back({"too_few_collisions",
-                    fmt::format("Only {} collisions were counted; below {} no rate here means much.",
+                    fmt::format("Only {} collisions were counted; below {} the rates are not reliable.",
                                 plot::brief(f.all_collisions()), plot::brief(fewest_collisions))});
   if (!dose_rate.means.empty()) {
     const auto e = study::estimate(dose_rate.means);
     if (drifts(dose_rate.means))
       list.push_back(
           {"transient",
-           "The dose rate drifts within the statistics: begin them later (run.start_time), until it "
+           "The dose rate drifts within the statistics: begin them later (run.start_time), when it "
            "is steady."});
     if (e.half_width.value_or(0) > interval_limit * std::abs(e.mean.value_or(0)))
       list.push_back(
@@ -61,16 +62,15 @@ std::vector<Warning> warnings_of(const RunFacts& f, const Batches& dose_rate) {
     list.push_back(
         {"separation_share",
          fmt::format("{} % of the dose comes from impacts that the least separation speed decides: "
-                     "run with half of contact.least_separation, too.",
+                     "run also with half of contact.least_separation.",
                      readable(100 * f.touched_dose_share, 2))});
   if (f.milling_dose > 0 && f.supplied_energy > supplied_share_limit * f.milling_dose)
-    list.push_back(
-        {"supplied_energy",
-         fmt::format("The least separation speed supplies {} % of the dose as energy of motion: run "
-                     "with a smaller contact.least_separation.",
-                     readable(100 * f.supplied_energy / f.milling_dose, 2))});
+    list.push_back({"supplied_energy",
+                    fmt::format("The least separation speed supplies {} % of the dose as kinetic energy: run "
+                                "with a smaller contact.least_separation.",
+                                readable(100 * f.supplied_energy / f.milling_dose, 2))});
   if (f.milling_dose > 0 && std::abs(f.closure) > closure_limit * f.milling_dose)
-    list.push_back({"energy", fmt::format("Energy closes to {} of the dose only.",
+    list.push_back({"energy", fmt::format("Energy closes only to {} of the dose.",
                                           readable(std::abs(f.closure) / f.milling_dose, 2))});
   return list;
 }

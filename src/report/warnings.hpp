@@ -1,4 +1,4 @@
-// What a reader of a report should know before believing it. docs/report.md defines each.
+// Warnings about the results of a run. docs/report.md defines each.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Warning {
   std::string text;
 };
 
-/// @param dose_rate  batches of the milling dose rate; none when the run left no series
+/// @param dose_rate  batches of the milling dose rate; none when the run has no series
 std::vector<Warning> warnings_of(const RunFacts& facts, const Batches& dose_rate);
 
 }  // namespace edmill::report

@@ -1,4 +1,4 @@
-// How far two runs of one case in two scalars agree.
+// Agreement of two runs of one case in two scalars.
 #pragma once
 
 #include <optional>
@@ -8,22 +8,22 @@
 
 namespace edmill::run {
 
-/// How two sequences of events agree. Digits of a quantity are -log10 of the largest difference over the
-/// largest size of that quantity so far, so that values near zero do not count as disagreement.
+/// Agreement of two sequences of events. Digits of a quantity are -log10 of the largest difference over the
+/// largest magnitude of that quantity so far, so that values near zero do not count as disagreement.
 class Agreement {
  public:
   /// Takes the next event of both runs. @return false, and takes nothing, when the bodies differ
   bool take(const Event& one, const Event& two);
 
   std::size_t events() const { return events_; }
-  /// Balls that took part, counted at each event: two where balls collide.
+  /// Number of balls involved, summed over the events: two where balls collide.
   std::size_t bodies() const { return bodies_; }
   /// Digits to which all events taken agree; `most` when no difference was seen.
   double digits(Quantity quantity) const;
   double least_digits() const;
   static constexpr double most = 1000;
 
-  /// Digits lost with each event, by least squares over the times of the events; none when there are fewer
+  /// Digits lost per event, by least squares over the times of the events; none when there are fewer
   /// than ten with a difference.
   std::optional<double> digits_lost_per_event() const;
 

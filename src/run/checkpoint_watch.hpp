@@ -11,10 +11,10 @@ namespace edmill::run {
 /// How often checkpoints are made.
 struct CheckpointInterval {
   double seconds;          ///< above 0
-  bool simulated = false;  ///< of simulated time; otherwise by the clock on the wall
+  bool simulated = false;  ///< of simulated time; otherwise of wall-clock time
 };
 
-/// Pauses the run when a checkpoint is due. A checkpoint changes nothing in a run, so that it does not matter
+/// Pauses the run when a checkpoint is due. A checkpoint does not change the run, so it does not matter
 /// when it is made, nor that simulated time is taken in double.
 template <class Real>
 class CheckpointWatch : public engine::Observer<Real> {
@@ -28,7 +28,7 @@ class CheckpointWatch : public engine::Observer<Real> {
       if (now < next_) return;
       next_ = now + interval_.seconds;
     } else {
-      // Reading a clock costs more than a collision: look at it now and then.
+      // Reading a clock costs more than a collision, so it is not read at each one.
       if (++since_look_ < look_every_) return;
       since_look_ = 0;
       if (Clock::now() - made_ < std::chrono::duration<double>(interval_.seconds)) return;

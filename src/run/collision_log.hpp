@@ -8,7 +8,7 @@
 
 namespace edmill::run {
 
-/// SI; balls and impacts count from 0; every number in as many digits as round-trip in its scalar.
+/// SI; balls and impacts count from 0; every number has enough digits to round-trip in its scalar.
 inline constexpr const char* collision_log_header =
     "index,time,ball,partner_kind,partner,approach_speed,slip_speed,milling_dose,wall_work";
 

@@ -1,4 +1,4 @@
-// The events of a run, one after the other, in numbers that hold those of every scalar.
+// The events of a run in order, in a number type that holds the values of every scalar.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace edmill::run {
 
-/// Wide enough to hold a number of any scalar digit for digit.
+/// Wide enough to hold a number of any scalar exactly.
 using Number = mpfr200;
 
-/// What is compared of an impact, in SI.
+/// The quantities of an impact that are compared, in SI.
 enum Quantity : int { time, approach_speed, slip_speed, milling_dose, wall_work, quantity_count };
 const char* name_of(Quantity quantity);
 const char* unit_of(Quantity quantity);
@@ -24,24 +24,24 @@ struct Event {
   bool with_wall = false;
   int partner = 0;  ///< ball or wall id
   std::array<Number, quantity_count> values;
-  bool by_rule = false;  ///< another contact is at the same time, and a rule put this one first
+  bool by_rule = false;  ///< another contact has the same time, and a rule put this one first
 
   bool same_bodies(const Event& other) const {
     return ball == other.ball && with_wall == other.with_wall && partner == other.partner;
   }
 };
 
-/// A run that can be asked for its next events.
+/// A run that delivers its events on request.
 class EventSource {
  public:
   virtual ~EventSource() = default;
-  /// The next `count` events; fewer when the run has come to its end.
+  /// The next `count` events; fewer at the end of the run.
   /// @throws UndecidedError
   virtual std::vector<Event> next(std::size_t count) = 0;
 };
 
 /// @param spec     the balls are placed in this scalar, from the exact quantities of the case
-/// @param to_end   whether the run ends at the case's end time; otherwise it goes on as long as it is asked
+/// @param to_end   whether the run ends at the case's end time; otherwise it continues on request
 template <class Real>
 std::unique_ptr<EventSource> make_source(const casefile::CaseSpec& spec, bool to_end);
 

@@ -22,7 +22,8 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
 
   std::vector<Event> next(std::size_t count) override {
     while (waiting_.size() < count && !over_) {
-      // A window that is short beside the time that so many events take, so that few are made in vain.
+      // A window that is short compared with the duration of that many events, so that few are computed in
+      // vain.
       reached_ = simulation_.clock().after(reached_, simulation_.clock().period() / 16);
       const bool last = !(reached_ < end_);
       over_ = simulation_.run_until(last ? end_ : reached_) != engine::EndReason::end_time || last;

@@ -32,7 +32,7 @@ class ProgressLine {
     std::uint64_t collisions;
   };
   std::optional<double> end_;
-  std::optional<Look> first_;  ///< a run that goes on did not begin here
+  std::optional<Look> first_;  ///< a resumed run did not begin here
   Clock::time_point shown_;
   bool visible_ = false;
 };
@@ -44,7 +44,7 @@ class Progress : public engine::Observer<Real> {
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
     dose_ += static_cast<double>(impact.outcome.milling_dose);
-    // Reading a clock costs more than a collision: look at it now and then.
+    // Reading a clock costs more than a collision, so it is not read at each one.
     if (++since_look_ < look_every_) return;
     since_look_ = 0;
     line_.show(static_cast<double>(simulation.seconds()), impact.index + 1, dose_);

@@ -16,7 +16,8 @@ inline double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Takes a run to the start of statistics, then with them to its end, with a checkpoint now and then.
+/// The stages of a run: up to the start of statistics, then with them to the end, with checkpoints in
+/// between.
 template <class Real>
 class RunDriver {
  public:
@@ -67,7 +68,7 @@ class RunDriver {
   engine::Simulation<Real>& simulation() { return simulation_; }
   const engine::Simulation<Real>& simulation() const { return simulation_; }
   const run::RunStatistics<Real>& statistics() const { return statistics_; }
-  /// Where statistics begin: at the present when they have not [s].
+  /// Start of statistics; the current time before they have begun [s].
   Real counted_from() const { return simulation_.clock().seconds(counting_ ? start_ : simulation_.now()); }
   model::Energy<Real> energy_at_start() const {
     return counting_ ? energy_at_start_ : simulation_.energy_at(simulation_.now());

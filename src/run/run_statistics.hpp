@@ -1,4 +1,4 @@
-// Totals of a run from the start of statistics on.
+// Totals of a run since the start of statistics.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ class RunStatistics : public engine::Observer<Real> {
   const std::array<Totals, model::partner_kinds>& by_partner() const { return totals_; }
 
   std::uint64_t collisions() const { return count(&Totals::collisions); }
-  /// Impacts whose speed of separation is the least one.
+  /// Impacts that separate at the least separation speed.
   std::uint64_t touched() const { return count(&Totals::touched); }
   Real milling_dose() const { return sum(&Totals::milling_dose); }
   /// Dose of those impacts [J].

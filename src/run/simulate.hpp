@@ -17,20 +17,20 @@
 
 namespace edmill::run {
 
-/// States of a run from which it can go on.
+/// States of a run from which it can be resumed.
 struct Checkpoints {
   std::optional<run::CheckpointInterval> every;
-  /// Takes a state of the run: each time that one is due, and when the run is interrupted.
+  /// Called with a state of the run each time that one is due, and when the run is interrupted.
   std::function<void(const std::string& state)> save;
-  /// The state to go on from; empty at the start of a run. It must be of the same case and program.
+  /// The state to resume from; empty at the start of a run. It must be of the same case and program.
   std::string_view restored;
 };
 
 template <class Real>
 struct Guests {
-  std::vector<engine::Observer<Real>*> observers;  ///< told of every impact, in this order
+  std::vector<engine::Observer<Real>*> observers;  ///< notified of every impact, in this order
   const std::atomic<bool>* interrupt = nullptr;    ///< ends the run when it becomes true
-  Checkpoints checkpoints{};                       ///< they hold the observers too
+  Checkpoints checkpoints{};                       ///< they include the observers
 };
 
 template <class Real>
@@ -39,7 +39,7 @@ struct Result {
   io::SavedState<Real> saved;  ///< at the end of the run
 };
 
-/// Runs `built` to the end that `spec` asks for. A decision that no scalar could make is told in the summary.
+/// Runs `built` to the end given in `spec`. A decision that no scalar could make is reported in the summary.
 /// @pre `built` was made of `spec`
 /// @throws InterruptedError when the interrupt comes before the first event
 template <class Real>

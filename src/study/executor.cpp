@@ -59,7 +59,7 @@ bool Executor::hand_out(const Job& job) {
 
 void Executor::take(const RunRecord& record, const std::function<void(const RunRecord&)>& done) {
   --running_;
-  // A signal that reached another rank only ends the whole.
+  // A signal that reached only another rank ends the whole study.
   if (record.status == "interrupted")
     interrupt_ = true;
   else
@@ -91,7 +91,7 @@ void Executor::run(std::vector<Job> jobs, const std::function<void(const RunReco
     for (const auto& record : workers_->finished(milliseconds(ranks_.size() > 1 ? 2 : 50)))
       take(record, done);
     tick();
-    // Other ranks would end their runs first: they are left to the destructor.
+    // Other ranks would finish their runs first; the destructor waits for them.
     if (interrupt_ && !workers_->busy()) break;
   }
 }

@@ -25,7 +25,7 @@ using RunFunction = std::function<RunRecord(const Job&)>;
 /// Threads of this process that do jobs.
 class Workers;
 
-/// The side of rank 0: hands jobs out and takes their records back, in the thread that calls `run`.
+/// The side of rank 0: distributes jobs and collects their records, in the thread that calls `run`.
 class Executor {
  public:
   /// @param threads  of each rank; 0 for all cores
@@ -34,9 +34,9 @@ class Executor {
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
 
-  /// Does all jobs; returns early, with what could be ended, when it is interrupted.
-  /// @param done  is told of every record, in any order
-  /// @param tick  is called now and then
+  /// Does all jobs; returns early, with the finished ones, when it is interrupted.
+  /// @param done  called with every record, in any order
+  /// @param tick  called regularly
   void run(std::vector<Job> jobs, const std::function<void(const RunRecord&)>& done,
            const std::function<void()>& tick);
 
@@ -54,7 +54,7 @@ class Executor {
   std::size_t running_ = 0;
 };
 
-/// The side of every other rank: does what rank 0 hands out until it says stop.
+/// The side of every other rank: does the jobs of rank 0 until it sends stop.
 void serve(Ranks& ranks, int threads, const RunFunction& run, std::atomic<bool>& interrupt);
 
 }  // namespace edmill::study

@@ -36,8 +36,8 @@ class Search {
     optimum.best = best();
     if (optimum.best) optimum.contenders = contenders(*optimum.best);
     optimum.why = study_.interrupted() ? "interrupted"
-                  : out_of_budget_     ? "the budget of runs_max is used"
-                                       : "the grid is as fine as asked for";
+                  : out_of_budget_     ? "the budget of runs_max is used up"
+                                       : "the grid is as fine as requested";
     return optimum;
   }
 
@@ -61,7 +61,7 @@ class Search {
     return v.values.empty() ? fmt::format("{:.6g}", x) + v.unit : v.values[static_cast<std::size_t>(x)];
   }
 
-  /// A point that is new, within bounds and the budget.
+  /// A new point, within bounds and the budget.
   bool add_point(Coordinates at) {
     Point point;
     for (std::size_t k = 0; k < at.size(); ++k) {
@@ -110,7 +110,7 @@ class Search {
     add_product(lists);
   }
 
-  /// Half the step, one step to both sides of the best point.
+  /// Halves the step and adds one step to both sides of the best point.
   bool refine() {
     const auto centre = best();
     if (!centre) return false;
@@ -125,7 +125,7 @@ class Search {
     return add_product(lists);
   }
 
-  /// Doubles the runs of all that may be the best until one is left or they have all that they may have.
+  /// Doubles the runs of all points that may be the best until one is left or all have the most runs allowed.
   void separate() {
     while (!stopped()) {
       const auto leader = best();
@@ -201,8 +201,8 @@ std::string describe(const OptimizeSpec& spec, const Study& study, const Optimum
   std::string text = fmt::format("largest {} of {} points, 95 % interval; the search ended: {}\n",
                                  spec.objective, study.points().size(), optimum.why);
   text += line_of(spec, study, *optimum.best);
-  text += optimum.contenders.empty() ? "every other point is less, at 5 % for all comparisons together\n"
-                                     : "not to be told apart from it, at 5 % for all comparisons together:\n";
+  text += optimum.contenders.empty() ? "every other point is smaller, at 5 % for all comparisons together\n"
+                                     : "indistinguishable from it, at 5 % for all comparisons together:\n";
   for (const auto k : optimum.contenders) text += line_of(spec, study, k);
   const auto& points = study.points();
   const auto excluded =

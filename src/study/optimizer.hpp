@@ -1,4 +1,4 @@
-// Which settings make an objective largest, and how sure that is.
+// The settings that maximise an objective, with their uncertainty.
 #pragma once
 
 #include <optional>
@@ -9,15 +9,15 @@ namespace edmill::study {
 
 struct Optimum {
   std::optional<std::size_t> best;      ///< index of a point; nothing when no point has a value
-  std::vector<std::size_t> contenders;  ///< points that cannot be told apart from the best
-  std::string why;                      ///< the search ended
+  std::vector<std::size_t> contenders;  ///< points that are indistinguishable from the best
+  std::string why;                      ///< reason for the end of the search
 };
 
 /// Evaluates a grid with a few runs at each point, gives more runs to those that may be the best, and makes
 /// the grid finer around the best, until the budget is used. Depends on the results only, not on their order.
 Optimum optimize(const casefile::OptimizeSpec& spec, Study& study);
 
-/// Lines for people.
+/// The result as text.
 std::string describe(const casefile::OptimizeSpec& spec, const Study& study, const Optimum& optimum);
 
 }  // namespace edmill::study

@@ -15,7 +15,7 @@ namespace edmill::study {
 
 namespace {
 
-/// The count of balls that comes nearest to a charge ratio; 1 at least.
+/// The count of balls nearest to a charge ratio; at least 1.
 std::string count_of(const casefile::CaseSpec& spec, const std::string& ratio) {
   const auto fail = [&](const std::string& found, const std::string& expected) {
     throw InputError(spec.file + ": key 'charge_ratio': found " + found + ", expected " + expected);
@@ -35,7 +35,7 @@ std::string count_of(const casefile::CaseSpec& spec, const std::string& ratio) {
 double cost_of(const casefile::CaseSpec& spec) {
   const double balls = static_cast<double>(spec.ball_count());
   const double start = spec.initial_time.to<double>();
-  // A run without an end time may be long: it begins early.
+  // A run without an end time may be long: it starts early.
   const double time = spec.end_time ? spec.end_time->to<double>() - start : 1e9;
   return balls * time;
 }

@@ -13,7 +13,7 @@ namespace edmill::study {
 struct Run {
   std::uint64_t seed = 0;
   Job job;
-  std::optional<RunRecord> record;  ///< nothing until it has ended
+  std::optional<RunRecord> record;  ///< nothing until the run has ended
 };
 
 struct Point {
@@ -30,7 +30,7 @@ struct Point {
 /// Points of a sweep: the entries times the grid, whose last key changes fastest.
 std::vector<Point> points_of(const casefile::SweepSpec& spec);
 
-/// The run of a point with a seed. A case that is bad at this point is a record at once.
+/// The run of a point with a seed. A case that is invalid at this point gives a record without a run.
 Run make_run(const casefile::StudySpec& spec, const Point& point, std::uint64_t seed);
 
 }  // namespace edmill::study

@@ -14,7 +14,7 @@ namespace edmill::study {
 
 namespace {
 
-/// Without a launcher MPI_Init would start daemons for nothing, and needs a network to do so.
+/// Without a launcher MPI_Init would needlessly start daemons, which requires a network.
 bool launched() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"})
     if (std::getenv(name)) return true;

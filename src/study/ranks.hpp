@@ -1,4 +1,4 @@
-// The processes of a run under mpirun; one alone without it.
+// The processes of a run under mpirun; a single one without it.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ class Ranks {
   int size() const { return size_; }
 
   void send(int to, const std::string& text) const;
-  /// A message that has arrived, and from where; does not wait for one.
+  /// A message that has arrived, and its source; does not wait for one.
   std::optional<std::pair<int, std::string>> receive() const;
 
  private:

@@ -1,4 +1,4 @@
-// What a study keeps of a run: enough for its tables, and to know it again.
+// The record of a run in a study: enough for its tables, and to identify it.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct RunRecord {
   double cpu_seconds = 0;
 
   bool done() const { return status == "done"; }
-  /// Whether the same run would come to the same again.
+  /// Whether repeating the run would give the same result.
   bool lasting() const {
     return done() || status == model::name(model::EndReason::inelastic_collapse) ||
            status == model::name(model::EndReason::undecided);
@@ -65,7 +65,7 @@ RunRecord failed_run(const std::string& digest, const std::string& status, const
 
 /// One line of JSON, with version and commit of this program.
 std::string to_json(const RunRecord& record);
-/// Nothing for a text that is no record, or one of another version or commit.
+/// Nothing for a text that is not a record, or a record of another version or commit.
 std::optional<RunRecord> from_json(const std::string& text);
 
 /// The numbers that tables average.

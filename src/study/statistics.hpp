@@ -1,4 +1,4 @@
-// Means of a few runs and how far they can be trusted.
+// Means of a few runs and their intervals.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ struct Estimate {
 Estimate estimate(const std::vector<double>& values);
 
 /// Whether the means of two samples differ at `significance` (Welch's test, two-sided). Samples of fewer than
-/// two values cannot be told apart.
+/// two values never differ.
 bool differ(const std::vector<double>& a, const std::vector<double>& b, double significance);
 
-/// Whether a value lies outside of where another value of this sample would lie with probability
-/// 1 - `significance` (Student's prediction interval). Of fewer than two values nothing stands apart.
+/// Whether a value is outside the interval that contains another value of this sample with probability
+/// 1 - `significance` (Student's prediction interval). Always false for fewer than two values.
 bool stands_apart(double value, const std::vector<double>& sample, double significance);
 
 }  // namespace edmill::study

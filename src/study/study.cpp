@@ -59,7 +59,7 @@ void Study::require_a_good_case() const {
   for (const auto& point : points_)
     for (const auto& run : point.runs)
       if (!run.record) return;
-  // Once more, for its problems one by one.
+  // Read again to report its problems one by one.
   const auto& job = points_.front().runs.front();
   casefile::read_case(job.job.case_file, job.job.overrides);
   throw InputError(spec_.file + ": at every point: " + job.record->message);
@@ -102,7 +102,7 @@ void Study::tick() {
   const auto now = std::chrono::steady_clock::now();
   if (now < next_write_) return;
   write_tables();
-  // Large tables take their time: no more than a twentieth of all.
+  // Large tables take time to write: at most a twentieth of the total.
   const auto after = std::chrono::steady_clock::now();
   next_write_ = after + std::max<std::chrono::nanoseconds>(std::chrono::seconds(1), 20 * (after - now));
   if (!show_) return;

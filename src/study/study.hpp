@@ -1,4 +1,4 @@
-// Many runs of one case: which are to do, which are known from an earlier time, and their tables on disk.
+// Many runs of one case: those to do, those reused from an earlier study, and their tables on disk.
 #pragma once
 
 #include <chrono>
@@ -30,7 +30,7 @@ class Study {
   /// @throws InputError with the problems of the first point when no point has a good case
   void require_a_good_case() const;
 
-  /// Does every run that is not known, then writes the tables.
+  /// Does every run without a record, then writes the tables.
   void run();
   void write_tables() const;
 

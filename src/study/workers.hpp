@@ -25,7 +25,7 @@ class Workers {
   bool has_idle() const;
   bool busy() const;
   void start(const Job& job);
-  /// Records since the last call; waits a while for one when jobs are running.
+  /// Records since the last call; waits briefly for one when jobs are running.
   std::vector<RunRecord> finished(std::chrono::milliseconds wait);
 
  private:
@@ -33,7 +33,7 @@ class Workers {
 
   int threads_;
   RunFunction run_;
-  tbb::global_control control_;  ///< TBB keeps to the number of cores without it
+  tbb::global_control control_;  ///< without it TBB limits itself to the number of cores
   tbb::task_arena arena_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # A double run gives the same bits from g++ -O0, g++ -O3 -march=native and clang++ -O2, and from the program as it was
-# built: the SHA-256 of the logs of 28 balls, which are all looked at, of 600 in cells, and of 2000, for which memory is
-# asked early.
+# built: the SHA-256 of the logs of 28 balls, which are all searched, of 600 in cells, and of 2000, with prefetching.
 # usage: same_bits_test.sh PROGRAM FOLDER LIBRARY... -- FLAG...
 set -euo pipefail
 cd "$(dirname "$0")/../.."

@@ -1,4 +1,4 @@
-# What keeps the house in order.
+# Tests of the source tree.
 set(architecture ${CMAKE_CURRENT_SOURCE_DIR}/architecture)
 add_test(NAME layers_test COMMAND ${architecture}/layers_test.sh)
 add_test(NAME headers_test COMMAND ${architecture}/headers_test.sh ${CMAKE_CXX_COMPILER})

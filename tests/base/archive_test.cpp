@@ -1,4 +1,4 @@
-// What an archive loads is what it has saved, in every scalar, to the last bit.
+// An archive loads what it has saved, in every scalar, to the last bit.
 #include "base/archive.hpp"
 
 #include <gtest/gtest.h>

@@ -47,7 +47,7 @@ TEST(Hermite, PositiveIsProvenOnlyWherePositive) {
     ++proven;
     ASSERT_TRUE(is_positive);
   }
-  EXPECT_GT(proven, positive * 3 / 4);  // and it is rarely shy
+  EXPECT_GT(proven, positive * 3 / 4);  // and it is rarely much too small
 }
 
 TEST(Hermite, MonotonyIsProvenOnlyWhereMonotone) {

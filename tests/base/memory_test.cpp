@@ -1,4 +1,4 @@
-// Large vectors hold what they are given, at home in large pages once they fill one.
+// Large vectors keep their content, and use large pages once they fill one.
 #include "base/memory.hpp"
 
 #include <gtest/gtest.h>

@@ -70,8 +70,8 @@ TEST(BuildCase, RandomSpeedsStayBelowTheLimitAndPointEverywhere) {
 }
 
 TEST(BuildCase, FinalStateContinuesTheRunExactly) {
-  // A run of 0.2 s, and one of 0.1 s continued from its final state: the same trajectory but for the rounding
-  // of advancing every ball at 0.1 s, so the first events after it agree closely.
+  // A run of 0.2 s, and one of 0.1 s continued from its final state: the same trajectory except for the
+  // rounding of advancing every ball at 0.1 s, so the first events after it agree closely.
   const auto s = spec(testing::batch(5, "9.52 mm"), "end_time = \"0.1 s\"");
   const auto built = build_case<mpfr50>(s);
   engine::Simulation<mpfr50> whole(built.the_case, built.states, built.start);

@@ -263,7 +263,7 @@ TEST(CaseSpec, TheCommandLineOverridesTheFile) {
 }
 
 TEST(CaseSpec, NumbersOfTheCommandLineStayExact) {
-  // The file's first line must not be taken for the setting's text.
+  // The first line of the file must not be shown as the text of the setting.
   const std::string text = "#       [1, 2, 3, 4, 5, 6, 7, 8, 9]\n" + least;
   const CaseSpec c = read(text, {"run.gravity=[0.1, -9.81, 1e-3]", "balls.00.reduced_inertia=0.35",
                                  "contact.ball_ball={restitution=0.7, friction=0.3}",
@@ -365,7 +365,7 @@ TEST(CaseSpec, EveryProblemIsReportedOnce) {
 }
 
 TEST(CaseSpec, GapsAreKeptBetweenBatchesOfOtherSizesAndGaps) {
-  // Large balls without gaps first, then small ones that ask for a wide gap.
+  // Large balls without gaps first, then small ones with a wide gap.
   const std::string text = replaced(least, "[[balls]]\ndiameter = \"4.76 mm\"\n",
                                     "[[balls]]\ncount = 3\ndiameter = \"10 mm\"\ngap_ball = \"0 mm\"\n"
                                     "[[balls]]\ncount = 3\ndiameter = \"2 mm\"\ngap_ball = \"8 mm\"\n");

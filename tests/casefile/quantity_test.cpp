@@ -1,4 +1,5 @@
-// Quantities with units: exact values worked out by hand, udunits2 as a second opinion, exact wide scalars.
+// Quantities with units: exact values worked out by hand, udunits2 as an independent reference, exact wide
+// scalars.
 #include "casefile/quantity.hpp"
 
 #include <gtest/gtest.h>
@@ -193,7 +194,7 @@ TEST(Quantity, AnglesInWideScalarsUseAsManyDigitsOfPi) {
   EXPECT_EQ(parsed("180 deg", D::angle).to<double>(), 3.141592653589793);
 }
 
-/// udunits2 where it knows the unit: its database, a parsed pair of units, a converter.
+/// udunits2, for the units that it has: its database, a parsed pair of units, a converter.
 class Udunits {
  public:
   Udunits() {
@@ -288,7 +289,7 @@ TEST(Quantity, UdunitsAgreesOnTurns) {
   }
 }
 
-/// A decimal as text and, put together from the same digits on another way, as a rational.
+/// A decimal as text and, composed of the same digits in another way, as a rational.
 struct Decimal {
   std::string text;
   cpp_rational value;

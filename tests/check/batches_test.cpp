@@ -54,7 +54,7 @@ TEST(Batches, SpectraThatShareNothingAreAsUnlikelyAsTheSignsOfAllBatches) {
   for (auto& batch : b) batch.spectra[ball_speeds][9] = 3;
   const auto test = test_spectra(a, b, ball_speeds);
   EXPECT_DOUBLE_EQ(test.distance, 1);
-  // Two of 2^10 exchanges; five standard deviations of 9999 draws.
+  // Two of 2^10 permutations; five standard deviations of 9999 draws.
   EXPECT_NEAR(test.probability, 2.0 / 1024, 5 * std::sqrt(2.0 / 1024 / 9999) + 1e-4);
   const auto same = test_spectra(a, a, ball_speeds);
   EXPECT_EQ(same.distance, 0);
@@ -86,7 +86,7 @@ TEST(Batches, CorrelatedSpectraRaiseNoMoreFalseAlarmsThanNominal) {
     if (k % 10 == 0) found += test_spectra(a, drifting_batches(random, 8), wall_speeds).probability <= 0.05;
   }
   std::cout << false_alarms << " false alarms in " << pairs << " pairs, " << found << " of 30 shifts found\n";
-  // 15 are nominal; 99.9 % of binomial draws lie from 5 to 28.
+  // 15 are nominal; 99.9 % of binomial draws are from 5 to 28.
   EXPECT_LE(false_alarms, 28);
   EXPECT_GE(false_alarms, 5);
   EXPECT_EQ(found, 30);

@@ -1,4 +1,4 @@
-// Whole comparisons of logs with known statistics: what differs is found, and what does not raises no alarm.
+// Whole comparisons of logs with known statistics: differences are found, without false alarms.
 #include "check/comparison.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ class Comparing : public ProgramTest {
     options.b = scratch / "b.csv";
     return compare(options);
   }
-  /// A log, and the same after `change` of every event; where it says false the event is left out.
+  /// A log, and the same after `change` of every event; where it returns false the event is left out.
   template <class Change>
   Comparison compare_changed(const Change& change, const Options& options = {}) const {
     const auto a = synthetic_events(1);

@@ -28,7 +28,8 @@ TEST_F(Faulty, LateEvents) {
   const int late = simulate(faults);
   const auto audit = judged();
   expect_kinds(audit, {Kind::late_event});
-  // Not where bodies turn back in time; a ball left overlapped may meet the wall again before it is out.
+  // Not where the bodies turn back in time; a ball that still overlaps may meet the wall again before it is
+  // out.
   EXPECT_GE(count(audit, Kind::late_event), static_cast<std::uint64_t>(late) * 3 / 4);
   EXPECT_TRUE(looks_like(audit, "time_step"));
 }
@@ -141,7 +142,7 @@ TEST_F(Faulty, NonBallisticFlight) {
   simulate(faults);
   const auto audit = judged();
   expect_kinds(audit, {Kind::non_ballistic});
-  EXPECT_EQ(audit.findings.of(Kind::non_ballistic).notes.count("flown without gravity"), 1u);
+  EXPECT_EQ(audit.findings.of(Kind::non_ballistic).notes.count("flight without gravity"), 1u);
 }
 
 TEST_F(Faulty, WrongDoseAndWork) {
@@ -201,7 +202,7 @@ TEST_F(Faulty, WrongPartners) {
 }
 
 TEST_F(Faulty, TheGapOfTheLowerCapWithThePrintedSign) {
-  // y - R - h/2 is negative everywhere: a code that looks for its change of sign never meets the cap, and
+  // y - R - h/2 is negative everywhere: a code that searches for its change of sign never finds the cap, and
   // balls leave the vessel there.
   prepare();
   Faults faults;

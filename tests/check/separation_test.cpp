@@ -1,5 +1,5 @@
-// The speed at which bodies leave an impact, max(e_n |g_n|, v_s): logs of codes with another v_s, with none,
-// and with a friction or a dose that does not know of it.
+// The speed at which bodies separate, max(e_n |g_n|, v_s): logs of codes with another v_s, with none,
+// and with a friction or a dose that ignores it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class Separation : public testing::FaultyLog {
     for (std::size_t k = 1; k < all.size(); ++k) speeds.push_back(std::stod(fields(all[k])[5]));
     return speeds;
   }
-  /// Impacts after which e_n |g_n| lies below this speed.
+  /// Impacts in which e_n |g_n| is below this speed.
   std::uint64_t slower_than(double speed) const {
     std::uint64_t slower = 0;
     for (const double approach : approach_speeds())
@@ -40,14 +40,14 @@ class Separation : public testing::FaultyLog {
     EXPECT_EQ(notes.size(), 1u);
     EXPECT_EQ(notes.count(note), 1u) << table(result);
   }
-  static constexpr const char* another = "leaves at a least separation speed that is not the case's";
+  static constexpr const char* another = "separates at another least separation speed than the case's";
 };
 
 TEST_F(Separation, NoLeastSpeedInTheLog) {
   prepare(contact(0.01));
   simulate({.least_separation = 0}, 150);
   const auto audit = judged();
-  expect_all_separation_law(audit, slower_than(0.01), "leaves at e_n |g_n|, which is below v_s");
+  expect_all_separation_law(audit, slower_than(0.01), "separates at e_n |g_n|, which is below v_s");
   // What is supplied in the case and not in the log is missing from the balance.
   EXPECT_GT(audit.energies.supplied.value(), 0);
   EXPECT_NEAR(audit.energies.closure(), audit.energies.supplied.value(),
@@ -65,7 +65,7 @@ TEST_F(Separation, NoLeastSpeedInTheCase) {
   expect_all_separation_law(audit, touched, another);
   EXPECT_EQ(audit.energies.supplying, 0u);
   EXPECT_GT(audit.energies.creating, 0u);
-  // Found and expected are speeds, of the impact that was held back too.
+  // Found and expected are speeds, also for the impact that was kept back.
   for (const auto& example : audit.findings.of(Kind::separation_law).examples) {
     EXPECT_NEAR(example.found, 0.01, 1e-8);
     EXPECT_LT(example.expected, 0.01);
@@ -88,7 +88,7 @@ TEST_F(Separation, AnotherLeastSpeedInTheLog) {
 TEST_F(Separation, TheLeastSpeedAfterEveryImpact) {
   prepare(contact(0.01));
   simulate({.restitution = 0});
-  expect_all_separation_law(judged(), 400 - slower_than(0.01), "leaves at v_s, which is below e_n |g_n|");
+  expect_all_separation_law(judged(), 400 - slower_than(0.01), "separates at v_s, which is below e_n |g_n|");
 }
 
 TEST_F(Separation, ALogWithoutSpins) {
@@ -101,12 +101,12 @@ TEST_F(Separation, ALogWithoutSpins) {
       for (std::size_t at; (at = all[0].find(name)) != std::string::npos;) all[0][at] = 'u';
   write_lines(all);
   const auto audit = judged();
-  expect_all_separation_law(audit, touched, "leaves at e_n |g_n|, which is below v_s");
+  expect_all_separation_law(audit, touched, "separates at e_n |g_n|, which is below v_s");
   EXPECT_EQ(audit.energies.impacts, 0u);
 }
 
 TEST_F(Separation, AWrongRestitutionIsNoLeastSpeed) {
-  // At a loose tolerance many impacts leave at the same speed within it.
+  // With a loose tolerance many impacts separate at the same speed within it.
   prepare(contact(0.01));
   simulate({.restitution = 0.6});
   Options options;
@@ -154,7 +154,7 @@ TEST_F(Separation, ADoseWithoutTheSuppliedEnergy) {
   // Those below the tolerance, 4e-9 M v^2, are not found.
   EXPECT_GT(count(audit, Kind::milling_dose), audit.energies.supplying * 9 / 10);
   EXPECT_LE(count(audit, Kind::milling_dose), audit.energies.supplying);
-  EXPECT_EQ(audit.findings.of(Kind::milling_dose).notes.at("the energy that v_s supplies is taken off"),
+  EXPECT_EQ(audit.findings.of(Kind::milling_dose).notes.at("the energy that v_s supplies is subtracted"),
             count(audit, Kind::milling_dose));
 }
 
@@ -177,7 +177,7 @@ TEST_F(Separation, AnImpactAtTheLeastSpeedThatIsNotLogged) {
     ASSERT_EQ(count(audit, Kind::missed_event), 1u);
     const auto& found = audit.findings.of(Kind::missed_event).examples.at(0);
     EXPECT_NEAR(found.time, time, 1e-7);
-    EXPECT_STREQ(found.note, "the state changes as by this impact: it is not logged");
+    EXPECT_STREQ(found.note, "the state changes as in this impact, which is not logged");
   }
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The wrong script of docs/reference-data.md: the audit finds exactly its mistakes, and each repair takes its finding
+"""The wrong script of docs/reference-data.md: the audit finds exactly its mistakes, and each fix removes its finding
 away.
 
 usage: wrong_script_test.py EDMILL

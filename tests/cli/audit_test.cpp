@@ -82,7 +82,7 @@ TEST_F(AuditCommand, LogsWithoutStatesAreCheckedAsFarAsTheyGo) {
   EXPECT_EQ(result()["checked"]["milling dose"], 2000);
   EXPECT_EQ(result()["not_checked"]["touch"], "x, y, z, partner_x, partner_y, partner_z");
   EXPECT_NE(outcome.out.find("not checked"), std::string::npos);
-  // The dose of the law for the logged speeds is all that can be told.
+  // Only the dose of the law for the logged speeds can be checked.
   EXPECT_EQ(edmill("audit " + demo + " out --set contact.restitution=0.6").code, 6);
   write("least.csv", "time,ball,partner_kind,partner\n0.1,0,wall,0\n");
   EXPECT_EQ(edmill("audit " + demo + " least.csv").code, 7);

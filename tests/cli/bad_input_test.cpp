@@ -1,4 +1,5 @@
-// Bad input to the program itself: exit code 2, one line a problem, and no file of the output folder touched.
+// Bad input to the program itself: exit code 2, one line per problem, and no file of the output folder
+// touched.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -90,7 +91,7 @@ class BadInput : public ::testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out_file), contents(err_file)};
   }
 
-  /// Runs what must fail with exactly these messages, and looks at the output folder afterwards.
+  /// Runs a case that must fail with exactly these messages, and checks the output folder afterwards.
   void expect_failure(const std::vector<std::string>& arguments, const std::vector<std::string>& starts,
                       const std::vector<std::string>& parts) const {
     const Outcome outcome = edmill(arguments);

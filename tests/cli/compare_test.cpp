@@ -43,7 +43,7 @@ TEST_F(CompareCommand, DoubleAndFloat128PartByRoundingAndAgreeInStatistics) {
 
 TEST_F(CompareCommand, ARestitutionThatIsFivePercentOffIsFound) {
   run("a", "--set run.seed=1");
-  // Equal cases are told to differ with a probability of 5 %: more than one of six with one of 3 %.
+  // Equal cases are reported to differ with a probability of 5 %: more than one of six with one of 3 %.
   int alarms = 0;
   for (int seed = 2; seed <= 7; ++seed) {
     run("b", "--set run.seed=" + std::to_string(seed));
@@ -72,7 +72,7 @@ TEST_F(CompareCommand, TheTableAndTheJsonHoldTheSameRows) {
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
     EXPECT_EQ(row["verdict"], "agree");
   }
-  // The batches hold what summary.json counts, but for the last moments before the end.
+  // The batches contain what summary.json counts, except for the last moments before the end.
   const auto summary = nlohmann::json::parse(contents(scratch / "a/summary.json"));
   for (const std::string kind : {"wall_2", "ball_ball"}) {
     const double rate = summary["collision_rate"][kind];

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # On a full disk: one clear error, exit code 1, earlier files as they were, nothing partial left behind.
 # usage: disk_full_test.sh EDMILL
-# First by a limit on the size of files, which needs no rights; then on a small tmpfs where that can be mounted.
+# First with a limit on the size of files, which needs no privileges; then on a small tmpfs where that can be mounted.
 set -euo pipefail
 program=$(realpath "$1")
 demo=$(realpath "$(dirname "$0")/../../docs/examples/demo.toml")
@@ -45,7 +45,7 @@ expect_full "final_state.csv" out
 limited 4 run --checkpoint "0.1 s simulated"
 expect_full "the first checkpoint" out
 
-# Space ends when the log grows: what the last checkpoint holds is kept, and the run goes on when there is space.
+# The disk fills as the log grows: the last checkpoint is kept, and the run resumes when there is space.
 run --set "$all" && files out >whole
 rm -r out && run --set run.seed=2 --set "$all" && files out >before
 limited 1000 run --set "$all" --checkpoint "0.1 s simulated"
@@ -53,7 +53,7 @@ limited 1000 run --set "$all" --checkpoint "0.1 s simulated"
 grep -q "the disk may be full" error || fail "no clear message: $(cat error)"
 diff before <(files out | grep -v 'checkpoint\|partial') || fail "files of the earlier run changed"
 "$program" resume out --quiet
-diff <(grep -v summary.json whole) <(files out | grep -v summary.json) || fail "the run did not go on"
+diff <(grep -v summary.json whole) <(files out | grep -v summary.json) || fail "the run did not resume"
 
 if ! unshare -rm true 2>/dev/null && ! unshare -m true 2>/dev/null; then
   echo "skipped: no tmpfs can be mounted here"
@@ -80,4 +80,4 @@ dd if=/dev/zero of=filler bs=1k 2>/dev/null || true
 (cd .. && expect_full "a tmpfs without a byte" small/out)
 INNER
 "${space[@]}" bash on_tmpfs.sh
-echo "a full disk is told, and nothing is lost"
+echo "a full disk is reported, and nothing is lost"

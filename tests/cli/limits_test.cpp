@@ -24,7 +24,7 @@ class LimitsTest : public ProgramTest {
 };
 
 /// Thrown up by 1/32 m/s the ball rises 1/16384 m in 1/256 s, just to the cap: its path touches it and no
-/// scalar can tell on which side it passes.
+/// scalar can decide on which side it passes.
 TEST_F(LimitsTest, ATangentFirstFlightIsUndecidedAndLeavesASummary) {
   write_still(ball("[0.37493896484375, \"0\", \"0\"]", "[\"0.03125\", \"0\", \"0\"]"));
   const auto outcome = edmill("run still.toml --out out --quiet");
@@ -58,7 +58,7 @@ TEST_F(LimitsTest, ABallThatLiesOnAWallHopsAtTheLeastSeparationSpeed) {
 }
 
 TEST_F(LimitsTest, WhatARuleDecidesIsNotCertified) {
-  // Two balls come to a third at the same time.
+  // Two balls reach a third one at the same time.
   write_still(ball("[\"-0.3\", \"0.25\", \"0\"]", "[\"0.1\", \"0\", \"0\"]") +
                   ball("[\"0\", \"0.25\", \"0\"]", "[\"0\", \"0\", \"0\"]") +
                   ball("[\"0.3\", \"0.25\", \"0\"]", "[\"-0.1\", \"0\", \"0\"]"),
@@ -66,7 +66,7 @@ TEST_F(LimitsTest, WhatARuleDecidesIsNotCertified) {
   const std::string no_gravity = " --set 'run.gravity=\"0 m/s2\"' ";
   const auto certified = edmill("certify still.toml --collisions 1 --out events.csv" + no_gravity);
   EXPECT_EQ(certified.code, 4) << certified.out << certified.err;
-  EXPECT_NE(certified.err.find("a rule and not the equations puts one first"), std::string::npos)
+  EXPECT_NE(certified.err.find("a rule and not the equations orders them"), std::string::npos)
       << certified.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "events.csv"));
   ASSERT_EQ(edmill("run still.toml --out out --quiet" + no_gravity).code, 0);

@@ -41,7 +41,7 @@ else
   echo "skipped: mpirun is not installed"
 fi
 
-# Mean and half-width of the first point, computed anew: Student's t for three values is 4.302653 at 95 %.
+# Mean and half-width of the first point, recomputed: Student's t for three values is 4.302653 at 95 %.
 check "confidence interval is the one of Student" python3 - <<'EOF'
 import csv, math, statistics
 runs = [r for r in csv.DictReader(open("one/runs.csv")) if r["point"] == "1"]
@@ -66,7 +66,7 @@ wait $pid 2>/dev/null || true
 kept=$(ls killed/runs | grep -c 'json$')
 check "the kill came midway ($kept of 12 runs)" test "$kept" -ge 3 -a "$kept" -lt 12
 "$edmill" sweep long.toml --jobs 2 --out killed >report 2>&1
-check "finished runs are known from before" grep -q "^12 runs: $kept known from before, $((12 - kept)) run now, 0 failed" report
+check "finished runs are reused" grep -q "^12 runs: $kept reused, $((12 - kept)) run now, 0 failed" report
 "$edmill" sweep long.toml --jobs 2 --out whole --quiet
 check "the resumed sweep has the tables of a whole one" same killed whole
 

@@ -117,7 +117,7 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
     const double speed = norm<double>(r.flight.velocity) + constants.gravity * elapsed;
     const auto own = narrow.errors(elapsed, speed), state = narrow.state_errors(elapsed, speed);
     const auto bound = own + state;
-    // What the state alone does, in 50 digits.
+    // The effect of the state alone, in 50 digits.
     const GapFunctions<mpfr50>::Constants rounded_constants(model::mill_cast<mpfr50>(mill));
     const auto moved = GapFunctions<mpfr50>(rounded_constants, flight_cast<mpfr50>(flight_cast<double>(wide)),
                                             mpfr50(static_cast<double>(radius)), r.period)

@@ -1,4 +1,4 @@
-// Single impacts by hand: what the printed equations get wrong, and the least separation speed at its limits.
+// Single impacts by hand: the errors of the printed equations, and the least separation speed at its limits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ TEST(ImpulseErrata, PrintedCompliancePutsTheSlidingImpulseOffForBallsOfUnequalIn
   EXPECT_GT(std::abs(printed / right - 1), 0.05);
 }
 
-/// A ball that meets a still floor with an approach speed that is given, negative when it parts, and slips.
+/// A ball on a still floor with a given approach speed, negative when it separates, and a slip.
 struct FloorHit {
   static constexpr double mass = 2, slip = 3;
   ImpactOutcome<double> outcome;
@@ -59,7 +59,7 @@ TEST(LeastSeparation, SlowApproachesAndPartingByRoundingLeaveAtTheLeastSpeed) {
     EXPECT_EQ(hit.v[1], least) << approach;
     EXPECT_EQ(hit.outcome.separation_speed, least) << approach;
     EXPECT_TRUE(hit.outcome.least_separation) << approach;
-    // Friction by the impulse that passes, m (g_n' - g_n).
+    // Friction by the actual normal impulse, m (g_n' - g_n).
     EXPECT_EQ(hit.outcome.normal_impulse, FloorHit::mass * (approach + least)) << approach;
     // 1 - e_t is 4e-7 here and known to an epsilon.
     EXPECT_NEAR(hit.outcome.tangential_impulse / hit.outcome.normal_impulse, 0.25, 1e-8) << approach;
@@ -94,7 +94,7 @@ TEST(LeastSeparation, WhereTheReboundIsAsFastTheRuleDoesNothing) {
 }
 
 TEST(LeastSeparation, ATouchedImpactThatStillLosesHasADose) {
-  // From 1 m/s to 0.75 instead of 0.5: M/2 (1 - 0.75^2) is given up, nothing supplied.
+  // From 1 m/s to 0.75 instead of 0.5: M/2 (1 - 0.75^2) is dissipated, nothing supplied.
   const FloorHit hit(1, 0.75);
   EXPECT_TRUE(hit.outcome.least_separation);
   EXPECT_EQ(hit.outcome.normal_dose, FloorHit::mass / 2 * (1 - 0.5625));

@@ -264,7 +264,7 @@ TYPED_TEST(Impulse, SlidingImpulseIsFrictionTimesNormalImpulseAndStickingStopsAt
     const WallHit<Real> h;
     holds(h.outcome, h.law, h.ball.mass);
   }));
-  // Both regimes were met, with and without the least separation speed: no branch went untested.
+  // Both regimes occur, with and without the least separation speed: every branch is tested.
   for (const int met : {sliding, limited, touched_sliding, touched_limited}) EXPECT_GT(met, 50);
 }
 

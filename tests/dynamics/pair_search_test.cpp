@@ -13,7 +13,7 @@
 namespace edmill::dynamics {
 namespace {
 
-/// First contact by (3.1) in 200 digits from `now` on, which may lie in the past by rounding [s].
+/// First contact by (3.1) in 200 digits from `now` on, which may be in the past by rounding [s].
 std::optional<mpfr200> exact_delay(const Flight<double>& i, const Flight<double>& j,
                                    const Instant<double>& now, double radius_sum,
                                    const model::Mill<double>& mill) {
@@ -71,11 +71,11 @@ TEST(PairSearch, TheErrorOfATimeStaysBelowItsBound) {
               << worst << "\n";
     EXPECT_GT(contacts, 1000);
     EXPECT_LT(worst, 1);
-    EXPECT_GT(worst, 1e-4);  // a bound far above the errors would escalate what double can tell
+    EXPECT_GT(worst, 1e-4);  // a bound far above the errors would escalate what double can decide
   }
 }
 
-/// Contacts whose times the scalar does not know well are timed by the next one.
+/// Contacts whose times are poorly determined in the scalar are timed in the next one.
 TEST(PairSearch, AGrazingContactIsTimedByAWiderScalar) {
   auto mill = testing::spex_mill<double>();
   mill.gravity = Vec3<double>::Zero();

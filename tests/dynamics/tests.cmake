@@ -1,4 +1,4 @@
-# The second solver of the wall tests works in Arb (Debian: libflint-arb-dev).
+# The second solver of the wall tests uses Arb (Debian: libflint-arb-dev).
 find_library(ARB_LIBRARY NAMES flint-arb arb REQUIRED)
 find_library(FLINT_LIBRARY flint REQUIRED)
 add_library(edmill_arb_oracle STATIC support/arb_oracle.cpp)

@@ -42,7 +42,7 @@ struct Tally {
   long bad() const { return missed + wrong_wall + unfounded + mistimed + unresolved + thrown; }
 };
 
-/// Asks the ladder of a scalar and the oracle and compares.
+/// Compares the answers of the ladder of a scalar and of the oracle.
 template <class Real>
 class Comparison {
  public:
@@ -116,7 +116,7 @@ class Comparison {
     }
   }
 
-  /// begin + length is rounded in double: a contact this close to the end may be told or not.
+  /// begin + length is rounded in double: a contact this close to the end may be reported or not.
   double end_slack() const { return 8 * epsilon<double>() * mill_.motion.period; }
 
   void judge(const WallQuery<double>& query, const WallAnswer<double>& answer,
@@ -284,7 +284,7 @@ TYPED_TEST(WideWallSearch, AgreesWithAnIndependentSolver) {
   long bad = 0;
   for (const auto& [name, tally] : tallies) bad += tally.bad();
   EXPECT_EQ(bad, 0);
-  // Double is to decide nearly all that is not made to be undecidable in it.
+  // Double must decide nearly all states that are not undecidable in it by construction.
   for (const auto kind : {Kind::near, Kind::seam, Kind::axis, Kind::anywhere})
     EXPECT_GT(tallies[name(kind)].by_double, tallies[name(kind)].states * 9 / 10) << name(kind);
 }

@@ -1,4 +1,4 @@
-// States of a ball near a wall that are hard for a search: drawn in float128, asked in any scalar.
+// States of a ball near a wall that are hard for a search: drawn in float128, used in any scalar.
 #pragma once
 
 #include <random>
@@ -67,7 +67,7 @@ inline std::string name(Kind kind) {
   return "";
 }
 
-/// Where a ball is in the vessel frame, and how it moves there, at an instant.
+/// Position and velocity of a ball in the vessel frame at an instant.
 struct Placement {
   Vec3<float128> position, velocity;
 };
@@ -78,7 +78,7 @@ class StateMaker {
   StateMaker(const model::Mill<double>& mill, double longest)
       : mill_(widened<float128>(mill)), constants_(mill_), longest_(longest) {}
 
-  /// Distance from tangency of grazing paths [m]; zero draws it anew for each.
+  /// Distance from tangency of grazing paths [m]; zero draws a new one for each.
   double grazing_distance = 0;
 
   /// @param turning  the window begins near a turning point of the drive
@@ -216,7 +216,7 @@ class StateMaker {
   GapFunctions<float128>::Constants constants_;
   double longest_;
 };
-/// A search may prove less of the window than it was asked for; this asks on to its end.
+/// A search may prove only a part of the window; this repeats it up to the end.
 template <class Decide, class Real>
 WallAnswer<Real> over_window(Decide&& decide, WallQuery<Real> query, const Real& period) {
   const DriveClock<Real> clock(period);

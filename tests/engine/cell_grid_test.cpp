@@ -61,7 +61,7 @@ void fly_through_cells(std::uint64_t seed, const Vec3<double>& gravity, int coun
       grid.move(first, cells[first], next[first].axis, next[first].step);
       grid.neighbours(cells[first], found);
       grid.new_neighbours(cells[first], next[first].axis, next[first].step, fresh);
-      // What is new to the ball are the balls of the new cells, no more and no less.
+      // The new neighbours of the ball are exactly the balls of the new cells.
       const auto after = found_set(found), added = found_set(fresh);
       for (const int i : after) ASSERT_EQ(added.count(i) == 1, before.count(i) == 0);
       for (const int i : added) ASSERT_EQ(after.count(i), 1u);

@@ -1,4 +1,4 @@
-// A simulation that was saved and loaded goes on with the same bits.
+// A simulation that was saved and loaded continues with the same bits.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -53,7 +53,7 @@ void expect_same_course(const casefile::CaseSpec& spec, int first, int last, std
   one.recorder.impacts.clear();
 
   Followed<Real> other(spec);
-  other.go_to(first / 2);  // what it was must be of no account
+  other.go_to(first / 2);  // its previous state must not matter
   other.recorder.impacts.clear();
   Archive loaded(saved.bytes());
   loaded(other.simulation);
@@ -138,7 +138,7 @@ TEST(Checkpoint, KeepsTheOrderOfEventsAtTheSameTime) {
   expect_same_course<double>(crystal(), 10, 40, 100);
 }
 
-/// Among other things saving numbers the impacts anew.
+/// Saving renumbers the impacts, among other things.
 void expect_saving_changes_nothing(const casefile::CaseSpec& spec, int milliseconds, std::size_t at_least) {
   Followed<double> one(spec), other(spec);
   one.go_to(milliseconds);

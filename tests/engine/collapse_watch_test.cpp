@@ -1,4 +1,4 @@
-// What a ball's recent impacts say: collapse, and where it accumulates.
+// Collapse as seen in a ball's recent impacts, and its accumulation time.
 #include "engine/collapse_watch.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@ namespace {
 constexpr double smallest_path = 1e-6;
 const DriveClock<double> drive_clock(0.25);
 
-/// Impacts of one ball, at intervals [s] and approach speeds [m/s] that are given.
+/// Impacts of one ball, at given intervals [s] and approach speeds [m/s].
 struct Ball {
   CollapseWatch<double> watch{smallest_path};
   RecentImpacts<double> recent;

@@ -1,6 +1,6 @@
 // No ball overlaps a wall or another ball beyond rounding after any event, and late starts are as sharp as
-// early ones. Gaps are taken from the stored flights in float128; a double filter picks the ones that are
-// worth it.
+// early ones. Gaps are computed from the stored flights in float128; a filter in double selects those that
+// are small.
 #include <gtest/gtest.h>
 
 #include "spex_case.hpp"
@@ -101,7 +101,7 @@ TEST(Containment, TwoHundredSmallBallsNeverOverlapBeyondRounding) {
 }
 
 TEST(Containment, DenseBallsNeverOverlapBeyondRounding) {
-  // Many near neighbours, so that agendas run out of room: forgotten contacts must come back in time.
+  // Many near neighbours, so that agendas overflow: dropped contacts must be found again in time.
   const auto check = deepest_overlap("restitution = 0.8",
                                      testing::batch(500, "2.36 mm", "gap_ball = \"0.5 mm\"\n"), 0, 0.15);
   EXPECT_GT(check.events, 20000u);

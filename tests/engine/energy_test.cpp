@@ -1,4 +1,4 @@
-// Energy closure: what the walls and the least separation speed give, less what the balls lose, is the change
+// Energy closure: wall work and supplied energy, minus the dose, equal the change
 // of kinetic and potential energy.
 #include <gtest/gtest.h>
 

@@ -35,7 +35,7 @@ TEST(EventQueue, TopAndRunnerUpAreTheTwoEarliest) {
   }
 }
 
-/// Nothing for many rounds of the calendar, with its days short and with its days long.
+/// No event for many years of the calendar, with short days and with long days.
 TEST(EventQueue, LongGapsAreCrossed) {
   constexpr int balls = 7;
   EventQueue<double> queue(balls, 1.0);
@@ -52,7 +52,7 @@ TEST(EventQueue, LongGapsAreCrossed) {
   }
 }
 
-/// Many balls, of whose events some lie beyond the horizon, some beyond all weeks, and some never come.
+/// Many balls, with some events beyond the horizon, some beyond all weeks, and some that never come.
 TEST(EventQueue, WhatIsPutOffComesInItsOrder) {
   casefile::Random random(13);
   for (const int balls : {40, 3000, 40000}) {
@@ -82,7 +82,7 @@ TEST(EventQueue, WhatIsPutOffComesInItsOrder) {
       set(top, now);
       set(static_cast<int>(random.uniform<double>() * balls), now);
     }
-    // Only the slow are left: the gaps between their events are long.
+    // Only slow balls are left: the intervals between their events are long.
     while (order.begin()->first < Instant<double>::never()) {
       const int top = queue.top();
       ASSERT_EQ(top, order.begin()->second) << balls << " balls, emptied";
@@ -116,7 +116,7 @@ TEST(EventQueue, WhatIsSaidToBeUpcomingMostlyIs) {
     second += said[step][1] == top[step + 2];
     third += said[step][2] == top[step + 3];
   }
-  // Less would not be worth asking for.
+  // A shorter one would not be useful.
   EXPECT_GT(next, steps / 4);
   EXPECT_GT(second, steps / 4);
   EXPECT_GT(third, steps / 6);

@@ -1,4 +1,4 @@
-// The pair filter for many flights says of each ball what PairSearch says of it alone.
+// The pair filter for many flights gives for each ball the result of PairSearch for this ball alone.
 #include "engine/flight_columns.hpp"
 
 #include <gtest/gtest.h>

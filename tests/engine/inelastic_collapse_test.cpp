@@ -1,5 +1,5 @@
 // Zeno points: a run without a least separation speed ends with the ball, its partner and the accumulation
-// time; with one it goes on.
+// time; with one it continues.
 #include <gtest/gtest.h>
 
 #include "spex_case.hpp"

@@ -1,5 +1,5 @@
-// With a least separation speed v_s every run goes on: a ball that a bounded acceleration a presses on a wall
-// returns to it after 2 v_s / a at the earliest.
+// With a least separation speed v_s every run continues: a ball that a bounded acceleration a presses on a
+// wall returns to it after 2 v_s / a at the earliest.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using testing::draw;
 
-/// A ball near a wall of a vessel that stands still, pressed on it by gravity.
+/// A ball near a wall of a vessel at rest, pressed on it by gravity.
 struct PressedBall {
   static constexpr double arm = 1000, half_size = 100, radius = 0.5;  // [m]
   int wall;

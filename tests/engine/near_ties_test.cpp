@@ -40,7 +40,7 @@ class Exact {
     const cpp_int n = abs(numerator(value));
     if (n == 0) return 0;
     const int size = static_cast<int>(msb(n)) - static_cast<int>(msb(denominator(value)));
-    const int shift = std::numeric_limits<Real>::digits - 2 - size;  // so that it surely fits
+    const int shift = std::numeric_limits<Real>::digits - 2 - size;  // so that it certainly fits
     const cpp_rational scaled = shift >= 0 ? cpp_rational(value * cpp_rational(cpp_int(1) << shift))
                                            : cpp_rational(value / cpp_rational(cpp_int(1) << -shift));
     const cpp_int whole = numerator(scaled) / denominator(scaled);
@@ -65,13 +65,13 @@ struct Ball {
   std::array<cpp_rational, 3> position, velocity;
 };
 
-/// A vessel that stands still about the origin: caps at X = +-half_height, Z across.
+/// A vessel at rest about the origin: caps at X = +-half_height, Z across.
 struct Scene {
   cpp_rational radius, vessel_radius, half_height;
   std::vector<Ball> balls;
 };
 
-/// What collides first, and how many impacts at that time were put first by a rule.
+/// The first collision, and the number of impacts at that time that were put first by a rule.
 struct First {
   bool with_wall;
   int ball, partner;
@@ -110,7 +110,7 @@ First first_impact(const Scene& scene) {
   return *watch.first;
 }
 
-/// How the simulations of many states did.
+/// Results of the simulations of many states.
 struct Score {
   int states = 0, wrong = 0, exact_ties = 0, unmarked_ties = 0, marked_others = 0, escalated = 0;
   double smallest = 1, largest = 0;  ///< differences in time [s]
@@ -137,7 +137,7 @@ struct Score {
     EXPECT_EQ(wrong, 0);
     EXPECT_EQ(unmarked_ties, 0);
     EXPECT_EQ(marked_others, 0);
-    EXPECT_GT(escalated, states / 2);  // or the states are no near ties
+    EXPECT_GT(escalated, states / 2);  // or the states are not near ties
     EXPECT_LT(largest, close);
   }
 };
@@ -157,7 +157,7 @@ class NearTies : public ::testing::Test {
 using Scalars = ::testing::Types<double, float128>;
 TYPED_TEST_SUITE(NearTies, Scalars);
 
-/// Two balls come to the ball in the middle along X, from either side.
+/// Two balls reach the ball in the middle along X, from either side.
 TYPED_TEST(NearTies, OfTwoPairsTheEarlierCollides) {
   using Real = TypeParam;
   Exact<Real> random(20110101);
@@ -171,7 +171,7 @@ TYPED_TEST(NearTies, OfTwoPairsTheEarlierCollides) {
                        right_speed = random.draw(cpp_rational(1, 2), 4);
     const cpp_rational left = random.draw(x - sum - cpp_rational(1, 2), cpp_rational(2, 5));
     const cpp_rational left_time = (x - left - sum) / (left_speed - v);
-    // As far off as to arrive at the same time, up to rounding; the gap is `left_time` times the closing
+    // At a distance to arrive at the same time, up to rounding; the gap is `left_time` times the closing
     // speed.
     const cpp_rational right = random.rounded(x + sum + left_time * (right_speed + v));
     const cpp_rational right_time = (right - x - sum) / (right_speed + v);
@@ -279,7 +279,7 @@ TYPED_TEST(ExactTies, OfTwoWallsAreMarked) {
   EXPECT_EQ(first.partner, 0);
 }
 
-/// Five balls at once: more contacts than a ball keeps.
+/// Five balls at once: more contacts than an agenda keeps.
 TYPED_TEST(ExactTies, OfMoreContactsThanABallKeepsAreMarked) {
   Scene s{cpp_rational(1, 8), 2, 2, {{{0, 0, 0}, {0, 0, 0}}}};
   for (const int sign : {-1, 1})

@@ -81,7 +81,7 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
   EXPECT_LT(worst, mpfr50("1e-28"));
 }
 
-/// Radii that no scalar holds exactly: whatever took a value through a narrower one would leave its mark at
+/// Radii that no scalar holds exactly: a value that passed through a narrower scalar would show in
 /// the contacts.
 template <class Real>
 Real deepest_overlap(double end) {
@@ -96,7 +96,7 @@ TEST(Precisions, OverlapsAreOfTheRoundingOfTheScalar) {
   const float128 quad = deepest_overlap<float128>(0.1);
   const mpfr50 wide = deepest_overlap<mpfr50>(0.1);
   std::cout << "deepest overlap: float128 " << to_text(quad) << " m, mpfr50 " << to_text(wide) << " m\n";
-  // 1 m stands for the reach of the mill, 16 roundings of it for a contact.
+  // 1 m represents the reach of the mill, 16 roundings of it a contact.
   EXPECT_LT(quad, 16 * epsilon<float128>());
   EXPECT_LT(wide, 16 * epsilon<mpfr50>());
 }

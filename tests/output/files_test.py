@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What other people's tools read from the files of a run: h5py, VTK, view3dscene, xmllint, and the Python of docs/files.md.
+"""What other tools read from the files of a run: h5py, VTK, view3dscene, xmllint, and the Python of docs/files.md.
 
 usage: files_test.py EDMILL
 """

@@ -96,7 +96,7 @@ class MillOutputs : public ProgramTest {
     const double distance = std::hypot(p[0], p[2]);
     return {p[0] / distance * vessel_radius, p[1], p[2] / distance * vessel_radius};
   }
-  /// What the vessel gets, inertial frame.
+  /// Impulse on the vessel, inertial frame.
   static Vector impulse(const Row& impact) {
     return mass * (vector(impact, "v", "_before") - vector(impact, "v", "_after"));
   }

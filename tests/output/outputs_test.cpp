@@ -47,7 +47,7 @@ TEST_F(Outputs, GoToFoldersAndAreAppended) {
   EXPECT_EQ(contents(scratch / "out/tables/first/trends.csv"), once + once);
 }
 
-/// Several balls: what is known at the end of an interval between two impacts.
+/// Several balls: their states at the end of an interval between two impacts.
 TEST_F(Outputs, BallsBetweenImpactsKeepTheirTotalMass) {
   write("case.toml", std::string(small_case) +
                          "[[output]]\ntype = \"trends_balls\"\ninterval = \"0.7 ms\"\n"

@@ -16,7 +16,7 @@ namespace {
 using Number = long double;
 using Vector = Vec3<Number>;
 
-/// P = R_z(theta) [(l, 0, 0) + R_x(gamma) p] as it stands in the thesis's figure 2.4.
+/// P = R_z(theta) [(l, 0, 0) + R_x(gamma) p] as in the thesis's figure 2.4.
 struct Vessel {
   Number arm = 0.1L, amplitude = acosl(-1) / 12, speed = 1054 * acosl(-1) / 30;
 
@@ -196,7 +196,7 @@ class Follower : public engine::Observer<double> {
       if (v.kind != model::VariableKind::number) continue;
       const std::string name(v.name);
       const Number ours = variable_formula<double>(k)(facts), theirs = formulas_.at(name)(r);
-      // Coefficients and angles of hardly any motion amplify the rounding of the states.
+      // Coefficients and angles of very slow motion amplify the rounding of the states.
       const bool slow = fabsl(r.normal_part(r.relative(r.before))) < 1e-3L ||
                         r.tangential(r.at_contact(r.before)).norm() < 1e-3L ||
                         r.at_contact(r.after).norm() < 1e-3L;

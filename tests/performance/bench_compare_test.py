@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""bench.py sees differences that are there and no others, and runs at once what it says it does.
+"""bench.py detects real differences and no others, and runs simultaneously what --core promises.
 usage: bench_compare_test.py BENCH_PY"""
 import json
 import os
@@ -94,9 +94,9 @@ class Compare(unittest.TestCase):
         self.assertNotEqual(line[2:], ["[1.000,", "3.000]"])
 
     def test_files_that_ran_together_are_compared_round_by_round(self):
-        mood = [random_source.uniform(0.4, 1) for _ in range(9)]  # of the machine, much more than the difference
-        a = figures(x=(True, [1e6 * m for m in mood]))
-        b = figures(x=(True, [1.05e6 * m * random_source.gauss(1, 0.004) for m in mood]))
+        load = [random_source.uniform(0.4, 1) for _ in range(9)]  # of the machine: varies much more than the difference
+        a = figures(x=(True, [1e6 * m for m in load]))
+        b = figures(x=(True, [1.05e6 * m * random_source.gauss(1, 0.004) for m in load]))
         self.assertIn("1 no difference", self.compare(a, b).stdout)
         a["together"], b["together"] = "one run", "another"
         self.assertIn("1 no difference", self.compare(a, b).stdout)
@@ -112,7 +112,7 @@ class Compare(unittest.TestCase):
         self.assertEqual(self.compare(figures(x=(False, [1.0, 1.0, 1.0])), good).returncode, 2)
 
 
-# Stands for a benchmark program. With PARTY set, each process waits until so many of a case are there.
+# Replaces a benchmark program. With PARTY set, each process waits until that many processes of a case exist.
 PROGRAM = r"""#!/usr/bin/env python3
 import glob, json, os, re, sys, time
 names = ["edmill/a/1/iterations:3", "minimal/a/1", "edmill/b", "operation/c"]
@@ -136,7 +136,7 @@ print(json.dumps({"benchmarks": [{"name": n, "time_unit": "ns", "cpu_time": 5.0,
 
 class Run(unittest.TestCase):
     def run_bench(self, party, *more):
-        """Two programs, which are one, and the files that come of it."""
+        """The same program twice, and the resulting files."""
         with tempfile.TemporaryDirectory() as folder:
             program = os.path.join(folder, "program")
             with open(program, "w", encoding="utf-8") as out:

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The count of instructions of a fixed short run is the pinned one within 2 %. Unlike a time it has no noise.
+# The count of instructions of a fixed short run is the recorded one within 2 %. Unlike a time it has no noise.
 # usage: instructions_test.sh EDMILL [--update]
 # The figure holds for g++ 12 in a Release build; anything else is skipped (exit code 77).
 set -euo pipefail
@@ -19,7 +19,7 @@ compiler=$("$program" --version | sed -n 's/^compiler //p')
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-# The libraries' plainest code, whatever the CPU has.
+# The libraries' baseline code on any CPU.
 export GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX2,-AVX,-FMA,-FMA4,-BMI1,-BMI2,-ERMS,-SSE4_2,-SSE4_1,-SSSE3
 env -u LD_PRELOAD OPENSSL_ia32cap=0:0 LC_ALL=C valgrind --tool=callgrind --callgrind-out-file="$folder/callgrind.out" \
   "$program" run docs/examples/demo.toml --quiet --out "$folder/out" --set run.start_time='"0 s"' \

@@ -1,4 +1,4 @@
-# The yardsticks, the comparison of figures and the pinned count of instructions; times are not tested.
+# The reference implementations, the comparison of figures and the recorded count of instructions; times are not tested.
 set(benchmarks ${CMAKE_SOURCE_DIR}/verification/performance)
 edmill_test(yardsticks_test performance/yardsticks_test.cpp)
 target_sources(yardsticks_test PRIVATE ${benchmarks}/minimal_loop.cpp ${benchmarks}/peer_loop.cpp

@@ -1,4 +1,4 @@
-// The yardsticks of the benchmarks are themselves right simulations of hard spheres.
+// The reference implementations of the benchmarks are themselves correct simulations of hard spheres.
 #include <gtest/gtest.h>
 
 #include <cmath>

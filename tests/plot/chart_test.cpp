@@ -36,7 +36,7 @@ std::vector<std::pair<double, double>> points_of(const pugi::xml_node& path) {
   return points;
 }
 
-/// What a place in the drawing stands for, by two labelled ticks of its axis.
+/// The value at a position in the drawing, by two labelled ticks of its axis.
 double by_ticks(const pugi::xml_document& document, const char* axis, const char* coordinate, double place) {
   std::vector<std::pair<double, double>> ticks;  // place, value
   for (const auto& found : document.select_nodes(
@@ -51,7 +51,7 @@ TEST(Chart, PointsStandWhereTheTicksSay) {
   const auto document = drawn(some_chart());
   const auto points = points_of(document.select_node("//path[contains(@class,'curve')]").node());
   ASSERT_EQ(points.size(), 3u);
-  // Labels of the y axis stand 4 px below their ticks.
+  // Labels of the y axis are 4 px below their ticks.
   EXPECT_NEAR(by_ticks(document, "x-axis", "x", points[1].first), 2.5, 1e-3);
   EXPECT_NEAR(by_ticks(document, "y-axis", "y", points[1].second + 4), 3, 1e-3);
   EXPECT_NEAR(by_ticks(document, "x-axis", "x", points[2].first), 10, 1e-3);

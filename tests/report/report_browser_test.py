@@ -149,7 +149,7 @@ class Report(unittest.TestCase):
             image.src = 'data:image/png;base64,' + png;""", base64.b64encode(self.scene_picture()).decode(), circles)
 
     def test_1_the_console_is_silent(self):
-        # The driver grumbles about drawing without a graphics card.
+        # The driver warns about rendering without a graphics card.
         ours = [entry for entry in self.browser.get_log("browser")
                 if entry["level"] in ("WARNING", "SEVERE") and "GL Driver Message" not in entry["message"]]
         self.assertEqual(ours, [])

@@ -373,7 +373,7 @@ TEST_F(Report, IsMadeOfARunThatBeganFromASavedState) {
              next.string() + " --set run.initial_state=" + saved.string() +
              " --set 'run.start_time=1.6 s' --set 'run.initial_time=1.5 s' --set 'run.end_time=1.7 s'");
   ASSERT_EQ(done.code, 0) << done.messages;
-  fs::remove(saved);  // a report needs its own folder only
+  fs::remove(saved);  // a report needs only its own folder
   EXPECT_EQ(edmill("report " + next.string()).code, 0);
 }
 

@@ -1,4 +1,4 @@
-// The program makes the reference sequences again from nothing, and says when it cannot.
+// The program reproduces the reference sequences from the cases, and reports when it cannot.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,13 +59,13 @@ TEST_F(CertifyTest, ShadowTellsWhereTheRunsPart) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/summary.json"));
   int common = 0;
-  ASSERT_EQ(
-      std::sscanf(outcome.out.c_str(), "Shadow run: float128 beside double, %d events in common", &common), 1)
+  ASSERT_EQ(std::sscanf(outcome.out.c_str(), "Shadow run: float128 and double, %d events in common", &common),
+            1)
       << outcome.out;
-  // 16 digits, of which each ball loses about 0.1 a collision.
+  // 16 digits, of which each ball loses about 0.1 per collision.
   EXPECT_GT(common, 500);
   EXPECT_LT(common, 3000);
-  EXPECT_NE(outcome.out.find("they part at event " + std::to_string(common)), std::string::npos)
+  EXPECT_NE(outcome.out.find("they diverge at event " + std::to_string(common)), std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.out.find("digits lost"), std::string::npos) << outcome.out;
 }

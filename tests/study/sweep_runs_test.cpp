@@ -1,4 +1,4 @@
-// Sweeps: one table whatever does the runs, nothing lost, nothing done twice.
+// Sweeps: the same table from any threads and ranks, no run lost, no run repeated.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ class Sweep : public ProgramTest {
     ASSERT_LT(before.size(), 12u);
     const auto outcome = edmill("sweep a.sweep.toml --out part");
     EXPECT_EQ(outcome.code, code) << outcome.err;
-    const std::string told = "12 runs: " + std::to_string(before.size()) + " known from before, " +
+    const std::string told = "12 runs: " + std::to_string(before.size()) + " reused, " +
                              std::to_string(12 - before.size()) + " run now";
     EXPECT_NE(outcome.out.find(told), std::string::npos) << outcome.out;
     const auto after = records("part");
@@ -119,7 +119,7 @@ TEST_F(Sweep, ABrokenRecordIsRunAgain) {
   const auto record = scratch / "one/runs" / records("one").begin()->first;
   std::ofstream(record) << contents(record).substr(0, 100);
   const auto outcome = edmill("sweep a.sweep.toml --out one");
-  EXPECT_NE(outcome.out.find("3 known from before, 1 run now"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("3 reused, 1 run now"), std::string::npos) << outcome.out;
   EXPECT_EQ(contents(scratch / "one/runs.csv"), table);
 }
 
@@ -165,7 +165,7 @@ TEST_F(Sweep, ChargeRatiosOfTheThesisGiveItsNumbersOfBalls) {
   }
   EXPECT_EQ(points, 24);
   const auto digests = [&](const std::string& name, std::string text) {
-    // So short that it costs nothing.
+    // So short that its cost is negligible.
     const auto after = text.find("replicas = 1\n") + 13;
     text.insert(after, "grid = { \"run.start_time\" = [\"0 s\"], \"run.end_time\" = [\"1 us\"] }\n");
     write(name + ".toml", text);

@@ -1,4 +1,4 @@
-// Means and intervals against other ways to the same numbers.
+// Means and intervals against independent computations.
 #include <gtest/gtest.h>
 
 #include <algorithm>

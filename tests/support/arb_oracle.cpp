@@ -295,7 +295,7 @@ class Search {
   }
 
  private:
-  using Found = std::optional<OracleContact>;  // nothing: no contact here, look further right
+  using Found = std::optional<OracleContact>;  // nothing: no contact here, search further right
 
   static Found unresolved() {
     OracleContact c;
@@ -317,7 +317,8 @@ class Search {
       if (positive(at_left) && positive(at_right)) return {};
       if (positive(at_left) && not_positive(at_right)) return root(f, s, begin, false);
       if (negative(at_right) && arb_contains_zero(at_left.v)) {
-        // Zero at the left end as far as these bits tell: the contact is there or within that doubt after it.
+        // Zero at the left end within this precision: the contact is there or within that uncertainty after
+        // it.
         Ball late;
         arb_div(late.v, at_left.v, r.rate.v, problem_.prec());
         arb_sub(late.v, left.v, late.v, problem_.prec());
@@ -333,7 +334,7 @@ class Search {
         if (not_negative(at_right)) return {};
       }
     }
-    // Nothing can be told: a new model where the remainder blurs this one, then halves.
+    // Undecided: a new model where the remainder blurs this one, then halves.
     const bool narrow = b - a <= 1;
     if (narrow && (b - a < 0x1p-36 || blurred(r.middle_value, r.value) || blurred(r.middle_rate, r.rate))) {
       Ball half(b - a), middle(a + (b - a) / 2);

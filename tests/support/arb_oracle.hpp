@@ -19,7 +19,7 @@ struct OracleQuestion {
   std::int64_t begin_period;
   double begin_offset;
   double length;    ///< of the window [s]
-  double overtime;  ///< contacts up to this long after the window are told, too [s]
+  double overtime;  ///< contacts up to this long after the window are reported too [s]
 };
 
 enum class OracleVerdict { none, contact, unresolved };

@@ -42,7 +42,7 @@ class FaultyLog : public ProgramTest {
     EXPECT_EQ(std::set<Kind>(ranked.begin(), ranked.end()), wanted) << audit::table(result);
     EXPECT_EQ(result.verdict, wanted.empty() ? audit::Verdict::clean : audit::Verdict::violations);
   }
-  /// Runs the mill with a mistake. @return how often a mistake that comes every so often was made
+  /// Runs the mill with a mistake. @return how often a periodic mistake was made
   int simulate(const Faults& faults, int events = 400) {
     return FaultyMill(built.the_case, built.states, faults).write_log(scratch / "log.csv", events);
   }

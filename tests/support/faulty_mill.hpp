@@ -1,5 +1,5 @@
-// A small event-driven mill with switches for mistakes, which writes its log as another code would: apart
-// from the engine, with a search of its own, so that every impact follows from the mistaken ones before.
+// A small event-driven mill with switches for mistakes, which writes its log as another code would:
+// independent of the engine, with its own search, so that every impact follows from the mistaken ones before.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,17 +25,17 @@ struct Faults {
   double wall_velocity_factor = 1;    ///< in the impulse
   double restitution = -1;            ///< instead of the law's
   double least_separation = -1;       ///< instead of the law's [m/s]; 0 for none
-  bool restitution_friction = false;  ///< sliding limited by mu (1 + e_n) |g_n| where bodies leave at v_s
+  bool restitution_friction = false;  ///< sliding limited by mu (1 + e_n) |g_n| where bodies separate at v_s
   bool tangential_sign = false;       ///< (2.34)
   bool printed_compliance = false;    ///< (2.24)
   bool equal_masses = false;          ///< each of two balls takes half of the relative change
   bool spin_lost = false;             ///< in flight
   bool no_gravity = false;            ///< in flight
-  int late_every = 0;                 ///< each so many impacts is handled 20 us late
-  int missed_pairs_every = 0;         ///< each so many contacts of two balls is not seen
+  int late_every = 0;                 ///< one in this many impacts is handled 20 us late
+  int missed_pairs_every = 0;         ///< one in this many contacts of two balls is missed
   bool lower_cap_unseen = false;      ///< (2.19): y - R - h/2 never changes its sign
   double dose_factor = 1;
-  bool net_dose = false;  ///< supplied energy is taken off the dose
+  bool net_dose = false;  ///< supplied energy is subtracted from the dose
 };
 
 class FaultyMill {
@@ -48,7 +48,7 @@ class FaultyMill {
     gravity_ = faults.no_gravity ? Vec(0, 0, 0) : the_case.mill.gravity;
   }
 
-  /// Writes `count` impacts. @return how many were handled with a fault that comes every so often
+  /// Writes `count` impacts. @return how many were handled with a periodic fault
   int write_log(const std::filesystem::path& place, int count) {
     std::ofstream out(place);
     out << run::collision_log_header << run::collision_log_states << '\n';
@@ -61,7 +61,7 @@ class FaultyMill {
         continue;
       }
       if (faults_.late_every > 0 && ++impacts_ % faults_.late_every == 0) {
-        // Only where nothing else happens in between and two balls do not part before.
+        // Only where nothing else happens in between and two balls do not separate before.
         const double late = time_ + 20e-6;
         if (first_contact(&next).time > late && !parting_at(late, next)) {
           advance(late);
@@ -144,7 +144,7 @@ class FaultyMill {
     return time_ + std::max(0.0, c / (-b + std::sqrt(d)));
   }
 
-  /// @param except  a contact that is due already and is left aside
+  /// @param except  a contact that is already due and is skipped
   Contact first_contact(const Contact* except = nullptr) {
     Contact first;
     const int n = static_cast<int>(states_.size());
@@ -183,7 +183,7 @@ class FaultyMill {
     time_ = t;
   }
 
-  /// Fixes e_t for an impact whose friction knows nothing of the least separation speed.
+  /// Sets e_t of an impact whose friction ignores the least separation speed.
   static void fix_friction(model::ContactLaw<double>& law, const Vec& g, const Vec& normal,
                            double compliance) {
     const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();

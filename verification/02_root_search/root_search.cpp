@@ -103,7 +103,7 @@ TEST(RootSearch, EveryRootOfARealRunIsTheFirstOne) {
   for (const auto& query : harvest.queries) {
     const auto answer = ladder.wall(query);
     const bool hit = answer.verdict == Verdict::contact;
-    // A search that proves none may prove it for less than was asked.
+    // A search that proves none may prove it for a part of the window only.
     WallQuery<double> asked = query;
     if (!hit) asked.length = answer.searched;
     const auto question = testing::question_of(mill, asked);
@@ -123,7 +123,7 @@ TEST(RootSearch, EveryRootOfARealRunIsTheFirstOne) {
       ++unfounded;
       continue;
     }
-    // The enclosure: the time with its doubt and the digits of the clock on both sides.
+    // The enclosure: the time with its error and the digits of the clock on both sides.
     const double width = 2 * answer.time_error + 8 * resolution;
     auto around = question;
     around.begin_period = answer.time.period;

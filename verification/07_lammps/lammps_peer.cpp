@@ -1,4 +1,4 @@
-// Claim 07: LAMMPS, a soft-sphere code of other people, gives the milling dose rates of the Ward cases.
+// Claim 07: LAMMPS, an independent soft-sphere code, gives the milling dose rates of the Ward cases.
 #include <algorithm>
 #include <cmath>
 

@@ -6,7 +6,7 @@
   bench.py ratios A.json
 
 `run` with several binaries runs them in turn, round by round, so that a slow hour of the machine hits all of
-them alike. With --core edmill and the yardsticks of a case run at once on that one core, those of all binaries,
+them alike. With --core edmill and the reference implementations of a case run simultaneously on that core, those of all binaries,
 where a slow minute hits them alike, too; CPU times then count the caches that they take from each other. `compare`
 exits with 1 when a figure of B is slower than in A, with 2 on bad input.
 """
@@ -252,11 +252,11 @@ def print_figures(result):
 
 
 def print_ratios(result):
-    """edmill over each yardstick, from the same run and at equal numbers of balls."""
-    for yardstick in ("minimal", "peer"):
+    """edmill over each reference implementation, from the same run and at equal numbers of balls."""
+    for reference in ("minimal", "peer"):
         lines = []
         for name, figure in result["figures"].items():
-            other = result["figures"].get(name.replace("edmill/", yardstick + "/", 1))
+            other = result["figures"].get(name.replace("edmill/", reference + "/", 1))
             if not name.startswith("edmill/") or not other or " " in name:
                 continue
             ratio_of = paired_range if result.get("together") else interval
@@ -265,7 +265,7 @@ def print_ratios(result):
             shown = "   [%.3f, %.3f]" % (low, high) if enough else ""
             lines.append("%-48s %8.3f%s" % (name[len("edmill/"):], ratio, shown))
         if lines:
-            print("edmill / %s, collisions per CPU second" % yardstick)
+            print("edmill / %s, collisions per CPU second" % reference)
             print("\n".join(lines))
 
 

@@ -130,7 +130,7 @@ void MinimalLoop::advance(Ball& ball) const {
   ball.time = now_;
 }
 
-/// Everything anew: after a collision of the ball, or of the partner that it waited for.
+/// Predicts everything again, after a collision of the ball or of its expected partner.
 void MinimalLoop::predict(int i) {
   Ball& ball = balls_[i];
   advance(ball);

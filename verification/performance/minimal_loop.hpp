@@ -1,5 +1,5 @@
-// The plain yardstick: the textbook's event-driven loop for elastic smooth spheres in a periodic box. Cells,
-// a heap, one event for each ball, and nothing else. Units as in periodic_gas.hpp.
+// The plain reference implementation: the textbook event-driven loop for elastic smooth spheres in a periodic
+// box. Cells, a heap, one event for each ball, and nothing else. Units as in periodic_gas.hpp.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class MinimalLoop {
   /// Starts from PeriodicGas, which see.
   MinimalLoop(int balls, double packing, std::uint64_t seed, bool in_order = true);
 
-  /// Goes on for so many collisions.
+  /// Continues for this number of collisions.
   void run(std::uint64_t collisions);
 
   std::uint64_t collisions() const { return collisions_; }

@@ -1,5 +1,5 @@
-// The tuned yardstick: what minimal_loop.hpp does, with everything that makes such loops fast. Units as in
-// periodic_gas.hpp.
+// The tuned reference implementation: minimal_loop.hpp with everything that makes such loops fast. Units as
+// in periodic_gas.hpp.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ class PeerLoop {
   /// Starts from PeriodicGas, which see.
   PeerLoop(int balls, double packing, std::uint64_t seed, bool in_order = true);
 
-  /// Goes on for so many collisions.
+  /// Continues for this number of collisions.
   void run(std::uint64_t collisions);
 
   std::uint64_t collisions() const { return collisions_; }
@@ -70,7 +70,7 @@ class PeerLoop {
     int partner;
     std::uint32_t partner_impacts;
   };
-  /// What a ball expects: the nearest of the contacts that it predicted itself, and its next cell.
+  /// The predictions of a ball: the nearest of its own contacts, and its next cell.
   struct alignas(64) Agenda {
     static constexpr int capacity = 3;
     std::array<Contact, capacity> contacts;
@@ -87,7 +87,7 @@ class PeerLoop {
   struct Spilled {
     int cell, ball;
   };
-  /// A ball on a course that meets.
+  /// A ball on a collision course.
   struct Near {
     double b, c, discriminant;
     int ball;

@@ -1,5 +1,5 @@
-// Where both yardsticks start: elastic smooth spheres in a periodic box. Lengths in ball diameters, masses in
-// ball masses, velocities in thermal ones.
+// Initial state of both reference implementations: elastic smooth spheres in a periodic box. Lengths in ball
+// diameters, masses in ball masses, velocities in thermal ones.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace edmill::performance {
 /// Balls on a cubic lattice with Maxwellian velocities at temperature 1 and no total momentum.
 struct PeriodicGas {
   /// @param packing   volume of the balls over the volume of the box
-  /// @param in_order  neighbours lie near each other in memory too; otherwise anywhere
+  /// @param in_order  neighbours are near each other in memory too; otherwise anywhere
   /// @throws std::invalid_argument when the lattice does not fit or the box has no room for four cells a side
   PeriodicGas(int balls, double packing, std::uint64_t seed, bool in_order);
 

@@ -40,7 +40,7 @@ std::string spex_text(const SpexSubject& subject);
 /// @throws std::invalid_argument when the lattice does not fit at this packing
 casefile::InitialCase<double> still_gas(int balls, double packing);
 
-/// A simulation after so many collisions. Counts are kept by asking for short stretches of time.
+/// A simulation after this number of collisions, advanced in short intervals of time.
 template <class Real>
 class Run {
  public:
@@ -54,7 +54,7 @@ class Run {
     end_ = seconds;
     simulation_.run_until(simulation_.clock().at(end_));
   }
-  /// At least so many collisions more, in stretches of `step` [s].
+  /// At least this number of further collisions, in intervals of `step` [s].
   void collisions(std::uint64_t count, const Real& step) {
     const auto target = simulation_.counts().impacts + count;
     while (simulation_.counts().impacts < target) until(end_ + step);

@@ -1,4 +1,5 @@
-// Collisions per CPU second of one thread: edmill's cases, and the yardsticks at equal numbers.
+// Collisions per CPU second of one thread: edmill's cases, and the reference implementations at equal
+// numbers.
 #include <cmath>
 
 #include "minimal_loop.hpp"
@@ -54,7 +55,7 @@ void still(benchmark::State& state, int balls, double packing) {
   if (balls >= 10000) state.counters["bytes_per_ball"] = built_bytes / balls;
 }
 
-/// A yardstick.
+/// A reference implementation.
 template <class Loop>
 void periodic(benchmark::State& state, int balls, double packing, bool in_order = true) {
   settle_memory();
@@ -92,7 +93,7 @@ std::string gas_name(double packing, int balls) {
 void add_gas(double packing, int balls) {
   const std::string name = gas_name(packing, balls);
   add("edmill/" + name, 10, [=](benchmark::State& s) { still(s, balls, packing); });
-  // The yardsticks need a box of four balls a side.
+  // The reference implementations need a box of four balls a side.
   if (balls > 123 * packing) add_yardsticks(name, balls, packing, 10);
 }
 

@@ -1,5 +1,5 @@
 // Ball-wall times without certificates: what an ordinary event-driven code does for a moving wall. It is
-// here to be compared with, and not part of the program.
+// used for comparison only, and not part of the program.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ inline dynamics::WallAnswer<double> uncertified_search(const dynamics::WallSearc
         Verdict::contact, wall, clock.instant(query.begin.period, t), false, 0, ulp};
   };
 
-  // Where the parabola through the start meets each wall; a little beyond the first there is nothing to find.
+  // Where the parabola through the start meets each wall; the search ends a little beyond the first.
   std::array<double, wall_count> predicted;
   double length = query.length;
   for (int wall = 0; wall < wall_count; ++wall) {

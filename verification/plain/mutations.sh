@@ -20,10 +20,10 @@ mutate() {
   fi
 }
 mutate "tangential impulse with the wrong sign" 's/jump - gt \*/jump + gt */'
-mutate "spin turned the wrong way" 's/cross(n, gt) \* (share/cross(n, gt) * (-share/'
+mutate "spin with the wrong sign" 's/cross(n, gt) \* (share/cross(n, gt) * (-share/'
 mutate "wall velocity at the ball's centre" 's/pose.velocity(ra - n \* R)/pose.velocity(ra)/'
 mutate "no least separation speed" 's/T(-approach), least_separation_)/T(-approach), T(0))/'
-mutate "1 + e in the sliding impulse instead of the impulse that passes" 's/c \* jump/c * (1 + restitution_) * approach/'
-mutate "supplied energy taken off the dose" 's/std::max(T(0), T(approach \* approach - leave \* leave))/approach * approach - leave * leave/'
+mutate "1 + e in the sliding impulse instead of the actual normal impulse" 's/c \* jump/c * (1 + restitution_) * approach/'
+mutate "supplied energy subtracted from the dose" 's/std::max(T(0), T(approach \* approach - leave \* leave))/approach * approach - leave * leave/'
 mutate "arm longer by 1e-22 m" 's/mill_.arm = number("arm")/mill_.arm = number("arm") + T("1e-22")/'
 exit $status

@@ -153,7 +153,7 @@ std::pair<T, unsigned> first_wall(const Mill<T>& m, const Flight<T>& flight) {
     return Vec<double>{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
   };
   const Flight<double> near_flight{d(flight.r), d(flight.v), static_cast<double>(flight.turns)};
-  // What double may not know the sign of is asked of the wide scalar.
+  // A sign that double cannot decide is computed in the wide scalar.
   auto sample = [&](double tau, bool wide) {
     std::array<Gap<double>, 3> near = gaps(near_mill, near_flight, tau);
     for (const Gap<double>& g : near) wide = wide || std::fabs(g.value) < 1e-12 || std::fabs(g.rate) < 1e-12;
@@ -315,7 +315,7 @@ class PlainMill {
     const Vec<T> spins = b ? a.spin + b->spin : a.spin;
     const Vec<T> g = va - partner_velocity - cross(spins * R, n), gt = g - n * dot(g, n);
     const T approach = -dot(g, n), slip = sqrt(dot(gt, gt));
-    // Section 6. Bodies that part already, by rounding, are not slowed down.
+    // Section 6. Bodies that already separate, by rounding, are not slowed down.
     const T leave = std::max(approach > 0 ? T(restitution_ * approach) : T(-approach), least_separation_);
     const T jump = approach + leave;  // the normal impulse over share * mass
     T et = min_tangential_;

@@ -30,14 +30,14 @@ const double pi = std::acos(-1.0);
 struct Mill {
   double rpm = 1054, arm = 0.1, swing = pi / 12, radius = 0.019, half_height = 0.0285, gravity = 9.8;
   double ball_radius = 0, density = 8000, inertia = 0.4, restitution = 0, friction = 0.4;
-  double collapse_time = 1e-4;   // an impact so soon after the last of either body has e = 1
-  double least_separation = 0;   // bodies leave an impact no slower [m/s]
-  double hop_friction = 1;       // share of mu that impacts have which leave at the least separation speed
+  double collapse_time = 1e-4;   // an impact within this time of the last one of either body has e = 1
+  double least_separation = 0;   // least speed at which bodies separate [m/s]
+  double hop_friction = 1;       // share of mu in impacts that separate at the least separation speed
   std::string search = "exact";  // or "stepped"
   double step = 1e-2, tolerance = 1e-5, factor = 2, refinements = 12;  // of the stepped search
   double put_back = 0;     // stepped search: 1 to put a ball back on the wall's surface at an impact
-  double ignore = 0;       // exact search: walls are looked at only so long after a ball's last impact
-  double smooth_time = 0;  // an impact so soon after the last is elastic and without friction
+  double ignore = 0;       // exact search: walls are ignored for this time after a ball's last impact
+  double smooth_time = 0;  // an impact within this time of the last one is elastic and frictionless
 
   double omega() const { return 2 * pi * rpm / 60; }
   double mass() const { return density * 4 / 3 * pi * ball_radius * ball_radius * ball_radius; }
@@ -114,7 +114,7 @@ Contact stepped_search(const Mill& m, const Flight& flight) {
   throw std::runtime_error("a ball meets no wall");
 }
 
-// Short steps, grazes looked at where a rate changes sign, bisection to the last bit.
+// Short steps, grazes examined where a rate changes sign, bisection to the last bit.
 Contact exact_search(const Mill& m, const Flight& flight) {
   const auto closes = [](const Gap& g) { return g.value <= 0 && g.rate < 0; };
   double a = m.ignore, step = 1e-9;
