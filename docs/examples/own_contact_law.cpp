@@ -1,10 +1,9 @@
 // A contact law of one's own: balls that rebound less the faster they meet, as viscoelastic ones do, with
 // Coulomb's friction. Beside it the law of the case.
-#include <edmill/run.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <edmill/run.hpp>
 
 /// e_n = 1 / (1 + a g_n^(1/5)), a formula with the trend of Ramirez et al. 1999, and (2.24').
 class Viscoelastic : public edmill::CustomLaw<double> {

@@ -1,8 +1,7 @@
 // An observer of one's own: how hard balls hit each other, as a histogram of the approach speed.
-#include <edmill/run.hpp>
-
 #include <array>
 #include <cstdio>
+#include <edmill/run.hpp>
 
 class ApproachSpeeds : public edmill::Observer<double> {
  public:

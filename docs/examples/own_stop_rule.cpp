@@ -1,8 +1,7 @@
 // A stop rule of one's own: the run ends when every ball has hit every other kind of partner, a wall of each
 // id and another ball.
-#include <edmill/run.hpp>
-
 #include <cstdio>
+#include <edmill/run.hpp>
 #include <vector>
 
 class UntilAllHaveMetAll : public edmill::Observer<double> {

@@ -87,20 +87,9 @@ std::string table(const Audit& a) {
   return out + fmt::format("\n  verdict: {}\n", name_of(a.verdict));
 }
 
-std::string to_json(const Audit& a) {
-  io::JsonText json;
-  json.text("format", "edmill audit 1");
-  json.text("version", version());
-  json.text("commit", commit());
-  json.text("verdict", name_of(a.verdict));
-  json.text("case", a.case_name);
-  json.text("log", a.log_name);
-  json.integer("events", a.events);
-  json.number("first_time", a.first);
-  json.number("last_time", a.last);
-  json.text("interrupted", a.interrupted ? "yes" : "no");
-  json.number("tolerance", a.tolerances.relative);
-  json.number("gap_tolerance", a.tolerances.gap);
+namespace {
+
+void put_violations(io::JsonText& json, const Audit& a) {
   json.begin("violations");
   for (const Kind kind : a.findings.ranked()) {
     const Tally& tally = a.findings.of(kind);
@@ -122,6 +111,9 @@ std::string to_json(const Audit& a) {
     json.end();
   }
   json.end();
+}
+
+void put_diagnoses(io::JsonText& json, const Audit& a) {
   json.begin("looks_like");
   for (const auto& d : a.diagnoses) {
     json.begin(d.name);
@@ -131,6 +123,9 @@ std::string to_json(const Audit& a) {
     json.end();
   }
   json.end();
+}
+
+void put_energies(io::JsonText& json, const Audit& a) {
   json.begin("energy");
   json.integer("impacts", a.energies.impacts);
   json.number("wall_work", a.energies.wall_work.value());
@@ -144,6 +139,9 @@ std::string to_json(const Audit& a) {
   json.integer("impacts", a.energies.creating);
   json.number("energy", a.energies.created);
   json.end();
+}
+
+void put_checks(io::JsonText& json, const Audit& a) {
   json.begin("checked");
   for (std::size_t k = 0; k < check_count; ++k)
     json.integer(info(static_cast<Check>(k)).name, a.findings.judged_number(static_cast<Check>(k)));
@@ -151,6 +149,28 @@ std::string to_json(const Audit& a) {
   json.begin("not_checked");
   for (const Check check : a.not_made) json.text(info(check).name, info(check).columns);
   json.end();
+}
+
+}  // namespace
+
+std::string to_json(const Audit& a) {
+  io::JsonText json;
+  json.text("format", "edmill audit 1");
+  json.text("version", version());
+  json.text("commit", commit());
+  json.text("verdict", name_of(a.verdict));
+  json.text("case", a.case_name);
+  json.text("log", a.log_name);
+  json.integer("events", a.events);
+  json.number("first_time", a.first);
+  json.number("last_time", a.last);
+  json.text("interrupted", a.interrupted ? "yes" : "no");
+  json.number("tolerance", a.tolerances.relative);
+  json.number("gap_tolerance", a.tolerances.gap);
+  put_violations(json, a);
+  put_diagnoses(json, a);
+  put_energies(json, a);
+  put_checks(json, a);
   json.integer("undecided", a.undecided);
   return json.finish();
 }

@@ -91,47 +91,54 @@ void Flights::judge(int ball, const FlightEnd& end) {
   if (pair && (pair->time > until || (missed && missed->time <= pair->time))) pair.reset();
   if (pair) missed.reset();
 
-  bool told = track.broken;
   double missed_at = until;
-  const auto deep = [&](const Contact& c) { return off == 0 || c.depth > 2 * off; };
-  if (missed) {
-    const bool explained = off > 0 && explained_by_walls(ball, track, end);
-    if (explained || deep(*missed)) {
-      track.held = missed_finding(ball, *missed, end,
-                                  explained  ? "the state changes as in this impact, which is not logged"
-                                  : off == 0 ? "the ball flew through the wall"
-                                             : "");
-      told = true;
-      missed_at = missed->time;
-    }
-  }
-  if (pair) {
-    const bool explained = off > 0 && explained_by_ball(ball, *pair, end);
-    Track& other = of(pair->partner);
-    if (explained) {
-      findings_.add(
-          missed_finding(ball, *pair, end, "the state changes as in this impact, which is not logged"));
-      if (!other.broken || pair->time < other.broken_from) other.broken_from = pair->time;
-      other.broken = told = true;
-      missed_at = pair->time;
-    } else if (deep(*pair) && other.pending.size() < pending_kept) {
-      const Finding finding{Kind::missed_event,
-                            pair->depth,
-                            end.event->line,
-                            pair->time,
-                            ball,
-                            false,
-                            pair->partner,
-                            unknown,
-                            unknown,
-                            off == 0 ? "the balls flew through each other" : ""};
-      other.pending.push_back({finding, pair->depth});
-      told = told || off > 0;
-      missed_at = pair->time;
-    }
-  }
+  bool told = track.broken;
+  if (missed) told |= report_missed_wall(ball, track, *missed, end, off, missed_at);
+  if (pair) told |= report_missed_ball(ball, *pair, end, off, missed_at);
   settle_pending(track, end, off, told ? missed_at : time);
   if (!told) judge_state(ball, track, end, off, true);
+}
+
+/// @param off  distance of the logged position from the end of the flight [m]
+/// @return whether it is reported; then `missed_at` becomes its time
+bool Flights::report_missed_wall(int ball, Track& track, const Contact& missed, const FlightEnd& end,
+                                 double off, double& missed_at) {
+  const bool explained = off > 0 && explained_by_walls(ball, track, end);
+  if (!explained && off > 0 && missed.depth <= 2 * off) return false;
+  track.held = missed_finding(ball, missed, end,
+                              explained  ? "the state changes as in this impact, which is not logged"
+                              : off == 0 ? "the ball flew through the wall"
+                                         : "");
+  missed_at = missed.time;
+  return true;
+}
+
+/// The same for two balls; what only the partner's flight can confirm is left pending with the partner.
+bool Flights::report_missed_ball(int ball, const Contact& pair, const FlightEnd& end, double off,
+                                 double& missed_at) {
+  Track& other = of(pair.partner);
+  if (off > 0 && explained_by_ball(ball, pair, end)) {
+    findings_.add(
+        missed_finding(ball, pair, end, "the state changes as in this impact, which is not logged"));
+    if (!other.broken || pair.time < other.broken_from) other.broken_from = pair.time;
+    other.broken = true;
+    missed_at = pair.time;
+    return true;
+  }
+  if ((off > 0 && pair.depth <= 2 * off) || other.pending.size() >= pending_kept) return false;
+  const Finding finding{Kind::missed_event,
+                        pair.depth,
+                        end.event->line,
+                        pair.time,
+                        ball,
+                        false,
+                        pair.partner,
+                        unknown,
+                        unknown,
+                        off == 0 ? "the balls flew through each other" : ""};
+  other.pending.push_back({finding, pair.depth});
+  missed_at = pair.time;
+  return off > 0;
 }
 
 /// Missed impacts that were found with other balls' flights are confirmed if this flight agrees with the log.

@@ -85,6 +85,9 @@ class Flights {
   void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it);
   const char* look_of(const Track& track, const BodyState& state, double dt, double dv) const;
   Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note) const;
+  bool report_missed_wall(int ball, Track& track, const Contact& missed, const FlightEnd& end, double off,
+                          double& missed_at);
+  bool report_missed_ball(int ball, const Contact& pair, const FlightEnd& end, double off, double& missed_at);
   void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at);
   void settle_held(Track& track, const LoggedEvent* next);
   bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const;

@@ -4,6 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <cctype>
 #include <filesystem>
+#include <functional>
+#include <utility>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
@@ -99,159 +102,187 @@ std::string version_text() {
                      edmill::compiler(), scalars);
 }
 
+/// The subcommands, each with its options and what it does.
+class CommandLine {
+ public:
+  CommandLine() {
+    app_.set_version_flag("--version", version_text());
+    app_.require_subcommand(1);
+    app_.footer(
+        "Exit codes: 0 done, 2 bad input, 3 ended in inelastic collapse, 4 a decision that no scalar could "
+        "make,\n"
+        "5 some runs of a sweep failed, 6 the compared outputs differ or the audited log has violations, 7 "
+        "too "
+        "few data to decide,\n"
+        "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
+    add_run();
+    add_resume();
+    add_report();
+    add_certify();
+    add_check();
+    add_variables();
+    add_study("sweep", "run a case at many points and tabulate the results", edmill::cli::run_sweep);
+    add_study("optimize", "search for the largest dose rate within bounds", edmill::cli::run_optimize);
+    add_compare();
+    add_audit();
+  }
+
+  /// @return the exit code
+  int run(int argc, char** argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      if (error.get_exit_code() == 0) return app_.exit(error);  // --help, --version
+      print_problem(std::string(error.what()) + " (see edmill --help)");
+      return edmill::cli::bad_input;
+    }
+    for (const auto& [command, action] : actions_)
+      if (*command) return action();
+    return edmill::cli::internal_error;
+  }
+
+ private:
+  CLI::App* add(const std::string& name, const std::string& what, std::function<int()> action) {
+    auto* command = app_.add_subcommand(name, what);
+    actions_.emplace_back(command, std::move(action));
+    return command;
+  }
+  void take_case(CLI::App* command) {
+    command->add_option("case", case_file_, "case file (TOML)")->required();
+    command->add_option("--set", overrides_, "section.key=value, overrides the case file; can be repeated")
+        ->take_all()
+        ->expected(1);
+  }
+
+  void add_run() {
+    auto* command = add("run", "simulate a case and write its results", [this] {
+      return ::run(case_file_, folder_, precision_, shadow_, checkpoint_, overrides_, report_, quiet_);
+    });
+    take_case(command);
+    const auto precisions = CLI::IsMember(edmill::casefile::precisions());
+    command->add_option("--out", folder_, "folder for the results; out/<case name> unless given");
+    command->add_option("--precision", precision_, "scalar of the run, overrides that of the case")
+        ->check(precisions);
+    auto* shadow =
+        command
+            ->add_option("--shadow", shadow_, "also run in this wider scalar and report when the two diverge")
+            ->check(precisions);
+    command->add_option("--checkpoint", checkpoint_, every_ + "; never unless given")->excludes(shadow);
+    command->add_flag("--report", report_, "write report.html, and the tables that it shows");
+    command->add_flag("--quiet", quiet_, "no progress line and no result table");
+  }
+
+  void add_resume() {
+    auto* command = add("resume", "continue an unfinished run from its checkpoint",
+                        [this] { return resume(folder_, checkpoint_, quiet_); });
+    command->add_option("folder", folder_, "folder of the run")->required();
+    command->add_option("--checkpoint", checkpoint_, every_ + "; as before unless given");
+    command->add_flag("--quiet", quiet_, "no progress line and no result table");
+  }
+
+  void add_report() {
+    auto* command = add("report", "make the HTML page of a run from its files",
+                        [this] { return edmill::cli::run_report(folder_, quiet_); });
+    command->add_option("folder", folder_, "folder of the run")->required();
+    command->add_flag("--quiet", quiet_, "do not print the path of the page");
+  }
+
+  void add_certify() {
+    auto* command = add("certify", "raise the precision until the first events are certain, and write them",
+                        [this] { return certify(case_file_, overrides_, certification_); });
+    take_case(command);
+    command->add_option("--collisions", certification_.collisions, "how many events")
+        ->required()
+        ->check(CLI::Range(1, 10000000));
+    command->add_option("--digits", certification_.digits, "to how many digits; 25 unless given")
+        ->check(CLI::Range(1, 90));
+    command->add_option("--out", certification_.file, "file; out/<case name>.reference.csv unless given");
+    command->add_flag("--quiet", certification_.quiet, "no progress and no report");
+  }
+
+  void add_check() {
+    take_case(add("check", "read and check a case; print it in SI with derived numbers", [this] {
+      fmt::print("{}", edmill::cli::describe_case(edmill::casefile::read_case(case_file_, overrides_)));
+      return edmill::cli::ok;
+    }));
+  }
+
+  void add_variables() {
+    add("variables", "list the variables that outputs can show, as Markdown tables", [] {
+      fmt::print("{}", edmill::cli::list_variables());
+      return edmill::cli::ok;
+    });
+  }
+
+  void add_study(const std::string& name, const std::string& what,
+                 int (*work)(const edmill::cli::StudyOptions&)) {
+    auto* command =
+        add(name, what, [this, work] { return interruptible([&] { return work(study_); }, study_); });
+    command->add_option("file", study_.file, "sweep or optimisation file (TOML)")->required();
+    command->add_option("--out", study_.folder, "folder for the tables; out/<name of the file> unless given");
+    command->add_option("--jobs", study_.jobs, "runs at a time in each process; all cores unless given")
+        ->check(CLI::Range(1, 4096));
+    command->add_flag("--quiet", study_.quiet, "no progress line and no report");
+  }
+
+  void add_compare() {
+    auto* command = add("compare", "compare two collision logs event by event and by statistics",
+                        [this] { return edmill::cli::run_compare(compare_); });
+    command->add_option("A", compare_.a, "reference: folder of a run, or a collision log (CSV)")->required();
+    command->add_option("B", compare_.b, "the other")->required();
+    command->add_option("--tolerance", compare_.tolerance, "relative, for single events; 1e-9 unless given")
+        ->check(CLI::Range(0.0, 1.0));
+    command->add_option("--events", compare_.events, "number of events that must agree one by one");
+    command->add_option("--from", compare_.limits.from, "time in s to begin at");
+    command->add_option("--until", compare_.limits.until, "time in s to end at");
+    command->add_option("--batch", compare_.batch, "length of a batch in s; a twentieth unless given")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--json", compare_.json, "file for the result in JSON");
+    command->add_flag("--quiet", compare_.quiet, "no table");
+  }
+
+  void add_audit() {
+    auto* command = add("audit", "check another code's collision log against the physics of a case",
+                        [this] { return audit(case_file_, overrides_, audited_); });
+    take_case(command);
+    command->add_option("log", audited_.log, "collision log (CSV), or folder of a run")->required();
+    command->add_option("--column", audited_.columns, "ours=theirs [unit]: name of a column; can be repeated")
+        ->take_all()
+        ->expected(1);
+    command->add_option("--first-ball", audited_.first_ball, "number of the log's first ball; 0 unless given")
+        ->check(CLI::Range(0, 1000000000));
+    command->add_option("--walls", audited_.walls,
+                        "numbers of the caps at -y and +y and the cylinder, e.g. \"1, 2, 3\"");
+    command->add_option("--tolerance", audited_.tolerance, "relative; 1e-9 unless given")
+        ->check(CLI::Range(1e-15, 0.5));
+    command
+        ->add_option("--gap-tolerance", audited_.gap_tolerance,
+                     "largest gap or overlap of bodies in contact, in m")
+        ->check(CLI::PositiveNumber);
+    command->add_flag("--from-start", audited_.from_start, "the log begins at the case's initial state");
+    command->add_option("--examples", audited_.examples, "of each kind of violation; 3 unless given")
+        ->check(CLI::Range(0, 1000));
+    command->add_option("--json", audited_.json, "file for the result in JSON");
+    command->add_flag("--quiet", audited_.quiet, "no progress line and no table");
+  }
+
+  const std::string every_ = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
+  CLI::App app_{"edmill: event-driven simulation of ball mills, a validated reference solver"};
+  std::vector<std::pair<CLI::App*, std::function<int()>>> actions_;
+  std::string case_file_, folder_, precision_, shadow_, checkpoint_;
+  std::vector<std::string> overrides_;
+  bool quiet_ = false, report_ = false;
+  edmill::cli::CertifyOptions certification_;
+  edmill::cli::StudyOptions study_;
+  edmill::cli::CompareOptions compare_;
+  edmill::cli::AuditOptions audited_;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"edmill: event-driven simulation of ball mills, a validated reference solver"};
-  app.set_version_flag("--version", version_text());
-  app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 done, 2 bad input, 3 ended in inelastic collapse, 4 a decision that no scalar could "
-      "make,\n"
-      "5 some runs of a sweep failed, 6 the compared outputs differ or the audited log has violations, 7 too "
-      "few data to decide,\n"
-      "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
-  std::string case_file, folder, precision, shadow, checkpoint;
-  std::vector<std::string> overrides;
-  bool quiet = false, report = false;
-
-  auto* run_command = app.add_subcommand("run", "simulate a case and write its results");
-  run_command->add_option("case", case_file, "case file (TOML)")->required();
-  run_command->add_option("--out", folder, "folder for the results; out/<case name> unless given");
-  run_command->add_option("--precision", precision, "scalar of the run, overrides that of the case")
-      ->check(CLI::IsMember(edmill::casefile::precisions()));
-  run_command->add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
-      ->take_all()
-      ->expected(1);
-  run_command->add_flag("--quiet", quiet, "no progress line and no result table");
-
-  auto* shadow_option =
-      run_command
-          ->add_option("--shadow", shadow, "also run in this wider scalar and report when the two diverge")
-          ->check(CLI::IsMember(edmill::casefile::precisions()));
-  const std::string every = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
-  run_command->add_option("--checkpoint", checkpoint, every + "; never unless given")
-      ->excludes(shadow_option);
-
-  auto* resume_command = app.add_subcommand("resume", "continue an unfinished run from its checkpoint");
-  resume_command->add_option("folder", folder, "folder of the run")->required();
-  resume_command->add_option("--checkpoint", checkpoint, every + "; as before unless given");
-  resume_command->add_flag("--quiet", quiet, "no progress line and no result table");
-
-  run_command->add_flag("--report", report, "write report.html, and the tables that it shows");
-
-  auto* report_command = app.add_subcommand("report", "make the HTML page of a run from its files");
-  report_command->add_option("folder", folder, "folder of the run")->required();
-  report_command->add_flag("--quiet", quiet, "do not print the path of the page");
-
-  edmill::cli::CertifyOptions certification;
-  auto* certify_command =
-      app.add_subcommand("certify", "raise the precision until the first events are certain, and write them");
-  certify_command->add_option("case", case_file, "case file (TOML)")->required();
-  certify_command->add_option("--collisions", certification.collisions, "how many events")
-      ->required()
-      ->check(CLI::Range(1, 10000000));
-  certify_command->add_option("--digits", certification.digits, "to how many digits; 25 unless given")
-      ->check(CLI::Range(1, 90));
-  certify_command->add_option("--out", certification.file,
-                              "file; out/<case name>.reference.csv unless given");
-  certify_command
-      ->add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
-      ->take_all()
-      ->expected(1);
-  certify_command->add_flag("--quiet", certification.quiet, "no progress and no report");
-
-  auto* check_command =
-      app.add_subcommand("check", "read and check a case; print it in SI with derived numbers");
-  check_command->add_option("case", case_file, "case file (TOML)")->required();
-  check_command->add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
-      ->take_all()
-      ->expected(1);
-
-  auto* variables_command =
-      app.add_subcommand("variables", "list the variables that outputs can show, as Markdown tables");
-
-  edmill::cli::StudyOptions study;
-  const auto add_study = [&](const std::string& name, const std::string& what) {
-    auto* command = app.add_subcommand(name, what);
-    command->add_option("file", study.file, "sweep or optimisation file (TOML)")->required();
-    command->add_option("--out", study.folder, "folder for the tables; out/<name of the file> unless given");
-    command->add_option("--jobs", study.jobs, "runs at a time in each process; all cores unless given")
-        ->check(CLI::Range(1, 4096));
-    command->add_flag("--quiet", study.quiet, "no progress line and no report");
-    return command;
-  };
-  auto* sweep_command = add_study("sweep", "run a case at many points and tabulate the results");
-  auto* optimize_command = add_study("optimize", "search for the largest dose rate within bounds");
-
-  edmill::cli::CompareOptions compare;
-  auto* compare_command =
-      app.add_subcommand("compare", "compare two collision logs event by event and by statistics");
-  compare_command->add_option("A", compare.a, "reference: folder of a run, or a collision log (CSV)")
-      ->required();
-  compare_command->add_option("B", compare.b, "the other")->required();
-  compare_command
-      ->add_option("--tolerance", compare.tolerance, "relative, for single events; 1e-9 unless given")
-      ->check(CLI::Range(0.0, 1.0));
-  compare_command->add_option("--events", compare.events, "number of events that must agree one by one");
-  compare_command->add_option("--from", compare.limits.from, "time in s to begin at");
-  compare_command->add_option("--until", compare.limits.until, "time in s to end at");
-  compare_command->add_option("--batch", compare.batch, "length of a batch in s; a twentieth unless given")
-      ->check(CLI::PositiveNumber);
-  compare_command->add_option("--json", compare.json, "file for the result in JSON");
-  compare_command->add_flag("--quiet", compare.quiet, "no table");
-
-  edmill::cli::AuditOptions audited;
-  auto* audit_command =
-      app.add_subcommand("audit", "check another code's collision log against the physics of a case");
-  audit_command->add_option("case", case_file, "case file (TOML)")->required();
-  audit_command->add_option("log", audited.log, "collision log (CSV), or folder of a run")->required();
-  audit_command
-      ->add_option("--column", audited.columns, "ours=theirs [unit]: name of a column; can be repeated")
-      ->take_all()
-      ->expected(1);
-  audit_command
-      ->add_option("--first-ball", audited.first_ball, "number of the log's first ball; 0 unless given")
-      ->check(CLI::Range(0, 1000000000));
-  audit_command->add_option("--walls", audited.walls,
-                            "numbers of the caps at -y and +y and the cylinder, e.g. \"1, 2, 3\"");
-  audit_command->add_option("--tolerance", audited.tolerance, "relative; 1e-9 unless given")
-      ->check(CLI::Range(1e-15, 0.5));
-  audit_command
-      ->add_option("--gap-tolerance", audited.gap_tolerance,
-                   "largest gap or overlap of bodies in contact, in m")
-      ->check(CLI::PositiveNumber);
-  audit_command->add_flag("--from-start", audited.from_start, "the log begins at the case's initial state");
-  audit_command->add_option("--examples", audited.examples, "of each kind of violation; 3 unless given")
-      ->check(CLI::Range(0, 1000));
-  audit_command->add_option("--json", audited.json, "file for the result in JSON");
-  audit_command->add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
-      ->take_all()
-      ->expected(1);
-  audit_command->add_flag("--quiet", audited.quiet, "no progress line and no table");
-
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    print_problem(std::string(error.what()) + " (see edmill --help)");
-    return edmill::cli::bad_input;
-  }
-  try {
-    if (*run_command) return run(case_file, folder, precision, shadow, checkpoint, overrides, report, quiet);
-    if (*resume_command) return resume(folder, checkpoint, quiet);
-    if (*report_command) return edmill::cli::run_report(folder, quiet);
-    if (*certify_command) return certify(case_file, overrides, certification);
-    if (*sweep_command) return interruptible([&] { return edmill::cli::run_sweep(study); }, study);
-    if (*optimize_command) return interruptible([&] { return edmill::cli::run_optimize(study); }, study);
-    if (*audit_command) return audit(case_file, overrides, audited);
-    if (*compare_command) return edmill::cli::run_compare(compare);
-    if (*variables_command) {
-      fmt::print("{}", edmill::cli::list_variables());
-      return edmill::cli::ok;
-    }
-    fmt::print("{}", edmill::cli::describe_case(edmill::casefile::read_case(case_file, overrides)));
-    return edmill::cli::ok;
+    return CommandLine().run(argc, argv);
   } catch (const edmill::InputError& error) {
     for (const auto& problem : error.problems()) print_problem(problem);
     return edmill::cli::bad_input;

@@ -80,7 +80,7 @@ EDMILL_INTO_CLONES void find_ages(const FlightBatch& batch, const PairFilterQuer
 /// One coordinate of the motion of the query's ball relative to each of the batch.
 EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairFilterQuery& query, int axis,
                                     int count, const Column& ages, Column& r, Column& v) {
-  const double position = query.state.position[axis], velocity = query.seen.velocity[axis];
+  const double position = query.state.position[axis], velocity = query.state.velocity[axis];
   const double gravity = query.filter.gravity[axis];
   Four x, u, age;
   if (gravity == 0) {  // which changes no bit of a contact

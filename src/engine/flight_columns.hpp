@@ -57,7 +57,7 @@ class PairFilterResult {
 /// PairFilterResult at a list of balls and finds the candidates among them. Compiled for several instruction
 /// sets, all with the same bits since nothing is contracted.
 /// @param flights, radii  of all balls; ball i has radius radii[i * stride]
-/// @param self            the ball of the query, which is never a suspect
+/// @param self            the ball of the query, which is never a candidate
 /// @param balls, result    with room for three more than `count`
 /// @return how many candidates there are
 int filter_pairs(const dynamics::Flight<double>* flights, const double* radii, int stride,

@@ -41,10 +41,12 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
 /// another contact may be as early within rounding.
 template <class Real>
 auto Simulation<Real>::next_event() -> Event<Real> {
-  const auto event = queued_event(queue_.top());
-  now_ = event.time;
+  auto event = queued_event(queue_.top());
   const bool is_contact = event.kind == EventKind::wall_contact || event.kind == EventKind::pair_contact;
-  return is_contact && has_rivals(event) ? settle_ties(event) : event;
+  if (is_contact && has_rivals(event)) event = settle_ties(event);
+  // Where times are closer than their errors the ladder may have put the later one first.
+  if (event.time < now_) event.time = now_;
+  return event;
 }
 
 /// What was queued for a ball.

@@ -16,23 +16,16 @@ namespace {
 
 constexpr double degrees = 180 / 3.14159265358979323846;
 
-}  // namespace
+using Maps = std::array<plot::HeatMap, model::wall_count>;
 
-void add_vessel(pugi::xml_node main, const RunFolder& run) {
-  auto section = add_section(main, "vessel", "Where the dose lands");
-  const auto* output = run.output("coverage", [](const auto& o) { return o.only.empty(); });
-  if (!output) return add_missing(section, "dose on the vessel's walls", "type = \"coverage\"");
-  const auto table = read_table(run.file_of(*output), "a table of coverage");
-  if (!(table.duration() > 0))
-    return add_missing(section, "time in the coverage of the vessel", "type = \"coverage\"");
+/// The dose rates of the table's cells, by wall [kW/m2].
+Maps read_maps(const OutputTable& table) {
   const auto column = [&](const char* name) { return table.column(name); };
   const auto wall = column("wall"), a_low = column("angle_low"), a_high = column("angle_high"),
              h_low = column("height_low"), h_high = column("height_high"), r_low = column("radius_low"),
              r_high = column("radius_high"), density = column("dose_per_area");
-  std::array<plot::HeatMap, model::wall_count> maps;
-  const double radius = run.spec.vessel_diameter.to<double>() / 2,
-               height = run.spec.vessel_height.to<double>();
-  double highest = 0, cylinder_least = INFINITY, cylinder_most = 0;
+  Maps maps;
+  for (auto& map : maps) map.highest = 0;
   for (const auto& row : table.numbers) {
     const auto w = static_cast<std::size_t>(row[wall]);
     if (w >= maps.size()) continue;
@@ -40,14 +33,16 @@ void add_vessel(pugi::xml_node main, const RunFolder& run) {
     if (w == 2) {
       maps[w].cells.push_back(
           {row[a_low] * degrees, row[a_high] * degrees, row[h_low] * 1000, row[h_high] * 1000, value});
-      cylinder_least = std::min(cylinder_least, value), cylinder_most = std::max(cylinder_most, value);
     } else {
       maps[w].cells.push_back({row[a_low], row[a_high], row[r_low], row[r_high], value});
     }
-    maps[w].highest = std::max(w < 2 ? highest : 0, value);
-    if (w < 2) highest = std::max(highest, value);
+    maps[w].highest = std::max(maps[w].highest, value);
   }
-  maps[2].highest = cylinder_most;
+  return maps;
+}
+
+void label_maps(Maps& maps, double radius, double height) {
+  const double highest = std::max(maps[0].highest, maps[1].highest);
   for (std::size_t w = 0; w < 2; ++w) {
     maps[w].highest = highest;  // the caps share a scale
     maps[w].disc = true;
@@ -66,6 +61,19 @@ void add_vessel(pugi::xml_node main, const RunFolder& run) {
       maps[2].x.low = std::min(maps[2].x.low, cell.x_low),
       maps[2].x.high = std::max(maps[2].x.high, cell.x_high);
   }
+}
+
+}  // namespace
+
+void add_vessel(pugi::xml_node main, const RunFolder& run) {
+  auto section = add_section(main, "vessel", "Where the dose lands");
+  const auto* output = run.output("coverage", [](const auto& o) { return o.only.empty(); });
+  if (!output) return add_missing(section, "dose on the vessel's walls", "type = \"coverage\"");
+  const auto table = read_table(run.file_of(*output), "a table of coverage");
+  if (!(table.duration() > 0))
+    return add_missing(section, "time in the coverage of the vessel", "type = \"coverage\"");
+  auto maps = read_maps(table);
+  label_maps(maps, run.spec.vessel_diameter.to<double>() / 2, run.spec.vessel_height.to<double>());
   auto grid = add(section, "div", {{"class", "charts maps"}});
   for (const auto w : std::initializer_list<std::size_t>{2, 0, 1}) {
     auto& map = maps[w];

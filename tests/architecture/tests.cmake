@@ -31,5 +31,5 @@ get_target_property(eigen_folders Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 list(TRANSFORM eigen_folders PREPEND -isystem)
 add_test(NAME same_bits_test
          COMMAND ${architecture}/same_bits_test.sh $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/same-bits
-                 $<TARGET_FILE:edmill_core> $<TARGET_FILE:hdf5::hdf5> $<TARGET_FILE:pugixml::pugixml> -- ${bits_options} ${bits_definitions} ${eigen_folders})
+                 $<TARGET_FILE:edmill_core> $<TARGET_FILE:hdf5::hdf5> -- ${bits_options} ${bits_definitions} ${eigen_folders})
 set_tests_properties(same_bits_test PROPERTIES TIMEOUT 1800)

@@ -96,11 +96,15 @@ First first_impact(const Scene& scene) {
     states.push_back(state);
   }
   Simulation<Real> simulation(the_case, states, {});
-  struct FirstOnly : Observer<Real> {
+  struct FirstThree : Observer<Real> {
     std::optional<First> first;
+    Instant<Real> latest{};
+    int impacts = 0;
     void on_impact(const Impact<Real>& impact, Simulation<Real>& s) override {
       if (!first) first = First{impact.with_wall, impact.ball, impact.partner, impact.by_rule, 0};
-      s.request_stop(EndReason::max_collisions);
+      EXPECT_FALSE(impact.time < latest) << "the time goes back";
+      latest = impact.time;
+      if (++impacts == 3) s.request_stop(EndReason::max_collisions);
     }
   } watch;
   simulation.attach(watch);
