@@ -10,6 +10,7 @@
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
 #include "io/output_folder.hpp"
+#include "io/table_hdf5.hpp"
 
 namespace edmill::study {
 
