@@ -2,6 +2,8 @@
 // Equations: (2.23'), (2.28'), (2.30'), (2.34'), (2.35), (2.36'), (A.82) of docs/theory.md.
 #pragma once
 
+#include <variant>
+
 #include "base/vector.hpp"
 #include "model/ball.hpp"
 #include "model/contact_law.hpp"
@@ -41,10 +43,11 @@ struct ImpulseParts {
 };
 
 /// @param compliance  1 + M/(m_i J_i) + M/(m_j J_j); the last term is zero for a wall
-template <class Real>
-ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
-                                 const Real& effective_mass, const Real& compliance,
-                                 const model::ContactLaw<Real>& law) {
+/// @param law         one of the laws of model/laws
+template <class Real, class Law>
+ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, const Vec3<Real>& normal,
+                              const Vec3<Real>& contact_velocity, const Real& effective_mass,
+                              const Real& compliance) {
   const Real normal_speed = dot<Real>(contact_velocity, normal);  // negative while approaching
   const Vec3<Real> slip = contact_velocity - normal * normal_speed;
   ImpulseParts<Real> parts;
@@ -53,7 +56,7 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
   out.slip_speed = norm<Real>(slip);
   const Real approach = normal_speed < 0 ? Real(-normal_speed) : Real(0);
   const Real by_restitution = law.restitution(approach) * approach;
-  const Real separation = by_restitution < law.least_separation ? law.least_separation : by_restitution;
+  const Real separation = by_restitution < least_separation ? least_separation : by_restitution;
   out.least_separation = separation > by_restitution && separation > normal_speed;
   // Bodies that separate by rounding, and faster than they would leave, go on as they are.
   out.separation_speed = separation > normal_speed ? separation : normal_speed;
@@ -73,6 +76,18 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
   out.milling_dose = out.normal_dose +
                      effective_mass / 2 * ((1 - e_t * e_t) / compliance * (out.slip_speed * out.slip_speed));
   return parts;
+}
+
+template <class Real>
+ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
+                                 const Real& effective_mass, const Real& compliance,
+                                 const model::ContactLaw<Real>& law) {
+  return std::visit(
+      [&](const auto& one) {
+        return impulse_by<Real>(one, law.least_separation, normal, contact_velocity, effective_mass,
+                                compliance);
+      },
+      law.law);
 }
 
 }  // namespace detail

@@ -43,10 +43,8 @@ class Candidates {
     return pairs_.state(flights()[ball], dynamics::instant_cast<double>(now));
   }
 
-  /// The balls of the adjacent cells, where cells are used.
-  void neighbours(const CellOfBall& cell, FoundBalls& near) const {
-    if (!columns_) grid_.neighbours(cell, near);
-  }
+  /// The balls of the adjacent cells. @pre uses_cells()
+  void neighbours(const CellOfBall& cell, FoundBalls& near) const { grid_.neighbours(cell, near); }
   /// The ball leaves `cell`, which becomes the adjacent one; finds the balls of cells that are new to it.
   void cross(int ball, CellOfBall& cell, int axis, int step, FoundBalls& near) {
     grid_.move(ball, cell, axis, step);

@@ -9,9 +9,9 @@ namespace edmill::engine {
 template <class Real>
 EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt) {
   stop_.reset();
-  while (queue_.time(queue_.top()) <= end) {
+  for (int next = queue_.top(); queue_.time(next) <= end; next = queue_.top()) {
     if (interrupt && interrupt->load(std::memory_order_relaxed)) return EndReason::interrupted;
-    const auto event = next_event();  // of near ties the first
+    const auto event = event_of(next);  // of near ties the first
     const auto prefetching = prefetcher_.scope();
     now_ = event.time;
     switch (event.kind) {
@@ -37,11 +37,11 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
   return EndReason::end_time;
 }
 
-/// What is queued next. The top entry is the earliest, but it may be a contact that is void by now, or
-/// another contact may be as early within rounding.
+/// What happens next, where `ball` is the first in the queue: what was queued for it, unless that is a
+/// contact and another one is as early within rounding.
 template <class Real>
-auto Simulation<Real>::next_event() -> Event<Real> {
-  auto event = queued_event(queue_.top());
+auto Simulation<Real>::event_of(int ball) -> Event<Real> {
+  auto event = queued_event(ball);
   const bool is_contact = event.kind == EventKind::wall_contact || event.kind == EventKind::pair_contact;
   if (is_contact && has_rivals(event)) event = settle_ties(event);
   // Where times are closer than their errors the ladder may have put the later one first.

@@ -31,13 +31,6 @@ void Simulation<Real>::predict_all(int ball, int already_done, const model::Vess
   requeue(ball);
 }
 
-/// The balls of the adjacent cells.
-template <class Real>
-void Simulation<Real>::find_neighbours(int ball, FoundBalls& near) {
-  candidates_.neighbours(bodies_[ball].cell, near);
-  prefetcher_.flights_of(near);
-}
-
 /// Predicts contacts with the candidates found.
 template <class Real>
 void Simulation<Real>::predict_pairs(int ball, int already_done, const DoubleState& state, int found,

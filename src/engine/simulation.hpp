@@ -97,7 +97,7 @@ class Simulation {
  private:
   using DoubleState = typename Candidates<Real>::DoubleState;
 
-  Event<Real> next_event();
+  Event<Real> event_of(int ball);
   Event<Real> queued_event(int ball) const;
   void requeue(int ball);
   void drop_void_contact(int ball);
@@ -122,7 +122,12 @@ class Simulation {
 
   void predict(const Impact<Real>& impact);
   void predict_all(int ball, int already_done, const model::VesselPose<Real>& pose, FoundBalls& near);
-  void find_neighbours(int ball, FoundBalls& near);
+  /// The balls of the adjacent cells, where cells are used.
+  void find_neighbours(int ball, FoundBalls& near) {
+    if (!candidates_.uses_cells()) return;
+    candidates_.neighbours(bodies_[ball].cell, near);
+    prefetcher_.flights_of(near);
+  }
   void predict_pairs(int ball, int already_done, const DoubleState& state, int found, const FoundBalls& near);
   void expect_pair(int ball, int other, const Real& delay);
   void predict_crossing(int ball, const DoubleState& state);
