@@ -83,7 +83,7 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
     s.end_reason = end_reason_;
     Summary<Real> out;
     out.start_time = s.start_time, out.end_time = s.end_time;
-    out.partners.assign(io::partner_names.begin(), io::partner_names.end());
+    for (const auto& partner : model::partners) out.partners.emplace_back(partner.key);
     out.collisions.assign(s.collisions.begin(), s.collisions.end());
     out.dose_by_partner.assign(s.dose_by_partner.begin(), s.dose_by_partner.end());
     out.milling_dose = s.milling_dose, out.wall_work = s.wall_work, out.supplied_energy = s.supplied_energy;

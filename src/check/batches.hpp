@@ -37,7 +37,7 @@ inline constexpr std::size_t spectrum_count = 3;
 
 /// Totals of one batch.
 struct Batch {
-  std::array<double, partner_kinds> events{};
+  std::array<double, model::partner_kinds> events{};
   double approach_speed = 0;               ///< sum [m/s]
   double milling_dose = 0, wall_work = 0;  ///< [J]
   std::array<std::vector<double>, spectrum_count> spectra;

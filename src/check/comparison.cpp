@@ -164,14 +164,13 @@ std::vector<Quantity> judge(const Comparison& c) {
   Judge judge(a, b, c.options.tolerance);
   const double length = c.times.length, all = Judge::events(a) + Judge::events(b);
 
-  std::array<double, partner_kinds> events_of_kind{};
-  static constexpr const char* partners[] = {"wall_0", "wall_1", "wall_2", "ball_ball"};
-  for (std::size_t k = 0; k < partner_kinds; ++k) {
+  std::array<double, model::partner_kinds> events_of_kind{};
+  for (std::size_t k = 0; k < model::partners.size(); ++k) {
     const auto rate = [&](const Batch& batch) { return batch.events[k] / length; };
     double& events = events_of_kind[k];
     for (const auto* batches : {&a, &b})
       for (const auto& batch : *batches) events += batch.events[k];
-    const auto name = std::string("collision_rate_") + partners[k];
+    const auto name = std::string("collision_rate_") + model::partners[k].key;
     if (events > 0)
       judge.mean(name, "1/s", events, values_of(a, rate), values_of(b, rate));
     else
@@ -196,8 +195,8 @@ std::vector<Quantity> judge(const Comparison& c) {
                ratio_values(values_of(b, speed), values_of(b, events)));
   else
     judge.skip("mean_approach_speed", "m/s", "no collisions in one log");
-  judge.spectrum("wall_approach_speed_spectrum", wall_speeds, all - events_of_kind[3]);
-  judge.spectrum("ball_approach_speed_spectrum", ball_speeds, events_of_kind[3]);
+  judge.spectrum("wall_approach_speed_spectrum", wall_speeds, all - events_of_kind[model::ball_ball]);
+  judge.spectrum("ball_approach_speed_spectrum", ball_speeds, events_of_kind[model::ball_ball]);
   if (c.a.has[milling_dose] && c.b.has[milling_dose])
     judge.spectrum("milling_dose_spectrum", doses, all);
   else

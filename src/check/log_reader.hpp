@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "io/csv_reader.hpp"
+#include "model/vessel.hpp"
 
 namespace edmill::compare {
 
@@ -17,9 +18,6 @@ enum Value : std::size_t { time, approach_speed, slip_speed, milling_dose, wall_
 inline constexpr std::size_t value_count = 5;
 inline constexpr std::array<std::string_view, value_count> value_names = {
     "time", "approach_speed", "slip_speed", "milling_dose", "wall_work"};
-
-/// Wall 0, 1, 2 and ball-ball, as in summary.json.
-inline constexpr std::size_t partner_kinds = 4;
 
 struct Event {
   std::array<double, value_count> values{};  ///< nan for a column that the log does not have

@@ -82,9 +82,9 @@ class FrequencyOutput : public TableOutput<Real> {
   std::vector<Part> parts() const {
     std::vector<Part> list;
     if (spec_.wall_details)
-      for (int wall = 0; wall < model::wall_count; ++wall) list.push_back({wall_columns[wall], wall, wall});
+      for (int wall = 0; wall < model::wall_count; ++wall) list.push_back({column_of(wall), wall, wall});
     list.push_back({all_walls, 0, model::wall_count - 1});
-    list.push_back({balls, model::ball_ball, model::ball_ball});
+    list.push_back({column_of(model::ball_ball), model::ball_ball, model::ball_ball});
     list.push_back({all_impacts, 0, model::ball_ball});
     return list;
   }

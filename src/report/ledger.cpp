@@ -23,7 +23,7 @@ void add_energy(pugi::xml_node main, const RunFolder& run) {
   };
   std::vector<std::vector<std::string>> rows{row("work of the walls on the balls", f.wall_work)};
   for (std::size_t k = 0; k < f.dose.size(); ++k)
-    rows.push_back(row(std::string("dissipated, ") + partner_names[k], f.dose[k] == 0 ? 0 : -f.dose[k]));
+    rows.push_back(row("dissipated, " + partner_name(k), f.dose[k] == 0 ? 0 : -f.dose[k]));
   rows.push_back(row("supplied by the least separation speed", f.supplied_energy));
   rows.push_back(row("stored as kinetic energy of the balls", kinetic == 0 ? 0 : -kinetic));
   rows.push_back(row("stored as potential energy", potential == 0 ? 0 : -potential));

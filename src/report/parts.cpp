@@ -9,7 +9,12 @@ namespace edmill::report {
 
 using plot::add;
 
-const char* const partner_names[] = {"cap \u2212y", "cap +y", "cylinder", "ball\u2013ball"};
+std::string partner_name(std::size_t place) {
+  std::string name;
+  for (const char* c = model::partners[place].label; *c != 0; ++c)
+    name += *c != '-' ? std::string(1, *c) : c[1] == 'y' ? "\u2212" : "\u2013";
+  return name;
+}
 const char* const partner_colours[] = {"c0", "c1", "c2", "c3"};
 
 pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std::string& heading) {

@@ -77,7 +77,7 @@ void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
   for (int k = 0; k < model::partner_kinds; ++k)
     if (const auto series = rate_of(run, "collision", k))
       chart.curves.push_back(
-          {partner_names[k], partner_colours[k], points_of(coarser(whole(*series), most_points)), false});
+          {partner_name(k), partner_colours[k], points_of(coarser(whole(*series), most_points)), false});
   if (chart.curves.empty())
     if (const auto all = rate_of(run, "collision"))
       chart.curves.push_back({"all", "c4", points_of(coarser(whole(*all), most_points)), false});
@@ -100,7 +100,7 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
                     f.milling_dose > 0 ? readable(100 * dose / f.milling_dose, 3) : "\u2013",
                     collisions > 0 ? readable(1000 * dose / collisions, 3) : "\u2013"});
   };
-  for (std::size_t k = 0; k < f.collisions.size(); ++k) row(partner_names[k], f.collisions[k], f.dose[k]);
+  for (std::size_t k = 0; k < f.collisions.size(); ++k) row(partner_name(k), f.collisions[k], f.dose[k]);
   row("all", f.all_collisions(), f.milling_dose);
   add_table(section, "by-partner", "Collisions and dose by partner",
             {"with", "collisions", "[1/s]", "dose rate [W]", "share of the dose [%]", "mean dose [mJ]"},
@@ -114,13 +114,14 @@ void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& numbers : table.numbers) {
     std::vector<std::string> row{brief(numbers[0])};
-    for (const char* part : {"wall_0", "wall_1", "wall_2", "ball_ball", "total"})
-      row.push_back(readable(numbers[table.column(std::string(part) + " rate")]));
+    for (const auto& partner : model::partners)
+      row.push_back(readable(numbers[table.column(std::string(partner.key) + " rate")]));
+    row.push_back(readable(numbers[table.column("total rate")]));
     row.push_back(readable(numbers[table.column("total dose_rate")]));
     rows.push_back(std::move(row));
   }
   add_table(section, "above-cutoffs", "Collisions per second at or above an approach speed",
-            {"approach speed [m/s]", partner_names[0], partner_names[1], partner_names[2], partner_names[3],
+            {"approach speed [m/s]", partner_name(0), partner_name(1), partner_name(2), partner_name(3),
              "all", "dose rate of all [W]"},
             rows);
 }

@@ -18,15 +18,17 @@ std::string result_table(const io::Summary<Real>& s) {
   out += fmt::format("{} in {}, ended by {}\n", s.provenance.case_file, s.provenance.precision,
                      model::name(s.end_reason));
   row("statistics", fmt::format("{:g} s to {:g} s", real(s.start_time), real(s.end_time)));
-  static constexpr const char* names[] = {"wall 0 (cap -y)", "wall 1 (cap +y)", "wall 2 (cylinder)",
-                                          "ball-ball"};
   out += fmt::format("  {:<28}{:>12}{:>14}{:>16}\n", "collisions", "number", "per second", "dose [J]");
   const auto collisions = [&](const std::string& name, std::uint64_t number, const Real& dose) {
     const std::string rate =
         duration > 0 ? fmt::format("{:.1f}", static_cast<double>(number) / duration) : "-";
     out += fmt::format("    {:<26}{:>12}{:>14}{:>16.6g}\n", name, number, rate, real(dose));
   };
-  for (int k = 0; k < model::partner_kinds; ++k) collisions(names[k], s.collisions[k], s.dose_by_partner[k]);
+  for (int k = 0; k < model::partner_kinds; ++k) {
+    const char* label = model::partners[k].label;
+    collisions(k < model::wall_count ? fmt::format("wall {} ({})", k, label) : label, s.collisions[k],
+               s.dose_by_partner[k]);
+  }
   collisions("total", s.total_collisions(), s.milling_dose);
   if (duration > 0) {
     row("milling dose rate", fmt::format("{:.6g} W", real(s.milling_dose) / duration));

@@ -107,10 +107,9 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
                                    {"/impacts_since_start", &f.impacts_since_start},
                                    {"/cpu_seconds", &f.cpu_seconds}})
     reader.number(key, *value);
-  static constexpr const char* partners[] = {"wall_0", "wall_1", "wall_2", "ball_ball"};
   for (std::size_t k = 0; k < f.collisions.size(); ++k) {
-    reader.number(std::string("/collisions/") + partners[k], f.collisions[k]);
-    reader.number(std::string("/milling_dose_by_partner/") + partners[k], f.dose[k]);
+    reader.number(std::string("/collisions/") + model::partners[k].key, f.collisions[k]);
+    reader.number(std::string("/milling_dose_by_partner/") + model::partners[k].key, f.dose[k]);
   }
   if (reader.has("/powder_mass")) reader.number("/powder_mass", f.powder_mass.emplace());
   reader.throw_problems();

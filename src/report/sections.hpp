@@ -23,8 +23,8 @@ void add_ball_speeds(pugi::xml_node main, const RunFolder& run);
 void add_energy(pugi::xml_node main, const RunFolder& run);
 void add_case(pugi::xml_node main, const RunFolder& run);
 
-/// "wall 0 (cap -y)" for readers: cap −y, cap +y, cylinder, ball–ball; and their colours.
-extern const char* const partner_names[model::partner_kinds];
+/// The label of a partner with the signs of typesetting: "cap −y", "ball–ball"; and the partners' colours.
+std::string partner_name(std::size_t place);
 extern const char* const partner_colours[model::partner_kinds];
 
 /// A section with a heading.

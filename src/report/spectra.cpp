@@ -12,8 +12,6 @@ using plot::add;
 
 namespace {
 
-static constexpr const char* parts[] = {"wall_0", "wall_1", "wall_2", "ball_ball"};
-
 /// One column of one spectrum as density over the decades of its bins.
 /// @param scale  what a unit of the column is worth
 plot::Points density(const OutputTable& table, const std::string& spectrum, const std::string& column,
@@ -79,10 +77,10 @@ void add_energies(pugi::xml_node grid, const OutputTable& table) {
   by_partner.x.title = "energy that the impact dissipates [J]";
   by_partner.y.title = "dose rate [W per decade]";
   const double per_second = 1 / table.duration();
-  for (std::size_t k = 0; k < std::size(parts); ++k)
-    by_partner.curves.push_back({partner_names[k], partner_colours[k],
-                                 density(table, "total", std::string(parts[k]) + " energy", per_second),
-                                 true});
+  for (std::size_t k = 0; k < model::partners.size(); ++k)
+    by_partner.curves.push_back(
+        {partner_name(k), partner_colours[k],
+         density(table, "total", std::string(model::partners[k].key) + " energy", per_second), true});
   fit(by_partner);
   draw(grid, by_partner);
 
@@ -114,10 +112,11 @@ void add_speeds(pugi::xml_node grid, const OutputTable& table) {
     chart.x.title = std::string(spectrum) + " speed [m/s]";
     chart.y.title = "impacts [1/s per decade]";
     chart.y.logarithmic = true;
-    for (std::size_t k = 0; k < std::size(parts); ++k)
+    for (std::size_t k = 0; k < model::partners.size(); ++k)
       chart.curves.push_back(
-          {partner_names[k], partner_colours[k],
-           density(table, spectrum, std::string(parts[k]) + " impacts", 1 / table.duration()), true});
+          {partner_name(k), partner_colours[k],
+           density(table, spectrum, std::string(model::partners[k].key) + " impacts", 1 / table.duration()),
+           true});
     fit(chart);
     draw(grid, chart);
   }

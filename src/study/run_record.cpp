@@ -19,8 +19,13 @@ namespace edmill::study {
 namespace {
 
 constexpr const char* format_name = "edmill run record 1";
-constexpr std::array<const char*, model::partner_kinds> collision_keys = {"wall_0", "wall_1", "wall_2",
-                                                                          "ball_ball"};
+constexpr bool rates_are_those_of_the_partners() {
+  for (std::size_t k = 0; k < model::partners.size(); ++k)
+    if (quantity_names[4 + k].substr(std::string_view("collision_rate_").size()) != model::partners[k].key)
+      return false;
+  return true;
+}
+static_assert(rates_are_those_of_the_partners());
 
 }  // namespace
 
@@ -44,7 +49,8 @@ std::string to_json(const RunRecord& r) {
   json.number("start_time", r.start_time);
   json.number("end_time", r.end_time);
   json.begin("collisions");
-  for (std::size_t k = 0; k < collision_keys.size(); ++k) json.integer(collision_keys[k], r.collisions[k]);
+  for (std::size_t k = 0; k < model::partners.size(); ++k)
+    json.integer(model::partners[k].key, r.collisions[k]);
   json.end();
   json.number("milling_dose", r.milling_dose);
   json.number("wall_work", r.wall_work);
@@ -73,8 +79,8 @@ std::optional<RunRecord> from_json(const std::string& text) try {
   r.start_time = number("start_time");
   r.end_time = number("end_time");
   const auto& collisions = tree.get_child("collisions");
-  for (std::size_t k = 0; k < collision_keys.size(); ++k)
-    r.collisions[k] = collisions.get<std::uint64_t>(collision_keys[k]);
+  for (std::size_t k = 0; k < model::partners.size(); ++k)
+    r.collisions[k] = collisions.get<std::uint64_t>(model::partners[k].key);
   r.milling_dose = number("milling_dose");
   r.wall_work = number("wall_work");
   r.powder_mass = number_if_there("powder_mass");
