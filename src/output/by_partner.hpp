@@ -27,13 +27,13 @@ struct PartnerColumn {
 inline constexpr PartnerColumn wall_columns[] = {{"wall_0", "with wall 0, the cap at -y"},
                                                  {"wall_1", "with wall 1, the cap at +y"},
                                                  {"wall_2", "with wall 2, the cylinder"}};
-inline constexpr PartnerColumn all_walls{"walls", "with all walls"}, balls{"ball_ball", "between balls"},
-    all_impacts{"total", "of all impacts"};
+inline constexpr PartnerColumn walls_column{"walls", "with all walls"},
+    ball_ball_column{"ball_ball", "between balls"}, total_column{"total", "of all impacts"};
 
 /// Adds "wall_0 energy [J]" and so on to "total energy [J]".
 inline void add_partner_columns(std::vector<io::Column>& columns, const io::Column& of_each) {
   for (const auto& [partner, meaning] :
-       {wall_columns[0], wall_columns[1], wall_columns[2], balls, all_impacts})
+       {wall_columns[0], wall_columns[1], wall_columns[2], ball_ball_column, total_column})
     columns.push_back(
         {partner + (" " + of_each.name), of_each.type, of_each.unit, of_each.description + ", " + meaning});
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "casefile/section.hpp"
+#include "output/by_partner.hpp"
 #include "output/table_output.hpp"
 
 namespace edmill::output {
@@ -15,8 +16,12 @@ class IterationsOutput : public TableOutput<Real> {
                    const RunContext<Real>& run)
       : TableOutput<Real>(spec, folder, run) {
     std::vector<Column> columns;
-    for (const auto& v : model::impact_variables)
-      columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), std::string(v.meaning)});
+    for (const auto& v : model::impact_variables) {
+      // A flag that shares its name with a column of other tables has their description.
+      const auto meaning =
+          v.name == ball_ball_column.name ? std::string_view(ball_ball_column.meaning) : v.meaning;
+      columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), std::string(meaning)});
+    }
     this->begin(std::move(columns));
   }
 

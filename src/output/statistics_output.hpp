@@ -43,7 +43,7 @@ class StatisticsOutput : public TableOutput<Real> {
                                 {"statistic", Column::Type::text, "", "which statistic of it"},
                                 {"unit", Column::Type::text, "", "of the numbers in the row"}};
     for (const auto& [name, meaning] :
-         {wall_columns[0], wall_columns[1], wall_columns[2], all_walls, balls, all_impacts})
+         {wall_columns[0], wall_columns[1], wall_columns[2], walls_column, ball_ball_column, total_column})
       columns.push_back({name, Column::Type::number, "", meaning});
     this->begin(std::move(columns), {this->window(until) + "; " + std::to_string(simulation.ball_count()) +
                                      " balls, " + std::to_string(model::wall_count) + " walls"});
