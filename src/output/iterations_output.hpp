@@ -17,9 +17,10 @@ class IterationsOutput : public TableOutput<Real> {
       : TableOutput<Real>(spec, folder, run) {
     std::vector<Column> columns;
     for (const auto& v : model::impact_variables) {
-      // A flag that shares its name with a column of other tables has their description.
-      const auto meaning =
-          v.name == ball_ball_column.name ? std::string_view(ball_ball_column.meaning) : v.meaning;
+      std::string_view meaning = v.meaning;
+      // Files of all versions describe these two like the columns of that name in other tables.
+      for (const auto& column : {walls_column, ball_ball_column})
+        if (v.name == column.name) meaning = column.meaning;
       columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), std::string(meaning)});
     }
     this->begin(std::move(columns));
