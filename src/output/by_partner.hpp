@@ -27,12 +27,13 @@ struct PartnerColumn {
 inline constexpr PartnerColumn column_of(int place) {
   return {model::partners[place].key, model::partners[place].meaning};
 }
-inline constexpr PartnerColumn all_walls{"walls", "with all walls"}, all_impacts{"total", "of all impacts"};
+inline constexpr PartnerColumn walls_column{"walls", "with all walls"},
+    total_column{"total", "of all impacts"};
 
 /// Adds "wall_0 energy [J]" and so on to "total energy [J]".
 inline void add_partner_columns(std::vector<io::Column>& columns, const io::Column& of_each) {
   for (int place = 0; place <= model::partner_kinds; ++place) {
-    const auto [partner, meaning] = place < model::partner_kinds ? column_of(place) : all_impacts;
+    const auto [partner, meaning] = place < model::partner_kinds ? column_of(place) : total_column;
     columns.push_back(
         {partner + (" " + of_each.name), of_each.type, of_each.unit, of_each.description + ", " + meaning});
   }

@@ -83,9 +83,9 @@ class FrequencyOutput : public TableOutput<Real> {
     std::vector<Part> list;
     if (spec_.wall_details)
       for (int wall = 0; wall < model::wall_count; ++wall) list.push_back({column_of(wall), wall, wall});
-    list.push_back({all_walls, 0, model::wall_count - 1});
+    list.push_back({walls_column, 0, model::wall_count - 1});
     list.push_back({column_of(model::ball_ball), model::ball_ball, model::ball_ball});
-    list.push_back({all_impacts, 0, model::ball_ball});
+    list.push_back({total_column, 0, model::ball_ball});
     return list;
   }
 

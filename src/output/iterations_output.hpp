@@ -2,6 +2,7 @@
 #pragma once
 
 #include "casefile/section.hpp"
+#include "output/by_partner.hpp"
 #include "output/table_output.hpp"
 
 namespace edmill::output {
@@ -15,8 +16,13 @@ class IterationsOutput : public TableOutput<Real> {
                    const RunContext<Real>& run)
       : TableOutput<Real>(spec, folder, run) {
     std::vector<Column> columns;
-    for (const auto& v : model::impact_variables)
-      columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), std::string(v.meaning)});
+    for (const auto& v : model::impact_variables) {
+      std::string_view meaning = v.meaning;
+      // Files of all versions describe these two like the columns of that name in other tables.
+      for (const auto& column : {walls_column, ball_ball_column})
+        if (v.name == column.name) meaning = column.meaning;
+      columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), std::string(meaning)});
+    }
     this->begin(std::move(columns));
   }
 

@@ -43,7 +43,7 @@ class StatisticsOutput : public TableOutput<Real> {
                                 {"statistic", Column::Type::text, "", "which statistic of it"},
                                 {"unit", Column::Type::text, "", "of the numbers in the row"}};
     for (const auto& [name, meaning] :
-         {column_of(0), column_of(1), column_of(2), all_walls, column_of(model::ball_ball), all_impacts})
+         {column_of(0), column_of(1), column_of(2), walls_column, column_of(model::ball_ball), total_column})
       columns.push_back({name, Column::Type::number, "", meaning});
     this->begin(std::move(columns), {this->window(until) + "; " + std::to_string(simulation.ball_count()) +
                                      " balls, " + std::to_string(model::wall_count) + " walls"});

@@ -122,10 +122,10 @@ TEST(IntervalClock, TenthsOfASecond) {
 
 TEST(Accumulator, OfNothingHasNoAverage) {
   const Accumulator<double> nothing;
-  EXPECT_EQ(nothing.text(Statistic::sum, 1, 0), "0");
+  EXPECT_EQ(nothing.value(Statistic::sum, 1, 0), 0);
   for (const auto s : {Statistic::average, Statistic::minimum, Statistic::maximum, Statistic::percentage})
-    EXPECT_EQ(nothing.text(s, 1, 0), "");
-  EXPECT_EQ(nothing.text(Statistic::rate, 0, 0), "");
+    EXPECT_FALSE(nothing.value(s, 1, 0));
+  EXPECT_FALSE(nothing.value(Statistic::rate, 0, 0));
 }
 
 TEST(Accumulator, AddsToOthers) {
@@ -133,12 +133,12 @@ TEST(Accumulator, AddsToOthers) {
   a.add(3), a.add(-1), b.add(10);
   Accumulator<double> all = a;
   all.add(b);
-  EXPECT_EQ(all.text(Statistic::sum, 4, 24), "12");
-  EXPECT_EQ(all.text(Statistic::average, 4, 24), "4");
-  EXPECT_EQ(all.text(Statistic::minimum, 4, 24), "-1");
-  EXPECT_EQ(all.text(Statistic::maximum, 4, 24), "10");
-  EXPECT_EQ(all.text(Statistic::rate, 4, 24), "3");
-  EXPECT_EQ(all.text(Statistic::percentage, 4, 24), "50");
+  EXPECT_EQ(all.value(Statistic::sum, 4, 24), 12);
+  EXPECT_EQ(all.value(Statistic::average, 4, 24), 4);
+  EXPECT_EQ(all.value(Statistic::minimum, 4, 24), -1);
+  EXPECT_EQ(all.value(Statistic::maximum, 4, 24), 10);
+  EXPECT_EQ(all.value(Statistic::rate, 4, 24), 3);
+  EXPECT_EQ(all.value(Statistic::percentage, 4, 24), 50);
 }
 
 }  // namespace
