@@ -138,9 +138,7 @@ class Filling {
   }
 
   bool inside(const Vec3<Real>& local, const Real& radius) const {
-    const Real side = mill_.vessel.radius - radius, cap = mill_.vessel.half_height - radius;
-    return side >= 0 && cap >= 0 && local[0] * local[0] + local[2] * local[2] <= side * side &&
-           local[1] <= cap && local[1] >= -cap;
+    return mill_.vessel.contains(mill_.vessel.room(radius), local);
   }
 
   void add(const model::BallProperties<Real>& ball, const Vec3<Real>& local,
@@ -153,9 +151,8 @@ class Filling {
   /// A free place in the vessel frame, uniform over those that keep the gaps.
   std::optional<Vec3<Real>> place(const casefile::BallBatch& batch, int k, const Real& radius,
                                   const Real& gap_ball, const Real& gap_wall) {
-    const Real side = mill_.vessel.radius - radius - gap_wall;
-    const Real cap = mill_.vessel.half_height - radius - gap_wall;
-    if (side < 0 || cap < 0) {
+    const auto room = mill_.vessel.room(radius, gap_wall);
+    if (!mill_.vessel.holds(room)) {
       problems_.push_back(
           batch.where +
           ": found balls too large for the vessel, expected a diameter that fits with gap_wall");
@@ -163,10 +160,11 @@ class Filling {
     }
     for (std::uint64_t tries = 0; tries <= batch.max_relocations; ++tries) {
       const Real x = random_.symmetric<Real>(), z = random_.symmetric<Real>(), y = random_.symmetric<Real>();
-      if (x * x + z * z > 1) continue;
-      const Vec3<Real> local{x * side, y * cap, z * side};
-      if (placed_.conflict(
-              local, [&](int other) { return radius + result_.the_case.balls[other].radius + gap_ball; }) < 0)
+      const auto local = mill_.vessel.place(room, {x, y, z});
+      if (!local) continue;
+      if (placed_.conflict(*local, [&](int other) {
+            return radius + result_.the_case.balls[other].radius + gap_ball;
+          }) < 0)
         return local;
     }
     problems_.push_back(batch.where + ": found no room for ball " + std::to_string(k + 1) + " of " +
@@ -237,8 +235,8 @@ template <class Real>
 void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>& built) {
   using std::sqrt;
   const auto& mill = built.the_case.mill;
-  const Real &R = mill.vessel.radius, &h = mill.vessel.half_height, w = mill.motion.angular_speed();
-  const Real reach = mill.motion.arm + sqrt(R * R + h * h), gravity = norm<Real>(mill.gravity);
+  const Real w = mill.motion.angular_speed();
+  const Real reach = mill.motion.arm + mill.vessel.reach(), gravity = norm<Real>(mill.gravity);
   const Real turning = mill.motion.theta_max + mill.motion.gamma_max;
   Real fastest = 2 * turning * w * reach + 4 * sqrt(gravity * reach);
   for (const auto& state : built.states) fastest = std::max(fastest, norm<Real>(state.velocity));

@@ -9,8 +9,22 @@
 
 namespace edmill::dynamics {
 
-/// Gaps at one time. For the caps the gap is a length [m]; for the cylinder it is q = (R_v-R)^2 - x^2 - z^2
-/// [m^2], smooth on the axis, with the sign of the gap.
+/// Yes or no for each wall.
+using WallSet = std::array<bool, model::wall_count>;
+
+/// Whether any wall from this id on is in the set.
+inline bool any_from(const WallSet& set, int wall) {
+  bool any = false;
+  for (; wall < model::wall_count; ++wall) any |= set[wall];
+  return any;
+}
+inline constexpr WallSet every_wall() {
+  WallSet set{};
+  for (bool& wall : set) wall = true;
+  return set;
+}
+
+/// Gaps at one time, as the vessel measures them.
 template <class Real>
 struct GapSample {
   Real offset;  ///< [s] from the start of the window's drive period
@@ -52,6 +66,8 @@ struct GapErrors {
 template <class Real>
 class GapFunctions {
  public:
+  using Vessel = model::CylinderVessel<Real>;
+
   /// Constants of a mill, shared by all flights.
   struct Constants {
     explicit Constants(const model::Mill<Real>& m)
@@ -59,10 +75,7 @@ class GapFunctions {
           clock(m.motion.period),
           angular_speed(m.motion.angular_speed()),
           frequency(1 / m.motion.period) {
-      using std::sqrt;
-      const Real& R = m.vessel.radius;
-      const Real& h = m.vessel.half_height;
-      reach = m.motion.arm + sqrt(R * R + h * h);
+      reach = m.motion.arm + m.vessel.reach();
       gravity = norm<Real>(m.gravity);
       amplitudes = m.motion.theta_max + m.motion.gamma_max;
       wall_speed = angular_speed * (m.motion.theta_max * reach + m.motion.gamma_max * (reach - m.motion.arm));
@@ -81,8 +94,7 @@ class GapFunctions {
                std::int64_t period)
       : c_(constants),
         flight_(flight),
-        cap_(constants.mill.vessel.half_height - radius),
-        cylinder_(constants.mill.vessel.radius - radius),
+        room_(constants.mill.vessel.room(radius)),
         lag_(period == flight.start.period
                  ? Real(0)
                  : Real(Real(period - flight.start.period) * constants.clock.period())) {}
@@ -94,8 +106,8 @@ class GapFunctions {
     return model::pose_at<Real>(c_.mill.motion, c_.angular_speed, c_.frequency, offset);
   }
 
-  Real cap() const { return cap_; }
-  Real cylinder() const { return cylinder_; }
+  /// What the vessel leaves to the ball's centre.
+  const typename Vessel::Room& room() const { return room_; }
 
   GapSample<Real> operator()(const Real& offset) const { return (*this)(offset, pose(offset)); }
 
@@ -111,8 +123,7 @@ class GapFunctions {
   Real gap(int wall, const Real& offset, const model::VesselPose<Real>& pose) const {
     const auto p = model::position_in_vessel<Real>(pose, c_.mill.motion.arm,
                                                    position_after(flight_, c_.mill.gravity, elapsed(offset)));
-    if (wall == 2) return cylinder_ * cylinder_ - (p[0] * p[0] + p[2] * p[2]);
-    return wall == 0 ? Real(cap_ + p[1]) : Real(cap_ - p[1]);
+    return Vessel::gap(room_, wall, p);
   }
 
   /// The ball at `offset`, where the vessel stands at `pose`.
@@ -128,9 +139,7 @@ class GapFunctions {
                        const SeenBall<Real>& ball) const {
     const auto second = model::vessel_frame_acceleration<Real>(pose, c_.mill.motion.arm, ball.state,
                                                                ball.velocity, c_.mill.gravity);
-    const auto &p = ball.state.position, &u = ball.state.velocity;
-    const Real q_second = -2 * ((u[0] * u[0] + p[0] * second[0]) + (u[2] * u[2] + p[2] * second[2]));
-    return {sample(offset, ball.state), {second[1], -second[1], q_second}};
+    return {sample(offset, ball.state), Vessel::curvatures(ball.state.position, ball.state.velocity, second)};
   }
   GapStart<Real> start(const Real& offset) const {
     const auto at = pose(offset);
@@ -139,18 +148,14 @@ class GapFunctions {
 
   /// The sample that a state in the vessel frame gives.
   GapSample<Real> sample(const Real& offset, const model::VesselFrameState<Real>& state) const {
-    const auto& p = state.position;
-    const auto& u = state.velocity;
-    return {offset,
-            {cap_ + p[1], cap_ - p[1], cylinder_ * cylinder_ - (p[0] * p[0] + p[2] * p[2])},
-            {u[1], -u[1], -2 * (p[0] * u[0] + p[2] * u[2])}};
+    return {offset, Vessel::gaps(room_, state.position), Vessel::rates(state.position, state.velocity)};
   }
 
   /// Rounding bounds for every sample up to `elapsed` [s] after the start of the flight with inertial speeds
   /// up to `speed` [m/s]. The constants are counted in docs/theory.md, section 4; a test compares them with
   /// measured errors.
-  /// @param with_cylinder  whether those of the cylinder are asked for
-  GapErrors<Real> errors(const Real& elapsed, const Real& speed, bool with_cylinder = true) const {
+  /// @param walls  those whose bounds are asked for; the others' may be anything
+  GapErrors<Real> errors(const Real& elapsed, const Real& speed, const WallSet& walls) const {
     const Real u = epsilon<Real>() / 2;
     const Real angle = 10 + 16 * c_.amplitudes;  // ulps of 1 that the pose and the products leave
     const Real time = elapsed + 3 * (lag_ < 0 ? Real(-lag_) : lag_);
@@ -161,8 +166,10 @@ class GapFunctions {
                              4 * c_.gravity * elapsed);
     const Real y_second = u * (32 + 16 * c_.amplitudes) * largest_acceleration(speed) + 4 * turning * y_rate +
                           2 * turning * (c_.angular_speed + turning) * y;
-    if (!with_cylinder) return {{y, y, Real(0)}, {y_rate, y_rate, Real(0)}, {y_second, y_second, Real(0)}};
-    return spread(u, {y, y_rate, y_second}, speed, elapsed);
+    return spread(u, {y, y_rate, y_second}, speed, elapsed, walls);
+  }
+  GapErrors<Real> errors(const Real& elapsed, const Real& speed) const {
+    return errors(elapsed, speed, every_wall());
   }
 
   /// What rounding a wider flight, radius and mill to this scalar adds to these bounds, at offsets that stand
@@ -180,7 +187,7 @@ class GapFunctions {
         turning * y;
     const Real y_second = u * (32 + 9 * c_.amplitudes) * largest_acceleration(speed) + 4 * turning * y_rate +
                           2 * turning * (c_.angular_speed + turning) * y;
-    return spread(u, {y, y_rate, y_second}, speed, elapsed);
+    return spread(u, {y, y_rate, y_second}, speed, elapsed, every_wall());
   }
 
  private:
@@ -191,29 +198,31 @@ class GapFunctions {
     return c_.gravity + 4 * turning * speed + 2 * turning * (c_.angular_speed + 2 * turning) * c_.reach;
   }
 
-  /// Bounds on the errors of a coordinate in the vessel frame and of its first two derivatives.
-  struct CoordinateErrors {
-    Real value, rate, second;
-  };
-  /// Bounds for every wall from those on a coordinate. A sample lies inside the vessel or as far outside as a
-  /// flight gets that is searched beyond its contact, which is for an eighth of a period at most.
-  GapErrors<Real> spread(const Real& u, const CoordinateErrors& y, const Real& speed,
-                         const Real& elapsed) const {
-    const Real turning = c_.amplitudes * c_.angular_speed;
-    const Real frame_speed = speed + turning * c_.reach;
-    const Real acceleration = largest_acceleration(speed);
-    const Real eighth = c_.clock.period() / 8;
-    const Real R = c_.mill.vessel.radius + frame_speed * (elapsed < eighth ? elapsed : eighth);
-    const Real q = 3 * R * y.value + 4 * u * R * R;
-    const Real q_rate = 3 * R * y.rate + 3 * frame_speed * y.value + 6 * u * R * frame_speed;
-    const Real q_second = 6 * frame_speed * y.rate + 4 * R * y.second + 4 * acceleration * y.value +
-                          12 * u * (frame_speed * frame_speed + R * acceleration);
-    return {{y.value, y.value, q}, {y.rate, y.rate, q_rate}, {y.second, y.second, q_second}};
+  /// Bounds for walls from those on a coordinate in the vessel frame. A sample lies inside the vessel or as
+  /// far outside as a flight gets that is searched beyond its contact, which is for an eighth of a period at
+  /// most.
+  GapErrors<Real> spread(const Real& u, const model::ErrorBounds<Real>& coordinate, const Real& speed,
+                         const Real& elapsed, const WallSet& walls) const {
+    GapErrors<Real> errors{};
+    for (int wall = 0; wall < model::wall_count; ++wall) {
+      if (!walls[wall]) continue;
+      auto bounds = coordinate;
+      if (!Vessel::is_flat(wall)) {
+        const Real turning = c_.amplitudes * c_.angular_speed;
+        const Real frame_speed = speed + turning * c_.reach;
+        const Real eighth = c_.clock.period() / 8;
+        bounds = c_.mill.vessel.curved_errors(coordinate, u, frame_speed, largest_acceleration(speed),
+                                              Real(frame_speed * (elapsed < eighth ? elapsed : eighth)));
+      }
+      errors.gap[wall] = bounds.value, errors.rate[wall] = bounds.rate,
+      errors.curvature[wall] = bounds.second;
+    }
+    return errors;
   }
 
   const Constants& c_;
   Flight<Real> flight_;
-  Real cap_, cylinder_;
+  typename Vessel::Room room_;
   Real lag_;
 };
 

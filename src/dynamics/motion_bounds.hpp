@@ -9,12 +9,9 @@
 
 namespace edmill::dynamics {
 
-/// Suprema over a window of the 2nd, 3rd and 4th time derivatives of y and of q = (R_v - R)^2 - x^2 - z^2.
+/// Suprema over a window of the 2nd, 3rd and 4th time derivatives of the gaps, by kind of wall.
 template <class Real>
-struct DerivativeBounds {
-  std::array<Real, 3> y;  ///< [m/s^2, m/s^3, m/s^4]
-  std::array<Real, 3> q;  ///< [m^2/s^2, m^2/s^3, m^2/s^4]
-};
+using DerivativeBounds = std::array<std::array<Real, 3>, model::CylinderVessel<Real>::wall_kinds>;
 
 namespace detail {
 
@@ -54,7 +51,6 @@ DerivativeBounds<Real> derivative_bounds(const model::Mill<Real>& mill, const Re
                                          const Real& length) {
   using detail::Majorant;
   using detail::product_bound;
-  using std::sqrt;
   const auto& motion = mill.motion;
   const Real w = motion.angular_speed();
   Majorant<Real> alpha, gamma, sine, cosine;
@@ -66,8 +62,7 @@ DerivativeBounds<Real> derivative_bounds(const model::Mill<Real>& mill, const Re
   detail::fill_sin_cos(gamma, sine, cosine);
 
   // How far outside the vessel the path may get within the window: |p'| <= U.
-  const Real reach =
-      sqrt(mill.vessel.radius * mill.vessel.radius + mill.vessel.half_height * mill.vessel.half_height);
+  const Real reach = mill.vessel.reach();
   const Real shrink = 1 - (alpha[1] + gamma[1]) * length;
   const Real frame_speed = (speed + alpha[1] * (motion.arm + reach) + gamma[1] * reach) / shrink;
   const Real excursion = frame_speed * length;
@@ -77,9 +72,10 @@ DerivativeBounds<Real> derivative_bounds(const model::Mill<Real>& mill, const Re
   g[0] = norm<Real>(mill.gravity);
   v[0] = speed;
   v_z = {speed, g[0], Real(0), Real(0), Real(0)};
-  x[0] = mill.vessel.radius + excursion;
-  y[0] = mill.vessel.half_height + excursion;
-  z[0] = mill.vessel.radius + excursion;
+  const Vec3<Real> sizes = mill.vessel.half_sizes();
+  x[0] = sizes[0] + excursion;
+  y[0] = sizes[1] + excursion;
+  z[0] = sizes[2] + excursion;
   a[0] = motion.arm + x[0];
   b[0] = y[0] + sine[0] * z[0];
   for (int k = 0; k < 4; ++k) {
@@ -102,8 +98,9 @@ DerivativeBounds<Real> derivative_bounds(const model::Mill<Real>& mill, const Re
   const auto square = [&](const Majorant<Real>& c, int k) { return product_bound(c, 0, c, k); };
   DerivativeBounds<Real> bounds;
   for (int k = 2; k <= 4; ++k) {
-    bounds.y[k - 2] = margin * y[k];
-    bounds.q[k - 2] = margin * (square(x, k) + square(z, k));
+    const auto of_kinds =
+        mill.vessel.derivative_bounds(margin * y[k], margin * (square(x, k) + square(z, k)));
+    for (std::size_t kind = 0; kind < of_kinds.size(); ++kind) bounds[kind][k - 2] = of_kinds[kind];
   }
   return bounds;
 }
@@ -117,7 +114,7 @@ class BoundsTable {
     const Real turning = (mill.motion.theta_max + mill.motion.gamma_max) * w;
     const Real quarter = turning > 0 ? Real(1 / (4 * turning)) : mill.motion.period;
     longest_ = mill.motion.period / 8 < quarter ? Real(mill.motion.period / 8) : quarter;
-    const Real wall_speed = turning * (mill.motion.arm + mill.vessel.radius + mill.vessel.half_height);
+    const Real wall_speed = turning * (mill.motion.arm + mill.vessel.extent());
     speed_step_ = wall_speed > 0 ? Real(wall_speed / 16) : Real(1) / 4;
     per_speed_ = 1 / speed_step_;
     rows_.reserve(speeds * lengths);

@@ -44,10 +44,8 @@ class PairSearch {
   PairSearch(const model::Mill<Real>& mill, const Real& smallest_sum, const Real& reach,
              const Real& top_speed)
       : gravity_(mill.gravity), clock_(mill.motion.period), smallest_sum_(smallest_sum), reach_(reach) {
-    using std::sqrt;
-    const Real &R = mill.vessel.radius, &h = mill.vessel.half_height;
-    widest_ = 2 * sqrt(R * R + h * h);
-    largest_sum_ = 2 * (R < h ? R : h);
+    widest_ = 2 * mill.vessel.reach();
+    largest_sum_ = mill.vessel.widest_ball();
     gravity_size_ = norm<Real>(gravity_);
     const Real &one = mill.ball_ball.least_separation, &other = mill.ball_wall.least_separation;
     least_separation_ = one < other ? one : other;

@@ -16,9 +16,6 @@ namespace edmill::dynamics {
 
 enum class Verdict { none, contact, undecided };
 
-/// Yes or no for each wall.
-using WallSet = std::array<bool, model::wall_count>;
-
 struct NoPose {
   void archive(Archive&) {}
 };
@@ -108,6 +105,7 @@ class WallSearch {
  private:
   static constexpr bool is_wide = !std::is_same_v<Real, double>;
   using Functions = GapFunctions<Real>;
+  using Vessel = typename Functions::Vessel;
   using Point = numerics::Point<Real>;
   using Bounds = numerics::CurveBounds<Real>;
 

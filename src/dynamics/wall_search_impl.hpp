@@ -16,9 +16,7 @@ WallSet WallSearch<Real>::within_reach(const GapFunctions<Real>& functions, cons
   // A millionth covers the rounding of all this.
   const Real way =
       (speed + constants_.wall_speed) * length * (1 + Real(1) / 1048576) + constants_.reach / 1048576;
-  const Real cap = functions.cap() - way, cylinder = functions.cylinder() - way;
-  const Real &x = position[0], &y = position[1], &z = position[2];
-  return {!(-y < cap), !(y < cap), !((cylinder > 0) & (x * x + z * z < cylinder * cylinder))};
+  return Vessel::within(functions.room(), position, way);
 }
 
 template <class Real>
@@ -43,8 +41,7 @@ WallAnswer<Real> WallSearch<Real>::search(const model::VesselPose<Real>& pose,
   const auto ball = functions.seen(begin, pose);
   const Real speed = top_speed(ball.velocity, query.length);
   const WallSet reachable = within_reach(functions, ball.state.position, speed, query.length);
-  if (!(reachable[0] | reachable[1] | reachable[2]))
-    return {Verdict::none, -1, {}, false, query.length, Real(0)};
+  if (!any_from(reachable, 0)) return {Verdict::none, -1, {}, false, query.length, Real(0)};
   return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed, query,
                               nullptr);
 }
@@ -57,11 +54,11 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
                                                  [[maybe_unused]] RoughAnswer* rough) const {
   const Real begin = query.begin.offset;
   const Real oldest = functions.elapsed(begin + query.length);
-  auto errors = functions.errors(oldest, speed, reachable[2]);
+  auto errors = functions.errors(oldest, speed, reachable);
   [[maybe_unused]] const auto own_errors = errors;
   if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
   const auto curve_of = [&](int wall, const DerivativeBounds<Real>& derivatives) {
-    const auto& d = wall == 2 ? derivatives.q : derivatives.y;
+    const auto& d = derivatives[Vessel::kind_of(wall)];
     return Curve{
         functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]}};
   };
@@ -117,8 +114,7 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
     if constexpr (rounded)
       *rough = {Verdict::contact,    0, wall, found.left.t, found.right.t, root.t, 0, 0, 0,
                 own_errors.gap[wall]};
-    const bool more = (wall < 1 && reachable[1]) || (wall < 2 && reachable[2]);
-    if (!more) break;
+    if (!any_from(reachable, wall + 1)) break;
     // Later walls are of interest up to a little behind this root.
     const Real behind = root.t + root.time_error + longest_window() / 1048576;
     if (behind < end) {
@@ -157,7 +153,7 @@ RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
     RoughAnswer rough;
     const auto pose = functions.pose(begin);
     const auto ball = functions.seen(begin, pose);
-    const auto answer = first_contact<true>(functions, functions.start(begin, pose, ball), {true, true, true},
+    const auto answer = first_contact<true>(functions, functions.start(begin, pose, ball), every_wall(),
                                             top_speed(ball.velocity, query.length), query, &rough);
     rough.verdict = answer.verdict;
     // The sum is rounded, and the window was proven up to its exact or its rounded end.
@@ -168,7 +164,7 @@ RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
       rough.curvature = functions.start(rough.root).curvature[rough.wall];
       rough.curvature_error =
           functions.errors(functions.elapsed(begin + query.length), speed).curvature[rough.wall];
-      rough.third = (rough.wall == 2 ? derivatives.q : derivatives.y)[1];
+      rough.third = derivatives[Vessel::kind_of(rough.wall)][1];
     }
     return rough;
   }

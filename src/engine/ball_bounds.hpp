@@ -25,8 +25,7 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
 template <class Real>
 Real largest_fall(const model::Mill<Real>& mill) {
   using std::sqrt;
-  const Real &R = mill.vessel.radius, &h = mill.vessel.half_height;
-  const Real reach = mill.motion.arm + sqrt(R * R + h * h);
+  const Real reach = mill.motion.arm + mill.vessel.reach();
   return 4 * sqrt(reach * norm<Real>(mill.gravity));
 }
 
@@ -39,7 +38,7 @@ Real largest_speed(const std::vector<model::BallState<Real>>& states, const mode
     if (speed > largest) largest = speed;
   }
   const Real wall = (mill.motion.theta_max + mill.motion.gamma_max) * mill.motion.angular_speed() *
-                    (mill.motion.arm + mill.vessel.radius + mill.vessel.half_height);
+                    (mill.motion.arm + mill.vessel.extent());
   return 2 * (largest + wall) + largest_fall(mill);
 }
 

@@ -52,18 +52,10 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   const Real radius = properties(ball).radius;
 
   Impact<Real> impact{};
-  Vec3<Real>& normal = impact.normal;
-  if (wall == 2) {
-    using std::sqrt;
-    const Real &x = local.position[0], &z = local.position[2];
-    const Real rho = sqrt(x * x + z * z);
-    normal = model::vessel_axis_x(pose_) * (-x / rho) + model::vessel_axis_z(pose_) * (-z / rho);
-    impact.overlap = rho - (mill_.vessel.radius - radius);
-  } else {
-    const Real side(wall == 0 ? 1 : -1);
-    normal = model::vessel_axis_y(pose_) * side;
-    impact.overlap = -side * local.position[1] - (mill_.vessel.half_height - radius);
-  }
+  const Vec3<Real> normal =
+      model::direction_to_inertial<Real>(pose_, mill_.vessel.normal(wall, local.position));
+  impact.normal = normal;
+  impact.overlap = mill_.vessel.overlap(wall, local.position, radius);
   const Vec3<Real> contact_point = flight.position - normal * radius;
   const Vec3<Real> wall_velocity = model::wall_velocity<Real>(pose_, mill_.motion.arm, contact_point);
   impact.velocity_before[0] = flight.velocity;

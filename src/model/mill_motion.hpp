@@ -67,6 +67,12 @@ inline Vec3<Real> vessel_axis_z(const VesselPose<Real>& p) {
   return {p.cos_alpha * p.sin_gamma, p.sin_alpha * p.sin_gamma, p.cos_gamma};
 }
 
+/// A direction in the vessel frame, seen in the inertial one.
+template <class Real>
+inline Vec3<Real> direction_to_inertial(const VesselPose<Real>& pose, const Vec3<Real>& n) {
+  return vessel_axis_x(pose) * n[0] + vessel_axis_y(pose) * n[1] + vessel_axis_z(pose) * n[2];
+}
+
 /// Inertial position of a point fixed in the vessel frame: P = R_z(theta) [ (l,0,0) + R_x(gamma) p ]. (2.7')
 template <class Real>
 inline Vec3<Real> to_inertial(const VesselPose<Real>& pose, const Real& arm, const Vec3<Real>& p) {

@@ -19,7 +19,7 @@ class IterationsOutput : public TableOutput<Real> {
     for (const auto& v : model::impact_variables) {
       std::string_view meaning = v.meaning;
       // Files of all versions describe these two like the columns of that name in other tables.
-      for (const auto& column : {walls_column, ball_ball_column})
+      for (const auto& column : {walls_column, column_of(model::ball_ball)})
         if (v.name == column.name) meaning = column.meaning;
       columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), std::string(meaning)});
     }
