@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 
 #include "output/balls_before.hpp"
 #include "output/output.hpp"
