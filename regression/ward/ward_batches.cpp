@@ -56,7 +56,7 @@ void write(const io::Summary<double>& s, double length, const std::vector<Batche
   json.text("compiler", s.provenance.compiler);
   json.text("case_digest", s.provenance.case_digest);
   json.integer("seed", s.provenance.seed);
-  json.text("end_reason", s.end_reason);
+  json.text("end_reason", std::string(model::name(s.end_reason)));
   json.number("start_time", s.start_time);
   json.number("end_time", s.end_time);
   json.number("batch_length", length);
@@ -68,14 +68,14 @@ void write(const io::Summary<double>& s, double length, const std::vector<Batche
   json.number("cpu_seconds", s.cpu_seconds);
   json.begin("batches");
   json.text("milling_dose", list(totals, [](const auto& t) { return to_text<double>(t.milling_dose); }));
-  constexpr std::array<const char*, model::partner_kinds> names = {"wall_0", "wall_1", "wall_2", "ball_ball"};
-  for (std::size_t k = 0; k < names.size(); ++k)
-    json.text(names[k], list(totals, [k](const auto& t) { return std::to_string(t.collisions[k]); }));
+  for (std::size_t k = 0; k < model::partners.size(); ++k)
+    json.text(model::partners[k].key,
+              list(totals, [k](const auto& t) { return std::to_string(t.collisions[k]); }));
   json.end();
   std::cout << json.finish();
 }
 
-int run(const std::string& file, const std::vector<std::string>& overrides, double length) {
+int run_in_batches(const std::string& file, const std::vector<std::string>& overrides, double length) {
   const auto spec = casefile::read_case(file, overrides);
   const auto built = casefile::build_case<double>(spec);
   const auto& the_case = built.the_case;
@@ -88,7 +88,7 @@ int run(const std::string& file, const std::vector<std::string>& overrides, doub
   guests.observers = {&batches};
   const auto [summary, saved] = run::simulate<double>(spec, built, guests);
   write(summary, length, batches.totals());
-  return summary.end_reason == "end_time" ? 0 : 3;
+  return summary.end_reason == model::EndReason::end_time ? 0 : 3;
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ int main(int argc, char** argv) {
   app.add_option("--set", overrides, "section.key=value, over the case file")->take_all()->expected(1);
   CLI11_PARSE(app, argc, argv);
   try {
-    return run(file, overrides, length);
+    return run_in_batches(file, overrides, length);
   } catch (const InputError& error) {
     for (const auto& problem : error.problems()) std::cerr << "ward_batches: " << problem << '\n';
     return 2;

@@ -170,8 +170,8 @@ TEST(MotionBounds, DerivativesOfTheGapsStayBelowTheirBounds) {
       const mpfr50 t = mpfr50(r.flight.start.offset) + mpfr50(length) * step / 4;
       const auto y = derivatives(f, t, 0), q = derivatives(f, t, 2);
       for (int n = 0; n < 3; ++n) {
-        worst_y[n] = std::max(worst_y[n], static_cast<double>(abs(y[n])) / bound.y[n]);
-        worst_q[n] = std::max(worst_q[n], static_cast<double>(abs(q[n])) / bound.q[n]);
+        worst_y[n] = std::max(worst_y[n], static_cast<double>(abs(y[n])) / bound[0][n]);
+        worst_q[n] = std::max(worst_q[n], static_cast<double>(abs(q[n])) / bound[1][n]);
       }
     }
   }

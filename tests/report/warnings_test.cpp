@@ -7,6 +7,7 @@
 namespace {
 
 using namespace edmill::report;
+namespace model = edmill::model;
 
 RunFacts good_facts() {
   RunFacts f;

@@ -11,6 +11,8 @@
 
 namespace edmill::verification {
 
+inline constexpr double pi = 3.14159265358979323846;
+
 /// Young's modulus at which a ball that meets a wall at v = 1 m/s touches it for `duration` by Hertz's
 /// theory: 2.9432 x / v, with the depth x = (5 m v^2 / (4 k))^(2/5), the force k x^(3/2), k = (4/3) E / (2 (1
 /// - nu^2)) sqrt(R).

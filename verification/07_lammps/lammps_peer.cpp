@@ -11,7 +11,6 @@ namespace edmill::verification {
 namespace {
 
 const Claim claim("07 LAMMPS");
-constexpr double pi = 3.14159265358979323846;
 const LammpsMotion spex{0.1, pi / 12, pi / 12, 60.0 / 1054, 9.8};
 constexpr int batch_periods = 9;  ///< half a second
 
