@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "edmill/errors.hpp"
+
 namespace edmill {
 
 namespace casefile {

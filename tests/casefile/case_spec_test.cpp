@@ -20,8 +20,16 @@ using casefile::parse_case;
 using casefile::Quantity;
 using WaltonBraun = model::WaltonBraun<Quantity>;
 
-cpp_rational restitution(const casefile::ContactSpec& c) { return std::get<WaltonBraun>(c.law).normal.value; }
-cpp_rational friction(const casefile::ContactSpec& c) { return std::get<WaltonBraun>(c.law).friction.value; }
+/// Of the law by its key.
+cpp_rational parameter(const casefile::ContactSpec& c, const std::string& key) {
+  cpp_rational found = -2;
+  c.parameters([&](const model::LawParameter& p, const Quantity& q) {
+    if (p.key == key) found = q.value;
+  });
+  return found;
+}
+cpp_rational restitution(const casefile::ContactSpec& c) { return parameter(c, "restitution"); }
+cpp_rational friction(const casefile::ContactSpec& c) { return parameter(c, "friction"); }
 
 using Overrides = std::vector<std::string>;
 
