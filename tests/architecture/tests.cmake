@@ -19,6 +19,7 @@ foreach(room base engine io casefile output)
   file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
   list(APPEND collision_bits_sources ${of_room})
 endforeach()
+list(FILTER collision_bits_sources EXCLUDE REGEX "/checkpoint_file.cpp$")
 add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp ${collision_bits_sources}
 )
 target_link_libraries(collision_bits PRIVATE edmill_settings OpenSSL::Crypto tomlplusplus::tomlplusplus hdf5::hdf5 pugixml::pugixml)
