@@ -192,6 +192,71 @@ class FaultyMill {
         e_n, law.restitution_of_slip((1 + e_n) * std::max(0.0, -g_n), slip, compliance)};
   }
 
+  struct FaultyImpact {
+    Vec normal, wall{0, 0, 0};
+    dynamics::ImpactOutcome<double> outcome;
+  };
+
+  FaultyImpact collide_with_wall(const Contact& c, model::ContactLaw<double> law) {
+    auto& one = states_[c.ball];
+    FaultyImpact impact;
+    Vec x, y, z, centre;
+    double theta_rate, gamma_rate;
+    axes(time_, x, y, z, centre, theta_rate, gamma_rate);
+    const Vec d = one.position - centre;
+    const Vec outward = x * d.dot(x) + z * d.dot(z);
+    impact.normal = c.partner == 2 ? Vec(-outward / outward.norm()) : Vec(y * (c.partner == 0 ? 1.0 : -1.0));
+    const Vec point = one.position - impact.normal * case_.balls[c.ball].radius;
+    const double s = centre[1] / case_.mill.motion.arm, co = centre[0] / case_.mill.motion.arm;
+    Vec& wall = impact.wall;
+    wall = Vec(0, 0, theta_rate).cross(point) + Vec(Vec(co, s, 0) * gamma_rate).cross(Vec(point - centre));
+    if (faults_.printed_rotations)  // the derivative of the printed position
+      wall = Vec(0, 0, theta_rate).cross(centre) + Vec(gamma_rate, 0, 0).cross(Vec(point - centre)) +
+             Vec(z * theta_rate).cross(Vec(point - centre));
+    wall *= faults_.wall_at_rest ? 0 : faults_.wall_velocity_factor;
+    const auto& ball = case_.balls[c.ball];
+    if (faults_.restitution_friction)
+      fix_friction(law, one.velocity - wall - Vec(one.spin * ball.radius).cross(impact.normal), impact.normal,
+                   1 + 1 / ball.reduced_inertia);
+    impact.outcome =
+        dynamics::collide_with_wall<double>(impact.normal, ball, wall, one.velocity, one.spin, law);
+    return impact;
+  }
+
+  FaultyImpact collide_balls(const Contact& c, model::ContactLaw<double> law) {
+    auto &one = states_[c.ball], &two = states_[c.partner];
+    const auto before = std::pair(one, two);
+    FaultyImpact impact;
+    const auto &bi = case_.balls[c.ball], &bj = case_.balls[c.partner];
+    Vec& normal = impact.normal;
+    normal = one.position - two.position;
+    normal /= normal.norm();
+    const Vec g =
+        one.velocity - two.velocity - Vec(one.spin * bi.radius + two.spin * bj.radius).cross(normal);
+    if (faults_.printed_compliance) {
+      const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();
+      law.law = model::ConstantRestitution<double>{
+          law.restitution(-g_n),
+          law.restitution_of_slip(law.separation_speed(-g_n) - g_n, slip, 1 + 1 / bi.reduced_inertia)};
+    }
+    if (faults_.restitution_friction) {
+      const double total = bi.mass + bj.mass;
+      fix_friction(law, g, normal,
+                   1 + bj.mass / total / bi.reduced_inertia + bi.mass / total / bj.reduced_inertia);
+    }
+    impact.outcome =
+        dynamics::collide_balls<double>(normal, bi, bj, one.velocity, one.spin, two.velocity, two.spin, law);
+    if (faults_.equal_masses) {
+      const double total = bi.mass + bj.mass;
+      one.velocity = before.first.velocity + (one.velocity - before.first.velocity) * (0.5 * total / bj.mass);
+      two.velocity =
+          before.second.velocity + (two.velocity - before.second.velocity) * (0.5 * total / bi.mass);
+      one.spin = before.first.spin + (one.spin - before.first.spin) * (0.5 * total / bj.mass);
+      two.spin = before.second.spin + (two.spin - before.second.spin) * (0.5 * total / bi.mass);
+    }
+    return impact;
+  }
+
   std::string collide(const Contact& c) {
     auto law = c.with_wall ? case_.mill.ball_wall : case_.mill.ball_ball;
     auto& one = states_[c.ball];
@@ -200,56 +265,7 @@ class FaultyMill {
     const auto before = std::pair(one, two);
     if (faults_.restitution >= 0) std::get<model::WaltonBraun<double>>(law.law).normal = faults_.restitution;
     if (faults_.least_separation >= 0) law.least_separation = faults_.least_separation;
-    dynamics::ImpactOutcome<double> o;
-    Vec normal, wall(0, 0, 0);
-    if (c.with_wall) {
-      Vec x, y, z, centre;
-      double theta_rate, gamma_rate;
-      axes(time_, x, y, z, centre, theta_rate, gamma_rate);
-      const Vec d = one.position - centre;
-      const Vec outward = x * d.dot(x) + z * d.dot(z);
-      normal = c.partner == 2 ? Vec(-outward / outward.norm()) : Vec(y * (c.partner == 0 ? 1.0 : -1.0));
-      const Vec point = one.position - normal * case_.balls[c.ball].radius;
-      const double s = centre[1] / case_.mill.motion.arm, co = centre[0] / case_.mill.motion.arm;
-      wall = Vec(0, 0, theta_rate).cross(point) + Vec(Vec(co, s, 0) * gamma_rate).cross(Vec(point - centre));
-      if (faults_.printed_rotations)  // the derivative of the printed position
-        wall = Vec(0, 0, theta_rate).cross(centre) + Vec(gamma_rate, 0, 0).cross(Vec(point - centre)) +
-               Vec(z * theta_rate).cross(Vec(point - centre));
-      wall *= faults_.wall_at_rest ? 0 : faults_.wall_velocity_factor;
-      const auto& ball = case_.balls[c.ball];
-      if (faults_.restitution_friction)
-        fix_friction(law, one.velocity - wall - Vec(one.spin * ball.radius).cross(normal), normal,
-                     1 + 1 / ball.reduced_inertia);
-      o = dynamics::collide_with_wall<double>(normal, ball, wall, one.velocity, one.spin, law);
-    } else {
-      const auto &bi = case_.balls[c.ball], &bj = case_.balls[c.partner];
-      normal = one.position - two.position;
-      normal /= normal.norm();
-      const Vec g =
-          one.velocity - two.velocity - Vec(one.spin * bi.radius + two.spin * bj.radius).cross(normal);
-      if (faults_.printed_compliance) {
-        const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();
-        law.law = model::ConstantRestitution<double>{
-            law.restitution(-g_n),
-            law.restitution_of_slip(law.separation_speed(-g_n) - g_n, slip, 1 + 1 / bi.reduced_inertia)};
-      }
-      if (faults_.restitution_friction) {
-        const double total = bi.mass + bj.mass;
-        fix_friction(law, g, normal,
-                     1 + bj.mass / total / bi.reduced_inertia + bi.mass / total / bj.reduced_inertia);
-      }
-      o = dynamics::collide_balls<double>(normal, bi, bj, one.velocity, one.spin, two.velocity, two.spin,
-                                          law);
-      if (faults_.equal_masses) {
-        const double total = bi.mass + bj.mass;
-        one.velocity =
-            before.first.velocity + (one.velocity - before.first.velocity) * (0.5 * total / bj.mass);
-        two.velocity =
-            before.second.velocity + (two.velocity - before.second.velocity) * (0.5 * total / bi.mass);
-        one.spin = before.first.spin + (one.spin - before.first.spin) * (0.5 * total / bj.mass);
-        two.spin = before.second.spin + (two.spin - before.second.spin) * (0.5 * total / bi.mass);
-      }
-    }
+    auto [normal, wall, o] = c.with_wall ? collide_with_wall(c, law) : collide_balls(c, law);
     if (faults_.tangential_sign) {
       const auto turn = [&](auto& state, const auto& old) {
         const Vec change = state.velocity - old.velocity, along = normal * change.dot(normal);
