@@ -1,9 +1,9 @@
 # The reference implementations, the comparison of figures and the recorded count of instructions; times are not tested.
 set(benchmarks ${CMAKE_SOURCE_DIR}/verification/performance)
-edmill_test(yardsticks_test performance/yardsticks_test.cpp)
-target_sources(yardsticks_test PRIVATE ${benchmarks}/minimal_loop.cpp ${benchmarks}/peer_loop.cpp
+edmill_test(reference_loops_test performance/reference_loops_test.cpp)
+target_sources(reference_loops_test PRIVATE ${benchmarks}/minimal_loop.cpp ${benchmarks}/peer_loop.cpp
                                        ${benchmarks}/periodic_gas.cpp)
-target_include_directories(yardsticks_test PRIVATE ${benchmarks})
+target_include_directories(reference_loops_test PRIVATE ${benchmarks})
 
 find_program(PYTHON3 python3)
 if(PYTHON3)

@@ -81,7 +81,7 @@ void add(const std::string& name, int iterations, Function function) {
 }
 
 /// Each iteration is 20 000 collisions.
-void add_yardsticks(const std::string& name, int balls, double packing, int iterations) {
+void add_reference_loops(const std::string& name, int balls, double packing, int iterations) {
   add("minimal/" + name, iterations, [=](benchmark::State& s) { periodic<MinimalLoop>(s, balls, packing); });
   add("peer/" + name, iterations, [=](benchmark::State& s) { periodic<PeerLoop>(s, balls, packing); });
 }
@@ -94,7 +94,7 @@ void add_gas(double packing, int balls) {
   const std::string name = gas_name(packing, balls);
   add("edmill/" + name, 10, [=](benchmark::State& s) { still(s, balls, packing); });
   // The reference implementations need a box of four balls a side.
-  if (balls > 123 * packing) add_yardsticks(name, balls, packing, 10);
+  if (balls > 123 * packing) add_reference_loops(name, balls, packing, 10);
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ void register_spex() {
   for (const auto& subject : spex_subjects) {
     const std::string name = std::string("spex/") + subject.name;
     add("edmill/" + name, subject.steps, [&](benchmark::State& s) { spex<double>(s, subject); });
-    add_yardsticks(name, subject.balls, subject.packing, 30);
+    add_reference_loops(name, subject.balls, subject.packing, 30);
   }
   add("scalar/double/demo", 400, [](benchmark::State& s) { spex<double>(s, demo); });
   add("scalar/float128/demo", 200, [](benchmark::State& s) { spex<float128>(s, demo); });

@@ -12,9 +12,9 @@ namespace edmill::performance {
 namespace {
 
 template <class Loop>
-class Yardstick : public ::testing::Test {};
+class ReferenceLoop : public ::testing::Test {};
 using Loops = ::testing::Types<MinimalLoop, PeerLoop>;
-TYPED_TEST_SUITE(Yardstick, Loops);
+TYPED_TEST_SUITE(ReferenceLoop, Loops);
 
 template <class Loop>
 double deepest_overlap(const Loop& loop) {
@@ -33,7 +33,7 @@ double deepest_overlap(const Loop& loop) {
   return 1 - nearest;
 }
 
-TYPED_TEST(Yardstick, KeepsEnergyAndNeverOverlaps) {
+TYPED_TEST(ReferenceLoop, KeepsEnergyAndNeverOverlaps) {
   for (const auto& [balls, packing] : {std::pair{30, 0.1}, std::pair{500, 0.26}, std::pair{1000, 0.35}}) {
     TypeParam loop(balls, packing, 7);
     const double energy = loop.kinetic_energy();
@@ -47,7 +47,7 @@ TYPED_TEST(Yardstick, KeepsEnergyAndNeverOverlaps) {
   }
 }
 
-TYPED_TEST(Yardstick, CollidesAtTheRateOfEnskog) {
+TYPED_TEST(ReferenceLoop, CollidesAtTheRateOfEnskog) {
   constexpr int balls = 2000;
   for (const double packing : {0.05, 0.1, 0.26, 0.35}) {
     TypeParam loop(balls, packing, 11, packing < 0.2);
@@ -59,7 +59,7 @@ TYPED_TEST(Yardstick, CollidesAtTheRateOfEnskog) {
   }
 }
 
-TYPED_TEST(Yardstick, RefusesWhatItCannotHold) {
+TYPED_TEST(ReferenceLoop, RefusesWhatItCannotHold) {
   EXPECT_THROW(TypeParam(10, 0.3, 1), std::invalid_argument);    // the box is too small for cells
   EXPECT_THROW(TypeParam(1000, 0.6, 1), std::invalid_argument);  // the lattice is
 }
