@@ -318,7 +318,7 @@ auto WallSearch<Real>::isolate_touching(const Curve& curve, const Point& left, P
 }
 
 /// The start touches and neither falls nor rises, within rounding: the second derivative decides. A ball that
-/// is pressed on the wall is in contact at once. One that is drawn off would leave the scalar in doubt
+/// is pressed on the wall is in contact at once. One that is drawn off would leave it open
 /// whether it touched before; at the top of the ladder what is zero within rounding counts as zero, so it
 /// leaves.
 template <class Real>

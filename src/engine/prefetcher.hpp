@@ -33,7 +33,7 @@ class Prefetcher {
    public:
     explicit Scope(Prefetcher& prefetcher) : prefetcher_(prefetcher) { prefetcher_.begin(); }
     ~Scope() {
-      while (prefetcher_.portion_ < portions) prefetcher_.fetch_portion();
+      while (prefetcher_.portion_ < portions) prefetcher_.prefetch_next();
     }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
@@ -45,7 +45,7 @@ class Prefetcher {
 
   /// The next portion, if there is one: for places where other work lies behind and ahead.
   void more() {
-    if (portion_ < portions) fetch_portion();
+    if (portion_ < portions) prefetch_next();
   }
 
   void flights_of(const FoundBalls& near) const {
@@ -62,7 +62,7 @@ class Prefetcher {
     portion_ = 0;
   }
 
-  void fetch_portion() {
+  void prefetch_next() {
     const auto [next, second, third] = upcoming_;
     const auto pair_comes = [&](int ball) { return agendas_[ball].next >= Agenda<Real>::first_pair; };
     const auto partner = [&](int ball) { return agendas_[ball].partner_at(agendas_[ball].next); };

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Looks up keys and collects their problems.
+/// Finds keys and collects their problems.
 class Reader {
  public:
   Reader(std::string file, const json& root) : file_(std::move(file)), root_(root) {}

@@ -112,7 +112,7 @@ class Convergence {
     return (n * xy - x * y) / (n * xx - x * x);
   }
 
-  void expect_order(double expected, double doubt) const {
+  void expect_order(double expected, double tolerance) const {
     EXPECT_GE(errors_.size(), 3u);
     std::string line = name_ + ", v_s to error:";
     for (std::size_t k = 0; k < errors_.size(); ++k)
@@ -120,15 +120,15 @@ class Convergence {
     sustained.say(line);
     const double found = order();
     sustained.at_most(name_ + ", order " + Claim::text(found) + ", off " + Claim::text(expected),
-                      std::abs(found - expected), doubt);
+                      std::abs(found - expected), tolerance);
   }
 
-  /// @param doubt  relative, of the error over v_s at the least v_s
-  void expect_factor(double expected, double doubt) const {
+  /// @param tolerance  relative, of the error over v_s at the least v_s
+  void expect_factor(double expected, double tolerance) const {
     const double found = errors_.back() / std::exp(log_v_s_.back());
     sustained.at_most(name_ + ", error over v_s " + Claim::text(found, 5) + " s/m, relative to " +
                           Claim::text(expected, 5) + " off by",
-                      std::abs(found / expected - 1), doubt);
+                      std::abs(found / expected - 1), tolerance);
   }
 
  private:

@@ -141,7 +141,7 @@ void MinimalLoop::predict(int i) {
   requeue(i);
 }
 
-/// Looks for an earlier contact among the balls of the cells from `low` to `high`.
+/// Finds an earlier contact among the balls of the cells from `low` to `high`.
 void MinimalLoop::predict_contacts(int i, const std::array<int, 3>& low, const std::array<int, 3>& high) {
   Ball& ball = balls_[i];
   for (int z = low[2]; z <= high[2]; ++z)
