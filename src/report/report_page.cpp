@@ -62,8 +62,7 @@ void add_player(pugi::xml_node section, const Animation& animation, double speed
        {"aria-label", "Time from the beginning of the animation"}});
   add(controls, "span", {{"id", "clock"}, {"aria-hidden", "true"}}, "0.0 ms");
   add(player, "p", {{"class", "note"}},
-      fmt::format("Slowed down {} times. Drag to rotate, scroll to zoom.",
-                  plot::readable(1 / speed, 2)));
+      fmt::format("Slowed down {} times. Drag to rotate, scroll to zoom.", plot::readable(1 / speed, 2)));
 }
 
 /// The scripts that play the animation.
