@@ -237,7 +237,7 @@ void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>&
   const auto& mill = built.the_case.mill;
   const Real w = mill.motion.angular_speed();
   const Real reach = mill.motion.arm + mill.vessel.reach(), gravity = norm<Real>(mill.gravity);
-  const Real turning = mill.motion.theta_max + mill.motion.gamma_max;
+  const Real turning = mill.motion.angles();
   Real fastest = 2 * turning * w * reach + 4 * sqrt(gravity * reach);
   for (const auto& state : built.states) fastest = std::max(fastest, norm<Real>(state.velocity));
   const Real rounding = epsilon<Real>() / 2 * (24 * reach + 16 * fastest * mill.motion.period);

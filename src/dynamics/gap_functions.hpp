@@ -77,15 +77,15 @@ class GapFunctions {
           frequency(1 / m.motion.period) {
       reach = m.motion.arm + m.vessel.reach();
       gravity = norm<Real>(m.gravity);
-      amplitudes = m.motion.theta_max + m.motion.gamma_max;
-      wall_speed = angular_speed * (m.motion.theta_max * reach + m.motion.gamma_max * (reach - m.motion.arm));
+      amplitudes = m.motion.angles();
+      wall_speed = m.motion.wall_speed(m.vessel.reach());
     }
     model::Mill<Real> mill;
     DriveClock<Real> clock;
     Real angular_speed, frequency;
     Real reach;       ///< largest distance of a ball from the fulcrum [m]
     Real gravity;     ///< [m/s^2]
-    Real amplitudes;  ///< theta_max + gamma_max [rad]
+    Real amplitudes;  ///< bound on the sum of both angles [rad]
     Real wall_speed;  ///< no point of the vessel is faster [m/s]
   };
 

@@ -37,8 +37,7 @@ Real largest_speed(const std::vector<model::BallState<Real>>& states, const mode
     const Real speed = norm<Real>(s.velocity);
     if (speed > largest) largest = speed;
   }
-  const Real wall = (mill.motion.theta_max + mill.motion.gamma_max) * mill.motion.angular_speed() *
-                    (mill.motion.arm + mill.vessel.extent());
+  const Real wall = mill.motion.turning() * (mill.motion.arm + mill.vessel.extent());
   return 2 * (largest + wall) + largest_fall(mill);
 }
 

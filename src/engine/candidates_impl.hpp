@@ -14,28 +14,19 @@ namespace detail {
 /// largest.
 template <class Real>
 CellGrid make_grid(const model::Mill<Real>& mill, const std::vector<model::BallProperties<Real>>& balls) {
-  using std::sqrt;
-  const Real &R = mill.vessel.radius, &h = mill.vessel.half_height;
-  const Real reach = sqrt(R * R + h * h);
-  const Real swing = mill.motion.theta_max < 1 ? mill.motion.theta_max : Real(1);
-  const Real tilt = mill.motion.gamma_max < 1 ? mill.motion.gamma_max : Real(1);
-  const Real sideways = mill.motion.arm * swing + reach;
-  const Real upright = R + h * tilt;
-  const Real nearest = mill.motion.arm * (1 - swing * swing) - (R + (h + R * tilt) * swing);
-  const Vec3<Real> low{-sideways, nearest, Real(-upright)},
-      high{sideways, Real(mill.motion.arm + R + (h + R * tilt) * swing), upright};
+  const auto region = mill.motion.swept(mill.vessel.half_sizes(), mill.vessel.reach());
   Real largest{0};
   for (const auto& b : balls) largest = b.radius > largest ? b.radius : largest;
-  const double volume = static_cast<double>(R * R * h) * 6.28;
+  const double volume = static_cast<double>(mill.vessel.volume_over_2_pi()) * 6.28;
   // The C library's cube root is not the same on every machine; nor is long double.
   using boost::math::policies::promote_double;
   constexpr boost::math::policies::policy<promote_double<false>> portable;
   Real edge = 2 * largest * (1 + Real(1) / 1024);
-  if (balls.size() <= 32) edge = 4 * sideways;
+  if (balls.size() <= 32) edge = 4 * region.sideways;
   const double spacing = 0.45 * boost::math::cbrt(volume / static_cast<double>(balls.size()), portable);
   if (edge < spacing) edge = Real(spacing);
-  return CellGrid(vector_cast<double>(low), vector_cast<double>(high), static_cast<double>(edge),
-                  static_cast<int>(balls.size()));
+  return CellGrid(vector_cast<double>(region.low), vector_cast<double>(region.high),
+                  static_cast<double>(edge), static_cast<int>(balls.size()));
 }
 
 }  // namespace detail

@@ -2,7 +2,10 @@
 // Source: Barahona 2011, section 2.2.2 and (2.2)-(2.16), as corrected in docs/theory.md, section 1.
 #pragma once
 
+#include <cstddef>
+
 #include "base/archive.hpp"
+#include "base/majorant.hpp"
 #include "base/trigonometry.hpp"
 #include "base/vector.hpp"
 
@@ -18,7 +21,93 @@ struct MillMotion {
   Real period;     ///< of the drive [s]; angular speed w = 2 pi / period
 
   Real angular_speed() const { return 2 * numerics::pi<Real>() / period; }
+
+  /// Bound on the sum of both angles [rad].
+  Real angles() const { return theta_max + gamma_max; }
+  /// Bound on the vessel's angular speed [rad/s].
+  Real turning() const { return angles() * angular_speed(); }
+  /// No point of a vessel whose points are within `vessel_reach` of its centre is faster [m/s].
+  Real wall_speed(const Real& vessel_reach) const {
+    const Real reach = arm + vessel_reach;
+    return angular_speed() * (theta_max * reach + gamma_max * (reach - arm));
+  }
+
+  /// The box that a vessel sweeps, in inertial coordinates.
+  struct Swept {
+    Vec3<Real> low, high;  ///< corners [m]
+    Real sideways;         ///< half of its longest edge [m]
+  };
+  /// @param sizes  of the vessel from its centre, along its axes [m]
+  Swept swept(const Vec3<Real>& sizes, const Real& vessel_reach) const {
+    const Real &R = sizes[0], &h = sizes[1];
+    const Real swing = theta_max < 1 ? theta_max : Real(1);
+    const Real tilt = gamma_max < 1 ? gamma_max : Real(1);
+    const Real sideways = arm * swing + vessel_reach;
+    const Real upright = R + h * tilt;
+    const Real nearest = arm * (1 - swing * swing) - (R + (h + R * tilt) * swing);
+    return {{-sideways, nearest, Real(-upright)},
+            {sideways, Real(arm + R + (h + R * tilt) * swing), upright},
+            sideways};
+  }
+
+  /// Bounds on the coordinates in the vessel frame of a ball in flight, and on their first four derivatives.
+  struct CoordinateBounds {
+    numerics::Majorant<Real> x, y, z;
+  };
+  /// For a ball whose speed stays below `speed` [m/s] over a window of `length` [s] that it enters inside a
+  /// vessel of these sizes. Derivation: docs/theory.md, section 3.
+  CoordinateBounds coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach, const Real& gravity,
+                                     const Real& speed, const Real& length) const;
 };
+
+template <class Real>
+auto MillMotion<Real>::coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach,
+                                         const Real& gravity, const Real& speed, const Real& length) const
+    -> CoordinateBounds {
+  using numerics::Majorant;
+  using numerics::product_bound;
+  const Real w = angular_speed();
+  Majorant<Real> alpha, gamma, sine, cosine;
+  Real power{1};
+  for (int k = 0; k < 5; ++k, power *= w) {
+    alpha[k] = theta_max * power;
+    gamma[k] = gamma_max * power;
+  }
+  numerics::fill_sin_cos(gamma, sine, cosine);
+
+  // How far outside the vessel the path may get within the window: |p'| <= U.
+  const Real shrink = 1 - (alpha[1] + gamma[1]) * length;
+  const Real frame_speed = (speed + alpha[1] * (arm + vessel_reach) + gamma[1] * vessel_reach) / shrink;
+  const Real excursion = frame_speed * length;
+
+  // Gravity and velocity in the frame that turns with theta: G' = alpha' G, V' = G + alpha' V.
+  Majorant<Real> g, v, v_z, a, b, x, y, z;
+  g[0] = gravity;
+  v[0] = speed;
+  v_z = {speed, g[0], Real(0), Real(0), Real(0)};
+  x[0] = sizes[0] + excursion;
+  y[0] = sizes[1] + excursion;
+  z[0] = sizes[2] + excursion;
+  a[0] = arm + x[0];
+  b[0] = y[0] + sine[0] * z[0];
+  for (int k = 0; k < 4; ++k) {
+    g[k + 1] = product_bound(alpha, 1, g, k);
+    v[k + 1] = g[k] + product_bound(alpha, 1, v, k);
+    a[k + 1] = v[k] + product_bound(alpha, 1, b, k);
+    b[k + 1] = v[k] + product_bound(alpha, 1, a, k);
+    x[k + 1] = a[k + 1];
+    // The bounds on b' enter through b shifted by one derivative.
+    Real y_next = product_bound(v_z, 0, sine, k) + product_bound(gamma, 1, z, k);
+    Real z_next = product_bound(v_z, 0, cosine, k) + product_bound(gamma, 1, y, k);
+    for (int j = 0; j <= k; ++j) {
+      y_next += numerics::binomial[k][j] * b[j + 1] * cosine[k - j];
+      z_next += numerics::binomial[k][j] * b[j + 1] * sine[k - j];
+    }
+    y[k + 1] = y_next;
+    z[k + 1] = z_next;
+  }
+  return {x, y, z};
+}
 
 /// Where the vessel is at one instant. `alpha` is theta - pi/2, so sin(theta) = cos(alpha).
 template <class Real>

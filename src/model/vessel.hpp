@@ -57,6 +57,7 @@ struct CylinderVessel {
   Real extent() const { return radius + half_height; }
   /// Bounds on the coordinates of a place inside [m].
   Vec3<Real> half_sizes() const { return {radius, half_height, radius}; }
+  Real volume_over_2_pi() const { return radius * radius * half_height; }
   /// Largest sum of two radii of balls that fit [m].
   Real widest_ball() const { return 2 * (radius < half_height ? radius : half_height); }
 
