@@ -1,5 +1,5 @@
-// A contact law of one's own: balls that rebound less the faster they meet, as viscoelastic ones do, with
-// Coulomb's friction. Beside it the law of the case.
+// A custom contact law: balls that rebound less the faster they meet, as viscoelastic ones do, with
+// Coulomb's friction; compared with the law of the case.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

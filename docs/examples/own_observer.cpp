@@ -1,4 +1,4 @@
-// An observer of one's own: how hard balls hit each other, as a histogram of the approach speed.
+// A custom observer: how hard balls hit each other, as a histogram of the approach speed.
 #include <array>
 #include <cstdio>
 #include <edmill/run.hpp>

@@ -1,5 +1,4 @@
-// A stop rule of one's own: the run ends when every ball has hit every other kind of partner, a wall of each
-// id and another ball.
+// A custom stop rule: the run ends when every ball has hit each wall and another ball.
 #include <cstdio>
 #include <edmill/run.hpp>
 #include <vector>

@@ -27,7 +27,7 @@ class Case {
   static Case parse(const std::string& text, const std::string& name = "case.toml",
                     const std::vector<std::string>& settings = {});
 
-  /// SHA-256 of the canonical text: cases with the same digest give the same bits.
+  /// SHA-256 of the canonical text: in one scalar, cases with the same digest give the same bits.
   const std::string& digest() const;
   /// Of the run, unless the program chooses another: "double", "float128", ...
   const std::string& precision() const;

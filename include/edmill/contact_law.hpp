@@ -13,7 +13,7 @@ class CustomLaw {
   /// e_n in [0, 1]. @param approach_speed  |g_n| >= 0 [m/s]
   virtual Real restitution(const Real& approach_speed) const = 0;
 
-  /// e_t, the part of the slip that is left, in [-1, 1]. (2.24')
+  /// e_t, the part of the slip that is left, in [-1, 1]; beyond that the impact adds energy. (2.24')
   /// @param normal_change  |g_n| + g_n' >= 0 [m/s]: the normal impulse over the effective mass
   /// @param slip_speed     |g_t| >= 0 [m/s]
   /// @param compliance     1 + M/(m_i J_i) + M/(m_j J_j), for a wall 1 + 1/J_i; the tangential impulse over

@@ -24,17 +24,17 @@ struct Impact {
   Real time;            ///< [s]
   int ball;
   bool with_wall;
-  int partner;              ///< ball or wall id
-  Vector<Real> normal;      ///< unit, from the partner to the ball
-  Real approach_speed;      ///< of the contact points along the normal, before [m/s]
-  Real slip_speed;          ///< of the contact points across the normal, before [m/s]
-  Real separation_speed;    ///< of the contact points along the normal, after [m/s]
-  Real tangential_factor;   ///< e_t, the part of the slip that is left
-  Real normal_impulse;      ///< [N s]
-  Real tangential_impulse;  ///< [N s]
-  Real milling_dose;        ///< kinetic energy that the impact takes away [J]
-  Real supplied_energy;     ///< by the least separation speed [J]
-  Real wall_work;           ///< of the moving wall on the ball [J]
+  int partner;                  ///< ball or wall id
+  Vector<Real> normal;          ///< unit, from the partner to the ball
+  Real approach_speed;          ///< of the contact points along the normal, before [m/s]
+  Real slip_speed;              ///< of the contact points across the normal, before [m/s]
+  Real separation_speed;        ///< of the contact points along the normal, after [m/s]
+  Real restitution_tangential;  ///< e_t, the part of the slip that is left
+  Real normal_impulse;          ///< [N s]
+  Real tangential_impulse;      ///< [N s]
+  Real milling_dose;            ///< kinetic energy that the impact takes away [J]
+  Real supplied_energy;         ///< by the least separation speed [J]
+  Real wall_work;               ///< of the moving wall on the ball [J]
 };
 
 }  // namespace edmill

@@ -8,7 +8,7 @@ namespace edmill {
 template <class Real>
 class Run;
 
-/// Is told of every impact just after it happened.
+/// Receives every impact just after it happened.
 template <class Real>
 class Observer {
  public:

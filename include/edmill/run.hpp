@@ -28,7 +28,7 @@ class Run {
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
-  /// Observers are told of every impact, in the order of attachment; they must outlive the run.
+  /// Observers receive every impact, in the order of attachment; they must outlive the run.
   void attach(Observer<Real>& observer);
 
   /// Simulates up to `time` [s], or to where a stop rule of the case or an observer ends the run.

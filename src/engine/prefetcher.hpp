@@ -1,4 +1,4 @@
-// Asks memory early for what the next events need, where balls do not fit into the near caches.
+// Prefetches what the next events need, where balls do not fit into the near caches.
 #pragma once
 
 #include <array>

@@ -59,7 +59,7 @@ class Simulation {
   /// or when `interrupt` becomes true. Can be called again with a later end.
   EndReason run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt = nullptr);
 
-  /// Whether memory is asked early for what the next events need; changes no result. By default with many
+  /// Whether what the next events need is prefetched; changes no result. By default with many
   /// balls.
   void prefetch(bool yes) { prefetcher_.enable(yes && candidates_.uses_cells()); }
 

@@ -35,7 +35,7 @@ struct MillMotion {
   /// The box that a vessel sweeps, in inertial coordinates.
   struct Swept {
     Vec3<Real> low, high;  ///< corners [m]
-    Real sideways;         ///< half of its longest edge [m]
+    Real sideways;         ///< half of its extent along X [m]
   };
   /// @param sizes  of the vessel from its centre, along its axes [m]
   Swept swept(const Vec3<Real>& sizes, const Real& vessel_reach) const {

@@ -114,7 +114,7 @@ struct CylinderVessel {
   }
 
   /// Whether the gap to a wall is a coordinate up to sign and offset: then it is as sharp as one.
-  static constexpr bool is_flat(int wall) { return wall != 2; }
+  static constexpr bool is_flat(int wall) { return kind_of(wall) == 0; }
   /// Rounding of the gap to a curved wall.
   /// @param coordinate    of a coordinate in the vessel frame
   /// @param u             half the distance from 1 to the next number
