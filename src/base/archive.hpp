@@ -8,6 +8,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/errors.hpp"
@@ -89,6 +90,19 @@ void archive_value(Archive& a, std::optional<T>& value) {
   a(there);
   if (a.loading()) value = there ? std::optional<T>(T{}) : std::nullopt;
   if (there) a(*value);
+}
+template <class... T>
+void archive_value(Archive& a, std::variant<T...>& value) {
+  std::size_t index = value.index();
+  a(index);
+  if (a.loading()) {
+    if (index >= sizeof...(T)) throw InputError("found no such kind of a saved state");
+    [&]<std::size_t... kind>(std::index_sequence<kind...>) {
+      ((index == kind ? void(value.template emplace<kind>()) : void()), ...);
+    }
+    (std::index_sequence_for<T...>{});
+  }
+  std::visit([&](auto& present) { a(present); }, value);
 }
 template <class Real>
 void archive_value(Archive& a, Vec3<Real>& v) {

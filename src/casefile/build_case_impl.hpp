@@ -27,6 +27,11 @@ model::ContactLaw<Real> to_law(const casefile::ContactSpec& spec) {
   return model::convert_law<Real>(spec, [](const casefile::Quantity& q) { return q.to<Real>(); });
 }
 
+template <class Real, template <class> class Part>
+Part<Real> to_part(const Part<casefile::Quantity>& part) {
+  return model::converted<Part, Real>(part, [](const casefile::Quantity& q) { return q.to<Real>(); });
+}
+
 template <class Real>
 model::BallProperties<Real> to_ball(const casefile::BallSpec& spec, const Real& diameter) {
   const Real radius = diameter / 2;
@@ -80,7 +85,7 @@ class Filling {
       : spec_(spec),
         result_(result),
         mill_(result.the_case.mill),
-        pose_(model::pose_at<Real>(mill_.motion, result.start.offset)),
+        pose_(mill_.motion.pose(result.start)),
         random_(spec.seed),
         placed_(widest_distance(spec)) {}
 
@@ -94,8 +99,7 @@ class Filling {
   /// A ball whose state is given: it must be inside and touch no other, up to rounding.
   void add_checked(const model::BallProperties<Real>& ball, const model::BallState<Real>& state,
                    const std::string& where) {
-    const auto local =
-        model::to_vessel_frame<Real>(pose_, mill_.motion.arm, state.position, state.velocity).position;
+    const auto local = mill_.motion.to_vessel_frame(pose_, state.position, state.velocity).position;
     const std::string own = std::to_string(result_.states.size());
     const Real tolerance = ball.radius / 1000000000;
     if (!inside(local, ball.radius - tolerance))
@@ -117,7 +121,7 @@ class Filling {
       const auto ball = to_ball<Real>(batch, own);
       const auto local = place(batch, k, ball.radius, gap_ball, gap_wall);
       if (!local) return;  // reported
-      model::BallState<Real> state{model::to_inertial<Real>(pose_, mill_.motion.arm, *local), velocity,
+      model::BallState<Real> state{mill_.motion.to_inertial(pose_, *local), velocity,
                                    Vec3<Real>(Real(0), Real(0), Real(0))};
       if (batch.random_speed) state.velocity = random_velocity(batch.random_speed->to<Real>());
       add(ball, *local, state);
@@ -138,7 +142,7 @@ class Filling {
   }
 
   bool inside(const Vec3<Real>& local, const Real& radius) const {
-    return mill_.vessel.contains(mill_.vessel.room(radius), local);
+    return mill_.vessel.inset(radius).contains(local);
   }
 
   void add(const model::BallProperties<Real>& ball, const Vec3<Real>& local,
@@ -151,8 +155,8 @@ class Filling {
   /// A free place in the vessel frame, uniform over those that keep the gaps.
   std::optional<Vec3<Real>> place(const casefile::BallBatch& batch, int k, const Real& radius,
                                   const Real& gap_ball, const Real& gap_wall) {
-    const auto room = mill_.vessel.room(radius, gap_wall);
-    if (!mill_.vessel.holds(room)) {
+    const auto room = mill_.vessel.inset(radius).inset(gap_wall);
+    if (room.is_empty()) {
       problems_.push_back(
           batch.where +
           ": found balls too large for the vessel, expected a diameter that fits with gap_wall");
@@ -160,7 +164,7 @@ class Filling {
     }
     for (std::uint64_t tries = 0; tries <= batch.max_relocations; ++tries) {
       const Real x = random_.symmetric<Real>(), z = random_.symmetric<Real>(), y = random_.symmetric<Real>();
-      const auto local = mill_.vessel.place(room, {x, y, z});
+      const auto local = room.place({x, y, z});
       if (!local) continue;
       if (placed_.conflict(*local, [&](int other) {
             return radius + result_.the_case.balls[other].radius + gap_ball;
@@ -186,7 +190,7 @@ class Filling {
   const casefile::CaseSpec& spec_;
   InitialCase<Real>& result_;
   const model::Mill<Real>& mill_;
-  model::VesselPose<Real> pose_;
+  model::AnyPose<Real> pose_;
   Random random_;
   PlacedBalls<Real> placed_;
   std::vector<std::string> problems_;
@@ -199,7 +203,7 @@ void fill_from_file(const casefile::CaseSpec& spec, InitialCase<Real>& result) {
   if (saved.states.size() != spec.ball_count())
     throw InputError(spec.initial_state + ": found " + std::to_string(saved.states.size()) +
                      " balls, expected the case's " + std::to_string(spec.ball_count()));
-  const DriveClock<Real> clock(result.the_case.mill.motion.period);
+  const DriveClock<Real> clock(result.the_case.mill.motion.period());
   if (saved.time.offset >= clock.period())
     throw InputError(spec.initial_state +
                      ":2: found a drive_offset of a whole drive period or more, expected " +
@@ -235,12 +239,10 @@ template <class Real>
 void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>& built) {
   using std::sqrt;
   const auto& mill = built.the_case.mill;
-  const Real w = mill.motion.angular_speed();
-  const Real reach = mill.motion.arm + mill.vessel.reach(), gravity = norm<Real>(mill.gravity);
-  const Real turning = mill.motion.angles();
-  Real fastest = 2 * turning * w * reach + 4 * sqrt(gravity * reach);
+  const Real reach = mill.motion.reach(mill.vessel.reach()), gravity = norm<Real>(mill.gravity);
+  Real fastest = 2 * mill.motion.speed_within(reach) + 4 * sqrt(gravity * reach);
   for (const auto& state : built.states) fastest = std::max(fastest, norm<Real>(state.velocity));
-  const Real rounding = epsilon<Real>() / 2 * (24 * reach + 16 * fastest * mill.motion.period);
+  const Real rounding = epsilon<Real>() / 2 * (24 * reach + 16 * fastest * mill.motion.period());
   const Real least_radius = 8000000 * rounding;  // so that a missed impact is told from rounding
   const auto number = [](const Real& x) { return fmt::format("{:.3g}", static_cast<double>(x)); };
   std::vector<std::string> problems;
@@ -254,7 +256,7 @@ void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>&
   for (const auto& ball : spec.balls) check(ball, ball.diameter.template to<Real>());
   for (const auto& ball : spec.batches)
     check(ball, ball.diameter.template to<Real>() - ball.diameter_spread.template to<Real>());
-  const Real least_hop = 4 * sqrt(rounding * (turning * w * w * reach + gravity));
+  const Real least_hop = 4 * sqrt(rounding * (mill.motion.acceleration_within(reach) + gravity));
   for (const bool walls : {false, true}) {
     const Real& speed = (walls ? mill.ball_wall : mill.ball_ball).least_separation;
     if (speed > 0 && speed < least_hop)
@@ -270,11 +272,11 @@ void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>&
 
 template <class Real>
 model::Mill<Real> build_mill(const casefile::CaseSpec& spec) {
-  const auto& m = spec.mill;
-  return {{m.arm.to<Real>(), m.theta_max.to<Real>(), m.gamma_max.to<Real>(), m.period.to<Real>()},
-          {spec.vessel_diameter.to<Real>() / 2, spec.vessel_height.to<Real>() / 2},
-          detail::to_vector<Real>(spec.gravity),
-          detail::to_law<Real>(spec.ball_ball),
+  return {std::visit([](const auto& m) { return model::AnyMotion<Real>(detail::to_part<Real>(m).motion()); },
+                     spec.mill),
+          std::visit([](const auto& v) { return model::AnyVessel<Real>(detail::to_part<Real>(v).vessel()); },
+                     spec.vessel),
+          detail::to_vector<Real>(spec.gravity), detail::to_law<Real>(spec.ball_ball),
           detail::to_law<Real>(spec.ball_wall)};
 }
 
@@ -284,7 +286,7 @@ InitialCase<Real> build_case(const casefile::CaseSpec& spec, bool resolved) {
   auto& c = result.the_case;
   c.mill = build_mill<Real>(spec);
   const auto instant = [&](const casefile::Quantity& time) {
-    return casefile::instant_at<Real>(time, spec.mill.period);
+    return casefile::instant_at<Real>(time, casefile::period_of(spec.mill));
   };
   c.initial_time = instant(spec.initial_time);
   c.statistics_start = instant(spec.statistics_start);

@@ -54,52 +54,15 @@ void read_run(Section run, CaseSpec& spec) {
   run.reject_unknown_keys();
 }
 
-/// A new mill motion is a row here and its pose in model/mill_motion.hpp.
-void read_mill(Section mill, CaseSpec& spec) {
-  MillSpec& m = spec.mill;
-  m.type = mill.choice("type", {"spex8000", "still"});
-  const bool shaken = m.type == "spex8000";
-  const Quantity fifteen_degrees{cpp_rational(1, 12), 1};
-  m.arm = mill.quantity("arm", Dimension::length, shaken ? Quantity{cpp_rational(1, 10)} : Quantity{0});
-  mill.require(!m.arm.negative(), "arm", "a length of 0 or more");
-  if (shaken) {
-    m.theta_max = mill.quantity("theta_max", Dimension::angle, fifteen_degrees);
-    m.gamma_max = mill.quantity("gamma_max", Dimension::angle, fifteen_degrees);
-    for (const auto* key : {"theta_max", "gamma_max"}) {
-      const Quantity& angle = key == std::string("theta_max") ? m.theta_max : m.gamma_max;
-      const cpp_rational limit = angle.pi_power == 1 ? cpp_rational(1, 2) : cpp_rational(157, 100);
-      mill.require(!angle.negative() && angle.value <= limit, key, "an angle from 0 to 90 deg");
-    }
-    const Quantity speed =
-        mill.quantity("speed", Dimension::angular_speed, Quantity{cpp_rational(1098, 30), 1});
-    mill.require(speed.positive(), "speed", "a positive angular speed");
-    // T = 2 pi / w, exact for rpm and Hz.
-    m.period = speed.positive() ? Quantity{2 / speed.value, 1 - speed.pi_power} : Quantity{1};
-  } else {
-    m.period = Quantity{cpp_rational(1, 16)};
-  }
-  mill.reject_unknown_keys();
-}
-
 /// Instants count drive periods, so a run has no more of them than an integer holds.
 void check_times(Section run, const CaseSpec& spec) {
   const auto within = [&](const Quantity& time) {
-    return time.value < spec.mill.period.value * cpp_rational(1000000000000000);
+    return time.value < period_of(spec.mill).value * cpp_rational(1000000000000000);
   };
   const std::string expected = "a time of less than 1e15 drive periods";
   run.require(within(spec.initial_time), "initial_time", expected);
   run.require(within(spec.statistics_start), "start_time", expected);
   run.require(!spec.end_time || within(*spec.end_time), "end_time", expected);
-}
-
-void read_vessel(Section vessel, CaseSpec& spec) {
-  vessel.choice("type", {"cylinder"});
-  spec.vessel_diameter = vessel.required("diameter", Dimension::length);
-  spec.vessel_height = vessel.required("height", Dimension::length);
-  vessel.require(spec.vessel_diameter.positive(), "diameter", "a positive length");
-  vessel.require(spec.vessel_height.positive(), "height", "a positive length");
-  spec.vessel_colour = vessel.colour("colour", spec.vessel_colour);
-  vessel.reject_unknown_keys();
 }
 
 void read_audit(Section audit, AuditSpec& spec) {
@@ -131,9 +94,7 @@ std::string canonical_text(const CaseSpec& c) {
       << optional(c.end_time) << "\nmax_milling_dose " << optional(c.max_milling_dose) << "\nmax_ball_speed "
       << optional(c.max_ball_speed) << "\nmax_collisions "
       << (c.max_collisions ? std::to_string(*c.max_collisions) : "-") << "\ngravity " << vector(c.gravity)
-      << "\nmill " << c.mill.type << " " << c.mill.arm.text() << " " << c.mill.theta_max.text() << " "
-      << c.mill.gamma_max.text() << " " << c.mill.period.text() << "\nvessel cylinder "
-      << c.vessel_diameter.text() << " " << c.vessel_height.text() << "\n";
+      << "\nmill " << text_of(c.mill) << "\nvessel " << text_of(c.vessel) << "\n";
   for (const auto* law : {&c.ball_ball, &c.ball_wall}) {
     out << "contact " << law->name();
     law->parameters([&](const model::LawParameter&, const Quantity& value) { out << " " << value.text(); });
@@ -240,8 +201,12 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   }
   Section top(document, &root, "");
   read_run(top.section("run"), spec);
-  read_mill(top.section("mill"), spec);
-  read_vessel(top.section("vessel"), spec);
+  Section mill = top.section("mill"), vessel = top.section("vessel");
+  spec.mill = read_motion(mill);
+  spec.vessel = read_vessel(vessel);
+  spec.vessel_colour = vessel.colour("colour", spec.vessel_colour);
+  mill.reject_unknown_keys();
+  vessel.reject_unknown_keys();
   read_contact(top.section("contact"), spec);
   if (Section powder = top.section("powder"); powder.present()) {
     spec.powder_mass = powder.required("mass", Dimension::mass);

@@ -9,6 +9,7 @@
 
 #include "casefile/colour.hpp"
 #include "casefile/output_spec.hpp"
+#include "casefile/parts.hpp"
 #include "casefile/quantity.hpp"
 #include "model/contact_law.hpp"
 
@@ -44,12 +45,6 @@ struct ExplicitBall : BallSpec {
 
 using ContactSpec = model::ContactLaw<Quantity>;
 
-struct MillSpec {
-  std::string type = "spex8000";
-  Quantity arm, theta_max, gamma_max;
-  Quantity period;  ///< of the drive, or the clock unit of a still vessel [s]
-};
-
 /// Section [audit]: how another code's collision log is to be read and judged. docs/audit.md
 struct AuditSpec {
   std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
@@ -70,8 +65,8 @@ struct CaseSpec {
   std::optional<std::uint64_t> max_collisions;
   std::string initial_state;  ///< path of a final_state.csv, or empty
   QuantityVector gravity{};
-  MillSpec mill;
-  Quantity vessel_diameter, vessel_height;
+  MotionSpec mill;
+  VesselSpec vessel;
   Colour vessel_colour{1, 1, 0};  ///< in pictures
   ContactSpec ball_ball, ball_wall;
   std::optional<Quantity> powder_mass;

@@ -7,9 +7,11 @@
 #include <string_view>
 #include <variant>
 
+#include "base/dimension.hpp"
+
 namespace edmill::casefile {
 
-enum class Dimension { none, length, mass, time, angle, energy, speed, angular_speed, acceleration, density };
+using edmill::Dimension;
 
 /// "a length (mm, cm, m, in, ft, ...)", for messages.
 std::string describe(Dimension dimension);

@@ -11,9 +11,7 @@ namespace edmill::audit {
 
 namespace {
 
-double reach_of(const model::Mill<double>& mill) {
-  return mill.motion.arm + std::hypot(mill.vessel.radius, mill.vessel.half_height);
-}
+double reach_of(const model::Mill<double>& mill) { return mill.motion.reach(mill.vessel.reach()); }
 
 std::vector<Check> checks_not_made(const Findings& findings, bool any_pairs) {
   std::vector<Check> missing;
@@ -98,7 +96,7 @@ Audit audit(const model::Case<double>& the_case, const std::vector<model::BallSt
   result.available = log.available();
   Auditor auditor(the_case, result.available, result.tolerances, result.findings);
   if (options.from_start)
-    auditor.begin(states, DriveClock<double>(the_case.mill.motion.period).seconds(the_case.initial_time));
+    auditor.begin(states, DriveClock<double>(the_case.mill.motion.period()).seconds(the_case.initial_time));
   bool any_pairs = false;
   while (auto event = log.next()) {
     if (options.interrupt && options.interrupt->load(std::memory_order_relaxed)) {

@@ -28,16 +28,16 @@ Flights::Flights(const model::Case<double>& the_case, const Available& available
       available_(available),
       tolerances_(tolerances),
       findings_(findings),
-      clock_(the_case.mill.motion.period),
+      clock_(the_case.mill.motion.period()),
       ladder_(the_case.mill, smallest_sum(the_case), 32.0),
       top_speed_(32),
       tracks_(the_case.balls.size()) {}
 
 VesselFrame Flights::nested_at(double time) const {
-  return nested_frame(case_.mill.motion, model::pose_at<double>(case_.mill.motion, clock_.at(time).offset));
+  return nested_frame(case_.mill.motion, case_.mill.motion.pose(clock_.at(time)));
 }
 VesselFrame Flights::printed_at(double time) const {
-  return printed_frame(case_.mill.motion, model::pose_at<double>(case_.mill.motion, clock_.at(time).offset));
+  return printed_frame(case_.mill.motion, case_.mill.motion.pose(clock_.at(time)));
 }
 
 Vec Flights::position_at(int ball, double time) const {

@@ -9,31 +9,37 @@ namespace {
 
 Vec cross(const Vec& a, const Vec& b) { return edmill::cross<double>(a, b); }
 
-Vec centre_of(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose) {
+Vec centre_of(const model::SpexMotion<double>& motion, const model::SpexPose<double>& pose) {
   return {-pose.sin_alpha * motion.arm, pose.cos_alpha * motion.arm, 0};  // theta = alpha + pi/2
 }
 
 }  // namespace
 
-VesselFrame nested_frame(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose) {
+VesselFrame nested_frame(const model::AnyMotion<double>& motion, const model::AnyPose<double>& any) {
+  const auto& pose = std::get<model::SpexPose<double>>(any);
   const double s = pose.cos_alpha, c = -pose.sin_alpha;  // sin and cos of theta
   const double sg = pose.sin_gamma, cg = pose.cos_gamma;
-  return {{c, s, 0},       {-s * cg, c * cg, sg}, {s * sg, -c * sg, cg}, centre_of(motion, pose),
-          pose.theta_rate, pose.gamma_rate};
+  return {{c, s, 0},
+          {-s * cg, c * cg, sg},
+          {s * sg, -c * sg, cg},
+          centre_of(*motion.get_if<model::SpexMotion<double>>(), pose),
+          pose.theta_rate,
+          pose.gamma_rate};
 }
 
-VesselFrame printed_frame(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose) {
+VesselFrame printed_frame(const model::AnyMotion<double>& motion, const model::AnyPose<double>& any) {
+  const auto& pose = std::get<model::SpexPose<double>>(any);
   const double s = pose.cos_alpha, c = -pose.sin_alpha;
   const double sg = pose.sin_gamma, cg = pose.cos_gamma;
-  return {{c, s * cg, s * sg},     {-s, c * cg, c * sg}, {0, -sg, cg},
-          centre_of(motion, pose), pose.theta_rate,      pose.gamma_rate};
+  return {{c, s * cg, s * sg}, {-s, c * cg, c * sg},
+          {0, -sg, cg},        centre_of(*motion.get_if<model::SpexMotion<double>>(), pose),
+          pose.theta_rate,     pose.gamma_rate};
 }
 
-double wall_gap(const VesselFrame& frame, const model::CylinderVessel<double>& vessel, int wall,
-                double radius, const Vec& position) {
+double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
+                const Vec& position) {
   const Vec d = position - frame.centre;
-  if (wall == 2) return vessel.radius - radius - std::hypot(dot(d, frame.x), dot(d, frame.z));
-  return vessel.half_height + (wall == 0 ? 1 : -1) * dot(d, frame.y) - radius;
+  return -vessel.inset(radius).overlap(wall, Vec(dot(d, frame.x), dot(d, frame.y), dot(d, frame.z)));
 }
 
 Vec wall_normal(const VesselFrame& frame, int wall, const Vec& position) {

@@ -22,13 +22,13 @@ struct VesselFrame {
 };
 
 /// R_z(theta) R_x(gamma), the nested model. (2.7')
-VesselFrame nested_frame(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose);
+VesselFrame nested_frame(const model::AnyMotion<double>& motion, const model::AnyPose<double>& any);
 /// R_x(gamma) R_z(theta), as (2.14) is printed.
-VesselFrame printed_frame(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose);
+VesselFrame printed_frame(const model::AnyMotion<double>& motion, const model::AnyPose<double>& any);
 
 /// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
-double wall_gap(const VesselFrame& frame, const model::CylinderVessel<double>& vessel, int wall,
-                double radius, const Vec& position);
+double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
+                const Vec& position);
 /// Unit, from the wall to the ball.
 Vec wall_normal(const VesselFrame& frame, int wall, const Vec& position);
 

@@ -42,18 +42,10 @@ std::string describe_case(const casefile::CaseSpec& spec) {
   if (c.stop.max_milling_dose) row("stop at milling dose", fmt::format("{:g} J", *c.stop.max_milling_dose));
   if (c.stop.max_ball_speed) row("stop at ball speed", fmt::format("{:g} m/s", *c.stop.max_ball_speed));
   row("gravity", fmt::format("({:g}, {:g}, {:g}) m/s^2", m.gravity[0], m.gravity[1], m.gravity[2]));
-  if (spec.mill.type == "still") {
-    row("mill", fmt::format("still, arm {:g} m", m.motion.arm));
-  } else {
-    const double w = m.motion.angular_speed();
-    row("mill", fmt::format("{}: arm {:g} m, theta_max {:g} rad, gamma_max {:g} rad", spec.mill.type,
-                            m.motion.arm, m.motion.theta_max, m.motion.gamma_max));
-    row("drive", fmt::format("{:g} rad/s, period {:g} s", w, m.motion.period));
-    row("peak wall speed",
-        fmt::format("{:g} m/s at the vessel's centre", m.motion.arm * m.motion.theta_max * w));
-  }
-  row("vessel",
-      fmt::format("cylinder: radius {:g} m, height {:g} m", m.vessel.radius, 2 * m.vessel.half_height));
+  row("mill", casefile::describe(spec.mill));
+  if (const double peak = m.motion.wall_speed(0); peak > 0)
+    row("peak wall speed", fmt::format("{:g} m/s at the vessel's centre", peak));
+  row("vessel", casefile::describe(spec.vessel));
   row("contact ball-ball", describe_law(m.ball_ball));
   row("contact ball-wall", describe_law(m.ball_wall));
   double mass = 0, volume = 0;
@@ -69,9 +61,7 @@ std::string describe_case(const casefile::CaseSpec& spec) {
   };
   for (const auto& b : spec.balls) kind(b, 1);
   for (const auto& b : spec.batches) kind(b, b.count);
-  const double vessel_volume =
-      2 * numerics::pi<double>() * m.vessel.radius * m.vessel.radius * m.vessel.half_height;
-  row("packing fraction", fmt::format("{:.4g}", volume / vessel_volume));
+  row("packing fraction", fmt::format("{:.4g}", volume / m.vessel.volume()));
   if (spec.powder_mass)
     row("charge ratio", fmt::format("{:.4g} on {:g} kg of powder", mass / spec.powder_mass->to<double>(),
                                     spec.powder_mass->to<double>()));

@@ -19,7 +19,7 @@ template <class Real>
 int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   const auto built = casefile::build_case<Real>(spec);
   RunFolder folder(spec, options);
-  const DriveClock<Real> clock(built.the_case.mill.motion.period);
+  const DriveClock<Real> clock(built.the_case.mill.motion.period());
   options.listen();
   output::Outputs<Real> outputs(spec, folder.place(), clock.seconds(built.start));
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/escalations.hpp"
+#include "dynamics/any_wall_search.hpp"
 #include "dynamics/pair_search.hpp"
-#include "dynamics/wall_search.hpp"
 
 namespace edmill::dynamics {
 
@@ -33,7 +33,7 @@ class DecisionLadder {
 
   /// Certified answer for a wall query; `pose` is the vessel's at its begin, where the caller knows it.
   /// @throws UndecidedError when the widest scalar cannot decide; its text reproduces the state
-  WallAnswer<Real> wall(const model::VesselPose<Real>& pose, const WallQuery<Real>& query) {
+  WallAnswer<Real> wall(const model::AnyPose<Real>& pose, const WallQuery<Real>& query) {
     const auto answer = walls_.search(pose, query);
     return is_settled(answer) ? answer : wall_above(query);
   }
@@ -64,7 +64,7 @@ class DecisionLadder {
 
   void raise_top_speed(const Real& speed);
 
-  const WallSearch<Real>& walls() const { return walls_; }
+  const AnyWallSearch<Real>& walls() const { return walls_; }
   const PairSearch<Real>& pairs() const { return pairs_; }
 
   /// One entry for each wider scalar, narrowest first.
@@ -97,7 +97,7 @@ class DecisionLadder {
 
   model::Mill<Real> mill_;
   Real smallest_sum_;
-  WallSearch<Real> walls_;
+  AnyWallSearch<Real> walls_;
   PairSearch<Real> pairs_;
   Escalations passed_up_;
   std::unique_ptr<Above> above_;

@@ -37,7 +37,7 @@ DecisionLadder<Real>::DecisionLadder(const model::Mill<Real>& mill, const Real& 
     : mill_(mill),
       smallest_sum_(smallest_sum),
       walls_(mill),
-      pairs_(mill, smallest_sum, walls_.constants().reach, top_speed) {
+      pairs_(mill, smallest_sum, walls_.reach(), top_speed) {
   if constexpr (!std::is_void_v<Wider<Real>>) passed_up_.scalar = ScalarName<Wider<Real>>::value;
 }
 

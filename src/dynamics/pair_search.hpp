@@ -43,7 +43,7 @@ class PairSearch {
   /// @param top_speed     no ball is faster [m/s]; see `raise_top_speed`
   PairSearch(const model::Mill<Real>& mill, const Real& smallest_sum, const Real& reach,
              const Real& top_speed)
-      : gravity_(mill.gravity), clock_(mill.motion.period), smallest_sum_(smallest_sum), reach_(reach) {
+      : gravity_(mill.gravity), clock_(mill.motion.period()), smallest_sum_(smallest_sum), reach_(reach) {
     widest_ = 2 * mill.vessel.reach();
     largest_sum_ = mill.vessel.widest_ball();
     gravity_size_ = norm<Real>(gravity_);

@@ -3,14 +3,13 @@
 
 #include "base/errors.hpp"
 #include "dynamics/wall_search.hpp"
-#include "model/nearby_pose.hpp"
 
 namespace edmill::dynamics {
 
 /// The bracket's root to the last digit of the scalar: the end of the last bracket where the gap is not
 /// negative.
-template <class Real>
-auto WallSearch<Real>::polish(const Curve& curve, const Bracket& bracket) const -> std::optional<Root> {
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const -> std::optional<Root> {
   const Point &left = bracket.left, &right = bracket.right;
   if (bracket.time_error > 0) return Root{left.t, bracket.time_error};
   const auto time_error_at = [&](const Real& slope) {
@@ -47,18 +46,15 @@ auto WallSearch<Real>::polish(const Curve& curve, const Bracket& bracket) const 
 /// The root of a gap that is proven to fall through zero in (from, to): Newton's iteration, which knows the
 /// curvature, up to where one step more would change nothing; then toms748 on the gap itself, in a bracket of
 /// a few units of the clock. Nothing when rounding does not let the signs at such a bracket be seen.
-template <class Real>
-auto WallSearch<Real>::close_in(const Functions& functions, int wall, const Real& from, const Real& to,
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real& from, const Real& to,
                                 const Approach& approach, const Real& value_error) const
     -> std::optional<Root> {
-  const Real unit = epsilon<Real>() * constants_.clock.period();
+  const Real unit = epsilon<Real>() * mill_.clock.period();
   const double clock_unit = static_cast<double>(unit);
   Real t = approach.guess;
   auto pose = functions.pose(t);
-  const auto pose_at = [&](const Real& time) {
-    return model::pose_nearby<Real>(constants_.mill.motion, constants_.angular_speed, constants_.frequency,
-                                    time, pose, t);
-  };
+  const auto pose_at = [&](const Real& time) { return functions.pose_nearby(time, pose, t); };
   for (int step = 0; step < 8; ++step) {
     if (!(t > from && t < to)) return std::nullopt;
     const auto sample = functions(t, pose);
@@ -75,9 +71,7 @@ auto WallSearch<Real>::close_in(const Functions& functions, int wall, const Real
       continue;
     }
     const auto gap = [&](const Real& time) {
-      return functions.gap(wall, time,
-                           model::pose_nearby<Real, false>(constants_.mill.motion, constants_.angular_speed,
-                                                           constants_.frequency, time, pose, t));
+      return functions.gap(wall, time, functions.template pose_nearby<false>(time, pose, t));
     };
     const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
     const Real time_error = -value_error / slope;

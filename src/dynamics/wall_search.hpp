@@ -23,7 +23,7 @@ struct NoPose {
 /// The vessel's pose at a contact goes with the contact in wide scalars, where sines are expensive.
 template <class Real>
 using ContactPose =
-    std::conditional_t<std::is_same_v<Real, double>, NoPose, std::optional<model::VesselPose<Real>>>;
+    std::conditional_t<std::is_same_v<Real, double>, NoPose, std::optional<model::AnyPose<Real>>>;
 
 /// The answer of a search over (begin, begin + length]; `none` may hold for a shorter window than was asked.
 template <class Real>
@@ -60,15 +60,37 @@ struct RoughAnswer {
   double error = 0;            ///< bound on the rounding of the gap in double, that of the state left aside
 };
 
+template <class Real>
+class AnyWallSearch;
+
+/// What a wide scalar asks first, and double does not need.
+struct NoSearch {
+  template <class... Args>
+  explicit NoSearch(const Args&...) {}
+};
+template <class Real>
+using RoughSearch = std::conditional_t<std::is_same_v<Real, double>, NoSearch, AnyWallSearch<double>>;
+
 /// Decides for a flight as stored: the first time in the window at which a gap is zero or negative and
 /// falling. A ball that starts within rounding of a wall and leaves it is not in contact until it returns;
 /// one that starts overlapped by rounding and approaches is in contact at once. Equations: theory.md
 /// (2.17')-(2.22'); source: Barahona 2011, (2.17)-(2.22), corrected.
-template <class Real>
+template <model::Motion M, model::Vessel V>
 class WallSearch {
  public:
-  explicit WallSearch(const model::Mill<Real>& mill)
-      : constants_(mill), bounds_(mill), rough_(model::mill_cast<double>(mill)) {}
+  using Real = typename M::Scalar;
+  using Functions = GapFunctions<M, V>;
+  using Pose = typename M::Pose;
+  using Sample = GapSample<V>;
+  using Start = GapStart<V>;
+  using Errors = GapErrors<V>;
+  using Walls = WallSet<V>;
+
+  WallSearch(const M& motion, const V& vessel, const Vec3<Real>& gravity)
+      : mill_(motion, vessel, gravity),
+        bounds_(mill_),
+        rough_(motion.template cast<double>(), vessel.template cast<double>(), vector_cast<double>(gravity)) {
+  }
 
   const Real& longest_window() const { return bounds_.longest_window(); }
 
@@ -85,13 +107,13 @@ class WallSearch {
   /// Of each wall, whether a ball at `position` in the vessel can reach it in a window of `length` [s] at any
   /// velocity below `speed` [m/s], whatever its direction. No is a proof, without rates or curvatures.
   /// theory.md, section 3
-  WallSet within_reach(const GapFunctions<Real>& functions, const Vec3<Real>& position, const Real& speed,
-                       const Real& length) const;
+  Walls within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
+                     const Real& length) const;
 
   /// The search in this scalar alone.
   WallAnswer<Real> search(const WallQuery<Real>& query) const;
   /// The same where the caller knows the vessel's pose at the window's begin.
-  WallAnswer<Real> search(const model::VesselPose<Real>& pose, const WallQuery<Real>& query) const;
+  WallAnswer<Real> search(const Pose& pose, const WallQuery<Real>& query) const;
 
   /// The search in double, with only the root found in this scalar; undecided is what double cannot prove.
   /// It may see, and answer for, a few roundings of double more than the window.
@@ -100,12 +122,10 @@ class WallSearch {
   /// The search for a wider flight, radius and mill that were rounded to this scalar, which is double.
   RoughAnswer rough(const WallQuery<Real>& query) const;
 
-  const typename GapFunctions<Real>::Constants& constants() const { return constants_; }
+  const MovingVessel<M, V>& mill() const { return mill_; }
 
  private:
   static constexpr bool is_wide = !std::is_same_v<Real, double>;
-  using Functions = GapFunctions<Real>;
-  using Vessel = typename Functions::Vessel;
   using Point = numerics::Point<Real>;
   using Bounds = numerics::CurveBounds<Real>;
 
@@ -115,7 +135,7 @@ class WallSearch {
     int wall;
     Bounds bounds;
     Point at(const Real& t) const { return of(functions(t)); }
-    Point of(const GapSample<Real>& s) const { return {s.offset, s.gap[wall], s.rate[wall]}; }
+    Point of(const Sample& s) const { return {s.offset, s.gap[wall], s.rate[wall]}; }
   };
   /// A root is in [left, right]; left == right when it is at once.
   struct Bracket {
@@ -127,11 +147,11 @@ class WallSearch {
 
   /// With `rounded` every bound covers the rounding of the flight and the mill, and `rough` is filled.
   template <bool rounded>
-  WallAnswer<Real> first_contact(const Functions& functions, const GapStart<Real>& first, WallSet reachable,
+  WallAnswer<Real> first_contact(const Functions& functions, const Start& first, Walls reachable,
                                  const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
   void require_length(const WallQuery<Real>& query) const;
   Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
-    return norm<Real>(velocity) + constants_.gravity * length;
+    return norm<Real>(velocity) + mill_.gravity_size * length;
   }
   template <bool rounded>
   Bracket isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
@@ -144,8 +164,8 @@ class WallSearch {
   Bracket isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
                           const Point& right) const;
   Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;
-  GapSample<Real> sample_of_end(const Functions& functions, const WallSet& reachable,
-                                const GapErrors<Real>& errors, const Real& from, Real& end) const;
+  Sample sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
+                       const Real& from, Real& end) const;
   /// A root and how well the scalar knows its time: the gap's rounding error over its slope.
   struct Root {
     Real t;
@@ -167,15 +187,13 @@ class WallSearch {
     return high - low <= resolution() * 7 / 8 || middle <= low || middle >= high;
   }
   /// Well above the rounding of a computed gap over its slope, or toms748 would follow noise.
-  Real resolution() const { return 8 * epsilon<Real>() * constants_.clock.period(); }
+  Real resolution() const { return 8 * epsilon<Real>() * mill_.clock.period(); }
 
-  typename Functions::Constants constants_;
-  BoundsTable<Real> bounds_;
-  struct Nothing {
-    explicit Nothing(const model::Mill<double>&) {}
-  };
-  /// Of a wide scalar.
-  [[no_unique_address]] std::conditional_t<is_wide, WallSearch<double>, Nothing> rough_;
+  MovingVessel<M, V> mill_;
+  BoundsTable<M, V> bounds_;
+  [[no_unique_address]] RoughSearch<Real> rough_;
 };
 
 }  // namespace edmill::dynamics
+
+#include "dynamics/any_wall_search.hpp"  // which a wide scalar's search has in double

@@ -8,57 +8,56 @@
 #include "dynamics/wall_roots_impl.hpp"
 #include "dynamics/wall_search.hpp"
 
+// Lists of a run-time number of walls: GCC takes the part behind the last element for read.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+
 namespace edmill::dynamics {
 
-template <class Real>
-WallSet WallSearch<Real>::within_reach(const GapFunctions<Real>& functions, const Vec3<Real>& position,
-                                       const Real& speed, const Real& length) const {
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
+                                    const Real& length) const -> Walls {
   // A millionth covers the rounding of all this.
-  const Real way =
-      (speed + constants_.wall_speed) * length * (1 + Real(1) / 1048576) + constants_.reach / 1048576;
-  return Vessel::within(functions.room(), position, way);
+  const Real way = (speed + mill_.wall_speed) * length * (1 + Real(1) / 1048576) + mill_.reach / 1048576;
+  return functions.room().within(position, way);
 }
 
-template <class Real>
-void WallSearch<Real>::require_length(const WallQuery<Real>& query) const {
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::require_length(const WallQuery<Real>& query) const -> void {
   EDMILL_REQUIRE(query.length > 0 && query.length <= longest_window() * (1 + Real(1) / 1048576),
                  "window length out of range");
 }
 
-template <class Real>
-WallAnswer<Real> WallSearch<Real>::search(const WallQuery<Real>& query) const {
-  return search(model::pose_at<Real>(constants_.mill.motion, constants_.angular_speed, constants_.frequency,
-                                     query.begin.offset),
-                query);
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::search(const WallQuery<Real>& query) const -> WallAnswer<Real> {
+  return search(mill_.motion.pose(query.begin), query);
 }
 
-template <class Real>
-WallAnswer<Real> WallSearch<Real>::search(const model::VesselPose<Real>& pose,
-                                          const WallQuery<Real>& query) const {
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) const -> WallAnswer<Real> {
   require_length(query);
-  const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+  const Functions functions(mill_, query.flight, query.radius, query.begin.period);
   const Real& begin = query.begin.offset;
   const auto ball = functions.seen(begin, pose);
   const Real speed = top_speed(ball.velocity, query.length);
-  const WallSet reachable = within_reach(functions, ball.state.position, speed, query.length);
+  const Walls reachable = within_reach(functions, ball.state.position, speed, query.length);
   if (!any_from(reachable, 0)) return {Verdict::none, -1, {}, false, query.length, Real(0)};
   return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed, query,
                               nullptr);
 }
 
-template <class Real>
+template <model::Motion M, model::Vessel V>
 template <bool rounded>
-WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, const GapStart<Real>& first,
-                                                 WallSet reachable, const Real& speed,
-                                                 const WallQuery<Real>& query,
-                                                 [[maybe_unused]] RoughAnswer* rough) const {
+auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& first, Walls reachable,
+                                     const Real& speed, const WallQuery<Real>& query,
+                                     [[maybe_unused]] RoughAnswer* rough) const -> WallAnswer<Real> {
   const Real begin = query.begin.offset;
   const Real oldest = functions.elapsed(begin + query.length);
   auto errors = functions.errors(oldest, speed, reachable);
   [[maybe_unused]] const auto own_errors = errors;
   if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
-  const auto curve_of = [&](int wall, const DerivativeBounds<Real>& derivatives) {
-    const auto& d = derivatives[Vessel::kind_of(wall)];
+  const auto curve_of = [&](int wall, const DerivativeBounds<V>& derivatives) {
+    const auto& d = derivatives[mill_.vessel.kind_of(wall)];
     return Curve{
         functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]}};
   };
@@ -67,7 +66,7 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
   const auto whole = bounds_.at(speed, query.length);
   Real length = query.length;
   bool any = false;
-  for (int wall = 0; wall < model::wall_count; ++wall) {
+  for (int wall = 0; wall < mill_.vessel.walls(); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, whole);
     const Point start = curve.of(first);
@@ -83,10 +82,10 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
 
   const auto derivatives = bounds_.at(speed, length);
   Real end = begin + length;
-  GapSample<Real> last = sample_of_end(functions, reachable, errors, begin, end);
+  Sample last = sample_of_end(functions, reachable, errors, begin, end);
   WallAnswer<Real> answer{Verdict::none, -1, {}, false, end - begin, Real(0)};
   Root best{};
-  for (int wall = 0; wall < model::wall_count; ++wall) {
+  for (int wall = 0; wall < mill_.vessel.walls(); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
     const Point start = curve.of(first);
@@ -109,7 +108,7 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
       }
     }
     best = root;
-    answer = {Verdict::contact, wall,           constants_.clock.instant(query.begin.period, root.t), false,
+    answer = {Verdict::contact, wall,           mill_.clock.instant(query.begin.period, root.t), false,
               Real(0),          root.time_error};
     if constexpr (rounded)
       *rough = {Verdict::contact,    0, wall, found.left.t, found.right.t, root.t, 0, 0, 0,
@@ -127,14 +126,13 @@ WallAnswer<Real> WallSearch<Real>::first_contact(const Functions& functions, con
 
 /// The gaps at the end of a window. A gap that is zero within rounding there would leave the window
 /// undecided in every scalar: the end is moved towards `from`, and what is left is for the next window.
-template <class Real>
-GapSample<Real> WallSearch<Real>::sample_of_end(const Functions& functions, const WallSet& reachable,
-                                                const GapErrors<Real>& errors, const Real& from,
-                                                Real& end) const {
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
+                                     const Real& from, Real& end) const -> Sample {
   for (int tries = 0;; ++tries) {
     const auto sample = functions(end);
     bool touched = false;
-    for (int wall = 0; wall < model::wall_count; ++wall)
+    for (int wall = 0; wall < mill_.vessel.walls(); ++wall)
       touched |=
           reachable[wall] & (sample.gap[wall] <= errors.gap[wall]) & (sample.gap[wall] >= -errors.gap[wall]);
     if (!touched || tries == 8) return sample;
@@ -142,19 +140,20 @@ GapSample<Real> WallSearch<Real>::sample_of_end(const Functions& functions, cons
   }
 }
 
-template <class Real>
-RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::rough(const WallQuery<Real>& query) const -> RoughAnswer {
   if constexpr (is_wide) {
     return {};
   } else {
     require_length(query);
-    const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+    const Functions functions(mill_, query.flight, query.radius, query.begin.period);
     const Real begin = query.begin.offset;
     RoughAnswer rough;
     const auto pose = functions.pose(begin);
     const auto ball = functions.seen(begin, pose);
-    const auto answer = first_contact<true>(functions, functions.start(begin, pose, ball), every_wall(),
-                                            top_speed(ball.velocity, query.length), query, &rough);
+    const auto answer =
+        first_contact<true>(functions, functions.start(begin, pose, ball), mill_.vessel.per_wall(true),
+                            top_speed(ball.velocity, query.length), query, &rough);
     rough.verdict = answer.verdict;
     // The sum is rounded, and the window was proven up to its exact or its rounded end.
     if (answer.verdict == Verdict::none) rough.until = (begin + answer.searched) * (1 - epsilon<Real>());
@@ -164,7 +163,7 @@ RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
       rough.curvature = functions.start(rough.root).curvature[rough.wall];
       rough.curvature_error =
           functions.errors(functions.elapsed(begin + query.length), speed).curvature[rough.wall];
-      rough.third = derivatives[Vessel::kind_of(rough.wall)][1];
+      rough.third = derivatives[mill_.vessel.kind_of(rough.wall)][1];
     }
     return rough;
   }
@@ -173,8 +172,8 @@ RoughAnswer WallSearch<Real>::rough(const WallQuery<Real>& query) const {
 /// The wide gap is evaluated at the rough root, an error of double away from the root, so that one step of
 /// Newton's iteration with the curvature as double knows it gives nearly three times the digits of double.
 /// That the root found is the bracket's needs no more: the gap falls all along it.
-template <class Real>
-WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query) const {
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> WallAnswer<Real> {
   if constexpr (!is_wide) {
     return search(query);
   } else {
@@ -192,23 +191,22 @@ WallAnswer<Real> WallSearch<Real>::search_by_double(const WallQuery<Real>& query
     }
     if (rough.verdict != Verdict::contact) return {Verdict::undecided};
 
-    const Functions functions(constants_, query.flight, query.radius, query.begin.period);
+    const Functions functions(mill_, query.flight, query.radius, query.begin.period);
     const Real left(rough.left);
     const double unit = static_cast<double>(epsilon<Real>()) / epsilon<double>();
     const auto root = close_in(functions, rough.wall, left > begin ? left : begin, Real(rough.right),
                                {Real(rough.root), rough.curvature, rough.curvature_error, rough.third},
                                Real(rough.error * unit));  // bounds are proportional to epsilon
     if (!root) return {Verdict::undecided};
-    return {
-        Verdict::contact, rough.wall, constants_.clock.instant(query.begin.period, root->t), false, Real(0),
-        root->time_error, root->pose};
+    return {Verdict::contact, rough.wall, mill_.clock.instant(query.begin.period, root->t), false, Real(0),
+            root->time_error, root->pose};
   }
 }
 
 /// The first part of a window, where the second derivative is known too.
-template <class Real>
+template <model::Motion M, model::Vessel V>
 template <bool rounded>
-auto WallSearch<Real>::isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
+auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
                                           const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
   if (start.value > b.value_error) return isolate(curve, start, right);
@@ -221,8 +219,8 @@ auto WallSearch<Real>::isolate_from_start(const Curve& curve, const Point& start
 
 /// A ball that has just left, and whose gap is proven to bend downwards all along the window: the gap rises
 /// to one peak and has one root behind it.
-template <class Real>
-auto WallSearch<Real>::isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
                                    const Point& right) const -> std::optional<Bracket> {
   const Bounds& b = curve.bounds;
   const Real length = right.t - left.t;
@@ -234,8 +232,8 @@ auto WallSearch<Real>::isolate_hop(const Curve& curve, const Point& left, const 
   return Bracket{Verdict::contact, left, right, Real(0), left.t + fraction * length};
 }
 
-template <class Real>
-auto WallSearch<Real>::isolate(const Curve& curve, Point left, const Point& right) const -> Bracket {
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
   if (left.value > b.value_error) {
     if (numerics::proven_positive(left, right, b)) return {Verdict::none};
@@ -256,8 +254,8 @@ auto WallSearch<Real>::isolate(const Curve& curve, Point left, const Point& righ
 
 /// Walks the window from the left over intervals that are proven free of contact, splitting where the proof
 /// fails, up to one that holds exactly one sign change.
-template <class Real>
-auto WallSearch<Real>::isolate_outside(const Curve& curve, Point left, const Point& right,
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Point& right,
                                        bool departing) const -> Bracket {
   constexpr int deepest = 64;
   std::array<Point, deepest> ends;  // right ends of intervals still to be looked at, nearest last
@@ -305,8 +303,8 @@ auto WallSearch<Real>::isolate_outside(const Curve& curve, Point left, const Poi
 
 /// The start is zero within rounding and falling: the contact is at the start or within rounding after it,
 /// once the gap is seen to become negative while it falls.
-template <class Real>
-auto WallSearch<Real>::isolate_touching(const Curve& curve, const Point& left, Point right) const -> Bracket {
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, Point right) const -> Bracket {
   while (!numerics::proven_decreasing(left, right, curve.bounds)) {
     const Real s = (right.t - left.t) / 2;
     if (s < 16 * resolution()) return {Verdict::undecided};
@@ -321,8 +319,8 @@ auto WallSearch<Real>::isolate_touching(const Curve& curve, const Point& left, P
 /// is pressed on the wall is in contact at once. One that is drawn off would leave it open
 /// whether it touched before; at the top of the ladder what is zero within rounding counts as zero, so it
 /// leaves.
-template <class Real>
-auto WallSearch<Real>::isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
                                        const Point& right) const -> Bracket {
   using std::sqrt;
   const Bounds& b = curve.bounds;
@@ -343,12 +341,12 @@ auto WallSearch<Real>::isolate_resting(const Curve& curve, const Point& left, co
 
 /// The start is overlapped for certain, by rounding, and leaves. Either the gap opens, and the search goes on
 /// outside, or the ball turns back before: the contact is where it begins to approach.
-template <class Real>
-auto WallSearch<Real>::follow_overlap(const Curve& curve, const Point& start, const Point& right) const
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, const Point& right) const
     -> Bracket {
   using std::sqrt;
   const Bounds& b = curve.bounds;
-  const Real sharp = sqrt(epsilon<Real>()) * constants_.clock.period() / 8;  // see PairSearch::tie_window
+  const Real sharp = sqrt(epsilon<Real>()) * mill_.clock.period() / 8;  // see PairSearch::tie_window
   Point left = start;
   Real step = left.slope / (2 * b.second);
   for (int k = 0; k < 400; ++k) {
@@ -375,3 +373,5 @@ auto WallSearch<Real>::follow_overlap(const Curve& curve, const Point& start, co
 }
 
 }  // namespace edmill::dynamics
+
+#pragma GCC diagnostic pop

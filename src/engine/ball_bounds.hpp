@@ -20,12 +20,12 @@ Real smallest_radius(const std::vector<model::BallProperties<Real>>& balls) {
   return smallest;
 }
 
-/// The most that gravity adds to a ball's speed in one flight: one that stays within `reach` of the fulcrum
+/// The most that gravity adds to a ball's speed in one flight: one that stays within `reach` of the origin
 /// bends by g t^2/8 < 2 reach [m/s].
 template <class Real>
 Real largest_fall(const model::Mill<Real>& mill) {
   using std::sqrt;
-  const Real reach = mill.motion.arm + mill.vessel.reach();
+  const Real reach = mill.motion.reach(mill.vessel.reach());
   return 4 * sqrt(reach * norm<Real>(mill.gravity));
 }
 
@@ -37,7 +37,7 @@ Real largest_speed(const std::vector<model::BallState<Real>>& states, const mode
     const Real speed = norm<Real>(s.velocity);
     if (speed > largest) largest = speed;
   }
-  const Real wall = mill.motion.turning() * (mill.motion.arm + mill.vessel.extent());
+  const Real wall = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
   return 2 * (largest + wall) + largest_fall(mill);
 }
 

@@ -17,12 +17,12 @@ CellGrid make_grid(const model::Mill<Real>& mill, const std::vector<model::BallP
   const auto region = mill.motion.swept(mill.vessel.half_sizes(), mill.vessel.reach());
   Real largest{0};
   for (const auto& b : balls) largest = b.radius > largest ? b.radius : largest;
-  const double volume = static_cast<double>(mill.vessel.volume_over_2_pi()) * 6.28;
+  const double volume = static_cast<double>(mill.vessel.volume());
   // The C library's cube root is not the same on every machine; nor is long double.
   using boost::math::policies::promote_double;
   constexpr boost::math::policies::policy<promote_double<false>> portable;
   Real edge = 2 * largest * (1 + Real(1) / 1024);
-  if (balls.size() <= 32) edge = 4 * region.sideways;
+  if (balls.size() <= 32) edge = 2 * (region.high - region.low).maxCoeff();
   const double spacing = 0.45 * boost::math::cbrt(volume / static_cast<double>(balls.size()), portable);
   if (edge < spacing) edge = Real(spacing);
   return CellGrid(vector_cast<double>(region.low), vector_cast<double>(region.high),

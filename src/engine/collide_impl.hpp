@@ -26,14 +26,15 @@ Impact<Real> Simulation<Real>::collide(const Event<Real>& event) {
 }
 
 template <class Real>
-model::VesselPose<Real> Simulation<Real>::pose_now() const {
-  const auto& constants = ladder_.walls().constants();
-  return model::pose_at<Real>(mill_.motion, constants.angular_speed, constants.frequency, now_.offset);
+model::AnyPose<Real> Simulation<Real>::pose_now() const {
+  return model::with_parts<Real>(mill_.motion, mill_.vessel, [&](const auto& motion, const auto&) {
+    return model::AnyPose<Real>(motion.pose(now_));
+  });
 }
 
 /// The pose now, when the ball's predicted wall contact is due.
 template <class Real>
-model::VesselPose<Real> Simulation<Real>::pose_at_wall_contact(int ball) const {
+model::AnyPose<Real> Simulation<Real>::pose_at_wall_contact(int ball) const {
   if constexpr (!std::is_same_v<Real, double>) {
     const Agenda<Real>& a = agendas_[ball];
     if (a.wall_pose && a.times[Agenda<Real>::wall_entry] == now_) return *a.wall_pose;
@@ -48,22 +49,22 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   auto& flight = flights_[ball];
   const Real flight_time = dynamics::fly_to(flight, mill_.gravity, clock_, now_);
   pose_ = pose_at_wall_contact(ball);
-  const auto local = model::to_vessel_frame<Real>(pose_, mill_.motion.arm, flight.position, flight.velocity);
   const Real radius = properties(ball).radius;
 
   Impact<Real> impact{};
-  const Vec3<Real> normal =
-      model::direction_to_inertial<Real>(pose_, mill_.vessel.normal(wall, local.position));
-  impact.normal = normal;
-  impact.overlap = mill_.vessel.overlap(wall, local.position, radius);
-  const Vec3<Real> contact_point = flight.position - normal * radius;
-  const Vec3<Real> wall_velocity = model::wall_velocity<Real>(pose_, mill_.motion.arm, contact_point);
+  model::with_parts<Real>(
+      mill_.motion, mill_.vessel, [&]<class M, class V>(const M& motion, const V& vessel) {
+        const auto& pose = model::pose_of<M>(pose_);
+        const auto place = motion.to_vessel_frame(pose, flight.position, flight.velocity).position;
+        impact.normal = motion.direction_to_inertial(pose, vessel.normal(wall, place));
+        impact.overlap = vessel.inset(radius).overlap(wall, place);
+        impact.wall_velocity = motion.wall_velocity(pose, flight.position - impact.normal * radius);
+      });
   impact.velocity_before[0] = flight.velocity;
   impact.spin_before[0] = bodies_[ball].spin;
   impact.flight_time[0] = flight_time;
-  impact.wall_velocity = wall_velocity;
-  impact.outcome = dynamics::collide_with_wall<Real>(normal, properties(ball), wall_velocity, flight.velocity,
-                                                     bodies_[ball].spin, mill_.ball_wall);
+  impact.outcome = dynamics::collide_with_wall<Real>(impact.normal, properties(ball), impact.wall_velocity,
+                                                     flight.velocity, bodies_[ball].spin, mill_.ball_wall);
   agendas_.number_impact(ball, ball);
   candidates_.update(ball);
   return impact;

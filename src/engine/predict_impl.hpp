@@ -18,7 +18,7 @@ void Simulation<Real>::predict(const Impact<Real>& impact) {
 
 /// @pre find_neighbours(ball, near)
 template <class Real>
-void Simulation<Real>::predict_all(int ball, int already_done, const model::VesselPose<Real>& pose,
+void Simulation<Real>::predict_all(int ball, int already_done, const model::AnyPose<Real>& pose,
                                    FoundBalls& near) {
   const auto state = candidates_.state(ball, now_);
   agendas_[ball].drop_pairs();
@@ -92,7 +92,7 @@ Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const
 }
 
 template <class Real>
-void Simulation<Real>::predict_wall(int ball, const model::VesselPose<Real>& pose) {
+void Simulation<Real>::predict_wall(int ball, const model::AnyPose<Real>& pose) {
   ++counts_.wall_searches;
   const Real length = search_length(ball, now_);
   const auto& flight = flights_[ball];

@@ -114,14 +114,14 @@ class Simulation {
   Impact<Real> collide(const Event<Real>& event);
   Impact<Real> collide_with_wall(const Event<Real>& event);
   Impact<Real> collide_pair(const Event<Real>& event);
-  model::VesselPose<Real> pose_now() const;
-  model::VesselPose<Real> pose_at_wall_contact(int ball) const;
+  model::AnyPose<Real> pose_now() const;
+  model::AnyPose<Real> pose_at_wall_contact(int ball) const;
   void raise_top_speed(int ball);
   void notify(const Impact<Real>& impact);
   void note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall, int partner);
 
   void predict(const Impact<Real>& impact);
-  void predict_all(int ball, int already_done, const model::VesselPose<Real>& pose, FoundBalls& near);
+  void predict_all(int ball, int already_done, const model::AnyPose<Real>& pose, FoundBalls& near);
   /// The balls of the adjacent cells, where cells are used.
   void find_neighbours(int ball, FoundBalls& near) {
     if (!candidates_.uses_cells()) return;
@@ -131,7 +131,7 @@ class Simulation {
   void predict_pairs(int ball, int already_done, const DoubleState& state, int found, const FoundBalls& near);
   void expect_pair(int ball, int other, const Real& delay);
   void predict_crossing(int ball, const DoubleState& state);
-  void predict_wall(int ball, const model::VesselPose<Real>& pose);
+  void predict_wall(int ball, const model::AnyPose<Real>& pose);
   Real search_length(int ball, const Instant<Real>& begin) const;
   void take_wall_answer(int ball, const dynamics::WallAnswer<Real>& answer, const Instant<Real>& begin);
   /// In the scalar itself, where the filter in double has found a candidate.
@@ -165,7 +165,7 @@ class Simulation {
   Real top_speed_;          ///< of any ball at any time; it grows
   // Scratch, valid during one event.
   FoundBalls near_, near_partner_;   ///< balls of the adjacent cells
-  model::VesselPose<Real> pose_;     ///< now
+  model::AnyPose<Real> pose_;        ///< now
   std::vector<int> due_;             ///< balls with an event at nearly the same time
   std::vector<Event<Real>> rivals_;  ///< contacts that may be first
 };

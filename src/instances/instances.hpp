@@ -20,7 +20,7 @@
   namespace edmill {                                                                                \
   prefix std::string to_text<Real>(const Real&);                                                    \
   prefix Real from_text<Real>(const std::string&);                                                  \
-  prefix class dynamics::WallSearch<Real>;                                                          \
+  prefix class dynamics::WallSearch<model::AnyMotion<Real>, model::AnyVessel<Real>>;                \
   prefix class dynamics::DecisionLadder<Real>;                                                      \
   prefix class engine::Simulation<Real>;                                                            \
   prefix Real casefile::Quantity::to<Real>() const;                                                 \
@@ -40,3 +40,6 @@
 #define EDMILL_DECLARE_INSTANCES(Real) EDMILL_INSTANCES(extern template, Real)
 EDMILL_FOR_EACH_SCALAR(EDMILL_DECLARE_INSTANCES)
 #undef EDMILL_DECLARE_INSTANCES
+
+extern template class edmill::dynamics::WallSearch<edmill::model::SpexMotion<double>,
+                                                   edmill::model::CylinderVessel<double>>;

@@ -68,17 +68,6 @@ struct ContactLaw {
 
 namespace detail {
 
-/// The same kind of law with other parameters.
-template <template <class> class Law, class To, class From, class Convert>
-Law<To> converted(const Law<From>& from, const Convert& convert) {
-  Law<To> to{};
-  std::vector<To> values;
-  from.parameters(from, [&](const LawParameter&, const From& value) { values.push_back(convert(value)); });
-  std::size_t next = 0;
-  to.parameters(to, [&](const LawParameter&, To& value) { value = values[next++]; });
-  return to;
-}
-
 template <class To, template <class> class Law, class From, class Convert>
 Law<To> convert_law(const Law<From>& from, const Convert& convert) {
   return converted<Law, To>(from, convert);

@@ -1,152 +1,188 @@
-// The vessel: a closed cylinder about the y axis of the vessel frame.
+// The vessel: what every shape provides, and one that is any of them.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <optional>
+#include <boost/container/static_vector.hpp>
+#include <concepts>
+#include <utility>
+#include <variant>
 
-#include "base/vector.hpp"
+#include "base/errors.hpp"
+#include "model/vessels/box.hpp"
+#include "model/vessels/cylinder.hpp"
 
 namespace edmill::model {
 
-/// Wall ids follow the thesis: 0 is the cap at y = -h/2, 1 the cap at y = +h/2, 2 the cylinder.
-inline constexpr int wall_count = 3;
-
-/// What a ball can collide with, as tables count it: the walls by id, then other balls.
-inline constexpr int partner_kinds = wall_count + 1;
-inline constexpr int ball_ball = wall_count;
-
-/// The name of a partner, everywhere.
-struct PartnerInfo {
-  const char* key;      ///< in files
-  const char* label;    ///< for readers
-  const char* meaning;  ///< of what counts its impacts
+/// A closed convex shape in the vessel frame, its walls numbered from 0. A search asks for gaps as smooth
+/// functions of the place of a ball's centre: positive inside, zero at contact. They need not be lengths. The
+/// centre of a ball of radius R is in the vessel that is `inset(R)`, whose gaps are the ball's.
+///
+/// - `walls()`: how many; `PerWall<T>`: one T for each, `per_wall(value)` with all alike
+/// - `reach()` [m]: from the centre to the farthest point; `extent()`, no less and without a root;
+///   `half_sizes()`: bounds on the coordinates; `volume()` [m3]; `widest_ball()`: diameter of the largest
+///   that fits [m]
+/// - `inset(R)`; `is_empty()`; `contains(p)`; `place(drawn)`: uniform in the vessel, from three numbers that
+///   are uniform in [-1, 1], or nothing when these must be drawn again
+/// - `gaps(p)`, `gap(wall, p)`; `rates(p, u)` and `curvatures(p, u, a)`, their derivatives where p' = u, u' =
+/// a
+/// - `within(p, way)`: of each wall, whether it may be within `way` [m] of p; `way` is beyond all rounding
+/// - `kind_of(wall)`: walls of one kind have the same `derivative_bounds(coordinates, k)`, on the k-th
+///   derivatives of their gaps
+/// - `is_flat(wall)`: the gap is a coordinate up to sign and offset, and as sharp as one; of other walls
+///   `curved_errors` bounds the rounding from that of a coordinate, the speed and acceleration in the vessel
+///   frame, and how far outside the ball may be [m]
+/// - `normal(wall, p)`: of a contact, unit, into the vessel; `overlap(wall, p)` [m], negative for a gap
+template <class V>
+concept Vessel = requires(const V& vessel, int wall, const Vec3<typename V::Scalar>& p,
+                          const typename V::Scalar& x,
+                          const CoordinateBounds<typename V::Scalar>& coordinates,
+                          const ErrorBounds<typename V::Scalar>& errors) {
+  typename V::template PerWall<bool>;
+  typename V::template PerKind<bool>;
+  { vessel.walls() } -> std::same_as<int>;
+  { vessel.reach() } -> std::same_as<typename V::Scalar>;
+  { vessel.extent() } -> std::same_as<typename V::Scalar>;
+  { vessel.half_sizes() } -> std::same_as<Vec3<typename V::Scalar>>;
+  { vessel.volume() } -> std::same_as<typename V::Scalar>;
+  { vessel.widest_ball() } -> std::same_as<typename V::Scalar>;
+  { vessel.inset(x) } -> std::same_as<V>;
+  { vessel.is_empty() } -> std::same_as<bool>;
+  { vessel.contains(p) } -> std::same_as<bool>;
+  { vessel.place(p) } -> std::same_as<std::optional<Vec3<typename V::Scalar>>>;
+  { vessel.gaps(p) } -> std::same_as<typename V::template PerWall<typename V::Scalar>>;
+  { vessel.gap(wall, p) } -> std::same_as<typename V::Scalar>;
+  { vessel.rates(p, p) } -> std::same_as<typename V::template PerWall<typename V::Scalar>>;
+  { vessel.curvatures(p, p, p) } -> std::same_as<typename V::template PerWall<typename V::Scalar>>;
+  { vessel.within(p, x) } -> std::same_as<typename V::template PerWall<bool>>;
+  { vessel.kind_of(wall) } -> std::same_as<int>;
+  {
+    vessel.derivative_bounds(coordinates, wall)
+    } -> std::same_as<typename V::template PerKind<typename V::Scalar>>;
+  { vessel.is_flat(wall) } -> std::same_as<bool>;
+  { vessel.curved_errors(wall, errors, x, x, x, x) } -> std::same_as<ErrorBounds<typename V::Scalar>>;
+  { vessel.normal(wall, p) } -> std::same_as<Vec3<typename V::Scalar>>;
+  { vessel.overlap(wall, p) } -> std::same_as<typename V::Scalar>;
 };
-/// By place: the walls by id, then other balls.
-inline constexpr std::array<PartnerInfo, partner_kinds> partners = {{
-    {"wall_0", "cap -y", "with wall 0, the cap at -y"},
-    {"wall_1", "cap +y", "with wall 1, the cap at +y"},
-    {"wall_2", "cylinder", "with wall 2, the cylinder"},
-    {"ball_ball", "ball-ball", "between balls"},
-}};
 
-/// Bounds on what rounding does to a function of time and to its first two derivatives.
-template <class Real>
-struct ErrorBounds {
-  Real value, rate, second;
-};
+/// The vessels that a case file can name, the default first. A new one is a file in model/vessels/ and a line
+/// here and in VesselVariant: it is read, described and passed to every scalar by its list of parameters.
+template <class Number>
+using NamedVessels = std::variant<Cylinder<Number>,  //
+                                  Box<Number>>;
 
-/// A closed cylinder about the y axis of the vessel frame. Everything that depends on the shape of its walls
-/// is here; a search asks for gaps as smooth functions of the place of a ball's centre: for the caps a length
-/// [m], for the cylinder q = (R_v-R)^2 - x^2 - z^2 [m^2], which is smooth on the axis and has the sign of the
-/// gap. (2.19'), (2.21'), (2.22')
 template <class Real>
-struct CylinderVessel {
+using VesselVariant = std::variant<CylinderVessel<Real>, BoxVessel<Real>>;
+
+/// Any vessel, chosen when the case is read.
+template <class Real>
+class AnyVessel {
+ public:
+  using Scalar = Real;
+  static constexpr int most_walls = 32;
   template <class Value>
-  using PerWall = std::array<Value, wall_count>;
+  using PerWall = boost::container::static_vector<Value, most_walls>;
+  template <class Value>
+  using PerKind = PerWall<Value>;
 
-  Real radius;       ///< inner radius R_v [m]
-  Real half_height;  ///< h/2 [m]
+  AnyVessel() = default;
+  template <class V>
+  requires(!std::same_as<V, AnyVessel>) && std::constructible_from<VesselVariant<Real>, V> AnyVessel(V vessel)
+      : vessel_(std::move(vessel)) {}
+  template <class To>
+  AnyVessel<To> cast() const {
+    return visit([](const auto& v) { return AnyVessel<To>(v.template cast<To>()); });
+  }
 
-  /// Largest distance of a point of the vessel from its centre [m].
+  /// The vessel when it is a V, else none.
+  template <class V>
+  const V* get_if() const {
+    return std::get_if<V>(&vessel_);
+  }
+  template <class F>
+  decltype(auto) visit(F&& f) const {
+    return std::visit(std::forward<F>(f), vessel_);
+  }
+
+  int walls() const {
+    return visit([](const auto& v) { return v.walls(); });
+  }
+  template <class Value>
+  PerWall<Value> per_wall(const Value& value) const {
+    return PerWall<Value>(static_cast<std::size_t>(walls()), value);
+  }
   Real reach() const {
-    using std::sqrt;
-    return sqrt(radius * radius + half_height * half_height);
+    return visit([](const auto& v) { return v.reach(); });
   }
-  /// No less than `reach`, without a root [m].
-  Real extent() const { return radius + half_height; }
-  /// Bounds on the coordinates of a place inside [m].
-  Vec3<Real> half_sizes() const { return {radius, half_height, radius}; }
-  Real volume_over_2_pi() const { return radius * radius * half_height; }
-  /// Largest sum of two radii of balls that fit [m].
-  Real widest_ball() const { return 2 * (radius < half_height ? radius : half_height); }
-
-  /// What the vessel leaves to the centre of a ball: the half height and the radius, less the ball's [m].
-  struct Room {
-    Real cap, side;
-  };
-  Room room(const Real& ball_radius) const { return {half_height - ball_radius, radius - ball_radius}; }
-  /// The same at a distance from the walls.
-  Room room(const Real& ball_radius, const Real& gap) const {
-    return {half_height - ball_radius - gap, radius - ball_radius - gap};
+  Real extent() const {
+    return visit([](const auto& v) { return v.extent(); });
   }
-  static bool holds(const Room& room) { return room.side >= 0 && room.cap >= 0; }
-  static bool contains(const Room& room, const Vec3<Real>& p) {
-    return holds(room) && p[0] * p[0] + p[2] * p[2] <= room.side * room.side && p[1] <= room.cap &&
-           p[1] >= -room.cap;
+  Vec3<Real> half_sizes() const {
+    return visit([](const auto& v) { return v.half_sizes(); });
   }
-  /// A place that is uniform in the room, from three numbers that are uniform in [-1, 1]; nothing when these
-  /// must be drawn again.
-  static std::optional<Vec3<Real>> place(const Room& room, const Vec3<Real>& drawn) {
-    if (drawn[0] * drawn[0] + drawn[2] * drawn[2] > 1) return std::nullopt;
-    return Vec3<Real>{drawn[0] * room.side, drawn[1] * room.cap, drawn[2] * room.side};
+  Real volume() const {
+    return visit([](const auto& v) { return v.volume(); });
   }
-
-  static PerWall<Real> gaps(const Room& room, const Vec3<Real>& p) {
-    return {room.cap + p[1], room.cap - p[1], room.side * room.side - (p[0] * p[0] + p[2] * p[2])};
+  Real widest_ball() const {
+    return visit([](const auto& v) { return v.widest_ball(); });
   }
-  static Real gap(const Room& room, int wall, const Vec3<Real>& p) {
-    if (wall == 2) return room.side * room.side - (p[0] * p[0] + p[2] * p[2]);
-    return wall == 0 ? Real(room.cap + p[1]) : Real(room.cap - p[1]);
+  AnyVessel inset(const Real& by) const {
+    return visit([&](const auto& v) { return AnyVessel(v.inset(by)); });
   }
-  /// Time derivatives of the gaps; `u` is that of `p`, `a` that of `u`.
-  static PerWall<Real> rates(const Vec3<Real>& p, const Vec3<Real>& u) {
-    return {u[1], -u[1], -2 * (p[0] * u[0] + p[2] * u[2])};
+  bool is_empty() const {
+    return visit([](const auto& v) { return v.is_empty(); });
   }
-  static PerWall<Real> curvatures(const Vec3<Real>& p, const Vec3<Real>& u, const Vec3<Real>& a) {
-    return {a[1], -a[1], -2 * ((u[0] * u[0] + p[0] * a[0]) + (u[2] * u[2] + p[2] * a[2]))};
+  bool contains(const Vec3<Real>& p) const {
+    return visit([&](const auto& v) { return v.contains(p); });
   }
-  /// Whether a ball at `p` may be within `way` [m] of each wall, with `way` beyond all rounding.
-  static PerWall<bool> within(const Room& room, const Vec3<Real>& p, const Real& way) {
-    const Real cap = room.cap - way, side = room.side - way;
-    const Real &x = p[0], &y = p[1], &z = p[2];
-    return {!(-y < cap), !(y < cap), !((side > 0) & (x * x + z * z < side * side))};
+  std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
+    return visit([&](const auto& v) { return v.place(drawn); });
   }
-
-  /// Walls whose gaps have the same bounds on their derivatives: 0 the caps, 1 the cylinder.
-  static constexpr int wall_kinds = 2;
-  static constexpr int kind_of(int wall) { return wall == 2; }
-  /// Bounds on the k-th derivatives of the gaps by kind of wall, from those on the coordinates.
-  /// @param y       of the coordinate along the axis
-  /// @param square  of x^2 + z^2
-  static std::array<Real, wall_kinds> derivative_bounds(const Real& y, const Real& square) {
-    return {y, square};
+  PerWall<Real> gaps(const Vec3<Real>& p) const {
+    return visit([&](const auto& v) { return listed(v.gaps(p)); });
   }
-
-  /// Whether the gap to a wall is a coordinate up to sign and offset: then it is as sharp as one.
-  static constexpr bool is_flat(int wall) { return kind_of(wall) == 0; }
-  /// Rounding of the gap to a curved wall.
-  /// @param coordinate    of a coordinate in the vessel frame
-  /// @param u             half the distance from 1 to the next number
-  /// @param frame_speed   bound on the ball's speed in the vessel frame [m/s]
-  /// @param acceleration  on the acceleration there [m/s^2]
-  /// @param beyond        how far outside of the vessel the ball may be [m]
-  ErrorBounds<Real> curved_errors(const ErrorBounds<Real>& coordinate, const Real& u, const Real& frame_speed,
-                                  const Real& acceleration, const Real& beyond) const {
-    const auto& y = coordinate;
-    const Real R = radius + beyond;
-    return {3 * R * y.value + 4 * u * R * R,
-            3 * R * y.rate + 3 * frame_speed * y.value + 6 * u * R * frame_speed,
-            6 * frame_speed * y.rate + 4 * R * y.second + 4 * acceleration * y.value +
-                12 * u * (frame_speed * frame_speed + R * acceleration)};
+  Real gap(int wall, const Vec3<Real>& p) const {
+    return visit([&](const auto& v) { return v.gap(wall, p); });
   }
-
-  /// Contact normal of a ball at `p`: unit, into the vessel, in the vessel frame.
+  PerWall<Real> rates(const Vec3<Real>& p, const Vec3<Real>& u) const {
+    return visit([&](const auto& v) { return listed(v.rates(p, u)); });
+  }
+  PerWall<Real> curvatures(const Vec3<Real>& p, const Vec3<Real>& u, const Vec3<Real>& a) const {
+    return visit([&](const auto& v) { return listed(v.curvatures(p, u, a)); });
+  }
+  PerWall<bool> within(const Vec3<Real>& p, const Real& way) const {
+    return visit([&](const auto& v) { return listed(v.within(p, way)); });
+  }
+  int kind_of(int wall) const {
+    return visit([&](const auto& v) { return v.kind_of(wall); });
+  }
+  PerKind<Real> derivative_bounds(const CoordinateBounds<Real>& coordinates, int k) const {
+    return visit([&](const auto& v) { return listed(v.derivative_bounds(coordinates, k)); });
+  }
+  bool is_flat(int wall) const {
+    return visit([&](const auto& v) { return v.is_flat(wall); });
+  }
+  ErrorBounds<Real> curved_errors(int wall, const ErrorBounds<Real>& coordinate, const Real& u,
+                                  const Real& frame_speed, const Real& acceleration,
+                                  const Real& beyond) const {
+    return visit([&](const auto& v) {
+      return v.curved_errors(wall, coordinate, u, frame_speed, acceleration, beyond);
+    });
+  }
   Vec3<Real> normal(int wall, const Vec3<Real>& p) const {
-    if (wall != 2) return {Real(0), Real(wall == 0 ? 1 : -1), Real(0)};
-    using std::sqrt;
-    const Real rho = sqrt(p[0] * p[0] + p[2] * p[2]);
-    return {-p[0] / rho, Real(0), -p[2] / rho};
+    return visit([&](const auto& v) { return v.normal(wall, p); });
   }
-  /// How deep a ball at `p` overlaps a wall [m]; negative for a gap.
-  Real overlap(int wall, const Vec3<Real>& p, const Real& ball_radius) const {
-    if (wall == 2) {
-      using std::sqrt;
-      return sqrt(p[0] * p[0] + p[2] * p[2]) - (radius - ball_radius);
-    }
-    const Real side(wall == 0 ? 1 : -1);
-    return -side * p[1] - (half_height - ball_radius);
+  Real overlap(int wall, const Vec3<Real>& p) const {
+    return visit([&](const auto& v) { return v.overlap(wall, p); });
   }
+
+ private:
+  template <class Array>
+  static auto listed(const Array& values) {
+    return PerWall<typename Array::value_type>(values.begin(), values.end());
+  }
+
+  VesselVariant<Real> vessel_;
 };
+
+static_assert(Vessel<CylinderVessel<double>> && Vessel<BoxVessel<double>> && Vessel<AnyVessel<double>>);
 
 }  // namespace edmill::model

@@ -37,7 +37,7 @@ class CoverageOutput : public TableOutput<Real> {
     const auto& f = seen.facts;
     if (f.ball_ball) return;
     const Vec3<Real> p = own_contact_point(seen, pose_of(seen));
-    const auto& vessel = seen.simulation.mill().vessel;
+    const auto& vessel = *seen.simulation.mill().vessel.template get_if<model::CylinderVessel<Real>>();
     const bool cylinder = f.partner == 2;
     // Rings have equal areas: equal parts of the squared radius.
     const Real part = cylinder ? Real((p[1] / vessel.half_height + 1) / 2)
@@ -67,7 +67,8 @@ class CoverageOutput : public TableOutput<Real> {
                 {this->window(until)});
     for (int wall = 0; wall < model::wall_count; ++wall)
       for (std::size_t b = 0; b < (wall == 2 ? heights_ : rings_); ++b)
-        for (std::size_t a = 0; a < sectors_.count(); ++a) write_cell(simulation.mill().vessel, wall, b, a);
+        for (std::size_t a = 0; a < sectors_.count(); ++a)
+          write_cell(*simulation.mill().vessel.template get_if<model::CylinderVessel<Real>>(), wall, b, a);
   }
 
  private:

@@ -33,16 +33,13 @@ struct Seen {
 
 /// The vessel at the impact.
 template <class Real>
-model::VesselPose<Real> pose_of(const Seen<Real>& seen) {
-  return model::pose_at<Real>(seen.simulation.mill().motion, seen.impact.time.offset);
+model::AnyPose<Real> pose_of(const Seen<Real>& seen) {
+  return seen.simulation.mill().motion.pose(seen.impact.time);
 }
 /// The contact point in the vessel frame [m].
 template <class Real>
-Vec3<Real> own_contact_point(const Seen<Real>& seen, const model::VesselPose<Real>& pose) {
-  const Vec3<Real> at_rest = Vec3<Real>::Zero();
-  return model::to_vessel_frame<Real>(pose, seen.simulation.mill().motion.arm, seen.facts.contact_point,
-                                      at_rest)
-      .position;
+Vec3<Real> own_contact_point(const Seen<Real>& seen, const model::AnyPose<Real>& pose) {
+  return seen.simulation.mill().motion.position_in_vessel(pose, seen.facts.contact_point);
 }
 
 /// A timer and restrictions. Types derive from it and say what they do with an impact.

@@ -26,7 +26,7 @@ class SceneOutput : public Output<Real> {
   bool shows_contact() const { return contact_.has_value(); }
 
   static SceneAngles angles(const engine::Simulation<Real>& simulation, double time) {
-    const auto& motion = simulation.mill().motion;
+    const auto& motion = *simulation.mill().motion.template get_if<model::SpexMotion<Real>>();
     const double phase = static_cast<double>(motion.angular_speed()) * time;
     return {std::acos(0.0) + static_cast<double>(motion.theta_max) * std::cos(phase),
             static_cast<double>(motion.gamma_max) * std::sin(phase)};
@@ -40,9 +40,11 @@ class SceneOutput : public Output<Real> {
   template <class StateOf>
   Scene scene(const engine::Simulation<Real>& simulation, const Real& time, StateOf&& state_of) const {
     const auto& mill = simulation.mill();
-    Scene s{static_cast<double>(mill.motion.arm),
-            static_cast<double>(mill.vessel.radius),
-            static_cast<double>(mill.vessel.half_height),
+    const auto& motion = *mill.motion.template get_if<model::SpexMotion<Real>>();
+    const auto& vessel = *mill.vessel.template get_if<model::CylinderVessel<Real>>();
+    Scene s{static_cast<double>(motion.arm),
+            static_cast<double>(vessel.radius),
+            static_cast<double>(vessel.half_height),
             run_.vessel_colour,
             angles(simulation, static_cast<double>(time)),
             {},

@@ -50,9 +50,9 @@ class VesselLoadOutput : public TableOutput<Real> {
     impulse_ += impulse;
     moment_ += cross<Real>(f.contact_point, impulse);
     const auto pose = pose_of(seen);
-    const Vec3<Real> own_impulse{dot<Real>(model::vessel_axis_x(pose), impulse),
-                                 dot<Real>(model::vessel_axis_y(pose), impulse),
-                                 dot<Real>(model::vessel_axis_z(pose), impulse)};
+    const Vec3<Real> own_impulse{dot<Real>(seen.simulation.mill().motion.axis_x(pose), impulse),
+                                 dot<Real>(seen.simulation.mill().motion.axis_y(pose), impulse),
+                                 dot<Real>(seen.simulation.mill().motion.axis_z(pose), impulse)};
     vessel_impulse_ += own_impulse;
     vessel_moment_ += cross<Real>(own_contact_point(seen, pose), own_impulse);
     work_ += f.wall_work;

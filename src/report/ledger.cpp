@@ -61,13 +61,8 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
     rows.push_back(
         {"balls placed individually", ball_text(spec.balls.front(), static_cast<int>(spec.balls.size()))});
   if (spec.powder_mass) rows.push_back({"powder", brief(1000 * spec.powder_mass->to<double>()) + " g"});
-  const auto mm = [](const casefile::Quantity& q) { return brief(1000 * q.to<double>()); };
-  rows.push_back({"vessel", fmt::format("cylinder, {} mm \u00d7 {} mm", mm(spec.vessel_diameter),
-                                        mm(spec.vessel_height))});
-  rows.push_back({"mill", spec.mill.type == "still"
-                              ? std::string("still")
-                              : fmt::format("SPEX 8000, {} rpm, arm {} mm",
-                                            brief(60 / spec.mill.period.to<double>()), mm(spec.mill.arm))});
+  rows.push_back({"vessel", casefile::describe(spec.vessel)});
+  rows.push_back({"mill", casefile::describe(spec.mill)});
   rows.push_back({"contact of balls", law_text(spec.ball_ball)});
   rows.push_back({"contact with walls", law_text(spec.ball_wall)});
   rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time),

@@ -42,9 +42,10 @@ std::string subtitle_of(const RunFolder& run) {
     text += fmt::format(" of {} mm", plot::brief(1000 * spec.batches[0].diameter.to<double>()));
   if (spec.powder_mass)
     text += fmt::format(", {} g of powder", plot::brief(1000 * spec.powder_mass->to<double>()));
-  return text + (spec.mill.type == "still"
-                     ? std::string(", in a still vessel")
-                     : fmt::format(", SPEX 8000 at {} rpm", plot::brief(60 / spec.mill.period.to<double>())));
+  const auto mill = casefile::name_of(spec.mill);
+  if (mill == "still") return text + ", in a still vessel";
+  return text + fmt::format(", {} at {} rpm", mill == "spex8000" ? "SPEX 8000" : mill,
+                            plot::brief(60 / casefile::period_of(spec.mill).to<double>()));
 }
 
 /// The controls, hidden until page.js plays. The slider counts milliseconds in the mill.

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "casefile/build_case.hpp"
 #include "casefile/case_of_run.hpp"
 #include "io/output_folder.hpp"
 #include "report/embedded.hpp"
@@ -61,10 +62,11 @@ void add_report_outputs(casefile::CaseSpec& spec) {
   using casefile::Quantity;
   const auto before = spec.outputs.size();
   casefile::add_outputs(std::string(outputs_toml), "the outputs of the report", spec);
-  const bool moving = spec.mill.type != "still";
+  const bool moving = casefile::name_of(spec.mill) != "still";
   // Powers of pi in the drive's period may be rounded: these are only sampling times.
-  const auto period = moving ? Quantity{boost::multiprecision::cpp_rational(spec.mill.period.to<double>())}
-                             : Quantity{boost::multiprecision::cpp_rational(1, 20)};
+  const auto period =
+      moving ? Quantity{boost::multiprecision::cpp_rational(casefile::period_of(spec.mill).to<double>())}
+             : Quantity{boost::multiprecision::cpp_rational(1, 20)};
   for (auto k = before; k < spec.outputs.size(); ++k) {
     auto& output = spec.outputs[k];
     if (output.type == "trends") {
@@ -81,9 +83,7 @@ void add_report_outputs(casefile::CaseSpec& spec) {
     }
     if (output.type == "frequency" && moving) {
       // Balls are rarely faster than three times the peak speed of the vessel's centre.
-      const auto& m = spec.mill;
-      const double fastest =
-          3 * 6.283185307179586 * m.arm.to<double>() * m.theta_max.to<double>() / m.period.to<double>();
+      const double fastest = 3 * casefile::build_mill<double>(spec).motion.wall_speed(0);
       if (fastest > 0) output.frequency.high = Quantity{boost::multiprecision::cpp_rational(fastest)};
     }
   }

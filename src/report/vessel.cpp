@@ -73,7 +73,8 @@ void add_vessel(pugi::xml_node main, const RunFolder& run) {
   if (!(table.duration() > 0))
     return add_missing(section, "time in the coverage of the vessel", "type = \"coverage\"");
   auto maps = read_maps(table);
-  label_maps(maps, run.spec.vessel_diameter.to<double>() / 2, run.spec.vessel_height.to<double>());
+  label_maps(maps, std::get<0>(run.spec.vessel).diameter.to<double>() / 2,
+             std::get<0>(run.spec.vessel).height.to<double>());
   auto grid = add(section, "div", {{"class", "charts maps"}});
   for (const auto w : std::initializer_list<std::size_t>{2, 0, 1}) {
     auto& map = maps[w];

@@ -25,12 +25,10 @@ std::string text_of(const ContactSpec& c) {
 bool same(const ContactSpec& a, const ContactSpec& b) { return text_of(a) == text_of(b); }
 
 bool same_surroundings(const CaseSpec& a, const CaseSpec& b) {
-  const auto &m = a.mill, &n = b.mill;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!same(a.gravity[axis], b.gravity[axis])) return false;
-  return m.type == n.type && same(m.arm, n.arm) && same(m.theta_max, n.theta_max) &&
-         same(m.gamma_max, n.gamma_max) && same(m.period, n.period) &&
-         same(a.vessel_diameter, b.vessel_diameter) && same(a.vessel_height, b.vessel_height);
+  return casefile::text_of(a.mill) == casefile::text_of(b.mill) &&
+         casefile::text_of(a.vessel) == casefile::text_of(b.vessel);
 }
 
 bool same_ball(const casefile::BallSpec& a, const casefile::BallSpec& b) {

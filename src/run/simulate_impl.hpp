@@ -58,7 +58,7 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
 template <class Real>
 io::Summary<Real> empty_summary(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built) {
   io::Summary<Real> summary;
-  summary.period = built.the_case.mill.motion.period;
+  summary.period = built.the_case.mill.motion.period();
   summary.start_time = summary.end_time = DriveClock<Real>(summary.period).seconds(built.start);
   summary.energy_at_start = summary.energy_at_end =
       model::energy_of(built.the_case.balls, built.states, built.the_case.mill.gravity);

@@ -1,7 +1,7 @@
 // Both restitutions given.
 #pragma once
 
-#include "model/laws/parameter.hpp"
+#include "model/parameter.hpp"
 
 namespace edmill::model {
 

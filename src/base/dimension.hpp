@@ -1,0 +1,8 @@
+// Physical dimensions of what a case file gives.
+#pragma once
+
+namespace edmill {
+
+enum class Dimension { none, length, mass, time, angle, energy, speed, angular_speed, acceleration, density };
+
+}  // namespace edmill

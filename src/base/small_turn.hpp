@@ -1,0 +1,33 @@
+// Sine and cosine of an angle that has grown a little, without sines, which are expensive in wide scalars.
+#pragma once
+
+#include <limits>
+
+namespace edmill::numerics {
+
+/// Turns [rad] up to which what double rounds off the cubic term, d^3 2^-53 / 6, and the quintic term,
+/// d^5 / 120, are below the scalar's rounding of 1.
+template <class Real>
+constexpr double longest_turn_of() {
+  constexpr int digits = std::numeric_limits<Real>::digits;
+  if (digits <= 113) return 0x1p-24;
+  double turn = 1;
+  for (int k = 0; k < (digits - 53) / 3; ++k) turn /= 2;
+  return turn;
+}
+template <class Real>
+inline constexpr double longest_turn = longest_turn_of<Real>();
+
+/// sin and cos of an angle that has grown by `more`. In the Taylor polynomials the last terms are far below
+/// the first ones and so left to double.
+template <class Real>
+void turn(Real& sine, Real& cosine, const Real& more) {
+  const double d = static_cast<double>(more);
+  const Real rise = more - Real(d * d * d / 6);                  // sin
+  const Real rest = more * more / 2 - Real(d * d * d * d / 24);  // 1 - cos
+  const Real turned = sine + (cosine * rise - sine * rest);
+  cosine -= sine * rise + cosine * rest;
+  sine = turned;
+}
+
+}  // namespace edmill::numerics

@@ -1,0 +1,114 @@
+#include "casefile/parts.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/errors.hpp"
+#include "casefile/section.hpp"
+
+namespace edmill::casefile {
+
+namespace {
+
+using boost::multiprecision::cpp_rational;
+using model::PartParameter;
+using model::Range;
+
+bool in_range(const Quantity& q, Range range) {
+  switch (range) {
+    case Range::any:
+      return true;
+    case Range::not_negative:
+      return !q.negative();
+    case Range::positive:
+    case Range::drive:
+      return q.positive();
+    case Range::quarter_turn:
+      return !q.negative() && q.value <= (q.pi_power == 1 ? cpp_rational(1, 2) : cpp_rational(157, 100));
+  }
+  return false;
+}
+
+std::string expected(const PartParameter& p) {
+  if (p.range == Range::quarter_turn) return "an angle from 0 to 90 deg";
+  const std::string what = p.dimension == Dimension::length ? "length" : "angular speed";
+  return p.range == Range::not_negative     ? "a " + what + " of 0 or more"
+         : p.dimension == Dimension::length ? "a positive length"
+                                            : "a positive angular speed";
+}
+
+/// What is kept of a value that was read.
+Quantity kept(const Quantity& q, Range range) {
+  if (range != Range::drive) return q;
+  return q.positive() ? Quantity{2 / q.value, 1 - q.pi_power} : Quantity{1};
+}
+
+Quantity parsed(const PartParameter& p) {
+  const auto result = parse_quantity(p.fallback, p.dimension);
+  EDMILL_REQUIRE(std::holds_alternative<Quantity>(result), "a default that can be read");
+  return kept(std::get<Quantity>(result), p.range);
+}
+
+struct Reader {
+  Section& section;
+
+  void operator()(const PartParameter& p, Quantity& value) const {
+    if (!p.key || (p.fallback && !section.has(p.key))) {
+      value = parsed(p);
+      return;
+    }
+    const Quantity found = section.required(p.key, p.dimension);
+    section.require(in_range(found, p.range), p.key, expected(p));
+    value = kept(found, p.range);
+  }
+  void operator()(const PartParameter& p, std::array<Quantity, 3>& values) const {
+    const auto found = section.vector(p.key, p.dimension);
+    if (!found) {
+      if (!section.has(p.key))
+        section.problem(p.key, "nothing", "three of " + casefile::describe(p.dimension));
+      return;
+    }
+    for (const auto& value : *found) section.require(in_range(value, p.range), p.key, expected(p));
+    values = *found;
+  }
+};
+
+template <class Variant>
+Variant read_part(Section& section) {
+  Variant chosen;
+  [&]<std::size_t... kind>(std::index_sequence<kind...>) {
+    const auto name = section.choice("type", {std::variant_alternative_t<kind, Variant>::name...});
+    const auto read = [&]<class Part>(Part part) {
+      if (name != Part::name) return;
+      Part::parameters(part, Reader{section});
+      chosen = part;
+    };
+    (read(std::variant_alternative_t<kind, Variant>{}), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Variant>>{});
+  return chosen;
+}
+
+template <class Variant>
+std::string described(const Variant& part) {
+  std::string text;
+  for_each_parameter(part, [&](const PartParameter& p, const std::vector<Quantity>& values) {
+    if (!p.key) return;
+    const bool drive = p.range == Range::drive;
+    text += fmt::format("{}{}", text.empty() ? ": " : ", ", drive ? "period" : p.key);
+    for (const auto& value : values) text += fmt::format(" {:g}", value.to<double>());
+    text += drive ? " s" : p.dimension == Dimension::angle ? " rad" : " m";
+  });
+  return name_of(part) + text;
+}
+
+}  // namespace
+
+std::string describe(const MotionSpec& motion) { return described(motion); }
+std::string describe(const VesselSpec& vessel) { return described(vessel); }
+
+MotionSpec read_motion(Section& mill) { return read_part<MotionSpec>(mill); }
+VesselSpec read_vessel(Section& vessel) { return read_part<VesselSpec>(vessel); }
+
+}  // namespace edmill::casefile

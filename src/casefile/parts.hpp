@@ -1,0 +1,61 @@
+// Motions and vessels as a case file says them.
+#pragma once
+
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "casefile/quantity.hpp"
+#include "model/motion.hpp"
+#include "model/vessel.hpp"
+
+namespace edmill::casefile {
+
+using MotionSpec = model::NamedMotions<Quantity>;
+using VesselSpec = model::NamedVessels<Quantity>;
+
+/// The name of a part's type, "spex8000".
+template <class... Part>
+std::string name_of(const std::variant<Part...>& part) {
+  return std::visit([](const auto& p) { return std::string(p.name); }, part);
+}
+
+/// Of the drive, or the clock unit of a still vessel [s].
+inline const Quantity& period_of(const MotionSpec& motion) {
+  return std::visit([](const auto& m) -> const Quantity& { return m.period; }, motion);
+}
+
+/// Calls visit(parameter, values) for each, with one value or three.
+template <class... Part, class Visit>
+void for_each_parameter(const std::variant<Part...>& part, Visit&& visit) {
+  struct Call {
+    Visit& visit;
+    void operator()(const model::PartParameter& p, const Quantity& value) { visit(p, std::vector{value}); }
+    void operator()(const model::PartParameter& p, const std::array<Quantity, 3>& values) {
+      visit(p, std::vector(values.begin(), values.end()));
+    }
+  } call{visit};
+  std::visit([&](const auto& p) { p.parameters(p, call); }, part);
+}
+
+/// Type and parameters, exact: "cylinder 19/500 57/1000".
+template <class... Part>
+std::string text_of(const std::variant<Part...>& part) {
+  std::string text = name_of(part);
+  for_each_parameter(part, [&](const model::PartParameter&, const std::vector<Quantity>& values) {
+    for (const auto& value : values) text += " " + value.text();
+  });
+  return text;
+}
+
+/// For readers: "cylinder: diameter 0.038 m, height 0.057 m".
+std::string describe(const MotionSpec& motion);
+std::string describe(const VesselSpec& vessel);
+
+class Section;
+/// Type and parameters of [mill] and [vessel]; what is wrong is reported.
+MotionSpec read_motion(Section& mill);
+VesselSpec read_vessel(Section& vessel);
+
+}  // namespace edmill::casefile

@@ -1,0 +1,69 @@
+// The wall search of a run, whose motion and vessel are chosen when the case is read.
+#pragma once
+
+#include <optional>
+#include <type_traits>
+
+#include "dynamics/wall_search.hpp"
+#include "model/mill.hpp"
+
+namespace edmill::dynamics {
+
+/// In double the SPEX with a cylinder has a search of its own, in which everything is inlined; all else goes
+/// through one that asks the motion and the vessel what they are at every step. Both give the same bits.
+template <class Real>
+class AnyWallSearch {
+ public:
+  using Spex = WallSearch<model::SpexMotion<Real>, model::CylinderVessel<Real>>;
+  using General = WallSearch<model::AnyMotion<Real>, model::AnyVessel<Real>>;
+
+  AnyWallSearch(const model::AnyMotion<Real>& motion, const model::AnyVessel<Real>& vessel,
+                const Vec3<Real>& gravity) {
+    model::with_parts<Real>(motion, vessel, [&](const auto& its_motion, const auto& its_vessel) {
+      using Search = WallSearch<std::decay_t<decltype(its_motion)>, std::decay_t<decltype(its_vessel)>>;
+      if constexpr (std::is_same_v<Search, General>)
+        general_.emplace(its_motion, its_vessel, gravity);
+      else
+        spex_.emplace(its_motion, its_vessel, gravity);
+    });
+  }
+  explicit AnyWallSearch(const model::Mill<Real>& mill)
+      : AnyWallSearch(mill.motion, mill.vessel, mill.gravity) {}
+
+  const Real& longest_window() const {
+    return with([](const auto& search) -> const Real& { return search.longest_window(); });
+  }
+  /// Largest distance of a ball from the origin [m].
+  const Real& reach() const {
+    return with([](const auto& search) -> const Real& { return search.mill().reach; });
+  }
+
+  WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
+    return with([&](const auto& search) { return search(query); });
+  }
+  WallAnswer<Real> search(const WallQuery<Real>& query) const {
+    return with([&](const auto& search) { return search.search(query); });
+  }
+  WallAnswer<Real> search(const model::AnyPose<Real>& pose, const WallQuery<Real>& query) const {
+    return with([&]<class M, class V>(const WallSearch<M, V>& search) {
+      return search.search(model::pose_of<M>(pose), query);
+    });
+  }
+  RoughAnswer rough(const WallQuery<Real>& query) const {
+    return with([&](const auto& search) { return search.rough(query); });
+  }
+
+ private:
+  template <class F>
+  decltype(auto) with(F&& f) const {
+    if constexpr (std::is_same_v<Real, double>)
+      if (spex_) [[likely]]
+        return f(*spex_);
+    return f(*general_);
+  }
+
+  std::conditional_t<std::is_same_v<Real, double>, std::optional<Spex>, std::nullopt_t*> spex_{};
+  std::optional<General> general_;
+};
+
+}  // namespace edmill::dynamics

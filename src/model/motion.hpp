@@ -1,0 +1,203 @@
+// The motion of a vessel: what every motion provides, and one that is any of them.
+#pragma once
+
+#include <concepts>
+#include <utility>
+#include <variant>
+
+#include "model/motions/shaken_table.hpp"
+#include "model/motions/spex.hpp"
+
+namespace edmill::model {
+
+/// A rigid motion of the vessel frame, periodic or not, and bounds on it that hold at all times. A search
+/// asks for the pose once for each instant and for everything else by that pose.
+///
+/// - `pose(when)`; `pose_nearby(when, pose, known)`, the same at less cost within a moment of a known one
+/// - `to_inertial`, `direction_to_inertial`, `position_in_vessel`, `to_vessel_frame` and
+///   `vessel_frame_acceleration`: places, velocities and accelerations of free bodies between the frames
+/// - `wall_velocity`, `wall_acceleration`: inertial, of the vessel's material point at an inertial place
+/// - `reach(r)` [m]: bound on the distance from the origin of what is within r of the vessel's centre
+/// - `wall_speed(r)`, `speed_within(d)`, `acceleration_within(d)`: bounds on the vessel's points within r of
+///   its centre, or within d of the origin
+/// - `swept(sizes, r)`: the box that the vessel sweeps
+/// - `coordinate_bounds`: majorants of a ball's coordinates in the vessel frame, what makes an exclusion a
+///   proof, for windows up to `longest_window()` [s]
+/// - `speed_in_vessel`, `acceleration_in_vessel`, `coordinate_errors`, `state_errors`: bounds on the rounding
+///   of those coordinates
+template <class M>
+concept Motion = requires(const M& motion, const typename M::Pose& pose,
+                          const Instant<typename M::Scalar>& when, const Vec3<typename M::Scalar>& v,
+                          const typename M::Scalar& x, const VesselFrameState<typename M::Scalar>& state,
+                          const FlightBounds<typename M::Scalar>& flight) {
+  { motion.period() } -> std::convertible_to<typename M::Scalar>;
+  { motion.pose(when) } -> std::same_as<typename M::Pose>;
+  { motion.template pose_nearby<true>(when, pose, when) } -> std::same_as<typename M::Pose>;
+  { motion.to_inertial(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
+  { motion.direction_to_inertial(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
+  { motion.position_in_vessel(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
+  { motion.to_vessel_frame(pose, v, v) } -> std::same_as<VesselFrameState<typename M::Scalar>>;
+  { motion.vessel_frame_acceleration(pose, state, v, v) } -> std::same_as<Vec3<typename M::Scalar>>;
+  { motion.wall_velocity(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
+  { motion.wall_acceleration(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
+  { motion.reach(x) } -> std::same_as<typename M::Scalar>;
+  { motion.wall_speed(x) } -> std::same_as<typename M::Scalar>;
+  { motion.speed_within(x) } -> std::same_as<typename M::Scalar>;
+  { motion.acceleration_within(x) } -> std::same_as<typename M::Scalar>;
+  { motion.longest_window() } -> std::same_as<typename M::Scalar>;
+  { motion.swept(v, x) } -> std::same_as<SweptBox<typename M::Scalar>>;
+  { motion.coordinate_bounds(v, x, x, x, x) } -> std::same_as<CoordinateBounds<typename M::Scalar>>;
+  { motion.speed_in_vessel(flight) } -> std::same_as<typename M::Scalar>;
+  { motion.acceleration_in_vessel(flight) } -> std::same_as<typename M::Scalar>;
+  { motion.coordinate_errors(x, flight) } -> std::same_as<ErrorBounds<typename M::Scalar>>;
+  { motion.state_errors(x, flight) } -> std::same_as<ErrorBounds<typename M::Scalar>>;
+};
+
+/// The motions that a case file can name, the default first. A new one is a file in model/motions/ and a line
+/// here and, where it moves in a way of its own, in MotionVariant: it is read, described and passed to every
+/// scalar by its list of parameters.
+template <class Number>
+using NamedMotions = std::variant<Spex8000<Number>,   //
+                                  StillMill<Number>,  //
+                                  Table<Number>>;
+
+template <class Real>
+using MotionVariant = std::variant<SpexMotion<Real>, ShakenTable<Real>>;
+
+template <class Variant>
+struct PosesOf;
+template <class... M>
+struct PosesOf<std::variant<M...>> {
+  using type = std::variant<typename M::Pose...>;
+};
+
+/// The pose of any motion, in the order of MotionVariant.
+template <class Real>
+using AnyPose = typename PosesOf<MotionVariant<Real>>::type;
+
+/// Any motion, chosen when the case is read.
+template <class Real>
+class AnyMotion {
+ public:
+  using Scalar = Real;
+  using Pose = AnyPose<Real>;
+
+  AnyMotion() = default;
+  template <class M>
+  requires(!std::same_as<M, AnyMotion>) && std::constructible_from<MotionVariant<Real>, M> AnyMotion(M motion)
+      : motion_(std::move(motion)) {}
+  template <class To>
+  AnyMotion<To> cast() const {
+    return visit([](const auto& m) { return AnyMotion<To>(m.template cast<To>()); });
+  }
+
+  /// The motion when it is an M, else none.
+  template <class M>
+  const M* get_if() const {
+    return std::get_if<M>(&motion_);
+  }
+  template <class F>
+  decltype(auto) visit(F&& f) const {
+    return std::visit(std::forward<F>(f), motion_);
+  }
+
+  const Real& period() const {
+    return visit([](const auto& m) -> const Real& { return m.period(); });
+  }
+  Pose pose(const Instant<Real>& when) const {
+    return visit([&](const auto& m) { return Pose(m.pose(when)); });
+  }
+  template <bool with_rates = true>
+  Pose pose_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known) const {
+    return at(pose, [&](const auto& m, const auto& own) {
+      return Pose(m.template pose_nearby<with_rates>(when, own, known));
+    });
+  }
+  Vec3<Real> axis_x(const Pose& pose) const {
+    return at(pose, [](const auto& m, const auto& own) { return m.axis_x(own); });
+  }
+  Vec3<Real> axis_y(const Pose& pose) const {
+    return at(pose, [](const auto& m, const auto& own) { return m.axis_y(own); });
+  }
+  Vec3<Real> axis_z(const Pose& pose) const {
+    return at(pose, [](const auto& m, const auto& own) { return m.axis_z(own); });
+  }
+  Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) const {
+    return at(pose, [&](const auto& m, const auto& own) { return m.to_inertial(own, p); });
+  }
+  Vec3<Real> direction_to_inertial(const Pose& pose, const Vec3<Real>& n) const {
+    return at(pose, [&](const auto& m, const auto& own) { return m.direction_to_inertial(own, n); });
+  }
+  Vec3<Real> position_in_vessel(const Pose& pose, const Vec3<Real>& position) const {
+    return at(pose, [&](const auto& m, const auto& own) { return m.position_in_vessel(own, position); });
+  }
+  VesselFrameState<Real> to_vessel_frame(const Pose& pose, const Vec3<Real>& position,
+                                         const Vec3<Real>& velocity) const {
+    return at(pose,
+              [&](const auto& m, const auto& own) { return m.to_vessel_frame(own, position, velocity); });
+  }
+  Vec3<Real> vessel_frame_acceleration(const Pose& pose, const VesselFrameState<Real>& state,
+                                       const Vec3<Real>& velocity, const Vec3<Real>& gravity) const {
+    return at(pose, [&](const auto& m, const auto& own) {
+      return m.vessel_frame_acceleration(own, state, velocity, gravity);
+    });
+  }
+  Vec3<Real> angular_velocity(const Pose& pose) const {
+    return at(pose, [](const auto& m, const auto& own) { return m.angular_velocity(own); });
+  }
+  Vec3<Real> wall_velocity(const Pose& pose, const Vec3<Real>& point) const {
+    return at(pose, [&](const auto& m, const auto& own) { return m.wall_velocity(own, point); });
+  }
+  Vec3<Real> wall_acceleration(const Pose& pose, const Vec3<Real>& point) const {
+    return at(pose, [&](const auto& m, const auto& own) { return m.wall_acceleration(own, point); });
+  }
+
+  Real reach(const Real& vessel_reach) const {
+    return visit([&](const auto& m) { return m.reach(vessel_reach); });
+  }
+  Real wall_speed(const Real& vessel_reach) const {
+    return visit([&](const auto& m) { return m.wall_speed(vessel_reach); });
+  }
+  Real speed_within(const Real& distance) const {
+    return visit([&](const auto& m) { return m.speed_within(distance); });
+  }
+  Real acceleration_within(const Real& distance) const {
+    return visit([&](const auto& m) { return m.acceleration_within(distance); });
+  }
+  Real longest_window() const {
+    return visit([](const auto& m) { return m.longest_window(); });
+  }
+  SweptBox<Real> swept(const Vec3<Real>& sizes, const Real& vessel_reach) const {
+    return visit([&](const auto& m) { return m.swept(sizes, vessel_reach); });
+  }
+  CoordinateBounds<Real> coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach,
+                                           const Real& gravity, const Real& speed, const Real& length) const {
+    return visit(
+        [&](const auto& m) { return m.coordinate_bounds(sizes, vessel_reach, gravity, speed, length); });
+  }
+  Real speed_in_vessel(const FlightBounds<Real>& flight) const {
+    return visit([&](const auto& m) { return m.speed_in_vessel(flight); });
+  }
+  Real acceleration_in_vessel(const FlightBounds<Real>& flight) const {
+    return visit([&](const auto& m) { return m.acceleration_in_vessel(flight); });
+  }
+  ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& flight) const {
+    return visit([&](const auto& m) { return m.coordinate_errors(u, flight); });
+  }
+  ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& flight) const {
+    return visit([&](const auto& m) { return m.state_errors(u, flight); });
+  }
+
+ private:
+  /// Calls f with the motion and its pose.
+  template <class F>
+  auto at(const Pose& pose, F&& f) const {
+    return visit([&]<class M>(const M& m) { return f(m, *std::get_if<typename M::Pose>(&pose)); });
+  }
+
+  MotionVariant<Real> motion_;
+};
+
+static_assert(Motion<SpexMotion<double>> && Motion<ShakenTable<double>> && Motion<AnyMotion<double>>);
+
+}  // namespace edmill::model

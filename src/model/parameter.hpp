@@ -1,0 +1,71 @@
+// What a case file and a reader need to know of a parameter of a contact law, a motion or a vessel.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/dimension.hpp"
+
+namespace edmill::model {
+
+/// A number without unit in [low, high], of a contact law.
+struct LawParameter {
+  const char* key;
+  int low, high;
+  std::optional<int> fallback = std::nullopt;  ///< of a parameter that may be left out
+};
+
+enum class Range {
+  any,
+  not_negative,
+  positive,
+  quarter_turn,  ///< an angle from 0 to 90 deg
+  drive          ///< a positive angular speed w, kept as its period 2 pi / w, exact for rpm and Hz
+};
+
+/// A quantity, or three along the axes, of a motion or a vessel.
+struct PartParameter {
+  const char* key;  ///< null for a constant, which a file does not give
+  Dimension dimension;
+  Range range = Range::any;
+  const char* fallback = nullptr;  ///< as in a file; null for one that must be given
+};
+
+namespace detail {
+
+template <class To, class From, class Convert>
+struct ReadNumbers {
+  const Convert& convert;
+  std::vector<To> values;
+  void operator()(const auto&, const From& value) { values.push_back(convert(value)); }
+  void operator()(const auto&, const std::array<From, 3>& value) {
+    for (const From& x : value) values.push_back(convert(x));
+  }
+};
+template <class To>
+struct WriteNumbers {
+  const std::vector<To>& values;
+  std::size_t next = 0;
+  void operator()(const auto&, To& value) { value = values[next++]; }
+  void operator()(const auto&, std::array<To, 3>& value) {
+    for (To& x : value) x = values[next++];
+  }
+};
+
+}  // namespace detail
+
+/// The same part with each number converted. A part lists its parameters by
+/// `parameters(part, visit)`, which calls visit(parameter, number) or visit(parameter, three numbers) for
+/// each.
+template <template <class> class Part, class To, class From, class Convert>
+Part<To> converted(const Part<From>& from, const Convert& convert) {
+  detail::ReadNumbers<To, From, Convert> read{convert, {}};
+  Part<From>::parameters(from, read);
+  detail::WriteNumbers<To> write{read.values};
+  Part<To> to{};
+  Part<To>::parameters(to, write);
+  return to;
+}
+
+}  // namespace edmill::model

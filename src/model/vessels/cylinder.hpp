@@ -1,0 +1,147 @@
+// A closed cylinder about the y axis of the vessel frame.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "base/trigonometry.hpp"
+#include "model/parameter.hpp"
+#include "model/vessel_frame.hpp"
+
+namespace edmill::model {
+
+/// Wall ids follow the thesis: 0 is the cap at y = -h/2, 1 the cap at y = +h/2, 2 the cylinder.
+inline constexpr int wall_count = 3;
+
+/// What a ball can collide with, as tables count it: the walls by id, then other balls.
+inline constexpr int partner_kinds = wall_count + 1;
+inline constexpr int ball_ball = wall_count;
+
+/// The name of a partner, everywhere.
+struct PartnerInfo {
+  const char* key;      ///< in files
+  const char* label;    ///< for readers
+  const char* meaning;  ///< of what counts its impacts
+};
+/// By place: the walls by id, then other balls.
+inline constexpr std::array<PartnerInfo, partner_kinds> partners = {{
+    {"wall_0", "cap -y", "with wall 0, the cap at -y"},
+    {"wall_1", "cap +y", "with wall 1, the cap at +y"},
+    {"wall_2", "cylinder", "with wall 2, the cylinder"},
+    {"ball_ball", "ball-ball", "between balls"},
+}};
+
+/// A closed cylinder about the y axis of the vessel frame. The gaps to its caps are lengths [m]; that to the
+/// cylinder is q = (R_v-R)^2 - x^2 - z^2 [m^2], which is smooth on the axis and has the sign of the gap.
+/// (2.19'), (2.21'), (2.22')
+template <class Real>
+struct CylinderVessel {
+  using Scalar = Real;
+  template <class Value>
+  using PerWall = std::array<Value, wall_count>;
+  template <class Value>
+  using PerKind = std::array<Value, 2>;
+
+  Real radius{0};       ///< inner radius R_v [m]
+  Real half_height{0};  ///< h/2 [m]
+
+  template <class To>
+  CylinderVessel<To> cast() const {
+    return {static_cast<To>(radius), static_cast<To>(half_height)};
+  }
+
+  static constexpr int walls() { return wall_count; }
+  template <class Value>
+  static PerWall<Value> per_wall(const Value& value) {
+    return {value, value, value};
+  }
+
+  Real reach() const {
+    using std::sqrt;
+    return sqrt(radius * radius + half_height * half_height);
+  }
+  Real extent() const { return radius + half_height; }
+  Vec3<Real> half_sizes() const { return {radius, half_height, radius}; }
+  Real volume() const { return 2 * numerics::pi<Real>() * radius * radius * half_height; }
+  Real widest_ball() const { return 2 * (radius < half_height ? radius : half_height); }
+
+  CylinderVessel inset(const Real& by) const { return {radius - by, half_height - by}; }
+  bool is_empty() const { return !(radius >= 0 && half_height >= 0); }
+  bool contains(const Vec3<Real>& p) const {
+    return !is_empty() && p[0] * p[0] + p[2] * p[2] <= radius * radius && p[1] <= half_height &&
+           p[1] >= -half_height;
+  }
+  std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
+    if (drawn[0] * drawn[0] + drawn[2] * drawn[2] > 1) return std::nullopt;
+    return Vec3<Real>{drawn[0] * radius, drawn[1] * half_height, drawn[2] * radius};
+  }
+
+  PerWall<Real> gaps(const Vec3<Real>& p) const {
+    return {half_height + p[1], half_height - p[1], radius * radius - (p[0] * p[0] + p[2] * p[2])};
+  }
+  Real gap(int wall, const Vec3<Real>& p) const {
+    if (wall == 2) return radius * radius - (p[0] * p[0] + p[2] * p[2]);
+    return wall == 0 ? Real(half_height + p[1]) : Real(half_height - p[1]);
+  }
+  static PerWall<Real> rates(const Vec3<Real>& p, const Vec3<Real>& u) {
+    return {u[1], -u[1], -2 * (p[0] * u[0] + p[2] * u[2])};
+  }
+  static PerWall<Real> curvatures(const Vec3<Real>& p, const Vec3<Real>& u, const Vec3<Real>& a) {
+    return {a[1], -a[1], -2 * ((u[0] * u[0] + p[0] * a[0]) + (u[2] * u[2] + p[2] * a[2]))};
+  }
+  PerWall<bool> within(const Vec3<Real>& p, const Real& way) const {
+    const Real cap = half_height - way, side = radius - way;
+    const Real &x = p[0], &y = p[1], &z = p[2];
+    return {!(-y < cap), !(y < cap), !((side > 0) & (x * x + z * z < side * side))};
+  }
+
+  /// 0 the caps, 1 the cylinder.
+  static constexpr int kind_of(int wall) { return wall == 2; }
+  static PerKind<Real> derivative_bounds(const CoordinateBounds<Real>& c, int k) {
+    return {c.y[k], numerics::product_bound(c.x, 0, c.x, k) + numerics::product_bound(c.z, 0, c.z, k)};
+  }
+
+  static constexpr bool is_flat(int wall) { return kind_of(wall) == 0; }
+  ErrorBounds<Real> curved_errors(int, const ErrorBounds<Real>& coordinate, const Real& u,
+                                  const Real& frame_speed, const Real& acceleration,
+                                  const Real& beyond) const {
+    const auto& y = coordinate;
+    const Real R = radius + beyond;
+    return {3 * R * y.value + 4 * u * R * R,
+            3 * R * y.rate + 3 * frame_speed * y.value + 6 * u * R * frame_speed,
+            6 * frame_speed * y.rate + 4 * R * y.second + 4 * acceleration * y.value +
+                12 * u * (frame_speed * frame_speed + R * acceleration)};
+  }
+
+  Vec3<Real> normal(int wall, const Vec3<Real>& p) const {
+    if (wall != 2) return {Real(0), Real(wall == 0 ? 1 : -1), Real(0)};
+    using std::sqrt;
+    const Real rho = sqrt(p[0] * p[0] + p[2] * p[2]);
+    return {-p[0] / rho, Real(0), -p[2] / rho};
+  }
+  Real overlap(int wall, const Vec3<Real>& p) const {
+    if (wall == 2) {
+      using std::sqrt;
+      return sqrt(p[0] * p[0] + p[2] * p[2]) - radius;
+    }
+    const Real side(wall == 0 ? 1 : -1);
+    return -side * p[1] - half_height;
+  }
+};
+
+/// [vessel] type = "cylinder".
+template <class Number>
+struct Cylinder {
+  static constexpr const char* name = "cylinder";
+  Number diameter, height;
+
+  template <class Part, class Visit>
+  static void parameters(Part& part, Visit&& visit) {
+    visit(PartParameter{"diameter", Dimension::length, Range::positive}, part.diameter);
+    visit(PartParameter{"height", Dimension::length, Range::positive}, part.height);
+  }
+  CylinderVessel<Number> vessel() const { return {diameter / 2, height / 2}; }
+};
+
+}  // namespace edmill::model
