@@ -20,7 +20,6 @@
   namespace edmill {                                                                                \
   prefix std::string to_text<Real>(const Real&);                                                    \
   prefix Real from_text<Real>(const std::string&);                                                  \
-  prefix class dynamics::WallSearch<model::AnyMotion<Real>, model::AnyVessel<Real>>;                \
   prefix class dynamics::DecisionLadder<Real>;                                                      \
   prefix class engine::Simulation<Real>;                                                            \
   prefix Real casefile::Quantity::to<Real>() const;                                                 \
@@ -37,9 +36,16 @@
   prefix class Run<Real>;                                                                           \
   }
 
-#define EDMILL_DECLARE_INSTANCES(Real) EDMILL_INSTANCES(extern template, Real)
+#define EDMILL_GENERAL_SEARCH(prefix, Real) \
+  prefix class edmill::dynamics::WallSearch<edmill::model::AnyMotion<Real>, edmill::model::AnyVessel<Real>>;
+
+#define EDMILL_DECLARE_INSTANCES(Real)         \
+  EDMILL_GENERAL_SEARCH(extern template, Real) \
+  EDMILL_INSTANCES(extern template, Real)
 EDMILL_FOR_EACH_SCALAR(EDMILL_DECLARE_INSTANCES)
 #undef EDMILL_DECLARE_INSTANCES
 
+// In double the search for any mill stands in a file of its own: beside it, that of the SPEX would be inlined
+// less.
 extern template class edmill::dynamics::WallSearch<edmill::model::SpexMotion<double>,
                                                    edmill::model::CylinderVessel<double>>;
