@@ -119,7 +119,7 @@ Scene Flights::scene_at(int ball, int wall, double time, const Vec& position) co
   Scene scene;
   scene.nested = nested_at(time);
   scene.printed = printed_at(time);
-  Impact& impact = scene.impact;
+  LoggedImpact& impact = scene.impact;
   impact.with_wall = true;
   impact.ball[0] = case_.balls[static_cast<std::size_t>(ball)];
   impact.normal = wall_normal(scene.nested, wall, position);
@@ -167,7 +167,7 @@ bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEn
   const Track &own = of(ball), &other = of(contact.partner);
   if (!own.spin_known || !other.spin_known) return false;
   LoggedEvent event;
-  Impact impact;
+  LoggedImpact impact;
   impact.ball = {case_.balls[static_cast<std::size_t>(ball)],
                  case_.balls[static_cast<std::size_t>(contact.partner)]};
   impact.set_masses();
