@@ -17,7 +17,7 @@
 #include "cli/report_command.hpp"
 #include "cli/resume_command.hpp"
 #include "cli/run_command.hpp"
-#include "cli/run_folder.hpp"
+#include "cli/run_folder_guard.hpp"
 #include "cli/signals.hpp"
 #include "cli/study_command.hpp"
 
