@@ -4,31 +4,15 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "base/vector.hpp"
+#include "model/partners.hpp"
 
 namespace edmill::model {
 
 /// Wall ids follow the thesis: 0 is the cap at y = -h/2, 1 the cap at y = +h/2, 2 the cylinder.
 inline constexpr int wall_count = 3;
-
-/// What a ball can collide with, as tables count it: the walls by id, then other balls.
-inline constexpr int partner_kinds = wall_count + 1;
-inline constexpr int ball_ball = wall_count;
-
-/// The name of a partner, everywhere.
-struct PartnerInfo {
-  const char* key;      ///< in files
-  const char* label;    ///< for readers
-  const char* meaning;  ///< of what counts its impacts
-};
-/// By place: the walls by id, then other balls.
-inline constexpr std::array<PartnerInfo, partner_kinds> partners = {{
-    {"wall_0", "cap -y", "with wall 0, the cap at -y"},
-    {"wall_1", "cap +y", "with wall 1, the cap at +y"},
-    {"wall_2", "cylinder", "with wall 2, the cylinder"},
-    {"ball_ball", "ball-ball", "between balls"},
-}};
 
 /// Bounds on what rounding does to a function of time and to its first two derivatives.
 template <class Real>
@@ -47,6 +31,11 @@ struct CylinderVessel {
 
   Real radius;       ///< inner radius R_v [m]
   Real half_height;  ///< h/2 [m]
+
+  /// By id.
+  static std::vector<WallInfo> walls() {
+    return {{"cap -y", "the cap at -y"}, {"cap +y", "the cap at +y"}, {"cylinder", "the cylinder"}};
+  }
 
   /// Largest distance of a point of the vessel from its centre [m].
   Real reach() const {
