@@ -17,7 +17,7 @@ struct BallState {
   Vector<Real> spin;      ///< [rad/s]
 };
 
-/// One impact. Vectors are inertial.
+/// One impact as programs see it: plain numbers, vectors inertial.
 template <class Real>
 struct Impact {
   std::uint64_t index;  ///< counts from 0 since the start of the run

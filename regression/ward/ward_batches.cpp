@@ -16,13 +16,13 @@ class Batches : public engine::Observer<double> {
  public:
   struct Totals {
     double milling_dose = 0;
-    std::array<std::uint64_t, model::partner_kinds> collisions{};
+    std::vector<std::uint64_t> collisions;
   };
 
-  Batches(double start, double length, std::size_t count, const DriveClock<double>& clock) {
+  Batches(double start, double length, std::size_t count, const DriveClock<double>& clock, int partners)
+      : totals_(count, {0, std::vector<std::uint64_t>(partners)}) {
     for (std::size_t k = 0; k <= count; ++k)
       boundaries_.push_back(clock.at(start + static_cast<double>(k) * length));
-    totals_.resize(count);
   }
 
   void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>&) override {
@@ -30,7 +30,7 @@ class Batches : public engine::Observer<double> {
     if (next_ == 0 || next_ == boundaries_.size()) return;
     auto& totals = totals_[next_ - 1];
     totals.milling_dose += impact.outcome.milling_dose;
-    ++totals.collisions[impact.with_wall ? impact.partner : model::ball_ball];
+    ++(impact.with_wall ? totals.collisions[impact.partner] : totals.collisions.back());
   }
 
   const std::vector<Totals>& totals() const { return totals_; }
@@ -68,8 +68,8 @@ void write(const io::Summary<double>& s, double length, const std::vector<Batche
   json.number("cpu_seconds", s.cpu_seconds);
   json.begin("batches");
   json.text("milling_dose", list(totals, [](const auto& t) { return to_text<double>(t.milling_dose); }));
-  for (std::size_t k = 0; k < model::partners.size(); ++k)
-    json.text(model::partners[k].key,
+  for (int k = 0; k < s.partners.count(); ++k)
+    json.text(s.partners[k].key,
               list(totals, [k](const auto& t) { return std::to_string(t.collisions[k]); }));
   json.end();
   std::cout << json.finish();
@@ -83,7 +83,8 @@ int run_in_batches(const std::string& file, const std::vector<std::string>& over
   const DriveClock<double> clock(the_case.mill.motion.period);
   const double seconds = clock.elapsed(the_case.statistics_start, *the_case.stop.end_time);
   const auto count = static_cast<std::size_t>(seconds / length + 1e-9);
-  Batches batches(clock.seconds(the_case.statistics_start), length, count, clock);
+  Batches batches(clock.seconds(the_case.statistics_start), length, count, clock,
+                  model::partners_of(the_case.mill.vessel).count());
   run::Guests<double> guests;
   guests.observers = {&batches};
   const auto [summary, saved] = run::simulate<double>(spec, built, guests);

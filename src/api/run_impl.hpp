@@ -83,9 +83,8 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
     s.end_reason = end_reason_;
     Summary<Real> out;
     out.start_time = s.start_time, out.end_time = s.end_time;
-    for (const auto& partner : model::partners) out.partners.emplace_back(partner.key);
-    out.collisions.assign(s.collisions.begin(), s.collisions.end());
-    out.dose_by_partner.assign(s.dose_by_partner.begin(), s.dose_by_partner.end());
+    for (int k = 0; k < s.partners.count(); ++k) out.partners.push_back(s.partners[k].key);
+    out.collisions = s.collisions, out.dose_by_partner = s.dose_by_partner;
     out.milling_dose = s.milling_dose, out.wall_work = s.wall_work, out.supplied_energy = s.supplied_energy;
     out.energy_closure = s.energy_closure();
     out.simultaneous_contacts = s.simultaneous_contacts;

@@ -10,6 +10,7 @@
 #include "casefile/case_parts.hpp"
 #include "casefile/output_entry.hpp"
 #include "casefile/section.hpp"
+#include "model/vessel.hpp"
 
 namespace edmill::casefile {
 
@@ -273,6 +274,10 @@ void add_outputs(const std::string& text, const std::string& name, CaseSpec& spe
   for (const auto& entry : top.sections("output")) read_output(entry, spec);
   top.reject_unknown_keys();
   if (!document.problems.empty()) throw InputError(document.problems);
+}
+
+model::Partners partners_of(const CaseSpec&) {
+  return model::Partners(model::CylinderVessel<double>::walls());
 }
 
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides) {

@@ -12,6 +12,7 @@
 #include "casefile/parts.hpp"
 #include "casefile/quantity.hpp"
 #include "model/contact_law.hpp"
+#include "model/partners.hpp"
 
 namespace edmill::casefile {
 
@@ -50,7 +51,7 @@ struct AuditSpec {
   std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
   std::optional<Quantity> tolerance, gap_tolerance;
   std::optional<std::uint64_t> first_ball;
-  std::string walls;  ///< "-1, -2, -3": what stands for walls 0, 1 and 2; empty when not given
+  std::string walls;  ///< "-1, -2, -3": what stands for the walls, by id; empty when not given
   bool from_start = false;
 };
 
@@ -79,6 +80,9 @@ struct CaseSpec {
   /// Colours of all balls, in their order.
   std::vector<Colour> ball_colours() const;
 };
+
+/// What the balls of a case can collide with.
+model::Partners partners_of(const CaseSpec& spec);
 
 /// Precisions that a case can name.
 const std::vector<std::string>& precisions();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/instant.hpp"
 #include "check/auditor.hpp"
@@ -31,7 +32,8 @@ std::uint64_t noted(const Tally& tally, std::string_view beginning) {
 }
 
 /// Which of the thesis's printed errors explain the findings, and whether a finite time step does.
-std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings) {
+std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings,
+                                const model::Partners& partners) {
   std::vector<Diagnosis> found;
   const auto add = [&](const std::string& name, std::uint64_t events, std::uint64_t of,
                        const std::string& text) {
@@ -50,12 +52,16 @@ std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings
   add("unequal_mass_factor", noted(unequal, "(2.24)"), unequal.count,
       "printed error (2.24): 1 + 1/J instead of 1 + M/(m_i J_i) + M/(m_j J_j); with it the outcome is "
       "exactly that of the log");
-  const auto missed = auditor.flights().missed_by_wall();
-  const auto logged = auditor.with_wall(), early = auditor.early_by_wall();
-  const auto all_missed = missed[0] + missed[1] + missed[2];
+  const auto& missed = auditor.flights().missed_by_wall();
+  const auto &logged = auditor.with_wall(), &early = auditor.early_by_wall();
+  const auto sum = [](const auto& list) {
+    return std::accumulate(list.begin(), list.end(), std::uint64_t{0});
+  };
+  const auto all_missed = sum(missed);
   const bool never = logged[0] == 0 && missed[0] > 0 && 2 * missed[0] > all_missed;
-  const bool at_once = early[0] > 0 && 2 * early[0] > logged[0] && early[1] + early[2] == 0;
-  if (never || at_once)
+  const bool at_once = early[0] > 0 && 2 * early[0] > logged[0] && sum(early) == early[0];
+  const bool a_cap = partners[0].label == "cap -y";  // other vessels have no such equation
+  if (a_cap && (never || at_once))
     add("gap_sign", never ? missed[0] : early[0], never ? all_missed : logged[0],
         std::string("printed error (2.19), (2.20): ") +
             (never ? "no impact with the cap at -y is logged, and balls fly through it"
@@ -91,7 +97,8 @@ Audit audit(const model::Case<double>& the_case, const std::vector<model::BallSt
   result.tolerances.relative = options.tolerance;
   result.tolerances.reach = reach_of(the_case.mill);
   result.tolerances.gap = options.gap_tolerance.value_or(options.tolerance * result.tolerances.reach);
-  EventLog log(options.log, options.conventions, static_cast<int>(the_case.balls.size()));
+  const auto partners = model::partners_of(the_case.mill.vessel);
+  EventLog log(options.log, options.conventions, static_cast<int>(the_case.balls.size()), partners.walls());
   result.log_name = log.file();
   result.available = log.available();
   Auditor auditor(the_case, result.available, result.tolerances, result.findings);
@@ -113,7 +120,7 @@ Audit audit(const model::Case<double>& the_case, const std::vector<model::BallSt
   result.energies = auditor.energies();
   result.undecided = auditor.flights().undecided();
   result.not_made = checks_not_made(result.findings, any_pairs);
-  result.diagnoses = diagnose(auditor, result.findings);
+  result.diagnoses = diagnose(auditor, result.findings, partners);
   diagnose_step(result.findings, result.tolerances.reach, auditor.latest(), result.diagnoses);
   const bool judged =
       result.findings.judged_number(Check::touch) + result.findings.judged_number(Check::milling_dose) > 0;

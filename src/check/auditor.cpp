@@ -26,7 +26,9 @@ Auditor::Auditor(const model::Case<double>& the_case, const Available& available
       findings_(findings),
       impacts_(the_case.mill, available, tolerances, findings),
       flights_(the_case, available, tolerances, findings),
-      last_(the_case.balls.size()) {}
+      last_(the_case.balls.size()),
+      with_wall_(the_case.mill.vessel.walls().size()),
+      early_by_wall_(with_wall_.size()) {}
 
 void Auditor::begin(const std::vector<model::BallState<double>>& states, double time) {
   for (std::size_t k = 0; k < states.size(); ++k)
@@ -111,7 +113,7 @@ void Auditor::find_wrong_balls(LoggedEvent& event) {
 }
 
 void Auditor::complete_scene(const LoggedEvent& event, Scene& scene) const {
-  Impact& impact = scene.impact;
+  LoggedImpact& impact = scene.impact;
   impact.with_wall = event.with_wall;
   impact.ball[0] = ball(event.ball);
   if (!event.with_wall) impact.ball[1] = ball(event.partner);
@@ -189,7 +191,7 @@ bool Auditor::another_body_is_there(LoggedEvent& event, double allowed, double g
   const auto frame = flights_.nested_at(event.time);
   const double radius = ball(event.ball).radius;
   const Vec& position = event.body[0].position;
-  for (int wall = 0; wall < model::wall_count; ++wall)
+  for (int wall = 0; wall < static_cast<int>(with_wall_.size()); ++wall)
     if (wall != event.partner && std::abs(gap) > radius / 100 &&
         std::abs(wall_gap(frame, case_.mill.vessel, wall, radius, position)) <= allowed) {
       tell(Kind::wrong_partner, event, std::abs(gap), event.partner, wall, "another wall is touched");

@@ -23,8 +23,8 @@ class Auditor {
   const Energies& energies() const { return impacts_.energies(); }
   const Flights& flights() const { return flights_; }
   /// Logged impacts with each wall, and the number of early ones, for the diagnosis.
-  const std::array<std::uint64_t, model::wall_count>& with_wall() const { return with_wall_; }
-  const std::array<std::uint64_t, model::wall_count>& early_by_wall() const { return early_by_wall_; }
+  const std::vector<std::uint64_t>& with_wall() const { return with_wall_; }
+  const std::vector<std::uint64_t>& early_by_wall() const { return early_by_wall_; }
   /// Largest delay of the events that are not grazes [s].
   double latest() const { return latest_; }
 
@@ -58,7 +58,7 @@ class Auditor {
   ImpactJudge impacts_;
   Flights flights_;
   std::vector<LastEvent> last_;
-  std::array<std::uint64_t, model::wall_count> with_wall_{}, early_by_wall_{};
+  std::vector<std::uint64_t> with_wall_, early_by_wall_;
   double latest_ = 0;
 };
 

@@ -16,10 +16,10 @@ std::size_t SpectrumClasses::of(double value) const {
 
 double Batch::all_events() const { return std::accumulate(events.begin(), events.end(), 0.0); }
 
-std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const BatchTimes& times,
+std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
                                     const SpectrumClasses& speed_classes,
                                     const SpectrumClasses& dose_classes) {
-  std::vector<Batch> batches(times.count);
+  std::vector<Batch> batches(times.count, Batch(walls));
   LogReader log(place);
   const bool dose = log.has(milling_dose), work = log.has(wall_work);
   while (const auto event = log.next()) {
@@ -27,7 +27,7 @@ std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const Ba
     if (place_in_time < 0) continue;
     if (!(place_in_time < static_cast<double>(times.count))) break;
     Batch& batch = batches[static_cast<std::size_t>(place_in_time)];
-    batch.events[event->partner_kind()] += 1;
+    (event->with_wall ? batch.events[event->partner] : batch.events.back()) += 1;
     batch.approach_speed += event->values[approach_speed];
     batch.spectra[event->with_wall ? wall_speeds : ball_speeds]
                  [speed_classes.of(event->values[approach_speed])] += 1;

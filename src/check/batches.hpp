@@ -37,18 +37,21 @@ inline constexpr std::size_t spectrum_count = 3;
 
 /// Totals of one batch.
 struct Batch {
-  std::array<double, model::partner_kinds> events{};
+  std::vector<double> events;              ///< with each wall, and last between balls
   double approach_speed = 0;               ///< sum [m/s]
   double milling_dose = 0, wall_work = 0;  ///< [J]
   std::array<std::vector<double>, spectrum_count> spectra;
 
-  Batch() { spectra.fill(std::vector<double>(SpectrumClasses::count)); }
+  explicit Batch(int walls = 0) : events(walls + 1) {
+    spectra.fill(std::vector<double>(SpectrumClasses::count));
+  }
 
   double all_events() const;
 };
 
 /// Second pass over a log. Memory does not depend on its length.
-std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const BatchTimes& times,
+/// @param walls  at least as many as the log names
+std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
                                     const SpectrumClasses& speed_classes,
                                     const SpectrumClasses& dose_classes);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "model/partners.hpp"
 #include "study/statistics.hpp"
 
 namespace edmill::compare {
@@ -159,18 +160,22 @@ std::vector<Quantity> judge(const Comparison& c) {
   const double zero = std::max(c.options.tolerance, 1e-9);
   const SpectrumClasses speed_classes(zero * c.a.mean_magnitude[approach_speed]);
   const SpectrumClasses dose_classes(zero * c.a.mean_magnitude[milling_dose]);
-  const auto a = cut_into_batches(c.options.a, c.times, speed_classes, dose_classes);
-  const auto b = cut_into_batches(c.options.b, c.times, speed_classes, dose_classes);
+  const int walls = std::max(c.a.walls, c.b.walls);
+  const auto a = cut_into_batches(c.options.a, c.times, walls, speed_classes, dose_classes);
+  const auto b = cut_into_batches(c.options.b, c.times, walls, speed_classes, dose_classes);
   Judge judge(a, b, c.options.tolerance);
   const double length = c.times.length, all = Judge::events(a) + Judge::events(b);
 
-  std::array<double, model::partner_kinds> events_of_kind{};
-  for (std::size_t k = 0; k < model::partners.size(); ++k) {
-    const auto rate = [&](const Batch& batch) { return batch.events[k] / length; };
-    double& events = events_of_kind[k];
+  const auto events_with = [&](int partner) {
+    double sum = 0;
     for (const auto* batches : {&a, &b})
-      for (const auto& batch : *batches) events += batch.events[k];
-    const auto name = std::string("collision_rate_") + model::partners[k].key;
+      for (const auto& batch : *batches) sum += batch.events[partner];
+    return sum;
+  };
+  for (int k = 0; k <= walls; ++k) {
+    const auto rate = [&](const Batch& batch) { return batch.events[k] / length; };
+    const double events = events_with(k);
+    const auto name = "collision_rate_" + model::partner_key(k, walls);
     if (events > 0)
       judge.mean(name, "1/s", events, values_of(a, rate), values_of(b, rate));
     else
@@ -195,8 +200,9 @@ std::vector<Quantity> judge(const Comparison& c) {
                ratio_values(values_of(b, speed), values_of(b, events)));
   else
     judge.skip("mean_approach_speed", "m/s", "no collisions in one log");
-  judge.spectrum("wall_approach_speed_spectrum", wall_speeds, all - events_of_kind[model::ball_ball]);
-  judge.spectrum("ball_approach_speed_spectrum", ball_speeds, events_of_kind[model::ball_ball]);
+  const double between_balls = events_with(walls);
+  judge.spectrum("wall_approach_speed_spectrum", wall_speeds, all - between_balls);
+  judge.spectrum("ball_approach_speed_spectrum", ball_speeds, between_balls);
   if (c.a.has[milling_dose] && c.b.has[milling_dose])
     judge.spectrum("milling_dose_spectrum", doses, all);
   else

@@ -79,27 +79,31 @@ const std::vector<std::string>& column_names() {
   return names;
 }
 
-std::array<int, 3> parse_walls(const std::string& text, const std::string& where) {
-  std::array<int, 3> walls{};
+std::vector<int> parse_walls(const std::string& text, const model::Partners& partners,
+                             const std::string& where) {
+  std::vector<int> walls(partners.walls());
+  std::string labels;
   std::istringstream in(text);
   char comma = ',';
   bool good = true;
-  for (int k = 0; k < 3; ++k) good = good && (k == 0 || (in >> comma && comma == ',')) && in >> walls[k];
-  good =
-      good && (in >> std::ws).eof() && walls[0] != walls[1] && walls[0] != walls[2] && walls[1] != walls[2];
-  if (!good)
-    throw InputError(
-        fmt::format("{}: found {}, expected three different numbers, those of the caps at -y and +y and "
-                    "of the cylinder, e.g. \"1, 2, 3\"",
-                    where, io::in_quotes(text)));
+  for (int k = 0; k < partners.walls(); ++k) {
+    good = good && (k == 0 || (in >> comma && comma == ',')) && in >> walls[k];
+    good = good && std::find(walls.begin(), walls.begin() + k, walls[k]) == walls.begin() + k;
+    labels += (k == 0 ? "" : ", ") + partners[k].label;
+  }
+  if (!good || !(in >> std::ws).eof())
+    throw InputError(fmt::format("{}: found {}, expected {} different numbers: of {}", where,
+                                 io::in_quotes(text), partners.walls(), labels));
   return walls;
 }
 
-EventLog::EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls)
+EventLog::EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls,
+                   int walls)
     : csv_(log_in(place), "a collision log"),
       columns_(name_count),
       first_ball_(conventions.first_ball),
-      balls_(balls) {
+      balls_(balls),
+      walls_(conventions.walls.value_or(std::vector<int>(walls))) {
   read_header(conventions);
 }
 
@@ -145,7 +149,8 @@ void EventLog::read_header(const LogConventions& conventions) {
                                                                               : csv_.column(theirs[k]);
   csv_.throw_problems();
   const bool with_kind = columns_[partner_kind_name].place.has_value();
-  walls_ = conventions.walls.value_or(with_kind ? std::array{0, 1, 2} : std::array{-1, -2, -3});
+  if (!conventions.walls)
+    for (int id = 0; id < static_cast<int>(walls_.size()); ++id) walls_[id] = with_kind ? id : -1 - id;
   available_.approach_speed = columns_[first_value].place.has_value();
   available_.slip_speed = columns_[first_value + 1].place.has_value();
   available_.milling_dose = columns_[first_value + 2].place.has_value();
@@ -190,7 +195,7 @@ bool EventLog::read_bodies(LoggedEvent& event) {
   const auto is_ball = [&](int k) { return k >= 0 && k < balls_; };
   const bool known =
       is_ball(event.ball) &&
-      (event.with_wall ? event.partner < 3 : is_ball(event.partner) && event.partner != event.ball);
+      (event.with_wall ? wall != walls_.end() : is_ball(event.partner) && event.partner != event.ball);
   if (!known) {
     event.unknown_body = true;
     event.problem =

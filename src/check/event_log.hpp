@@ -13,6 +13,7 @@
 
 #include "base/vector.hpp"
 #include "io/csv_reader.hpp"
+#include "model/partners.hpp"
 
 namespace edmill::audit {
 
@@ -63,13 +64,14 @@ struct Available {
 struct LogConventions {
   std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
   int first_ball = 0;                                        ///< number of the first ball
-  /// Numbers of walls 0, 1 and 2 in the column `partner`; 0, 1, 2 with a column partner_kind, else
-  /// -1, -2, -3.
-  std::optional<std::array<int, 3>> walls;
+  /// Numbers of the walls by id in the column `partner`; 0, 1, 2, ... with a column partner_kind, else -1,
+  /// -2, -3, ...
+  std::optional<std::vector<int>> walls;
 };
 
-/// "-1, -2, -3" @throws InputError naming `where` when it is not three different whole numbers
-std::array<int, 3> parse_walls(const std::string& text, const std::string& where);
+/// "-1, -2, -3" @throws InputError naming `where` when it is not a different whole number for each wall
+std::vector<int> parse_walls(const std::string& text, const model::Partners& partners,
+                             const std::string& where);
 
 /// Reads ahead by `window` events, so that events come in order of time from a log that is slightly out of
 /// order. Bounded memory.
@@ -78,9 +80,9 @@ class EventLog {
   static constexpr std::size_t window = 256;
 
   /// @param place  a CSV file, or a folder that holds collisions.csv
-  /// @param balls  in the case
+  /// @param balls, walls  in the case
   /// @throws InputError with every problem of the mapping and the header
-  EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls);
+  EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls, int walls);
 
   /// The next event; nothing at the end.
   /// @throws InputError with the lines that cannot be read
@@ -103,7 +105,7 @@ class EventLog {
   std::vector<Column> columns_;  ///< in the order of the names
   Available available_;
   int first_ball_, balls_;
-  std::array<int, 3> walls_{};
+  std::vector<int> walls_;  ///< their numbers in the log, by id
   double latest_ = -std::numeric_limits<double>::infinity();
   std::vector<LoggedEvent> ahead_;  ///< a heap, the earliest on top
   bool at_end_ = false;

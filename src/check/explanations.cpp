@@ -8,7 +8,7 @@ namespace edmill::audit {
 
 bool ImpactJudge::explain_by_formula(const LoggedEvent& event, const Scene& scene, double allowed_off,
                                      Explanation& explanation) const {
-  const Impact& impact = scene.impact;
+  const LoggedImpact& impact = scene.impact;
   const auto fits = [&](const Formula& formula) {
     return distance(impact, event, outcome(impact, law(impact), event, formula)) <= allowed_off;
   };
@@ -51,12 +51,12 @@ bool ImpactJudge::explain_by_formula(const LoggedEvent& event, const Scene& scen
 /// Finds one mistake that reproduces the logged outcome.
 bool ImpactJudge::explain(const LoggedEvent& event, const Scene& scene, double allowed_off,
                           Explanation& explanation) const {
-  const Impact& impact = scene.impact;
+  const LoggedImpact& impact = scene.impact;
   if (explain_by_formula(event, scene, allowed_off, explanation)) return true;
   if (!impact.with_wall) return false;
   const Vec centre = event.body[0].position, point = centre - impact.normal * impact.ball[0].radius;
   for (int k = 1; k < wall_velocity_count; ++k) {
-    Impact theirs = impact;
+    LoggedImpact theirs = impact;
     const auto formula = static_cast<WallVelocity>(k);
     theirs.wall_velocity = wall_velocity(formula, scene.nested, scene.printed, point, centre);
     if (distance(theirs, event, outcome(theirs, law(theirs), event, {})) <= allowed_off) {
@@ -68,7 +68,7 @@ bool ImpactJudge::explain(const LoggedEvent& event, const Scene& scene, double a
 }
 
 /// The bodies separate at e_n |g_n| where v_s applies, or the reverse.
-bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const Impact& impact,
+bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const LoggedImpact& impact,
                                              double allowed_off) const {
   const auto& l = law(impact);
   const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
@@ -78,7 +78,7 @@ bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const Imp
 }
 
 /// Reports a wrong speed of separation: the law's other branch, another least speed, or neither.
-void ImpactJudge::tell_normal(const LoggedEvent& event, const Impact& impact, double off,
+void ImpactJudge::tell_normal(const LoggedEvent& event, const LoggedImpact& impact, double off,
                               double allowed_off) {
   const auto& l = law(impact);
   const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);

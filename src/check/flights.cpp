@@ -31,7 +31,8 @@ Flights::Flights(const model::Case<double>& the_case, const Available& available
       clock_(the_case.mill.motion.period()),
       ladder_(the_case.mill, smallest_sum(the_case), 32.0),
       top_speed_(32),
-      tracks_(the_case.balls.size()) {}
+      tracks_(the_case.balls.size()),
+      missed_by_wall_(the_case.mill.vessel.walls().size()) {}
 
 VesselFrame Flights::nested_at(double time) const {
   return nested_frame(case_.mill.motion, case_.mill.motion.pose(clock_.at(time)));

@@ -60,7 +60,7 @@ class Flights {
   void begin_at_start(int ball, const model::BallState<double>& state, double time);
 
   /// Missed impacts with each wall, for the diagnosis.
-  const std::array<std::uint64_t, model::wall_count>& missed_by_wall() const { return missed_by_wall_; }
+  const std::vector<std::uint64_t>& missed_by_wall() const { return missed_by_wall_; }
   std::uint64_t undecided() const { return undecided_; }
 
  private:
@@ -90,6 +90,7 @@ class Flights {
   bool report_missed_ball(int ball, const Contact& pair, const FlightEnd& end, double off, double& missed_at);
   void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at);
   void settle_held(Track& track, const LoggedEvent* next);
+  int walls() const { return static_cast<int>(missed_by_wall_.size()); }
   bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const;
   double deepest(int ball, const Track& track, int wall, double from, double until) const;
   Scene scene_at(int ball, int wall, double time, const Vec& position) const;
@@ -102,7 +103,7 @@ class Flights {
   dynamics::DecisionLadder<double> ladder_;
   double top_speed_;
   std::vector<Track> tracks_;
-  std::array<std::uint64_t, model::wall_count> missed_by_wall_{};
+  std::vector<std::uint64_t> missed_by_wall_;
   std::uint64_t undecided_ = 0;
 };
 

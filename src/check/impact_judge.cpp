@@ -7,10 +7,10 @@ namespace edmill::audit {
 
 namespace {
 
-std::size_t bodies(const Impact& impact) { return impact.with_wall ? 1 : 2; }
+std::size_t bodies(const LoggedImpact& impact) { return impact.with_wall ? 1 : 2; }
 
 /// Kinetic energy gained by the balls [J].
-double kinetic_change(const LoggedEvent& event, const Impact& impact) {
+double kinetic_change(const LoggedEvent& event, const LoggedImpact& impact) {
   double change = 0;
   for (std::size_t k = 0; k < bodies(impact); ++k) {
     const auto& ball = impact.ball[k];
@@ -24,7 +24,7 @@ double kinetic_change(const LoggedEvent& event, const Impact& impact) {
   return change;
 }
 
-double work_of_wall(const LoggedEvent& event, const Impact& impact) {
+double work_of_wall(const LoggedEvent& event, const LoggedImpact& impact) {
   if (!impact.with_wall) return 0;
   return impact.ball[0].mass *
          dot(impact.wall_velocity, Vec(event.body[0].velocity_after - event.body[0].velocity_before));
@@ -34,19 +34,19 @@ double work_of_wall(const LoggedEvent& event, const Impact& impact) {
 struct Speeds {
   double g_n, slip;
 };
-Speeds speeds_before(const LoggedEvent& event, const Impact& impact) {
+Speeds speeds_before(const LoggedEvent& event, const LoggedImpact& impact) {
   const Vec g = impact.before(event);
   const double g_n = dot(g, impact.normal);
   return {g_n, size(Vec(g - impact.normal * g_n))};
 }
 
 /// Energy that an impact adds along the normal [J]; 0 where it dissipates.
-double supplied(const Impact& impact, double g_n, double separation) {
+double supplied(const LoggedImpact& impact, double g_n, double separation) {
   return std::max(0.0, impact.effective_mass / 2 * (separation - g_n) * (separation + g_n));
 }
 
 /// (2.30'), (2.36')
-double dose_by_law(const Impact& impact, const model::ContactLaw<double>& law, const Speeds& speeds) {
+double dose_by_law(const LoggedImpact& impact, const model::ContactLaw<double>& law, const Speeds& speeds) {
   const double separation = separation_speed(law, speeds.g_n);
   const double bounce = separation - speeds.g_n;
   const double e_t = tangential_restitution(law, impact.compliance, bounce, speeds.slip);
@@ -67,7 +67,7 @@ void ImpactJudge::tell(Kind kind, const LoggedEvent& event, double size, double 
 
 /// The equations themselves: momentum, torque, and the separation of the contact points.
 /// @param parting  the bodies do not approach, which is reported: a code may then reflect g_n as usual
-auto ImpactJudge::residuals(const LoggedEvent& event, const Impact& impact, const Known& known,
+auto ImpactJudge::residuals(const LoggedEvent& event, const LoggedImpact& impact, const Known& known,
                             bool parting) const -> Residuals {
   Residuals off;
   const Vec g = impact.before(event), g_after = impact.after(event);
@@ -97,7 +97,7 @@ auto ImpactJudge::residuals(const LoggedEvent& event, const Impact& impact, cons
 /// Names the violation by the equation that does not hold.
 void ImpactJudge::tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
                                         const Known& known, double allowed_off) {
-  const Impact& impact = scene.impact;
+  const LoggedImpact& impact = scene.impact;
   const Vec g = impact.before(event), g_after = impact.after(event);
   const double g_n = dot(g, impact.normal), g_n_after = dot(g_after, impact.normal);
   const bool normal = off.normal > allowed_off, tangential = off.tangential > allowed_off;
@@ -133,7 +133,7 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
   const Known known{available_.velocities_after(event.with_wall), available_.spins(event.with_wall)};
   if (scene.displaced && known.velocities) {
     // The printed matrix is used either with its own derivative or with the printed velocity.
-    Impact other = scene.impact;
+    LoggedImpact other = scene.impact;
     const Vec& centre = event.body[0].position;
     other.wall_velocity = wall_velocity(WallVelocity::of_the_printed_matrix, scene.nested, scene.printed,
                                         centre - other.normal * other.ball[0].radius, centre);
@@ -141,13 +141,13 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
         residuals(event, scene.impact, known, false).largest())
       scene.impact = other;
   }
-  const Impact& impact = scene.impact;
+  const LoggedImpact& impact = scene.impact;
   const double scale = velocity_scale(impact, event, known.spins);
   const double allowed_off = tolerances_.relative * scale;
   const double g_n = dot(impact.before(event), impact.normal);
   findings_.judged(Check::approach);
   if (g_n > allowed_off) tell(Kind::not_approaching, event, g_n, -g_n, 0);
-  Impact theirs = impact;
+  LoggedImpact theirs = impact;
   bool wall_velocity_told = false;
   if (known.velocities) {
     findings_.judged(Check::normal_law);
@@ -177,8 +177,8 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
   if (known.velocities && known.spins) judge_energies(event, impact, theirs, scale);
 }
 
-void ImpactJudge::judge_logged_speeds(const LoggedEvent& event, const Impact& impact, const Known& known,
-                                      double scale, bool wall_velocity_told) {
+void ImpactJudge::judge_logged_speeds(const LoggedEvent& event, const LoggedImpact& impact,
+                                      const Known& known, double scale, bool wall_velocity_told) {
   const double allowed_off = tolerances_.relative * scale;
   const Vec g = impact.before(event);
   const double g_n = dot(g, impact.normal);
@@ -195,8 +195,8 @@ void ImpactJudge::judge_logged_speeds(const LoggedEvent& event, const Impact& im
 
 /// The dose is the wall work plus the energy that the least separation speed supplies, minus what the balls
 /// have gained.
-void ImpactJudge::judge_energies(const LoggedEvent& event, const Impact& right, const Impact& theirs,
-                                 double scale) {
+void ImpactJudge::judge_energies(const LoggedEvent& event, const LoggedImpact& right,
+                                 const LoggedImpact& theirs, double scale) {
   const double allowed_off = 4 * tolerances_.relative * right.effective_mass * scale * scale;
   const double work = work_of_wall(event, right), gained = kinetic_change(event, right);
   const Speeds speeds = speeds_before(event, right);
@@ -223,13 +223,13 @@ void ImpactJudge::judge_energies(const LoggedEvent& event, const Impact& right, 
 
 /// The dose of a violating impact may also be that of the law for the same speeds, and its balance without
 /// what v_s supplies in the log: then the law is wrong and not the dose.
-void ImpactJudge::judge_dose(const LoggedEvent& event, const Impact& right, const Impact& theirs,
+void ImpactJudge::judge_dose(const LoggedEvent& event, const LoggedImpact& right, const LoggedImpact& theirs,
                              double allowed_off) {
   findings_.judged(Check::milling_dose);
-  const auto balance = [&](const Impact& impact) {
+  const auto balance = [&](const LoggedImpact& impact) {
     return work_of_wall(event, impact) - kinetic_change(event, impact);
   };
-  const auto supplied_in_log = [&](const Impact& impact) {
+  const auto supplied_in_log = [&](const LoggedImpact& impact) {
     return supplied(impact, speeds_before(event, impact).g_n, dot(impact.after(event), impact.normal));
   };
   const auto away = [&](double dose) { return std::abs(event.milling_dose - dose); };
@@ -244,7 +244,7 @@ void ImpactJudge::judge_dose(const LoggedEvent& event, const Impact& right, cons
          away(balance(right)) <= allowed_off ? "the energy that v_s supplies is subtracted" : "");
 }
 
-void ImpactJudge::judge_speeds(const LoggedEvent& event, const Impact& impact) {
+void ImpactJudge::judge_speeds(const LoggedEvent& event, const LoggedImpact& impact) {
   if (available_.approach_speed) {
     findings_.judged(Check::approach);
     const double scale = available_.slip_speed ? std::max(std::abs(event.approach_speed), event.slip_speed)

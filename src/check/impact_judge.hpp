@@ -13,7 +13,7 @@ namespace edmill::audit {
 
 /// An impact and where it takes place.
 struct Scene {
-  Impact impact;  ///< with the right velocity of the wall
+  LoggedImpact impact;  ///< with the right velocity of the wall
   VesselFrame nested, printed;
   bool displaced = false;  ///< checked in the printed frame, where that code has its walls
 };
@@ -45,7 +45,7 @@ class ImpactJudge {
   /// With the states of the bodies.
   void judge(const LoggedEvent& event, Scene scene);
   /// Of a log, or for an impact, without them: the dose from the logged speeds.
-  void judge_speeds(const LoggedEvent& event, const Impact& impact);
+  void judge_speeds(const LoggedEvent& event, const LoggedImpact& impact);
   /// At the end of the log.
   void finish();
 
@@ -62,30 +62,34 @@ class ImpactJudge {
   struct Explanation {
     Kind kind;
     const char* note;
-    Impact impact;
+    LoggedImpact impact;
   };
   struct Known {
     bool velocities, spins;  ///< before and after, of all bodies
   };
 
-  const model::ContactLaw<double>& law(const Impact& impact) const {
+  const model::ContactLaw<double>& law(const LoggedImpact& impact) const {
     return impact.with_wall ? mill_.ball_wall : mill_.ball_ball;
   }
-  Residuals residuals(const LoggedEvent& event, const Impact& impact, const Known& known, bool parting) const;
+  Residuals residuals(const LoggedEvent& event, const LoggedImpact& impact, const Known& known,
+                      bool parting) const;
   bool explain(const LoggedEvent& event, const Scene& scene, double allowed_off,
                Explanation& explanation) const;
   bool explain_by_formula(const LoggedEvent& event, const Scene& scene, double allowed_off,
                           Explanation& explanation) const;
   void tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
                              const Known& known, double allowed_off);
-  bool leaves_by_the_other_branch(const LoggedEvent& event, const Impact& impact, double allowed_off) const;
-  void tell_normal(const LoggedEvent& event, const Impact& impact, double off, double allowed_off);
+  bool leaves_by_the_other_branch(const LoggedEvent& event, const LoggedImpact& impact,
+                                  double allowed_off) const;
+  void tell_normal(const LoggedEvent& event, const LoggedImpact& impact, double off, double allowed_off);
   bool speeds_tell_another_wall_velocity(const LoggedEvent& event, const Scene& scene, const Known& known,
                                          double allowed_off) const;
-  void judge_logged_speeds(const LoggedEvent& event, const Impact& impact, const Known& known, double scale,
-                           bool wall_velocity_told);
-  void judge_energies(const LoggedEvent& event, const Impact& right, const Impact& theirs, double scale);
-  void judge_dose(const LoggedEvent& event, const Impact& right, const Impact& theirs, double allowed_off);
+  void judge_logged_speeds(const LoggedEvent& event, const LoggedImpact& impact, const Known& known,
+                           double scale, bool wall_velocity_told);
+  void judge_energies(const LoggedEvent& event, const LoggedImpact& right, const LoggedImpact& theirs,
+                      double scale);
+  void judge_dose(const LoggedEvent& event, const LoggedImpact& right, const LoggedImpact& theirs,
+                  double allowed_off);
   void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
             const char* note = "");
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <limits>
 
 #include "base/errors.hpp"
+#include "model/partners.hpp"
 
 namespace edmill::compare {
 
@@ -16,7 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<double> start_of_statistics(const fs::path& summary) {
+/// What counts from the summary of a run.
+struct RunSummary {
+  double statistics_start;  ///< [s]
+  int walls;                ///< that it names
+};
+
+std::optional<RunSummary> read_summary(const fs::path& summary) {
   if (!fs::exists(summary)) return std::nullopt;
   boost::property_tree::ptree tree;
   try {
@@ -31,7 +39,10 @@ std::optional<double> start_of_statistics(const fs::path& summary) {
   if (text.empty() || *end != '\0' || !std::isfinite(start))
     throw InputError(
         fmt::format("{}: start_time: found {}, expected a time in s", summary.string(), io::in_quotes(text)));
-  return start;
+  int walls = 0;
+  const auto named = [&] { return "collisions." + model::partner_key(walls, walls + 1); };
+  while (tree.get_child_optional(named())) ++walls;
+  return RunSummary{start, walls};
 }
 
 bool is_folder(const fs::path& place) {
@@ -89,10 +100,11 @@ std::optional<Event> LogReader::parse() {
     csv_.bad_field(kind_column_, "ball or wall");
     return std::nullopt;
   }
-  constexpr int most = std::numeric_limits<int>::max();
+  constexpr int most = std::numeric_limits<int>::max(), most_walls = 100;
   const auto ball = csv_.whole(ball_column_, "the number of a ball", 0, most);
-  const auto partner = event.with_wall ? csv_.whole(partner_column_, "a wall: 0, 1 or 2", 0, 2)
-                                       : csv_.whole(partner_column_, "the number of a ball", 0, most);
+  const auto partner = event.with_wall
+                           ? csv_.whole(partner_column_, "the number of a wall", 0, most_walls - 1)
+                           : csv_.whole(partner_column_, "the number of a ball", 0, most);
   if (!ball || !partner) return std::nullopt;
   event.ball = *ball;
   event.partner = *partner;
@@ -112,12 +124,16 @@ LogScan scan_log(const fs::path& place) {
   while (const auto event = reader.next()) {
     if (scan.events++ == 0) scan.first = event->values[time];
     scan.last = event->values[time];
+    if (event->with_wall) scan.walls = std::max(scan.walls, event->partner + 1);
     for (std::size_t v = 0; v < value_count; ++v)
       if (scan.has[v]) scan.mean_magnitude[v] += std::abs(event->values[v]);
   }
   if (scan.events > 0)
     for (double& mean : scan.mean_magnitude) mean /= static_cast<double>(scan.events);
-  if (is_folder(place)) scan.statistics_start = start_of_statistics(place / "summary.json");
+  if (const auto summary = is_folder(place) ? read_summary(place / "summary.json") : std::nullopt) {
+    scan.statistics_start = summary->statistics_start;
+    scan.walls = std::max(scan.walls, summary->walls);
+  }
   return scan;
 }
 

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "io/csv_reader.hpp"
-#include "model/vessel.hpp"
 
 namespace edmill::compare {
 
@@ -25,8 +24,6 @@ struct Event {
   bool with_wall = false;
   int partner = 0;         ///< ball or wall id
   std::uint64_t line = 0;  ///< of the file, from 1
-
-  std::size_t partner_kind() const { return with_wall ? static_cast<std::size_t>(partner) : 3; }
 };
 
 /// Columns may be in any order; unknown ones are skipped. Bounded memory.
@@ -59,7 +56,8 @@ class LogReader {
 struct LogScan {
   std::string file;
   std::uint64_t events = 0;
-  double first = 0, last = 0;                        ///< times [s]
+  int walls = 0;               ///< that the summary beside the log counts, or else up to the last one met
+  double first = 0, last = 0;  ///< times [s]
   std::array<double, value_count> mean_magnitude{};  ///< of each column; 0 for an absent one
   std::array<bool, value_count> has{};
   /// From the summary.json beside a log in a folder, when there is one.

@@ -100,7 +100,7 @@ Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselF
   return {0, 0, 0};
 }
 
-void Impact::set_masses() {
+void LoggedImpact::set_masses() {
   if (with_wall) {
     effective_mass = ball[0].mass;
     compliance = 1 + 1 / ball[0].reduced_inertia;
@@ -111,18 +111,18 @@ void Impact::set_masses() {
   for (const auto& b : ball) compliance += effective_mass / (b.mass * b.reduced_inertia);
 }
 
-Vec Impact::contact_velocity(const Vec& v_i, const Vec& w_i, const Vec& v_j, const Vec& w_j) const {
+Vec LoggedImpact::contact_velocity(const Vec& v_i, const Vec& w_i, const Vec& v_j, const Vec& w_j) const {
   // The ball's contact point is at -R n from its centre, the partner's at +R n.
   const Vec own = v_i - cross(w_i, normal) * ball[0].radius;
   if (with_wall) return own - wall_velocity;
   return own - (v_j + cross(w_j, normal) * ball[1].radius);
 }
 
-Vec Impact::before(const LoggedEvent& e) const {
+Vec LoggedImpact::before(const LoggedEvent& e) const {
   return contact_velocity(e.body[0].velocity_before, e.body[0].spin_before, e.body[1].velocity_before,
                           e.body[1].spin_before);
 }
-Vec Impact::after(const LoggedEvent& e) const {
+Vec LoggedImpact::after(const LoggedEvent& e) const {
   return contact_velocity(e.body[0].velocity_after, e.body[0].spin_after, e.body[1].velocity_after,
                           e.body[1].spin_after);
 }
@@ -143,7 +143,7 @@ double tangential_restitution(const model::ContactLaw<double>& law, double compl
   return law.restitution_of_slip(bounce, slip_speed, compliance);
 }
 
-std::array<BodyState, 2> outcome(const Impact& impact, const model::ContactLaw<double>& law,
+std::array<BodyState, 2> outcome(const LoggedImpact& impact, const model::ContactLaw<double>& law,
                                  const LoggedEvent& event, const Formula& formula) {
   const Vec g = impact.before(event);
   const double g_n = dot(g, impact.normal);
@@ -170,7 +170,8 @@ std::array<BodyState, 2> outcome(const Impact& impact, const model::ContactLaw<d
   return result;
 }
 
-double distance(const Impact& impact, const LoggedEvent& event, const std::array<BodyState, 2>& outcome) {
+double distance(const LoggedImpact& impact, const LoggedEvent& event,
+                const std::array<BodyState, 2>& outcome) {
   double worst = 0;
   for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
     worst = std::max(worst, size(Vec(event.body[k].velocity_after - outcome[k].velocity_after)));
@@ -180,7 +181,7 @@ double distance(const Impact& impact, const LoggedEvent& event, const std::array
   return worst;
 }
 
-double velocity_scale(const Impact& impact, const LoggedEvent& event, bool with_spins) {
+double velocity_scale(const LoggedImpact& impact, const LoggedEvent& event, bool with_spins) {
   double scale = size(impact.wall_velocity);
   for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
     const auto& body = event.body[k];

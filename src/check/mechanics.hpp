@@ -51,8 +51,8 @@ const char* name_of(WallVelocity formula);
 Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselFrame& printed,
                   const Vec& point, const Vec& ball_centre);
 
-/// Input of the contact law: bodies, geometry, and the wall's velocity.
-struct Impact {
+/// The impact of a logged event as input of the contact law: bodies, geometry, and the wall's velocity.
+struct LoggedImpact {
   bool with_wall = false;
   std::array<model::BallProperties<double>, 2> ball;  ///< the partner only for balls
   Vec normal;                                         ///< unit, from the partner to the ball
@@ -87,13 +87,14 @@ struct Formula {
 };
 
 /// Velocities and spins after the impact.
-std::array<BodyState, 2> outcome(const Impact& impact, const model::ContactLaw<double>& law,
+std::array<BodyState, 2> outcome(const LoggedImpact& impact, const model::ContactLaw<double>& law,
                                  const LoggedEvent& event, const Formula& formula);
 
 /// Largest difference of velocities, with spins times the radius [m/s].
-double distance(const Impact& impact, const LoggedEvent& event, const std::array<BodyState, 2>& outcome);
+double distance(const LoggedImpact& impact, const LoggedEvent& event,
+                const std::array<BodyState, 2>& outcome);
 
 /// Magnitude of the velocities involved [m/s], to which tolerances are relative.
-double velocity_scale(const Impact& impact, const LoggedEvent& event, bool with_spins);
+double velocity_scale(const LoggedImpact& impact, const LoggedEvent& event, bool with_spins);
 
 }  // namespace edmill::audit

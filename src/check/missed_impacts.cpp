@@ -39,7 +39,7 @@ auto Flights::first_wall(int ball, const Track& track, double until, double slac
   const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
   const auto frame = nested_at(track.start);
   double overlap = 0;
-  for (int wall = 0; wall < model::wall_count; ++wall)
+  for (int wall = 0; wall < walls(); ++wall)
     overlap = std::max(overlap, -wall_gap(frame, case_.mill.vessel, wall, radius, track.flight.position));
   const double smaller = radius - overlap - slack;
   if (smaller < radius / 2) return std::nullopt;  // outside the vessel, which was reported before
@@ -71,7 +71,7 @@ bool Flights::stays_in_printed_vessel(int ball, const Track& track, double until
     const double time = track.start + (until - track.start) * k / samples;
     const auto frame = printed_at(time);
     const Vec position = dynamics::position_after(track.flight, case_.mill.gravity, time - track.start);
-    for (int wall = 0; wall < model::wall_count; ++wall)
+    for (int wall = 0; wall < walls(); ++wall)
       if (wall_gap(frame, case_.mill.vessel, wall, radius, position) < -slack) return false;
   }
   return true;
@@ -119,7 +119,7 @@ Scene Flights::scene_at(int ball, int wall, double time, const Vec& position) co
   Scene scene;
   scene.nested = nested_at(time);
   scene.printed = printed_at(time);
-  Impact& impact = scene.impact;
+  LoggedImpact& impact = scene.impact;
   impact.with_wall = true;
   impact.ball[0] = case_.balls[static_cast<std::size_t>(ball)];
   impact.normal = wall_normal(scene.nested, wall, position);
@@ -167,7 +167,7 @@ bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEn
   const Track &own = of(ball), &other = of(contact.partner);
   if (!own.spin_known || !other.spin_known) return false;
   LoggedEvent event;
-  Impact impact;
+  LoggedImpact impact;
   impact.ball = {case_.balls[static_cast<std::size_t>(ball)],
                  case_.balls[static_cast<std::size_t>(contact.partner)]};
   impact.set_masses();

@@ -31,10 +31,11 @@ audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given)
     options.conventions.columns.emplace_back(ours, text.substr(equals + 1));
   }
   options.conventions.first_ball = given.first_ball.value_or(static_cast<int>(s.first_ball.value_or(0)));
+  const auto partners = casefile::partners_of(spec);
   if (!given.walls.empty())
-    options.conventions.walls = audit::parse_walls(given.walls, "--walls");
+    options.conventions.walls = audit::parse_walls(given.walls, partners, "--walls");
   else if (!s.walls.empty())
-    options.conventions.walls = audit::parse_walls(s.walls, spec.file + ": key 'audit.walls'");
+    options.conventions.walls = audit::parse_walls(s.walls, partners, spec.file + ": key 'audit.walls'");
   options.tolerance = given.tolerance.value_or(s.tolerance ? s.tolerance->to<double>() : 1e-9);
   options.gap_tolerance = given.gap_tolerance;
   if (!given.gap_tolerance && s.gap_tolerance) options.gap_tolerance = s.gap_tolerance->to<double>();

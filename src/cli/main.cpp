@@ -17,7 +17,7 @@
 #include "cli/report_command.hpp"
 #include "cli/resume_command.hpp"
 #include "cli/run_command.hpp"
-#include "cli/run_folder.hpp"
+#include "cli/run_folder_guard.hpp"
 #include "cli/signals.hpp"
 #include "cli/study_command.hpp"
 
@@ -251,8 +251,9 @@ class CommandLine {
         ->expected(1);
     command->add_option("--first-ball", audited_.first_ball, "number of the log's first ball; 0 unless given")
         ->check(CLI::Range(0, 1000000000));
-    command->add_option("--walls", audited_.walls,
-                        "numbers of the caps at -y and +y and the cylinder, e.g. \"1, 2, 3\"");
+    command->add_option(
+        "--walls", audited_.walls,
+        "numbers of the walls by id, e.g. \"1, 2, 3\" for the caps at -y and +y and the cylinder");
     command->add_option("--tolerance", audited_.tolerance, "relative; 1e-9 unless given")
         ->check(CLI::Range(1e-15, 0.5));
     command

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "cli/run_case.hpp"
-#include "cli/run_folder.hpp"
+#include "cli/run_folder_guard.hpp"
 #include "output/outputs.hpp"
 #include "report/result_table.hpp"
 #include "run/progress.hpp"
@@ -18,7 +18,7 @@ namespace edmill::cli {
 template <class Real>
 int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   const auto built = casefile::build_case<Real>(spec);
-  RunFolder folder(spec, options);
+  RunFolderGuard folder(spec, options);
   const DriveClock<Real> clock(built.the_case.mill.motion.period());
   options.listen();
   output::Outputs<Real> outputs(spec, folder.place(), clock.seconds(built.start));

@@ -66,7 +66,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   const auto whole = bounds_.at(speed, query.length);
   Real length = query.length;
   bool any = false;
-  for (int wall = 0; wall < mill_.vessel.walls(); ++wall) {
+  for (int wall = 0; wall < mill_.vessel.wall_count(); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, whole);
     const Point start = curve.of(first);
@@ -85,7 +85,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   Sample last = sample_of_end(functions, reachable, errors, begin, end);
   WallAnswer<Real> answer{Verdict::none, -1, {}, false, end - begin, Real(0)};
   Root best{};
-  for (int wall = 0; wall < mill_.vessel.walls(); ++wall) {
+  for (int wall = 0; wall < mill_.vessel.wall_count(); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
     const Point start = curve.of(first);
@@ -132,7 +132,7 @@ auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& re
   for (int tries = 0;; ++tries) {
     const auto sample = functions(end);
     bool touched = false;
-    for (int wall = 0; wall < mill_.vessel.walls(); ++wall)
+    for (int wall = 0; wall < mill_.vessel.wall_count(); ++wall)
       touched |=
           reachable[wall] & (sample.gap[wall] <= errors.gap[wall]) & (sample.gap[wall] >= -errors.gap[wall]);
     if (!touched || tries == 8) return sample;

@@ -1,7 +1,6 @@
 // summary.json: the result of a run. Keys and units: docs/files.md.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,7 +9,7 @@
 #include "base/escalations.hpp"
 #include "model/end_reason.hpp"
 #include "model/outcome.hpp"
-#include "model/vessel.hpp"
+#include "model/partners.hpp"
 
 namespace edmill::io {
 
@@ -27,9 +26,10 @@ struct Summary {
   std::string error;                ///< of a decision that no scalar could make
   Real start_time{0}, end_time{0};  ///< of the statistics [s]
   Real period{0};                   ///< of the drive [s]
-  std::array<std::uint64_t, model::partner_kinds> collisions{};
-  std::array<Real, model::partner_kinds> dose_by_partner{};
-  Real milling_dose{0}, wall_work{0};  ///< [J]
+  model::Partners partners;
+  std::vector<std::uint64_t> collisions;  ///< with each partner
+  std::vector<Real> dose_by_partner;      ///< [J]
+  Real milling_dose{0}, wall_work{0};     ///< [J]
   model::Energy<Real> energy_at_start, energy_at_end;
   std::uint64_t touched_impacts = 0;  ///< by the least separation speed (theory.md, section 6)
   Real touched_dose{0};               ///< of these impacts [J]
@@ -41,6 +41,9 @@ struct Summary {
   Real deepest_overlap{0};                  ///< by rounding, at any impact [m]
   double cpu_seconds = 0;
   std::uint64_t total_impacts = 0;  ///< since the start of the run
+
+  explicit Summary(const model::Partners& of = model::Partners())
+      : partners(of), collisions(of.count()), dose_by_partner(of.count(), Real(0)) {}
 
   Real duration() const { return end_time - start_time; }
   std::uint64_t total_collisions() const {

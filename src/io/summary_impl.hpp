@@ -45,12 +45,12 @@ class SummaryWriter {
 
   void add_collisions() {
     json.begin("collisions");
-    for (int k = 0; k < model::partner_kinds; ++k) json.integer(model::partners[k].key, s.collisions[k]);
+    for (int k = 0; k < s.partners.count(); ++k) json.integer(s.partners[k].key, s.collisions[k]);
     json.integer("total", s.total_collisions());
     json.end();
     json.begin("collision_rate");
-    for (int k = 0; k < model::partner_kinds; ++k)
-      rate(model::partners[k].key, Real(static_cast<std::int64_t>(s.collisions[k])));
+    for (int k = 0; k < s.partners.count(); ++k)
+      rate(s.partners[k].key, Real(static_cast<std::int64_t>(s.collisions[k])));
     rate("total", Real(static_cast<std::int64_t>(s.total_collisions())));
     json.end();
   }
@@ -63,7 +63,7 @@ class SummaryWriter {
     else
       json.null("inverse_milling_dose_rate");
     json.begin("milling_dose_by_partner");
-    for (int k = 0; k < model::partner_kinds; ++k) json.number(model::partners[k].key, s.dose_by_partner[k]);
+    for (int k = 0; k < s.partners.count(); ++k) json.number(s.partners[k].key, s.dose_by_partner[k]);
     json.end();
     if (!s.powder_mass) return;
     json.number("powder_mass", *s.powder_mass);

@@ -16,7 +16,7 @@ namespace edmill::model {
 /// functions of the place of a ball's centre: positive inside, zero at contact. They need not be lengths. The
 /// centre of a ball of radius R is in the vessel that is `inset(R)`, whose gaps are the ball's.
 ///
-/// - `walls()`: how many; `PerWall<T>`: one T for each, `per_wall(value)` with all alike
+/// - `wall_count()`; `walls()`: their names; `PerWall<T>`: one T for each, `per_wall(value)` with all alike
 /// - `reach()` [m]: from the centre to the farthest point; `extent()`, no less and without a root;
 ///   `half_sizes()`: bounds on the coordinates; `volume()` [m3]; `widest_ball()`: diameter of the largest
 ///   that fits [m]
@@ -38,7 +38,8 @@ concept Vessel = requires(const V& vessel, int wall, const Vec3<typename V::Scal
                           const ErrorBounds<typename V::Scalar>& errors) {
   typename V::template PerWall<bool>;
   typename V::template PerKind<bool>;
-  { vessel.walls() } -> std::same_as<int>;
+  { vessel.wall_count() } -> std::same_as<int>;
+      { vessel.walls() } -> std::same_as<std::vector<WallInfo>>;
   { vessel.reach() } -> std::same_as<typename V::Scalar>;
   { vessel.extent() } -> std::same_as<typename V::Scalar>;
   { vessel.half_sizes() } -> std::same_as<Vec3<typename V::Scalar>>;
@@ -102,12 +103,15 @@ class AnyVessel {
     return std::visit(std::forward<F>(f), vessel_);
   }
 
-  int walls() const {
+  int wall_count() const {
+    return visit([](const auto& v) { return v.wall_count(); });
+  }
+  std::vector<WallInfo> walls() const {
     return visit([](const auto& v) { return v.walls(); });
   }
   template <class Value>
   PerWall<Value> per_wall(const Value& value) const {
-    return PerWall<Value>(static_cast<std::size_t>(walls()), value);
+    return PerWall<Value>(static_cast<std::size_t>(wall_count()), value);
   }
   Real reach() const {
     return visit([](const auto& v) { return v.reach(); });

@@ -1,7 +1,6 @@
 // What tables count for each partner: the walls by id, other balls, and their total.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,61 +9,60 @@
 #include "base/scalar.hpp"
 #include "io/table.hpp"
 #include "model/impact_facts.hpp"
-#include "model/vessel.hpp"
+#include "model/partners.hpp"
 
 namespace edmill::output {
 
-/// Place of an impact's partner in arrays of model::partner_kinds.
-template <class Real>
-int partner_of(const model::ImpactFacts<Real>& f) {
-  return f.ball_ball ? model::ball_ball : f.partner;
+/// What a list with an entry for each partner has for that of an impact.
+template <class Real, class List>
+auto& of_partner(const model::ImpactFacts<Real>& f, List& list) {
+  return f.ball_ball ? list.back() : list[f.partner];
 }
 
 /// A partner, or several together, as columns of tables count them.
 struct PartnerColumn {
-  const char *name, *meaning;
+  std::string name, meaning;
 };
-inline constexpr PartnerColumn column_of(int place) {
-  return {model::partners[place].key, model::partners[place].meaning};
-}
-inline constexpr PartnerColumn walls_column{"walls", "with all walls"},
-    total_column{"total", "of all impacts"};
+inline PartnerColumn column_of(const model::PartnerInfo& partner) { return {partner.key, partner.meaning}; }
+inline const PartnerColumn walls_column{"walls", "with all walls"}, total_column{"total", "of all impacts"};
 
 /// Adds "wall_0 energy [J]" and so on to "total energy [J]".
-inline void add_partner_columns(std::vector<io::Column>& columns, const io::Column& of_each) {
-  for (int place = 0; place <= model::partner_kinds; ++place) {
-    const auto [partner, meaning] = place < model::partner_kinds ? column_of(place) : total_column;
+inline void add_partner_columns(std::vector<io::Column>& columns, const model::Partners& partners,
+                                const io::Column& of_each) {
+  for (int place = 0; place <= partners.count(); ++place) {
+    const auto [partner, meaning] = place < partners.count() ? column_of(partners[place]) : total_column;
     columns.push_back(
-        {partner + (" " + of_each.name), of_each.type, of_each.unit, of_each.description + ", " + meaning});
+        {partner + " " + of_each.name, of_each.type, of_each.unit, of_each.description + ", " + meaning});
   }
 }
 
-/// Impacts and an energy [J] of each partner.
+/// Impacts with one partner and an energy of them [J].
 template <class Real>
-struct PartnerTally {
-  std::array<std::uint64_t, model::partner_kinds> impacts{};
-  std::array<numerics::CompensatedSum<Real>, model::partner_kinds> energy;
+struct Tally {
+  std::uint64_t impacts = 0;
+  numerics::CompensatedSum<Real> energy;
 
-  void add(int partner, const Real& joule) {
-    ++impacts[partner];
-    energy[partner] += joule;
+  void add(const Real& joule) {
+    ++impacts;
+    energy += joule;
   }
-  void add(const PartnerTally& other) {
-    for (int k = 0; k < model::partner_kinds; ++k) {
-      impacts[k] += other.impacts[k];
-      energy[k] += other.energy[k].value();
-    }
+  void add(const Tally& other) {
+    impacts += other.impacts;
+    energy += other.energy.value();
   }
   void archive(Archive& a) { a(impacts, energy); }
 };
+/// With each partner.
+template <class Real>
+using PartnerTally = std::vector<Tally<Real>>;
 
 /// Calls `put` with the value of each partner and with their total.
-/// @param value_of  of a place
-template <class Value, class ValueOf, class Put>
-void put_partners(ValueOf&& value_of, Put&& put) {
+/// @param value_of  of what the list has for a partner
+template <class Value, class List, class ValueOf, class Put>
+void put_partners(const List& list, ValueOf&& value_of, Put&& put) {
   Value total{0};
-  for (int k = 0; k < model::partner_kinds; ++k) {
-    const Value value = value_of(k);
+  for (const auto& partner : list) {
+    const Value value = value_of(partner);
     put(value);
     total += value;
   }

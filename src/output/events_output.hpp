@@ -11,13 +11,16 @@ namespace edmill::output {
 
 namespace detail {
 
-inline std::vector<EventColumn> event_columns(bool states) {
+inline std::vector<EventColumn> event_columns(const model::Partners& partners, bool states) {
   using Type = EventColumn::Type;
+  std::string walls;
+  for (int wall = 0; wall < partners.walls(); ++wall)
+    walls += (wall == 0 ? "" : ", ") + std::to_string(wall) + " " + partners[wall].label;
   std::vector<EventColumn> columns{
       {"index", "1", "impacts since the start of the run, from 0", Type::integer},
       {"time", "s", "instant of the impact", Type::number},
       {"ball", "1", "id of the ball, from 0", Type::integer},
-      {"partner", "1", "id of the other ball, or of the wall: 0 cap -y, 1 cap +y, 2 cylinder", Type::integer},
+      {"partner", "1", "id of the other ball, or of the wall: " + walls, Type::integer},
       {"with_wall", "1", "1 when the partner is a wall", Type::integer},
       {"approach_speed", "m/s", "normal relative speed at the contact point before", Type::number},
       {"slip_speed", "m/s", "tangential relative speed at the contact point before", Type::number},
@@ -49,8 +52,8 @@ class EventsOutput : public Output<Real> {
                const RunContext<Real>& run)
       : Output<Real>(spec, run),
         states_(spec.own_keys<StatesKey>().states),
-        file_(folder / spec.folder / spec.file, detail::event_columns(spec.own_keys<StatesKey>().states),
-              run.notes) {}
+        file_(folder / spec.folder / spec.file,
+              detail::event_columns(run.partners, spec.own_keys<StatesKey>().states), run.notes) {}
 
   void commit() override { file_.commit(); }
 

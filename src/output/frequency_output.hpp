@@ -1,7 +1,7 @@
 // How often a variable falls into each of equal intervals [lower, upper). (thesis D.4.4)
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "casefile/output_columns.hpp"
 #include "output/by_partner.hpp"
@@ -37,17 +37,20 @@ class FrequencyOutput : public TableOutput<Real> {
   FrequencyOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                   const RunContext<Real>& run)
       : TableOutput<Real>(spec, folder, run),
+        partners_(run.partners.count()),
+        parts_(parts_of(run.partners, spec.frequency.wall_details)),
         spec_(spec.frequency),
         formula_(variable_formula<Real>(spec.frequency.variable.variable)),
         low_(spec.frequency.low.to<Real>()),
         high_(spec.frequency.high.to<Real>()),
-        counts_(spec.frequency.intervals + 2) {}
+        rows_(spec.frequency.intervals + 2),
+        counts_(rows_ * partners_) {}
 
  protected:
   void archive_record(Archive& a) override { a(counts_); }
   void record(const Seen<Real>& seen) override {
     const auto& f = seen.facts;
-    ++counts_[row_of(formula_(f))][partner_of(f)];
+    ++count(row_of(formula_(f)), f.ball_ball ? partners_ - 1 : f.partner);
   }
 
   void end_of_record(const engine::Simulation<Real>&, const Real&) override {
@@ -57,44 +60,46 @@ class FrequencyOutput : public TableOutput<Real> {
         {"lower", Column::Type::number, "", "lower end, in the interval"},
         {"upper", Column::Type::number, "", "upper end, not in the interval"},
         {"mean", Column::Type::number, "", "middle of the interval"}};
-    for (const auto& part : parts())
+    for (const auto& part : parts_)
       columns.push_back({part.column.name, Column::Type::integer, "", part.column.meaning});
     if (spec_.percentages)
-      for (const auto& part : parts())
-        columns.push_back({std::string(part.column.name) + "_percentage", Column::Type::number});
+      for (const auto& part : parts_)
+        columns.push_back({part.column.name + "_percentage", Column::Type::number});
     std::vector<std::string> comments;
     if (!spec_.title.empty()) comments.push_back(spec_.title);
     comments.push_back(name_of(spec_.variable, variable.name) + " [" + std::string(variable.unit) +
                        "]: impacts with lower <= value < upper");
     this->begin(std::move(columns), std::move(comments));
     if (spec_.out_of_range) write_row("below", 0);
-    for (std::size_t k = 1; k + 1 < counts_.size(); ++k) write_row(std::to_string(k), k);
-    if (spec_.out_of_range) write_row("above", counts_.size() - 1);
+    for (std::size_t k = 1; k + 1 < rows_; ++k) write_row(std::to_string(k), k);
+    if (spec_.out_of_range) write_row("above", rows_ - 1);
   }
 
  private:
-  using Row = std::array<std::uint64_t, model::partner_kinds>;
   struct Part {
     PartnerColumn column;
     int first, last;  ///< of the partners that it counts
   };
 
-  std::vector<Part> parts() const {
+  static std::vector<Part> parts_of(const model::Partners& partners, bool each_wall) {
     std::vector<Part> list;
-    if (spec_.wall_details)
-      for (int wall = 0; wall < model::wall_count; ++wall) list.push_back({column_of(wall), wall, wall});
-    list.push_back({walls_column, 0, model::wall_count - 1});
-    list.push_back({column_of(model::ball_ball), model::ball_ball, model::ball_ball});
-    list.push_back({total_column, 0, model::ball_ball});
+    const int balls = partners.ball_ball();
+    if (each_wall)
+      for (int wall = 0; wall < balls; ++wall) list.push_back({column_of(partners[wall]), wall, wall});
+    list.push_back({walls_column, 0, balls - 1});
+    list.push_back({column_of(partners[balls]), balls, balls});
+    list.push_back({total_column, 0, balls});
     return list;
   }
+
+  std::uint64_t& count(std::size_t row, int partner) { return counts_[row * partners_ + partner]; }
 
   Real bound(std::size_t k) const { return low_ + (high_ - low_) * Real(k) / Real(spec_.intervals); }
 
   /// 0 below the range, then the intervals, then one above the range. The bounds decide, not a quotient.
   std::size_t row_of(const Real& value) const {
     if (value < low_) return 0;
-    if (!(value < high_)) return counts_.size() - 1;
+    if (!(value < high_)) return rows_ - 1;
     auto k = static_cast<std::size_t>((value - low_) / (high_ - low_) * Real(spec_.intervals));
     while (k > 0 && value < bound(k)) --k;
     while (k + 1 < spec_.intervals && value >= bound(k + 1)) ++k;
@@ -102,30 +107,33 @@ class FrequencyOutput : public TableOutput<Real> {
   }
 
   void write_row(const std::string& name, std::size_t k) {
-    const bool has_lower = k > 0, has_upper = k + 1 < counts_.size(), inside = has_lower && has_upper;
+    const bool has_lower = k > 0, has_upper = k + 1 < rows_, inside = has_lower && has_upper;
     this->put(name, io::value_if(has_lower, [&] { return bound(k - 1); }),
               io::value_if(has_upper, [&] { return bound(k); }),
               io::value_if(inside, [&] { return Real((bound(k - 1) + bound(k)) / 2); }));
     const auto sum = [&](std::size_t row, const Part& part) {
-      std::uint64_t count = 0;
-      for (int p = part.first; p <= part.last; ++p) count += counts_[row][p];
-      return count;
+      std::uint64_t all = 0;
+      for (int p = part.first; p <= part.last; ++p) all += count(row, p);
+      return all;
     };
-    for (const auto& part : parts()) this->put(sum(k, part));
+    for (const auto& part : parts_) this->put(sum(k, part));
     if (spec_.percentages)
-      for (const auto& part : parts()) {
+      for (const auto& part : parts_) {
         std::uint64_t whole = 0;  // of the impacts in this table
-        for (std::size_t row = 0; row < counts_.size(); ++row)
-          if (spec_.out_of_range || (row > 0 && row + 1 < counts_.size())) whole += sum(row, part);
+        for (std::size_t row = 0; row < rows_; ++row)
+          if (spec_.out_of_range || (row > 0 && row + 1 < rows_)) whole += sum(row, part);
         this->put(
             io::value_if(whole > 0, [&] { return Real(Real(100) * Real(sum(k, part)) / Real(whole)); }));
       }
   }
 
+  int partners_;             ///< how many there are
+  std::vector<Part> parts_;  ///< in the order of the columns
   casefile::FrequencySpec spec_;
   VariableFormula<Real> formula_;
   Real low_, high_;
-  std::vector<Row> counts_;
+  std::size_t rows_;
+  std::vector<std::uint64_t> counts_;  ///< row by row, of each partner
 };
 
 }  // namespace edmill::output

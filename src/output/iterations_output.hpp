@@ -15,13 +15,14 @@ class IterationsOutput : public TableOutput<Real> {
   IterationsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                    const RunContext<Real>& run)
       : TableOutput<Real>(spec, folder, run) {
+    const auto& partners = run.partners;
     std::vector<Column> columns;
     for (const auto& v : model::impact_variables) {
-      std::string_view meaning = v.meaning;
+      std::string meaning(v.meaning);
       // Files of all versions describe these two like the columns of that name in other tables.
-      for (const auto& column : {walls_column, column_of(model::ball_ball)})
+      for (const auto& column : {walls_column, column_of(partners[partners.ball_ball()])})
         if (v.name == column.name) meaning = column.meaning;
-      columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), std::string(meaning)});
+      columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), meaning});
     }
     this->begin(std::move(columns));
   }

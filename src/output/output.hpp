@@ -17,6 +17,7 @@ namespace edmill::output {
 template <class Real>
 struct RunContext {
   Real start;                       ///< initial time [s]
+  model::Partners partners;         ///< of the balls
   std::optional<Real> powder_mass;  ///< [kg]
   casefile::Colour vessel_colour{};
   std::vector<casefile::Colour> ball_colours;  ///< of each ball

@@ -29,6 +29,7 @@ class Outputs : public engine::Observer<Real> {
  private:
   std::vector<std::unique_ptr<Output<Real>>> outputs_;
   Real previous_;  ///< time of the last impact of any ball [s]
+  int walls_;      ///< of the vessel
 };
 
 }  // namespace edmill::output

@@ -22,7 +22,8 @@ std::vector<io::FileNote> notes_of(const casefile::CaseSpec& spec) {
 
 template <class Real>
 model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
-                                  const engine::Simulation<Real>& simulation, const Real& previous) {
+                                  const engine::Simulation<Real>& simulation, const Real& previous,
+                                  int walls) {
   model::ImpactFacts<Real> f;
   f.index = impact.index;
   f.time = simulation.clock().seconds(impact.time);
@@ -30,7 +31,7 @@ model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
   f.ball = impact.ball, f.partner = impact.partner;
   f.ball_ball = !impact.with_wall;
   f.least_separation = impact.outcome.least_separation;
-  f.balls = simulation.ball_count(), f.walls = model::wall_count;
+  f.balls = simulation.ball_count(), f.walls = walls;
   f.gravity = simulation.mill().gravity;
   f.normal = impact.normal;
   const auto fill = [&](model::ImpactBody<Real>& body, int place, int ball) {
@@ -56,8 +57,13 @@ model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
 template <class Real>
 Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
-  RunContext<Real> run{start, std::nullopt, spec.vessel_colour, spec.ball_colours(),
+  RunContext<Real> run{start,
+                       casefile::partners_of(spec),
+                       std::nullopt,
+                       spec.vessel_colour,
+                       spec.ball_colours(),
                        detail::notes_of<Real>(spec)};
+  walls_ = run.partners.walls();
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();
   for (const auto& output : spec.outputs) {
     if (!output.folder.empty()) io::prepare_folder(folder / output.folder);
@@ -70,7 +76,7 @@ Outputs<Real>::~Outputs() = default;
 
 template <class Real>
 void Outputs<Real>::on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) {
-  const auto facts = detail::facts_of<Real>(impact, simulation, previous_);
+  const auto facts = detail::facts_of<Real>(impact, simulation, previous_, walls_);
   const Seen<Real> seen{facts, impact, simulation};
   for (auto& output : outputs_) output->on_impact(seen);
   previous_ = facts.time;

@@ -43,9 +43,9 @@ class RatesAboveOutput : public TableOutput<Real> {
  public:
   RatesAboveOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                    const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run) {
+      : TableOutput<Real>(spec, folder, run), partners_(run.partners) {
     for (const auto& cutoff : spec.own_keys<Cutoffs>()) cutoffs_.push_back(cutoff.to<Real>());
-    from_.resize(cutoffs_.size() + 1);
+    from_.resize(cutoffs_.size() + 1, PartnerTally<Real>(partners_.count()));
   }
 
  protected:
@@ -54,28 +54,32 @@ class RatesAboveOutput : public TableOutput<Real> {
   void record(const Seen<Real>& seen) override {
     const Real& approach = seen.impact.outcome.approach_speed;
     const Real speed = approach > 0 ? approach : Real(0);
-    from_[bin_of<Real>(cutoffs_, speed)].add(partner_of(seen.facts), seen.facts.milling_dose);
+    of_partner(seen.facts, from_[bin_of<Real>(cutoffs_, speed)]).add(seen.facts.milling_dose);
   }
 
   void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
     std::vector<Column> columns{
         {"cutoff", Column::Type::number, "m/s", "the approach speed from which on impacts count"}};
-    add_partner_columns(columns, {"rate", Column::Type::number, "1/s", "collision rate"});
-    add_partner_columns(columns, {"dose_rate", Column::Type::number, "W", "milling dose rate"});
+    add_partner_columns(columns, partners_, {"rate", Column::Type::number, "1/s", "collision rate"});
+    add_partner_columns(columns, partners_, {"dose_rate", Column::Type::number, "W", "milling dose rate"});
     this->begin(std::move(columns), {this->window(until)});
     const Real duration = until - this->timer().from();
     if (!(duration > 0)) return;  // nothing defines a rate
     for (std::size_t k = 0; k < cutoffs_.size(); ++k) {
-      PartnerTally<Real> above;
-      for (std::size_t bin = cutoffs_.size(); bin > k; --bin) above.add(from_[bin]);
+      PartnerTally<Real> above(partners_.count());
+      for (std::size_t bin = cutoffs_.size(); bin > k; --bin)
+        for (int p = 0; p < partners_.count(); ++p) above[p].add(from_[bin][p]);
       this->put(cutoffs_[k]);
       const auto put = [&](const Real& value) { this->put(value); };
-      put_partners<Real>([&](int p) { return Real(Real(above.impacts[p]) / duration); }, put);
-      put_partners<Real>([&](int p) { return Real(above.energy[p].value() / duration); }, put);
+      put_partners<Real>(
+          above, [&](const Tally<Real>& t) { return Real(Real(t.impacts) / duration); }, put);
+      put_partners<Real>(
+          above, [&](const Tally<Real>& t) { return Real(t.energy.value() / duration); }, put);
     }
   }
 
  private:
+  model::Partners partners_;
   std::vector<Real> cutoffs_;             ///< ascending [m/s]
   std::vector<PartnerTally<Real>> from_;  ///< below all cutoffs, then from each up to the next
 };

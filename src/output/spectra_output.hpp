@@ -42,9 +42,10 @@ class SpectraOutput : public TableOutput<Real> {
   SpectraOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                 const RunContext<Real>& run)
       : TableOutput<Real>(spec, folder, run),
+        partners_(run.partners),
         of_speed_(spec.own_keys<SpectraKeys>().of_speed),
         edges_(edges_of(spec.own_keys<SpectraKeys>())),
-        spectra_(of_speed_ ? 2 : 3, Spectrum(edges_.size() + 1)) {}
+        spectra_(of_speed_ ? 2 : 3, Spectrum(edges_.size() + 1, PartnerTally<Real>(partners_.count()))) {}
 
  protected:
   void archive_record(Archive& a) override { a(spectra_); }
@@ -70,9 +71,9 @@ class SpectraOutput : public TableOutput<Real> {
                                 {"bin", text, "", "number of the bin from 1, or below or above all"},
                                 {"low", number, unit, "lower edge of the bin"},
                                 {"high", number, unit, "upper edge of the bin, not in it"}};
-    add_partner_columns(columns, {"impacts", integer, "1", "number of impacts"});
+    add_partner_columns(columns, partners_, {"impacts", integer, "1", "number of impacts"});
     add_partner_columns(
-        columns,
+        columns, partners_,
         {"energy", number, "J", of_speed_ ? "dose of the impacts" : "this part of the dose of the impacts"});
     this->begin(std::move(columns), {this->window(until)});
     const std::vector<std::string> names = of_speed_
@@ -84,10 +85,12 @@ class SpectraOutput : public TableOutput<Real> {
         this->put(names[s], below ? "below" : above ? "above" : std::to_string(bin));
         this->put(io::value_if(!below, [&] { return edges_[bin - 1]; }),
                   io::value_if(!above, [&] { return edges_[bin]; }));
-        const auto& tally = spectra_[s][bin];
         const auto put = [&](const auto& value) { this->put(value); };
-        put_partners<std::uint64_t>([&](int k) { return tally.impacts[k]; }, put);
-        put_partners<Real>([&](int k) { return tally.energy[k].value(); }, put);
+        const auto& tallies = spectra_[s][bin];
+        put_partners<std::uint64_t>(
+            tallies, [](const Tally<Real>& t) { return t.impacts; }, put);
+        put_partners<Real>(
+            tallies, [](const Tally<Real>& t) { return t.energy.value(); }, put);
       }
   }
 
@@ -98,9 +101,10 @@ class SpectraOutput : public TableOutput<Real> {
     return log_edges<Real>(keys.low, keys.high, keys.bins_per_decade);
   }
   void add(const model::ImpactFacts<Real>& f, std::size_t spectrum, const Real& value, const Real& energy) {
-    spectra_[spectrum][bin_of<Real>(edges_, value)].add(partner_of(f), energy);
+    of_partner(f, spectra_[spectrum][bin_of<Real>(edges_, value)]).add(energy);
   }
 
+  model::Partners partners_;
   bool of_speed_;
   std::vector<Real> edges_;
   std::vector<Spectrum> spectra_;

@@ -2,7 +2,7 @@
 // (thesis D.4.3)
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "casefile/output_columns.hpp"
 #include "output/accumulator.hpp"
@@ -24,8 +24,9 @@ class StatisticsOutput : public TableOutput<Real> {
  public:
   StatisticsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                    const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run) {
-    for (const auto& c : spec.columns) gathered_.push_back({c, variable_formula<Real>(c.variable), {}});
+      : TableOutput<Real>(spec, folder, run), partners_(run.partners) {
+    for (const auto& c : spec.columns)
+      gathered_.push_back({c, variable_formula<Real>(c.variable), Accumulators(partners_.count())});
   }
 
  protected:
@@ -34,7 +35,7 @@ class StatisticsOutput : public TableOutput<Real> {
   }
   void record(const Seen<Real>& seen) override {
     const auto& f = seen.facts;
-    for (auto& g : gathered_) g.by_partner[partner_of(f)].add(g.formula(f));
+    for (auto& g : gathered_) of_partner(f, g.by_partner).add(g.formula(f));
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
@@ -42,32 +43,41 @@ class StatisticsOutput : public TableOutput<Real> {
     std::vector<Column> columns{{"variable", Column::Type::text, "", "what the row shows"},
                                 {"statistic", Column::Type::text, "", "which statistic of it"},
                                 {"unit", Column::Type::text, "", "of the numbers in the row"}};
-    for (const auto& [name, meaning] :
-         {column_of(0), column_of(1), column_of(2), walls_column, column_of(model::ball_ball), total_column})
-      columns.push_back({name, Column::Type::number, "", meaning});
+    const auto add = [&](const PartnerColumn& column) {
+      columns.push_back({column.name, Column::Type::number, "", column.meaning});
+    };
+    for (int wall = 0; wall < partners_.walls(); ++wall) add(column_of(partners_[wall]));
+    add(walls_column);
+    add(column_of(partners_[partners_.ball_ball()]));
+    add(total_column);
     this->begin(std::move(columns), {this->window(until) + "; " + std::to_string(simulation.ball_count()) +
-                                     " balls, " + std::to_string(model::wall_count) + " walls"});
+                                     " balls, " + std::to_string(partners_.walls()) + " walls"});
     for (const auto& g : gathered_) {
       const auto& variable = model::impact_variables[g.column.variable];
-      const auto& p = g.by_partner;
+      std::vector<const Accumulator<Real>*> shown;
       Accumulator<Real> walls;
-      for (int wall = 0; wall < model::wall_count; ++wall) walls.add(p[wall]);
+      for (int wall = 0; wall < partners_.walls(); ++wall) {
+        shown.push_back(&g.by_partner[wall]);
+        walls.add(g.by_partner[wall]);
+      }
       Accumulator<Real> total = walls;
-      total.add(p[model::ball_ball]);
+      total.add(g.by_partner.back());
+      shown.insert(shown.end(), {&walls, &g.by_partner.back(), &total});
       for (const Statistic s : g.column.statistics) {
         this->put(name_of(g.column, variable.name), statistic_name(s), statistic_unit(s, variable.unit));
-        const Accumulator<Real>* const shown[] = {&p[0], &p[1], &p[2], &walls, &p[model::ball_ball], &total};
         for (const auto* part : shown) this->put(part->value(s, duration, total.sum()));
       }
     }
   }
 
  private:
+  using Accumulators = std::vector<Accumulator<Real>>;
   struct Gathered {
     casefile::ColumnSpec column;
     VariableFormula<Real> formula;
-    std::array<Accumulator<Real>, model::partner_kinds> by_partner;
+    Accumulators by_partner;
   };
+  model::Partners partners_;
   std::vector<Gathered> gathered_;
 };
 

@@ -21,7 +21,7 @@ using Points = std::vector<std::pair<double, double>>;
 
 struct Curve {
   std::string name;    ///< in the legend; none when empty
-  std::string colour;  ///< CSS class: "c0" to "c4"
+  std::string colour;  ///< CSS class: "c0" to "c7"
   Points points;       ///< nan in y interrupts the line
   /// Bars of a histogram: y holds from x to the x of the next point, whose last y is not drawn.
   bool steps = false;

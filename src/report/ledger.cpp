@@ -22,8 +22,8 @@ void add_energy(pugi::xml_node main, const RunFolder& run) {
                                     timed ? readable(joules / f.duration()) : "\u2013"};
   };
   std::vector<std::vector<std::string>> rows{row("work of the walls on the balls", f.wall_work)};
-  for (std::size_t k = 0; k < f.dose.size(); ++k)
-    rows.push_back(row("dissipated, " + partner_name(k), f.dose[k] == 0 ? 0 : -f.dose[k]));
+  for (int k = 0; k < run.partners.count(); ++k)
+    rows.push_back(row("dissipated, " + name_of(run.partners[k]), f.dose[k] == 0 ? 0 : -f.dose[k]));
   rows.push_back(row("supplied by the least separation speed", f.supplied_energy));
   rows.push_back(row("stored as kinetic energy of the balls", kinetic == 0 ? 0 : -kinetic));
   rows.push_back(row("stored as potential energy", potential == 0 ? 0 : -potential));

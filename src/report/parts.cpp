@@ -9,13 +9,17 @@ namespace edmill::report {
 
 using plot::add;
 
-std::string partner_name(std::size_t place) {
+std::string name_of(const model::PartnerInfo& partner) {
   std::string name;
-  for (const char* c = model::partners[place].label; *c != 0; ++c)
-    name += *c != '-' ? std::string(1, *c) : c[1] == 'y' ? "\u2212" : "\u2013";
+  for (const char c : partner.label)
+    name += c != '-' ? std::string(1, c) : name.ends_with(' ') ? "\u2212" : "\u2013";
   return name;
 }
-const char* const partner_colours[] = {"c0", "c1", "c2", "c3"};
+
+std::string partner_colour(const model::Partners& partners, int place) {
+  if (place == partners.ball_ball()) return "c3";
+  return "c" + std::to_string(place < 3 ? place : 5 + (place - 3) % 3);  // c4 is that of all impacts
+}
 
 pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std::string& heading) {
   auto section = add(main, "section", {{"id", id}, {"aria-labelledby", id + "-heading"}});
@@ -49,14 +53,14 @@ void add_table(pugi::xml_node section, const std::string& id, const std::string&
 namespace {
 
 /// Whether an output contains the impacts with one partner; with any for -1.
-bool records(const casefile::OutputSpec& output, int partner) {
+bool records(const casefile::OutputSpec& output, const model::Partners& partners, int partner) {
   const int ball_ball = *model::find_variable("ball_ball"), id = *model::find_variable("partner");
   if (partner < 0) return output.only.empty();
   const auto is = [&](const casefile::Restriction& r, int variable, std::uint64_t value) {
     return r.variable == variable && r.value == value;
   };
   const auto& only = output.only;
-  if (partner == model::ball_ball) return only.size() == 1 && is(only[0], ball_ball, 1);
+  if (partner == partners.ball_ball()) return only.size() == 1 && is(only[0], ball_ball, 1);
   const auto wall = static_cast<std::uint64_t>(partner);
   return only.size() == 2 && ((is(only[0], ball_ball, 0) && is(only[1], id, wall)) ||
                               (is(only[1], ball_ball, 0) && is(only[0], id, wall)));
@@ -71,7 +75,8 @@ std::optional<Series> rate_of(const RunFolder& run, const char* variable, int pa
     for (const auto& column : output.columns)
       for (const auto statistic : column.statistics)
         shown = shown || (column.variable == row && statistic == casefile::Statistic::rate);
-    return shown && !output.accumulated && !output.timer.start_collision && records(output, partner);
+    return shown && !output.accumulated && !output.timer.start_collision &&
+           records(output, run.partners, partner);
   };
   const auto* output = run.output("trends", fits);
   if (!output) return std::nullopt;

@@ -74,10 +74,10 @@ void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
 
 void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
   auto chart = over_time(run, "collision-rates", "Collision rates over time", "collisions [1/s]");
-  for (int k = 0; k < model::partner_kinds; ++k)
+  for (int k = 0; k < run.partners.count(); ++k)
     if (const auto series = rate_of(run, "collision", k))
-      chart.curves.push_back(
-          {partner_name(k), partner_colours[k], points_of(coarser(whole(*series), most_points)), false});
+      chart.curves.push_back({name_of(run.partners[k]), partner_colour(run.partners, k),
+                              points_of(coarser(whole(*series), most_points)), false});
   if (chart.curves.empty())
     if (const auto all = rate_of(run, "collision"))
       chart.curves.push_back({"all", "c4", points_of(coarser(whole(*all), most_points)), false});
@@ -100,7 +100,7 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
                     f.milling_dose > 0 ? readable(100 * dose / f.milling_dose, 3) : "\u2013",
                     collisions > 0 ? readable(1000 * dose / collisions, 3) : "\u2013"});
   };
-  for (std::size_t k = 0; k < f.collisions.size(); ++k) row(partner_name(k), f.collisions[k], f.dose[k]);
+  for (int k = 0; k < run.partners.count(); ++k) row(name_of(run.partners[k]), f.collisions[k], f.dose[k]);
   row("all", f.all_collisions(), f.milling_dose);
   add_table(section, "by-partner", "Collisions and dose by partner",
             {"with", "collisions", "[1/s]", "dose rate [W]", "share of the dose [%]", "mean dose [mJ]"},
@@ -114,16 +114,16 @@ void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& numbers : table.numbers) {
     std::vector<std::string> row{brief(numbers[0])};
-    for (const auto& partner : model::partners)
-      row.push_back(readable(numbers[table.column(std::string(partner.key) + " rate")]));
+    for (int k = 0; k < run.partners.count(); ++k)
+      row.push_back(readable(numbers[table.column(run.partners[k].key + " rate")]));
     row.push_back(readable(numbers[table.column("total rate")]));
     row.push_back(readable(numbers[table.column("total dose_rate")]));
     rows.push_back(std::move(row));
   }
-  add_table(section, "above-cutoffs", "Collisions per second at or above an approach speed",
-            {"approach speed [m/s]", partner_name(0), partner_name(1), partner_name(2), partner_name(3),
-             "all", "dose rate of all [W]"},
-            rows);
+  std::vector<std::string> headings{"approach speed [m/s]"};
+  for (int k = 0; k < run.partners.count(); ++k) headings.push_back(name_of(run.partners[k]));
+  headings.insert(headings.end(), {"all", "dose rate of all [W]"});
+  add_table(section, "above-cutoffs", "Collisions per second at or above an approach speed", headings, rows);
 }
 
 /// Mean, least and largest speed of the balls over time.

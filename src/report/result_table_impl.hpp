@@ -24,9 +24,9 @@ std::string result_table(const io::Summary<Real>& s) {
         duration > 0 ? fmt::format("{:.1f}", static_cast<double>(number) / duration) : "-";
     out += fmt::format("    {:<26}{:>12}{:>14}{:>16.6g}\n", name, number, rate, real(dose));
   };
-  for (int k = 0; k < model::partner_kinds; ++k) {
-    const char* label = model::partners[k].label;
-    collisions(k < model::wall_count ? fmt::format("wall {} ({})", k, label) : label, s.collisions[k],
+  for (int k = 0; k < s.partners.count(); ++k) {
+    const auto& label = s.partners[k].label;
+    collisions(k < s.partners.walls() ? fmt::format("wall {} ({})", k, label) : label, s.collisions[k],
                s.dose_by_partner[k]);
   }
   collisions("total", s.total_collisions(), s.milling_dose);

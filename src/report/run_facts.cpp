@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "model/partners.hpp"
 
 namespace edmill::report {
 
@@ -107,9 +108,11 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
                                    {"/impacts_since_start", &f.impacts_since_start},
                                    {"/cpu_seconds", &f.cpu_seconds}})
     reader.number(key, *value);
-  for (std::size_t k = 0; k < f.collisions.size(); ++k) {
-    reader.number(std::string("/collisions/") + model::partners[k].key, f.collisions[k]);
-    reader.number(std::string("/milling_dose_by_partner/") + model::partners[k].key, f.dose[k]);
+  int walls = 0;
+  while (reader.has("/collisions/" + model::partner_key(walls, walls + 1))) ++walls;
+  for (int k = 0; k <= walls; ++k) {
+    reader.number("/collisions/" + model::partner_key(k, walls), f.collisions.emplace_back());
+    reader.number("/milling_dose_by_partner/" + model::partner_key(k, walls), f.dose.emplace_back());
   }
   if (reader.has("/powder_mass")) reader.number("/powder_mass", f.powder_mass.emplace());
   reader.throw_problems();

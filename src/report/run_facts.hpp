@@ -1,13 +1,12 @@
 // The content of summary.json, in double for any scalar of the run.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/end_reason.hpp"
-#include "model/vessel.hpp"
 
 namespace edmill::report {
 
@@ -16,10 +15,10 @@ struct RunFacts {
   std::string version, commit, compiler, case_file, case_digest, precision, error;
   model::EndReason end_reason{};
   double seed = 0;
-  double start_time = 0, end_time = 0;                            ///< of the statistics [s]
-  std::array<double, model::partner_kinds> collisions{}, dose{};  ///< [1], [J]
-  double milling_dose = 0, wall_work = 0;                         ///< [J]
-  std::optional<double> powder_mass;                              ///< [kg]
+  double start_time = 0, end_time = 0;     ///< of the statistics [s]
+  std::vector<double> collisions, dose;    ///< with each partner [1], [J]
+  double milling_dose = 0, wall_work = 0;  ///< [J]
+  std::optional<double> powder_mass;       ///< [kg]
   double kinetic_start = 0, potential_start = 0, kinetic_end = 0, potential_end = 0;  ///< [J]
   double closure = 0;                                                                 ///< [J]
   double touched_impact_share = 0, touched_dose_share = 0;  ///< by the least separation speed
@@ -35,6 +34,7 @@ struct RunFacts {
   }
 };
 
+/// The walls are those that the file counts impacts with.
 /// @throws InputError when there is no such file, or it lacks a key
 RunFacts read_run_facts(const std::filesystem::path& file);
 

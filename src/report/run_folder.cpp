@@ -1,8 +1,11 @@
 #include "report/run_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <sstream>
 
+#include "base/errors.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/case_of_run.hpp"
 #include "io/output_folder.hpp"
@@ -21,6 +24,27 @@ bool starts_with_mark(const std::filesystem::path& file) {
   return std::getline(in, line) && line + "\n" == reported_mark;
 }
 
+/// Trends of the impacts with one partner.
+std::string partner_trends(const std::string& key, const std::string& only) {
+  return fmt::format(R"(
+[[output]]
+type = "trends"
+folder = "report"
+file = "trends_{}.csv"
+only = {{ {} }}
+columns = [{{ variable = "milling_dose", statistics = ["rate"] }}, {{ variable = "collision", statistics = ["rate"] }}]
+)",
+                     key, only);
+}
+
+/// The entries [[output]] of the report.
+std::string outputs_for(const model::Partners& partners) {
+  std::string text(outputs_toml);
+  for (int wall = 0; wall < partners.walls(); ++wall)
+    text += partner_trends(partners[wall].key, fmt::format("ball_ball = false, partner = {}", wall));
+  return text + partner_trends(partners[partners.ball_ball()].key, "ball_ball = true");
+}
+
 }  // namespace
 
 void write_case(const std::filesystem::path& place, const casefile::CaseSpec& spec, bool reported) {
@@ -32,9 +56,15 @@ void write_case(const std::filesystem::path& place, const casefile::CaseSpec& sp
 }
 
 RunFolder read_run_folder(const std::filesystem::path& place) {
-  RunFolder folder{place, read_run_facts(place / "summary.json"), {}};
+  RunFolder folder{place, read_run_facts(place / "summary.json"), {}, {}};
   const auto file = place / "case.toml";
   folder.spec = casefile::read_case_of_run(file.string(), folder.facts.case_digest);
+  folder.partners = casefile::partners_of(folder.spec);
+  if (const auto found = folder.facts.collisions.size() - 1,
+      expected = static_cast<std::size_t>(folder.partners.walls());
+      found != expected)
+    throw InputError(fmt::format("{}: collisions: found {} walls, expected the {} of the case",
+                                 (place / "summary.json").string(), found, expected));
   if (starts_with_mark(file)) add_report_outputs(folder.spec);
   return folder;
 }
@@ -61,7 +91,7 @@ const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits&
 void add_report_outputs(casefile::CaseSpec& spec) {
   using casefile::Quantity;
   const auto before = spec.outputs.size();
-  casefile::add_outputs(std::string(outputs_toml), "the outputs of the report", spec);
+  casefile::add_outputs(outputs_for(casefile::partners_of(spec)), "the outputs of the report", spec);
   const bool moving = casefile::name_of(spec.mill) != "still";
   // Powers of pi in the drive's period may be rounded: these are only sampling times.
   const auto period =

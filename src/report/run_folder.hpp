@@ -17,6 +17,7 @@ struct RunFolder {
   std::filesystem::path place;
   RunFacts facts;
   casefile::CaseSpec spec;  ///< with the outputs of the report if the run had them
+  model::Partners partners;
 
   using Fits = std::function<bool(const casefile::OutputSpec&)>;
   /// An output of a type, of which `fits` holds, that is CSV (or X3D), not appended to others, and

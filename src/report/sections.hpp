@@ -23,9 +23,10 @@ void add_ball_speeds(pugi::xml_node main, const RunFolder& run);
 void add_energy(pugi::xml_node main, const RunFolder& run);
 void add_case(pugi::xml_node main, const RunFolder& run);
 
-/// The label of a partner with the signs of typesetting: "cap −y", "ball–ball"; and the partners' colours.
-std::string partner_name(std::size_t place);
-extern const char* const partner_colours[model::partner_kinds];
+/// The label of a partner with the signs of typesetting: "cap −y", "ball–ball".
+std::string name_of(const model::PartnerInfo& partner);
+/// The colour of a partner in charts, by its place; balls have the same beside any walls.
+std::string partner_colour(const model::Partners& partners, int place);
 
 /// A section with a heading.
 pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std::string& heading);

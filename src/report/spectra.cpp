@@ -68,7 +68,7 @@ std::optional<OutputTable> spectra_of(const RunFolder& run, const std::string& o
   return found;
 }
 
-void add_energies(pugi::xml_node grid, const OutputTable& table) {
+void add_energies(pugi::xml_node grid, const OutputTable& table, const model::Partners& partners) {
   plot::Chart by_partner;
   by_partner.id = "energy-spectrum", by_partner.title = "Dose by the energy of the impact";
   by_partner.description =
@@ -77,10 +77,9 @@ void add_energies(pugi::xml_node grid, const OutputTable& table) {
   by_partner.x.title = "energy that the impact dissipates [J]";
   by_partner.y.title = "dose rate [W per decade]";
   const double per_second = 1 / table.duration();
-  for (std::size_t k = 0; k < model::partners.size(); ++k)
-    by_partner.curves.push_back(
-        {partner_name(k), partner_colours[k],
-         density(table, "total", std::string(model::partners[k].key) + " energy", per_second), true});
+  for (int k = 0; k < partners.count(); ++k)
+    by_partner.curves.push_back({name_of(partners[k]), partner_colour(partners, k),
+                                 density(table, "total", partners[k].key + " energy", per_second), true});
   fit(by_partner);
   draw(grid, by_partner);
 
@@ -99,7 +98,7 @@ void add_energies(pugi::xml_node grid, const OutputTable& table) {
   draw(grid, by_direction);
 }
 
-void add_speeds(pugi::xml_node grid, const OutputTable& table) {
+void add_speeds(pugi::xml_node grid, const OutputTable& table, const model::Partners& partners) {
   for (const auto& [spectrum, title] :
        {std::pair{"approach", "Impacts by approach speed"}, std::pair{"slip", "Impacts by slip speed"}}) {
     plot::Chart chart;
@@ -112,11 +111,10 @@ void add_speeds(pugi::xml_node grid, const OutputTable& table) {
     chart.x.title = std::string(spectrum) + " speed [m/s]";
     chart.y.title = "impacts [1/s per decade]";
     chart.y.logarithmic = true;
-    for (std::size_t k = 0; k < model::partners.size(); ++k)
-      chart.curves.push_back(
-          {partner_name(k), partner_colours[k],
-           density(table, spectrum, std::string(model::partners[k].key) + " impacts", 1 / table.duration()),
-           true});
+    for (int k = 0; k < partners.count(); ++k)
+      chart.curves.push_back({name_of(partners[k]), partner_colour(partners, k),
+                              density(table, spectrum, partners[k].key + " impacts", 1 / table.duration()),
+                              true});
     fit(chart);
     draw(grid, chart);
   }
@@ -128,11 +126,11 @@ void add_spectra(pugi::xml_node main, const RunFolder& run) {
   auto section = add_section(main, "spectra", "Impact spectra");
   auto grid = add(section, "div", {{"class", "charts"}});
   if (const auto table = spectra_of(run, "speed", "approach"))
-    add_speeds(grid, *table);
+    add_speeds(grid, *table, run.partners);
   else
     add_missing(grid, "spectra of impact speed", "type = \"spectra\", of = \"speed\"");
   if (const auto table = spectra_of(run, "energy", "normal"))
-    add_energies(grid, *table);
+    add_energies(grid, *table, run.partners);
   else
     add_missing(grid, "spectra of impact energy", "type = \"spectra\"");
 }

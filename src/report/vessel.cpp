@@ -1,4 +1,6 @@
 // Distribution of the dose over the vessel.
+#include "model/vessel.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -25,6 +25,7 @@ class RunDriver {
       : guests_(guests),
         simulation_(built.the_case, built.states, built.start, guests.interrupt),
         stop_rules_(built.the_case.stop),
+        statistics_(model::partners_of(built.the_case.mill.vessel)),
         first_(built.start) {
     simulation_.attach(stop_rules_);
     for (auto* observer : guests.observers) simulation_.attach(*observer);

@@ -1,12 +1,12 @@
 // Totals of a run since the start of statistics.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "base/compensated_sum.hpp"
 #include "engine/observer.hpp"
-#include "model/vessel.hpp"
+#include "model/partners.hpp"
 
 namespace edmill::run {
 
@@ -26,8 +26,10 @@ class RunStatistics : public engine::Observer<Real> {
     }
   };
 
+  explicit RunStatistics(const model::Partners& partners) : totals_(partners.count()) {}
+
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>&) override {
-    Totals& t = totals_[impact.with_wall ? impact.partner : model::ball_ball];
+    Totals& t = impact.with_wall ? totals_[impact.partner] : totals_.back();
     const auto& outcome = impact.outcome;
     ++t.collisions;
     t.milling_dose += outcome.milling_dose;
@@ -41,7 +43,8 @@ class RunStatistics : public engine::Observer<Real> {
 
   void archive(Archive& a) override { a(totals_); }
 
-  const std::array<Totals, model::partner_kinds>& by_partner() const { return totals_; }
+  /// By the partners' places.
+  const std::vector<Totals>& by_partner() const { return totals_; }
 
   std::uint64_t collisions() const { return count(&Totals::collisions); }
   /// Impacts that separate at the least separation speed.
@@ -63,7 +66,7 @@ class RunStatistics : public engine::Observer<Real> {
     for (const auto& t : totals_) total += (t.*part).value();
     return total.value();
   }
-  std::array<Totals, model::partner_kinds> totals_{};
+  std::vector<Totals> totals_;
 };
 
 }  // namespace edmill::run

@@ -13,7 +13,7 @@ void note_totals(const engine::Simulation<Real>& simulation, const run::RunStati
   summary.end_time = simulation.seconds();
   summary.period = simulation.clock().period();
   summary.energy_at_end = simulation.energy_at(simulation.now());
-  for (int k = 0; k < model::partner_kinds; ++k) {
+  for (int k = 0; k < summary.partners.count(); ++k) {
     const auto& totals = statistics.by_partner()[k];
     summary.collisions[k] = totals.collisions;
     summary.dose_by_partner[k] = totals.milling_dose.value();
@@ -30,39 +30,39 @@ void note_totals(const engine::Simulation<Real>& simulation, const run::RunStati
   summary.escalations = simulation.escalations();
 }
 
+/// Of a case, with nothing counted yet.
 template <class Real>
-void note_origin(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
-                 io::Summary<Real>& summary) {
+io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built) {
+  io::Summary<Real> summary(model::partners_of(built.the_case.mill.vessel));
   if (spec.powder_mass) summary.powder_mass = spec.powder_mass->template to<Real>();
   Real ball_mass{0};
   for (const auto& ball : built.the_case.balls) ball_mass += ball.mass;
   summary.ball_mass = ball_mass;
   summary.provenance = {spec.file,  spec.digest, std::string(ScalarName<Real>::value), version(), commit(),
                         compiler(), spec.seed};
+  return summary;
 }
 
 /// Of what has been simulated so far.
 template <class Real>
 io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
                              const RunDriver<Real>& driver) {
-  io::Summary<Real> summary;
+  auto summary = blank_summary(spec, built);
   summary.cpu_seconds = driver.cpu_spent();
   summary.start_time = driver.counted_from();
   summary.energy_at_start = driver.energy_at_start();
   note_totals(driver.simulation(), driver.statistics(), summary);
-  note_origin(spec, built, summary);
   return summary;
 }
 
 /// Of a run whose balls' first contacts could not be decided.
 template <class Real>
 io::Summary<Real> empty_summary(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built) {
-  io::Summary<Real> summary;
+  auto summary = blank_summary(spec, built);
   summary.period = built.the_case.mill.motion.period();
   summary.start_time = summary.end_time = DriveClock<Real>(summary.period).seconds(built.start);
   summary.energy_at_start = summary.energy_at_end =
       model::energy_of(built.the_case.balls, built.states, built.the_case.mill.gravity);
-  note_origin(spec, built, summary);
   return summary;
 }
 

@@ -16,7 +16,8 @@ using Coordinates = std::vector<double>;  ///< a value for each variable; an ind
 
 class Search {
  public:
-  Search(const OptimizeSpec& spec, Study& study) : spec_(spec), study_(study), quantity_(quantity_of(spec)) {
+  Search(const OptimizeSpec& spec, Study& study)
+      : spec_(spec), study_(study), quantity_(quantity_named(spec.objective)) {
     for (const auto& v : spec.variables) {
       const double intervals = static_cast<double>(spec.points - 1);
       steps_.push_back(v.values.empty() ? (v.high - v.low) / intervals : 0);
@@ -42,11 +43,6 @@ class Search {
   }
 
  private:
-  static std::size_t quantity_of(const OptimizeSpec& spec) {
-    return static_cast<std::size_t>(std::find(quantity_names.begin(), quantity_names.end(), spec.objective) -
-                                    quantity_names.begin());
-  }
-
   bool stopped() const { return out_of_budget_ || study_.interrupted(); }
 
   /// Adds runs unless that would exceed the budget.
@@ -172,7 +168,7 @@ class Search {
 
   const OptimizeSpec& spec_;
   Study& study_;
-  std::size_t quantity_;
+  Quantity quantity_;
   std::vector<double> steps_;  ///< of the present grid; 0 for a variable that is not refined
   std::vector<Coordinates> places_;
   std::set<std::vector<casefile::Setting>> seen_;
@@ -184,9 +180,7 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
   const auto& point = study.points()[index];
   std::string line = fmt::format("  point {}:", index + 1);
   for (const auto& [key, value] : point.settings) line += fmt::format(" {} = {},", key, value);
-  std::size_t quantity = 0;
-  while (quantity_names[quantity] != spec.objective) ++quantity;
-  const auto e = estimate(point.values(quantity));
+  const auto e = estimate(point.values(quantity_named(spec.objective)));
   const std::string unit = spec.objective == "milling_dose_rate" ? "W" : "W/kg";
   return line + fmt::format(" {:.6g} +- {:.2g} {} ({} runs)\n", e.mean.value_or(0), e.half_width.value_or(0),
                             unit, point.done());

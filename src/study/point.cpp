@@ -52,11 +52,11 @@ std::size_t Point::failed() const {
       std::count_if(runs.begin(), runs.end(), [](const Run& r) { return r.record && !r.record->done(); }));
 }
 
-std::vector<double> Point::values(std::size_t quantity) const {
+std::vector<double> Point::values(const Quantity& quantity) const {
   std::vector<double> values;
   for (const auto& run : runs) {
     if (!run.record || !run.record->done()) continue;
-    const auto value = quantities_of(*run.record)[quantity];
+    const auto value = quantity.of(*run.record);
     if (!value) return {};
     values.push_back(*value);
   }
@@ -99,6 +99,7 @@ Run make_run(const casefile::StudySpec& spec, const Point& point, std::uint64_t 
       overrides.push_back("balls.0.count=" + count_of(the_case, ratio));
       the_case = casefile::read_case(spec.case_file, overrides);
     }
+    run.walls = casefile::partners_of(the_case).walls();
     run.job.digest = the_case.digest;
     run.job.cost = cost_of(the_case);
   } catch (const InputError& error) {

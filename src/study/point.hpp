@@ -12,6 +12,7 @@ namespace edmill::study {
 
 struct Run {
   std::uint64_t seed = 0;
+  int walls = 0;  ///< of its vessel; 0 when the case is invalid
   Job job;
   std::optional<RunRecord> record;  ///< nothing until the run has ended
 };
@@ -24,7 +25,7 @@ struct Point {
   std::size_t done() const;
   std::size_t failed() const;
   /// A quantity of all runs that are done, in the order of their seeds; empty when one of them lacks it.
-  std::vector<double> values(std::size_t quantity) const;
+  std::vector<double> values(const Quantity& quantity) const;
 };
 
 /// Points of a sweep: the entries times the grid, whose last key changes fastest.

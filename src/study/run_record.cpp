@@ -1,10 +1,12 @@
 #include "study/run_record.hpp"
 
+#include <algorithm>
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
-#include <cmath>
+#include <numeric>
 #include <sstream>
 
+#include "base/errors.hpp"
 #include "base/scalar_list.hpp"
 #include "base/version.hpp"
 #include "io/json_text.hpp"
@@ -19,13 +21,9 @@ namespace edmill::study {
 namespace {
 
 constexpr const char* format_name = "edmill run record 1";
-constexpr bool rates_are_those_of_the_partners() {
-  for (std::size_t k = 0; k < model::partners.size(); ++k)
-    if (quantity_names[4 + k].substr(std::string_view("collision_rate_").size()) != model::partners[k].key)
-      return false;
-  return true;
-}
-static_assert(rates_are_those_of_the_partners());
+
+/// The number of walls that a record counts impacts with.
+int walls_of(const RunRecord& r) { return static_cast<int>(r.collisions.size()) - 1; }
 
 }  // namespace
 
@@ -49,8 +47,7 @@ std::string to_json(const RunRecord& r) {
   json.number("start_time", r.start_time);
   json.number("end_time", r.end_time);
   json.begin("collisions");
-  for (std::size_t k = 0; k < model::partners.size(); ++k)
-    json.integer(model::partners[k].key, r.collisions[k]);
+  for (int k = 0; k <= walls_of(r); ++k) json.integer(model::partner_key(k, walls_of(r)), r.collisions[k]);
   json.end();
   json.number("milling_dose", r.milling_dose);
   json.number("wall_work", r.wall_work);
@@ -78,9 +75,8 @@ std::optional<RunRecord> from_json(const std::string& text) try {
   r.message = word("message");
   r.start_time = number("start_time");
   r.end_time = number("end_time");
-  const auto& collisions = tree.get_child("collisions");
-  for (std::size_t k = 0; k < model::partners.size(); ++k)
-    r.collisions[k] = collisions.get<std::uint64_t>(model::partners[k].key);
+  for (const auto& [key, number] : tree.get_child("collisions"))  // in the order of the partners
+    r.collisions.push_back(number.get_value<std::uint64_t>());
   r.milling_dose = number("milling_dose");
   r.wall_work = number("wall_work");
   r.powder_mass = number_if_there("powder_mass");
@@ -91,21 +87,57 @@ std::optional<RunRecord> from_json(const std::string& text) try {
   return std::nullopt;
 }
 
-Quantities quantities_of(const RunRecord& r) {
-  Quantities q;
+namespace {
+
+/// An amount per second of the statistics; nothing when they cover no time.
+std::optional<double> rate(const RunRecord& r, double amount) {
   const double duration = r.end_time - r.start_time;
-  if (duration <= 0) return q;
-  if (r.milling_dose > 0) q[0] = duration / r.milling_dose;
-  q[1] = r.milling_dose / duration;
-  if (r.powder_mass) q[2] = r.milling_dose / *r.powder_mass / duration;
-  q[3] = r.wall_work / duration;
-  std::uint64_t total = 0;
-  for (std::size_t k = 0; k < r.collisions.size(); ++k) {
-    q[4 + k] = static_cast<double>(r.collisions[k]) / duration;
-    total += r.collisions[k];
-  }
-  q[8] = static_cast<double>(total) / duration;
-  return q;
+  return duration > 0 ? std::optional<double>(amount / duration) : std::nullopt;
+}
+
+std::optional<double> collision_rate(const RunRecord& r, std::size_t place) {
+  return place < r.collisions.size() ? rate(r, static_cast<double>(r.collisions[place])) : std::nullopt;
+}
+
+Quantity wall_rate(int wall) {
+  const auto of = [wall](const RunRecord& r) {
+    return wall < walls_of(r) ? collision_rate(r, static_cast<std::size_t>(wall)) : std::nullopt;
+  };
+  return {"collision_rate_" + model::partner_key(wall, wall + 1), of};
+}
+
+}  // namespace
+
+std::vector<Quantity> quantities(int walls) {
+  std::vector<Quantity> list{
+      {"inverse_milling_dose_rate",
+       [](const RunRecord& r) -> std::optional<double> {
+         const double duration = r.end_time - r.start_time;
+         if (!(duration > 0 && r.milling_dose > 0)) return std::nullopt;
+         return duration / r.milling_dose;
+       }},
+      {"milling_dose_rate", [](const RunRecord& r) { return rate(r, r.milling_dose); }},
+      {"specific_milling_dose_rate",
+       [](const RunRecord& r) {
+         return r.powder_mass ? rate(r, r.milling_dose / *r.powder_mass) : std::nullopt;
+       }},
+      {"wall_work_rate", [](const RunRecord& r) { return rate(r, r.wall_work); }}};
+  for (int wall = 0; wall < walls; ++wall) list.push_back(wall_rate(wall));
+  list.push_back({"collision_rate_" + model::partner_key(walls, walls),
+                  [](const RunRecord& r) { return collision_rate(r, r.collisions.size() - 1); }});
+  list.push_back({"collision_rate_total", [](const RunRecord& r) {
+                    return rate(r, static_cast<double>(std::accumulate(
+                                       r.collisions.begin(), r.collisions.end(), std::uint64_t{0})));
+                  }});
+  return list;
+}
+
+Quantity quantity_named(const std::string& name) {
+  const auto list = quantities(0);
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const Quantity& q) { return q.name == name; });
+  EDMILL_REQUIRE(found != list.end(), "the name of a quantity of studies");
+  return *found;
 }
 
 }  // namespace edmill::study

@@ -1,11 +1,11 @@
 // The record of a run in a study: enough for its tables, and to identify it.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "io/summary.hpp"
 
@@ -15,8 +15,8 @@ struct RunRecord {
   std::string digest;  ///< of the case
   std::string status;  ///< done, inelastic_collapse, undecided, bad_case, error or interrupted
   std::string end_reason, message;
-  double start_time = 0, end_time = 0;  ///< of the statistics [s]
-  std::array<std::uint64_t, model::partner_kinds> collisions{};
+  double start_time = 0, end_time = 0;     ///< of the statistics [s]
+  std::vector<std::uint64_t> collisions;   ///< with each partner; none of a run that could not start
   double milling_dose = 0, wall_work = 0;  ///< [J]
   std::optional<double> powder_mass, ball_mass;
   double cpu_seconds = 0;
@@ -68,15 +68,15 @@ std::string to_json(const RunRecord& record);
 /// Nothing for a text that is not a record, or a record of another version or commit.
 std::optional<RunRecord> from_json(const std::string& text);
 
-/// The numbers that tables average.
-inline constexpr std::array<std::string_view, 9> quantity_names = {
-    "inverse_milling_dose_rate",  "milling_dose_rate",
-    "specific_milling_dose_rate", "wall_work_rate",
-    "collision_rate_wall_0",      "collision_rate_wall_1",
-    "collision_rate_wall_2",      "collision_rate_ball_ball",
-    "collision_rate_total"};
-using Quantities = std::array<std::optional<double>, quantity_names.size()>;
-
-Quantities quantities_of(const RunRecord& record);
+/// A number that tables average.
+struct Quantity {
+  std::string name;
+  /// Nothing where nothing defines it, such as rates of a wall that the run's vessel does not have.
+  std::function<std::optional<double>(const RunRecord&)> of;
+};
+/// All of them, with the collision rates of so many walls.
+std::vector<Quantity> quantities(int walls);
+/// The one of a name, which is no collision rate.
+Quantity quantity_named(const std::string& name);
 
 }  // namespace edmill::study

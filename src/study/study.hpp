@@ -48,6 +48,8 @@ class Study {
   io::Table<double> log_table() const;
   std::filesystem::path record_file(const std::string& digest) const;
   std::vector<std::string> keys() const;
+  /// Those of the tables' columns: enough for every run.
+  std::vector<Quantity> quantities() const;
 
   casefile::StudySpec spec_;
   std::filesystem::path folder_;

@@ -44,19 +44,27 @@ std::vector<std::string> Study::keys() const {
   return keys;
 }
 
+std::vector<Quantity> Study::quantities() const {
+  int walls = 0;
+  for (const auto& point : points_)
+    for (const auto& run : point.runs) walls = std::max(walls, run.walls);
+  return study::quantities(walls);
+}
+
 Table Study::point_table() const {
   const auto varied = keys();
+  const auto shown = quantities();
   auto columns = point_columns(varied);
   for (const auto* name : {"replicas", "done", "failed"}) columns.push_back({name, Type::integer});
-  for (const auto& name : quantity_names)
-    for (const auto* what : {"", "_ci95"}) columns.push_back({std::string(name) + what, Type::number});
+  for (const auto& quantity : shown)
+    for (const auto* what : {"", "_ci95"}) columns.push_back({quantity.name + what, Type::number});
   Table table(std::move(columns));
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto& point = points_[k];
     put_point(table, k, point, varied);
     table.put(point.runs.size(), point.done(), point.failed());
-    for (std::size_t q = 0; q < quantity_names.size(); ++q) {
-      const auto e = estimate(point.values(q));
+    for (const auto& quantity : shown) {
+      const auto e = estimate(point.values(quantity));
       table.put(e.mean, e.half_width);
     }
   }
@@ -65,12 +73,13 @@ Table Study::point_table() const {
 
 Table Study::run_table() const {
   const auto varied = keys();
+  const auto shown = quantities();
   auto columns = point_columns(varied);
   columns.push_back({"seed", Type::integer});
   for (const auto* name : {"status", "end_reason"}) columns.push_back({name, Type::text});
   for (const auto* name : {"start_time", "end_time", "charge_ratio_reached", "milling_dose", "wall_work"})
     columns.push_back({name, Type::number});
-  for (const auto& name : quantity_names) columns.push_back({std::string(name), Type::number});
+  for (const auto& quantity : shown) columns.push_back({quantity.name, Type::number});
   for (const auto* name : {"digest", "message"}) columns.push_back({name, Type::text});
   Table table(std::move(columns));
   for (std::size_t k = 0; k < points_.size(); ++k)
@@ -82,7 +91,7 @@ Table Study::run_table() const {
       table.put(run.seed, run.record ? record.status : "pending", record.end_reason);
       table.put(if_ran(record.start_time), if_ran(record.end_time), charge_ratio(record),
                 if_ran(record.milling_dose), if_ran(record.wall_work));
-      for (const auto& quantity : quantities_of(record)) table.put(quantity);
+      for (const auto& quantity : shown) table.put(quantity.of(record));
       table.put(run.job.digest, record.message);
     }
   return table;

@@ -59,6 +59,18 @@ TEST_F(Comparing, IdenticalLogsAgreeThroughout) {
   for (const auto& q : c.quantities) EXPECT_EQ(q.verdict, Verdict::agree) << q.name;
 }
 
+TEST_F(Comparing, EveryWallOfTheLogsHasARate) {
+  const auto c = compare_changed([](std::size_t, SyntheticEvent& e) {
+    if (e.with_wall && e.partner == 1) e.partner = 5;
+    return true;
+  });
+  EXPECT_EQ(c.quantities.size(), 13u);
+  EXPECT_GT(*quantity(c, "collision_rate_wall_5").b, 30);
+  EXPECT_EQ(*quantity(c, "collision_rate_wall_5").a, 0);
+  EXPECT_EQ(quantity(c, "collision_rate_wall_4").reason, "no such collisions");
+  EXPECT_EQ(quantity(c, "collision_rate_ball_ball").verdict, Verdict::agree);
+}
+
 TEST_F(Comparing, BallsMayComeInEitherOrder) {
   const auto c = compare_changed([](std::size_t, SyntheticEvent& e) {
     if (!e.with_wall) std::swap(e.ball, e.partner);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "model/vessel.hpp"
 #include "program.hpp"
 #include "run/collision_log.hpp"
 
@@ -14,9 +15,9 @@ namespace {
 
 class EventLogReading : public ProgramTest {
  protected:
-  EventLog open(const std::string& text, const LogConventions& conventions = {}, int balls = 5) const {
+  EventLog open(const std::string& text, const LogConventions& conventions = {}, int walls = 3) const {
     write("log.csv", text);
-    return EventLog(scratch / "log.csv", conventions, balls);
+    return EventLog(scratch / "log.csv", conventions, 5, walls);
   }
   std::vector<std::string> problems(const std::string& text, const LogConventions& conventions) const {
     try {
@@ -60,7 +61,8 @@ TEST_F(EventLogReading, ColumnsAreMappedWithTheirUnits) {
 
 TEST_F(EventLogReading, WallsMayHaveOtherNumbers) {
   LogConventions conventions;
-  conventions.walls = parse_walls("3, 1, 2", "--walls");
+  const model::Partners cylinder(model::CylinderVessel<double>::walls());
+  conventions.walls = parse_walls("3, 1, 2", cylinder, "--walls");
   auto log =
       open("time,ball,partner_kind,partner\n0,0,wall,3\n0.5,0,wall,2\n1,0,ball,3\n2,0,wall,0\n", conventions);
   EXPECT_EQ(log.next()->partner, 0);
@@ -68,7 +70,14 @@ TEST_F(EventLogReading, WallsMayHaveOtherNumbers) {
   EXPECT_EQ(log.next()->partner, 3);
   EXPECT_TRUE(log.next()->unknown_body);
   for (const std::string bad : {"", "1,2", "1,2,2", "1,2,3,4", "a,b,c", "1 2 3"})
-    EXPECT_THROW(parse_walls(bad, "--walls"), InputError) << bad;
+    EXPECT_THROW(parse_walls(bad, cylinder, "--walls"), InputError) << bad;
+}
+
+TEST_F(EventLogReading, ABoxHasSixWalls) {
+  EXPECT_EQ(open("time,ball,partner_kind,partner\n0,0,wall,5\n", {}, 6).next()->partner, 5);
+  auto log = open("time,ball,partner\n0,0,-6\n1,0,-7\n", {}, 6);
+  EXPECT_EQ(log.next()->partner, 5);
+  EXPECT_TRUE(log.next()->unknown_body);
 }
 
 TEST_F(EventLogReading, EventsComeInTheOrderOfTimeAndThoseOutOfItAreMarked) {

@@ -43,15 +43,17 @@ TEST_F(LogReading, ColumnsInAnyOrderWithOthersBetween) {
   EXPECT_EQ(first->values[time], 0.25);
   EXPECT_EQ(first->values[milling_dose], 1e-3);
   EXPECT_TRUE(std::isnan(first->values[wall_work]));
-  EXPECT_EQ(first->partner_kind(), 2u);
+  EXPECT_TRUE(first->with_wall);
+  EXPECT_EQ(first->partner, 2);
   EXPECT_EQ(second->ball, 7);
   EXPECT_EQ(second->partner, 4);
-  EXPECT_EQ(second->partner_kind(), 3u);
+  EXPECT_FALSE(second->with_wall);
   EXPECT_EQ(second->line, 4u);
   const auto scan = scan_log(scratch / "log.csv");
   EXPECT_EQ(scan.events, 2u);
   EXPECT_EQ(scan.mean_magnitude[approach_speed], 2);
   EXPECT_EQ(scan.last, 0.5);
+  EXPECT_EQ(scan.walls, 3);
 }
 
 TEST_F(LogReading, ManyDigitsAndTinyNumbersAreNumbers) {
@@ -78,7 +80,7 @@ TEST_F(LogReading, BadLinesAreExplained) {
       {"1,0.5,wall,0,1", "column 2 (ball): found '0.5', expected the number of a ball"},
       {"1,-1,wall,0,1", "column 2 (ball): found '-1', expected the number of a ball"},
       {"1,0,floor,0,1", "column 3 (partner_kind): found 'floor', expected ball or wall"},
-      {"1,0,wall,3,1", "column 4 (partner): found '3', expected a wall: 0, 1 or 2"},
+      {"1,0,wall,100,1", "column 4 (partner): found '100', expected the number of a wall"},
       {"1,5,ball,5,1", "column 4 (partner): found '5', expected another ball than the first"},
       {"0.1,0,wall,0,1",
        "column 1 (time): found '0.1', expected no time before 0.5 s, that of the line above"},
@@ -115,6 +117,10 @@ TEST_F(LogReading, AFolderNeedsItsLogAndAGoodSummary) {
   EXPECT_FALSE(scan_log(scratch / "run").statistics_start);
   write("run/summary.json", "{\"start_time\": 0.5}");
   EXPECT_EQ(scan_log(scratch / "run").statistics_start, 0.5);
+  EXPECT_EQ(scan_log(scratch / "run").walls, 1);  // the one that the log meets
+  write("run/summary.json",
+        "{\"start_time\": 0.5, \"collisions\": {\"wall_0\": 1, \"wall_1\": 0, \"ball_ball\": 0}}");
+  EXPECT_EQ(scan_log(scratch / "run").walls, 2);
   for (const auto* bad : {"{", "{}", "{\"start_time\": \"early\"}"}) {
     write("run/summary.json", bad);
     EXPECT_THROW(scan_log(scratch / "run"), InputError) << bad;

@@ -12,7 +12,7 @@ template <class Real>
 Real relative_closure(const casefile::CaseSpec& spec, const Real& seconds) {
   const auto built = casefile::build_case<Real>(spec);
   Simulation<Real> simulation(built.the_case, built.states, built.start);
-  run::RunStatistics<Real> statistics;
+  run::RunStatistics<Real> statistics(model::partners_of(built.the_case.mill.vessel));
   simulation.attach(statistics);
   const auto before = simulation.energy_at(simulation.now());
   EXPECT_EQ(simulation.run_until(simulation.clock().at(seconds)), EndReason::end_time);
@@ -49,7 +49,7 @@ TEST(EnergyClosure, ElasticBallsInAStillVesselKeepTheirEnergy) {
       "elastic.toml");
   const auto built = casefile::build_case<double>(spec);
   Simulation<double> simulation(built.the_case, built.states, built.start);
-  run::RunStatistics<double> statistics;
+  run::RunStatistics<double> statistics(model::partners_of(built.the_case.mill.vessel));
   simulation.attach(statistics);
   const double before = simulation.energy_at(simulation.now()).kinetic;
   simulation.run_until(simulation.clock().at(2.0));

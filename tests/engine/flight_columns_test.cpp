@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "casefile/random.hpp"
@@ -51,79 +52,113 @@ struct Swarm {
   }
 };
 
+/// Of candidates [s] by their balls; negative where only the search can decide.
+using Delays = std::map<int, double>;
+
+template <class Real>
+model::Mill<Real> mill_with(const Vec3<double>& gravity) {
+  auto mill = testing::spex_mill<Real>();
+  mill.gravity = vector_cast<Real>(gravity);
+  return mill;
+}
+
+/// One ball of a swarm and whom it may meet.
+class Trial {
+ public:
+  Trial(casefile::Random& random, int balls, bool alike, const Vec3<double>& gravity)
+      : mill_(mill_with<double>(gravity)),
+        swarm_(random, balls, alike, gravity, mill_.motion.period),
+        alike_(alike),
+        search_(mill_, 0.002, 0.1, 10),
+        wide_(mill_with<float128>(gravity), float128(0.002), float128(0.1), float128(10)),
+        self_(static_cast<int>(random.uniform<double>() * balls)),
+        own_(search_.state(swarm_.flights[self_], swarm_.now)) {}
+
+  Delays among_all() const {
+    FlightColumns table(balls(), alike_);
+    for (int i = 0; i < balls(); ++i) table.set(i, swarm_.flights[i], swarm_.radii[i]);
+    PairFilterResult result;
+    const auto all = delays(result, table.filter(query(), result), [](int place) { return place; });
+    EXPECT_EQ(all.count(self_), 0u);
+    EXPECT_TRUE(all.empty() || all.rbegin()->first < balls());
+    return all;
+  }
+
+  Delays among(std::vector<int> list) const {
+    const int count = static_cast<int>(list.size());
+    list.resize(list.size() + 3);
+    PairFilterResult result;
+    result.make_room(count);
+    const int found = filter_pairs(swarm_.flights.data(), swarm_.radii.data(), alike_ ? 0 : 1, query(), self_,
+                                   list.data(), count, result);
+    return delays(result, found, [&](int place) { return list[place]; });
+  }
+
+  /// What the filter found of another ball against PairSearch for this ball alone.
+  /// @return the kind of the result
+  const char* compare(const Delays& found, int other) const {
+    const double sum = swarm_.radii[self_] + swarm_.radii[other];
+    const auto& flight = swarm_.flights[other];
+    const bool candidate = search_.may_meet(own_, flight, swarm_.now, sum);
+    EXPECT_EQ(found.count(other) == 1, candidate);
+    if (!candidate) {
+      // The proof holds in the wide scalar, too.
+      const auto truth = wide_(dynamics::flight_cast<float128>(swarm_.flights[self_]),
+                               dynamics::flight_cast<float128>(flight),
+                               dynamics::instant_cast<float128>(swarm_.now), float128(sum));
+      EXPECT_NE(truth.verdict, Verdict::contact);
+      return "passed";
+    }
+    if (found.at(other) < 0) return "left open";
+    const auto answer = search_(own_, flight, swarm_.now, sum);
+    EXPECT_EQ(answer.verdict, Verdict::contact);
+    EXPECT_EQ(found.at(other), answer.delay);
+    return "timed";
+  }
+
+  int balls() const { return static_cast<int>(swarm_.flights.size()); }
+  int self() const { return self_; }
+
+ private:
+  PairFilterQuery query() const { return {own_, swarm_.radii[self_], swarm_.now, search_.filter()}; }
+
+  template <class BallAt>
+  static Delays delays(PairFilterResult& result, int found, const BallAt& ball_at) {
+    Delays delays;
+    for (int k = 0; k < found; ++k)
+      delays[ball_at(result.candidates()[k])] = result.delay(result.candidates()[k]);
+    EXPECT_EQ(static_cast<int>(delays.size()), found);
+    return delays;
+  }
+
+  model::Mill<double> mill_;
+  Swarm swarm_;
+  bool alike_;
+  PairSearch<double> search_;
+  PairSearch<float128> wide_;
+  int self_;
+  PairSearch<double>::State own_;
+};
+
 TEST(FlightColumns, DecidesAsPairSearchDoes) {
-  auto mill = testing::spex_mill<double>();
-  auto wide_mill = testing::spex_mill<float128>();
-  const std::vector<Vec3<double>> gravities{mill.gravity, {0, 0, 0}, {1, -9, 0.5}};
+  const std::vector<Vec3<double>> gravities{testing::spex_mill<double>().gravity, {0, 0, 0}, {1, -9, 0.5}};
   casefile::Random random(20110101);
   std::map<std::string, int> seen;
-  for (int turn = 0; turn < 400; ++turn) {
+  for (int turn = 0; turn < 400 && !::testing::Test::HasFailure(); ++turn) {
     const int balls = 1 + static_cast<int>(random.uniform<double>() * (turn % 5 == 0 ? 200 : 40));
-    const bool alike = turn % 2 == 0;
-    mill.gravity = gravities[turn % gravities.size()];
-    wide_mill.gravity = vector_cast<float128>(mill.gravity);
-    const Swarm swarm(random, balls, alike, mill.gravity, mill.motion.period);
-    const PairSearch<double> search(mill, 0.002, 0.1, 10);
-    const PairSearch<float128> wide(wide_mill, float128(0.002), float128(0.1), float128(10));
-    FlightColumns table(balls, alike);
-    for (int i = 0; i < balls; ++i) table.set(i, swarm.flights[i], swarm.radii[i]);
+    const Trial trial(random, balls, turn % 2 == 0, gravities[turn % gravities.size()]);
+    const auto all = trial.among_all();
+    for (int other = 0; other < balls; ++other)
+      if (other != trial.self()) ++seen[trial.compare(all, other)];
 
-    const int self = static_cast<int>(random.uniform<double>() * balls);
-    const auto own = search.state(swarm.flights[self], swarm.now);
-    const PairFilterQuery query{own, swarm.radii[self], swarm.now, search.filter()};
     std::vector<int> list;  // some of the balls, out of order
     for (int i = balls - 1; i >= 0; --i)
       if (random.uniform<double>() < 0.8) list.push_back(i);
-    const int count = static_cast<int>(list.size());
-    list.resize(list.size() + 3);
-
-    const auto delays_of = [](PairFilterResult& result, int found, auto ball_at) {
-      std::map<int, double> delays;
-      for (int k = 0; k < found; ++k)
-        delays[ball_at(result.candidates()[k])] = result.delay(result.candidates()[k]);
-      EXPECT_EQ(static_cast<int>(delays.size()), found);
-      return delays;
-    };
-    PairFilterResult result;
-    const auto all = delays_of(result, table.filter(query, result), [](int place) { return place; });
-    result.make_room(count);
-    const auto some = delays_of(result,
-                                filter_pairs(swarm.flights.data(), swarm.radii.data(), alike ? 0 : 1, query,
-                                             self, list.data(), count, result),
-                                [&](int place) { return list[place]; });
-
-    EXPECT_EQ(all.count(self), 0u);
-    EXPECT_TRUE(all.empty() || all.rbegin()->first < balls);
-    for (int other = 0; other < balls; ++other) {
-      if (other == self) continue;
-      const double sum = swarm.radii[self] + swarm.radii[other];
-      const auto& flight = swarm.flights[other];
-      const bool candidate = search.may_meet(own, flight, swarm.now, sum);
-      ASSERT_EQ(all.count(other) == 1, candidate);
-      const auto answer = search(own, flight, swarm.now, sum);
-      if (!candidate) {
-        ++seen["passed"];
-        // The proof holds in the wide scalar, too.
-        const auto truth = wide(dynamics::flight_cast<float128>(swarm.flights[self]),
-                                dynamics::flight_cast<float128>(flight),
-                                dynamics::instant_cast<float128>(swarm.now), float128(sum));
-        ASSERT_NE(truth.verdict, Verdict::contact);
-        continue;
-      }
-      if (all.at(other) < 0) {
-        ++seen["left open"];
-      } else {
-        ++seen["timed"];
-        ASSERT_EQ(answer.verdict, Verdict::contact);
-        ASSERT_EQ(all.at(other), answer.delay);
-      }
-    }
-    for (int k = 0; k < count; ++k) {
-      ASSERT_EQ(some.count(list[k]), all.count(list[k]));
-      if (some.count(list[k]) == 1) {
-        ASSERT_EQ(some.at(list[k]), all.at(list[k]));
-      }
-    }
+    auto expected = all;
+    std::erase_if(expected, [&](const auto& candidate) {
+      return std::find(list.begin(), list.end(), candidate.first) == list.end();
+    });
+    EXPECT_EQ(trial.among(list), expected);
   }
   for (const char* kind : {"passed", "left open", "timed"}) EXPECT_GT(seen[kind], 50) << kind;
 }

@@ -189,7 +189,7 @@ class Follower : public engine::Observer<double> {
   }
 
   void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
-    const auto facts = detail::facts_of<double>(impact, simulation, static_cast<double>(previous_));
+    const auto facts = detail::facts_of<double>(impact, simulation, static_cast<double>(previous_), 3);
     const Recomputed r = recompute(impact, simulation);
     for (int k = 0; k < static_cast<int>(model::impact_variables.size()); ++k) {
       const auto& v = model::impact_variables[k];

@@ -85,6 +85,90 @@ double brent(const OracleQuestion& q, int wall, double low, double high) {
   return root;
 }
 
+/// The solver's answers to queries against the two others.
+class Comparison {
+ public:
+  Comparison(const model::Mill<double>& mill, dynamics::DecisionLadder<double>& ladder)
+      : mill_(mill), ladder_(ladder), resolution_(epsilon<double>() * mill.motion.period) {}
+
+  void take(const WallQuery<double>& query) {
+    const auto answer = ladder_.wall(query);
+    const bool hit = answer.verdict == Verdict::contact;
+    // A search that proves none may prove it for a part of the window only.
+    WallQuery<double> asked = query;
+    if (!hit) asked.length = answer.searched;
+    const auto question = testing::question_of(mill_, asked);
+    const auto truth = testing::first_contacts(question);
+    const testing::OracleContact* first = nullptr;
+    for (const auto& c : truth) {
+      unresolved_ += c.verdict == OracleVerdict::unresolved;
+      if (c.verdict == OracleVerdict::contact && (!first || c.latest < first->latest)) first = &c;
+    }
+    if (!hit) {
+      ++none_;
+      not_first_ += first && first->earliest < answer.searched - 8 * resolution_;
+      return;
+    }
+    ++contacts_;
+    if (!first) {
+      ++unfounded_;
+      return;
+    }
+    const bool there = agrees(query, answer, question, *first);
+    not_first_ += !there || &truth[static_cast<std::size_t>(answer.wall)] != first;
+  }
+
+  void say(std::size_t queries) const {
+    claim.say("demo.toml from 0.5 s on: " + std::to_string(queries) + " queries, " +
+              std::to_string(contacts_) + " contacts, " + std::to_string(none_) + " proven free");
+    claim.at_least("contacts", contacts_, 2000);
+    claim.at_most("queries that Arb could not resolve", unresolved_, 0);
+    claim.at_most("roots whose enclosure holds no sign change in Arb", no_sign_change_, 0);
+    claim.at_most("answers before which Arb finds another contact, or of another wall", not_first_, 0);
+    claim.at_most("contacts that Arb does not find", unfounded_, 0);
+    claim.at_most("largest |time - Arb|", worst_time_, 1e-12, " s");
+    claim.at_most("largest |time - Arb| times approach speed", worst_place_, 1e-15, " m");
+    claim.at_most("largest |time - Arb| in enclosures", worst_doubts_, 1, "");
+    claim.at_most("largest |time - Brent| in enclosures", worst_brent_, 1, "");
+  }
+
+ private:
+  /// @return whether the contact is where Arb has its first one, within the enclosure
+  bool agrees(const WallQuery<double>& query, const dynamics::WallAnswer<double>& answer,
+              const OracleQuestion& question, const testing::OracleContact& first) {
+    // The enclosure: the time with its error and the digits of the clock on both sides.
+    const double width = 2 * answer.time_error + 8 * resolution_;
+    auto around = question;
+    around.begin_period = answer.time.period;
+    around.begin_offset = answer.time.offset;
+    const bool touching = first.turned_back || first.latest < 8 * resolution_;
+    if (!touching)
+      no_sign_change_ += !(testing::gap_after(around, answer.wall, -width).gap > 0 &&
+                           testing::gap_after(around, answer.wall, width).gap < 0);
+    const auto periods = static_cast<double>(answer.time.period - query.begin.period);
+    const double delay = periods * mill_.motion.period + (answer.time.offset - query.begin.offset);
+    const double error = delay - first.earliest;
+    // The cylinder's gap function grows with twice the distance from the axis.
+    const double unit = answer.wall == 2 ? 2 * (mill_.vessel.radius - query.radius) : 1;
+    raise(worst_time_, std::abs(error));
+    raise(worst_place_, std::abs(error * first.slope) / unit);
+    raise(worst_doubts_, std::abs(error) / width);
+    if (!touching) {
+      // Arb has proven the left part of this bracket free of contacts; without a change of sign Brent fails.
+      const double half = std::min(1e-6, first.earliest / 2);
+      const double third = brent(question, answer.wall, delay - half, delay + half);
+      raise(worst_brent_, std::abs(third - delay) / width);
+    }
+    return !(error > width);
+  }
+
+  const model::Mill<double>& mill_;
+  dynamics::DecisionLadder<double>& ladder_;
+  double resolution_;  ///< of the clock [s]
+  long contacts_ = 0, none_ = 0, no_sign_change_ = 0, not_first_ = 0, unfounded_ = 0, unresolved_ = 0;
+  double worst_time_ = 0, worst_place_ = 0, worst_doubts_ = 0, worst_brent_ = 0;
+};
+
 TEST(RootSearch, EveryRootOfARealRunIsTheFirstOne) {
   gsl_set_error_handler_off();
   const auto built =
@@ -97,67 +181,9 @@ TEST(RootSearch, EveryRootOfARealRunIsTheFirstOne) {
   simulation.attach(harvest);
   simulation.run_until(simulation.clock().at(10.0));
 
-  const double resolution = epsilon<double>() * mill.motion.period;
-  long contacts = 0, none = 0, no_sign_change = 0, not_first = 0, unfounded = 0, unresolved = 0;
-  double worst_time = 0, worst_place = 0, worst_doubts = 0, worst_brent = 0;
-  for (const auto& query : harvest.queries) {
-    const auto answer = ladder.wall(query);
-    const bool hit = answer.verdict == Verdict::contact;
-    // A search that proves none may prove it for a part of the window only.
-    WallQuery<double> asked = query;
-    if (!hit) asked.length = answer.searched;
-    const auto question = testing::question_of(mill, asked);
-    const auto truth = testing::first_contacts(question);
-    const testing::OracleContact* first = nullptr;
-    for (const auto& c : truth) {
-      unresolved += c.verdict == OracleVerdict::unresolved;
-      if (c.verdict == OracleVerdict::contact && (!first || c.latest < first->latest)) first = &c;
-    }
-    if (!hit) {
-      ++none;
-      not_first += first && first->earliest < answer.searched - 8 * resolution;
-      continue;
-    }
-    ++contacts;
-    if (!first) {
-      ++unfounded;
-      continue;
-    }
-    // The enclosure: the time with its error and the digits of the clock on both sides.
-    const double width = 2 * answer.time_error + 8 * resolution;
-    auto around = question;
-    around.begin_period = answer.time.period;
-    around.begin_offset = answer.time.offset;
-    const bool touching = first->turned_back || first->latest < 8 * resolution;
-    if (!touching)
-      no_sign_change += !(testing::gap_after(around, answer.wall, -width).gap > 0 &&
-                          testing::gap_after(around, answer.wall, width).gap < 0);
-    const auto periods = static_cast<double>(answer.time.period - query.begin.period);
-    const double delay = periods * mill.motion.period + (answer.time.offset - query.begin.offset);
-    const double error = delay - first->earliest;
-    // The cylinder's gap function grows with twice the distance from the axis.
-    const double unit = answer.wall == 2 ? 2 * (mill.vessel.radius - query.radius) : 1;
-    raise(worst_time, std::abs(error));
-    raise(worst_place, std::abs(error * first->slope) / unit);
-    raise(worst_doubts, std::abs(error) / width);
-    if (&truth[static_cast<std::size_t>(answer.wall)] != first || error > width) ++not_first;
-    if (touching) continue;
-    // Arb has proven the left part of this bracket free of contacts; without a change of sign Brent fails.
-    const double half = std::min(1e-6, first->earliest / 2);
-    const double third = brent(question, answer.wall, delay - half, delay + half);
-    raise(worst_brent, std::abs(third - delay) / width);
-  }
-  claim.say("demo.toml from 0.5 s on: " + std::to_string(harvest.queries.size()) + " queries, " +
-            std::to_string(contacts) + " contacts, " + std::to_string(none) + " proven free");
-  claim.at_least("contacts", contacts, 2000);
-  claim.at_most("queries that Arb could not resolve", unresolved, 0);
-  claim.at_most("roots whose enclosure holds no sign change in Arb", no_sign_change, 0);
-  claim.at_most("answers before which Arb finds another contact, or of another wall", not_first, 0);
-  claim.at_most("contacts that Arb does not find", unfounded, 0);
-  claim.at_most("largest |time - Arb|", worst_time, 1e-12, " s");
-  claim.at_most("largest |time - Arb| times approach speed", worst_place, 1e-15, " m");
-  claim.at_most("largest |time - Arb| in enclosures", worst_doubts, 1, "");
-  claim.at_most("largest |time - Brent| in enclosures", worst_brent, 1, "");
+  Comparison comparison(mill, ladder);
+  for (const auto& query : harvest.queries) comparison.take(query);
+  comparison.say(harvest.queries.size());
 }
 
 }  // namespace

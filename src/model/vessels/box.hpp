@@ -3,8 +3,10 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "model/parameter.hpp"
+#include "model/partners.hpp"
 #include "model/vessel_frame.hpp"
 
 namespace edmill::model {
@@ -25,7 +27,11 @@ struct BoxVessel {
     return {vector_cast<To>(half)};
   }
 
-  static constexpr int walls() { return 6; }
+  static constexpr int wall_count() { return 6; }
+  static std::vector<WallInfo> walls() {
+    return {{"wall -x", "the wall at -x"}, {"wall +x", "the wall at +x"}, {"wall -y", "the wall at -y"},
+            {"wall +y", "the wall at +y"}, {"wall -z", "the wall at -z"}, {"wall +z", "the wall at +z"}};
+  }
   template <class Value>
   static PerWall<Value> per_wall(const Value& value) {
     return {value, value, value, value, value, value};

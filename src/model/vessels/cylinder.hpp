@@ -4,42 +4,24 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "base/trigonometry.hpp"
 #include "model/parameter.hpp"
+#include "model/partners.hpp"
 #include "model/vessel_frame.hpp"
 
 namespace edmill::model {
 
-/// Wall ids follow the thesis: 0 is the cap at y = -h/2, 1 the cap at y = +h/2, 2 the cylinder.
-inline constexpr int wall_count = 3;
-
-/// What a ball can collide with, as tables count it: the walls by id, then other balls.
-inline constexpr int partner_kinds = wall_count + 1;
-inline constexpr int ball_ball = wall_count;
-
-/// The name of a partner, everywhere.
-struct PartnerInfo {
-  const char* key;      ///< in files
-  const char* label;    ///< for readers
-  const char* meaning;  ///< of what counts its impacts
-};
-/// By place: the walls by id, then other balls.
-inline constexpr std::array<PartnerInfo, partner_kinds> partners = {{
-    {"wall_0", "cap -y", "with wall 0, the cap at -y"},
-    {"wall_1", "cap +y", "with wall 1, the cap at +y"},
-    {"wall_2", "cylinder", "with wall 2, the cylinder"},
-    {"ball_ball", "ball-ball", "between balls"},
-}};
-
 /// A closed cylinder about the y axis of the vessel frame. The gaps to its caps are lengths [m]; that to the
 /// cylinder is q = (R_v-R)^2 - x^2 - z^2 [m^2], which is smooth on the axis and has the sign of the gap.
-/// (2.19'), (2.21'), (2.22')
+/// (2.19'), (2.21'), (2.22'). Wall ids follow the thesis: 0 is the cap at y = -h/2, 1 the cap at y = +h/2, 2 the
+/// cylinder.
 template <class Real>
 struct CylinderVessel {
   using Scalar = Real;
   template <class Value>
-  using PerWall = std::array<Value, wall_count>;
+  using PerWall = std::array<Value, 3>;
   template <class Value>
   using PerKind = std::array<Value, 2>;
 
@@ -51,7 +33,10 @@ struct CylinderVessel {
     return {static_cast<To>(radius), static_cast<To>(half_height)};
   }
 
-  static constexpr int walls() { return wall_count; }
+  static constexpr int wall_count() { return 3; }
+  static std::vector<WallInfo> walls() {
+    return {{"cap -y", "the cap at -y"}, {"cap +y", "the cap at +y"}, {"cylinder", "the cylinder"}};
+  }
   template <class Value>
   static PerWall<Value> per_wall(const Value& value) {
     return {value, value, value};

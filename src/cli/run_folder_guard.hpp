@@ -1,4 +1,4 @@
-// The folder of a run: its lock, its checkpoint, and the temporary files of killed runs.
+// Guards the folder of a run: its lock, its checkpoint, and the temporary files of killed runs.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,15 @@
 
 namespace edmill::cli {
 
-class RunFolder {
+/// Keeps other runs out of a folder while a run writes there.
+class RunFolderGuard {
  public:
   /// @throws InputError when the folder cannot be used, or holds the checkpoint of another run
-  RunFolder(const casefile::CaseSpec& spec, const RunOptions& options);
-  RunFolder(const RunFolder&) = delete;
-  RunFolder& operator=(const RunFolder&) = delete;
+  RunFolderGuard(const casefile::CaseSpec& spec, const RunOptions& options);
+  RunFolderGuard(const RunFolderGuard&) = delete;
+  RunFolderGuard& operator=(const RunFolderGuard&) = delete;
   /// Without a checkpoint temporary files are of no further use.
-  ~RunFolder();
+  ~RunFolderGuard();
 
   const std::filesystem::path& place() const { return place_; }
   /// Instructions to the driver about checkpoints. They must not outlive this folder.

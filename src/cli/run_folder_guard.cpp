@@ -1,4 +1,4 @@
-#include "cli/run_folder.hpp"
+#include "cli/run_folder_guard.hpp"
 
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
@@ -7,7 +7,7 @@ namespace edmill::cli {
 
 namespace fs = std::filesystem;
 
-RunFolder::RunFolder(const casefile::CaseSpec& spec, const RunOptions& options)
+RunFolderGuard::RunFolderGuard(const casefile::CaseSpec& spec, const RunOptions& options)
     : place_(options.folder), spec_(spec), checkpoint_(options.checkpoint) {
   io::prepare_folder(place_);
   lock_.emplace(place_, checkpoint_.has_value());
@@ -21,19 +21,19 @@ RunFolder::RunFolder(const casefile::CaseSpec& spec, const RunOptions& options)
   remove_temporaries(checkpoint_->temporary_mark);
 }
 
-RunFolder::~RunFolder() {
+RunFolderGuard::~RunFolderGuard() {
   std::error_code error;
   if (checkpoint_ && !fs::exists(io::checkpoint_place(place_), error) && !error) remove_temporaries("");
 }
 
-void RunFolder::remove_temporaries(const std::string& kept) {
+void RunFolderGuard::remove_temporaries(const std::string& kept) {
   for (const auto* name : {"summary.json", "final_state.csv", "case.toml", "report.html"})
     io::remove_temporaries(place_ / name, kept);
   io::remove_temporaries(io::checkpoint_place(place_), kept);
   for (const auto& output : spec_.outputs) io::remove_temporaries(place_ / output.folder / output.file, kept);
 }
 
-run::Checkpoints RunFolder::checkpoints() {
+run::Checkpoints RunFolderGuard::checkpoints() {
   if (!checkpoint_) return {};
   const auto save = [this](const std::string& state) {
     checkpoint_->state = state;
@@ -42,7 +42,7 @@ run::Checkpoints RunFolder::checkpoints() {
   return {parse_checkpoint_interval(checkpoint_->interval), save, checkpoint_->state};
 }
 
-void RunFolder::remove_checkpoint() {
+void RunFolderGuard::remove_checkpoint() {
   if (!checkpoint_) return;
   // First: without the checkpoint, files left by killed processes of this run are no longer found.
   remove_temporaries("");

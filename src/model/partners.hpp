@@ -1,0 +1,52 @@
+// What a ball can collide with, as tables count it: the walls by id, then other balls.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace edmill::model {
+
+/// A wall for readers: "cap -y", "the cap at -y".
+struct WallInfo {
+  std::string label, meaning;
+};
+
+/// The names of a partner, everywhere.
+struct PartnerInfo {
+  std::string key;      ///< in files: "wall_0"
+  std::string label;    ///< for readers: "cap -y"
+  std::string meaning;  ///< of what counts its impacts: "with wall 0, the cap at -y"
+};
+
+/// The key of a partner by its place.
+inline std::string partner_key(int place, int walls) {
+  return place < walls ? "wall_" + std::to_string(place) : "ball_ball";
+}
+
+/// By place: the walls of a vessel by id; other balls are always the last.
+class Partners {
+ public:
+  Partners() : Partners(std::vector<WallInfo>{}) {}
+  explicit Partners(const std::vector<WallInfo>& walls) : walls_(static_cast<int>(walls.size())) {
+    for (int id = 0; id < walls_; ++id)
+      list_.push_back({partner_key(id, walls_), walls[id].label,
+                       "with wall " + std::to_string(id) + ", " + walls[id].meaning});
+    list_.push_back({partner_key(walls_, walls_), "ball-ball", "between balls"});
+  }
+
+  int walls() const { return walls_; }
+  int count() const { return walls_ + 1; }
+  int ball_ball() const { return walls_; }
+  const PartnerInfo& operator[](int place) const { return list_[place]; }
+
+ private:
+  int walls_;
+  std::vector<PartnerInfo> list_;
+};
+
+template <class V>
+Partners partners_of(const V& vessel) {
+  return Partners(vessel.walls());
+}
+
+}  // namespace edmill::model
