@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/vector.hpp"
+#include "model/surface.hpp"
 
 namespace edmill::model {
 
@@ -30,6 +33,11 @@ inline constexpr std::array<PartnerInfo, partner_kinds> partners = {{
     {"ball_ball", "ball-ball", "between balls"},
 }};
 
+/// A wall for readers: "cap -y", "the cap at -y".
+struct WallInfo {
+  std::string label, meaning;
+};
+
 /// Bounds on what rounding does to a function of time and to its first two derivatives.
 template <class Real>
 struct ErrorBounds {
@@ -47,6 +55,11 @@ struct CylinderVessel {
 
   Real radius;       ///< inner radius R_v [m]
   Real half_height;  ///< h/2 [m]
+
+  /// By id.
+  static std::vector<WallInfo> walls() {
+    return {{"cap -y", "the cap at -y"}, {"cap +y", "the cap at +y"}, {"cylinder", "the cylinder"}};
+  }
 
   /// Largest distance of a point of the vessel from its centre [m].
   Real reach() const {
@@ -146,6 +159,13 @@ struct CylinderVessel {
     }
     const Real side(wall == 0 ? 1 : -1);
     return -side * p[1] - (half_height - ball_radius);
+  }
+
+  /// By wall id.
+  std::vector<WallSurface<Real>> surfaces() const {
+    const Vec3<Real> up{Real(0), half_height, Real(0)};
+    return {Disc<Real>{frame_at<Real>(-up), radius}, Disc<Real>{frame_at<Real>(up), radius},
+            Tube<Real>{frame_at<Real>(Vec3<Real>::Zero()), radius, half_height}};
   }
 };
 

@@ -1,1 +1,2 @@
 edmill_test(mill_motion_test model/mill_motion_test.cpp)
+edmill_test(surface_test model/surface_test.cpp)
