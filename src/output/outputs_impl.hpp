@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/version.hpp"
+#include "casefile/build_case.hpp"
 #include "output/outputs.hpp"
 #include "output/registry.hpp"
 
@@ -56,7 +57,11 @@ model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
 template <class Real>
 Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
-  RunContext<Real> run{start, std::nullopt, spec.vessel_colour, spec.ball_colours(),
+  RunContext<Real> run{start,
+                       std::nullopt,
+                       spec.vessel_colour,
+                       spec.ball_colours(),
+                       casefile::build_mill<Real>(spec).vessel.surfaces(),
                        detail::notes_of<Real>(spec)};
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();
   for (const auto& output : spec.outputs) {
