@@ -13,6 +13,12 @@ Vec centre_of(const model::MillMotion<double>& motion, const model::VesselPose<d
   return {-pose.sin_alpha * motion.arm, pose.cos_alpha * motion.arm, 0};  // theta = alpha + pi/2
 }
 
+/// A place as seen in the vessel.
+Vec inside(const VesselFrame& frame, const Vec& position) {
+  const Vec d = position - frame.centre;
+  return {dot(d, frame.x), dot(d, frame.y), dot(d, frame.z)};
+}
+
 }  // namespace
 
 VesselFrame nested_frame(const model::MillMotion<double>& motion, const model::VesselPose<double>& pose) {
@@ -31,17 +37,14 @@ VesselFrame printed_frame(const model::MillMotion<double>& motion, const model::
 
 double wall_gap(const VesselFrame& frame, const model::CylinderVessel<double>& vessel, int wall,
                 double radius, const Vec& position) {
-  const Vec d = position - frame.centre;
-  if (wall == 2) return vessel.radius - radius - std::hypot(dot(d, frame.x), dot(d, frame.z));
-  return vessel.half_height + (wall == 0 ? 1 : -1) * dot(d, frame.y) - radius;
+  return -vessel.overlap(wall, inside(frame, position), radius);
 }
 
-Vec wall_normal(const VesselFrame& frame, int wall, const Vec& position) {
-  if (wall != 2) return frame.y * (wall == 0 ? 1.0 : -1.0);
-  const Vec d = position - frame.centre;
-  const Vec outward = frame.x * dot(d, frame.x) + frame.z * dot(d, frame.z);
-  const double rho = size(outward);
-  return rho > 0 ? Vec(outward * (-1 / rho)) : frame.x;
+Vec wall_normal(const VesselFrame& frame, const model::CylinderVessel<double>& vessel, int wall,
+                const Vec& position) {
+  const Vec own = vessel.normal(wall, inside(frame, position));
+  const Vec normal = frame.x * own[0] + frame.y * own[1] + frame.z * own[2];
+  return size(normal) > 0 ? normal : frame.x;  // on the axis of a cylinder there is none
 }
 
 const char* name_of(WallVelocity formula) {

@@ -30,7 +30,8 @@ VesselFrame printed_frame(const model::MillMotion<double>& motion, const model::
 double wall_gap(const VesselFrame& frame, const model::CylinderVessel<double>& vessel, int wall,
                 double radius, const Vec& position);
 /// Unit, from the wall to the ball.
-Vec wall_normal(const VesselFrame& frame, int wall, const Vec& position);
+Vec wall_normal(const VesselFrame& frame, const model::CylinderVessel<double>& vessel, int wall,
+                const Vec& position);
 
 /// Velocities of the wall in different codes; the first is right: V = W_Z x P + (R_z W_x') x (P - C).
 enum class WallVelocity {
