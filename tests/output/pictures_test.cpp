@@ -1,5 +1,6 @@
 // Snapshots, animations and frames for ParaView, each against the run that it shows.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <pugixml.hpp>
 #include <vector>
 
+#include "output/scene.hpp"
+#include "report/animation.hpp"
 #include "run_with_outputs.hpp"
 
 namespace edmill {
@@ -133,6 +136,50 @@ TEST_F(Outputs, ParaviewFramesHoldBallsAndVessel) {
   for (const auto& entry : std::filesystem::directory_iterator(scratch / "out/movie"))
     entries += entry.exists();
   EXPECT_EQ(entries, 2u);  // nothing partial is left
+}
+
+/// A box about the origin, turned about y by an angle in degrees, at a height.
+Frame<double> turned(double angle, double height) {
+  const Eigen::Matrix3d axes =
+      Eigen::AngleAxisd(angle * std::acos(-1.0) / 180, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  return {{0, height, 0}, axes.col(0), axes.col(1), axes.col(2)};
+}
+output::Scene box_scene() {
+  output::Scene scene{};
+  for (const auto& wall : model::box_surfaces<double>({0.01, 0.02, 0.03}))
+    scene.vessel.walls.push_back(model::mesh_of(wall));
+  scene.vessel.frame = turned(90, 1);
+  return scene;
+}
+
+TEST(BoxScene, HasSixWallsInTheVesselFrame) {
+  pugi::xml_document page;
+  ASSERT_TRUE(page.load_string(output::vtp_vessel(box_scene()).c_str()));
+  const auto piece = page.child("VTKFile").child("PolyData").child("Piece");
+  EXPECT_EQ(piece.attribute("NumberOfPolys").as_int(), 6);
+  EXPECT_EQ(std::string(piece.child("CellData").child("DataArray").text().get()), "0 1 2 3 4 5 ");
+  std::istringstream numbers(piece.child("Points").child("DataArray").text().get());
+  int points = 0;
+  for (double x, y, z; numbers >> x >> y >> z; ++points) {
+    EXPECT_NEAR(std::abs(x), 0.03, 1e-15);  // z of the box, which is turned by a right angle
+    EXPECT_NEAR(std::abs(y - 1), 0.02, 1e-15);
+    EXPECT_NEAR(std::abs(z), 0.01, 1e-15);
+  }
+  EXPECT_EQ(points, 24);
+}
+
+TEST(BoxScene, IsReadBackAndTurnsTheShortWay) {
+  const auto file = std::filesystem::temp_directory_path() / ("box_" + std::to_string(::getpid()) + ".x3d");
+  const output::SceneMotion motion{1, {{0, turned(170, 1)}, {1, turned(-170, 3)}}, {}, {}};
+  std::ofstream(file) << output::x3d_text(box_scene(), &motion);
+  const auto vessel = report::read_animation(file).vessel;
+  std::filesystem::remove(file);
+  ASSERT_EQ(vessel.walls.size(), 6u);
+  for (const auto& wall : vessel.walls) EXPECT_EQ(wall.faces, (std::vector<std::vector<int>>{{0, 1, 2, 3}}));
+  EXPECT_NEAR(vessel.reach(), std::hypot(0.01, 0.02, 0.03), 1e-15);
+  const auto half_way = vessel.pose(0.5);
+  EXPECT_TRUE((half_way * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(-1, 2, 0), 1e-12));
+  EXPECT_TRUE((half_way * Eigen::Vector3d(0, 0, 1)).isApprox(Eigen::Vector3d(0, 2, -1), 1e-12));
 }
 
 }  // namespace
