@@ -6,11 +6,11 @@
 
 #include "base/digest.hpp"
 #include "base/errors.hpp"
+#include "casefile/build_case.hpp"
 #include "casefile/case_of_run.hpp"
 #include "casefile/case_parts.hpp"
 #include "casefile/output_entry.hpp"
 #include "casefile/section.hpp"
-#include "model/vessel.hpp"
 
 namespace edmill::casefile {
 
@@ -276,8 +276,8 @@ void add_outputs(const std::string& text, const std::string& name, CaseSpec& spe
   if (!document.problems.empty()) throw InputError(document.problems);
 }
 
-model::Partners partners_of(const CaseSpec&) {
-  return model::Partners(model::CylinderVessel<double>::walls());
+model::Partners partners_of(const CaseSpec& spec) {
+  return model::partners_of(build_mill<double>(spec).vessel);
 }
 
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides) {

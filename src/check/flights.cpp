@@ -35,10 +35,10 @@ Flights::Flights(const model::Case<double>& the_case, const Available& available
       missed_by_wall_(the_case.mill.vessel.walls().size()) {}
 
 VesselFrame Flights::nested_at(double time) const {
-  return nested_frame(case_.mill.motion, case_.mill.motion.pose(clock_.at(time)));
+  return frame_of(case_.mill.motion, case_.mill.motion.pose(clock_.at(time)), false);
 }
 VesselFrame Flights::printed_at(double time) const {
-  return printed_frame(case_.mill.motion, case_.mill.motion.pose(clock_.at(time)));
+  return frame_of(case_.mill.motion, case_.mill.motion.pose(clock_.at(time)), true);
 }
 
 Vec Flights::position_at(int ball, double time) const {

@@ -9,45 +9,48 @@ namespace {
 
 Vec cross(const Vec& a, const Vec& b) { return edmill::cross<double>(a, b); }
 
-Vec centre_of(const model::SpexMotion<double>& motion, const model::SpexPose<double>& pose) {
-  return {-pose.sin_alpha * motion.arm, pose.cos_alpha * motion.arm, 0};  // theta = alpha + pi/2
+/// A place as seen in the vessel.
+Vec inside(const VesselFrame& frame, const Vec& position) {
+  const Vec d = position - frame.centre;
+  return {dot(d, frame.x), dot(d, frame.y), dot(d, frame.z)};
 }
 
 }  // namespace
 
-VesselFrame nested_frame(const model::AnyMotion<double>& motion, const model::AnyPose<double>& any) {
-  const auto& pose = std::get<model::SpexPose<double>>(any);
-  const double s = pose.cos_alpha, c = -pose.sin_alpha;  // sin and cos of theta
-  const double sg = pose.sin_gamma, cg = pose.cos_gamma;
-  return {{c, s, 0},
-          {-s * cg, c * cg, sg},
-          {s * sg, -c * sg, cg},
-          centre_of(*motion.get_if<model::SpexMotion<double>>(), pose),
-          pose.theta_rate,
-          pose.gamma_rate};
-}
-
-VesselFrame printed_frame(const model::AnyMotion<double>& motion, const model::AnyPose<double>& any) {
-  const auto& pose = std::get<model::SpexPose<double>>(any);
-  const double s = pose.cos_alpha, c = -pose.sin_alpha;
-  const double sg = pose.sin_gamma, cg = pose.cos_gamma;
-  return {{c, s * cg, s * sg}, {-s, c * cg, c * sg},
-          {0, -sg, cg},        centre_of(*motion.get_if<model::SpexMotion<double>>(), pose),
-          pose.theta_rate,     pose.gamma_rate};
+VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPose<double>& pose,
+                     bool as_printed) {
+  const auto* spex = motion.get_if<model::SpexMotion<double>>();
+  if (!spex) {
+    VesselFrame frame{motion.axis_x(pose), motion.axis_y(pose), motion.axis_z(pose),
+                      motion.to_inertial(pose, Vec(0, 0, 0))};
+    frame.centre_velocity = motion.wall_velocity(pose, frame.centre);
+    frame.angular_velocity = motion.angular_velocity(pose);
+    return frame;
+  }
+  const auto& p = std::get<model::SpexPose<double>>(pose);
+  const double s = p.cos_alpha, c = -p.sin_alpha;  // sin and cos of theta = alpha + pi/2
+  const double sg = p.sin_gamma, cg = p.cos_gamma;
+  const Vec centre{c * spex->arm, s * spex->arm, 0};
+  VesselFrame frame = as_printed
+                          ? VesselFrame{{c, s * cg, s * sg}, {-s, c * cg, c * sg}, {0, -sg, cg}, centre}
+                          : VesselFrame{{c, s, 0}, {-s * cg, c * cg, sg}, {s * sg, -c * sg, cg}, centre};
+  frame.swing = {0, 0, p.theta_rate};
+  frame.roll_rate = p.gamma_rate;
+  frame.centre_velocity = cross(frame.swing, centre);
+  frame.angular_velocity = frame.swing + frame.x * frame.roll_rate;
+  return frame;
 }
 
 double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
                 const Vec& position) {
-  const Vec d = position - frame.centre;
-  return -vessel.inset(radius).overlap(wall, Vec(dot(d, frame.x), dot(d, frame.y), dot(d, frame.z)));
+  return -vessel.inset(radius).overlap(wall, inside(frame, position));
 }
 
-Vec wall_normal(const VesselFrame& frame, int wall, const Vec& position) {
-  if (wall != 2) return frame.y * (wall == 0 ? 1.0 : -1.0);
-  const Vec d = position - frame.centre;
-  const Vec outward = frame.x * dot(d, frame.x) + frame.z * dot(d, frame.z);
-  const double rho = size(outward);
-  return rho > 0 ? Vec(outward * (-1 / rho)) : frame.x;
+Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall,
+                const Vec& position) {
+  const Vec own = vessel.normal(wall, inside(frame, position));
+  const Vec normal = frame.x * own[0] + frame.y * own[1] + frame.z * own[2];
+  return size(normal) > 0 ? normal : frame.x;  // on the axis of a cylinder there is none
 }
 
 const char* name_of(WallVelocity formula) {
@@ -67,34 +70,35 @@ const char* name_of(WallVelocity formula) {
 
 Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselFrame& printed,
                   const Vec& point, const Vec& ball_centre) {
-  const Vec about_z{0, 0, nested.theta_rate}, X{1, 0, 0};
-  const Vec swing = cross(about_z, point), d = point - nested.centre;
-  const Vec roll = cross(Vec(nested.x * nested.gamma_rate), d);
+  const auto at = [&](const Vec& place) {
+    return Vec(nested.centre_velocity + cross(nested.angular_velocity, Vec(place - nested.centre)));
+  };
+  const Vec X{1, 0, 0}, d = point - nested.centre;
+  const Vec roll = cross(Vec(nested.x * nested.roll_rate), d);
   switch (formula) {
     case WallVelocity::nested:
-      return swing + roll;
+      return at(point);
     case WallVelocity::none:
       return {0, 0, 0};
     case WallVelocity::of_the_centre:
-      return cross(about_z, nested.centre);
+      return nested.centre_velocity;
     case WallVelocity::without_gamma:
-      return swing;
+      return at(point) - roll;
     case WallVelocity::without_theta:
-      return roll;
+      return at(point) - cross(nested.swing, point);
     case WallVelocity::reversed:
-      return -(swing + roll);
+      return -at(point);
     case WallVelocity::gamma_reversed:
-      return swing - roll;
+      return at(point) - 2 * roll;
     case WallVelocity::gamma_about_X:
-      return swing + cross(Vec(X * nested.gamma_rate), d);
+      return at(point) - roll + cross(Vec(X * nested.roll_rate), d);
     case WallVelocity::at_the_ball_centre:
-      return cross(about_z, ball_centre) +
-             cross(Vec(nested.x * nested.gamma_rate), Vec(ball_centre - nested.centre));
+      return at(ball_centre);
     case WallVelocity::of_the_printed_matrix: {
       // P = C + R_x R_z p: R_z p rotates about Z, then everything but C rotates about X.
-      const Vec turned_z = cross(Vec(X * nested.gamma_rate), d);
+      const Vec turned_z = cross(Vec(X * nested.roll_rate), d);
       // The axis Z of the inner rotation as R_x leaves it is the printed frame's z.
-      return cross(about_z, nested.centre) + turned_z + cross(Vec(printed.z * nested.theta_rate), d);
+      return nested.centre_velocity + turned_z + cross(Vec(printed.z * nested.swing[2]), d);
     }
   }
   return {0, 0, 0};

@@ -15,22 +15,26 @@ using Vec = Vec3<double>;
 inline double dot(const Vec& a, const Vec& b) { return edmill::dot<double>(a, b); }
 inline double size(const Vec& a) { return edmill::norm<double>(a); }
 
-/// Pose of the vessel: the rotated axes x, y, z and the centre C in the inertial frame.
+/// The vessel at an instant: its axes x, y, z and its centre C in the inertial frame.
 struct VesselFrame {
   Vec x, y, z, centre;
-  double theta_rate = 0, gamma_rate = 0;  ///< [rad/s]
+  Vec centre_velocity{0, 0, 0}, angular_velocity{0, 0, 0};
+  // Of the nested motion only, whose two rotations codes take for each other:
+  Vec swing{0, 0, 0};    ///< theta' about Z [rad/s]
+  double roll_rate = 0;  ///< gamma' about x' [rad/s]
 };
 
-/// R_z(theta) R_x(gamma), the nested model. (2.7')
-VesselFrame nested_frame(const model::AnyMotion<double>& motion, const model::AnyPose<double>& any);
-/// R_x(gamma) R_z(theta), as (2.14) is printed.
-VesselFrame printed_frame(const model::AnyMotion<double>& motion, const model::AnyPose<double>& any);
+/// The nested motion R_z(theta) R_x(gamma), (2.7'), or any other as it is.
+/// @param as_printed  R_x(gamma) R_z(theta) in place of it, as (2.14) is printed
+VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPose<double>& pose,
+                     bool as_printed);
 
 /// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
 double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
                 const Vec& position);
 /// Unit, from the wall to the ball.
-Vec wall_normal(const VesselFrame& frame, int wall, const Vec& position);
+Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall,
+                const Vec& position);
 
 /// Velocities of the wall in different codes; the first is right: V = W_Z x P + (R_z W_x') x (P - C).
 enum class WallVelocity {

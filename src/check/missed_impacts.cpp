@@ -122,7 +122,7 @@ Scene Flights::scene_at(int ball, int wall, double time, const Vec& position) co
   LoggedImpact& impact = scene.impact;
   impact.with_wall = true;
   impact.ball[0] = case_.balls[static_cast<std::size_t>(ball)];
-  impact.normal = wall_normal(scene.nested, wall, position);
+  impact.normal = wall_normal(scene.nested, case_.mill.vessel, wall, position);
   impact.wall_velocity = wall_velocity(WallVelocity::nested, scene.nested, scene.printed,
                                        position - impact.normal * impact.ball[0].radius, position);
   impact.set_masses();

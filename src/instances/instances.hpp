@@ -36,8 +36,10 @@
   prefix class Run<Real>;                                                                           \
   }
 
-#define EDMILL_GENERAL_SEARCH(prefix, Real) \
-  prefix class edmill::dynamics::WallSearch<edmill::model::AnyMotion<Real>, edmill::model::AnyVessel<Real>>;
+#define EDMILL_GENERAL_SEARCH(prefix, Real)                                          \
+  namespace edmill {                                                                 \
+  prefix class dynamics::WallSearch<model::AnyMotion<Real>, model::AnyVessel<Real>>; \
+  }
 
 #define EDMILL_DECLARE_INSTANCES(Real)         \
   EDMILL_GENERAL_SEARCH(extern template, Real) \

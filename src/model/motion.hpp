@@ -17,6 +17,7 @@ namespace edmill::model {
 /// - `to_inertial`, `direction_to_inertial`, `position_in_vessel`, `to_vessel_frame` and
 ///   `vessel_frame_acceleration`: places, velocities and accelerations of free bodies between the frames
 /// - `wall_velocity`, `wall_acceleration`: inertial, of the vessel's material point at an inertial place
+/// - `middle()`: where pictures look for the vessel [m]
 /// - `reach(r)` [m]: bound on the distance from the origin of what is within r of the vessel's centre
 /// - `wall_speed(r)`, `speed_within(d)`, `acceleration_within(d)`: bounds on the vessel's points within r of
 ///   its centre, or within d of the origin
@@ -40,6 +41,7 @@ concept Motion = requires(const M& motion, const typename M::Pose& pose,
   { motion.vessel_frame_acceleration(pose, state, v, v) } -> std::same_as<Vec3<typename M::Scalar>>;
   { motion.wall_velocity(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
   { motion.wall_acceleration(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
+  { motion.middle() } -> std::same_as<Vec3<typename M::Scalar>>;
   { motion.reach(x) } -> std::same_as<typename M::Scalar>;
   { motion.wall_speed(x) } -> std::same_as<typename M::Scalar>;
   { motion.speed_within(x) } -> std::same_as<typename M::Scalar>;
@@ -152,6 +154,9 @@ class AnyMotion {
     return at(pose, [&](const auto& m, const auto& own) { return m.wall_acceleration(own, point); });
   }
 
+  Vec3<Real> middle() const {
+    return visit([](const auto& m) { return m.middle(); });
+  }
   Real reach(const Real& vessel_reach) const {
     return visit([&](const auto& m) { return m.reach(vessel_reach); });
   }

@@ -16,7 +16,8 @@ namespace edmill::model {
 /// functions of the place of a ball's centre: positive inside, zero at contact. They need not be lengths. The
 /// centre of a ball of radius R is in the vessel that is `inset(R)`, whose gaps are the ball's.
 ///
-/// - `wall_count()`; `walls()`: their names; `PerWall<T>`: one T for each, `per_wall(value)` with all alike
+/// - `wall_count()`; `walls()`: their names; `surfaces()`: for maps and pictures; `PerWall<T>`: one T for
+/// each, `per_wall(value)` with all alike
 /// - `reach()` [m]: from the centre to the farthest point; `extent()`, no less and without a root;
 ///   `half_sizes()`: bounds on the coordinates; `volume()` [m3]; `widest_ball()`: diameter of the largest
 ///   that fits [m]
@@ -39,7 +40,8 @@ concept Vessel = requires(const V& vessel, int wall, const Vec3<typename V::Scal
   typename V::template PerWall<bool>;
   typename V::template PerKind<bool>;
   { vessel.wall_count() } -> std::same_as<int>;
-      { vessel.walls() } -> std::same_as<std::vector<WallInfo>>;
+  { vessel.walls() } -> std::same_as<std::vector<WallInfo>>;
+  { vessel.surfaces() } -> std::same_as<std::vector<WallSurface<typename V::Scalar>>>;
   { vessel.reach() } -> std::same_as<typename V::Scalar>;
   { vessel.extent() } -> std::same_as<typename V::Scalar>;
   { vessel.half_sizes() } -> std::same_as<Vec3<typename V::Scalar>>;
@@ -108,6 +110,9 @@ class AnyVessel {
   }
   std::vector<WallInfo> walls() const {
     return visit([](const auto& v) { return v.walls(); });
+  }
+  std::vector<WallSurface<Real>> surfaces() const {
+    return visit([](const auto& v) { return v.surfaces(); });
   }
   template <class Value>
   PerWall<Value> per_wall(const Value& value) const {

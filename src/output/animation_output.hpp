@@ -1,6 +1,9 @@
 // The record as one X3D page that plays it. (thesis D.4.2)
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "casefile/output_columns.hpp"
 #include "io/output_folder.hpp"
 #include "output/frames_output.hpp"
@@ -55,7 +58,7 @@ class AnimationOutput : public FramesOutput<Real> {
   }
   void archive_record(Archive& a) override {
     FramesOutput<Real>::archive_record(a);
-    a(file_, first_, paths_, times_);
+    a(file_, first_, paths_, frames_);
   }
 
  private:
@@ -72,7 +75,7 @@ class AnimationOutput : public FramesOutput<Real> {
       paths_.balls.resize(first_->balls.size());
     }
     for (int i = 0; i < simulation.ball_count(); ++i) add_key(i, time, state_of(i).position);
-    times_.push_back(static_cast<double>(time));
+    ++frames_;
   }
   void add_key(int ball, const Real& time, const Vec3<Real>& place) {
     paths_.balls[static_cast<std::size_t>(ball)].emplace_back(static_cast<double>(time),
@@ -86,13 +89,14 @@ class AnimationOutput : public FramesOutput<Real> {
     };
     for (auto& path : paths_.balls) to_fractions(path);
     to_fractions(paths_.contact);
-    if (times_.size() < min_frames_ + 1) {
-      times_.clear();
-      for (std::uint64_t k = 0; k <= min_frames_; ++k)
-        times_.push_back(from + length * static_cast<double>(k) / static_cast<double>(min_frames_));
+    const auto& motion = simulation.mill().motion;
+    // As many keys of the vessel as frames, and enough for turns of the drive between them.
+    const double turns = length / static_cast<double>(motion.period());
+    const auto keys = std::max({min_frames_, frames_ - 1, static_cast<std::uint64_t>(std::ceil(64 * turns))});
+    for (std::uint64_t k = 0; k <= keys; ++k) {
+      const double key = static_cast<double>(k) / static_cast<double>(keys);
+      paths_.vessel.emplace_back(key, vessel_frame(motion, from + length * key));
     }
-    for (const double time : times_)
-      paths_.vessel.emplace_back((time - from) / length, this->angles(simulation, time));
     paths_.duration = length / speed_;
     file_.stream() << x3d_text(*first_, &paths_);
   }
@@ -102,7 +106,7 @@ class AnimationOutput : public FramesOutput<Real> {
   std::uint64_t min_frames_;
   std::optional<Scene> first_;
   SceneMotion paths_{};
-  std::vector<double> times_;
+  std::uint64_t frames_ = 0;
 };
 
 }  // namespace edmill::output

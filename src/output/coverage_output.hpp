@@ -1,22 +1,35 @@
 // Dose by its place on the vessel. docs/outputs.md, "coverage"
 #pragma once
 
-#include "base/trigonometry.hpp"
+#include <algorithm>
+
 #include "casefile/output_columns.hpp"
-#include "output/sectors.hpp"
 #include "output/table_output.hpp"
 
 namespace edmill::output {
 
-/// How the vessel's walls are cut into cells.
+/// Into how many equal parts the coordinates on walls are divided.
 struct CoverageKeys {
-  std::uint64_t angles, heights, rings;
+  std::uint64_t angles, heights, rings, parts;
+
+  std::size_t parts_of(model::Coordinate c) const {
+    switch (c) {
+      case model::Coordinate::angle:
+        return angles;
+      case model::Coordinate::height:
+        return heights;
+      case model::Coordinate::radius:
+        return rings;
+      default:
+        return parts;
+    }
+  }
 };
 
 inline void read_coverage(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   using casefile::read_size;
-  output.own =
-      CoverageKeys{read_size(s, "angles", 36), read_size(s, "heights", 24), read_size(s, "rings", 6)};
+  output.own = CoverageKeys{read_size(s, "angles", 36), read_size(s, "heights", 24), read_size(s, "rings", 6),
+                            read_size(s, "parts", 12)};
 }
 
 template <class Real>
@@ -24,11 +37,21 @@ class CoverageOutput : public TableOutput<Real> {
  public:
   CoverageOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                  const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run),
-        heights_(spec.own_keys<CoverageKeys>().heights),
-        rings_(spec.own_keys<CoverageKeys>().rings),
-        sectors_(spec.own_keys<CoverageKeys>().angles),
-        cells_((2 * rings_ + heights_) * sectors_.count()) {}
+      : TableOutput<Real>(spec, folder, run) {
+    std::size_t cells = 0;
+    for (const auto& surface : run.surfaces) {
+      const auto c = surface.coordinates();
+      const auto& keys = spec.own_keys<CoverageKeys>();
+      walls_.push_back({surface, keys.parts_of(c[0]), keys.parts_of(c[1]), cells});
+      cells += walls_.back().columns * walls_.back().rows;
+    }
+    cells_.resize(cells);
+    for (std::size_t k = 0; k < model::coordinate_infos.size(); ++k) {
+      const auto c = static_cast<model::Coordinate>(k);
+      if (std::any_of(walls_.begin(), walls_.end(), [&](const Wall& wall) { return wall.has(c); }))
+        coordinates_.push_back(c);
+    }
+  }
 
  protected:
   void archive_record(Archive& a) override { a(cells_); }
@@ -36,39 +59,29 @@ class CoverageOutput : public TableOutput<Real> {
   void record(const Seen<Real>& seen) override {
     const auto& f = seen.facts;
     if (f.ball_ball) return;
-    const Vec3<Real> p = own_contact_point(seen, pose_of(seen));
-    const auto& vessel = *seen.simulation.mill().vessel.template get_if<model::CylinderVessel<Real>>();
-    const bool cylinder = f.partner == 2;
-    // Rings have equal areas: equal parts of the squared radius.
-    const Real part = cylinder ? Real((p[1] / vessel.half_height + 1) / 2)
-                               : Real((p[0] * p[0] + p[2] * p[2]) / (vessel.radius * vessel.radius));
-    auto& cell =
-        cells_[cell_of(f.partner, band(part, cylinder ? heights_ : rings_), sectors_.holding(p[0], p[2]))];
+    const auto& wall = walls_[static_cast<std::size_t>(f.partner)];
+    const auto place = wall.surface.map(own_contact_point(seen, pose_of(seen)));
+    auto& cell = cells_[wall.cell(part(place.u, wall.columns), part(place.v, wall.rows))];
     ++cell.impacts;
     cell.dose += f.milling_dose;
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
     using enum Column::Type;
-    const char *const angle = "about the vessel's axis from x, the arm, to z",
-                      *const height = "along y from the vessel's centre; none on caps",
-                      *const radius = "from the vessel's axis; none on the cylinder";
-    this->begin({{"wall", integer, "", "0 the cap at -y, 1 the cap at +y, 2 the cylinder"},
-                 {"angle_low", number, "rad", angle},
-                 {"angle_high", number, "rad", angle},
-                 {"height_low", number, "m", height},
-                 {"height_high", number, "m", height},
-                 {"radius_low", number, "m", radius},
-                 {"radius_high", number, "m", radius},
-                 {"area", number, "m2", "area of the cell"},
-                 {"impacts", integer, "1", "number of impacts"},
-                 {"dose", number, "J", "milling dose"},
-                 {"dose_per_area", number, "J/m2", "milling dose of the cell over its area"}},
-                {this->window(until)});
-    for (int wall = 0; wall < model::wall_count; ++wall)
-      for (std::size_t b = 0; b < (wall == 2 ? heights_ : rings_); ++b)
-        for (std::size_t a = 0; a < sectors_.count(); ++a)
-          write_cell(*simulation.mill().vessel.template get_if<model::CylinderVessel<Real>>(), wall, b, a);
+    std::vector<Column> columns{{"wall", integer, "", wall_names(simulation.mill().vessel.walls())}};
+    for (const auto c : coordinates_) {
+      const auto& info = model::info_of(c);
+      for (const char* end : {"_low", "_high"})
+        columns.push_back({std::string(info.name) + end, number, info.unit, info.meaning + where_none(c)});
+    }
+    columns.push_back({"area", number, "m2", "area of the cell"});
+    columns.push_back({"impacts", integer, "1", "number of impacts"});
+    columns.push_back({"dose", number, "J", "milling dose"});
+    columns.push_back({"dose_per_area", number, "J/m2", "milling dose of the cell over its area"});
+    this->begin(std::move(columns), {this->window(until)});
+    for (std::size_t wall = 0; wall < walls_.size(); ++wall)
+      for (std::size_t row = 0; row < walls_[wall].rows; ++row)
+        for (std::size_t column = 0; column < walls_[wall].columns; ++column) write_cell(wall, column, row);
   }
 
  private:
@@ -77,41 +90,61 @@ class CoverageOutput : public TableOutput<Real> {
     Real dose{0};  ///< [J]
     void archive(Archive& a) { a(impacts, dose); }
   };
+  /// A wall in columns of equal parts of u and rows of equal parts of v.
+  struct Wall {
+    model::WallSurface<Real> surface;
+    std::size_t columns, rows;
+    std::size_t first;  ///< of its cells
+
+    std::size_t cell(std::size_t column, std::size_t row) const { return first + row * columns + column; }
+    bool has(model::Coordinate c) const {
+      const auto own = surface.coordinates();
+      return std::find(own.begin(), own.end(), c) != own.end();
+    }
+  };
 
   /// Which of `count` equal parts of [0, 1] holds a value; rounding may have put it outside.
-  static std::size_t band(const Real& value, std::size_t count) {
+  static std::size_t part(const Real& value, std::size_t count) {
     if (!(value > 0)) return 0;
     const Real place = value * Real(count);
     return place < Real(count) ? static_cast<std::size_t>(place) : count - 1;
   }
-  std::size_t cell_of(int wall, std::size_t band, std::size_t sector) const {
-    return (static_cast<std::size_t>(wall) * rings_ + band) * sectors_.count() + sector;
+
+  /// "0 the cap at -y, 1 the cap at +y"
+  static std::string wall_names(const std::vector<model::WallInfo>& walls) {
+    std::string text;
+    for (std::size_t wall = 0; wall < walls.size(); ++wall)
+      text += (wall == 0 ? "" : ", ") + std::to_string(wall) + " " + walls[wall].meaning;
+    return text;
+  }
+  /// "; none on caps"
+  std::string where_none(model::Coordinate c) const {
+    std::string text;
+    for (const auto& wall : walls_) {
+      const std::string name = wall.surface.name();
+      if (!wall.has(c) && text.find(name) == std::string::npos)
+        text += (text.empty() ? "; none on " : ", ") + name;
+    }
+    return text;
   }
 
-  void write_cell(const model::CylinderVessel<Real>& vessel, int wall, std::size_t band, std::size_t sector) {
-    using std::sqrt;
-    const Real turn = 2 * numerics::pi<Real>(), angles = Real(sectors_.count());
-    const std::optional<Real> none;
-    this->put(wall, Real(turn * Real(sector) / angles), Real(turn * Real(sector + 1) / angles));
-    Real area;
-    if (wall == 2) {
-      for (const std::size_t edge : {band, band + 1})
-        this->put(Real(vessel.half_height * (2 * Real(edge) / Real(heights_) - 1)));
-      this->put(none, none);
-      area = turn * vessel.radius * 2 * vessel.half_height / (angles * Real(heights_));
-    } else {
-      this->put(none, none);
-      for (const std::size_t edge : {band, band + 1})
-        this->put(Real(vessel.radius * sqrt(Real(edge) / Real(rings_))));
-      area = turn / 2 * (vessel.radius * vessel.radius) / (angles * Real(rings_));
+  void write_cell(std::size_t index, std::size_t column, std::size_t row) {
+    const Wall& wall = walls_[index];
+    this->put(static_cast<std::uint64_t>(index));
+    for (const auto c : coordinates_) {
+      const bool along_u = wall.surface.coordinates()[0] == c;
+      const std::size_t part = along_u ? column : row, parts = along_u ? wall.columns : wall.rows;
+      for (const std::size_t edge : {part, part + 1})
+        this->put(io::value_if(wall.has(c), [&] { return wall.surface.edge(along_u ? 0 : 1, edge, parts); }));
     }
-    const auto& cell = cells_[cell_of(wall, band, sector)];
+    const Real area = wall.surface.area() / (Real(wall.columns) * Real(wall.rows));
+    const auto& cell = cells_[wall.cell(column, row)];
     this->put(area, cell.impacts, cell.dose, Real(cell.dose / area));
   }
 
-  std::size_t heights_, rings_;
-  Sectors<Real> sectors_;
-  std::vector<Cell> cells_;  ///< cap 0, cap 1, cylinder; band after band
+  std::vector<Wall> walls_;                     ///< by id
+  std::vector<model::Coordinate> coordinates_;  ///< that walls have
+  std::vector<Cell> cells_;                     ///< wall after wall, row after row
 };
 
 }  // namespace edmill::output

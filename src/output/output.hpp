@@ -8,6 +8,7 @@
 #include "engine/simulation.hpp"
 #include "io/file_note.hpp"
 #include "model/impact_facts.hpp"
+#include "model/surface.hpp"
 #include "output/output_timer.hpp"
 #include "output/variable_values.hpp"
 
@@ -20,8 +21,9 @@ struct RunContext {
   model::Partners partners;         ///< of the balls
   std::optional<Real> powder_mass;  ///< [kg]
   casefile::Colour vessel_colour{};
-  std::vector<casefile::Colour> ball_colours;  ///< of each ball
-  std::vector<io::FileNote> notes;             ///< where the run comes from
+  std::vector<casefile::Colour> ball_colours;      ///< of each ball
+  std::vector<model::WallSurface<Real>> surfaces;  ///< of the walls by id, in the vessel frame
+  std::vector<io::FileNote> notes;                 ///< where the run comes from
 };
 
 /// One impact as an output sees it.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/version.hpp"
+#include "casefile/build_case.hpp"
 #include "output/outputs.hpp"
 #include "output/registry.hpp"
 
@@ -62,6 +63,7 @@ Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const std::filesystem::pa
                        std::nullopt,
                        spec.vessel_colour,
                        spec.ball_colours(),
+                       casefile::build_mill<Real>(spec).vessel.surfaces(),
                        detail::notes_of<Real>(spec)};
   walls_ = run.partners.walls();
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();

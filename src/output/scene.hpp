@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "base/archive.hpp"
+#include "base/frame.hpp"
 #include "base/vector.hpp"
 #include "casefile/colour.hpp"
+#include "model/surface.hpp"
 
 namespace edmill::output {
 
@@ -22,30 +24,28 @@ struct SceneBall {
   void archive(Archive& a) { a(radius, colour, position, velocity, spin, milling_dose); }
 };
 
-/// The vessel's pose as angles of the nested motion, theta about Z and gamma about x'. [rad]
-struct SceneAngles {
-  double theta, gamma;
+struct SceneVessel {
+  std::vector<model::Mesh> walls;  ///< by id, in the vessel frame
+  casefile::Colour colour;
+  Frame<double> frame;
 
-  void archive(Archive& a) { a(theta, gamma); }
+  void archive(Archive& a) { a(walls, colour, frame); }
 };
 
 struct Scene {
-  double arm, vessel_radius, half_height;  ///< [m]
-  casefile::Colour vessel_colour;
-  SceneAngles angles;
+  SceneVessel vessel;
+  Vec3<double> eye, target;  ///< of who looks at it [m]
   std::vector<SceneBall> balls;
   std::optional<SceneBall> contact;  ///< marks the contact point
   double time;                       ///< [s]
 
-  void archive(Archive& a) {
-    a(arm, vessel_radius, half_height, vessel_colour, angles, balls, contact, time);
-  }
+  void archive(Archive& a) { a(vessel, eye, target, balls, contact, time); }
 };
 
 /// What moves in an animation: keys are fractions of its duration, from 0 to 1.
 struct SceneMotion {
   double duration;  ///< of one playback [s]
-  std::vector<std::pair<double, SceneAngles>> vessel;
+  std::vector<std::pair<double, Frame<double>>> vessel;
   using Path = std::vector<std::pair<double, Vec3<double>>>;
   std::vector<Path> balls;  ///< of each ball
   Path contact;             ///< where the scene marks the contact point

@@ -1,12 +1,12 @@
 // What pictures have in common. In double: nothing is computed from them.
 #pragma once
 
-#include <cmath>
 #include <filesystem>
 
 #include "output/balls_before.hpp"
 #include "output/output.hpp"
 #include "output/scene.hpp"
+#include "output/vessel_frame.hpp"
 
 namespace edmill::output {
 
@@ -19,18 +19,13 @@ class SceneOutput : public Output<Real> {
       : Output<Real>(spec, run),
         place_(folder / spec.folder / spec.file),
         contact_(spec.contact_point),
-        run_(run) {}
+        run_(run) {
+    for (const auto& surface : run.surfaces) walls_.push_back(model::mesh_of(surface));
+  }
 
  protected:
   const std::filesystem::path& place() const { return place_; }
   bool shows_contact() const { return contact_.has_value(); }
-
-  static SceneAngles angles(const engine::Simulation<Real>& simulation, double time) {
-    const auto& motion = *simulation.mill().motion.template get_if<model::SpexMotion<Real>>();
-    const double phase = static_cast<double>(motion.angular_speed()) * time;
-    return {std::acos(0.0) + static_cast<double>(motion.theta_max) * std::cos(phase),
-            static_cast<double>(motion.gamma_max) * std::sin(phase)};
-  }
 
   SceneBall contact_at(const Vec3<Real>& point) const {
     return {contact_->radius.template to<double>(), contact_->colour, vector_cast<double>(point)};
@@ -40,16 +35,11 @@ class SceneOutput : public Output<Real> {
   template <class StateOf>
   Scene scene(const engine::Simulation<Real>& simulation, const Real& time, StateOf&& state_of) const {
     const auto& mill = simulation.mill();
-    const auto& motion = *mill.motion.template get_if<model::SpexMotion<Real>>();
-    const auto& vessel = *mill.vessel.template get_if<model::CylinderVessel<Real>>();
-    Scene s{static_cast<double>(motion.arm),
-            static_cast<double>(vessel.radius),
-            static_cast<double>(vessel.half_height),
-            run_.vessel_colour,
-            angles(simulation, static_cast<double>(time)),
-            {},
-            {},
-            static_cast<double>(time)};
+    const auto now = static_cast<double>(time);
+    const Vec3<double> target = vector_cast<double>(mill.motion.middle());
+    // From above and in front, so that the arm points up in the picture.
+    const Vec3<double> eye = target + Vec3<double>(0, 0, 4 * static_cast<double>(mill.vessel.extent()));
+    Scene s{{walls_, run_.vessel_colour, vessel_frame(mill.motion, now)}, eye, target, {}, {}, now};
     for (int i = 0; i < simulation.ball_count(); ++i) {
       const auto state = state_of(i);
       s.balls.push_back({static_cast<double>(simulation.properties(i).radius),
@@ -63,6 +53,7 @@ class SceneOutput : public Output<Real> {
   std::filesystem::path place_;
   std::optional<casefile::ContactPointSpec> contact_;
   RunContext<Real> run_;
+  std::vector<model::Mesh> walls_;
 };
 
 }  // namespace edmill::output

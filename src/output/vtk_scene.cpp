@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -103,31 +102,22 @@ std::string vtp_balls(const Scene& s) {
 }
 
 std::string vtp_vessel(const Scene& s) {
-  constexpr int sides = 48;
-  const double st = std::sin(s.angles.theta), ct = std::cos(s.angles.theta), sg = std::sin(s.angles.gamma),
-               cg = std::cos(s.angles.gamma);
-  // P = R_z(theta) [(l, 0, 0) + R_x(gamma) p]
-  const auto place = [&](double x, double y, double z) {
-    const double a = s.arm + x, b = y * cg - z * sg;
-    return Vec3<double>{a * ct - b * st, a * st + b * ct, y * sg + z * cg};
-  };
-  std::string points;
-  std::vector<std::vector<int>> faces(2);
-  for (int k = 0; k < sides; ++k) {
-    const double angle = 2 * 3.141592653589793 * k / sides;
-    for (const double y : {-s.half_height, s.half_height})
-      points += vector(place(s.vessel_radius * std::cos(angle), y, s.vessel_radius * std::sin(angle)));
-    const int next = (k + 1) % sides;
-    faces.push_back({2 * k, 2 * k + 1, 2 * next + 1, 2 * next});
-    faces[0].push_back(2 * k);
-    faces[1].push_back(2 * k + 1);
+  std::string points, walls;
+  std::vector<std::vector<int>> faces;
+  int count = 0;
+  for (std::size_t wall = 0; wall < s.vessel.walls.size(); ++wall) {
+    const auto& mesh = s.vessel.walls[wall];
+    for (auto face : mesh.faces) {
+      for (int& corner : face) corner += count;
+      faces.push_back(std::move(face));
+      walls += fmt::format("{} ", wall);
+    }
+    for (const auto& point : mesh.points) points += vector(s.vessel.frame.outside(point));
+    count += static_cast<int>(mesh.points.size());
   }
   VtkFile file("PolyData");
-  auto piece = add_piece(file, s.time, 2 * sides, 0, faces.size());
-  auto data = piece.append_child("CellData");
-  std::string walls = "0 1";
-  for (int k = 0; k < sides; ++k) walls += " 2";
-  add_array(data, "wall", "Int32", 1, walls);
+  auto piece = add_piece(file, s.time, static_cast<std::size_t>(count), 0, faces.size());
+  add_array(piece.append_child("CellData"), "wall", "Int32", 1, walls);
   add_array(piece.append_child("Points"), "", "Float64", 3, points);
   add_cells(piece, "Polys", faces);
   return file.text();

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <cmath>
+#include <Eigen/Geometry>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -37,15 +37,35 @@ void add_ball(pugi::xml_node parent, const SceneBall& ball, const std::string& n
   add(shape, "Sphere", {{"radius", numbers({ball.radius})}});
 }
 
-/// The nested motion as it stands: about Z by theta, along the arm, about the arm by gamma.
-void add_vessel(pugi::xml_node parent, const Scene& s) {
-  auto swing = add(parent, "Transform", {{"DEF", "theta"}, {"rotation", numbers({0, 0, 1, s.angles.theta})}});
-  auto arm = add(swing, "Transform", {{"translation", numbers({s.arm, 0, 0})}});
-  auto tilt = add(arm, "Transform", {{"DEF", "gamma"}, {"rotation", numbers({1, 0, 0, s.angles.gamma})}});
-  auto shape = add(tilt, "Shape");
-  add_look(shape, s.vessel_colour, 0.7);
-  add(shape, "Cylinder",
-      {{"radius", numbers({s.vessel_radius})}, {"height", numbers({2 * s.half_height})}, {"solid", "false"}});
+/// Axis and angle.
+std::string rotation(const Frame<double>& frame) {
+  Eigen::Matrix3d axes;
+  axes << frame.x, frame.y, frame.z;
+  const Eigen::AngleAxisd turn(axes);
+  return vector(turn.axis()) + " " + numbers({turn.angle()});
+}
+
+void add_wall(pugi::xml_node parent, const model::Mesh& wall, const casefile::Colour& colour) {
+  auto shape = add(parent, "Shape");
+  add_look(shape, colour, 0.7);
+  std::string corners, points;
+  for (const auto& face : wall.faces) {
+    for (const int corner : face) corners += fmt::format("{} ", corner);
+    corners += "-1 ";
+  }
+  for (const auto& point : wall.points) points += vector(point) + " ";
+  // Faces of one curved wall meet at less than the crease angle and look smooth.
+  auto faces =
+      add(shape, "IndexedFaceSet", {{"solid", "false"}, {"creaseAngle", "0.5"}, {"coordIndex", corners}});
+  add(faces, "Coordinate", {{"point", points}});
+}
+
+void add_vessel(pugi::xml_node parent, const SceneVessel& vessel) {
+  auto place = add(parent, "Transform",
+                   {{"DEF", "vessel"},
+                    {"translation", vector(vessel.frame.origin)},
+                    {"rotation", rotation(vessel.frame)}});
+  for (const auto& wall : vessel.walls) add_wall(place, wall, vessel.colour);
 }
 
 void add_route(pugi::xml_node scene, const std::string& from, const char* from_field, const std::string& to,
@@ -54,35 +74,38 @@ void add_route(pugi::xml_node scene, const std::string& from, const char* from_f
 }
 
 /// `keys` and `values` of an interpolator that drives one field of the node `target`.
-void add_interpolator(pugi::xml_node scene, const char* type, const std::string& target, const char* field,
-                      const std::string& keys, const std::string& values) {
-  const std::string name = target + "_path";
+void add_interpolator(pugi::xml_node scene, const char* type, const std::string& name,
+                      const std::string& target, const char* field, const std::string& keys,
+                      const std::string& values) {
   add(scene, type, {{"DEF", name}, {"key", keys}, {"keyValue", values}});
   add_route(scene, "clock", "fraction_changed", name, "set_fraction");
   add_route(scene, name, "value_changed", target, field);
 }
 
+void add_path(pugi::xml_node scene, const SceneMotion::Path& path, const std::string& target) {
+  std::string keys, places;
+  for (const auto& [key, place] : path) {
+    keys += fmt::format("{} ", key);
+    places += vector(place) + " ";
+  }
+  add_interpolator(scene, "PositionInterpolator", target + "_path", target, "set_translation", keys, places);
+}
+
 void add_motion(pugi::xml_node scene, const SceneMotion& motion) {
   add(scene, "TimeSensor",
       {{"DEF", "clock"}, {"cycleInterval", numbers({motion.duration})}, {"loop", "true"}});
-  std::string keys, theta, gamma;
-  for (const auto& [key, angles] : motion.vessel) {
+  SceneMotion::Path places;
+  std::string keys, turns;
+  for (const auto& [key, frame] : motion.vessel) {
+    places.emplace_back(key, frame.origin);
     keys += fmt::format("{} ", key);
-    theta += fmt::format("0 0 1 {} ", angles.theta);
-    gamma += fmt::format("1 0 0 {} ", angles.gamma);
+    turns += rotation(frame) + " ";
   }
-  add_interpolator(scene, "OrientationInterpolator", "theta", "set_rotation", keys, theta);
-  add_interpolator(scene, "OrientationInterpolator", "gamma", "set_rotation", keys, gamma);
-  const auto add_path = [&](const SceneMotion::Path& path, const std::string& name) {
-    std::string times, places;
-    for (const auto& [key, place] : path) {
-      times += fmt::format("{} ", key);
-      places += vector(place) + " ";
-    }
-    add_interpolator(scene, "PositionInterpolator", name, "set_translation", times, places);
-  };
-  for (std::size_t i = 0; i < motion.balls.size(); ++i) add_path(motion.balls[i], fmt::format("ball_{}", i));
-  if (!motion.contact.empty()) add_path(motion.contact, "contact_point");
+  add_path(scene, places, "vessel");
+  add_interpolator(scene, "OrientationInterpolator", "vessel_turn", "vessel", "set_rotation", keys, turns);
+  for (std::size_t i = 0; i < motion.balls.size(); ++i)
+    add_path(scene, motion.balls[i], fmt::format("ball_{}", i));
+  if (!motion.contact.empty()) add_path(scene, motion.contact, "contact_point");
 }
 
 std::string text_of(const pugi::xml_document& document) {
@@ -109,12 +132,9 @@ std::string x3d_text(const Scene& s, const SceneMotion* motion) {
       {{"name", "description"}, {"content", fmt::format("Ball mill at {} s; lengths in metres", s.time)}});
   auto scene = add(x3d, "Scene");
   add(scene, "Background", {{"skyColor", "1 1 1"}});
-  // From above and in front, so that the arm points up in the picture.
   add(scene, "Viewpoint",
-      {{"description", "mill"},
-       {"position", numbers({0, s.arm, 4 * (s.vessel_radius + s.half_height)})},
-       {"centerOfRotation", numbers({0, s.arm, 0})}});
-  add_vessel(scene, s);
+      {{"description", "mill"}, {"position", vector(s.eye)}, {"centerOfRotation", vector(s.target)}});
+  add_vessel(scene, s.vessel);
   for (std::size_t i = 0; i < s.balls.size(); ++i) add_ball(scene, s.balls[i], fmt::format("ball_{}", i));
   if (s.contact) add_ball(scene, *s.contact, "contact_point");
   if (motion) add_motion(scene, *motion);

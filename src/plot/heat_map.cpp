@@ -67,6 +67,14 @@ void draw_disc(pugi::xml_node figure, const HeatMap& map) {
   add_scale(svg, map, 246, 50, 226);
 }
 
+std::vector<Tick> x_ticks(const HeatMap& map) {
+  if (!(map.x_step > 0)) return linear_ticks(map.x.low, map.x.high, 7);
+  std::vector<Tick> ticks;
+  for (double x = std::ceil(map.x.low / map.x_step) * map.x_step; x <= map.x.high; x += map.x_step)
+    ticks.push_back({x, pixel(x)});
+  return ticks;
+}
+
 void draw_sheet(pugi::xml_node figure, const HeatMap& map) {
   constexpr double width = 460, height = 270, left = 56, right = 376, top = 30, bottom = 222;
   auto svg = add_drawing(figure, map.id, map.title, map.description, width, height);
@@ -79,9 +87,9 @@ void draw_sheet(pugi::xml_node figure, const HeatMap& map) {
                          pixel(y(c.y_high))),
              map, c);
   auto x_axis = add(svg, "g", {{"class", "axis x-axis"}}), y_axis = add(svg, "g", {{"class", "axis y-axis"}});
-  for (double degrees = std::ceil(map.x.low / 90) * 90; degrees <= map.x.high; degrees += 90)
-    add(x_axis, "text", {{"class", "label"}, {"x", pixel(x(degrees))}, {"y", pixel(bottom + 16)}},
-        pixel(degrees));
+  for (const auto& tick : x_ticks(map))
+    add(x_axis, "text", {{"class", "label"}, {"x", pixel(x(tick.place))}, {"y", pixel(bottom + 16)}},
+        tick.label);
   for (const auto& tick : linear_ticks(map.y.low, map.y.high, 7))
     add(y_axis, "text", {{"class", "label"}, {"x", pixel(left - 6)}, {"y", pixel(y(tick.place) + 4)}},
         tick.label);

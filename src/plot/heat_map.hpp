@@ -19,6 +19,7 @@ struct HeatMap {
   Axis x, y;           ///< of a disc: y from 0 to the outer radius, x unused but for its title
   std::string value;   ///< title of the scale, with its unit
   double highest = 1;  ///< value at the top of the scale, whose bottom is 0
+  double x_step = 0;   ///< between the labels along x; 0 for round numbers
   bool disc = false;   ///< polar cells, angle 0 to the right, turning against the clock
   std::vector<HeatCell> cells;
 };

@@ -30,10 +30,10 @@ Eigen::VectorXd vector_of(const pugi::xml_node& node, const char* name, Eigen::I
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), width);
 }
 
-/// How a field of a Transform moves: by the interpolator NAME_path of its type, else not at all.
+/// How a field of a Transform moves: by its interpolator, NAME_path or NAME_turn, else not at all.
 Track track_of(const pugi::xml_node& transform, const char* field, const char* interpolator,
-               Eigen::Index width) {
-  const std::string name = std::string(transform.attribute("DEF").as_string()) + "_path";
+               const char* ending, Eigen::Index width) {
+  const std::string name = std::string(transform.attribute("DEF").as_string()) + ending;
   const auto scene = transform.root().child("X3D").child("Scene");
   const auto path = scene.find_child_by_attribute(interpolator, "DEF", name.c_str());
   if (!path) return {{0}, vector_of(transform, field, width)};
@@ -47,11 +47,7 @@ Track track_of(const pugi::xml_node& transform, const char* field, const char* i
 }
 
 Track place_of(const pugi::xml_node& transform) {
-  return track_of(transform, "translation", "PositionInterpolator", 3);
-}
-
-Joint joint_of(const pugi::xml_node& transform) {
-  return {place_of(transform), track_of(transform, "rotation", "OrientationInterpolator", 4)};
+  return track_of(transform, "translation", "PositionInterpolator", "_path", 3);
 }
 
 pugi::xml_node material_of(const pugi::xml_node& shape) {
@@ -64,23 +60,42 @@ std::string colour_of(const pugi::xml_node& shape) {
   return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
 }
 
-MovingVessel vessel_of(const pugi::xml_node& outermost) {
-  MovingVessel vessel{};
-  pugi::xml_node innermost;
-  for (auto transform = outermost; transform; transform = transform.child("Transform")) {
-    vessel.joints.push_back(joint_of(transform));
-    innermost = transform;
+model::Mesh mesh_of(const pugi::xml_node& faces) {
+  model::Mesh mesh;
+  const auto points = numbers_of(faces.child("Coordinate").attribute("point"));
+  if (points.size() % 3 != 0)
+    throw InputError(
+        fmt::format("found {} numbers in the points of a wall, expected 3 for each", points.size()));
+  for (std::size_t k = 0; k < points.size(); k += 3)
+    mesh.points.emplace_back(points[k], points[k + 1], points[k + 2]);
+  mesh.faces.emplace_back();
+  for (const double number : numbers_of(faces.attribute("coordIndex"))) {
+    if (!(number < static_cast<double>(mesh.points.size())))
+      throw InputError(fmt::format("found corner {} of a wall, expected less than its {} points", number,
+                                   mesh.points.size()));
+    if (number < 0)
+      mesh.faces.emplace_back();
+    else
+      mesh.faces.back().push_back(static_cast<int>(number));
   }
-  const auto shape = innermost.child("Shape");
-  vessel.radius = shape.child("Cylinder").attribute("radius").as_double();
-  vessel.height = shape.child("Cylinder").attribute("height").as_double();
-  vessel.colour = colour_of(shape);
-  vessel.opacity = 1 - material_of(shape).attribute("transparency").as_double();
+  mesh.faces.pop_back();  // each face ends with -1
+  return mesh;
+}
+
+MovingVessel vessel_of(const pugi::xml_node& transform) {
+  const auto first = transform.child("Shape");
+  MovingVessel vessel{{},
+                      colour_of(first),
+                      1 - material_of(first).attribute("transparency").as_double(),
+                      place_of(transform),
+                      track_of(transform, "rotation", "OrientationInterpolator", "_turn", 4)};
+  for (const auto& shape : transform.children("Shape"))
+    vessel.walls.push_back(mesh_of(shape.child("IndexedFaceSet")));
   return vessel;
 }
 
 Animation animation_of(const pugi::xml_node& scene) {
-  const auto vessel = scene.find_child_by_attribute("Transform", "DEF", "theta");
+  const auto vessel = scene.find_child_by_attribute("Transform", "DEF", "vessel");
   if (!scene.child("TimeSensor") || !vessel)
     throw InputError("found X3D without moving vessel, expected an animation");
   const auto view = scene.child("Viewpoint");
@@ -100,25 +115,33 @@ Animation animation_of(const pugi::xml_node& scene) {
 
 }  // namespace
 
-Eigen::VectorXd Track::at(double fraction) const {
-  const auto after = std::upper_bound(keys.begin(), keys.end(), fraction);
-  if (after == keys.begin()) return values.col(0);
-  const auto k = static_cast<Eigen::Index>(after - keys.begin()) - 1;
-  if (after == keys.end()) return values.col(k);
-  const double begin = *(after - 1), share = (fraction - begin) / (*after - begin);
-  return (1 - share) * values.col(k) + share * values.col(k + 1);
+Track::Between Track::between(double fraction) const {
+  const auto next = std::upper_bound(keys.begin(), keys.end(), fraction);
+  const auto after = static_cast<Eigen::Index>(next - keys.begin());
+  if (next == keys.begin()) return {0, 0, 0};
+  if (next == keys.end()) return {after - 1, after - 1, 0};
+  return {after - 1, after, (fraction - *(next - 1)) / (*next - *(next - 1))};
 }
 
-Eigen::Isometry3d Joint::pose(double fraction) const {
-  const Vec3<double> place = translation.at(fraction);
-  const Eigen::Vector4d turn = rotation.at(fraction);
-  return Eigen::Translation3d(place) * Eigen::AngleAxisd(turn[3], turn.head<3>());
+Eigen::VectorXd Track::at(double fraction) const {
+  const auto [before, after, share] = between(fraction);
+  return (1 - share) * values.col(before) + share * values.col(after);
 }
 
 Eigen::Isometry3d MovingVessel::pose(double fraction) const {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  for (const auto& joint : joints) pose = pose * joint.pose(fraction);
-  return pose;
+  const auto [before, after, share] = turn.between(fraction);
+  const auto turned = [&](Eigen::Index key) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(turn.values(3, key), turn.values.col(key).head<3>()));
+  };
+  const Vec3<double> origin = place.at(fraction);
+  return Eigen::Translation3d(origin) * turned(before).slerp(share, turned(after));
+}
+
+double MovingVessel::reach() const {
+  double reach = 0;
+  for (const auto& wall : walls)
+    for (const auto& point : wall.points) reach = std::max(reach, norm<double>(point));
+  return reach;
 }
 
 Animation read_animation(const std::filesystem::path& file) {

@@ -7,23 +7,23 @@
 #include <vector>
 
 #include "base/vector.hpp"
+#include "model/surface.hpp"
 
 namespace edmill::report {
 
-/// Values over the fraction of the playback, from 0 to 1; straight between its keys.
+/// Values over the fraction of the playback, from 0 to 1.
 struct Track {
   std::vector<double> keys;  ///< ascending
   Eigen::MatrixXd values;    ///< a column for each key
 
+  /// The two columns around a fraction, and the second one's share; a column twice at the ends.
+  struct Between {
+    Eigen::Index before, after;
+    double share;
+  };
+  Between between(double fraction) const;
+  /// Straight between the keys.
   Eigen::VectorXd at(double fraction) const;
-};
-
-/// A Transform of X3D: turned about an axis, then moved.
-struct Joint {
-  Track translation;  ///< [m]
-  Track rotation;     ///< axis and angle [rad]
-
-  Eigen::Isometry3d pose(double fraction) const;
 };
 
 /// A ball, or the mark of the contact point.
@@ -33,14 +33,17 @@ struct MovingSphere {
   Track place;         ///< [m]
 };
 
-/// A cylinder about the Y axis of its own frame.
 struct MovingVessel {
-  double radius, height;      ///< [m]
-  std::string colour;         ///< #rrggbb
-  double opacity;             ///< from 0 to 1
-  std::vector<Joint> joints;  ///< from the inertial frame inwards
+  std::vector<model::Mesh> walls;  ///< by id, in the vessel frame
+  std::string colour;              ///< #rrggbb
+  double opacity;                  ///< from 0 to 1
+  Track place;                     ///< of the vessel frame [m]
+  Track turn;                      ///< axis and angle [rad]
 
+  /// Turned the short way between keys.
   Eigen::Isometry3d pose(double fraction) const;
+  /// Largest distance of a point from the vessel's centre [m].
+  double reach() const;
 };
 
 struct Animation {

@@ -47,8 +47,12 @@ function addBalls(scene, spheres) {
 
 /** The vessel. Returns a function that puts it where it is between two frames. */
 function addVessel(scene, vessel) {
+  const walls = new THREE.BufferGeometry();
+  walls.setAttribute("position", new THREE.Float32BufferAttribute(vessel.points, 3));
+  walls.setIndex(vessel.triangles);
+  walls.computeVertexNormals(); // curved walls look smooth: their faces share corners, walls do not
   const mesh = new THREE.Mesh(
-    new THREE.CylinderBufferGeometry(vessel.radius, vessel.radius, vessel.height, 48),
+    walls,
     new THREE.MeshLambertMaterial({
       color: vessel.colour, opacity: vessel.opacity, transparent: true, depthWrite: false, side: THREE.DoubleSide }));
   mesh.renderOrder = 1; // after the balls, which are seen through it

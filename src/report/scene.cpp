@@ -37,12 +37,52 @@ std::size_t frame_count(const Animation& animation) {
          std::clamp<std::size_t>(most_places / std::max<std::size_t>(1, animation.spheres.size()), 40, 640);
 }
 
+/// Corners of the triangles of all walls, by their places in the list of all points.
+Json triangles_of(const std::vector<model::Mesh>& walls) {
+  Json triangles = Json::array();
+  int first = 0;
+  for (const auto& wall : walls) {
+    for (const auto& face : wall.faces)
+      for (std::size_t k = 2; k < face.size(); ++k)
+        for (const int corner : {face[0], face[k - 1], face[k]}) triangles.push_back(first + corner);
+    first += static_cast<int>(wall.points.size());
+  }
+  return triangles;
+}
+
+using Outline = std::vector<Vec3<double>>;
+
+/// The convex polygon about points in the plane of x and y, against the clock.
+Outline hull_of(Outline points) {
+  std::sort(points.begin(), points.end(),
+            [](const auto& a, const auto& b) { return std::pair(a[0], a[1]) < std::pair(b[0], b[1]); });
+  Outline hull;
+  const auto add_side = [&](const auto& begin, const auto& end) {
+    const std::size_t base = hull.size();
+    for (auto p = begin; p != end; ++p) {
+      while (hull.size() >= base + 2) {
+        const Vec3<double> last = hull.back() - hull[hull.size() - 2], next = *p - hull.back();
+        if (last[0] * next[1] - last[1] * next[0] > 0) break;
+        hull.pop_back();
+      }
+      hull.push_back(*p);
+    }
+    hull.pop_back();  // begins the other side
+  };
+  add_side(points.begin(), points.end());
+  add_side(points.rbegin(), points.rend());
+  return hull;
+}
+
 }  // namespace
 
 void add_frames(pugi::xml_node parent, const Animation& animation) {
   const auto& vessel = animation.vessel;
   const std::size_t frames = frame_count(animation);
-  Json poses = Json::array(), places = Json::array(), radii = Json::array(), colours = Json::array();
+  Json points = Json::array(), poses = Json::array(), places = Json::array(), radii = Json::array(),
+       colours = Json::array();
+  for (const auto& wall : vessel.walls)
+    for (const auto& point : wall.points) append(points, 1000 * point, 1000);
   for (const auto& sphere : animation.spheres) {
     radii.push_back(1000 * sphere.radius);
     colours.push_back(sphere.colour);
@@ -58,8 +98,8 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
                       {"eye", millimetres(animation.eye)},
                       {"target", millimetres(animation.target)},
                       {"vessel",
-                       {{"radius", 1000 * vessel.radius},
-                        {"height", 1000 * vessel.height},
+                       {{"points", points},
+                        {"triangles", triangles_of(vessel.walls)},
                         {"colour", vessel.colour},
                         {"opacity", vessel.opacity},
                         {"poses", poses}}},
@@ -71,7 +111,7 @@ void add_still(pugi::xml_node parent, const Animation& animation) {
   const auto& vessel = animation.vessel;
   const auto pose = vessel.pose(0);
   const Vec3<double> centre = pose.translation();
-  const double half_height = vessel.height / 2, reach = 1.25 * std::hypot(vessel.radius, half_height);
+  const double reach = 1.25 * vessel.reach();
   // In millimetres, y upwards.
   const auto x = [&](const Vec3<double>& place) { return 1000 * (place[0] - centre[0] + reach); };
   const auto y = [&](const Vec3<double>& place) { return 1000 * (centre[1] + reach - place[1]); };
@@ -80,20 +120,21 @@ void add_still(pugi::xml_node parent, const Animation& animation) {
                   {"viewBox", fmt::format("0 0 {0:.1f} {0:.1f}", 2000 * reach)},
                   {"role", "img"},
                   {"aria-label", "The vessel and its balls at the beginning of the animation"}});
-  const auto outline = [&](const std::vector<Vec3<double>>& points) {
+  const auto outline = [&](const Outline& points) {
     std::string path;
     for (const auto& p : points) path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", x(p), y(p));
     add(svg, "path", {{"class", "vessel"}, {"d", path + "Z"}});
   };
-  std::vector<Vec3<double>> caps[2];
-  for (int k = 0; k < 60; ++k) {
-    const double angle = k * 3.14159265358979 / 30, a = vessel.radius * std::cos(angle),
-                 b = vessel.radius * std::sin(angle);
-    caps[0].push_back(pose * Vec3<double>(a, -half_height, b));
-    caps[1].push_back(pose * Vec3<double>(a, half_height, b));
+  Outline all;
+  std::vector<Outline> flat;
+  for (const auto& wall : vessel.walls) {
+    Outline points;
+    for (const auto& point : wall.points) points.push_back(pose * point);
+    all.insert(all.end(), points.begin(), points.end());
+    if (wall.faces.size() == 1) flat.push_back(std::move(points));
   }
-  outline({caps[0][0], caps[0][30], caps[1][30], caps[1][0]});
-  for (const auto& cap : caps) outline(cap);
+  outline(hull_of(std::move(all)));
+  for (const auto& wall : flat) outline(wall);
   std::vector<std::pair<Vec3<double>, const MovingSphere*>> spheres;
   for (const auto& sphere : animation.spheres) spheres.emplace_back(sphere.place.at(0), &sphere);
   std::stable_sort(spheres.begin(), spheres.end(),

@@ -1,11 +1,13 @@
 // Distribution of the dose over the vessel.
-#include "model/vessel.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cctype>
+#include <map>
+#include <variant>
 
+#include "casefile/build_case.hpp"
 #include "plot/heat_map.hpp"
 #include "report/sections.hpp"
 
@@ -16,53 +18,104 @@ using plot::readable;
 
 namespace {
 
-constexpr double degrees = 180 / 3.14159265358979323846;
+using Surface = model::WallSurface<double>;
+using model::Coordinate;
 
-using Maps = std::array<plot::HeatMap, model::wall_count>;
+/// A wall and the map of the dose rate on it [kW/m2].
+struct WallMap {
+  Surface surface;
+  model::WallInfo info;
+  plot::HeatMap map{};
 
-/// The dose rates of the table's cells, by wall [kW/m2].
-Maps read_maps(const OutputTable& table) {
-  const auto column = [&](const char* name) { return table.column(name); };
-  const auto wall = column("wall"), a_low = column("angle_low"), a_high = column("angle_high"),
-             h_low = column("height_low"), h_high = column("height_high"), r_low = column("radius_low"),
-             r_high = column("radius_high"), density = column("dose_per_area");
-  Maps maps;
-  for (auto& map : maps) map.highest = 0;
-  for (const auto& row : table.numbers) {
-    const auto w = static_cast<std::size_t>(row[wall]);
-    if (w >= maps.size()) continue;
-    const double value = row[density] / table.duration() / 1000;  // kW/m2
-    if (w == 2) {
-      maps[w].cells.push_back(
-          {row[a_low] * degrees, row[a_high] * degrees, row[h_low] * 1000, row[h_high] * 1000, value});
-    } else {
-      maps[w].cells.push_back({row[a_low], row[a_high], row[r_low], row[r_high], value});
-    }
-    maps[w].highest = std::max(maps[w].highest, value);
+  bool has(Coordinate c) const {
+    const auto own = surface.coordinates();
+    return std::find(own.begin(), own.end(), c) != own.end();
   }
-  return maps;
+  double lowest(int axis) const { return scale(axis) * surface.edge(axis, 0, 1); }
+  double highest(int axis) const { return scale(axis) * surface.edge(axis, 1, 1); }
+  /// From a coordinate of the table to the map's: degrees and millimetres; a disc is drawn as it is.
+  double scale(int axis) const {
+    if (map.disc) return 1;
+    const bool angle = surface.coordinates()[static_cast<std::size_t>(axis)] == Coordinate::angle;
+    return angle ? 180 / 3.14159265358979323846 : 1000;
+  }
+};
+
+/// The label of a wall as a heading: "Cap \u2212y".
+std::string heading(const std::string& label) {
+  std::string text;
+  for (const char c : label) text += c == '-' ? "\u2212" : std::string(1, c);
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
-void label_maps(Maps& maps, double radius, double height) {
-  const double highest = std::max(maps[0].highest, maps[1].highest);
-  for (std::size_t w = 0; w < 2; ++w) {
-    maps[w].highest = highest;  // the caps share a scale
-    maps[w].disc = true;
-    maps[w].y = {"", 0, radius, false};
-    maps[w].x.title = "angle about the vessel\u2019s axis";
-    maps[w].id = fmt::format("cap-{}", w);
+std::string axis_title(const Surface& surface, int axis) {
+  const auto coordinate = surface.coordinates()[static_cast<std::size_t>(axis)];
+  if (coordinate == Coordinate::angle) return "angle about the vessel\u2019s axis [\u00b0]";
+  if (coordinate == Coordinate::height) return "height along the axis [mm]";
+  if (const auto* rectangle = std::get_if<model::Rectangle<double>>(&surface.kind())) {
+    const auto& half = rectangle->halves[static_cast<std::size_t>(axis)];
+    for (int k = 0; k < 3; ++k)
+      if (half[k] == norm<double>(half)) return fmt::format("along {} [mm]", "xyz"[k]);
   }
-  maps[0].title = fmt::format("Cap \u2212y, {} mm across", plot::brief(2000 * radius));
-  maps[1].title = fmt::format("Cap +y, {} mm across", plot::brief(2000 * radius));
-  maps[2].id = "cylinder", maps[2].title = "Cylinder, unrolled";
-  maps[2].x = {"angle about the vessel\u2019s axis [\u00b0]", 0, 360, false};
-  maps[2].y = {"height along the axis [mm]", -500 * height, 500 * height, false};
-  if (!maps[2].cells.empty()) {
-    maps[2].x.low = maps[2].x.high = maps[2].cells[0].x_low;
-    for (const auto& cell : maps[2].cells)
-      maps[2].x.low = std::min(maps[2].x.low, cell.x_low),
-      maps[2].x.high = std::max(maps[2].x.high, cell.x_high);
+  return fmt::format("{} [mm]", model::info_of(coordinate).meaning);
+}
+
+void label(WallMap& wall, std::size_t id) {
+  auto& map = wall.map;
+  const std::string name = heading(wall.info.label);
+  map.value = "dose rate [kW/m\u00b2]";
+  map.highest = 0;
+  map.disc = wall.has(Coordinate::radius);
+  map.x = {axis_title(wall.surface, 0), wall.lowest(0), wall.highest(0), false};
+  map.y = {axis_title(wall.surface, 1), wall.lowest(1), wall.highest(1), false};
+  if (map.disc) {
+    map.id = fmt::format("cap-{}", id);
+    map.title = fmt::format("{}, {} mm across", name, plot::brief(2000 * wall.highest(1)));
+    map.x.title = "angle about the vessel\u2019s axis";
+  } else if (wall.has(Coordinate::angle)) {
+    map.id = "cylinder";
+    map.title = name + ", unrolled";
+    map.x_step = 90;
+  } else {
+    map.id = fmt::format("wall-{}", id);
+    map.title = fmt::format("{}, {} mm \u00d7 {} mm", name, plot::brief(2 * wall.highest(0)),
+                            plot::brief(2 * wall.highest(1)));
   }
+}
+
+void read_cells(std::vector<WallMap>& walls, const OutputTable& table) {
+  const auto wall_id = table.column("wall"), density = table.column("dose_per_area");
+  for (std::size_t id = 0; id < walls.size(); ++id) {
+    auto& wall = walls[id];
+    std::array<std::size_t, 4> columns;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const std::string name = model::info_of(wall.surface.coordinates()[axis]).name;
+      columns[2 * axis] = table.column(name + "_low"), columns[2 * axis + 1] = table.column(name + "_high");
+    }
+    for (const auto& row : table.numbers) {
+      if (row[wall_id] != static_cast<double>(id)) continue;
+      const double value = row[density] / table.duration() / 1000;  // kW/m2
+      const double x = wall.scale(0), y = wall.scale(1);
+      wall.map.cells.push_back(
+          {row[columns[0]] * x, row[columns[1]] * x, row[columns[2]] * y, row[columns[3]] * y, value});
+      wall.map.highest = std::max(wall.map.highest, value);
+    }
+  }
+}
+
+/// Walls of a kind share a scale. @return what the reader is told
+std::string share_scales(std::vector<WallMap>& walls) {
+  std::map<std::string, std::vector<WallMap*>> kinds;
+  for (auto& wall : walls) kinds[wall.surface.name()].push_back(&wall);
+  std::string note;
+  for (const auto& [name, list] : kinds) {
+    double highest = 0;
+    for (const auto* wall : list) highest = std::max(highest, wall->map.highest);
+    for (auto* wall : list) wall->map.highest = highest > 0 ? highest : 1;
+    if (list.size() > 1) note += fmt::format(" The {} share a scale.", name);
+  }
+  return note;
 }
 
 }  // namespace
@@ -74,24 +127,27 @@ void add_vessel(pugi::xml_node main, const RunFolder& run) {
   const auto table = read_table(run.file_of(*output), "a table of coverage");
   if (!(table.duration() > 0))
     return add_missing(section, "time in the coverage of the vessel", "type = \"coverage\"");
-  auto maps = read_maps(table);
-  label_maps(maps, std::get<0>(run.spec.vessel).diameter.to<double>() / 2,
-             std::get<0>(run.spec.vessel).height.to<double>());
+  const auto vessel = casefile::build_mill<double>(run.spec).vessel;
+  const auto surfaces = vessel.surfaces();
+  std::vector<WallMap> walls;
+  for (std::size_t id = 0; id < surfaces.size(); ++id) {
+    walls.push_back({surfaces[id], vessel.walls()[id]});
+    label(walls.back(), id);
+  }
+  read_cells(walls, table);
+  const std::string shared = share_scales(walls);
+  std::stable_partition(walls.begin(), walls.end(), [](const WallMap& wall) { return !wall.map.disc; });
   auto grid = add(section, "div", {{"class", "charts maps"}});
-  for (const auto w : std::initializer_list<std::size_t>{2, 0, 1}) {
-    auto& map = maps[w];
-    map.value = "dose rate [kW/m\u00b2]";
-    if (!(map.highest > 0)) map.highest = 1;
+  bool angles = false;
+  for (auto& [surface, info, map] : walls) {
     map.description = fmt::format("Map of the dose rate per area on {}, up to {} kW per square metre.",
-                                  w == 2   ? "the cylinder"
-                                  : w == 0 ? "the cap at -y"
-                                           : "the cap at +y",
-                                  readable(map.highest, 3));
+                                  info.meaning, readable(map.highest, 3));
     draw(grid, map);
+    angles = angles || surface.coordinates()[0] == Coordinate::angle;
   }
   add(section, "p", {{"class", "note"}},
-      "Angles are measured from the direction along the arm, away from the fulcrum. Cells of one wall have "
-      "equal areas. The caps share a scale.");
+      (angles ? "Angles are measured from the direction along the arm, away from the fulcrum. " : "") +
+          ("Cells of one wall have equal areas." + shared));
 }
 
 }  // namespace edmill::report

@@ -311,7 +311,7 @@ class X3d(Run):
     def test_the_schema_finds_what_is_wrong(self):
         text = (self.out / "animation.x3d").read_text()
         for right, wrong in (("diffuseColor=\"0 0 1\"", "diffuseColor=\"0 0 2\""), ("cycleInterval", "cycle"),
-                             ("<Sphere ", "<Ball "), ("0 0 1 ", "0 1 ")):
+                             ("<Sphere ", "<Ball "), ("coordIndex=\"0", "coordIndex=\"-2")):
             self.assertIn(right, text)
             page = pathlib.Path(self.scratch.name) / "wrong.x3d"
             page.write_text(text.replace(right, wrong, 1))

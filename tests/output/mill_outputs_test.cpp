@@ -7,7 +7,6 @@
 #include <set>
 
 #include "csv_table.hpp"
-#include "output/sectors.hpp"
 #include "program.hpp"
 
 namespace edmill {
@@ -345,23 +344,6 @@ TEST_F(MillOutputs, CoverageHoldsTheWallDoseAndEveryContactPoint) {
   for (std::size_t wall = 0; wall < 3; ++wall)
     EXPECT_NEAR(dose[wall], summary()["milling_dose_by_partner"]["wall_" + std::to_string(wall)], 1e-14);
   EXPECT_GT(impacts, 30);
-}
-
-TEST(Sectors, HoldTheDirectionsBetweenTheirEdges) {
-  for (std::size_t count = 1; count <= 41; ++count) {
-    const output::Sectors<double> sectors(count);
-    for (std::size_t k = 0; k < count; ++k)
-      for (const double part : {1e-6, 0.5, 1 - 1e-6}) {
-        const double angle = 2 * pi * (static_cast<double>(k) + part) / static_cast<double>(count);
-        EXPECT_EQ(sectors.holding(3 * std::cos(angle), 3 * std::sin(angle)), k) << count << " at " << angle;
-      }
-    EXPECT_EQ(sectors.holding(2, 0), 0u);
-    EXPECT_LT(sectors.holding(0, 0), count);
-  }
-  const output::Sectors<double> quarters(4);
-  EXPECT_EQ(quarters.holding(0, 1), 1u);  // an edge belongs to the sector that it begins
-  EXPECT_EQ(quarters.holding(-1, 0), 2u);
-  EXPECT_EQ(quarters.holding(0, -1), 3u);
 }
 
 }  // namespace

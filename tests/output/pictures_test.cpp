@@ -1,11 +1,15 @@
 // Snapshots, animations and frames for ParaView, each against the run that it shows.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <pugixml.hpp>
 #include <vector>
 
+#include "output/scene.hpp"
+#include "report/animation.hpp"
 #include "run_with_outputs.hpp"
 
 namespace edmill {
@@ -39,14 +43,12 @@ TEST_F(Chapter4, SnapshotShowsTheBallWhereItTouches) {
     EXPECT_EQ(
         list(named(page, "ball_0").child("Shape").child("Appearance").child("Material"), "diffuseColor"),
         (std::vector<double>{0, 0, 1}));
-    // The vessel's frame: back by theta, the arm, and gamma; the ball is inside and touches.
-    const double theta = list(named(page, "theta"), "rotation")[3],
-                 gamma = list(named(page, "gamma"), "rotation")[3];
-    const double a = ball[0] * std::cos(theta) + ball[1] * std::sin(theta) - 0.1;
-    const double b = ball[1] * std::cos(theta) - ball[0] * std::sin(theta);
-    const double y = b * std::cos(gamma) + ball[2] * std::sin(gamma),
-                 z = ball[2] * std::cos(gamma) - b * std::sin(gamma);
-    const double gap = std::min(0.0285 - 0.00476 - std::abs(y), 0.019 - 0.00476 - std::hypot(a, z));
+    // Seen in the vessel frame the ball is inside and touches.
+    const auto vessel = named(page, "vessel");
+    const auto origin = list(vessel, "translation"), turn = list(vessel, "rotation");
+    const Eigen::Vector3d d(ball[0] - origin[0], ball[1] - origin[1], ball[2] - origin[2]);
+    const Eigen::Vector3d p = Eigen::AngleAxisd(-turn[3], Eigen::Vector3d(turn[0], turn[1], turn[2])) * d;
+    const double gap = std::min(0.0285 - 0.00476 - std::abs(p[1]), 0.019 - 0.00476 - std::hypot(p[0], p[2]));
     EXPECT_NEAR(gap, 0, 1e-9);
   }
 }
@@ -57,22 +59,32 @@ TEST_F(Chapter4, AnimationPlaysTheFirstImpacts) {
   const auto log = read("collisions.csv");
   const double length = number(log[3], "time");  // it ends with the fourth impact
   EXPECT_NEAR(list(named(page, "clock"), "cycleInterval")[0], length / 0.001, 1e-9);
-  for (const std::string name : {"theta_path", "gamma_path", "ball_0_path", "contact_point_path"}) {
+  for (const std::string name : {"vessel_path", "vessel_turn", "ball_0_path", "contact_point_path"}) {
     const auto keys = list(named(page, name), "key"), values = list(named(page, name), "keyValue");
     ASSERT_GE(keys.size(), 4u) << name;
     EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end())) << name;
     EXPECT_GE(keys.front(), 0);
     EXPECT_LE(keys.back(), 1 + 1e-12);
-    EXPECT_EQ(values.size(), keys.size() * (name.starts_with("theta") || name.starts_with("gamma") ? 4 : 3))
-        << name;
+    EXPECT_EQ(values.size(), keys.size() * (name == "vessel_turn" ? 4 : 3)) << name;
   }
-  const auto keys = list(named(page, "theta_path"), "key"),
-             angles = list(named(page, "theta_path"), "keyValue");
+  const auto keys = list(named(page, "vessel_turn"), "key"),
+             turns = list(named(page, "vessel_turn"), "keyValue"),
+             places = list(named(page, "vessel_path"), "keyValue");
   EXPECT_GE(keys.size(), 25u);
   EXPECT_EQ(keys.back(), 1);
-  const double turn = 2 * std::acos(-1.0) * 1054 / 60 * length;
-  EXPECT_NEAR(angles[3], std::acos(-1.0) * 105 / 180, 1e-12);
-  EXPECT_NEAR(angles.back(), std::acos(-1.0) * (90 + 15 * std::cos(turn)) / 180, 1e-9);
+  // The nested motion: about Z by theta, along the arm, about the arm by gamma.
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const double phase = 2 * std::acos(-1.0) * 1054 / 60 * length * keys[k], degree = std::acos(-1.0) / 180;
+    const double theta = (90 + 15 * std::cos(phase)) * degree, gamma = 15 * std::sin(phase) * degree;
+    const Eigen::Quaterniond expected = Eigen::AngleAxisd(theta, Eigen::Vector3d::UnitZ()) *
+                                        Eigen::AngleAxisd(gamma, Eigen::Vector3d::UnitX());
+    const Eigen::Quaterniond found(Eigen::AngleAxisd(
+        turns[4 * k + 3], Eigen::Vector3d(turns[4 * k], turns[4 * k + 1], turns[4 * k + 2])));
+    EXPECT_LT(found.angularDistance(expected), 1e-7) << k;
+    EXPECT_NEAR(places[3 * k], 0.1 * std::cos(theta), 1e-12);
+    EXPECT_NEAR(places[3 * k + 1], 0.1 * std::sin(theta), 1e-12);
+    EXPECT_NEAR(places[3 * k + 2], 0, 1e-12);
+  }
   // The ball has a key at each impact.
   const auto ball_keys = list(named(page, "ball_0_path"), "key");
   for (int k = 0; k < 4; ++k)
@@ -124,6 +136,50 @@ TEST_F(Outputs, ParaviewFramesHoldBallsAndVessel) {
   for (const auto& entry : std::filesystem::directory_iterator(scratch / "out/movie"))
     entries += entry.exists();
   EXPECT_EQ(entries, 2u);  // nothing partial is left
+}
+
+/// A box about the origin, turned about y by an angle in degrees, at a height.
+Frame<double> turned(double angle, double height) {
+  const Eigen::Matrix3d axes =
+      Eigen::AngleAxisd(angle * std::acos(-1.0) / 180, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  return {{0, height, 0}, axes.col(0), axes.col(1), axes.col(2)};
+}
+output::Scene box_scene() {
+  output::Scene scene{};
+  for (const auto& wall : model::box_surfaces<double>({0.01, 0.02, 0.03}))
+    scene.vessel.walls.push_back(model::mesh_of(wall));
+  scene.vessel.frame = turned(90, 1);
+  return scene;
+}
+
+TEST(BoxScene, HasSixWallsInTheVesselFrame) {
+  pugi::xml_document page;
+  ASSERT_TRUE(page.load_string(output::vtp_vessel(box_scene()).c_str()));
+  const auto piece = page.child("VTKFile").child("PolyData").child("Piece");
+  EXPECT_EQ(piece.attribute("NumberOfPolys").as_int(), 6);
+  EXPECT_EQ(std::string(piece.child("CellData").child("DataArray").text().get()), "0 1 2 3 4 5 ");
+  std::istringstream numbers(piece.child("Points").child("DataArray").text().get());
+  int points = 0;
+  for (double x, y, z; numbers >> x >> y >> z; ++points) {
+    EXPECT_NEAR(std::abs(x), 0.03, 1e-15);  // z of the box, which is turned by a right angle
+    EXPECT_NEAR(std::abs(y - 1), 0.02, 1e-15);
+    EXPECT_NEAR(std::abs(z), 0.01, 1e-15);
+  }
+  EXPECT_EQ(points, 24);
+}
+
+TEST(BoxScene, IsReadBackAndTurnsTheShortWay) {
+  const auto file = std::filesystem::temp_directory_path() / ("box_" + std::to_string(::getpid()) + ".x3d");
+  const output::SceneMotion motion{1, {{0, turned(170, 1)}, {1, turned(-170, 3)}}, {}, {}};
+  std::ofstream(file) << output::x3d_text(box_scene(), &motion);
+  const auto vessel = report::read_animation(file).vessel;
+  std::filesystem::remove(file);
+  ASSERT_EQ(vessel.walls.size(), 6u);
+  for (const auto& wall : vessel.walls) EXPECT_EQ(wall.faces, (std::vector<std::vector<int>>{{0, 1, 2, 3}}));
+  EXPECT_NEAR(vessel.reach(), std::hypot(0.01, 0.02, 0.03), 1e-15);
+  const auto half_way = vessel.pose(0.5);
+  EXPECT_TRUE((half_way * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(-1, 2, 0), 1e-12));
+  EXPECT_TRUE((half_way * Eigen::Vector3d(0, 0, 1)).isApprox(Eigen::Vector3d(0, 2, -1), 1e-12));
 }
 
 }  // namespace

@@ -135,4 +135,21 @@ TEST(HeatMap, CellsOfADiscLieOnTheirRing) {
   EXPECT_NEAR(y0 - y1, rx, 0.02);
 }
 
+TEST(HeatMap, LabelsAlongXAreRoundOrAtSteps) {
+  HeatMap map;
+  map.id = "wall", map.title = "Wall", map.value = "dose rate [kW/m2]";
+  map.x = {"along x [mm]", -20, 20, false}, map.y = {"along y [mm]", -10, 10, false};
+  const auto labels = [&] {
+    pugi::xml_document document;
+    draw(document, map);
+    std::string text;
+    for (const auto& label : document.select_nodes("//g[@class='axis x-axis']/text[@class='label']"))
+      text += std::string(label.node().text().as_string()) + " ";
+    return text;
+  };
+  EXPECT_EQ(labels(), "\u221220 \u221210 0 10 20 ");
+  map.x = {"angle [\u00b0]", 0, 360, false}, map.x_step = 90;
+  EXPECT_EQ(labels(), "0 90 180 270 360 ");
+}
+
 }  // namespace

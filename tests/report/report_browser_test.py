@@ -56,14 +56,14 @@ def discs(animation, fraction, width, height):
     pixels = height / 2 / math.tan(0.3)  # the field of view is 0.6 rad
     seen = []
     for ball in scene.findall("Transform"):
-        path = paths.get(f"{ball.get('DEF')}_path")
-        if path is None:
+        path, sphere = paths.get(f"{ball.get('DEF')}_path"), ball.find("Shape/Sphere")
+        if path is None or sphere is None:
             continue
         keys, values = floats(path.get("key")), floats(path.get("keyValue"))
         k = min(max(bisect.bisect_right(keys, fraction), 1), len(keys) - 1)
         share = (fraction - keys[k - 1]) / (keys[k] - keys[k - 1])
         x, y, z = (values[3 * k - 3 + c] + share * (values[3 * k + c] - values[3 * k - 3 + c]) - eye[c] for c in range(3))
-        radius = float(ball.find("Shape/Sphere").get("radius"))
+        radius = float(sphere.get("radius"))
         seen.append([width / 2 - pixels * x / z, height / 2 + pixels * y / z, -pixels * radius / z])
     return seen
 

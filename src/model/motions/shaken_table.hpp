@@ -87,6 +87,7 @@ class ShakenTable {
     return amplitude * Real(-(angular_speed_ * angular_speed_) * pose.sine);
   }
 
+  static Vec3<Real> middle() { return {Real(0), Real(0), Real(0)}; }
   Real reach(const Real& vessel_reach) const { return size_ + vessel_reach; }
   Real wall_speed(const Real&) const { return size_ * angular_speed_; }
   Real speed_within(const Real&) const { return size_ * angular_speed_; }

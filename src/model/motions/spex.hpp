@@ -103,6 +103,7 @@ class SpexMotion {
   Real angles() const { return theta_max + gamma_max; }
   /// Bound on the vessel's angular speed [rad/s].
   Real turning() const { return angles() * angular_speed_; }
+  Vec3<Real> middle() const { return {Real(0), arm, Real(0)}; }
   /// Distance from the origin of what is within `vessel_reach` of the vessel's centre, at most [m].
   Real reach(const Real& vessel_reach) const { return arm + vessel_reach; }
   /// No point of a vessel whose points are within `vessel_reach` of its centre is faster [m/s].

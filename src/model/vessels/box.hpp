@@ -7,6 +7,7 @@
 
 #include "model/parameter.hpp"
 #include "model/partners.hpp"
+#include "model/surface.hpp"
 #include "model/vessel_frame.hpp"
 
 namespace edmill::model {
@@ -36,6 +37,8 @@ struct BoxVessel {
   static PerWall<Value> per_wall(const Value& value) {
     return {value, value, value, value, value, value};
   }
+
+  std::vector<WallSurface<Real>> surfaces() const { return box_surfaces<Real>(half); }
 
   Real reach() const { return norm<Real>(half); }
   Real extent() const { return half[0] + half[1] + half[2]; }

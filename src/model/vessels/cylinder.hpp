@@ -9,14 +9,15 @@
 #include "base/trigonometry.hpp"
 #include "model/parameter.hpp"
 #include "model/partners.hpp"
+#include "model/surface.hpp"
 #include "model/vessel_frame.hpp"
 
 namespace edmill::model {
 
 /// A closed cylinder about the y axis of the vessel frame. The gaps to its caps are lengths [m]; that to the
 /// cylinder is q = (R_v-R)^2 - x^2 - z^2 [m^2], which is smooth on the axis and has the sign of the gap.
-/// (2.19'), (2.21'), (2.22'). Wall ids follow the thesis: 0 is the cap at y = -h/2, 1 the cap at y = +h/2, 2 the
-/// cylinder.
+/// (2.19'), (2.21'), (2.22'). Wall ids follow the thesis: 0 is the cap at y = -h/2, 1 the cap at y = +h/2, 2
+/// the cylinder.
 template <class Real>
 struct CylinderVessel {
   using Scalar = Real;
@@ -40,6 +41,12 @@ struct CylinderVessel {
   template <class Value>
   static PerWall<Value> per_wall(const Value& value) {
     return {value, value, value};
+  }
+
+  std::vector<WallSurface<Real>> surfaces() const {
+    const Vec3<Real> top{Real(0), half_height, Real(0)};
+    return {Disc<Real>{frame_at<Real>(-top), radius}, Disc<Real>{frame_at<Real>(top), radius},
+            Tube<Real>{frame_at<Real>(Vec3<Real>::Zero()), radius, half_height}};
   }
 
   Real reach() const {

@@ -1,0 +1,247 @@
+// The walls of a vessel as surfaces with coordinates, for maps and pictures.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <variant>
+#include <vector>
+
+#include "base/frame.hpp"
+#include "base/scalar.hpp"
+#include "base/trigonometry.hpp"
+
+namespace edmill::model {
+
+/// What a coordinate on a wall measures; columns of tables come in this order.
+enum class Coordinate { angle, height, radius, u, v };
+
+struct CoordinateInfo {
+  const char *name, *unit, *meaning;
+};
+inline constexpr std::array<CoordinateInfo, 5> coordinate_infos = {{
+    {"angle", "rad", "about the vessel's axis from x, the arm, to z"},
+    {"height", "m", "along y from the vessel's centre"},
+    {"radius", "m", "from the vessel's axis"},
+    {"u", "m", "along the wall's first edge from its centre"},
+    {"v", "m", "along the wall's second edge from its centre"},
+}};
+constexpr const CoordinateInfo& info_of(Coordinate c) {
+  return coordinate_infos[static_cast<std::size_t>(c)];
+}
+
+/// A place on a wall, by shares of its area from 0 to 1: equal parts of u and of v are equal areas.
+template <class Real>
+struct WallPlace {
+  Real u, v;
+};
+
+/// Sides of a polygon that stands for a circle in pictures.
+inline constexpr int picture_sides = 48;
+
+/// Flat faces with corners among `points`, for pictures.
+struct Mesh {
+  std::vector<Vec3<double>> points;     ///< [m]
+  std::vector<std::vector<int>> faces;  ///< indices of the corners of each
+
+  void archive(Archive& a) { a(points, faces); }
+};
+
+/// Closed polygons: a wall is drawn between them, or inside of a single one.
+template <class Real>
+using Rings = std::vector<std::vector<Vec3<Real>>>;
+
+/// The circle of a surface at one v.
+template <class Real, class Surface>
+std::vector<Vec3<Real>> circle(const Surface& surface, const Real& v) {
+  std::vector<Vec3<Real>> points;
+  for (int k = 0; k < picture_sides; ++k) points.push_back(surface.point(Real(k) / Real(picture_sides), v));
+  return points;
+}
+
+/// The angle from x to z in turns, from 0 to 1, with the same bits everywhere: the C library's arc tangent is
+/// not the same on every machine.
+template <class Real>
+Real turns(const Real& x, const Real& z) {
+  using std::sqrt;
+  const Real size = sqrt(x * x + z * z);
+  if (!(size > 0)) return Real(0);
+  const Real a = x < 0 ? Real(-x) : x, b = z < 0 ? Real(-z) : z;
+  const double q = static_cast<double>(a < b ? Real(a / b) : Real(b / a));
+  double guess = q * (0.125 + 0.0434 * (1 - q));  // within 0.0006 turns
+  if (a < b) guess = 0.25 - guess;
+  if (x < 0) guess = 0.5 - guess;
+  if (z < 0) guess = 1 - guess;
+  Real turn(guess);
+  for (int step = 0; step < 6; ++step) {  // each step leaves the cube of the error
+    const auto at = numerics::sin_cos_turns<Real>(turn);
+    const Real off = (at.cos * z - at.sin * x) / size;
+    turn += off / (2 * numerics::pi<Real>());
+    if (off * off * off < epsilon<Real>() && -off * off * off < epsilon<Real>()) break;
+  }
+  return turn < 0 ? Real(turn + 1) : turn;
+}
+
+/// A flat disc across the y axis of its frame: u along the angle from x to z, v along the squared radius.
+template <class Real>
+struct Disc {
+  static constexpr const char* name = "caps";
+  static constexpr std::array coordinates{Coordinate::angle, Coordinate::radius};
+
+  Frame<Real> frame;
+  Real radius;  ///< [m]
+
+  WallPlace<Real> map(const Vec3<Real>& p) const {
+    const Vec3<Real> d = frame.inside(p);
+    return {turns<Real>(d[0], d[2]), (d[0] * d[0] + d[2] * d[2]) / (radius * radius)};
+  }
+  Vec3<Real> point(const Real& u, const Real& v) const {
+    using std::sqrt;
+    const auto angle = numerics::sin_cos_turns<Real>(u);
+    const Real r = radius * sqrt(v);
+    return frame.outside({r * angle.cos, Real(0), r * angle.sin});
+  }
+  Real area() const { return numerics::pi<Real>() * (radius * radius); }
+  Real edge(int axis, std::size_t k, std::size_t n) const {
+    using std::sqrt;
+    if (axis == 0) return 2 * numerics::pi<Real>() * Real(k) / Real(n);
+    return radius * sqrt(Real(k) / Real(n));
+  }
+  Rings<Real> rings() const { return {circle<Real>(*this, Real(1))}; }
+};
+
+/// A cylinder about the y axis of its frame: u along the angle from x to z, v along y.
+template <class Real>
+struct Tube {
+  static constexpr const char* name = "the cylinder";
+  static constexpr std::array coordinates{Coordinate::angle, Coordinate::height};
+
+  Frame<Real> frame;
+  Real radius, half_height;  ///< [m]
+
+  WallPlace<Real> map(const Vec3<Real>& p) const {
+    const Vec3<Real> d = frame.inside(p);
+    return {turns<Real>(d[0], d[2]), (d[1] / half_height + 1) / 2};
+  }
+  Vec3<Real> point(const Real& u, const Real& v) const {
+    const auto angle = numerics::sin_cos_turns<Real>(u);
+    return frame.outside({radius * angle.cos, half_height * (2 * v - 1), radius * angle.sin});
+  }
+  Real area() const { return 2 * numerics::pi<Real>() * radius * 2 * half_height; }
+  Real edge(int axis, std::size_t k, std::size_t n) const {
+    if (axis == 0) return 2 * numerics::pi<Real>() * Real(k) / Real(n);
+    return half_height * (2 * Real(k) / Real(n) - 1);
+  }
+  Rings<Real> rings() const { return {circle<Real>(*this, Real(0)), circle<Real>(*this, Real(1))}; }
+};
+
+/// A flat rectangle: u and v along its edges.
+template <class Real>
+struct Rectangle {
+  static constexpr const char* name = "rectangles";
+  static constexpr std::array coordinates{Coordinate::u, Coordinate::v};
+
+  Vec3<Real> centre;                 ///< [m]
+  std::array<Vec3<Real>, 2> halves;  ///< of the edges along u and along v [m]
+
+  WallPlace<Real> map(const Vec3<Real>& p) const {
+    const Vec3<Real> d = p - centre;
+    const auto share = [&](const Vec3<Real>& half) {
+      return Real((dot<Real>(d, half) / squared_norm<Real>(half) + 1) / 2);
+    };
+    return {share(halves[0]), share(halves[1])};
+  }
+  Vec3<Real> point(const Real& u, const Real& v) const {
+    return centre + (halves[0] * Real(2 * u - 1) + halves[1] * Real(2 * v - 1));
+  }
+  Real area() const { return 4 * norm<Real>(halves[0]) * norm<Real>(halves[1]); }
+  Real edge(int axis, std::size_t k, std::size_t n) const {
+    return norm<Real>(halves[static_cast<std::size_t>(axis)]) * (2 * Real(k) / Real(n) - 1);
+  }
+  Rings<Real> rings() const {
+    const Real low(0), high(1);
+    return {{point(low, low), point(high, low), point(high, high), point(low, high)}};
+  }
+};
+
+/// The surface of one wall, of one of these kinds.
+template <class Real>
+class WallSurface {
+ public:
+  using Kind = std::variant<Disc<Real>, Tube<Real>, Rectangle<Real>>;
+
+  template <class Surface>
+  WallSurface(const Surface& surface) : kind_(surface) {}
+
+  const Kind& kind() const { return kind_; }
+  /// Walls of this kind, for readers.
+  const char* name() const {
+    return visit([](const auto& s) { return s.name; });
+  }
+  /// Of u and of v.
+  std::array<Coordinate, 2> coordinates() const {
+    return visit([](const auto& s) { return s.coordinates; });
+  }
+  /// Where a point of the wall is [m]; rounding may put it a little outside.
+  WallPlace<Real> map(const Vec3<Real>& p) const {
+    return visit([&](const auto& s) { return s.map(p); });
+  }
+  /// The inverse of `map` [m].
+  Vec3<Real> point(const Real& u, const Real& v) const {
+    return visit([&](const auto& s) { return s.point(u, v); });
+  }
+  /// [m^2]
+  Real area() const {
+    return visit([](const auto& s) { return s.area(); });
+  }
+  /// Where the k-th of n equal parts begins, in the unit of the coordinate.
+  /// @param axis  0 along u, 1 along v
+  Real edge(int axis, std::size_t k, std::size_t n) const {
+    return visit([&](const auto& s) { return s.edge(axis, k, n); });
+  }
+  Rings<Real> rings() const {
+    return visit([](const auto& s) { return s.rings(); });
+  }
+
+ private:
+  template <class Function>
+  auto visit(const Function& function) const {
+    return std::visit(function, kind_);
+  }
+
+  Kind kind_;
+};
+
+template <class Real>
+Mesh mesh_of(const WallSurface<Real>& surface) {
+  Mesh mesh;
+  const auto rings = surface.rings();
+  for (const auto& ring : rings)
+    for (const auto& point : ring) mesh.points.push_back(vector_cast<double>(point));
+  const int corners = static_cast<int>(rings.front().size()), count = static_cast<int>(rings.size());
+  if (count == 1) {
+    mesh.faces.emplace_back(corners);
+    std::iota(mesh.faces[0].begin(), mesh.faces[0].end(), 0);
+  }
+  for (int ring = 0; ring + 1 < count; ++ring)
+    for (int k = 0; k < corners; ++k) {
+      const int here = ring * corners, there = here + corners, next = (k + 1) % corners;
+      mesh.faces.push_back({here + k, there + k, there + next, here + next});
+    }
+  return mesh;
+}
+
+/// Of a box about the origin, by wall id: x-, x+, y-, y+, z-, z+.
+/// @param half_sizes  half of its edges along the axes [m]
+template <class Real>
+std::vector<WallSurface<Real>> box_surfaces(const Vec3<Real>& half_sizes) {
+  std::vector<WallSurface<Real>> walls;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {-1, 1}) {
+      const auto half = [&](int k) { return Vec3<Real>(Vec3<Real>::Unit(k % 3) * half_sizes[k % 3]); };
+      walls.push_back(Rectangle<Real>{half(axis) * Real(side), {half(axis + 1), half(axis + 2)}});
+    }
+  return walls;
+}
+
+}  // namespace edmill::model
