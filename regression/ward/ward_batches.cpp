@@ -80,7 +80,7 @@ int run_in_batches(const std::string& file, const std::vector<std::string>& over
   const auto built = casefile::build_case<double>(spec);
   const auto& the_case = built.the_case;
   if (!the_case.stop.end_time) throw InputError({file + ": run.end_time: not given, expected a time"});
-  const DriveClock<double> clock(the_case.mill.motion.period);
+  const DriveClock<double> clock(the_case.mill.motion.period());
   const double seconds = clock.elapsed(the_case.statistics_start, *the_case.stop.end_time);
   const auto count = static_cast<std::size_t>(seconds / length + 1e-9);
   Batches batches(clock.seconds(the_case.statistics_start), length, count, clock,

@@ -30,7 +30,7 @@ VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPos
   const auto& p = std::get<model::SpexPose<double>>(pose);
   const double s = p.cos_alpha, c = -p.sin_alpha;  // sin and cos of theta = alpha + pi/2
   const double sg = p.sin_gamma, cg = p.cos_gamma;
-  const Vec centre{c * spex->arm, s * spex->arm, 0};
+  const Vec centre{c * spex->arm(), s * spex->arm(), 0};
   VesselFrame frame = as_printed
                           ? VesselFrame{{c, s * cg, s * sg}, {-s, c * cg, c * sg}, {0, -sg, cg}, centre}
                           : VesselFrame{{c, s, 0}, {-s * cg, c * cg, sg}, {s * sg, -c * sg, cg}, centre};

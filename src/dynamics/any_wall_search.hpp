@@ -1,8 +1,10 @@
 // The wall search of a run, whose motion and vessel are chosen when the case is read.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "dynamics/wall_search.hpp"
 #include "model/mill.hpp"
@@ -16,6 +18,8 @@ class AnyWallSearch {
  public:
   using Spex = WallSearch<model::SpexMotion<Real>, model::CylinderVessel<Real>>;
   using General = WallSearch<model::AnyMotion<Real>, model::AnyVessel<Real>>;
+  /// Another search in the place of these, given the vessel's pose at the window's begin.
+  using Policy = std::function<WallAnswer<Real>(const model::AnyPose<Real>&, const WallQuery<Real>&)>;
 
   AnyWallSearch(const model::AnyMotion<Real>& motion, const model::AnyVessel<Real>& vessel,
                 const Vec3<Real>& gravity) {
@@ -26,28 +30,39 @@ class AnyWallSearch {
       else
         spex_.emplace(its_motion, its_vessel, gravity);
     });
+    longest_window_ = with([](const auto& search) { return search.longest_window(); });
+    reach_ = with([](const auto& search) { return search.mill().reach; });
   }
   explicit AnyWallSearch(const model::Mill<Real>& mill)
       : AnyWallSearch(mill.motion, mill.vessel, mill.gravity) {}
 
-  const Real& longest_window() const {
-    return with([](const auto& search) -> const Real& { return search.longest_window(); });
-  }
+  const Real& longest_window() const { return longest_window_; }
   /// Largest distance of a ball from the origin [m].
-  const Real& reach() const {
-    return with([](const auto& search) -> const Real& { return search.mill().reach; });
-  }
+  const Real& reach() const { return reach_; }
 
   WallAnswer<Real> operator()(const WallQuery<Real>& query) const {
-    return with([&](const auto& search) { return search(query); });
-  }
-  WallAnswer<Real> search(const WallQuery<Real>& query) const {
-    return with([&](const auto& search) { return search.search(query); });
+    return with([&]<class M, class V>(const WallSearch<M, V>& search) {
+      if constexpr (std::is_same_v<WallSearch<M, V>, General>)
+        if (policy_) return policy_(search.mill().motion.pose(query.begin), query);
+      return search(query);
+    });
   }
   WallAnswer<Real> search(const model::AnyPose<Real>& pose, const WallQuery<Real>& query) const {
     return with([&]<class M, class V>(const WallSearch<M, V>& search) {
+      if constexpr (std::is_same_v<WallSearch<M, V>, General>)
+        if (policy_) return policy_(pose, query);
       return search.search(model::pose_of<M>(pose), query);
     });
+  }
+  /// From here on a policy of the caller's own decides, which nothing certifies.
+  void replace(Policy policy) {
+    with([&](const auto& search) {
+      const auto& mill = search.mill();
+      General general(mill.motion, mill.vessel, mill.gravity);
+      general_.emplace(std::move(general));
+    });
+    spex_.reset();
+    policy_ = std::move(policy);
   }
   RoughAnswer rough(const WallQuery<Real>& query) const {
     return with([&](const auto& search) { return search.rough(query); });
@@ -55,15 +70,20 @@ class AnyWallSearch {
 
  private:
   template <class F>
-  decltype(auto) with(F&& f) const {
+  [[gnu::always_inline]] decltype(auto) with(F&& f) const {
     if constexpr (std::is_same_v<Real, double>)
       if (spex_) [[likely]]
         return f(*spex_);
     return f(*general_);
   }
 
-  std::conditional_t<std::is_same_v<Real, double>, std::optional<Spex>, std::nullopt_t*> spex_{};
+  struct Never {
+    void reset() {}
+  };
+  std::conditional_t<std::is_same_v<Real, double>, std::optional<Spex>, Never> spex_{};
   std::optional<General> general_;
+  Policy policy_;
+  Real longest_window_, reach_;
 };
 
 }  // namespace edmill::dynamics

@@ -65,6 +65,7 @@ class DecisionLadder {
   void raise_top_speed(const Real& speed);
 
   const AnyWallSearch<Real>& walls() const { return walls_; }
+  AnyWallSearch<Real>& walls() { return walls_; }
   const PairSearch<Real>& pairs() const { return pairs_; }
 
   /// One entry for each wider scalar, narrowest first.

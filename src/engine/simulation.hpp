@@ -63,6 +63,11 @@ class Simulation {
   /// balls.
   void prefetch(bool yes) { prefetcher_.enable(yes && candidates_.uses_cells()); }
 
+  /// Lets another search find wall contacts from here on, without certificates: for comparisons.
+  void replace_wall_search(typename dynamics::AnyWallSearch<Real>::Policy policy) {
+    ladder_.walls().replace(std::move(policy));
+  }
+
   /// Asks the loop to return after the present impact.
   void request_stop(EndReason reason) { stop_ = reason; }
   /// The same, for nothing more than a pause: any other reason goes before.

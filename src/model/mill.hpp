@@ -32,7 +32,8 @@ Mill<To> mill_cast(const Mill<From>& m) {
 /// Calls f(motion, vessel): in double with the SPEX and the cylinder as what they are, so that f is compiled
 /// for them, with everything else as it is given.
 template <class Real, class F>
-decltype(auto) with_parts(const AnyMotion<Real>& motion, const AnyVessel<Real>& vessel, F&& f) {
+[[gnu::always_inline]] inline decltype(auto) with_parts(const AnyMotion<Real>& motion,
+                                                        const AnyVessel<Real>& vessel, F&& f) {
   if constexpr (std::is_same_v<Real, double>) {
     const auto* spex = motion.template get_if<SpexMotion<Real>>();
     const auto* cylinder = vessel.template get_if<CylinderVessel<Real>>();

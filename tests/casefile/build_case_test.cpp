@@ -17,11 +17,11 @@ TEST(BuildCase, PlacedBallsKeepTheirGaps) {
   const auto built = build_case<double>(
       spec(testing::batch(150, "3.16 mm", "gap_ball = \"0.3 mm\"\ngap_wall = \"0.7 mm\"\n")));
   const auto& mill = built.the_case.mill;
-  const auto pose = model::pose_at<double>(mill.motion, 0.0);
+  const auto pose = mill.motion.pose({0, 0.0});
   ASSERT_EQ(built.states.size(), 150u);
   for (std::size_t i = 0; i < built.states.size(); ++i) {
     const auto& r = built.states[i].position;
-    const auto p = model::to_vessel_frame<double>(pose, mill.motion.arm, r, r).position;
+    const auto p = mill.motion.to_vessel_frame(pose, r, r).position;
     EXPECT_LE(std::hypot(p[0], p[2]), 0.019 - 0.00158 - 0.0007 + 1e-12);
     EXPECT_LE(std::abs(p[1]), 0.0285 - 0.00158 - 0.0007 + 1e-12);
     for (std::size_t j = 0; j < i; ++j)

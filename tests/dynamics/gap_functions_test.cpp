@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "casefile/random.hpp"
+#include "mill_parts.hpp"
 #include "spex_case.hpp"
 
 namespace edmill::dynamics {
@@ -22,16 +23,16 @@ struct RandomFlight {
     const auto uniform = [&] { return random.uniform<double>(); };
     const auto symmetric = [&] { return random.symmetric<double>(); };
     radius = 0.001 + 0.005 * uniform();
-    const Vec3<double> local{0.7 * mill.vessel.radius * symmetric(), mill.vessel.half_height * symmetric(),
-                             0.7 * mill.vessel.radius * symmetric()};
-    flight.start = {0, uniform() * mill.motion.period};
-    flight.position = model::to_inertial<double>(model::pose_at<double>(mill.motion, flight.start.offset),
-                                                 mill.motion.arm, local);
+    const Vec3<double> local{0.7 * testing::cylinder(mill).radius * symmetric(),
+                             testing::cylinder(mill).half_height * symmetric(),
+                             0.7 * testing::cylinder(mill).radius * symmetric()};
+    flight.start = {0, uniform() * mill.motion.period()};
+    flight.position = mill.motion.to_inertial(mill.motion.pose({0, flight.start.offset}), local);
     flight.velocity = Vec3<double>(symmetric(), symmetric(), symmetric()) * (top_speed * uniform());
     // Up to half a period later, often in the next one.
-    const double later = flight.start.offset + 0.1 * mill.motion.period * uniform();
-    period = later < mill.motion.period ? 0 : 1;
-    offset = period ? later - mill.motion.period : later;
+    const double later = flight.start.offset + 0.1 * mill.motion.period() * uniform();
+    period = later < mill.motion.period() ? 0 : 1;
+    offset = period ? later - mill.motion.period() : later;
   }
 };
 
@@ -39,7 +40,9 @@ struct RandomFlight {
 template <class Real>
 model::Mill<Real> mill_with_arm(const char* metres) {
   auto mill = testing::spex_mill<Real>();
-  mill.motion.arm = from_text<Real>(metres);
+  const auto& spex = testing::spex(mill);
+  mill.motion =
+      model::SpexMotion<Real>(from_text<Real>(metres), spex.theta_max(), spex.gamma_max(), spex.period());
   return mill;
 }
 
@@ -48,27 +51,22 @@ INSTANTIATE_TEST_SUITE_P(GapFunctions, GapErrorsAtArm, ::testing::Values("0.1", 
 
 TEST_P(GapErrorsAtArm, RoundingErrorsStayBelowTheirBounds) {
   const auto mill = mill_with_arm<double>(GetParam());
-  const GapFunctions<double>::Constants constants(mill);
-  const model::Mill<mpfr50> wide_mill{
-      {mill.motion.arm, mill.motion.theta_max, mill.motion.gamma_max, mill.motion.period},
-      {mill.vessel.radius, mill.vessel.half_height},
-      vector_cast<mpfr50>(mill.gravity),
-      {},
-      {}};
-  const GapFunctions<mpfr50>::Constants wide_constants(wide_mill);
+  const auto constants = testing::moving(mill);
+  const auto wide_mill = model::mill_cast<mpfr50>(mill);
+  const auto wide_constants = testing::moving(wide_mill);
   casefile::Random random(21);
   double worst_gap = 0, worst_rate = 0, worst_curvature = 0;
   for (int k = 0; k < 20000; ++k) {
     const RandomFlight r(random, mill, 10);
-    const GapFunctions<double> narrow(constants, r.flight, r.radius, r.period);
-    const GapFunctions<mpfr50> exact(wide_constants, flight_cast<mpfr50>(r.flight), mpfr50(r.radius),
-                                     r.period);
+    const testing::GeneralFunctions<double> narrow(constants, r.flight, r.radius, r.period);
+    const testing::GeneralFunctions<mpfr50> exact(wide_constants, flight_cast<mpfr50>(r.flight),
+                                                  mpfr50(r.radius), r.period);
     const auto found = narrow.start(r.offset);
     const auto truth = exact.start(mpfr50(r.offset));
     const double elapsed = narrow.elapsed(r.offset);
     const double speed = norm<double>(r.flight.velocity) + constants.gravity * elapsed;
     const auto bound = narrow.errors(elapsed, speed);
-    for (int w = 0; w < model::wall_count; ++w) {
+    for (int w = 0; w < mill.vessel.wall_count(); ++w) {
       worst_gap =
           std::max(worst_gap, static_cast<double>(abs(mpfr50(found.gap[w]) - truth.gap[w])) / bound.gap[w]);
       worst_rate = std::max(worst_rate,
@@ -91,8 +89,8 @@ TEST_P(GapErrorsAtArm, RoundingErrorsStayBelowTheirBounds) {
 TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
   const auto wide_mill = testing::spex_mill<mpfr50>();
   const auto mill = model::mill_cast<double>(wide_mill);
-  const GapFunctions<double>::Constants constants(mill);
-  const GapFunctions<mpfr50>::Constants wide_constants(wide_mill);
+  const auto constants = testing::moving(mill);
+  const auto wide_constants = testing::moving(wide_mill);
   casefile::Random random(23);
   double worst_gap = 0, worst_rate = 0, worst_curvature = 0;
   for (int k = 0; k < 50000; ++k) {
@@ -108,9 +106,9 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
     }
     wide.start.offset = more(r.flight.start.offset);
     const mpfr50 radius = more(r.radius);
-    const GapFunctions<double> narrow(constants, flight_cast<double>(wide), static_cast<double>(radius),
-                                      r.period);
-    const GapFunctions<mpfr50> exact(wide_constants, wide, radius, r.period);
+    const testing::GeneralFunctions<double> narrow(constants, flight_cast<double>(wide),
+                                                   static_cast<double>(radius), r.period);
+    const testing::GeneralFunctions<mpfr50> exact(wide_constants, wide, radius, r.period);
     const auto found = narrow.start(r.offset);
     const auto truth = exact.start(mpfr50(r.offset));
     const double elapsed = narrow.elapsed(r.offset);
@@ -118,14 +116,15 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
     const auto own = narrow.errors(elapsed, speed), state = narrow.state_errors(elapsed, speed);
     const auto bound = own + state;
     // The effect of the state alone, in 50 digits.
-    const GapFunctions<mpfr50>::Constants rounded_constants(model::mill_cast<mpfr50>(mill));
-    const auto moved = GapFunctions<mpfr50>(rounded_constants, flight_cast<mpfr50>(flight_cast<double>(wide)),
-                                            mpfr50(static_cast<double>(radius)), r.period)
-                           .start(mpfr50(r.offset));
+    const auto rounded_constants = testing::moving(model::mill_cast<mpfr50>(mill));
+    const auto moved =
+        testing::GeneralFunctions<mpfr50>(rounded_constants, flight_cast<mpfr50>(flight_cast<double>(wide)),
+                                          mpfr50(static_cast<double>(radius)), r.period)
+            .start(mpfr50(r.offset));
     const auto part = [](const mpfr50& a, const mpfr50& b, double limit) {
       return static_cast<double>(abs(a - b)) / limit;
     };
-    for (int w = 0; w < model::wall_count; ++w) {
+    for (int w = 0; w < mill.vessel.wall_count(); ++w) {
       EXPECT_LT(part(mpfr50(found.gap[w]), truth.gap[w], bound.gap[w]), 1);
       EXPECT_LT(part(mpfr50(found.rate[w]), truth.rate[w], bound.rate[w]), 1);
       worst_gap = std::max(worst_gap, part(moved.gap[w], truth.gap[w], state.gap[w]));
@@ -144,7 +143,7 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
 }
 
 /// Central differences of the gap in 50 digits.
-std::array<mpfr50, 3> derivatives(const GapFunctions<mpfr50>& f, const mpfr50& t, int wall) {
+std::array<mpfr50, 3> derivatives(const testing::GeneralFunctions<mpfr50>& f, const mpfr50& t, int wall) {
   const mpfr50 h("1e-8");
   const auto g = [&](int k) { return f(t + k * h).gap[wall]; };
   const mpfr50 h2 = h * h;
@@ -155,15 +154,15 @@ std::array<mpfr50, 3> derivatives(const GapFunctions<mpfr50>& f, const mpfr50& t
 TEST(MotionBounds, DerivativesOfTheGapsStayBelowTheirBounds) {
   const auto mill = testing::spex_mill<mpfr50>();
   const auto narrow_mill = testing::spex_mill<double>();
-  const GapFunctions<mpfr50>::Constants constants(mill);
+  const auto constants = testing::moving(mill);
   const BoundsTable<double> table(narrow_mill);
   casefile::Random random(22);
   std::array<double, 3> worst_y{}, worst_q{};
   for (int k = 0; k < 5000; ++k) {
     const RandomFlight r(random, narrow_mill, 10);
     const double length = table.longest_window() * (0.01 + 0.99 * random.uniform<double>());
-    const GapFunctions<mpfr50> f(constants, flight_cast<mpfr50>(r.flight), mpfr50(r.radius),
-                                 r.flight.start.period);
+    const testing::GeneralFunctions<mpfr50> f(constants, flight_cast<mpfr50>(r.flight), mpfr50(r.radius),
+                                              r.flight.start.period);
     const double speed = norm<double>(r.flight.velocity) + 9.8 * length;
     const auto bound = table.at(speed, length);
     for (int step = 0; step <= 4; ++step) {

@@ -19,7 +19,7 @@ std::optional<mpfr200> exact_delay(const Flight<double>& i, const Flight<double>
                                    const model::Mill<double>& mill) {
   const auto wide = [](const Vec3<double>& v) { return vector_cast<mpfr200>(v); };
   const auto age = [&](const Flight<double>& f) {
-    return mpfr200(now.period - f.start.period) * mpfr200(mill.motion.period) +
+    return mpfr200(now.period - f.start.period) * mpfr200(mill.motion.period()) +
            (mpfr200(now.offset) - mpfr200(f.start.offset));
   };
   const Vec3<mpfr200> g = wide(mill.gravity);
@@ -44,7 +44,7 @@ TEST(PairSearch, TheErrorOfATimeStaysBelowItsBound) {
   };
   for (const double radius : {2e-3, 1e-5, 5e-8}) {
     const PairSearch<double> search(mill, 2 * radius, reach, top_speed);
-    const DriveClock<double> clock(mill.motion.period);
+    const DriveClock<double> clock(mill.motion.period());
     double worst = 0;
     int contacts = 0;
     for (int k = 0; k < 20000; ++k) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "mill_parts.hpp"
 #include "oracle_question.hpp"
 #include "spex_case.hpp"
 #include "wall_states.hpp"
@@ -22,9 +23,10 @@ using testing::OracleVerdict;
 
 std::string text(const model::Mill<double>& mill, const WallQuery<double>& q) {
   std::ostringstream out;
-  out << std::hexfloat << "mill: arm " << mill.motion.arm << " theta_max " << mill.motion.theta_max
-      << " gamma_max " << mill.motion.gamma_max << " period " << mill.motion.period << " R_v "
-      << mill.vessel.radius << " h/2 " << mill.vessel.half_height << " gravity " << mill.gravity.transpose()
+  out << std::hexfloat << "mill: arm " << testing::spex(mill).arm() << " theta_max "
+      << testing::spex(mill).theta_max() << " gamma_max " << testing::spex(mill).gamma_max() << " period "
+      << mill.motion.period() << " R_v " << testing::cylinder(mill).radius << " h/2 "
+      << testing::cylinder(mill).half_height << " gravity " << mill.gravity.transpose()
       << "\n  query: flight {{" << q.flight.position[0] << ", " << q.flight.position[1] << ", "
       << q.flight.position[2] << "}, {" << q.flight.velocity[0] << ", " << q.flight.velocity[1] << ", "
       << q.flight.velocity[2] << "}, {" << q.flight.start.period << ", " << q.flight.start.offset
@@ -65,7 +67,7 @@ class Comparison {
               by_double &= ladder_.walls().search_by_double(q).verdict != Verdict::undecided;
             return ladder_.wall(q);
           },
-          widened<Real>(query), Real(mill_.motion.period));
+          widened<Real>(query), Real(mill_.motion.period()));
       answer = {wide.verdict, wide.wall, instant_cast<double>(wide.time)};
       if (by_double && wide.verdict == Verdict::contact) expect_polished(query, wide);
     } catch (const std::exception& error) {
@@ -100,11 +102,11 @@ class Comparison {
   /// rounding.
   void expect_polished(const WallQuery<double>& query, const WallAnswer<Real>& answer) {
     if constexpr (!std::is_same_v<Real, double>) {
-      const GapFunctions<mpfr50>::Constants constants(widened<mpfr50>(mill_));
-      const GapFunctions<mpfr50> exact(constants, flight_cast<mpfr50>(query.flight), mpfr50(query.radius),
-                                       answer.time.period);
-      const GapFunctions<Real> own(ladder_.walls().constants(), flight_cast<Real>(query.flight),
-                                   Real(query.radius), answer.time.period);
+      const auto constants = testing::moving(widened<mpfr50>(mill_));
+      const testing::GeneralFunctions<mpfr50> exact(constants, flight_cast<mpfr50>(query.flight),
+                                                    mpfr50(query.radius), answer.time.period);
+      const testing::GeneralFunctions<Real> own(ladder_.walls().constants(), flight_cast<Real>(query.flight),
+                                                Real(query.radius), answer.time.period);
       const Real elapsed = own.elapsed(answer.time.offset);
       const Real speed = norm<Real>(flight_cast<Real>(query.flight).velocity) +
                          ladder_.walls().constants().gravity * elapsed;
@@ -117,7 +119,7 @@ class Comparison {
   }
 
   /// begin + length is rounded in double: a contact this close to the end may be reported or not.
-  double end_slack() const { return 8 * epsilon<double>() * mill_.motion.period; }
+  double end_slack() const { return 8 * epsilon<double>() * mill_.motion.period(); }
 
   void judge(const WallQuery<double>& query, const WallAnswer<double>& answer,
              const std::array<OracleContact, 3>& contacts, Tally& tally) {
@@ -156,15 +158,15 @@ class Comparison {
     // slope. Near a fold of the path that holds to a factor, since the gap has to fall clear of rounding to
     // be decided.
     const double flown =
-        DriveClock<double>(mill_.motion.period).elapsed(query.flight.start, query.begin) + query.length;
-    const double lengths = mill_.motion.arm + mill_.vessel.radius + mill_.vessel.half_height +
-                           norm<double>(query.flight.velocity) * flown +
-                           norm<double>(mill_.gravity) * flown * flown;
-    const double across = 2 * (mill_.vessel.radius - query.radius);
+        DriveClock<double>(mill_.motion.period()).elapsed(query.flight.start, query.begin) + query.length;
+    const double lengths =
+        testing::spex(mill_).arm() + testing::cylinder(mill_).radius + testing::cylinder(mill_).half_height +
+        norm<double>(query.flight.velocity) * flown + norm<double>(mill_.gravity) * flown * flown;
+    const double across = 2 * (testing::cylinder(mill_).radius - query.radius);
     const double unit = answer.wall == 2 ? across : 1;  // of the gap function per metre
     const double rate = std::abs(hit.slope) / unit;
     const double error = static_cast<double>(delay(query, answer) - static_cast<long double>(hit.earliest));
-    double allowed = 4 * epsilon<double>() * mill_.motion.period;
+    double allowed = 4 * epsilon<double>() * mill_.motion.period();
     // A turning point inside the overlap is located to 2^-16 of the time since begin; the overlap changes
     // there by the square of the error only.
     if (hit.turned_back)
@@ -189,7 +191,7 @@ class Comparison {
 
   long double delay(const WallQuery<double>& query, const WallAnswer<double>& answer) const {
     const auto periods = static_cast<long double>(answer.time.period - query.begin.period);
-    return periods * static_cast<long double>(mill_.motion.period) +
+    return periods * static_cast<long double>(mill_.motion.period()) +
            (static_cast<long double>(answer.time.offset) - static_cast<long double>(query.begin.offset));
   }
 
@@ -310,8 +312,8 @@ WallQuery<Real> with_more_digits(Draw& draw, const WallQuery<double>& q) {
 
 TYPED_TEST(WideWallSearch, InDoubleFirstDecidesAsTheFullSearch) {
   using Real = TypeParam;
-  const WallSearch<Real> walls(testing::spex_mill<Real>());
-  const auto& clock = walls.constants().clock;
+  const auto walls = testing::general_search(testing::spex_mill<Real>());
+  const auto& clock = walls.mill().clock;
   StateMaker make(testing::spex_mill<double>(), static_cast<double>(walls.longest_window()));
   Draw draw(20110105);
   const Real ulp = epsilon<Real>() * clock.period();
@@ -348,7 +350,7 @@ TYPED_TEST(WideWallSearch, InDoubleFirstDecidesAsTheFullSearch) {
     if (apart / allowed > worst) worst = apart / allowed;
     EXPECT_LE(apart, allowed) << name(kind) << " " << k;
     ASSERT_TRUE(first.pose.has_value());
-    const auto pose = model::pose_at<Real>(walls.constants().mill.motion, first.time.offset);
+    const auto pose = walls.mill().motion.pose({0, first.time.offset});
     EXPECT_LE(abs(first.pose->sin_alpha - pose.sin_alpha), 16 * epsilon<Real>());
     EXPECT_LE(abs(first.pose->cos_gamma - pose.cos_gamma), 16 * epsilon<Real>());
   }
@@ -368,9 +370,11 @@ TEST(WallSearch, AgreesWithAnIndependentSolverInOtherMills) {
   for (int m = 0; m < 24; ++m) {
     auto mill = testing::spex_mill<double>();
     const bool still = m % 4 == 0, weightless = m % 3 == 0;
-    mill.motion = {draw.chance(0.2) ? 0.0 : draw.uniform(0.02, 0.2), still ? 0.0 : draw.uniform(0.01, 0.8),
-                   still || draw.chance(0.2) ? 0.0 : draw.uniform(0.01, 0.6), draw.log_uniform(0.02, 0.5)};
-    mill.vessel = {draw.uniform(0.01, 0.05), draw.uniform(0.01, 0.05)};
+    // Braces keep the order of the draws.
+    mill.motion = model::SpexMotion<double>{
+        draw.chance(0.2) ? 0.0 : draw.uniform(0.02, 0.2), still ? 0.0 : draw.uniform(0.01, 0.8),
+        still || draw.chance(0.2) ? 0.0 : draw.uniform(0.01, 0.6), draw.log_uniform(0.02, 0.5)};
+    mill.vessel = model::CylinderVessel<double>{draw.uniform(0.01, 0.05), draw.uniform(0.01, 0.05)};
     mill.gravity = {draw.uniform(-10, 10), draw.uniform(-10, 10), draw.uniform(-10, 10)};
     if (weightless) mill.gravity = {0.0, 0.0, 0.0};
     Comparison<double> compare(mill);

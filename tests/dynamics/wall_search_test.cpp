@@ -5,6 +5,7 @@
 
 #include <iostream>
 
+#include "mill_parts.hpp"
 #include "spex_case.hpp"
 #include "wall_states.hpp"
 
@@ -17,8 +18,9 @@ constexpr double ball_radius = 1.0 / 256;
 template <class Real>
 model::Mill<Real> still_mill(const Vec3<double>& gravity) {
   model::Mill<Real> mill{};
-  mill.motion = {Real(0), Real(0), Real(0), Real(1)};
-  mill.vessel = {Real(1.0 / 32 + ball_radius), Real(1.0 / 64 + ball_radius)};  // gaps 1/32 and 1/64 m
+  mill.motion = model::SpexMotion<Real>(Real(0), Real(0), Real(0), Real(1));
+  mill.vessel = model::CylinderVessel<Real>{Real(1.0 / 32 + ball_radius),
+                                            Real(1.0 / 64 + ball_radius)};  // gaps 1/32 and 1/64 m
   mill.gravity = vector_cast<Real>(gravity);
   return mill;
 }
@@ -49,7 +51,7 @@ TYPED_TEST_SUITE(WideWallSearch, WideScalars);
 
 TYPED_TEST(WideWallSearch, GrazingAndTouchingStatesAreLeftToTheWideSearch) {
   using Real = TypeParam;
-  const WallSearch<Real> graze(still_mill<Real>(grazing_gravity));
+  const auto graze = testing::general_search(still_mill<Real>(grazing_gravity));
   for (const double d : {0x1p-57, -0x1p-57, 0x1p-120, -0x1p-120}) {
     const auto query = widened<Real>(grazing_query(d));
     EXPECT_EQ(graze.search_by_double(query).verdict, Verdict::undecided);
@@ -59,7 +61,7 @@ TYPED_TEST(WideWallSearch, GrazingAndTouchingStatesAreLeftToTheWideSearch) {
   EXPECT_EQ(graze.search_by_double(widened<Real>(grazing_query(-0x1p-30))).verdict, Verdict::contact);
 
   // On a cap and approaching, overlapped or not, and two walls at one time.
-  const WallSearch<Real> still(still_mill<Real>({0, 0, 0}));
+  const auto still = testing::general_search(still_mill<Real>({0, 0, 0}));
   for (const double overlap : {0.0, 0x1p-58, -0x1p-58}) {
     const auto query = widened<Real>(query_of({1.0 / 64 + overlap, 0, 0}, {1e-3, 0, 0}, 0.1));
     EXPECT_EQ(still.search_by_double(query).verdict, Verdict::undecided);
@@ -74,7 +76,8 @@ TYPED_TEST(WideWallSearch, GrazingAndTouchingStatesAreLeftToTheWideSearch) {
 
 template <class Real>
 Verdict grazing_verdict(double distance) {
-  return WallSearch<Real>(still_mill<Real>(grazing_gravity))(widened<Real>(grazing_query(distance))).verdict;
+  return testing::general_search(still_mill<Real>(grazing_gravity))(widened<Real>(grazing_query(distance)))
+      .verdict;
 }
 
 /// Windows as long as the test without rates allows, for balls from rest to 6 m/s.
@@ -89,17 +92,18 @@ TEST(WallSearch, WhatIsOutOfReachIsNotHit) {
   for (int k = 0; k < 5000; ++k) {
     WallQuery<double> q{};
     q.radius = draw.uniform(0.00118, 0.00635);
-    q.begin = {3, draw.uniform(0, mill.motion.period)};
-    const double across = mill.vessel.radius - q.radius, along = mill.vessel.half_height - q.radius;
+    q.begin = {3, draw.uniform(0, mill.motion.period())};
+    const double across = testing::cylinder(mill).radius - q.radius,
+                 along = testing::cylinder(mill).half_height - q.radius;
     Vec3<double> place, velocity;
     do place = {draw.uniform(-across, across), draw.uniform(-along, along), draw.uniform(-across, across)};
     while (place[0] * place[0] + place[2] * place[2] > across * across);
     for (int axis = 0; axis < 3; ++axis) velocity[axis] = draw.chance(0.3) ? 0 : draw.uniform(-3.4, 3.4);
-    const auto pose = model::pose_at<double>(mill.motion, q.begin.offset);
-    q.flight = {model::to_inertial<double>(pose, mill.motion.arm, place), velocity, q.begin};
-    const GapFunctions<double> functions(walls.constants(), q.flight, q.radius, q.begin.period);
+    const auto pose = mill.motion.pose({0, q.begin.offset});
+    q.flight = {mill.motion.to_inertial(pose, place), velocity, q.begin};
+    const testing::GeneralFunctions<double> functions(walls.mill(), q.flight, q.radius, q.begin.period);
     const auto excluded = [&](double length) {
-      const double fastest = norm<double>(velocity) + walls.constants().gravity * length;
+      const double fastest = norm<double>(velocity) + walls.mill().gravity * length;
       const WallSet reach = walls.within_reach(functions, place, fastest, length);
       return !reach[0] && !reach[1] && !reach[2];
     };
@@ -114,7 +118,7 @@ TEST(WallSearch, WhatIsOutOfReachIsNotHit) {
     const auto hit_within = [&](double length) {
       q.length = length;
       const auto decide = [&](const WallQuery<double>& query) { return ladder.wall(query); };
-      return over_window(decide, q, mill.motion.period).verdict == Verdict::contact;
+      return over_window(decide, q, mill.motion.period()).verdict == Verdict::contact;
     };
     ASSERT_FALSE(hit_within(longest));
     soon_after += 2 * longest < walls.longest_window() && hit_within(2 * longest);
@@ -173,8 +177,8 @@ TEST(WallSearch, TheLadderClimbsAsFarAsTheCaseNeedsAndCountsIt) {
 
 TEST(WallSearch, GrazingWithinRoundingInTheMovingMillNeedsFloat128) {
   const auto mill = testing::spex_mill<double>();
-  const WallSearch<double> narrow(mill);
-  const WallSearch<float128> wide(widened<float128>(mill));
+  const auto narrow = testing::general_search(mill);
+  const auto wide = testing::general_search(widened<float128>(mill));
   StateMaker make(mill, narrow.longest_window());
   make.grazing_distance = 1e-17;
   Draw draw(20110103);
@@ -183,9 +187,9 @@ TEST(WallSearch, GrazingWithinRoundingInTheMovingMillNeedsFloat128) {
   for (int k = 0; k < count; ++k) {
     const auto query = make(draw, Kind::grazing, false);
     // Another wall may be hit before.
-    if (over_window(narrow, query, mill.motion.period).verdict != Verdict::undecided) continue;
+    if (over_window(narrow, query, mill.motion.period()).verdict != Verdict::undecided) continue;
     ++undecided;
-    EXPECT_NE(over_window(wide, widened<float128>(query), float128(mill.motion.period)).verdict,
+    EXPECT_NE(over_window(wide, widened<float128>(query), float128(mill.motion.period())).verdict,
               Verdict::undecided);
   }
   EXPECT_GT(undecided, count * 9 / 10);
@@ -283,13 +287,13 @@ TEST(WallSearch, ABallAtRestOnAWallWithoutGravityStays) {
 TEST(WallSearch, AContactExactlyAtTheEndOfTheWindowIsLeftToTheNext) {
   // 1/64 m at 1/8 m/s: the cap is reached after 1/8 s, the longest window.
   const auto query = query_of({0, 0, 0}, {0.125, 0, 0}, 0.125);
-  const WallSearch<double> walls(still_mill<double>({0, 0, 0}));
+  const auto walls = testing::general_search(still_mill<double>({0, 0, 0}));
   ASSERT_EQ(walls.longest_window(), 0.125);
   const auto first = walls(query);
   EXPECT_EQ(first.verdict, Verdict::none);
   EXPECT_GT(first.searched, 0.05);
   EXPECT_LT(first.searched, 0.125);
-  EXPECT_EQ(WallSearch<float128>(still_mill<float128>({0, 0, 0}))(widened<float128>(query)).verdict,
+  EXPECT_EQ(testing::general_search(still_mill<float128>({0, 0, 0}))(widened<float128>(query)).verdict,
             Verdict::none);
   auto later = query;
   later.begin.offset = 0.0625;
@@ -302,7 +306,7 @@ TEST(WallSearch, AContactExactlyAtTheEndOfTheWindowIsLeftToTheNext) {
 TYPED_TEST(WideWallSearch, ARootIsClosedToTheLastDigitOfTheScalar) {
   using Real = TypeParam;
   const auto mill = testing::spex_mill<Real>();
-  const WallSearch<Real> walls(mill);
+  const auto walls = testing::general_search(mill);
   const auto narrow = model::mill_cast<double>(mill);
   StateMaker make(narrow, static_cast<double>(walls.longest_window()));
   Draw draw(20110104);
@@ -312,9 +316,9 @@ TYPED_TEST(WideWallSearch, ARootIsClosedToTheLastDigitOfTheScalar) {
     const auto answer = walls(query);
     if (answer.verdict != Verdict::contact || answer.time.period != query.begin.period) continue;
     ++contacts;
-    const typename GapFunctions<Real>::Constants constants(mill);
-    const GapFunctions<Real> gaps(constants, query.flight, query.radius, query.begin.period);
-    const Real unit = epsilon<Real>() * mill.motion.period;
+    const auto constants = testing::moving(mill);
+    const testing::GeneralFunctions<Real> gaps(constants, query.flight, query.radius, query.begin.period);
+    const Real unit = epsilon<Real>() * mill.motion.period();
     EXPECT_GE(gaps(Real(answer.time.offset - 16 * answer.time_error)).gap[answer.wall], 0);
     EXPECT_LT(gaps(Real(answer.time.offset + 2 * unit + 16 * answer.time_error)).gap[answer.wall], 0);
   }

@@ -6,15 +6,14 @@
 
 #include "dynamics/wall_search.hpp"
 #include "instances/instances.hpp"
+#include "mill_parts.hpp"
 
 namespace edmill::dynamics {
 
 template <class To>
 model::Mill<To> widened(const model::Mill<double>& m) {
-  model::Mill<To> wide{};
-  wide.motion = {To(m.motion.arm), To(m.motion.theta_max), To(m.motion.gamma_max), To(m.motion.period)};
-  wide.vessel = {To(m.vessel.radius), To(m.vessel.half_height)};
-  wide.gravity = vector_cast<To>(m.gravity);
+  auto wide = model::mill_cast<To>(m);
+  wide.ball_ball = wide.ball_wall = {};
   return wide;
 }
 
@@ -85,18 +84,18 @@ class StateMaker {
   WallQuery<double> operator()(Draw& draw, Kind kind, bool turning) const {
     for (;;) {
       const auto query = attempt(draw, kind, turning);
-      const GapFunctions<float128> gaps(constants_, flight_cast<float128>(query.flight),
-                                        float128(query.radius), query.begin.period);
+      const testing::GeneralFunctions<float128> gaps(constants_, flight_cast<float128>(query.flight),
+                                                     float128(query.radius), query.begin.period);
       const auto sample = gaps(float128(query.begin.offset));
       // A state of the solver is inside the vessel up to rounding.
-      const float128 across = 2 * (mill_.vessel.radius - float128(query.radius));
+      const float128 across = 2 * (testing::cylinder(mill_).radius - float128(query.radius));
       if (sample.gap[0] > -3e-15 && sample.gap[1] > -3e-15 && sample.gap[2] > -3e-15 * across) return query;
     }
   }
 
  private:
   WallQuery<double> attempt(Draw& draw, Kind kind, bool turning) const {
-    const double period = static_cast<double>(mill_.motion.period);
+    const double period = static_cast<double>(mill_.motion.period());
     WallQuery<double> q{};
     q.radius = draw.uniform(0.00118, 0.00635);
     q.length = draw.chance(0.5) ? draw.uniform(0.0, longest_) : draw.log_uniform(1e-6, 1) * longest_;
@@ -135,14 +134,13 @@ class StateMaker {
   /// Moves the placed ball from `later` after begin back to the start of the flight, and rounds.
   void set_flight(WallQuery<double>& q, const Placement& placed, const float128& later) const {
     const float128 when = q.begin.offset + later;
-    const auto pose = model::pose_at<float128>(mill_.motion, when);
-    const Vec3<float128> at = model::to_inertial<float128>(pose, mill_.motion.arm, placed.position);
-    Vec3<float128> velocity = model::wall_velocity<float128>(pose, mill_.motion.arm, at);
-    const auto &x = model::vessel_axis_x<float128>(pose), &y = model::vessel_axis_y<float128>(pose),
-               &z = model::vessel_axis_z<float128>(pose);
+    const auto pose = mill_.motion.pose({0, when});
+    const Vec3<float128> at = mill_.motion.to_inertial(pose, placed.position);
+    Vec3<float128> velocity = mill_.motion.wall_velocity(pose, at);
+    const auto &x = mill_.motion.axis_x(pose), &y = mill_.motion.axis_y(pose), &z = mill_.motion.axis_z(pose);
     for (int k = 0; k < 3; ++k)
       velocity[k] += x[k] * placed.velocity[0] + y[k] * placed.velocity[1] + z[k] * placed.velocity[2];
-    const float128 flown = float128(q.begin.period - q.flight.start.period) * mill_.motion.period +
+    const float128 flown = float128(q.begin.period - q.flight.start.period) * mill_.motion.period() +
                            (when - float128(q.flight.start.offset));
     for (int k = 0; k < 3; ++k) {
       const float128& g = mill_.gravity[k];
@@ -152,8 +150,8 @@ class StateMaker {
   }
 
   Placement place(Draw& draw, Kind kind, double radius) const {
-    const float128 across = mill_.vessel.radius - float128(radius);      // of the axis
-    const float128 along = mill_.vessel.half_height - float128(radius);  // of the middle plane
+    const float128 across = testing::cylinder(mill_).radius - float128(radius);      // of the axis
+    const float128 along = testing::cylinder(mill_).half_height - float128(radius);  // of the middle plane
     const int wall = draw.below(3);
     float128 cap_gap = along * draw.uniform(), side_gap = across * (1 - std::sqrt(draw.uniform()));
     const double cap_side = wall == 2 ? draw.sign() : (wall == 0 ? -1 : 1);
@@ -213,7 +211,7 @@ class StateMaker {
   }
 
   model::Mill<float128> mill_;
-  GapFunctions<float128>::Constants constants_;
+  testing::GeneralMill<float128> constants_;
   double longest_;
 };
 /// A search may prove only a part of the window; this repeats it up to the end.

@@ -3,6 +3,7 @@
 // are small.
 #include <gtest/gtest.h>
 
+#include "mill_parts.hpp"
 #include "spex_case.hpp"
 
 namespace edmill::engine {
@@ -16,13 +17,12 @@ class OverlapCheck : public Observer<double> {
     positions_.resize(n);
     for (int i = 0; i < n; ++i) positions_[i] = simulation.state_at(i, impact.time).position;
     const auto& mill = simulation.mill();
-    const auto pose = model::pose_at<double>(mill.motion, impact.time.offset);
+    const auto pose = mill.motion.pose({0, impact.time.offset});
     for (int i = 0; i < n; ++i) {
-      const auto p =
-          model::to_vessel_frame<double>(pose, mill.motion.arm, positions_[i], positions_[i]).position;
+      const auto p = mill.motion.to_vessel_frame(pose, positions_[i], positions_[i]).position;
       const double r = simulation.properties(i).radius;
-      const double side = mill.vessel.radius - r - std::hypot(p[0], p[2]);
-      const double cap = mill.vessel.half_height - r - std::abs(p[1]);
+      const double side = testing::cylinder(mill).radius - r - std::hypot(p[0], p[2]);
+      const double cap = testing::cylinder(mill).half_height - r - std::abs(p[1]);
       if (side < near || cap < near) exact_wall(simulation, impact.time, i);
       for (int j = 0; j < i; ++j) {
         const Vec3<double> d = positions_[i] - positions_[j];
@@ -48,14 +48,14 @@ class OverlapCheck : public Observer<double> {
   }
   void exact_wall(const Simulation<double>& s, const Instant<double>& t, int i) {
     const auto& m = s.mill();
-    const model::MillMotion<float128> motion{m.motion.arm, m.motion.theta_max, m.motion.gamma_max,
-                                             m.motion.period};
-    const auto pose = model::pose_at<float128>(motion, float128(t.offset));
+    const model::SpexMotion<float128> motion{testing::spex(m).arm(), testing::spex(m).theta_max(),
+                                             testing::spex(m).gamma_max(), m.motion.period()};
+    const auto pose = motion.pose({0, float128(t.offset)});
     const auto r = position(s, t, i);
-    const auto p = model::to_vessel_frame<float128>(pose, motion.arm, r, r).position;
+    const auto p = motion.to_vessel_frame(pose, r, r).position;
     const float128 radius = s.properties(i).radius;
-    const float128 side = sqrt(p[0] * p[0] + p[2] * p[2]) - (float128(m.vessel.radius) - radius);
-    const float128 cap = abs(p[1]) - (float128(m.vessel.half_height) - radius);
+    const float128 side = sqrt(p[0] * p[0] + p[2] * p[2]) - (float128(testing::cylinder(m).radius) - radius);
+    const float128 cap = abs(p[1]) - (float128(testing::cylinder(m).half_height) - radius);
     deepest_wall = std::max({deepest_wall, side, cap});
   }
   void exact_pair(const Simulation<double>& s, const Instant<double>& t, int i, int j) {

@@ -67,7 +67,7 @@ class Trial {
  public:
   Trial(casefile::Random& random, int balls, bool alike, const Vec3<double>& gravity)
       : mill_(mill_with<double>(gravity)),
-        swarm_(random, balls, alike, gravity, mill_.motion.period),
+        swarm_(random, balls, alike, gravity, mill_.motion.period()),
         alike_(alike),
         search_(mill_, 0.002, 0.1, 10),
         wide_(mill_with<float128>(gravity), float128(0.002), float128(0.1), float128(10)),

@@ -63,8 +63,8 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
 
   // Rounding is the only difference: float128 and mpfr50 times of each ball's first five collisions agree.
   std::map<int, int> collisions;
-  const DriveClock<mpfr50> clock(casefile::build_mill<mpfr50>(spec).motion.period);
-  const DriveClock<float128> quad_clock(casefile::build_mill<float128>(spec).motion.period);
+  const DriveClock<mpfr50> clock(casefile::build_mill<mpfr50>(spec).motion.period());
+  const DriveClock<float128> quad_clock(casefile::build_mill<float128>(spec).motion.period());
   mpfr50 worst(0);
   int compared = 0;
   for (std::size_t k = 0; k < second; ++k) {

@@ -15,6 +15,7 @@
 
 #include "dynamics/impulse.hpp"
 #include "instances/instances.hpp"
+#include "mill_parts.hpp"
 #include "run/collision_log.hpp"
 
 namespace edmill::testing {
@@ -107,8 +108,8 @@ class FaultyMill {
     axes(t, x, y, z, centre, a, b);
     const Vec d = position(k, t) - centre;
     const double R = case_.balls[k].radius;
-    if (wall != 2) return case_.mill.vessel.half_height + (wall == 0 ? 1 : -1) * d.dot(y) - R;
-    const double side = case_.mill.vessel.radius - R, p = d.dot(x), q = d.dot(z);
+    if (wall != 2) return testing::cylinder(case_.mill).half_height + (wall == 0 ? 1 : -1) * d.dot(y) - R;
+    const double side = testing::cylinder(case_.mill).radius - R, p = d.dot(x), q = d.dot(z);
     return (side * side - p * p - q * q) / (2 * side);
   }
 
@@ -207,7 +208,8 @@ class FaultyMill {
     const Vec outward = x * d.dot(x) + z * d.dot(z);
     impact.normal = c.partner == 2 ? Vec(-outward / outward.norm()) : Vec(y * (c.partner == 0 ? 1.0 : -1.0));
     const Vec point = one.position - impact.normal * case_.balls[c.ball].radius;
-    const double s = centre[1] / case_.mill.motion.arm, co = centre[0] / case_.mill.motion.arm;
+    const double s = centre[1] / testing::spex(case_.mill).arm(),
+                 co = centre[0] / testing::spex(case_.mill).arm();
     Vec& wall = impact.wall;
     wall = Vec(0, 0, theta_rate).cross(point) + Vec(Vec(co, s, 0) * gamma_rate).cross(Vec(point - centre));
     if (faults_.printed_rotations)  // the derivative of the printed position

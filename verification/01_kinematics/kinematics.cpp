@@ -92,14 +92,14 @@ Vector constant(const Vec3<exact>& v) { return {Series(v[0]), Series(v[1]), Seri
 struct Rotations {
   Matrix about_z, about_x;
 
-  Rotations(const model::MillMotion<exact>& m, const exact& t) {
+  Rotations(const model::SpexMotion<exact>& m, const exact& t) {
     Series phase, sine, cosine, theta, gamma;
-    const exact w = 2 * boost::math::constants::pi<exact>() / m.period;
+    const exact w = 2 * boost::math::constants::pi<exact>() / m.period();
     phase.set(0, w * t);
     phase.set(1, w);
     Series::sin_cos(sine, cosine, phase);
-    theta = Series(m.theta_max) * cosine + Series(boost::math::constants::half_pi<exact>());
-    gamma = Series(m.gamma_max) * sine;
+    theta = Series(m.theta_max()) * cosine + Series(boost::math::constants::half_pi<exact>());
+    gamma = Series(m.gamma_max()) * sine;
     Series s, c;
     const Series zero(exact(0)), one(exact(1));
     Series::sin_cos(s, c, theta);
@@ -109,22 +109,22 @@ struct Rotations {
   }
 };
 
-Vector arm_of(const model::MillMotion<exact>& m) { return constant({m.arm, exact(0), exact(0)}); }
+Vector arm_of(const model::SpexMotion<exact>& m) { return constant({m.arm(), exact(0), exact(0)}); }
 
 /// (2.7'): turn by theta, go along the arm, turn by gamma.
-Vector nested(const model::MillMotion<exact>& m, const exact& t, const Vec3<exact>& p) {
+Vector nested(const model::SpexMotion<exact>& m, const exact& t, const Vec3<exact>& p) {
   const Rotations r(m, t);
   return r.about_z * (arm_of(m) + r.about_x * constant(p));
 }
 /// The printed (2.14): R_x(gamma) R_z(theta) about the centre (2.15).
-Vector printed(const model::MillMotion<exact>& m, const exact& t, const Vec3<exact>& p) {
+Vector printed(const model::SpexMotion<exact>& m, const exact& t, const Vec3<exact>& p) {
   const Rotations r(m, t);
   return r.about_z * arm_of(m) + r.about_x * (r.about_z * constant(p));
 }
 
 template <class To, class From>
-model::MillMotion<To> widened(const model::MillMotion<From>& m) {
-  return {To(m.arm), To(m.theta_max), To(m.gamma_max), To(m.period)};
+model::SpexMotion<To> widened(const model::SpexMotion<From>& m) {
+  return {To(m.arm()), To(m.theta_max()), To(m.gamma_max()), To(m.period())};
 }
 
 exact distance(const Vec3<exact>& a, const Vec3<exact>& b) { return norm<exact>(Vec3<exact>(a - b)); }
@@ -153,22 +153,21 @@ void compare(double bound) {
   Draw draw(seed);
   exact position(0), velocity(0), acceleration(0), local_velocity(0), local_acceleration(0);
   for (int k = 0; k < count; ++k) {
-    const model::MillMotion<double> mill{draw(0.02, 0.2), draw(0.01, 0.8), draw(0.01, 0.6), draw(0.02, 0.5)};
+    const model::SpexMotion<double> mill{draw(0.02, 0.2), draw(0.01, 0.8), draw(0.01, 0.6), draw(0.02, 0.5)};
     const auto m = widened<Real>(mill);
     const auto reference = widened<exact>(mill);
     const Vec3<double> p = draw.vector(0.03), v = draw.vector(5), g = draw.vector(10);
-    const double t = draw(0, mill.period);
+    const double t = draw(0, mill.period());
     const Vector truth = nested(reference, exact(t), vector_cast<exact>(p));
-    const auto pose = model::pose_at<Real>(m, Real(t));
-    const Vec3<Real> at = model::to_inertial<Real>(pose, m.arm, vector_cast<Real>(p));
-    const exact unit = exact(epsilon<Real>()) * (reference.arm + exact(0.03)), w(2 * M_PI / mill.period);
+    const auto pose = m.pose({0, Real(t)});
+    const Vec3<Real> at = m.to_inertial(pose, vector_cast<Real>(p));
+    const exact unit = exact(epsilon<Real>()) * (reference.arm() + exact(0.03)), w(2 * M_PI / mill.period());
     const auto error = [&](const Vec3<Real>& found, const Vector& series, slong order) {
       return distance(vector_cast<exact>(found), derivative(series, order));
     };
     raise(position, exact(error(at, truth, 0) / unit));
-    raise(velocity, exact(error(model::wall_velocity<Real>(pose, m.arm, at), truth, 1) / (unit * w)));
-    raise(acceleration,
-          exact(error(model::wall_acceleration<Real>(pose, m.arm, at), truth, 2) / (unit * w * w)));
+    raise(velocity, exact(error(m.wall_velocity(pose, at), truth, 1) / (unit * w)));
+    raise(acceleration, exact(error(m.wall_acceleration(pose, at), truth, 2) / (unit * w * w)));
 
     // A ball that flies freely, seen from the vessel: the inverse (2.16').
     Vector flight = constant(vector_cast<exact>(at));
@@ -180,10 +179,9 @@ void compare(double bound) {
     const Rotations r(reference, exact(t));
     const Vector seen = transposed(r.about_x) * (transposed(r.about_z) * flight - arm_of(reference));
     const Vec3<Real> velocity_in = vector_cast<Real>(v);
-    const auto state = model::to_vessel_frame<Real>(pose, m.arm, at, velocity_in);
-    const auto second =
-        model::vessel_frame_acceleration<Real>(pose, m.arm, state, velocity_in, vector_cast<Real>(g));
-    const exact fast = exact(epsilon<Real>()) * (exact(5) + (reference.arm + exact(0.03)) * w);
+    const auto state = m.to_vessel_frame(pose, at, velocity_in);
+    const auto second = m.vessel_frame_acceleration(pose, state, velocity_in, vector_cast<Real>(g));
+    const exact fast = exact(epsilon<Real>()) * (exact(5) + (reference.arm() + exact(0.03)) * w);
     raise(local_velocity, exact(error(state.velocity, seen, 1) / fast));
     raise(local_acceleration, exact(error(second, seen, 2) / (fast * w + exact(epsilon<Real>()) * 10)));
   }
@@ -205,34 +203,33 @@ TEST(Kinematics, PointsOfTheVesselMoveAsTheSeriesSay) {
 /// What one kilogram carried by the vessel's point p is booked as wall work in one drive period: the integral
 /// of (P'' - g).v_w, with v_w the velocity that the collisions use. The integrand is smooth and periodic, so
 /// the sum over equal steps converges faster than any power.
-exact booked_work(const model::MillMotion<exact>& m, const Vec3<exact>& p, bool as_printed, int steps) {
+exact booked_work(const model::SpexMotion<exact>& m, const Vec3<exact>& p, bool as_printed, int steps) {
   const Vec3<exact> gravity(exact(0), exact("-9.8"), exact(0));
   exact work(0);
   for (int k = 0; k < steps; ++k) {
-    const exact t = m.period * k / steps;
+    const exact t = m.period() * k / steps;
     const Vector place = as_printed ? printed(m, t, p) : nested(m, t, p);
     // The solver's own velocity, in 50 digits.
     const auto narrow = widened<mpfr50>(m);
-    const auto pose = model::pose_at<mpfr50>(narrow, mpfr50(t));
-    const Vec3<mpfr50> wall =
-        model::wall_velocity<mpfr50>(pose, narrow.arm, vector_cast<mpfr50>(derivative(place, 0)));
+    const auto pose = narrow.pose({0, mpfr50(t)});
+    const Vec3<mpfr50> wall = narrow.wall_velocity(pose, vector_cast<mpfr50>(derivative(place, 0)));
     work += dot<exact>(Vec3<exact>(derivative(place, 2) - gravity), vector_cast<exact>(wall));
   }
-  return work * m.period / steps;
+  return work * m.period() / steps;
 }
 
 TEST(Kinematics, ThePrintedOrderOfRotationsCreatesEnergy) {
-  const auto m = widened<exact>(testing::spex_mill<mpfr50>().motion);
+  const auto m = widened<exact>(*testing::spex_mill<mpfr50>().motion.get_if<model::SpexMotion<mpfr50>>());
   const Vec3<exact> p(exact("0.01"), exact("0.02"), exact("0.005"));
   exact apart(0), faster(0);
   for (int k = 0; k < 256; ++k) {
-    const exact t = m.period * k / 256;
+    const exact t = m.period() * k / 256;
     const Vector a = nested(m, t, p), b = printed(m, t, p);
     raise(apart, distance(derivative(a, 0), derivative(b, 0)));
     // Printed velocity: that of the nested model at the printed place.
     const auto narrow = widened<mpfr50>(m);
-    const auto wall = model::wall_velocity<mpfr50>(model::pose_at<mpfr50>(narrow, mpfr50(t)), narrow.arm,
-                                                   vector_cast<mpfr50>(derivative(b, 0)));
+    const auto wall =
+        narrow.wall_velocity(narrow.pose({0, mpfr50(t)}), vector_cast<mpfr50>(derivative(b, 0)));
     raise(faster, distance(vector_cast<exact>(wall), derivative(b, 1)));
   }
   claim.at_least("printed (2.14) puts the point (10, 20, 5) mm off by", apart, 1e-3, " m");
@@ -243,7 +240,7 @@ TEST(Kinematics, ThePrintedOrderOfRotationsCreatesEnergy) {
   claim.at_most("wall work of 1 kg carried round one period, nested model: |W|", abs(right), 1e-45, " J");
   claim.at_most("quadrature error of the next figure", abs(wrong - finer), 1e-20, " J");
   claim.at_least("the same with printed position and printed velocity: |W|", abs(wrong), 0.01, " J");
-  claim.say("that is " + Claim::text(static_cast<double>(wrong / m.period), 6) + " W/kg out of nothing");
+  claim.say("that is " + Claim::text(static_cast<double>(wrong / m.period()), 6) + " W/kg out of nothing");
 }
 
 }  // namespace

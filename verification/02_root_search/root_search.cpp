@@ -7,6 +7,7 @@
 
 #include "claim.hpp"
 #include "instances/instances.hpp"
+#include "mill_parts.hpp"
 #include "oracle_question.hpp"
 
 namespace edmill::verification {
@@ -89,7 +90,7 @@ double brent(const OracleQuestion& q, int wall, double low, double high) {
 class Comparison {
  public:
   Comparison(const model::Mill<double>& mill, dynamics::DecisionLadder<double>& ladder)
-      : mill_(mill), ladder_(ladder), resolution_(epsilon<double>() * mill.motion.period) {}
+      : mill_(mill), ladder_(ladder), resolution_(epsilon<double>() * mill.motion.period()) {}
 
   void take(const WallQuery<double>& query) {
     const auto answer = ladder_.wall(query);
@@ -146,10 +147,10 @@ class Comparison {
       no_sign_change_ += !(testing::gap_after(around, answer.wall, -width).gap > 0 &&
                            testing::gap_after(around, answer.wall, width).gap < 0);
     const auto periods = static_cast<double>(answer.time.period - query.begin.period);
-    const double delay = periods * mill_.motion.period + (answer.time.offset - query.begin.offset);
+    const double delay = periods * mill_.motion.period() + (answer.time.offset - query.begin.offset);
     const double error = delay - first.earliest;
     // The cylinder's gap function grows with twice the distance from the axis.
-    const double unit = answer.wall == 2 ? 2 * (mill_.vessel.radius - query.radius) : 1;
+    const double unit = answer.wall == 2 ? 2 * (testing::cylinder(mill_).radius - query.radius) : 1;
     raise(worst_time_, std::abs(error));
     raise(worst_place_, std::abs(error * first.slope) / unit);
     raise(worst_doubts_, std::abs(error) / width);

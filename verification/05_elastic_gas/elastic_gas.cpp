@@ -5,6 +5,7 @@
 
 #include "claim.hpp"
 #include "instances/instances.hpp"
+#include "mill_parts.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -35,7 +36,7 @@ struct Gas {
             "gas.toml"))),
         simulation(built.the_case, built.states, built.start) {
     mass = simulation.properties(0).mass;
-    arm = simulation.mill().motion.arm;
+    arm = testing::spex(simulation.mill()).arm();
   }
 
   /// Goes on for so many impacts.

@@ -25,11 +25,11 @@ class LammpsPeer : public testing::Test {
 std::vector<LammpsBall> balls_of(const casefile::CaseSpec& spec) {
   const auto built = casefile::build_case<double>(spec);
   const auto& motion = built.the_case.mill.motion;
-  const auto pose = model::pose_at<double>(motion, 0.0);
+  const auto pose = motion.pose({0, 0.0});
   const Triple spin = VesselFrame(spex, 0).spin;
   std::vector<LammpsBall> balls;
   for (const auto& state : built.states) {
-    const auto seen = model::to_vessel_frame<double>(pose, motion.arm, state.position, state.velocity);
+    const auto seen = motion.to_vessel_frame(pose, state.position, state.velocity);
     const auto &x = seen.position, &v = seen.velocity;
     balls.push_back({{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, {-spin[0], -spin[1], -spin[2]}});
   }
@@ -132,14 +132,14 @@ TEST_F(LammpsPeer, AFreeBallFliesOnItsParabola) {
   s.vessel_radius = s.vessel_half_height = 0.2;
   const int steps = 50000;
   s.time_step = spex.period / steps;
-  const model::MillMotion<double> motion{spex.arm, spex.theta_max, spex.gamma_max, spex.period};
+  const model::SpexMotion<double> motion{spex.arm, spex.theta_max, spex.gamma_max, spex.period};
   Vec3<double> r{0.01, 0.09, 0.02}, v{1, -0.5, 0.7}, spin{30, -50, 80};
-  const auto pose = model::pose_at<double>(motion, 0.0);
-  const auto seen = model::to_vessel_frame<double>(pose, motion.arm, r, v);
+  const auto pose = motion.pose({0, 0.0});
+  const auto seen = motion.to_vessel_frame(pose, r, v);
   const auto in_vessel = [](const auto& p, const Vec3<double>& w) {
-    const Vec3<double> d = w - model::vessel_angular_velocity<double>(p);
-    return Triple{d.dot(model::vessel_axis_x<double>(p)), d.dot(model::vessel_axis_y<double>(p)),
-                  d.dot(model::vessel_axis_z<double>(p))};
+    const Vec3<double> d = w - model::SpexMotion<double>::angular_velocity(p);
+    return Triple{d.dot(model::SpexMotion<double>::axis_x(p)), d.dot(model::SpexMotion<double>::axis_y(p)),
+                  d.dot(model::SpexMotion<double>::axis_z(p))};
   };
   const auto &x = seen.position, &u = seen.velocity;
   LammpsMill mill(s, {{{x[0], x[1], x[2]}, {u[0], u[1], u[2]}, in_vessel(pose, spin)}});
@@ -147,10 +147,10 @@ TEST_F(LammpsPeer, AFreeBallFliesOnItsParabola) {
   for (int k = 1; k <= 10; ++k) {
     mill.run(steps / 10);
     const double t = mill.time();
-    const auto now = model::pose_at<double>(motion, t);
+    const auto now = motion.pose({0, t});
     const Vec3<double> fallen{0, -spex.gravity * t, 0};
     const Vec3<double> there = r + v * t + fallen * (t / 2), speed = v + fallen;
-    const auto truth = model::to_vessel_frame<double>(now, motion.arm, there, speed);
+    const auto truth = motion.to_vessel_frame(now, there, speed);
     const Triple turning = in_vessel(now, spin);
     const LammpsBall ball = mill.balls()[0];
     for (int i = 0; i < 3; ++i) {

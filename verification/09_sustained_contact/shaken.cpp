@@ -1,5 +1,6 @@
 // Claim 09, a swinging vessel: a ball that the cylinder carries along its axis, and a cap that throws a ball.
 // The vial swings about Z alone on an arm of 100 m, by so little that it moves along X, its own axis.
+#include "mill_parts.hpp"
 #include "one_ball.hpp"
 
 namespace edmill::verification {
@@ -163,9 +164,9 @@ struct Errors {
           run.simulation().flight(0).position, impact.velocity_before[0], {}};
       const auto position = dynamics::position_after<double>(flight, mill.gravity, -back);
       const auto when = run.simulation().clock().after(impact.time, -back);
-      const auto pose = model::pose_at<double>(mill.motion, when.offset);
+      const auto pose = mill.motion.pose({0, when.offset});
       const auto local = model::to_vessel_frame<double>(pose, arm, position, flight.velocity).position;
-      raise(largest, mill.vessel.half_height - radius - local[1]);
+      raise(largest, testing::cylinder(mill).half_height - radius - local[1]);
     }
     return largest;
   }

@@ -1,36 +1,36 @@
 // The benchmarks with an uncertified wall search: what certification costs.
-//
-// The specialisation stands in for the search of the library once a wall is within reach, and the instances
-// made here for the library's own in double, which the linker then leaves out. The program knows nothing of
-// this.
 #include <cstdlib>
+#include <memory>
 
+#include "subjects.hpp"
 #include "uncertified_search.hpp"
 
-namespace edmill::dynamics {
-
+namespace edmill::performance {
 namespace {
+
 /// Sample points for each longest window; EDMILL_SAMPLES in the environment sets another number.
 const int samples = std::getenv("EDMILL_SAMPLES") ? std::atoi(std::getenv("EDMILL_SAMPLES")) : 8;
-}  // namespace
 
-template <>
-template <>
-WallAnswer<double> WallSearch<double>::first_contact<false>(const Functions& functions,
-                                                            const GapStart<double>& first, WallSet,
-                                                            const double&, const WallQuery<double>& query,
-                                                            RoughAnswer*) const {
-  return performance::uncertified_search(*this, functions, first, query, samples);
+/// As the program's own search begins: nothing is sampled while no wall is within reach.
+dynamics::AnyWallSearch<double>::Policy sampled(const model::Mill<double>& mill) {
+  const auto walls = std::make_shared<const SpexSearch>(spex_search(mill));
+  return [walls](const model::AnyPose<double>& any, const dynamics::WallQuery<double>& query) {
+    const auto& pose = model::pose_of<model::SpexMotion<double>>(any);
+    const SpexFunctions functions(walls->mill(), query.flight, query.radius, query.begin.period);
+    const auto ball = functions.seen(query.begin.offset, pose);
+    const double speed = norm<double>(ball.velocity) + walls->mill().gravity_size * query.length;
+    if (!dynamics::any_from(walls->within_reach(functions, ball.state.position, speed, query.length), 0))
+      return dynamics::WallAnswer<double>{dynamics::Verdict::none, -1, {}, false, query.length, 0};
+    return uncertified_search(*walls, functions, functions.start(query.begin.offset, pose, ball), query,
+                              samples);
+  };
 }
 
-}  // namespace edmill::dynamics
-
-#include "instances/implementations.hpp"
-#include "subjects.hpp"
-
-EDMILL_INSTANCES(template, double)
+}  // namespace
+}  // namespace edmill::performance
 
 int main(int argc, char** argv) {
+  edmill::performance::wall_policy = edmill::performance::sampled;
   edmill::performance::register_spex();
   edmill::performance::register_operations();
   benchmark::Initialize(&argc, argv);

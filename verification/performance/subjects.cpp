@@ -62,7 +62,7 @@ casefile::InitialCase<double> still_gas(int balls, double packing) {
   casefile::InitialCase<double> result;
   result.the_case.mill = casefile::build_mill<double>(spec);
   const auto& mill = result.the_case.mill;
-  result.start = DriveClock<double>(mill.motion.period).at(0);
+  result.start = DriveClock<double>(mill.motion.period()).at(0);
 
   const double side = width / 2 - diameter / 2 * 1.0001, cap = height / 2 - diameter / 2 * 1.0001;
   double spacing = 2 * width;
@@ -76,15 +76,14 @@ casefile::InitialCase<double> still_gas(int balls, double packing) {
   std::mt19937_64 random(20110101);
   std::shuffle(sites.begin(), sites.end(), random);
   std::uniform_real_distribution<double> symmetric(-1, 1);
-  const auto pose = model::pose_at<double>(mill.motion, 0.0);
+  const auto pose = mill.motion.pose({0, 0.0});
   const double radius = diameter / 2, volume = 4 * 3.14159265358979 / 3 * radius * radius * radius;
   for (int i = 0; i < balls; ++i) {
     Vec3<double> velocity;
     do velocity = {symmetric(random), symmetric(random), symmetric(random)};
     while (norm<double>(velocity) > 1);
     result.the_case.balls.push_back({radius, 8000 * volume, 0.4});
-    result.states.push_back(
-        {model::to_inertial<double>(pose, mill.motion.arm, sites[i]), velocity, Vec3<double>(0, 0, 0)});
+    result.states.push_back({mill.motion.to_inertial(pose, sites[i]), velocity, Vec3<double>(0, 0, 0)});
   }
   return result;
 }

@@ -40,12 +40,18 @@ std::string spex_text(const SpexSubject& subject);
 /// @throws std::invalid_argument when the lattice does not fit at this packing
 casefile::InitialCase<double> still_gas(int balls, double packing);
 
+/// Makes the wall search of runs in double in place of the program's own, when it is set.
+using WallPolicy = dynamics::AnyWallSearch<double>::Policy (*)(const model::Mill<double>&);
+inline WallPolicy wall_policy = nullptr;
+
 /// A simulation after this number of collisions, advanced in short intervals of time.
 template <class Real>
 class Run {
  public:
   explicit Run(const casefile::InitialCase<Real>& built)
       : simulation_(built.the_case, built.states, built.start) {
+    if constexpr (std::is_same_v<Real, double>)
+      if (wall_policy) simulation_.replace_wall_search(wall_policy(built.the_case.mill));
     end_ = simulation_.seconds();
   }
 

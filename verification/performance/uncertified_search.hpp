@@ -10,17 +10,24 @@
 
 namespace edmill::performance {
 
+using SpexSearch = dynamics::AnyWallSearch<double>::Spex;
+using SpexFunctions = SpexSearch::Functions;
+
+inline SpexSearch spex_search(const model::Mill<double>& mill) {
+  return {*mill.motion.get_if<model::SpexMotion<double>>(),
+          *mill.vessel.get_if<model::CylinderVessel<double>>(), mill.gravity};
+}
+
 /// The same question as WallSearch's, answered by the signs of the gaps at sample points. A contact
 /// whose gap is negative between two points only is missed.
 /// @param samples  points for each longest window
-inline dynamics::WallAnswer<double> uncertified_search(const dynamics::WallSearch<double>& walls,
-                                                       const dynamics::GapFunctions<double>& functions,
-                                                       const dynamics::GapStart<double>& first,
-                                                       const dynamics::WallQuery<double>& query,
-                                                       int samples) {
+inline dynamics::WallAnswer<double> uncertified_search(
+    const SpexSearch& walls, const SpexFunctions& functions,
+    const dynamics::GapStart<model::CylinderVessel<double>>& first, const dynamics::WallQuery<double>& query,
+    int samples) {
   using dynamics::Verdict;
-  constexpr int wall_count = model::wall_count;
-  const auto& clock = walls.constants().clock;
+  constexpr int wall_count = model::CylinderVessel<double>::wall_count();
+  const auto& clock = walls.mill().clock;
   const double begin = query.begin.offset, ulp = 0x1p-52 * clock.period();
   const auto contact = [&](int wall, double t) {
     return dynamics::WallAnswer<double>{
@@ -40,8 +47,8 @@ inline dynamics::WallAnswer<double> uncertified_search(const dynamics::WallSearc
 
   // Newton from the prediction, or from the right end when that is outside of where the sign changes: near
   // the left end may be the contact that the ball just leaves.
-  const auto root_between = [&](int wall, dynamics::GapSample<double> left,
-                                dynamics::GapSample<double> right) {
+  const auto root_between = [&](int wall, dynamics::GapSample<model::CylinderVessel<double>> left,
+                                dynamics::GapSample<model::CylinderVessel<double>> right) {
     double t = predicted[wall];
     if (!(t > left.offset && t < right.offset)) t = right.offset - right.gap[wall] / right.rate[wall];
     for (int step = 0; step < 100 && right.offset - left.offset > ulp; ++step) {
@@ -56,7 +63,7 @@ inline dynamics::WallAnswer<double> uncertified_search(const dynamics::WallSearc
   };
 
   const double end = begin + length, spacing = walls.longest_window() / samples;
-  dynamics::GapSample<double> left = first;
+  dynamics::GapSample<model::CylinderVessel<double>> left = first;
   while (left.offset < end) {
     const auto right = functions(std::min(left.offset + spacing, end));
     dynamics::WallAnswer<double> answer;

@@ -52,8 +52,8 @@ using Query = dynamics::WallQuery<double>;
 /// The wait for a state's first wall contact before its next pair contact, or for that one [s]: window after
 /// window as the engine asks.
 template <class Search>
-double first_contact(const State& state, const dynamics::WallSearch<double>& walls, const Search& search) {
-  const auto& clock = walls.constants().clock;
+double first_contact(const State& state, const SpexSearch& walls, const Search& search) {
+  const auto& clock = walls.mill().clock;
   const double longest = walls.longest_window();
   for (double done = 0; done < state.until;) {
     const auto begin = clock.after(state.begin, done);
@@ -69,7 +69,8 @@ double first_contact(const State& state, const dynamics::WallSearch<double>& wal
 /// States of a run past its transient, with the certified answers.
 struct Source {
   explicit Source(const casefile::InitialCase<double>& built)
-      : ladder(built.the_case.mill, 2 * built.the_case.balls.front().radius, 20.0) {
+      : ladder(built.the_case.mill, 2 * built.the_case.balls.front().radius, 20.0),
+        walls(spex_search(built.the_case.mill)) {
     Run<double> run(built);
     run.until(0.5);
     StateHarvest harvest(ladder.pairs(), wanted);
@@ -78,10 +79,11 @@ struct Source {
     states = std::move(harvest.states);
     states.resize(wanted);
     for (const auto& s : states)
-      answers.push_back(first_contact(s, ladder.walls(), [&](const Query& q) { return ladder.wall(q); }));
+      answers.push_back(first_contact(s, walls, [&](const Query& q) { return ladder.wall(q); }));
   }
   static constexpr int wanted = 400000;
   dynamics::DecisionLadder<double> ladder;
+  SpexSearch walls;
   std::vector<State> states;
   std::vector<double> answers;
 };
@@ -101,8 +103,7 @@ template <class Search>
 void wall_answers(benchmark::State& state, const Source& source, const Search& search) {
   std::vector<double> found;
   found.reserve(source.states.size());
-  for (auto _ : state)
-    found.push_back(first_contact(source.states[found.size()], source.ladder.walls(), search));
+  for (auto _ : state) found.push_back(first_contact(source.states[found.size()], source.walls, search));
   int late = 0, early = 0;
   for (std::size_t k = 0; k < found.size(); ++k) {
     late += found[k] > source.answers[k] + 1e-9;
@@ -117,10 +118,9 @@ void certified(benchmark::State& state, Source& source) {
 }
 
 void uncertified(benchmark::State& state, Source& source, int samples) {
-  const auto& walls = source.ladder.walls();
+  const auto& walls = source.walls;
   wall_answers(state, source, [&](const Query& query) {
-    const dynamics::GapFunctions<double> functions(walls.constants(), query.flight, query.radius,
-                                                   query.begin.period);
+    const SpexFunctions functions(walls.mill(), query.flight, query.radius, query.begin.period);
     return uncertified_search(walls, functions, functions.start(query.begin.offset), query, samples);
   });
 }

@@ -37,23 +37,30 @@ class SpexMotion {
   using Pose = SpexPose<Real>;
 
   SpexMotion() = default;
-  SpexMotion(const Real& l, const Real& theta, const Real& gamma, const Real& drive_period)
-      : arm(l),
-        theta_max(theta),
-        gamma_max(gamma),
+  /// @param arm           l, fulcrum to vessel centre [m]
+  /// @param theta_max     [rad]
+  /// @param gamma_max     [rad]
+  /// @param drive_period  [s]
+  SpexMotion(const Real& arm, const Real& theta_max, const Real& gamma_max, const Real& drive_period)
+      : arm_(arm),
+        theta_max_(theta_max),
+        gamma_max_(gamma_max),
         period_(drive_period),
         angular_speed_(2 * numerics::pi<Real>() / drive_period),
-        frequency_(1 / drive_period) {}
+        frequency_(1 / drive_period),
+        theta_speed_(theta_max * angular_speed_),
+        gamma_speed_(gamma_max * angular_speed_),
+        speed_squared_(angular_speed_ * angular_speed_),
+        turning_((theta_max + gamma_max) * angular_speed_) {}
   template <class To>
   SpexMotion<To> cast() const {
-    return {static_cast<To>(arm), static_cast<To>(theta_max), static_cast<To>(gamma_max),
+    return {static_cast<To>(arm_), static_cast<To>(theta_max_), static_cast<To>(gamma_max_),
             static_cast<To>(period_)};
   }
 
-  Real arm{0};        ///< l [m], fulcrum to vessel centre
-  Real theta_max{0};  ///< [rad]
-  Real gamma_max{0};  ///< [rad]
-
+  const Real& arm() const { return arm_; }                      ///< l [m]
+  const Real& theta_max() const { return theta_max_; }          ///< [rad]
+  const Real& gamma_max() const { return gamma_max_; }          ///< [rad]
   const Real& period() const { return period_; }                ///< of the drive [s]
   const Real& angular_speed() const { return angular_speed_; }  ///< w = 2 pi / period [rad/s]
 
@@ -100,16 +107,16 @@ class SpexMotion {
   Vec3<Real> wall_acceleration(const Pose& pose, const Vec3<Real>& point) const;
 
   /// Bound on the sum of both angles [rad].
-  Real angles() const { return theta_max + gamma_max; }
+  Real angles() const { return theta_max_ + gamma_max_; }
   /// Bound on the vessel's angular speed [rad/s].
-  Real turning() const { return angles() * angular_speed_; }
-  Vec3<Real> middle() const { return {Real(0), arm, Real(0)}; }
+  const Real& turning() const { return turning_; }
+  Vec3<Real> middle() const { return {Real(0), arm_, Real(0)}; }
   /// Distance from the origin of what is within `vessel_reach` of the vessel's centre, at most [m].
-  Real reach(const Real& vessel_reach) const { return arm + vessel_reach; }
+  Real reach(const Real& vessel_reach) const { return arm_ + vessel_reach; }
   /// No point of a vessel whose points are within `vessel_reach` of its centre is faster [m/s].
   Real wall_speed(const Real& vessel_reach) const {
-    const Real from_fulcrum = arm + vessel_reach;
-    return angular_speed_ * (theta_max * from_fulcrum + gamma_max * (from_fulcrum - arm));
+    const Real from_fulcrum = arm_ + vessel_reach;
+    return angular_speed_ * (theta_max_ * from_fulcrum + gamma_max_ * (from_fulcrum - arm_));
   }
   /// No point of the vessel that is within `distance` of the origin is faster [m/s].
   Real speed_within(const Real& distance) const { return turning() * distance; }
@@ -143,7 +150,11 @@ class SpexMotion {
   ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& f) const;
 
  private:
+  Real arm_{0}, theta_max_{0}, gamma_max_{0};
   Real period_{0}, angular_speed_{0}, frequency_{0};
+  Real theta_speed_{0}, gamma_speed_{0};  ///< largest theta' and gamma' [rad/s]
+  Real speed_squared_{0};                 ///< [rad^2/s^2]
+  Real turning_{0};
 };
 
 /// [mill] type = "spex8000", with the machine's sizes of Barahona 2011, appendix B.
@@ -180,13 +191,13 @@ struct StillMill {
 
 template <class Real>
 auto SpexMotion<Real>::swept(const Vec3<Real>& sizes, const Real& vessel_reach) const -> SweptBox<Real> {
-  const Real swing = theta_max < 1 ? theta_max : Real(1);
-  const Real tilt = gamma_max < 1 ? gamma_max : Real(1);
-  const Real sideways = arm * swing + vessel_reach;
+  const Real swing = theta_max_ < 1 ? theta_max_ : Real(1);
+  const Real tilt = gamma_max_ < 1 ? gamma_max_ : Real(1);
+  const Real sideways = arm_ * swing + vessel_reach;
   const Real upright = sizes[2] + sizes[1] * tilt;
   const Real along = sizes[0] + (sizes[1] + sizes[2] * tilt) * swing;
-  const Real nearest = arm * (1 - swing * swing) - along;
-  return {{-sideways, nearest, Real(-upright)}, {sideways, Real(arm + along), upright}};
+  const Real nearest = arm_ * (1 - swing * swing) - along;
+  return {{-sideways, nearest, Real(-upright)}, {sideways, Real(arm_ + along), upright}};
 }
 
 template <class Real>
@@ -226,14 +237,14 @@ auto SpexMotion<Real>::coordinate_bounds(const Vec3<Real>& sizes, const Real& ve
   Majorant<Real> alpha, gamma, sine, cosine;
   Real power{1};
   for (int k = 0; k < 5; ++k, power *= w) {
-    alpha[k] = theta_max * power;
-    gamma[k] = gamma_max * power;
+    alpha[k] = theta_max_ * power;
+    gamma[k] = gamma_max_ * power;
   }
   numerics::fill_sin_cos(gamma, sine, cosine);
 
   // How far outside the vessel the path may get within the window: |p'| <= U.
   const Real shrink = 1 - (alpha[1] + gamma[1]) * length;
-  const Real frame_speed = (speed + alpha[1] * (arm + vessel_reach) + gamma[1] * vessel_reach) / shrink;
+  const Real frame_speed = (speed + alpha[1] * (arm_ + vessel_reach) + gamma[1] * vessel_reach) / shrink;
   const Real excursion = frame_speed * length;
 
   // Gravity and velocity in the frame that turns with theta: G' = alpha' G, V' = G + alpha' V.
@@ -244,7 +255,7 @@ auto SpexMotion<Real>::coordinate_bounds(const Vec3<Real>& sizes, const Real& ve
   x[0] = sizes[0] + excursion;
   y[0] = sizes[1] + excursion;
   z[0] = sizes[2] + excursion;
-  a[0] = arm + x[0];
+  a[0] = arm_ + x[0];
   b[0] = y[0] + sine[0] * z[0];
   for (int k = 0; k < 4; ++k) {
     g[k + 1] = product_bound(alpha, 1, g, k);
@@ -268,13 +279,13 @@ auto SpexMotion<Real>::coordinate_bounds(const Vec3<Real>& sizes, const Real& ve
 template <class Real>
 inline SpexPose<Real> SpexMotion<Real>::pose(const Instant<Real>& when) const {
   const auto phase = numerics::sin_cos_turns<Real>(when.offset * frequency_);
-  const Real alpha = theta_max * phase.cos;
-  const Real gamma = gamma_max * phase.sin;
+  const Real alpha = theta_max_ * phase.cos;
+  const Real gamma = gamma_max_ * phase.sin;
   const auto a = numerics::sin_cos<Real>(alpha), g = numerics::sin_cos<Real>(gamma);
-  const Real alpha_rate = -(theta_max * angular_speed_) * phase.sin;
-  const Real gamma_rate = (gamma_max * angular_speed_) * phase.cos;
-  const Real speed_squared = angular_speed_ * angular_speed_;
-  return {a.sin, a.cos, g.sin, g.cos, alpha_rate, gamma_rate, -speed_squared * alpha, -speed_squared * gamma};
+  const Real alpha_rate = -theta_speed_ * phase.sin;
+  const Real gamma_rate = gamma_speed_ * phase.cos;
+  return {
+      a.sin, a.cos, g.sin, g.cos, alpha_rate, gamma_rate, -speed_squared_ * alpha, -speed_squared_ * gamma};
 }
 
 template <class Real>
@@ -292,9 +303,8 @@ inline SpexPose<Real> SpexMotion<Real>::pose_nearby(const Instant<Real>& when, c
     const Real grown = rate * first + acceleration * second;
     numerics::turn<Real>(sine, cosine, grown);
     if constexpr (with_rates) {
-      const Real speed_squared = angular_speed_ * angular_speed_;
-      rate += acceleration * first - speed_squared * (rate * second);
-      acceleration -= speed_squared * grown;
+      rate += acceleration * first - speed_squared_ * (rate * second);
+      acceleration -= speed_squared_ * grown;
     }
   };
   swing(next.sin_alpha, next.cos_alpha, next.theta_rate, next.theta_acceleration);
@@ -304,7 +314,7 @@ inline SpexPose<Real> SpexMotion<Real>::pose_nearby(const Instant<Real>& when, c
 
 template <class Real>
 inline Vec3<Real> SpexMotion<Real>::to_inertial(const Pose& pose, const Vec3<Real>& p) const {
-  const Real along_arm = arm + p[0];
+  const Real along_arm = arm_ + p[0];
   const Real b = p[1] * pose.cos_gamma - p[2] * pose.sin_gamma;
   const Real height = p[1] * pose.sin_gamma + p[2] * pose.cos_gamma;
   return {-pose.sin_alpha * along_arm - pose.cos_alpha * b, pose.cos_alpha * along_arm - pose.sin_alpha * b,
@@ -315,7 +325,7 @@ template <class Real>
 inline Vec3<Real> SpexMotion<Real>::position_in_vessel(const Pose& pose, const Vec3<Real>& position) const {
   const Real a = position[1] * pose.cos_alpha - position[0] * pose.sin_alpha;
   const Real b = -(position[0] * pose.cos_alpha + position[1] * pose.sin_alpha);
-  return {a - arm, b * pose.cos_gamma + position[2] * pose.sin_gamma,
+  return {a - arm_, b * pose.cos_gamma + position[2] * pose.sin_gamma,
           position[2] * pose.cos_gamma - b * pose.sin_gamma};
 }
 
@@ -330,7 +340,7 @@ inline VesselFrameState<Real> SpexMotion<Real>::to_vessel_frame(const Pose& pose
   const Real z = position[2] * pose.cos_gamma - b * pose.sin_gamma;
   const Real y_rate = (b_rate * pose.cos_gamma + velocity[2] * pose.sin_gamma) + pose.gamma_rate * z;
   const Real z_rate = (velocity[2] * pose.cos_gamma - b_rate * pose.sin_gamma) - pose.gamma_rate * y;
-  return {{a - arm, y, z}, {a_rate, y_rate, z_rate}};
+  return {{a - arm_, y, z}, {a_rate, y_rate, z_rate}};
 }
 
 template <class Real>
@@ -340,7 +350,7 @@ inline Vec3<Real> SpexMotion<Real>::vessel_frame_acceleration(const Pose& pose,
                                                               const Vec3<Real>& gravity) const {
   const auto &p = state.position, &u = state.velocity;
   const Real &sa = pose.sin_alpha, &ca = pose.cos_alpha, &sg = pose.sin_gamma, &cg = pose.cos_gamma;
-  const Real a = p[0] + arm, b = p[1] * cg - p[2] * sg;
+  const Real a = p[0] + arm_, b = p[1] * cg - p[2] * sg;
   const Real velocity_a = velocity[1] * ca - velocity[0] * sa,
              velocity_b = -(velocity[0] * ca + velocity[1] * sa);
   const Real gravity_a = gravity[1] * ca - gravity[0] * sa, gravity_b = -(gravity[0] * ca + gravity[1] * sa);
@@ -360,7 +370,7 @@ inline Vec3<Real> SpexMotion<Real>::vessel_frame_acceleration(const Pose& pose,
 
 template <class Real>
 inline Vec3<Real> SpexMotion<Real>::wall_velocity(const Pose& pose, const Vec3<Real>& point) const {
-  const Vec3<Real> centre{-pose.sin_alpha * arm, pose.cos_alpha * arm, Real(0)};
+  const Vec3<Real> centre{-pose.sin_alpha * arm_, pose.cos_alpha * arm_, Real(0)};
   const Vec3<Real> about_z{Real(0), Real(0), pose.theta_rate};
   const Vec3<Real> about_arm{-pose.sin_alpha * pose.gamma_rate, pose.cos_alpha * pose.gamma_rate, Real(0)};
   const Vec3<Real> from_centre = point - centre;
@@ -369,7 +379,7 @@ inline Vec3<Real> SpexMotion<Real>::wall_velocity(const Pose& pose, const Vec3<R
 
 template <class Real>
 inline Vec3<Real> SpexMotion<Real>::wall_acceleration(const Pose& pose, const Vec3<Real>& point) const {
-  const Vec3<Real> centre{-pose.sin_alpha * arm, pose.cos_alpha * arm, Real(0)};
+  const Vec3<Real> centre{-pose.sin_alpha * arm_, pose.cos_alpha * arm_, Real(0)};
   const Vec3<Real> about_z{Real(0), Real(0), pose.theta_rate};
   const Vec3<Real> omega = angular_velocity(pose);
   const Vec3<Real> axis = axis_x(pose);

@@ -1,11 +1,9 @@
 // The nested motion of the vessel: (2.16'), its velocity and acceleration, and why the printed (2.14) is not
 // it.
-#include "model/mill_motion.hpp"
-
 #include <gtest/gtest.h>
 
 #include "instances/instances.hpp"
-#include "model/nearby_pose.hpp"
+#include "model/motion.hpp"
 #include "random_physics.hpp"
 #include "spex_case.hpp"
 
@@ -28,37 +26,37 @@ Vec3<mpfr50> derivative(Function&& f, const mpfr50& t) {
   return (bc * mpfr50(16) - ab) * (mpfr50(1) / 15);
 }
 
-const MillMotion<mpfr50>& spex() {
-  static const MillMotion<mpfr50> motion = testing::spex_mill<mpfr50>().motion;
+const SpexMotion<mpfr50>& spex() {
+  static const SpexMotion<mpfr50> motion = *testing::spex_mill<mpfr50>().motion.get_if<SpexMotion<mpfr50>>();
   return motion;
 }
 
 Vec3<mpfr50> wall_point(const mpfr50& t, const Vec3<mpfr50>& p) {
-  return to_inertial<mpfr50>(pose_at<mpfr50>(spex(), t), spex().arm, p);
+  return spex().to_inertial(spex().pose({0, t}), p);
 }
 
-TEST(MillMotion, WallVelocityIsTheDerivativeOfTheWallPosition) {
+TEST(SpexMotion, WallVelocityIsTheDerivativeOfTheWallPosition) {
   EXPECT_TRUE(rc::check([] {
     const Vec3<mpfr50> p = draw_vector<mpfr50>(mpfr50("0.03"));
-    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period);
+    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period());
     const auto expected = derivative([&](const mpfr50& s) { return wall_point(s, p); }, t);
-    const auto found = wall_velocity<mpfr50>(pose_at<mpfr50>(spex(), t), spex().arm, wall_point(t, p));
+    const auto found = spex().wall_velocity(spex().pose({0, t}), wall_point(t, p));
     RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(found - expected)) < mpfr50("1e-30"));
   }));
 }
 
 template <class Real>
 void expect_nearby_poses_agree() {
-  const auto motion = testing::spex_mill<Real>().motion;
-  const Real speed = motion.angular_speed(), frequency = 1 / motion.period;
+  const auto motion = *testing::spex_mill<Real>().motion.template get_if<SpexMotion<Real>>();
+  const Real speed = motion.angular_speed();
   EXPECT_TRUE(rc::check([&] {
-    const Real t = draw<Real>(Real(0), motion.period);
+    const Real t = draw<Real>(Real(0), motion.period());
     // From far below the longest turn to beyond it.
     const int exponent = *rc::gen::inRange(20, 60);
     const Real later = t + draw<Real>(Real(-1), Real(1)) * Real(std::ldexp(1.0, -exponent)) / speed;
-    const auto known = pose_at<Real>(motion, speed, frequency, t);
-    const auto found = pose_nearby<Real>(motion, speed, frequency, later, known, t);
-    const auto direct = pose_at<Real>(motion, speed, frequency, later);
+    const auto known = motion.pose({0, t});
+    const auto found = motion.pose_nearby({0, later}, known, {0, t});
+    const auto direct = motion.pose({0, later});
     const Real allowed = 16 * epsilon<Real>();
     const auto close = [&](const Real& a, const Real& b, const Real& unit) {
       return abs(a - b) <= allowed * unit;
@@ -74,64 +72,63 @@ void expect_nearby_poses_agree() {
   }));
 }
 
-TEST(MillMotion, PosesNearbyAgreeWithPosesFromSines) {
+TEST(SpexMotion, PosesNearbyAgreeWithPosesFromSines) {
   expect_nearby_poses_agree<float128>();
   expect_nearby_poses_agree<mpfr50>();
 }
 
-TEST(MillMotion, WallAccelerationIsTheDerivativeOfTheWallVelocity) {
+TEST(SpexMotion, WallAccelerationIsTheDerivativeOfTheWallVelocity) {
   EXPECT_TRUE(rc::check([] {
     const Vec3<mpfr50> p = draw_vector<mpfr50>(mpfr50("0.03"));
-    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period);
+    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period());
     const auto velocity = [&](const mpfr50& s) {
-      return wall_velocity<mpfr50>(pose_at<mpfr50>(spex(), s), spex().arm, wall_point(s, p));
+      return spex().wall_velocity(spex().pose({0, s}), wall_point(s, p));
     };
-    const auto found = wall_acceleration<mpfr50>(pose_at<mpfr50>(spex(), t), spex().arm, wall_point(t, p));
+    const auto found = spex().wall_acceleration(spex().pose({0, t}), wall_point(t, p));
     RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(found - derivative(velocity, t))) < mpfr50("1e-27"));
   }));
 }
 
-TEST(MillMotion, VesselFrameRatesAreTheDerivativesOfVesselFramePositions) {
+TEST(SpexMotion, VesselFrameRatesAreTheDerivativesOfVesselFramePositions) {
   EXPECT_TRUE(rc::check([] {
     const Vec3<mpfr50> r = draw_vector<mpfr50>(mpfr50("0.15")), v = draw_vector<mpfr50>(mpfr50(5));
-    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period);
+    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period());
     const auto local = [&](const mpfr50& s) {
-      return to_vessel_frame<mpfr50>(pose_at<mpfr50>(spex(), s), spex().arm, Vec3<mpfr50>(r + v * (s - t)), v)
-          .position;
+      return spex().to_vessel_frame(spex().pose({0, s}), Vec3<mpfr50>(r + v * (s - t)), v).position;
     };
-    const auto found = to_vessel_frame<mpfr50>(pose_at<mpfr50>(spex(), t), spex().arm, r, v).velocity;
+    const auto found = spex().to_vessel_frame(spex().pose({0, t}), r, v).velocity;
     RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(found - derivative(local, t))) < mpfr50("1e-30"));
   }));
 }
 
-TEST(MillMotion, VesselFrameAndInertialFrameAreInverse) {
+TEST(SpexMotion, VesselFrameAndInertialFrameAreInverse) {
   EXPECT_TRUE(rc::check([] {
     const Vec3<mpfr50> p = draw_vector<mpfr50>(mpfr50("0.03"));
-    const auto pose = pose_at<mpfr50>(spex(), draw<mpfr50>(mpfr50(0), spex().period));
-    const auto back = to_vessel_frame<mpfr50>(pose, spex().arm, to_inertial<mpfr50>(pose, spex().arm, p),
-                                              Vec3<mpfr50>(mpfr50(0), mpfr50(0), mpfr50(0)));
+    const auto pose = spex().pose({0, draw<mpfr50>(mpfr50(0), spex().period())});
+    const auto back = spex().to_vessel_frame(pose, spex().to_inertial(pose, p),
+                                             Vec3<mpfr50>(mpfr50(0), mpfr50(0), mpfr50(0)));
     RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(back.position - p)) < mpfr50("1e-49"));
   }));
 }
 
 /// The printed (2.14), R_x(gamma) R_z(theta), about the centre (2.15).
 Vec3<mpfr50> printed_position(const mpfr50& t, const Vec3<mpfr50>& p) {
-  const auto pose = pose_at<mpfr50>(spex(), t);
+  const auto pose = spex().pose({0, t});
   const mpfr50 sin_theta = pose.cos_alpha, cos_theta = -pose.sin_alpha;
-  const mpfr50 &sg = pose.sin_gamma, &cg = pose.cos_gamma, &l = spex().arm;
+  const mpfr50 &sg = pose.sin_gamma, &cg = pose.cos_gamma, &l = spex().arm();
   return {l * cos_theta + cos_theta * p[0] - sin_theta * p[1],
           l * sin_theta + sin_theta * cg * p[0] + cos_theta * cg * p[1] - sg * p[2],
           sin_theta * sg * p[0] + cos_theta * sg * p[1] + cg * p[2]};
 }
 
-TEST(MillMotionErrata, PrintedVelocityIsNotTheDerivativeOfThePrintedPosition) {
+TEST(SpexMotionErrata, PrintedVelocityIsNotTheDerivativeOfThePrintedPosition) {
   const Vec3<mpfr50> p(mpfr50("0.01"), mpfr50("0.02"), mpfr50("0.005"));
   mpfr50 worst_printed(0), worst_nested(0);
   for (int k = 0; k < 32; ++k) {
-    const mpfr50 t = spex().period * k / 32;
-    const auto pose = pose_at<mpfr50>(spex(), t);
+    const mpfr50 t = spex().period() * k / 32;
+    const auto pose = spex().pose({0, t});
     const auto error = [&](auto&& position) {
-      const auto velocity = wall_velocity<mpfr50>(pose, spex().arm, position(t));
+      const auto velocity = spex().wall_velocity(pose, position(t));
       return norm<mpfr50>(Vec3<mpfr50>(velocity - derivative(position, t)));
     };
     const mpfr50 printed = error([&](const mpfr50& s) { return printed_position(s, p); });
@@ -143,16 +140,16 @@ TEST(MillMotionErrata, PrintedVelocityIsNotTheDerivativeOfThePrintedPosition) {
   EXPECT_LT(worst_nested, mpfr50("1e-30"));
 }
 
-TEST(MillMotion, PoseIsTheThesisAnglesAtKnownPhases) {
+TEST(SpexMotion, PoseIsTheThesisAnglesAtKnownPhases) {
   const auto motion = testing::spex_mill<double>().motion;
-  const auto start = pose_at<double>(motion, 0.0);           // theta = theta_max + pi/2, gamma = 0
+  const auto start = motion.pose({0, 0.0});                  // theta = theta_max + pi/2, gamma = 0
   EXPECT_NEAR(start.sin_alpha, 0.25881904510252074, 1e-15);  // sin 15 deg
   EXPECT_NEAR(start.cos_alpha, 0.9659258262890683, 1e-15);
   EXPECT_EQ(start.sin_gamma, 0);
-  const auto quarter = pose_at<double>(motion, motion.period / 4);  // theta = pi/2, gamma = gamma_max
+  const auto quarter = motion.pose({0, motion.period() / 4});  // theta = pi/2, gamma = gamma_max
   EXPECT_NEAR(quarter.sin_alpha, 0, 1e-15);
   EXPECT_NEAR(quarter.sin_gamma, 0.25881904510252074, 1e-15);
-  EXPECT_NEAR(quarter.theta_rate, -motion.theta_max * motion.angular_speed(), 1e-12);
+  EXPECT_NEAR(quarter.theta_rate, -motion.theta_max() * motion.angular_speed(), 1e-12);
 }
 
 }  // namespace
