@@ -12,7 +12,7 @@
 #include "casefile/parts.hpp"
 #include "casefile/quantity.hpp"
 #include "model/contact_law.hpp"
-#include "model/partners.hpp"
+#include "model/parts/partners.hpp"
 
 namespace edmill::casefile {
 

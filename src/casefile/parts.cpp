@@ -44,22 +44,20 @@ Quantity kept(const Quantity& q, Range range) {
   return q.positive() ? Quantity{2 / q.value, 1 - q.pi_power} : Quantity{1};
 }
 
-Quantity parsed(const PartParameter& p) {
+Quantity fallback_of(const PartParameter& p) {
   const auto result = parse_quantity(p.fallback, p.dimension);
   EDMILL_REQUIRE(std::holds_alternative<Quantity>(result), "a default that can be read");
-  return kept(std::get<Quantity>(result), p.range);
+  return std::get<Quantity>(result);
 }
 
 struct Reader {
   Section& section;
 
   void operator()(const PartParameter& p, Quantity& value) const {
-    if (!p.key || (p.fallback && !section.has(p.key))) {
-      value = parsed(p);
-      return;
-    }
-    const Quantity found = section.required(p.key, p.dimension);
-    section.require(in_range(found, p.range), p.key, expected(p));
+    const Quantity found = !p.key       ? fallback_of(p)
+                           : p.fallback ? section.quantity(p.key, p.dimension, fallback_of(p))
+                                        : section.required(p.key, p.dimension);
+    if (p.key) section.require(in_range(found, p.range), p.key, expected(p));
     value = kept(found, p.range);
   }
   void operator()(const PartParameter& p, std::array<Quantity, 3>& values) const {

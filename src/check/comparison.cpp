@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "model/partners.hpp"
+#include "model/parts/partners.hpp"
 #include "study/statistics.hpp"
 
 namespace edmill::compare {

@@ -13,7 +13,7 @@
 
 #include "base/vector.hpp"
 #include "io/csv_reader.hpp"
-#include "model/partners.hpp"
+#include "model/parts/partners.hpp"
 
 namespace edmill::audit {
 

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "base/errors.hpp"
-#include "model/partners.hpp"
+#include "model/parts/partners.hpp"
 
 namespace edmill::compare {
 

@@ -78,6 +78,7 @@ class AnyWallSearch {
   }
 
   struct Never {
+    void emplace(const auto&...) {}
     void reset() {}
   };
   std::conditional_t<std::is_same_v<Real, double>, std::optional<Spex>, Never> spex_{};

@@ -9,10 +9,6 @@
 #include "model/motion.hpp"
 #include "model/vessel.hpp"
 
-// Lists of a run-time number of walls: GCC takes the part behind the last element for read.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-
 namespace edmill::dynamics {
 
 /// Yes or no for each wall.
@@ -219,5 +215,3 @@ class GapFunctions {
 };
 
 }  // namespace edmill::dynamics
-
-#pragma GCC diagnostic pop

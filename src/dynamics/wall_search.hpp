@@ -196,4 +196,5 @@ class WallSearch {
 
 }  // namespace edmill::dynamics
 
-#include "dynamics/any_wall_search.hpp"  // which a wide scalar's search has in double
+// Which a wide scalar's search has in double.
+#include "dynamics/any_wall_search.hpp"

@@ -8,10 +8,6 @@
 #include "dynamics/wall_roots_impl.hpp"
 #include "dynamics/wall_search.hpp"
 
-// Lists of a run-time number of walls: GCC takes the part behind the last element for read.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-
 namespace edmill::dynamics {
 
 template <model::Motion M, model::Vessel V>
@@ -373,5 +369,3 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
 }
 
 }  // namespace edmill::dynamics
-
-#pragma GCC diagnostic pop

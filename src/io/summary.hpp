@@ -9,7 +9,7 @@
 #include "base/escalations.hpp"
 #include "model/end_reason.hpp"
 #include "model/outcome.hpp"
-#include "model/partners.hpp"
+#include "model/parts/partners.hpp"
 
 namespace edmill::io {
 

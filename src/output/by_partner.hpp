@@ -9,7 +9,7 @@
 #include "base/scalar.hpp"
 #include "io/table.hpp"
 #include "model/impact_facts.hpp"
-#include "model/partners.hpp"
+#include "model/parts/partners.hpp"
 
 namespace edmill::output {
 

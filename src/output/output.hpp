@@ -8,7 +8,7 @@
 #include "engine/simulation.hpp"
 #include "io/file_note.hpp"
 #include "model/impact_facts.hpp"
-#include "model/surface.hpp"
+#include "model/parts/surface.hpp"
 #include "output/output_timer.hpp"
 #include "output/variable_values.hpp"
 

@@ -10,7 +10,7 @@
 #include "base/frame.hpp"
 #include "base/vector.hpp"
 #include "casefile/colour.hpp"
-#include "model/surface.hpp"
+#include "model/parts/surface.hpp"
 
 namespace edmill::output {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vector.hpp"
-#include "model/surface.hpp"
+#include "model/parts/surface.hpp"
 
 namespace edmill::report {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "model/partners.hpp"
+#include "model/parts/partners.hpp"
 
 namespace edmill::report {
 

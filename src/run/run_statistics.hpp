@@ -6,7 +6,7 @@
 
 #include "base/compensated_sum.hpp"
 #include "engine/observer.hpp"
-#include "model/partners.hpp"
+#include "model/parts/partners.hpp"
 
 namespace edmill::run {
 

@@ -5,21 +5,24 @@ cd "$(dirname "$0")/../../src"
 
 declare -A allowed=(
   [base]=""
-  [model]="base model/laws"
-  [model/laws]=""
-  [dynamics]="base model"
-  [engine]="base model dynamics"
-  [io]="base model"
-  [casefile]="base model io"
-  [run]="base model dynamics engine io casefile"
-  [api]="base model engine io casefile run"
-  [output]="base model engine io casefile run"
-  [study]="base model io casefile"
-  [check]="base model dynamics io casefile study" # never the engine: a judge that shares its code proves nothing
+  [model/parts]="base" # what laws, motions and vessels tell of themselves
+  [model/laws]="base model/parts"
+  [model/motions]="base model/parts"
+  [model/vessels]="base model/parts"
+  [model]="base model/parts model/laws model/motions model/vessels"
+  [dynamics]="base model model/parts"
+  [engine]="base model model/parts dynamics"
+  [io]="base model model/parts"
+  [casefile]="base model model/parts io"
+  [run]="base model model/parts dynamics engine io casefile"
+  [api]="base model model/parts engine io casefile run"
+  [output]="base model model/parts engine io casefile run"
+  [study]="base model model/parts io casefile"
+  [check]="base model model/parts dynamics io casefile study" # never the engine: a judge that shares its code proves nothing
   [plot]=""
-  [report]="base model io casefile study plot"
-  [cli]="base model dynamics engine io casefile run output study check report instances instances/tools"
-  [instances]="base model dynamics engine io casefile run api" # the core in every scalar
+  [report]="base model model/parts io casefile study plot"
+  [cli]="base model model/parts dynamics engine io casefile run output study check report instances instances/tools"
+  [instances]="base model model/parts dynamics engine io casefile run api" # the core in every scalar
   [instances/tools]="base io casefile output report cli instances" # and what is around it
 )
 

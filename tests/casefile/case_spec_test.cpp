@@ -139,14 +139,16 @@ TEST(CaseSpec, EveryValueOfAFullCaseIsReadExactly) {
   EXPECT_EQ(c.gravity[0].value, 0);
   EXPECT_EQ(c.gravity[1].value, ratio(-98, 10));
   EXPECT_EQ(c.gravity[2].value, ratio(1, 8));
-  EXPECT_EQ(c.mill.type, "spex8000");
-  EXPECT_EQ(c.mill.period.value, ratio(60, 1054));
-  EXPECT_EQ(c.mill.period.pi_power, 0);
-  EXPECT_EQ(c.mill.arm.value, ratio(95, 1000));
-  EXPECT_EQ(c.mill.theta_max.text(), "1/4");
-  EXPECT_EQ(c.mill.gamma_max.text(), "1/18*pi");
-  EXPECT_EQ(c.vessel_diameter.value, ratio(38, 1000));
-  EXPECT_EQ(c.vessel_height.value, ratio(57, 1000));
+  EXPECT_EQ(name_of(c.mill), "spex8000");
+  const auto& mill = std::get<model::Spex8000<Quantity>>(c.mill);
+  EXPECT_EQ(mill.period.value, ratio(60, 1054));
+  EXPECT_EQ(mill.period.pi_power, 0);
+  EXPECT_EQ(mill.arm.value, ratio(95, 1000));
+  EXPECT_EQ(mill.theta_max.text(), "1/4");
+  EXPECT_EQ(mill.gamma_max.text(), "1/18*pi");
+  const auto& vessel = std::get<model::Cylinder<Quantity>>(c.vessel);
+  EXPECT_EQ(vessel.diameter.value, ratio(38, 1000));
+  EXPECT_EQ(vessel.height.value, ratio(57, 1000));
   EXPECT_EQ(c.powder_mass->value, ratio(5, 1000));
   ASSERT_EQ(c.balls.size(), 1u);
   const auto& ball = c.balls[0];
@@ -180,11 +182,12 @@ TEST(CaseSpec, EveryValueOfAFullCaseIsReadExactly) {
 
 TEST(CaseSpec, DefaultsAreThoseOfTheThesis) {
   const CaseSpec c = read(least);
-  EXPECT_EQ(c.mill.type, "spex8000");
-  EXPECT_EQ(c.mill.arm.text(), "1/10");
-  EXPECT_EQ(c.mill.theta_max.text(), "1/12*pi");
-  EXPECT_EQ(c.mill.gamma_max.text(), "1/12*pi");
-  EXPECT_EQ(c.mill.period.value, ratio(60, 1098));
+  EXPECT_EQ(name_of(c.mill), "spex8000");
+  const auto& mill = std::get<model::Spex8000<Quantity>>(c.mill);
+  EXPECT_EQ(mill.arm.text(), "1/10");
+  EXPECT_EQ(mill.theta_max.text(), "1/12*pi");
+  EXPECT_EQ(mill.gamma_max.text(), "1/12*pi");
+  EXPECT_EQ(mill.period.value, ratio(60, 1098));
   EXPECT_EQ(c.batches[0].density.value, 8000);
   EXPECT_EQ(c.batches[0].reduced_inertia.value, ratio(2, 5));
   EXPECT_EQ(c.batches[0].gap_ball.value, ratio(1, 1000));
@@ -267,7 +270,7 @@ TEST(CaseSpec, TheCommandLineOverridesTheFile) {
   EXPECT_EQ(c.batches[1].diameter.value, ratio(2, 1000));
   EXPECT_EQ(c.balls[0].density.value, 7000);
   EXPECT_EQ(restitution(c.ball_ball), ratio(1, 10));
-  EXPECT_EQ(c.mill.period.value, ratio(60, 1000));
+  EXPECT_EQ(period_of(c.mill).value, ratio(60, 1000));
   EXPECT_EQ(c.outputs[0].file, "other.csv");
   EXPECT_EQ(friction(c.ball_wall), ratio(3, 10));
 }

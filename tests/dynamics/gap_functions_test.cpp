@@ -64,7 +64,7 @@ TEST_P(GapErrorsAtArm, RoundingErrorsStayBelowTheirBounds) {
     const auto found = narrow.start(r.offset);
     const auto truth = exact.start(mpfr50(r.offset));
     const double elapsed = narrow.elapsed(r.offset);
-    const double speed = norm<double>(r.flight.velocity) + constants.gravity * elapsed;
+    const double speed = norm<double>(r.flight.velocity) + constants.gravity_size * elapsed;
     const auto bound = narrow.errors(elapsed, speed);
     for (int w = 0; w < mill.vessel.wall_count(); ++w) {
       worst_gap =
@@ -112,7 +112,7 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
     const auto found = narrow.start(r.offset);
     const auto truth = exact.start(mpfr50(r.offset));
     const double elapsed = narrow.elapsed(r.offset);
-    const double speed = norm<double>(r.flight.velocity) + constants.gravity * elapsed;
+    const double speed = norm<double>(r.flight.velocity) + constants.gravity_size * elapsed;
     const auto own = narrow.errors(elapsed, speed), state = narrow.state_errors(elapsed, speed);
     const auto bound = own + state;
     // The effect of the state alone, in 50 digits.
@@ -155,7 +155,7 @@ TEST(MotionBounds, DerivativesOfTheGapsStayBelowTheirBounds) {
   const auto mill = testing::spex_mill<mpfr50>();
   const auto narrow_mill = testing::spex_mill<double>();
   const auto constants = testing::moving(mill);
-  const BoundsTable<double> table(narrow_mill);
+  const BoundsTable table(testing::moving(narrow_mill));
   casefile::Random random(22);
   std::array<double, 3> worst_y{}, worst_q{};
   for (int k = 0; k < 5000; ++k) {

@@ -86,7 +86,7 @@ TEST(WallSearch, WhatIsOutOfReachIsNotHit) {
   std::cout << "seed " << seed << "\n";
   const auto mill = testing::spex_mill<double>();
   DecisionLadder<double> ladder(mill, 0.00236, 12.0);
-  const auto& walls = ladder.walls();
+  const auto walls = testing::general_search(mill);
   Draw draw(seed);
   int proven = 0, soon_after = 0;
   for (int k = 0; k < 5000; ++k) {
@@ -103,8 +103,8 @@ TEST(WallSearch, WhatIsOutOfReachIsNotHit) {
     q.flight = {mill.motion.to_inertial(pose, place), velocity, q.begin};
     const testing::GeneralFunctions<double> functions(walls.mill(), q.flight, q.radius, q.begin.period);
     const auto excluded = [&](double length) {
-      const double fastest = norm<double>(velocity) + walls.mill().gravity * length;
-      const WallSet reach = walls.within_reach(functions, place, fastest, length);
+      const double fastest = norm<double>(velocity) + walls.mill().gravity_size * length;
+      const auto reach = walls.within_reach(functions, place, fastest, length);
       return !reach[0] && !reach[1] && !reach[2];
     };
     double longest = 0, too_long = walls.longest_window();

@@ -75,7 +75,7 @@ struct Placement {
 class StateMaker {
  public:
   StateMaker(const model::Mill<double>& mill, double longest)
-      : mill_(widened<float128>(mill)), constants_(mill_), longest_(longest) {}
+      : mill_(widened<float128>(mill)), constants_(testing::moving(mill_)), longest_(longest) {}
 
   /// Distance from tangency of grazing paths [m]; zero draws a new one for each.
   double grazing_distance = 0;
@@ -88,8 +88,10 @@ class StateMaker {
                                                      float128(query.radius), query.begin.period);
       const auto sample = gaps(float128(query.begin.offset));
       // A state of the solver is inside the vessel up to rounding.
-      const float128 across = 2 * (testing::cylinder(mill_).radius - float128(query.radius));
-      if (sample.gap[0] > -3e-15 && sample.gap[1] > -3e-15 && sample.gap[2] > -3e-15 * across) return query;
+      bool inside = true;
+      for (int wall = 0; wall < mill_.vessel.wall_count(); ++wall)
+        inside &= sample.gap[wall] > -3e-15 * testing::gap_per_metre(mill_, wall, float128(query.radius));
+      if (inside) return query;
     }
   }
 
@@ -150,6 +152,7 @@ class StateMaker {
   }
 
   Placement place(Draw& draw, Kind kind, double radius) const {
+    if (!mill_.vessel.get_if<model::CylinderVessel<float128>>()) return place_in_any(draw, kind, radius);
     const float128 across = testing::cylinder(mill_).radius - float128(radius);      // of the axis
     const float128 along = testing::cylinder(mill_).half_height - float128(radius);  // of the middle plane
     const int wall = draw.below(3);
@@ -208,6 +211,63 @@ class StateMaker {
     const float128 distance = across - side_gap, around = top * draw.symmetric();
     return {{distance * cosine, cap_side * (along - cap_gap), distance * sine},
             {out_across * cosine - around * sine, cap_side * out_along, out_across * sine + around * cosine}};
+  }
+
+  /// The same by what every vessel tells of itself.
+  Placement place_in_any(Draw& draw, Kind kind, double radius) const {
+    const auto room = mill_.vessel.inset(float128(radius));
+    std::optional<Vec3<float128>> p;
+    while (!p) p = room.place({draw.symmetric(), draw.symmetric(), draw.symmetric()});
+    const double top = draw.chance(0.5) ? draw.uniform(0.0, 5.7) : draw.log_uniform(1e-6, 5.7);
+    Vec3<float128> u{top * draw.symmetric(), top * draw.symmetric(), top * draw.symmetric()};
+    const auto set = [&](int wall, const float128& gap, const float128& approach) {
+      for (int step = 0; step < 3; ++step)  // towards a wall that may be curved
+        *p += room.normal(wall, *p) * float128(room.overlap(wall, *p) + gap);
+      const auto n = room.normal(wall, *p);
+      u -= n * float128(dot<float128>(u, n) + approach);
+    };
+    const int wall = draw.below(room.wall_count());
+    const auto other = [&] {
+      for (;;) {
+        const int found = draw.below(room.wall_count());
+        if (abs(dot<float128>(room.normal(found, *p), room.normal(wall, *p))) < 0.9) return found;
+      }
+    };
+    switch (kind) {
+      case Kind::leaving:
+        set(wall, 0, -draw.log_uniform(1e-12, 10));
+        break;
+      case Kind::touching:
+        if (draw.chance(0.5))
+          set(wall, 0, draw.log_uniform(1e-12, 10));
+        else
+          set(wall, -draw.log_uniform(1e-18, 2e-15), draw.sign() * draw.log_uniform(1e-12, 10));
+        break;
+      case Kind::near:
+        set(wall, draw.log_uniform(1e-12, 1e-3), top * draw.symmetric());
+        break;
+      case Kind::grazing: {
+        const double drawn =
+            draw.chance(1.0 / 3) ? draw.log_uniform(1e-18, 1e-14) : draw.log_uniform(1e-14, 1e-9);
+        set(wall, draw.sign() * (grazing_distance > 0 ? grazing_distance : drawn), 0);
+        break;
+      }
+      case Kind::dipping:
+        set(wall, -draw.log_uniform(1e-9, 1e-4), 0);
+        break;
+      case Kind::seam:
+        set(other(), draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
+        set(wall, draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
+        break;
+      case Kind::corner_hit:
+        set(other(), 0, draw.log_uniform(1e-6, 5));
+        set(wall, 0, draw.log_uniform(1e-6, 5));
+        break;
+      case Kind::axis:
+      case Kind::anywhere:
+        break;
+    }
+    return {*p, u};
   }
 
   model::Mill<float128> mill_;

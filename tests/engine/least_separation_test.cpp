@@ -29,7 +29,8 @@ struct PressedBall {
                                  : wall == 1 ? Vec3<double>{-1, 0, 0}
                                              : Vec3<double>{0, -1, 0};
     model::Case<double> the_case{};
-    the_case.mill = {{arm, 0, 0, 0.125}, {half_size, half_size}, towards * acceleration, law, law};
+    the_case.mill = {model::SpexMotion<double>(arm, 0, 0, 0.125),
+                     model::CylinderVessel<double>{half_size, half_size}, towards * acceleration, law, law};
     the_case.balls = {{radius, 1, 0.4}};
     const Vec3<double> place = Vec3<double>{0, arm, 0} + towards * (half_size - radius - gap);
     Simulation<double> simulation(the_case, {{place, towards * speed, {3, -2, 1}}}, {});

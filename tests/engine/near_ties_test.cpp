@@ -84,7 +84,7 @@ First first_impact(const Scene& scene) {
   const auto number = [](const cpp_rational& x) { return Exact<Real>::number(x); };
   model::Case<Real> the_case;
   the_case.mill.motion = model::SpexMotion<Real>(Real(0), Real(0), Real(0), Real(1) / 16);
-  the_case.mill.vessel = {number(scene.vessel_radius), number(scene.half_height)};
+  the_case.mill.vessel = model::CylinderVessel<Real>{number(scene.vessel_radius), number(scene.half_height)};
   the_case.mill.gravity = {Real(0), Real(0), Real(0)};
   the_case.mill.ball_ball.law = the_case.mill.ball_wall.law = model::WaltonBraun<Real>{.normal = Real(1) / 2};
   std::vector<model::BallState<Real>> states;

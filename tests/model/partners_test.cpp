@@ -1,5 +1,5 @@
 // What balls can collide with, for vessels with any number of walls.
-#include "model/partners.hpp"
+#include "model/parts/partners.hpp"
 
 #include <gtest/gtest.h>
 

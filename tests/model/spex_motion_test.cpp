@@ -141,7 +141,7 @@ TEST(SpexMotionErrata, PrintedVelocityIsNotTheDerivativeOfThePrintedPosition) {
 }
 
 TEST(SpexMotion, PoseIsTheThesisAnglesAtKnownPhases) {
-  const auto motion = testing::spex_mill<double>().motion;
+  const auto motion = *testing::spex_mill<double>().motion.get_if<SpexMotion<double>>();
   const auto start = motion.pose({0, 0.0});                  // theta = theta_max + pi/2, gamma = 0
   EXPECT_NEAR(start.sin_alpha, 0.25881904510252074, 1e-15);  // sin 15 deg
   EXPECT_NEAR(start.cos_alpha, 0.9659258262890683, 1e-15);

@@ -1,5 +1,5 @@
 // The walls of vessels as surfaces: coordinates, areas, and the meshes of pictures.
-#include "model/surface.hpp"
+#include "model/parts/surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(WallSurface, PointsLieOnTheWall) {
   EXPECT_TRUE(rc::check([&] {
     const double u = draw<double>(0, 1), v = draw<double>(0, 1);
     for (int wall = 0; wall < 3; ++wall)
-      RC_ASSERT(std::abs(vial.overlap(wall, walls[static_cast<std::size_t>(wall)].point(u, v), 0)) < 1e-16);
+      RC_ASSERT(std::abs(vial.overlap(wall, walls[static_cast<std::size_t>(wall)].point(u, v))) < 1e-16);
     for (int wall = 0; wall < 6; ++wall) {
       const Vec3<double> p = box[static_cast<std::size_t>(wall)].point(u, v);
       RC_ASSERT(p[wall / 2] == half_sizes[wall / 2] * (wall % 2 == 0 ? -1 : 1));

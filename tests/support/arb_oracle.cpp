@@ -227,13 +227,13 @@ class Search {
 
 }  // namespace
 
-std::array<OracleContact, 3> first_contacts(const OracleQuestion& question) {
+std::vector<OracleContact> first_contacts(const OracleQuestion& question) {
   constexpr double beyond = 1e-9;  // [s] after a contact with an earlier wall
   const Ball begin(question.begin_offset), overtime(question.overtime);
   Ball length(question.length);
   arb_add(length.v, length.v, overtime.v, exact);
-  std::array<OracleContact, 3> contacts;
-  for (int wall = 0; wall < 3; ++wall) {
+  std::vector<OracleContact> contacts(question.box ? 6 : 3);
+  for (int wall = 0; wall < static_cast<int>(contacts.size()); ++wall) {
     auto& contact = contacts[static_cast<std::size_t>(wall)];
     for (const slong prec : {128, 256, 512, 1024}) {
       contact = Search(Problem(question, prec), wall)(begin, length);

@@ -4,13 +4,18 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace edmill::testing {
 
 /// A mill, a flight and a window as plain doubles, all taken exactly.
 struct OracleQuestion {
-  double arm, theta_max, gamma_max, period;
-  double vessel_radius, half_height;
+  double arm, theta_max, gamma_max, period;  ///< of the nested motion
+  double vessel_radius, half_height;         ///< of a cylinder
+  std::optional<std::array<double, 3>>
+      shaken;  ///< by this amplitude along a line, in place of the nested motion
+  std::optional<std::array<double, 3>> box;  ///< half of its edges, in place of a cylinder
   std::array<double, 3> gravity;
   std::array<double, 3> position, velocity;  ///< at the start of the flight, inertial
   std::int64_t start_period;
@@ -38,9 +43,9 @@ struct OracleSample {
   double gap, rate;
 };
 
-/// Contacts with the walls 0, 1, 2. A wall is searched up to the first contact with the walls before it and
+/// Contacts with the walls by id. A wall is searched up to the first contact with the walls before it and
 /// a little beyond.
-std::array<OracleContact, 3> first_contacts(const OracleQuestion& question);
+std::vector<OracleContact> first_contacts(const OracleQuestion& question);
 
 /// Gap function of `wall` at `delay` after the window's begin.
 OracleSample gap_after(const OracleQuestion& question, int wall, double delay);

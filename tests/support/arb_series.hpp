@@ -108,41 +108,23 @@ class Problem {
   /// they enclose those about every time in it.
   Series gap(int wall, const Ball& t, const Ball& h, slong count, slong prec) const {
     const slong n = count;
-    Series sin_a(n), cos_a(n), sin_g(n), cos_g(n);
-    turn_drive(t, h, prec, sin_a, cos_a, sin_g, cos_g);
-
-    // R_z(-theta) P = (a, b, Z) with a = Y cos(alpha) - X sin(alpha), b = -X cos(alpha) - Y sin(alpha).
-    const Series X = path(0, t, h, n, prec), Y = path(1, t, h, n, prec), Z = path(2, t, h, n, prec);
-    Series a(n), b(n);
-    for (slong k = 0; k < n; ++k) {
-      const slong terms = std::min<slong>(k + 1, 3);
-      arb_dot(b[k], nullptr, 0, X[0], 1, cos_a[k], -1, terms, prec);
-      arb_dot(b[k], b[k], 0, Y[0], 1, sin_a[k], -1, terms, prec);
-      arb_neg(b[k], b[k]);
-    }
-    // R_x(-gamma): y = b cos(gamma) + Z sin(gamma), z = Z cos(gamma) - b sin(gamma).
-    Series result(n);
-    if (wall < 2) {
-      for (slong k = 0; k < n; ++k) {
-        arb_dot(result[k], nullptr, 0, b[0], 1, cos_g[k], -1, k + 1, prec);
-        arb_dot(result[k], result[k], 0, Z[0], 1, sin_g[k], -1, std::min<slong>(k + 1, 3), prec);
-        if (wall == 1) arb_neg(result[k], result[k]);
+    if (q_.box || wall < 2) {
+      const int axis = q_.box ? wall / 2 : 1;
+      Series result = coordinate(axis, t, h, n, prec);
+      if (wall % 2 == 1)
+        for (slong k = 0; k < n; ++k) arb_neg(result[k], result[k]);
+      Ball room = cap_;
+      if (q_.box) {
+        const Ball half((*q_.box)[static_cast<std::size_t>(axis)]), radius(q_.radius);
+        arb_sub(room.v, half.v, radius.v, exact);
       }
-      arb_add(result[0], result[0], cap_.v, prec);
+      arb_add(result[0], result[0], room.v, prec);
       return result;
     }
-    Series z(n);
+    const Series x = coordinate(0, t, h, n, prec), z = coordinate(2, t, h, n, prec);
+    Series result(n);
     for (slong k = 0; k < n; ++k) {
-      const slong terms = std::min<slong>(k + 1, 3);
-      arb_dot(a[k], nullptr, 0, Y[0], 1, cos_a[k], -1, terms, prec);
-      arb_dot(a[k], a[k], 1, X[0], 1, sin_a[k], -1, terms, prec);
-      arb_dot(z[k], nullptr, 0, Z[0], 1, cos_g[k], -1, terms, prec);
-      arb_dot(z[k], z[k], 1, b[0], 1, sin_g[k], -1, k + 1, prec);
-    }
-    const Ball arm(q_.arm);
-    arb_sub(a[0], a[0], arm.v, prec);
-    for (slong k = 0; k < n; ++k) {
-      arb_dot(result[k], nullptr, 1, a[0], 1, a[k], -1, k + 1, prec);
+      arb_dot(result[k], nullptr, 1, x[0], 1, x[k], -1, k + 1, prec);
       arb_dot(result[k], result[k], 1, z[0], 1, z[k], -1, k + 1, prec);
     }
     arb_addmul(result[0], cylinder_.v, cylinder_.v, prec);
@@ -155,6 +137,68 @@ class Problem {
   }
 
  private:
+  /// A coordinate of the ball in the vessel frame.
+  Series coordinate(int axis, const Ball& t, const Ball& h, slong n, slong prec) const {
+    return q_.shaken ? on_table(axis, t, h, n, prec) : in_nested(axis, t, h, n, prec);
+  }
+
+  /// P - A sin(phase).
+  Series on_table(int axis, const Ball& t, const Ball& h, slong n, slong prec) const {
+    Ball phase, wh, factor((*q_.shaken)[static_cast<std::size_t>(axis)]), s, c;
+    arb_mul(phase.v, omega_.v, t.v, prec);
+    arb_mul(wh.v, omega_.v, h.v, prec);
+    arb_sin_cos(s.v, c.v, phase.v, prec);
+    Series result(n);
+    const Series r = path(static_cast<std::size_t>(axis), t, h, n, prec);
+    for (slong k = 0; k < n; ++k) {
+      if (k > 0) {
+        arb_mul(factor.v, factor.v, wh.v, prec);
+        arb_div_ui(factor.v, factor.v, static_cast<ulong>(k), prec);
+      }
+      arb_mul(result[k], (k % 2 == 0 ? s : c).v, factor.v, prec);
+      if (k % 4 < 2) arb_neg(result[k], result[k]);  // -(sin, cos, -sin, -cos)
+      if (k < 3) arb_add(result[k], result[k], r[k], prec);
+    }
+    return result;
+  }
+
+  Series in_nested(int axis, const Ball& t, const Ball& h, slong n, slong prec) const {
+    Series sin_a(n), cos_a(n), sin_g(n), cos_g(n);
+    turn_drive(t, h, prec, sin_a, cos_a, sin_g, cos_g);
+    // R_z(-theta) P = (a, b, Z) with a = Y cos(alpha) - X sin(alpha), b = -X cos(alpha) - Y sin(alpha).
+    const Series X = path(0, t, h, n, prec), Y = path(1, t, h, n, prec), Z = path(2, t, h, n, prec);
+    Series result(n);
+    if (axis == 0) {
+      for (slong k = 0; k < n; ++k) {
+        const slong terms = std::min<slong>(k + 1, 3);
+        arb_dot(result[k], nullptr, 0, Y[0], 1, cos_a[k], -1, terms, prec);
+        arb_dot(result[k], result[k], 1, X[0], 1, sin_a[k], -1, terms, prec);
+      }
+      const Ball arm(q_.arm);
+      arb_sub(result[0], result[0], arm.v, prec);
+      return result;
+    }
+    Series b(n);
+    for (slong k = 0; k < n; ++k) {
+      const slong terms = std::min<slong>(k + 1, 3);
+      arb_dot(b[k], nullptr, 0, X[0], 1, cos_a[k], -1, terms, prec);
+      arb_dot(b[k], b[k], 0, Y[0], 1, sin_a[k], -1, terms, prec);
+      arb_neg(b[k], b[k]);
+    }
+    // R_x(-gamma): y = b cos(gamma) + Z sin(gamma), z = Z cos(gamma) - b sin(gamma).
+    for (slong k = 0; k < n; ++k) {
+      const slong terms = std::min<slong>(k + 1, 3);
+      if (axis == 1) {
+        arb_dot(result[k], nullptr, 0, b[0], 1, cos_g[k], -1, k + 1, prec);
+        arb_dot(result[k], result[k], 0, Z[0], 1, sin_g[k], -1, terms, prec);
+      } else {
+        arb_dot(result[k], nullptr, 0, Z[0], 1, cos_g[k], -1, terms, prec);
+        arb_dot(result[k], result[k], 1, b[0], 1, sin_g[k], -1, k + 1, prec);
+      }
+    }
+    return result;
+  }
+
   /// Sine and cosine of alpha = theta - pi/2 and of gamma.
   void turn_drive(const Ball& t, const Ball& h, slong prec, Series& sin_a, Series& cos_a, Series& sin_g,
                   Series& cos_g) const {

@@ -84,12 +84,12 @@ class FaultyMill {
 
   /// The vessel's axes as columns. (2.7') or (2.14)
   void axes(double t, Vec& x, Vec& y, Vec& z, Vec& centre, double& theta_rate, double& gamma_rate) const {
-    const auto& m = case_.mill.motion;
-    const double w = 2 * M_PI / m.period;
-    const double theta = m.theta_max * std::cos(w * t) + M_PI / 2, gamma = m.gamma_max * std::sin(w * t);
+    const auto& m = spex(case_.mill);
+    const double w = 2 * M_PI / m.period();
+    const double theta = m.theta_max() * std::cos(w * t) + M_PI / 2, gamma = m.gamma_max() * std::sin(w * t);
     const double s = std::sin(theta), c = std::cos(theta), sg = std::sin(gamma), cg = std::cos(gamma);
-    centre = {m.arm * c, m.arm * s, 0};
-    theta_rate = -m.theta_max * w * std::sin(w * t), gamma_rate = m.gamma_max * w * std::cos(w * t);
+    centre = {m.arm() * c, m.arm() * s, 0};
+    theta_rate = -m.theta_max() * w * std::sin(w * t), gamma_rate = m.gamma_max() * w * std::cos(w * t);
     if (faults_.printed_rotations) {
       x = {c, s * cg, s * sg}, y = {-s, c * cg, c * sg}, z = {0, -sg, cg};
     } else {

@@ -1,6 +1,9 @@
 // The motion and the vessel of a mill as tests take them apart.
 #pragma once
 
+#include <sstream>
+#include <string>
+
 #include "dynamics/any_wall_search.hpp"
 
 namespace edmill::testing {
@@ -13,6 +16,29 @@ const model::SpexMotion<Real>& spex(const model::Mill<Real>& mill) {
 template <class Real>
 const model::CylinderVessel<Real>& cylinder(const model::Mill<Real>& mill) {
   return *mill.vessel.template get_if<model::CylinderVessel<Real>>();
+}
+
+/// Of the gap function of a wall near contact.
+template <class Real>
+Real gap_per_metre(const model::Mill<Real>& mill, int wall, const Real& ball_radius) {
+  return mill.vessel.is_flat(wall) ? Real(1) : 2 * (cylinder(mill).radius - ball_radius);
+}
+
+/// Every digit of the motion and of the vessel.
+inline std::string text_of(const model::Mill<double>& mill) {
+  std::ostringstream out;
+  out << std::hexfloat;
+  if (const auto* table = mill.motion.get_if<model::ShakenTable<double>>())
+    out << "table, amplitude " << table->amplitude().transpose();
+  else
+    out << "arm " << spex(mill).arm() << " theta_max " << spex(mill).theta_max() << " gamma_max "
+        << spex(mill).gamma_max();
+  out << " period " << mill.motion.period();
+  if (const auto* box = mill.vessel.get_if<model::BoxVessel<double>>())
+    out << ", box " << box->half.transpose();
+  else
+    out << " R_v " << cylinder(mill).radius << " h/2 " << cylinder(mill).half_height;
+  return out.str();
 }
 
 template <class Real>

@@ -10,22 +10,27 @@ namespace edmill::testing {
 /// @param overtime  see OracleQuestion [s]
 inline OracleQuestion question_of(const model::Mill<double>& mill, const dynamics::WallQuery<double>& q,
                                   double overtime = 0) {
-  return {testing::spex(mill).arm(),
-          testing::spex(mill).theta_max(),
-          testing::spex(mill).gamma_max(),
-          mill.motion.period(),
-          testing::cylinder(mill).radius,
-          testing::cylinder(mill).half_height,
-          {mill.gravity[0], mill.gravity[1], mill.gravity[2]},
-          {q.flight.position[0], q.flight.position[1], q.flight.position[2]},
-          {q.flight.velocity[0], q.flight.velocity[1], q.flight.velocity[2]},
-          q.flight.start.period,
-          q.flight.start.offset,
-          q.radius,
-          q.begin.period,
-          q.begin.offset,
-          q.length,
-          overtime};
+  const auto array = [](const Vec3<double>& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
+  OracleQuestion question{};
+  question.period = mill.motion.period();
+  if (const auto* table = mill.motion.get_if<model::ShakenTable<double>>()) {
+    question.shaken = array(table->amplitude());
+  } else {
+    const auto& motion = spex(mill);
+    question.arm = motion.arm(), question.theta_max = motion.theta_max(),
+    question.gamma_max = motion.gamma_max();
+  }
+  if (const auto* box = mill.vessel.get_if<model::BoxVessel<double>>())
+    question.box = array(box->half);
+  else
+    question.vessel_radius = cylinder(mill).radius, question.half_height = cylinder(mill).half_height;
+  question.gravity = array(mill.gravity);
+  question.position = array(q.flight.position), question.velocity = array(q.flight.velocity);
+  question.start_period = q.flight.start.period, question.start_offset = q.flight.start.offset;
+  question.radius = q.radius;
+  question.begin_period = q.begin.period, question.begin_offset = q.begin.offset;
+  question.length = q.length, question.overtime = overtime;
+  return question;
 }
 
 }  // namespace edmill::testing

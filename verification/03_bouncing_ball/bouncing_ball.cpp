@@ -183,8 +183,8 @@ std::vector<exact> map_times() {
 template <class Real>
 std::vector<Real> simulated_times() {
   model::Case<Real> the_case{};
-  the_case.mill = {{Real(arm), Real(theta_max), Real(0), Real(period)},
-                   {Real(8), Real(half_height)},
+  the_case.mill = {model::SpexMotion<Real>(Real(arm), Real(theta_max), Real(0), Real(period)),
+                   model::CylinderVessel<Real>{Real(8), Real(half_height)},
                    {Real(-g), Real(0), Real(0)},
                    {},
                    {}};

@@ -51,7 +51,8 @@ struct Throw {
   bool wall() const { return std::isinf(two.mass); }
   void run() {
     model::Case<double> the_case{};
-    the_case.mill = {{1, 0, 0, 1}, {1, 1}, {0, 0, 0}, {}, {}};
+    the_case.mill = {
+        model::SpexMotion<double>(1, 0, 0, 1), model::CylinderVessel<double>{1, 1}, {0, 0, 0}, {}, {}};
     the_case.mill.ball_wall = {model::WaltonBraun<double>{e, mu, min_tangential}, 0};
     the_case.mill.ball_ball = the_case.mill.ball_wall;
     const auto state = [](double x, const Motion& m) {

@@ -165,8 +165,8 @@ struct Errors {
       const auto position = dynamics::position_after<double>(flight, mill.gravity, -back);
       const auto when = run.simulation().clock().after(impact.time, -back);
       const auto pose = mill.motion.pose({0, when.offset});
-      const auto local = model::to_vessel_frame<double>(pose, arm, position, flight.velocity).position;
-      raise(largest, testing::cylinder(mill).half_height - radius - local[1]);
+      const auto local = mill.motion.to_vessel_frame(pose, position, flight.velocity).position;
+      raise(largest, mill.vessel.half_sizes()[1] - radius - local[1]);
     }
     return largest;
   }

@@ -1,7 +1,7 @@
 // Both restitutions given.
 #pragma once
 
-#include "model/parameter.hpp"
+#include "model/parts/parameter.hpp"
 
 namespace edmill::model {
 

@@ -1,7 +1,7 @@
 // Coulomb friction while sliding, a lowest tangential restitution while sticking. (2.24')
 #pragma once
 
-#include "model/parameter.hpp"
+#include "model/parts/parameter.hpp"
 
 namespace edmill::model {
 

@@ -8,8 +8,8 @@
 #include "base/scalar.hpp"
 #include "base/small_turn.hpp"
 #include "base/trigonometry.hpp"
-#include "model/parameter.hpp"
-#include "model/vessel_frame.hpp"
+#include "model/parts/parameter.hpp"
+#include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
 
@@ -33,18 +33,17 @@ class ShakenTable {
   /// @param shift         A, the amplitude and its direction [m]
   /// @param drive_period  [s]
   ShakenTable(const Vec3<Real>& shift, const Real& drive_period)
-      : amplitude(shift),
+      : amplitude_(shift),
         period_(drive_period),
         angular_speed_(2 * numerics::pi<Real>() / drive_period),
         frequency_(1 / drive_period),
         size_(norm<Real>(shift) * (1 + 8 * epsilon<Real>())) {}
   template <class To>
   ShakenTable<To> cast() const {
-    return {vector_cast<To>(amplitude), static_cast<To>(period_)};
+    return {vector_cast<To>(amplitude_), static_cast<To>(period_)};
   }
 
-  Vec3<Real> amplitude{Real(0), Real(0), Real(0)};  ///< A [m]
-
+  const Vec3<Real>& amplitude() const { return amplitude_; }    ///< A [m]
   const Real& period() const { return period_; }                ///< [s]
   const Real& angular_speed() const { return angular_speed_; }  ///< w = 2 pi / period [rad/s]
 
@@ -67,9 +66,9 @@ class ShakenTable {
   static Vec3<Real> axis_y(const Pose&) { return {Real(0), Real(1), Real(0)}; }
   static Vec3<Real> axis_z(const Pose&) { return {Real(0), Real(0), Real(1)}; }
   static Vec3<Real> direction_to_inertial(const Pose&, const Vec3<Real>& n) { return n; }
-  Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) const { return p + amplitude * pose.sine; }
+  Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) const { return p + amplitude_ * pose.sine; }
   Vec3<Real> position_in_vessel(const Pose& pose, const Vec3<Real>& position) const {
-    return position - amplitude * pose.sine;
+    return position - amplitude_ * pose.sine;
   }
   VesselFrameState<Real> to_vessel_frame(const Pose& pose, const Vec3<Real>& position,
                                          const Vec3<Real>& velocity) const {
@@ -81,10 +80,10 @@ class ShakenTable {
   }
   static Vec3<Real> angular_velocity(const Pose&) { return {Real(0), Real(0), Real(0)}; }
   Vec3<Real> wall_velocity(const Pose& pose, const Vec3<Real>&) const {
-    return amplitude * Real(angular_speed_ * pose.cosine);
+    return amplitude_ * Real(angular_speed_ * pose.cosine);
   }
   Vec3<Real> wall_acceleration(const Pose& pose, const Vec3<Real>&) const {
-    return amplitude * Real(-(angular_speed_ * angular_speed_) * pose.sine);
+    return amplitude_ * Real(-(angular_speed_ * angular_speed_) * pose.sine);
   }
 
   static Vec3<Real> middle() { return {Real(0), Real(0), Real(0)}; }
@@ -95,14 +94,14 @@ class ShakenTable {
   Real longest_window() const { return period_ / 8; }
 
   SweptBox<Real> swept(const Vec3<Real>& sizes, const Real&) const {
-    const Vec3<Real> far = sizes + amplitude.cwiseAbs();
+    const Vec3<Real> far = sizes + amplitude_.cwiseAbs();
     return {-far, far};
   }
   CoordinateBounds<Real> coordinate_bounds(const Vec3<Real>& sizes, const Real&, const Real& gravity,
                                            const Real& speed, const Real& length) const {
     using std::abs;
     const auto along = [&](int axis) {
-      const Real size = abs(amplitude[axis]);
+      const Real size = abs(amplitude_[axis]);
       const Real wall = size * angular_speed_, bend = wall * angular_speed_;
       return numerics::Majorant<Real>{sizes[axis] + (speed + wall) * length, speed + wall, gravity + bend,
                                       bend * angular_speed_, bend * angular_speed_ * angular_speed_};
@@ -130,6 +129,7 @@ class ShakenTable {
   }
 
  private:
+  Vec3<Real> amplitude_{Real(0), Real(0), Real(0)};
   Real period_{0}, angular_speed_{0}, frequency_{0};
   Real size_{0};  ///< of the amplitude, rounded up [m]
 };

@@ -9,8 +9,8 @@
 #include "base/scalar.hpp"
 #include "base/small_turn.hpp"
 #include "base/trigonometry.hpp"
-#include "model/parameter.hpp"
-#include "model/vessel_frame.hpp"
+#include "model/parts/parameter.hpp"
+#include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "model/parameter.hpp"
-#include "model/partners.hpp"
-#include "model/surface.hpp"
-#include "model/vessel_frame.hpp"
+#include "model/parts/parameter.hpp"
+#include "model/parts/partners.hpp"
+#include "model/parts/surface.hpp"
+#include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/trigonometry.hpp"
-#include "model/parameter.hpp"
-#include "model/partners.hpp"
-#include "model/surface.hpp"
-#include "model/vessel_frame.hpp"
+#include "model/parts/parameter.hpp"
+#include "model/parts/partners.hpp"
+#include "model/parts/surface.hpp"
+#include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
 
