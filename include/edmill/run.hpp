@@ -7,6 +7,7 @@
 #include "edmill/contact_law.hpp"
 #include "edmill/observer.hpp"
 #include "edmill/summary.hpp"
+#include "edmill/vessel.hpp"
 
 namespace edmill {
 
@@ -23,7 +24,8 @@ class Run {
   /// Places the balls and predicts their first contacts.
   /// @throws InputError when the balls find no place or the scalar cannot resolve the case
   /// @throws UndecidedError when no scalar can decide about a first contact
-  explicit Run(const Case& the_case, const Laws<Real>& laws = {});
+  /// @throws InputError when the planes close no vessel about the origin
+  explicit Run(const Case& the_case, const Laws<Real>& laws = {}, const Planes<Real>& vessel = {});
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;

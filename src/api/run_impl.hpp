@@ -40,12 +40,19 @@ Impact<Real> to_public(const engine::Impact<Real>& i, const Real& time) {
           o.wall_work};
 }
 
+/// The case with the parts that the user gives.
 template <class Real>
-casefile::InitialCase<Real> with_laws(casefile::InitialCase<Real> built, const Laws<Real>& laws) {
-  auto& mill = built.the_case.mill;
+casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const Laws<Real>& laws,
+                                  const Planes<Real>& vessel) {
+  auto mill = casefile::build_mill<Real>(spec);
   if (laws.ball_ball) mill.ball_ball.law = model::LawOfProgram<Real>{laws.ball_ball};
   if (laws.ball_wall) mill.ball_wall.law = model::LawOfProgram<Real>{laws.ball_wall};
-  return built;
+  if (!vessel.empty()) {
+    std::vector<typename model::PolyhedronVessel<Real>::Plane> planes;
+    for (const auto& [n, distance] : vessel) planes.push_back({{n[0], n[1], n[2]}, distance});
+    mill.vessel = model::PolyhedronVessel<Real>(planes);
+  }
+  return casefile::build_case_in<Real>(mill, spec);
 }
 
 }  // namespace detail
@@ -53,10 +60,10 @@ casefile::InitialCase<Real> with_laws(casefile::InitialCase<Real> built, const L
 template <class Real>
 class Run<Real>::Implementation : public engine::Observer<Real> {
  public:
-  Implementation(const Case& the_case, const Laws<Real>& laws, Run& run)
+  Implementation(const Case& the_case, const Laws<Real>& laws, const Planes<Real>& vessel, Run& run)
       : run_(run),
         case_(the_case),
-        built_(detail::with_laws(casefile::build_case<Real>(*the_case.spec_), laws)),
+        built_(detail::build(*the_case.spec_, laws, vessel)),
         guests_{{this}, nullptr},
         driver_(built_, guests_) {}
 
@@ -106,8 +113,8 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
 };
 
 template <class Real>
-Run<Real>::Run(const Case& the_case, const Laws<Real>& laws)
-    : implementation_(std::make_unique<Implementation>(the_case, laws, *this)) {}
+Run<Real>::Run(const Case& the_case, const Laws<Real>& laws, const Planes<Real>& vessel)
+    : implementation_(std::make_unique<Implementation>(the_case, laws, vessel, *this)) {}
 template <class Real>
 Run<Real>::~Run() = default;
 

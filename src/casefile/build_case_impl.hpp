@@ -282,9 +282,15 @@ model::Mill<Real> build_mill(const casefile::CaseSpec& spec) {
 
 template <class Real>
 InitialCase<Real> build_case(const casefile::CaseSpec& spec, bool resolved) {
+  return build_case_in(build_mill<Real>(spec), spec, resolved);
+}
+
+template <class Real>
+InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const casefile::CaseSpec& spec,
+                                bool resolved) {
   InitialCase<Real> result;
   auto& c = result.the_case;
-  c.mill = build_mill<Real>(spec);
+  c.mill = mill;
   const auto instant = [&](const casefile::Quantity& time) {
     return casefile::instant_at<Real>(time, casefile::period_of(spec.mill));
   };

@@ -181,7 +181,11 @@ class GapFunctions {
 
  private:
   model::FlightBounds<Real> bounds(const Real& elapsed, const Real& speed) const {
-    return {mill_.reach, mill_.gravity_size, speed, elapsed, lag_ < 0 ? Real(-lag_) : lag_};
+    model::FlightBounds<Real> flight{mill_.reach, mill_.gravity_size, speed, elapsed,
+                                     lag_ < 0 ? Real(-lag_) : lag_};
+    flight.vessel_speed = mill_.motion.speed_in_vessel(flight);
+    flight.vessel_acceleration = mill_.motion.acceleration_in_vessel(flight);
+    return flight;
   }
 
   /// Bounds for walls from those on a coordinate in the vessel frame. A sample lies inside the vessel or as
@@ -195,11 +199,11 @@ class GapFunctions {
       if (!walls[wall]) continue;
       auto bounds = coordinate;
       if (!mill_.vessel.is_flat(wall)) {
-        const Real speed = mill_.motion.speed_in_vessel(flight);
+        const Real& speed = flight.vessel_speed;
         const Real eighth = mill_.clock.period() / 8;
-        bounds = mill_.vessel.curved_errors(
-            wall, coordinate, u, speed, mill_.motion.acceleration_in_vessel(flight),
-            Real(speed * (flight.elapsed < eighth ? flight.elapsed : eighth)));
+        bounds =
+            mill_.vessel.curved_errors(wall, coordinate, u, speed, flight.vessel_acceleration,
+                                       Real(speed * (flight.elapsed < eighth ? flight.elapsed : eighth)));
       }
       errors.gap[wall] = bounds.value, errors.rate[wall] = bounds.rate,
       errors.curvature[wall] = bounds.second;

@@ -25,21 +25,28 @@ Impact<Real> Simulation<Real>::collide(const Event<Real>& event) {
   return impact;
 }
 
+/// Sets the pose to that of now.
 template <class Real>
-model::AnyPose<Real> Simulation<Real>::pose_now() const {
-  return model::with_parts<Real>(mill_.motion, mill_.vessel, [&](const auto& motion, const auto&) {
-    return model::AnyPose<Real>(motion.pose(now_));
+void Simulation<Real>::update_pose() {
+  model::with_parts<Real>(mill_.motion, mill_.vessel, [&]<class M>(const M& motion, const auto&) {
+    if constexpr (std::is_same_v<M, model::AnyMotion<Real>>)
+      pose_ = motion.pose(now_);
+    else
+      pose_.template emplace<typename M::Pose>(motion.pose(now_));
   });
 }
 
-/// The pose now, when the ball's predicted wall contact is due.
+/// The same when the ball's predicted wall contact is due, whose pose a wide scalar has kept.
 template <class Real>
-model::AnyPose<Real> Simulation<Real>::pose_at_wall_contact(int ball) const {
+void Simulation<Real>::update_pose_at_wall_contact(int ball) {
   if constexpr (!std::is_same_v<Real, double>) {
     const Agenda<Real>& a = agendas_[ball];
-    if (a.wall_pose && a.times[Agenda<Real>::wall_entry] == now_) return *a.wall_pose;
+    if (a.wall_pose && a.times[Agenda<Real>::wall_entry] == now_) {
+      pose_ = *a.wall_pose;
+      return;
+    }
   }
-  return pose_now();
+  update_pose();
 }
 
 template <class Real>
@@ -48,7 +55,7 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   find_neighbours(ball, near_);
   auto& flight = flights_[ball];
   const Real flight_time = dynamics::fly_to(flight, mill_.gravity, clock_, now_);
-  pose_ = pose_at_wall_contact(ball);
+  update_pose_at_wall_contact(ball);
   const Real radius = properties(ball).radius;
 
   Impact<Real> impact{};

@@ -10,7 +10,7 @@ template <class Real>
 void Simulation<Real>::predict(const Impact<Real>& impact) {
   if (impact.with_wall) return predict_all(impact.ball, -1, pose_, near_);
   // Wide scalars begin their wall searches in double.
-  if constexpr (std::is_same_v<Real, double>) pose_ = pose_now();
+  if constexpr (std::is_same_v<Real, double>) update_pose();
   predict_all(impact.ball, -1, pose_, near_);
   prefetcher_.more();
   predict_all(impact.partner, impact.ball, pose_, near_partner_);

@@ -119,8 +119,8 @@ class Simulation {
   Impact<Real> collide(const Event<Real>& event);
   Impact<Real> collide_with_wall(const Event<Real>& event);
   Impact<Real> collide_pair(const Event<Real>& event);
-  model::AnyPose<Real> pose_now() const;
-  model::AnyPose<Real> pose_at_wall_contact(int ball) const;
+  void update_pose();
+  void update_pose_at_wall_contact(int ball);
   void raise_top_speed(int ball);
   void notify(const Impact<Real>& impact);
   void note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall, int partner);

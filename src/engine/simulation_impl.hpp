@@ -38,7 +38,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
   }
   for (int i = 0; i < ball_count(); ++i) bodies_[i].cell = candidates_.insert(i);
   prefetch(ball_count() > Prefetcher<Real>::worthwhile);
-  pose_ = pose_now();
+  update_pose();
   for (int i = 0; i < ball_count(); ++i) {
     if (interrupt && interrupt->load(std::memory_order_relaxed)) throw InterruptedError();
     find_neighbours(i, near_);

@@ -16,24 +16,26 @@
 #include "run/simulate.hpp"
 
 /// `prefix` is `extern template` to declare and `template` to define.
-#define EDMILL_INSTANCES(prefix, Real)                                                              \
-  namespace edmill {                                                                                \
-  prefix std::string to_text<Real>(const Real&);                                                    \
-  prefix Real from_text<Real>(const std::string&);                                                  \
-  prefix class dynamics::DecisionLadder<Real>;                                                      \
-  prefix class engine::Simulation<Real>;                                                            \
-  prefix Real casefile::Quantity::to<Real>() const;                                                 \
-  prefix model::Mill<Real> casefile::build_mill<Real>(const casefile::CaseSpec&);                   \
-  prefix casefile::InitialCase<Real> casefile::build_case<Real>(const casefile::CaseSpec&, bool);   \
-  prefix void io::write_final_state<Real>(std::ostream&, const io::SavedState<Real>&,               \
-                                          const DriveClock<Real>&);                                 \
-  prefix io::SavedState<Real> io::read_final_state<Real>(const std::string&);                       \
-  prefix std::string io::summary_json<Real>(const io::Summary<Real>&);                              \
-  prefix run::Result<Real> run::simulate<Real>(const casefile::CaseSpec&,                           \
-                                               const casefile::InitialCase<Real>&,                  \
-                                               const run::Guests<Real>&);                           \
-  prefix std::unique_ptr<run::EventSource> run::make_source<Real>(const casefile::CaseSpec&, bool); \
-  prefix class Run<Real>;                                                                           \
+#define EDMILL_INSTANCES(prefix, Real)                                                               \
+  namespace edmill {                                                                                 \
+  prefix std::string to_text<Real>(const Real&);                                                     \
+  prefix Real from_text<Real>(const std::string&);                                                   \
+  prefix class dynamics::DecisionLadder<Real>;                                                       \
+  prefix class engine::Simulation<Real>;                                                             \
+  prefix Real casefile::Quantity::to<Real>() const;                                                  \
+  prefix model::Mill<Real> casefile::build_mill<Real>(const casefile::CaseSpec&);                    \
+  prefix casefile::InitialCase<Real> casefile::build_case<Real>(const casefile::CaseSpec&, bool);    \
+  prefix casefile::InitialCase<Real> casefile::build_case_in<Real>(const model::Mill<Real>&,         \
+                                                                   const casefile::CaseSpec&, bool); \
+  prefix void io::write_final_state<Real>(std::ostream&, const io::SavedState<Real>&,                \
+                                          const DriveClock<Real>&);                                  \
+  prefix io::SavedState<Real> io::read_final_state<Real>(const std::string&);                        \
+  prefix std::string io::summary_json<Real>(const io::Summary<Real>&);                               \
+  prefix run::Result<Real> run::simulate<Real>(const casefile::CaseSpec&,                            \
+                                               const casefile::InitialCase<Real>&,                   \
+                                               const run::Guests<Real>&);                            \
+  prefix std::unique_ptr<run::EventSource> run::make_source<Real>(const casefile::CaseSpec&, bool);  \
+  prefix class Run<Real>;                                                                            \
   }
 
 #define EDMILL_GENERAL_SEARCH(prefix, Real)                                          \

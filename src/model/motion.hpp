@@ -24,8 +24,8 @@ namespace edmill::model {
 /// - `swept(sizes, r)`: the box that the vessel sweeps
 /// - `coordinate_bounds`: majorants of a ball's coordinates in the vessel frame, what makes an exclusion a
 ///   proof, for windows up to `longest_window()` [s]
-/// - `speed_in_vessel`, `acceleration_in_vessel`, `coordinate_errors`, `state_errors`: bounds on the rounding
-///   of those coordinates
+/// - `speed_in_vessel`, `acceleration_in_vessel`: bounds on a ball in the vessel frame, which the bounds of a
+///   flight then have for `coordinate_errors` and `state_errors`, on the rounding of its coordinates
 template <class M>
 concept Motion = requires(const M& motion, const typename M::Pose& pose,
                           const Instant<typename M::Scalar>& when, const Vec3<typename M::Scalar>& v,

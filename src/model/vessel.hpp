@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "model/vessels/box.hpp"
 #include "model/vessels/cylinder.hpp"
+#include "model/vessels/polyhedron.hpp"
 
 namespace edmill::model {
 
@@ -68,12 +69,13 @@ concept Vessel = requires(const V& vessel, int wall, const Vec3<typename V::Scal
 
 /// The vessels that a case file can name, the default first. A new one is a file in model/vessels/ and a line
 /// here and in VesselVariant: it is read, described and passed to every scalar by its list of parameters.
+/// A polyhedron is for programs (edmill/vessel.hpp).
 template <class Number>
 using NamedVessels = std::variant<Cylinder<Number>,  //
                                   Box<Number>>;
 
 template <class Real>
-using VesselVariant = std::variant<CylinderVessel<Real>, BoxVessel<Real>>;
+using VesselVariant = std::variant<CylinderVessel<Real>, BoxVessel<Real>, PolyhedronVessel<Real>>;
 
 /// Any vessel, chosen when the case is read.
 template <class Real>
@@ -192,6 +194,7 @@ class AnyVessel {
   VesselVariant<Real> vessel_;
 };
 
-static_assert(Vessel<CylinderVessel<double>> && Vessel<BoxVessel<double>> && Vessel<AnyVessel<double>>);
+static_assert(Vessel<CylinderVessel<double>> && Vessel<BoxVessel<double>> &&
+              Vessel<PolyhedronVessel<double>> && Vessel<AnyVessel<double>>);
 
 }  // namespace edmill::model

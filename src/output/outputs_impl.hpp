@@ -58,12 +58,13 @@ model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
 template <class Real>
 Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
+  const auto vessel = casefile::build_mill<Real>(spec).vessel;
   RunContext<Real> run{start,
-                       casefile::partners_of(spec),
+                       model::partners_of(vessel),
                        std::nullopt,
                        spec.vessel_colour,
                        spec.ball_colours(),
-                       casefile::build_mill<Real>(spec).vessel.surfaces(),
+                       vessel.surfaces(),
                        detail::notes_of<Real>(spec)};
   walls_ = run.partners.walls();
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();

@@ -11,7 +11,7 @@ namespace {
 
 class AnyMill : public ::testing::TestWithParam<testing::MillText> {
  protected:
-  model::Mill<double> mill = testing::mill_of<double>(GetParam());
+  model::Mill<double> mill = testing::mill_of(GetParam());
 
   template <class Real>
   void expect_agreement(std::uint64_t seed, long count) const {
@@ -196,7 +196,7 @@ TEST_P(AnyMill, VelocitiesAndAccelerationsAreDerivatives) {
 
 /// The two instances of the search in double.
 TEST(AnyMill, TheSearchOfTheSpexAndTheGeneralOneGiveTheSameBits) {
-  const auto mill = testing::mill_of<double>(testing::all_mills[0]);
+  const auto mill = testing::mill_of(testing::all_mills[0]);
   const AnyWallSearch<double>::Spex fused(testing::spex(mill), testing::cylinder(mill), mill.gravity);
   const auto general = testing::general_search(mill);
   const StateMaker make(mill, fused.longest_window());

@@ -10,8 +10,9 @@ namespace edmill::testing {
 
 struct MillText {
   const char *name, *mill, *vessel, *gravity;
+  bool hexagonal = false;  ///< a jar with six sides about the y axis in place of the vessel
 };
-inline constexpr std::array<MillText, 5> all_mills = {{
+inline constexpr std::array<MillText, 7> all_mills = {{
     {"spex_cylinder", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = \"9.8 m/s2\""},
     {"spex_box", "type = \"spex8000\"", "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
@@ -22,7 +23,23 @@ inline constexpr std::array<MillText, 5> all_mills = {{
      "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]", "gravity = \"9.8 m/s2\""},
     {"still_box", "type = \"still\"", "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
      "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]"},
+    {"spex_hexagon", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
+     "gravity = \"9.8 m/s2\"", true},
+    {"table_hexagon", "type = \"table\"\namplitude = [\"3 mm\", \"11 mm\", \"-2 mm\"]\nspeed = \"900 rpm\"",
+     "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"", "gravity = \"9.8 m/s2\"", true},
 }};
+
+/// Six sides 19 mm from the y axis, with an end slanted by a tenth.
+inline model::PolyhedronVessel<double> hexagonal_jar() {
+  std::vector<model::PolyhedronVessel<double>::Plane> planes;
+  for (int side = 0; side < 6; ++side) {
+    const auto at = numerics::sin_cos_turns<double>(side / 6.0);
+    planes.push_back({{at.cos, 0, at.sin}, 0.019});
+  }
+  planes.push_back({{0, -1, 0}, 0.0285});
+  planes.push_back({{0.1, 1, 0}, 0.0285});
+  return model::PolyhedronVessel<double>(planes);
+}
 
 inline casefile::CaseSpec spec_of(
     const MillText& text, const std::string& run,
@@ -34,9 +51,13 @@ inline casefile::CaseSpec spec_of(
                               std::string(text.name) + ".toml");
 }
 
-template <class Real>
-model::Mill<Real> mill_of(const MillText& text) {
-  return casefile::build_mill<Real>(spec_of(text, "end_time = \"1 s\""));
+inline model::Mill<double> mill_of(const MillText& text, const casefile::CaseSpec& spec) {
+  auto mill = casefile::build_mill<double>(spec);
+  if (text.hexagonal) mill.vessel = hexagonal_jar();
+  return mill;
+}
+inline model::Mill<double> mill_of(const MillText& text) {
+  return mill_of(text, spec_of(text, "end_time = \"1 s\""));
 }
 
 }  // namespace edmill::testing

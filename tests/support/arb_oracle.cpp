@@ -232,7 +232,9 @@ std::vector<OracleContact> first_contacts(const OracleQuestion& question) {
   const Ball begin(question.begin_offset), overtime(question.overtime);
   Ball length(question.length);
   arb_add(length.v, length.v, overtime.v, exact);
-  std::vector<OracleContact> contacts(question.box ? 6 : 3);
+  std::vector<OracleContact> contacts(question.box              ? 6
+                                      : question.planes.empty() ? 3
+                                                                : question.planes.size());
   for (int wall = 0; wall < static_cast<int>(contacts.size()); ++wall) {
     auto& contact = contacts[static_cast<std::size_t>(wall)];
     for (const slong prec : {128, 256, 512, 1024}) {

@@ -15,7 +15,8 @@ struct OracleQuestion {
   double vessel_radius, half_height;         ///< of a cylinder
   std::optional<std::array<double, 3>>
       shaken;  ///< by this amplitude along a line, in place of the nested motion
-  std::optional<std::array<double, 3>> box;  ///< half of its edges, in place of a cylinder
+  std::optional<std::array<double, 3>> box;   ///< half of its edges, in place of a cylinder
+  std::vector<std::array<double, 4>> planes;  ///< outward normals and distances, in place of a cylinder
   std::array<double, 3> gravity;
   std::array<double, 3> position, velocity;  ///< at the start of the flight, inertial
   std::int64_t start_period;

@@ -108,6 +108,7 @@ class Problem {
   /// they enclose those about every time in it.
   Series gap(int wall, const Ball& t, const Ball& h, slong count, slong prec) const {
     const slong n = count;
+    if (!q_.planes.empty()) return gap_to_plane(q_.planes[static_cast<std::size_t>(wall)], t, h, n, prec);
     if (q_.box || wall < 2) {
       const int axis = q_.box ? wall / 2 : 1;
       Series result = coordinate(axis, t, h, n, prec);
@@ -137,6 +138,20 @@ class Problem {
   }
 
  private:
+  /// d - R - n.p
+  Series gap_to_plane(const std::array<double, 4>& plane, const Ball& t, const Ball& h, slong n,
+                      slong prec) const {
+    Series result(n);
+    const Ball distance(plane[3]), radius(q_.radius);
+    arb_sub(result[0], distance.v, radius.v, exact);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Ball normal(plane[static_cast<std::size_t>(axis)]);
+      const Series x = coordinate(axis, t, h, n, prec);
+      for (slong k = 0; k < n; ++k) arb_submul(result[k], x[k], normal.v, prec);
+    }
+    return result;
+  }
+
   /// A coordinate of the ball in the vessel frame.
   Series coordinate(int axis, const Ball& t, const Ball& h, slong n, slong prec) const {
     return q_.shaken ? on_table(axis, t, h, n, prec) : in_nested(axis, t, h, n, prec);

@@ -21,7 +21,8 @@ const model::CylinderVessel<Real>& cylinder(const model::Mill<Real>& mill) {
 /// Of the gap function of a wall near contact.
 template <class Real>
 Real gap_per_metre(const model::Mill<Real>& mill, int wall, const Real& ball_radius) {
-  return mill.vessel.is_flat(wall) ? Real(1) : 2 * (cylinder(mill).radius - ball_radius);
+  const auto* tube = mill.vessel.template get_if<model::CylinderVessel<Real>>();
+  return tube && wall == 2 ? Real(2 * (tube->radius - ball_radius)) : Real(1);
 }
 
 /// Every digit of the motion and of the vessel.
@@ -36,6 +37,8 @@ inline std::string text_of(const model::Mill<double>& mill) {
   out << " period " << mill.motion.period();
   if (const auto* box = mill.vessel.get_if<model::BoxVessel<double>>())
     out << ", box " << box->half.transpose();
+  else if (const auto* polyhedron = mill.vessel.get_if<model::PolyhedronVessel<double>>())
+    for (const auto& [n, d] : polyhedron->planes()) out << ", plane " << n.transpose() << " at " << d;
   else
     out << " R_v " << cylinder(mill).radius << " h/2 " << cylinder(mill).half_height;
   return out.str();

@@ -22,6 +22,8 @@ inline OracleQuestion question_of(const model::Mill<double>& mill, const dynamic
   }
   if (const auto* box = mill.vessel.get_if<model::BoxVessel<double>>())
     question.box = array(box->half);
+  else if (const auto* polyhedron = mill.vessel.get_if<model::PolyhedronVessel<double>>())
+    for (const auto& [n, d] : polyhedron->planes()) question.planes.push_back({n[0], n[1], n[2], d});
   else
     question.vessel_radius = cylinder(mill).radius, question.half_height = cylinder(mill).half_height;
   question.gravity = array(mill.gravity);

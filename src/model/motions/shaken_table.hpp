@@ -118,14 +118,14 @@ class ShakenTable {
     const Real wall = size_ * angular_speed_, fallen = f.gravity * f.elapsed;
     const Real position = 6 * f.reach + 4 * (fallen * f.elapsed) + f.speed * (f.elapsed + 3 * f.lag);
     return {u * (4 * f.reach + 16 * size_ + 2 * position), u * (8 * f.speed + 20 * wall + 4 * fallen),
-            u * 32 * acceleration_in_vessel(f)};
+            u * 32 * f.vessel_acceleration};
   }
   ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& f) const {
     const Real time = period_ + f.lag, wall = size_ * angular_speed_;
     return {u * (3 * f.reach + 12 * size_ + f.speed * (f.elapsed + time) +
                  2 * (f.gravity * f.elapsed * f.elapsed)),
             u * (2 * f.speed + 12 * wall + f.gravity * (2 * f.elapsed + time)),
-            u * 32 * acceleration_in_vessel(f)};
+            u * 32 * f.vessel_acceleration};
   }
 
  private:

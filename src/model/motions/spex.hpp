@@ -208,7 +208,7 @@ ErrorBounds<Real> SpexMotion<Real>::coordinate_errors(const Real& u, const Fligh
   const Real y = u * (angle * f.reach + 2 * position);
   const Real y_rate = u * ((angle + 4) * f.speed + 28 * turning() * f.reach + 2 * turning() * position +
                            4 * f.gravity * f.elapsed);
-  const Real y_second = u * (32 + 16 * angles()) * acceleration_in_vessel(f) + 4 * turning() * y_rate +
+  const Real y_second = u * (32 + 16 * angles()) * f.vessel_acceleration + 4 * turning() * y_rate +
                         2 * turning() * (angular_speed_ + turning()) * y;
   return {y, y_rate, y_second};
 }
@@ -222,7 +222,7 @@ ErrorBounds<Real> SpexMotion<Real>::state_errors(const Real& u, const FlightBoun
   const Real y_rate =
       u * ((angle + 2) * f.speed + (angle + 10) * turning() * f.reach + f.gravity * (2 * f.elapsed + time)) +
       turning() * y;
-  const Real y_second = u * (32 + 9 * angles()) * acceleration_in_vessel(f) + 4 * turning() * y_rate +
+  const Real y_second = u * (32 + 9 * angles()) * f.vessel_acceleration + 4 * turning() * y_rate +
                         2 * turning() * (angular_speed_ + turning()) * y;
   return {y, y_rate, y_second};
 }

@@ -164,11 +164,36 @@ struct Rectangle {
   }
 };
 
+/// A flat polygon: u and v along the edges of a rectangle around it.
+template <class Real>
+struct Polygon : Rectangle<Real> {
+  static constexpr const char* name = "polygons";
+  std::vector<Vec3<Real>> corners;  ///< in turn [m]
+
+  Rings<Real> rings() const { return {corners}; }
+};
+template <class Real>
+Polygon<Real> polygon_of(const std::vector<Vec3<Real>>& corners) {
+  const Vec3<Real> edge = corners[1] - corners[0];
+  const Vec3<Real> x = edge / norm<Real>(edge);
+  const Vec3<Real> side = corners[2] - corners[0];
+  const Vec3<Real> across = side - x * dot<Real>(side, x), y = across / norm<Real>(across);
+  std::array<Real, 2> low{Real(0), Real(0)}, high = low;
+  for (const auto& p : corners) {
+    const Vec3<Real> d = p - corners[0];
+    const std::array<Real, 2> at{dot<Real>(d, x), dot<Real>(d, y)};
+    for (std::size_t k = 0; k < 2; ++k)
+      low[k] = at[k] < low[k] ? at[k] : low[k], high[k] = at[k] > high[k] ? at[k] : high[k];
+  }
+  const Vec3<Real> centre = corners[0] + x * Real((low[0] + high[0]) / 2) + y * Real((low[1] + high[1]) / 2);
+  return {{centre, {x * Real((high[0] - low[0]) / 2), y * Real((high[1] - low[1]) / 2)}}, corners};
+}
+
 /// The surface of one wall, of one of these kinds.
 template <class Real>
 class WallSurface {
  public:
-  using Kind = std::variant<Disc<Real>, Tube<Real>, Rectangle<Real>>;
+  using Kind = std::variant<Disc<Real>, Tube<Real>, Rectangle<Real>, Polygon<Real>>;
 
   template <class Surface>
   WallSurface(const Surface& surface) : kind_(surface) {}

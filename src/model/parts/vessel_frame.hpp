@@ -28,11 +28,12 @@ struct ErrorBounds {
 /// What bounds the rounding of a flight's coordinates.
 template <class Real>
 struct FlightBounds {
-  Real reach;    ///< of the flight from the origin at most [m]
-  Real gravity;  ///< [m/s^2]
-  Real speed;    ///< inertial, at most [m/s]
-  Real elapsed;  ///< since the start of the flight at most [s]
-  Real lag;      ///< from the flight's drive period to the window's [s]
+  Real reach;                                    ///< of the flight from the origin at most [m]
+  Real gravity;                                  ///< [m/s^2]
+  Real speed;                                    ///< inertial, at most [m/s]
+  Real elapsed;                                  ///< since the start of the flight at most [s]
+  Real lag;                                      ///< from the flight's drive period to the window's [s]
+  Real vessel_speed{0}, vessel_acceleration{0};  ///< of the ball in the vessel frame at most [m/s], [m/s^2]
 };
 
 /// The box that a vessel sweeps, in inertial coordinates [m].
