@@ -1,6 +1,7 @@
 // The scalars of the core, in one place. Heavy: include it only where wide scalars are named.
 #pragma once
 
+#include <array>
 #include <boost/multiprecision/eigen.hpp>
 
 #include "base/archive.hpp"
@@ -13,17 +14,16 @@ template <>
 struct ScalarName<float128> {
   static constexpr std::string_view value = "float128";
 };
-template <>
-struct ScalarName<mpfr50> {
-  static constexpr std::string_view value = "mpfr50";
-};
-template <>
-struct ScalarName<mpfr100> {
-  static constexpr std::string_view value = "mpfr100";
-};
-template <>
-struct ScalarName<mpfr200> {
-  static constexpr std::string_view value = "mpfr200";
+/// "mpfr50"
+template <unsigned digits>
+struct ScalarName<mpfr_of<digits>> {
+  static constexpr std::array<char, 7> text = [] {
+    std::array<char, 7> name{'m', 'p', 'f', 'r'};
+    unsigned place = digits < 100 ? 5 : 6;
+    for (unsigned rest = digits; rest > 0; rest /= 10) name[place--] = static_cast<char>('0' + rest % 10);
+    return name;
+  }();
+  static constexpr std::string_view value{text.data(), digits < 100 ? 6 : 7};
 };
 
 inline void archive_value(Archive& a, float128& value) {
@@ -48,8 +48,8 @@ struct WiderScalar<float128> {
 
 }  // namespace edmill
 
-/// Applies `MACRO(Real)` to every scalar. Adding one takes a line here, its traits above, an instantiation
-/// file in src/instances and the line in the case file's table of precisions.
+/// Applies `MACRO(Real)` to every scalar. Another number of MPFR's digits takes a line here, one in
+/// edmill/scalars.hpp, and a file each in src/instances and src/instances/tools.
 #define EDMILL_FOR_EACH_SCALAR(MACRO) \
   MACRO(double)                       \
   MACRO(::edmill::float128)           \

@@ -11,8 +11,14 @@ struct SinCos {
   Real cos;
 };
 
+/// What a scalar's library has: `pi()` and `sin_cos(angle)`. base/wide_trigonometry.hpp
 template <class Real>
-Real pi();
+struct Trigonometry;
+
+template <class Real>
+Real pi() {
+  return Trigonometry<Real>::pi();
+}
 
 template <>
 inline double pi<double>() {
@@ -22,9 +28,7 @@ inline double pi<double>() {
 /// sin and cos of an angle [rad]. Error at most 2 ulp of 1.
 template <class Real>
 SinCos<Real> sin_cos(const Real& angle) {
-  using std::cos;
-  using std::sin;
-  return {sin(angle), cos(angle)};
+  return Trigonometry<Real>::sin_cos(angle);
 }
 
 namespace detail {

@@ -162,11 +162,6 @@ void apply_override(toml::table& root, Document& document, const std::string& te
 
 }  // namespace
 
-const std::vector<std::string>& precisions() {
-  static const std::vector<std::string> names{"double", "float128", "mpfr50", "mpfr100", "mpfr200"};
-  return names;
-}
-
 std::vector<Colour> CaseSpec::ball_colours() const {
   std::vector<Colour> colours;
   for (const auto& ball : balls) colours.push_back(ball.colour);

@@ -56,11 +56,8 @@ class AnyWallSearch {
   }
   /// From here on a policy of the caller's own decides, which nothing certifies.
   void replace(Policy policy) {
-    with([&](const auto& search) {
-      const auto& mill = search.mill();
-      General general(mill.motion, mill.vessel, mill.gravity);
-      general_.emplace(std::move(general));
-    });
+    if constexpr (std::is_same_v<Real, double>)
+      if (spex_) general_.emplace(spex_->mill().motion, spex_->mill().vessel, spex_->mill().gravity);
     spex_.reset();
     policy_ = std::move(policy);
   }

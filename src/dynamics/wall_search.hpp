@@ -86,11 +86,7 @@ class WallSearch {
   using Errors = GapErrors<V>;
   using Walls = WallSet<V>;
 
-  WallSearch(const M& motion, const V& vessel, const Vec3<Real>& gravity)
-      : mill_(motion, vessel, gravity),
-        bounds_(mill_),
-        rough_(motion.template cast<double>(), vessel.template cast<double>(), vector_cast<double>(gravity)) {
-  }
+  WallSearch(const M& motion, const V& vessel, const Vec3<Real>& gravity);
 
   const Real& longest_window() const { return bounds_.longest_window(); }
 

@@ -11,6 +11,12 @@
 namespace edmill::dynamics {
 
 template <model::Motion M, model::Vessel V>
+WallSearch<M, V>::WallSearch(const M& motion, const V& vessel, const Vec3<Real>& gravity)
+    : mill_(motion, vessel, gravity),
+      bounds_(mill_),
+      rough_(motion.template cast<double>(), vessel.template cast<double>(), vector_cast<double>(gravity)) {}
+
+template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
                                     const Real& length) const -> Walls {
   // A millionth covers the rounding of all this.

@@ -35,7 +35,8 @@ dose=$(python3 -c "import json; print('%.6g' % json.load(open('$folder/run/summa
 expect "^milling dose ${dose//./\\.} J in 2 s$" "$folder/build/own_observer" $demo
 expect "^viscoelastic: [0-9.]+ W$" "$folder/build/own_contact_law" $demo
 expect "^stopped at [0-9.]+ s$" "$folder/build/own_stop_rule" $demo
-for example in own_observer own_contact_law own_stop_rule; do
+expect "^hexagonal jar: [0-9.]+ W, 9 kinds of partners$" "$folder/build/own_vessel" $demo
+for example in own_observer own_contact_law own_stop_rule own_vessel; do
   code=0
   "$folder/build/$example" no_such_case.toml 2>/dev/null || code=$?
   [ $code = 2 ] || {

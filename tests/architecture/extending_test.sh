@@ -15,9 +15,10 @@ grep -q '^+' "$folder/change.diff" || {
 }
 (cd "$folder" && patch -p1 --forward --fuzz=0 <change.diff)
 
-# The core in double is enough: collision_bits prints the log of a run.
+# The core and the outputs in double are enough: collision_bits prints the log of a run.
 cmake -S "$folder" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS=-O0 \
-  -DEDMILL_BENCHMARKS=OFF >"$folder/log" 2>&1 && cmake --build "$folder/build" --target collision_bits >>"$folder/log" 2>&1 || {
+  -DEDMILL_BENCHMARKS=OFF >"$folder/log" 2>&1 && cmake --build "$folder/build" --target collision_bits \
+  CMakeFiles/edmill_tools.dir/src/instances/tools/double.cpp.o CMakeFiles/edmill_core.dir/src/instances/mpfr80.cpp.o >>"$folder/log" 2>&1 || {
   tail -n 30 "$folder/log" >&2
   exit 1
 }
@@ -41,4 +42,12 @@ grep -q "key 'contact.restitution'" "$folder/error" || {
   echo "a restitution of 2 is refused without naming the key" >&2
   exit 1
 }
+for parts in "vessel={type=\"edged_jar\",side=\"34 mm\",height=\"57 mm\"}" "mill={type=\"turntable\",speed=\"300 rpm\"}" \
+  "output=[{type=\"hardest\"}]"; do
+  "$folder/build/tests/collision_bits" docs/examples/demo.toml 50 "$parts" >"$folder/parts.csv"
+  [ "$(wc -l <"$folder/parts.csv")" = 51 ] || {
+    echo "$parts: the log does not hold 50 collisions" >&2
+    exit 1
+  }
+done
 echo "the changes of docs/extending.md apply and work"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # A double run gives the same bits from g++ -O0, g++ -O3 -march=native and clang++ -O2, and from the program as it was
-# built: the SHA-256 of the logs of 28 balls, which are all searched, of 600 in cells, and of 2000, with prefetching.
+# built: the SHA-256 of the logs of 28 balls, which are all searched, of 600 in cells, and of 2000, with prefetching; and of a
+# box on a shaken table, which the general wall search serves.
 # usage: same_bits_test.sh PROGRAM FOLDER LIBRARY... -- FLAG...
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -13,13 +14,17 @@ while [ "$1" != -- ]; do
   shift
 done
 common=("${@:2}" -std=gnu++20 -Isrc -Iinclude)
-case_file=docs/examples/demo.toml
-cases=("28 20000" "600 20000" "2000 20000") # balls, collisions
+cases=("28 20000" "600 20000" "2000 20000" "box 4000") # balls, collisions
 small=(balls.0.diameter="2.36 mm" balls.0.gap_ball="0.2 mm" contact.restitution=0.8)
 
 settings_of() { # balls
   settings=()
-  if [ "$1" != 28 ]; then settings=("balls.0.count=$1" "${small[@]}"); fi
+  case_file=docs/examples/demo.toml
+  case $1 in
+    28) ;;
+    box) case_file=docs/examples/shaken_box.toml ;;
+    *) settings=("balls.0.count=$1" "${small[@]}") ;;
+  esac
 }
 
 hash_of() { # name collisions log
