@@ -15,6 +15,16 @@
 #include "io/final_state_impl.hpp"
 #include "run/collision_log.hpp"
 
+#ifdef EDMILL_WIDE_FROM_LIBRARY
+// Their arithmetic is the same whoever compiles it.
+namespace edmill {
+extern template class dynamics::DecisionLadder<float128>;
+extern template class dynamics::DecisionLadder<mpfr50>;
+extern template class dynamics::WallSearch<model::AnyMotion<float128>, model::AnyVessel<float128>>;
+extern template class dynamics::WallSearch<model::AnyMotion<mpfr50>, model::AnyVessel<mpfr50>>;
+}  // namespace edmill
+#endif
+
 namespace {
 
 using edmill::engine::Simulation;

@@ -13,7 +13,7 @@ while [ "$1" != -- ]; do
   libraries+=("$1")
   shift
 done
-common=("${@:2}" -std=gnu++20 -Isrc -Iinclude)
+common=("${@:2}" -std=gnu++20 -Isrc -Iinclude -DEDMILL_WIDE_FROM_LIBRARY)
 cases=("28 20000" "600 20000" "2000 20000" "box 4000") # balls, collisions
 small=(balls.0.diameter="2.36 mm" balls.0.gap_ball="0.2 mm" contact.restitution=0.8)
 
@@ -35,7 +35,8 @@ hash_of() { # name collisions log
   sha256sum <"$3" | cut -d' ' -f1
 }
 
-# The engine, compiled by one compiler; reading a case, which computes with integers, comes from the library.
+# The engine in double, compiled by one compiler; the library reads the case, which computes with integers, and makes the
+# decisions in wide scalars.
 build() { # name compiler flags...
   local name=$1
   shift
