@@ -3,6 +3,7 @@
 
 #include <random>
 #include <string>
+#include <utility>
 
 #include "dynamics/wall_search.hpp"
 #include "instances/instances.hpp"
@@ -151,22 +152,9 @@ class StateMaker {
     }
   }
 
-  Placement place(Draw& draw, Kind kind, double radius) const {
-    if (!mill_.vessel.get_if<model::CylinderVessel<float128>>()) return place_in_any(draw, kind, radius);
-    const float128 across = testing::cylinder(mill_).radius - float128(radius);      // of the axis
-    const float128 along = testing::cylinder(mill_).half_height - float128(radius);  // of the middle plane
-    const int wall = draw.below(3);
-    float128 cap_gap = along * draw.uniform(), side_gap = across * (1 - std::sqrt(draw.uniform()));
-    const double cap_side = wall == 2 ? draw.sign() : (wall == 0 ? -1 : 1);
-    float128 out_along = 0, out_across = 0;  // velocity towards the cap and towards the cylinder
-    bool free_along = true, free_across = true;
-    const double top = draw.chance(0.5) ? draw.uniform(0.0, 5.7) : draw.log_uniform(1e-6, 5.7);
-    // Gap and approach speed of the wall in question.
-    const auto set = [&](int which, const float128& gap, const float128& approach) {
-      (which == 2 ? side_gap : cap_gap) = gap;
-      (which == 2 ? out_across : out_along) = approach;
-      (which == 2 ? free_across : free_along) = false;
-    };
+  /// Gives `set(wall, gap, approach speed)` what the kind asks for; `corner()` names two walls that meet.
+  template <class Set, class Corner>
+  void put(Draw& draw, Kind kind, double top, int wall, Set&& set, Corner&& corner) const {
     switch (kind) {
       case Kind::leaving:
         set(wall, 0, -draw.log_uniform(1e-12, 10));
@@ -190,20 +178,42 @@ class StateMaker {
       case Kind::dipping:
         set(wall, -draw.log_uniform(1e-9, 1e-4), 0);
         break;
-      case Kind::seam:
-        set(2, draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
-        set(0, draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
+      case Kind::seam: {
+        const auto [first, second] = corner();
+        set(first, draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
+        set(second, draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
         break;
-      case Kind::corner_hit:
-        set(2, 0, draw.log_uniform(1e-6, 5));
-        set(0, 0, draw.log_uniform(1e-6, 5));
+      }
+      case Kind::corner_hit: {
+        const auto [first, second] = corner();
+        set(first, 0, draw.log_uniform(1e-6, 5));
+        set(second, 0, draw.log_uniform(1e-6, 5));
         break;
+      }
       case Kind::axis:
-        side_gap = across - float128(draw.log_uniform(1e-12, 1e-3));
-        break;
       case Kind::anywhere:
         break;
     }
+  }
+
+  Placement place(Draw& draw, Kind kind, double radius) const {
+    if (!mill_.vessel.get_if<model::CylinderVessel<float128>>()) return place_in_any(draw, kind, radius);
+    const float128 across = testing::cylinder(mill_).radius - float128(radius);      // of the axis
+    const float128 along = testing::cylinder(mill_).half_height - float128(radius);  // of the middle plane
+    const int wall = draw.below(3);
+    float128 cap_gap = along * draw.uniform(), side_gap = across * (1 - std::sqrt(draw.uniform()));
+    const double cap_side = wall == 2 ? draw.sign() : (wall == 0 ? -1 : 1);
+    float128 out_along = 0, out_across = 0;  // velocity towards the cap and towards the cylinder
+    bool free_along = true, free_across = true;
+    const double top = draw.chance(0.5) ? draw.uniform(0.0, 5.7) : draw.log_uniform(1e-6, 5.7);
+    // Gap and approach speed of the wall in question.
+    const auto set = [&](int which, const float128& gap, const float128& approach) {
+      (which == 2 ? side_gap : cap_gap) = gap;
+      (which == 2 ? out_across : out_along) = approach;
+      (which == 2 ? free_across : free_along) = false;
+    };
+    put(draw, kind, top, wall, set, [&] { return std::pair(2, 0); });
+    if (kind == Kind::axis) side_gap = across - float128(draw.log_uniform(1e-12, 1e-3));
     if (free_along) out_along = top * draw.symmetric();
     if (free_across) out_across = top * draw.symmetric();
     const float128 angle = draw.uniform(0, 6.283185307179586);
@@ -233,40 +243,7 @@ class StateMaker {
         if (abs(dot<float128>(room.normal(found, *p), room.normal(wall, *p))) < 0.9) return found;
       }
     };
-    switch (kind) {
-      case Kind::leaving:
-        set(wall, 0, -draw.log_uniform(1e-12, 10));
-        break;
-      case Kind::touching:
-        if (draw.chance(0.5))
-          set(wall, 0, draw.log_uniform(1e-12, 10));
-        else
-          set(wall, -draw.log_uniform(1e-18, 2e-15), draw.sign() * draw.log_uniform(1e-12, 10));
-        break;
-      case Kind::near:
-        set(wall, draw.log_uniform(1e-12, 1e-3), top * draw.symmetric());
-        break;
-      case Kind::grazing: {
-        const double drawn =
-            draw.chance(1.0 / 3) ? draw.log_uniform(1e-18, 1e-14) : draw.log_uniform(1e-14, 1e-9);
-        set(wall, draw.sign() * (grazing_distance > 0 ? grazing_distance : drawn), 0);
-        break;
-      }
-      case Kind::dipping:
-        set(wall, -draw.log_uniform(1e-9, 1e-4), 0);
-        break;
-      case Kind::seam:
-        set(other(), draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
-        set(wall, draw.log_uniform(1e-12, 1e-4), top * draw.symmetric());
-        break;
-      case Kind::corner_hit:
-        set(other(), 0, draw.log_uniform(1e-6, 5));
-        set(wall, 0, draw.log_uniform(1e-6, 5));
-        break;
-      case Kind::axis:
-      case Kind::anywhere:
-        break;
-    }
+    put(draw, kind, top, wall, set, [&] { return std::pair(other(), wall); });
     return {*p, u};
   }
 

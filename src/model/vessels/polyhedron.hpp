@@ -100,9 +100,10 @@ class PolyhedronVessel {
     for (auto& plane : smaller.planes_) plane.distance -= by;
     return smaller;
   }
-  /// Of the planes moved inwards, as seen from the origin, which is in no empty one.
+  /// A closed room that is not empty has a corner. Where planes were moved inwards, the origin may be outside.
   bool is_empty() const {
-    return std::any_of(planes_.begin(), planes_.end(), [](const Plane& p) { return p.distance < 0; });
+    const auto faces = make_faces();
+    return std::all_of(faces.begin(), faces.end(), [](const Polygon& face) { return face.empty(); });
   }
   bool contains(const Vec3<Real>& p) const {
     bool inside = true;
@@ -187,14 +188,21 @@ class PolyhedronVessel {
     const Real det = dot<Real>(a.normal, bc);
     if (det * det * 1000000000000 < 1) return std::nullopt;  // nearly parallel to a line
     const Vec3<Real> p = (bc * a.distance + ca * b.distance + ab * c.distance) / det;
+    const Real slack = size() / 1000000000;
     for (const auto& plane : planes_)
-      if (dot<Real>(plane.normal, p) > plane.distance * (1 + Real(1) / 1000000000)) return std::nullopt;
+      if (dot<Real>(plane.normal, p) > plane.distance + slack) return std::nullopt;
     return p;
   }
+  /// The largest distance of a plane from the origin, to compare lengths with.
+  Real size() const {
+    Real largest(0);
+    for (const auto& plane : planes_) largest = plane.distance > largest ? plane.distance : largest;
+    return largest;
+  }
   /// Once, where more than three planes meet.
-  static void add_corner(Polygon& face, const Vec3<Real>& p) {
+  void add_corner(Polygon& face, const Vec3<Real>& p) const {
     for (const auto& known : face)
-      if (norm<Real>(Vec3<Real>(known - p)) * 100000000 < norm<Real>(p)) return;
+      if (norm<Real>(Vec3<Real>(known - p)) * 100000000 < size()) return;
     face.push_back(p);
   }
   static void sort_around(Polygon& face, const Vec3<Real>& normal) {
