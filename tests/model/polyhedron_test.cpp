@@ -64,7 +64,8 @@ TEST(Polyhedron, ABlockIsTheBox) {
   EXPECT_NEAR(planes.reach(), box.reach(), 1e-5 * box.reach());
   EXPECT_TRUE(rc::check([&] {
     const Vec3<double> p{draw(-0.04, 0.04), draw(-0.04, 0.04), draw(-0.04, 0.04)};
-    const auto ours = planes.gaps(p), expected = box.gaps(p);
+    const auto ours = planes.gaps(p);
+    const auto expected = box.gaps(p);
     for (std::size_t wall = 0; wall < 6; ++wall) RC_ASSERT(std::abs(ours[wall] - expected[wall]) < 1e-17);
     RC_ASSERT(planes.contains(p) == box.contains(p));
   }));
