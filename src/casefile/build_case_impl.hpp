@@ -33,6 +33,15 @@ Part<Real> to_part(const Part<casefile::Quantity>& part) {
 }
 
 template <class Real>
+model::AnyMotion<Real> to_motion(const auto& part) {
+  if constexpr (requires { part.joints(); })
+    return model::ChainMotion<Real>(model::converted_joints<Real>(
+        with_phases(part.joints()), [](const casefile::Quantity& q) { return q.to<Real>(); }));
+  else
+    return to_part<Real>(part).motion();
+}
+
+template <class Real>
 model::BallProperties<Real> to_ball(const casefile::BallSpec& spec, const Real& diameter) {
   const Real radius = diameter / 2;
   const Real volume = 4 * numerics::pi<Real>() * (radius * radius * radius) / 3;
@@ -272,8 +281,7 @@ void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>&
 
 template <class Real>
 model::Mill<Real> build_mill(const casefile::CaseSpec& spec) {
-  return {std::visit([](const auto& m) { return model::AnyMotion<Real>(detail::to_part<Real>(m).motion()); },
-                     spec.mill),
+  return {std::visit([](const auto& m) { return detail::to_motion<Real>(m); }, spec.mill),
           std::visit([](const auto& v) { return model::AnyVessel<Real>(detail::to_part<Real>(v).vessel()); },
                      spec.vessel),
           detail::to_vector<Real>(spec.gravity), detail::to_law<Real>(spec.ball_ball),

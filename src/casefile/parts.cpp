@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "casefile/joints.hpp"
+#include "casefile/polyhedron.hpp"
 #include "casefile/section.hpp"
 
 namespace edmill::casefile {
@@ -32,6 +34,7 @@ bool in_range(const Quantity& q, Range range) {
 
 std::string expected(const PartParameter& p) {
   if (p.range == Range::quarter_turn) return "an angle from 0 to 90 deg";
+  if (p.dimension == Dimension::none) return "a number";
   const std::string what = p.dimension == Dimension::length ? "length" : "angular speed";
   return p.range == Range::not_negative     ? "a " + what + " of 0 or more"
          : p.dimension == Dimension::length ? "a positive length"
@@ -63,7 +66,9 @@ struct Reader {
   void operator()(const PartParameter& p, std::array<Quantity, 3>& values) const {
     const auto found = section.vector(p.key, p.dimension);
     if (!found) {
-      if (!section.has(p.key))
+      if (p.fallback && !section.has(p.key))
+        values.fill(fallback_of(p));
+      else if (!section.has(p.key))
         section.problem(p.key, "nothing", "three of " + casefile::describe(p.dimension));
       return;
     }
@@ -72,6 +77,17 @@ struct Reader {
   }
 };
 
+/// What the ranges of single parameters do not say.
+void require_shape(Section&, const auto&) {}
+void require_shape(Section& vessel, const model::Capsule<Quantity>& capsule) {
+  vessel.require(capsule.height.value >= capsule.diameter.value, "height", "the diameter or more");
+}
+void require_shape(Section& vessel, const model::RoundedCylinder<Quantity>& cylinder) {
+  const cpp_rational width = 2 * cylinder.edge.value;
+  vessel.require(width <= cylinder.diameter.value && width <= cylinder.height.value, "edge_radius",
+                 "at most half of the diameter and of the height");
+}
+
 template <class Variant>
 Variant read_part(Section& section) {
   Variant chosen;
@@ -79,13 +95,23 @@ Variant read_part(Section& section) {
     const auto name = section.choice("type", {std::variant_alternative_t<kind, Variant>::name...});
     const auto read = [&]<class Part>(Part part) {
       if (name != Part::name) return;
-      Part::parameters(part, Reader{section});
+      if constexpr (requires { part.given; })
+        part.given = read_joints(section);
+      else if constexpr (requires { part.faces; })
+        part = read_polyhedron(section);
+      else
+        Part::parameters(part, Reader{section});
+      require_shape(section, part);
       chosen = part;
     };
     (read(std::variant_alternative_t<kind, Variant>{}), ...);
   }
   (std::make_index_sequence<std::variant_size_v<Variant>>{});
   return chosen;
+}
+
+std::string unit_of(Dimension dimension) {
+  return dimension == Dimension::angle ? " rad" : dimension == Dimension::length ? " m" : "";
 }
 
 template <class Variant>
@@ -96,15 +122,23 @@ std::string described(const Variant& part) {
     const bool drive = p.range == Range::drive;
     text += fmt::format("{}{}", text.empty() ? ": " : ", ", drive ? "period" : p.key);
     for (const auto& value : values) text += fmt::format(" {:g}", value.to<double>());
-    text += drive ? " s" : p.dimension == Dimension::angle ? " rad" : " m";
+    text += drive ? " s" : unit_of(p.dimension);
   });
   return name_of(part) + text;
 }
 
 }  // namespace
 
-std::string describe(const MotionSpec& motion) { return described(motion); }
-std::string describe(const VesselSpec& vessel) { return described(vessel); }
+std::string describe(const MotionSpec& motion) {
+  if (const auto* chain = std::get_if<model::Chain<Quantity>>(&motion))
+    return std::string(chain->name) + ": " + equation_of(chain->given);
+  return described(motion);
+}
+std::string describe(const VesselSpec& vessel) {
+  if (const auto* polyhedron = std::get_if<model::Polyhedron<Quantity>>(&vessel))
+    return fmt::format("{} of {} walls", polyhedron->name, polyhedron->faces.size());
+  return described(vessel);
+}
 
 MotionSpec read_motion(Section& mill) { return read_part<MotionSpec>(mill); }
 VesselSpec read_vessel(Section& vessel) { return read_part<VesselSpec>(vessel); }

@@ -23,7 +23,14 @@ std::string name_of(const std::variant<Part...>& part) {
 
 /// Of the drive, or the clock unit of a still vessel [s].
 inline const Quantity& period_of(const MotionSpec& motion) {
-  return std::visit([](const auto& m) -> const Quantity& { return m.period; }, motion);
+  return std::visit(
+      [](const auto& m) -> const Quantity& {
+        if constexpr (requires { m.period; })
+          return m.period;
+        else
+          return m.given.period;
+      },
+      motion);
 }
 
 /// Calls visit(parameter, values) for each, with one value or three.
@@ -48,6 +55,9 @@ std::string text_of(const std::variant<Part...>& part) {
   });
   return text;
 }
+
+/// The joints with what each turns in a drive period, exactly.
+model::Joints<Quantity> with_phases(model::Joints<Quantity> joints);
 
 /// For readers: "cylinder: diameter 0.038 m, height 0.057 m".
 std::string describe(const MotionSpec& motion);

@@ -25,6 +25,14 @@ struct Quantity {
   bool negative() const { return value < 0; }
   bool zero() const { return value == 0; }
 
+  friend Quantity operator*(const Quantity& a, const Quantity& b) {
+    return {a.value * b.value, a.pi_power + b.pi_power};
+  }
+  /// @pre b is not zero
+  friend Quantity operator/(const Quantity& a, const Quantity& b) {
+    return {a.value / b.value, a.pi_power - b.pi_power};
+  }
+
   /// Nearest scalar; no value passes through double on its way to a wider one.
   template <class Real>
   Real to() const;

@@ -195,7 +195,7 @@ class GapFunctions {
                 const model::FlightBounds<Real>& flight, const Walls& walls) const {
     const auto none = mill_.vessel.per_wall(Real(0));
     Errors errors{none, none, none};
-    for (int wall = 0; wall < mill_.vessel.wall_count(); ++wall) {
+    for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
       if (!walls[wall]) continue;
       auto bounds = coordinate;
       if (!mill_.vessel.is_flat(wall)) {

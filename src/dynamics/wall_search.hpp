@@ -146,6 +146,12 @@ class WallSearch {
   WallAnswer<Real> first_contact(const Functions& functions, const Start& first, Walls reachable,
                                  const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
   void require_length(const WallQuery<Real>& query) const;
+  WallQuery<Real> smooth(WallQuery<Real> query, const Functions& functions, const Vec3<Real>& position,
+                         const Real& speed) const requires model::HasRegions<V>;
+  static const WallQuery<Real>& smooth(const WallQuery<Real>& query, const Functions&, const Vec3<Real>&,
+                                       const Real&) requires(!model::HasRegions<V>) {
+    return query;
+  }
   Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
     return norm<Real>(velocity) + mill_.gravity_size * length;
   }

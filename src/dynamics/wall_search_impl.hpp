@@ -44,8 +44,19 @@ auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) co
   const Real speed = top_speed(ball.velocity, query.length);
   const Walls reachable = within_reach(functions, ball.state.position, speed, query.length);
   if (!any_from(reachable, 0)) return {Verdict::none, -1, {}, false, query.length, Real(0)};
-  return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed, query,
-                              nullptr);
+  return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed,
+                              smooth(query, functions, ball.state.position, speed), nullptr);
+}
+
+/// The window cut to what all active gap functions are smooth for.
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::smooth(WallQuery<Real> query, const Functions& functions, const Vec3<Real>& position,
+                              const Real& speed) const -> WallQuery<Real>
+requires model::HasRegions<V> {
+  const auto way = functions.room().smooth_way(position);
+  if (way && *way < (speed + mill_.wall_speed) * query.length)
+    query.length = *way / (speed + mill_.wall_speed);
+  return query;
 }
 
 template <model::Motion M, model::Vessel V>
@@ -68,7 +79,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   const auto whole = bounds_.at(speed, query.length);
   Real length = query.length;
   bool any = false;
-  for (int wall = 0; wall < mill_.vessel.wall_count(); ++wall) {
+  for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, whole);
     const Point start = curve.of(first);
@@ -87,7 +98,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   Sample last = sample_of_end(functions, reachable, errors, begin, end);
   WallAnswer<Real> answer{Verdict::none, -1, {}, false, end - begin, Real(0)};
   Root best{};
-  for (int wall = 0; wall < mill_.vessel.wall_count(); ++wall) {
+  for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
     const Point start = curve.of(first);
@@ -105,7 +116,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
       if (later >= -error) {
         // Two walls at one time within rounding: a wider scalar decides; at the top the lower id comes first.
         if constexpr (!std::is_void_v<Wider<Real>>) return {Verdict::undecided};
-        answer.tie = true;
+        answer.tie = wall < mill_.vessel.wall_count();
         continue;
       }
     }
@@ -123,6 +134,9 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
       last = sample_of_end(functions, reachable, errors, root.t, end);
     }
   }
+  if constexpr (model::HasRegions<V>)
+    if (answer.verdict == Verdict::contact && answer.wall >= mill_.vessel.wall_count())
+      return {Verdict::none, -1, {}, false, best.t - begin, Real(0)};  // another region: to be asked again
   return answer;
 }
 
@@ -134,7 +148,7 @@ auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& re
   for (int tries = 0;; ++tries) {
     const auto sample = functions(end);
     bool touched = false;
-    for (int wall = 0; wall < mill_.vessel.wall_count(); ++wall)
+    for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall)
       touched |=
           reachable[wall] & (sample.gap[wall] <= errors.gap[wall]) & (sample.gap[wall] >= -errors.gap[wall]);
     if (!touched || tries == 8) return sample;
@@ -153,14 +167,15 @@ auto WallSearch<M, V>::rough(const WallQuery<Real>& query) const -> RoughAnswer 
     RoughAnswer rough;
     const auto pose = functions.pose(begin);
     const auto ball = functions.seen(begin, pose);
+    const Real speed = top_speed(ball.velocity, query.length);
     const auto answer =
-        first_contact<true>(functions, functions.start(begin, pose, ball), mill_.vessel.per_wall(true),
-                            top_speed(ball.velocity, query.length), query, &rough);
+        first_contact<true>(functions, functions.start(begin, pose, ball),
+                            model::active_functions(functions.room(), ball.state.position), speed,
+                            smooth(query, functions, ball.state.position, speed), &rough);
     rough.verdict = answer.verdict;
     // The sum is rounded, and the window was proven up to its exact or its rounded end.
     if (answer.verdict == Verdict::none) rough.until = (begin + answer.searched) * (1 - epsilon<Real>());
     if (answer.verdict == Verdict::contact) {
-      const Real speed = top_speed(ball.velocity, query.length);
       const auto derivatives = bounds_.at(speed, query.length);
       rough.curvature = functions.start(rough.root).curvature[rough.wall];
       rough.curvature_error =
@@ -200,6 +215,10 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
                                {Real(rough.root), rough.curvature, rough.curvature_error, rough.third},
                                Real(rough.error * unit));  // bounds are proportional to epsilon
     if (!root) return {Verdict::undecided};
+    if constexpr (model::HasRegions<V>)  // this scalar's regions are sharper
+      if (!functions.room().is_valid(rough.wall,
+                                     functions.seen(root->t, functions.pose(root->t)).state.position))
+        return {Verdict::undecided};
     return {Verdict::contact, rough.wall, mill_.clock.instant(query.begin.period, root->t), false, Real(0),
             root->time_error, root->pose};
   }

@@ -5,7 +5,8 @@
 #include <utility>
 #include <variant>
 
-#include "model/motions/shaken_table.hpp"
+#include "model/motions/chain.hpp"
+#include "model/motions/presets.hpp"
 #include "model/motions/spex.hpp"
 
 namespace edmill::model {
@@ -56,15 +57,18 @@ concept Motion = requires(const M& motion, const typename M::Pose& pose,
 };
 
 /// The motions that a case file can name, the default first. A new one is a file in model/motions/ and a line
-/// here and, where it moves in a way of its own, in MotionVariant: it is read, described and passed to every
-/// scalar by its list of parameters.
+/// here: it is read, described and passed to every scalar by its list of parameters, and moves as the joints
+/// that it lists say. A motion that is no chain of joints is a class with a line in MotionVariant too.
 template <class Number>
 using NamedMotions = std::variant<Spex8000<Number>,   //
                                   StillMill<Number>,  //
-                                  Table<Number>>;
+                                  Vibratory<Number>,  //
+                                  Planetary<Number>,  //
+                                  Drum<Number>,       //
+                                  Chain<Number>>;
 
 template <class Real>
-using MotionVariant = std::variant<SpexMotion<Real>, ShakenTable<Real>>;
+using MotionVariant = std::variant<SpexMotion<Real>, ChainMotion<Real>>;
 
 template <class Variant>
 struct PosesOf;
@@ -203,6 +207,6 @@ class AnyMotion {
   MotionVariant<Real> motion_;
 };
 
-static_assert(Motion<SpexMotion<double>> && Motion<ShakenTable<double>> && Motion<AnyMotion<double>>);
+static_assert(Motion<SpexMotion<double>> && Motion<ChainMotion<double>> && Motion<AnyMotion<double>>);
 
 }  // namespace edmill::model

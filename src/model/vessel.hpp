@@ -10,6 +10,8 @@
 #include "model/vessels/box.hpp"
 #include "model/vessels/cylinder.hpp"
 #include "model/vessels/polyhedron.hpp"
+#include "model/vessels/rounded.hpp"
+#include "model/vessels/sphere.hpp"
 
 namespace edmill::model {
 
@@ -32,6 +34,10 @@ namespace edmill::model {
 /// - `is_flat(wall)`: the gap is a coordinate up to sign and offset, and as sharp as one; of other walls
 ///   `curved_errors` bounds the rounding from that of a coordinate, the speed and acceleration in the vessel
 ///   frame, and how far outside the ball may be [m]
+/// - where a wall's gap function holds in a region of places only, `function_count()`: the functions behind
+///   those of the walls are the borders of the regions; `active(p)`: those to be watched from p on;
+///   `is_valid(wall, p)`: whether that wall's gap counts at p, to within rounding; `smooth_way(p)`: how far a
+///   ball at p may move while all active functions are smooth, or nothing for any way [m]
 /// - `normal(wall, p)`: of a contact, unit, into the vessel; `overlap(wall, p)` [m], negative for a gap
 template <class V>
 concept Vessel = requires(const V& vessel, int wall, const Vec3<typename V::Scalar>& p,
@@ -69,13 +75,41 @@ concept Vessel = requires(const V& vessel, int wall, const Vec3<typename V::Scal
 
 /// The vessels that a case file can name, the default first. A new one is a file in model/vessels/ and a line
 /// here and in VesselVariant: it is read, described and passed to every scalar by its list of parameters.
-/// A polyhedron is for programs (edmill/vessel.hpp).
 template <class Number>
-using NamedVessels = std::variant<Cylinder<Number>,  //
-                                  Box<Number>>;
+using NamedVessels = std::variant<Cylinder<Number>,         //
+                                  Box<Number>,              //
+                                  Sphere<Number>,           //
+                                  Capsule<Number>,          //
+                                  RoundedCylinder<Number>,  //
+                                  Polyhedron<Number>>;
 
 template <class Real>
-using VesselVariant = std::variant<CylinderVessel<Real>, BoxVessel<Real>, PolyhedronVessel<Real>>;
+using VesselVariant = std::variant<CylinderVessel<Real>,  //
+                                   BoxVessel<Real>,       //
+                                   SphereVessel<Real>,    //
+                                   RoundedVessel<Real>,   //
+                                   PolyhedronVessel<Real>>;
+
+/// A vessel whose gap functions hold in regions.
+template <class V>
+concept HasRegions = requires(const V& vessel) {
+  vessel.function_count();
+};
+
+template <class V>
+int function_count(const V& vessel) {
+  if constexpr (HasRegions<V>)
+    return vessel.function_count();
+  else
+    return vessel.wall_count();
+}
+template <class V>
+auto active_functions(const V& vessel, const Vec3<typename V::Scalar>& p) {
+  if constexpr (HasRegions<V>)
+    return vessel.active(p);
+  else
+    return vessel.per_wall(true);
+}
 
 /// Any vessel, chosen when the case is read.
 template <class Real>
@@ -118,7 +152,29 @@ class AnyVessel {
   }
   template <class Value>
   PerWall<Value> per_wall(const Value& value) const {
-    return PerWall<Value>(static_cast<std::size_t>(wall_count()), value);
+    return PerWall<Value>(static_cast<std::size_t>(function_count()), value);
+  }
+  int function_count() const {
+    return visit([](const auto& v) { return model::function_count(v); });
+  }
+  PerWall<bool> active(const Vec3<Real>& p) const {
+    return visit([&](const auto& v) { return listed(active_functions(v, p)); });
+  }
+  bool is_valid(int wall, const Vec3<Real>& p) const {
+    return visit([&]<class V>(const V& v) {
+      if constexpr (HasRegions<V>)
+        return v.is_valid(wall, p);
+      else
+        return true;
+    });
+  }
+  std::optional<Real> smooth_way(const Vec3<Real>& p) const {
+    return visit([&]<class V>(const V& v) -> std::optional<Real> {
+      if constexpr (HasRegions<V>)
+        return v.smooth_way(p);
+      else
+        return std::nullopt;
+    });
   }
   Real reach() const {
     return visit([](const auto& v) { return v.reach(); });
@@ -194,7 +250,7 @@ class AnyVessel {
   VesselVariant<Real> vessel_;
 };
 
-static_assert(Vessel<CylinderVessel<double>> && Vessel<BoxVessel<double>> &&
-              Vessel<PolyhedronVessel<double>> && Vessel<AnyVessel<double>>);
+static_assert(Vessel<CylinderVessel<double>> && Vessel<BoxVessel<double>> && Vessel<SphereVessel<double>> &&
+              Vessel<RoundedVessel<double>> && Vessel<PolyhedronVessel<double>> && Vessel<AnyVessel<double>>);
 
 }  // namespace edmill::model

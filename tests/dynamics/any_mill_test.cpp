@@ -97,7 +97,7 @@ TEST_P(AnyMill, RoundingErrorsStayBelowTheirBounds) {
   EXPECT_LT(worst_gap, 1);
   EXPECT_LT(worst_rate, 1);
   EXPECT_LT(worst_curvature, 1);
-  EXPECT_GT(worst_gap, 0.02);  // the bound is not idle
+  EXPECT_GT(worst_gap, 0.003);  // the bound is not idle; that of a chain counts every joint at its worst
 }
 
 TEST_P(AnyMill, DerivativesOfTheGapsStayBelowTheirBounds) {
@@ -133,7 +133,7 @@ TEST_P(AnyMill, DerivativesOfTheGapsStayBelowTheirBounds) {
     }
   }
   std::cout << "largest derivative over its bound: " << worst << "\n";
-  EXPECT_GT(worst, 0.2);
+  EXPECT_GT(worst, 0.1);  // chains bound the size of vectors, not coordinates
 }
 
 TEST_P(AnyMill, PosesNearbyAgreeWithPosesFromSines) {

@@ -90,8 +90,11 @@ class StateMaker {
       const auto sample = gaps(float128(query.begin.offset));
       // A state of the solver is inside the vessel up to rounding.
       bool inside = true;
+      const float128 begin(query.begin.offset);
+      const auto active = gaps.room().active(gaps.seen(begin, gaps.pose(begin)).state.position);
       for (int wall = 0; wall < mill_.vessel.wall_count(); ++wall)
-        inside &= sample.gap[wall] > -3e-15 * testing::gap_per_metre(mill_, wall, float128(query.radius));
+        inside &= !active[wall] ||
+                  sample.gap[wall] > -3e-15 * testing::gap_per_metre(mill_, wall, float128(query.radius));
       if (inside) return query;
     }
   }
@@ -231,7 +234,7 @@ class StateMaker {
     const double top = draw.chance(0.5) ? draw.uniform(0.0, 5.7) : draw.log_uniform(1e-6, 5.7);
     Vec3<float128> u{top * draw.symmetric(), top * draw.symmetric(), top * draw.symmetric()};
     const auto set = [&](int wall, const float128& gap, const float128& approach) {
-      for (int step = 0; step < 3; ++step)  // towards a wall that may be curved
+      for (int step = 0; step < 20; ++step)  // towards a wall that may be curved
         *p += room.normal(wall, *p) * float128(room.overlap(wall, *p) + gap);
       const auto n = room.normal(wall, *p);
       u -= n * float128(dot<float128>(u, n) + approach);
@@ -240,9 +243,19 @@ class StateMaker {
     const auto other = [&] {
       for (;;) {
         const int found = draw.below(room.wall_count());
+        if (room.wall_count() == 1) return found;
         if (abs(dot<float128>(room.normal(found, *p), room.normal(wall, *p))) < 0.9) return found;
       }
     };
+    if (const auto* rounded = room.get_if<model::RoundedVessel<float128>>()) {
+      // Walls meet without an edge: near the border between two of them.
+      put(draw, kind, top, wall, set, [&] {
+        (*p)[1] = draw.sign() * (rounded->core_half() + draw.sign() * draw.log_uniform(1e-9, 1e-4));
+        u[1] *= draw.chance(0.5) ? 1 : 1e-6;
+        return std::pair(wall, wall);
+      });
+      return {*p, u};
+    }
     put(draw, kind, top, wall, set, [&] { return std::pair(other(), wall); });
     return {*p, u};
   }

@@ -119,7 +119,7 @@ TEST(Polyhedron, PlacesOnlyInside) {
     const auto gaps = four.gaps(*p);
     RC_ASSERT(std::all_of(gaps.begin(), gaps.end(), [](double gap) { return gap >= 0; }));
   }));
-  EXPECT_GT(placed, 100);
+  EXPECT_GT(placed, 10);
 }
 
 }  // namespace

@@ -12,21 +12,64 @@ struct MillText {
   const char *name, *mill, *vessel, *gravity;
   bool hexagonal = false;  ///< a jar with six sides about the y axis in place of the vessel
 };
-inline constexpr std::array<MillText, 7> all_mills = {{
+/// Speeds without a common period about axes that are skew, and swings of both kinds.
+inline constexpr const char* skew_chain =
+    "type = \"chain\"\n[[mill.joint]]\nrotate = [1, 2, 2]\nspeed = \"7 rad/s\"\n[[mill.joint]]\n"
+    "translate = [\"30 mm\", \"-5 mm\", 0]\n[[mill.joint]]\ntranslate = \"y\"\ndistance = \"2 mm\"\n"
+    "swing = [{amplitude = \"4 mm\", speed = \"600 rpm\", phase = \"30 deg\"}]\n[[mill.joint]]\nrotate = "
+    "\"z\"\n"
+    "angle = \"20 deg\"\nswing = [{amplitude = \"15 deg\", speed = \"700 rpm\"},\n"
+    "{amplitude = \"0.1 rad\", speed = \"31 rad/s\", phase = \"1 rad\"}]\n[[mill.joint]]\nrotate = \"x\"\n"
+    "speed = \"-90 rpm\"";
+
+inline constexpr std::array<MillText, 18> all_mills = {{
     {"spex_cylinder", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = \"9.8 m/s2\""},
     {"spex_box", "type = \"spex8000\"", "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
      "gravity = \"9.8 m/s2\""},
-    {"table_cylinder", "type = \"table\"\namplitude = [\"3 mm\", \"11 mm\", \"-2 mm\"]\nspeed = \"900 rpm\"",
+    {"vibrated_cylinder",
+     "type = \"vibratory\"\namplitude = [\"3 mm\", \"11 mm\", \"-2 mm\"]\nspeed = \"900 rpm\"",
      "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"", "gravity = \"9.8 m/s2\""},
-    {"table_box", "type = \"table\"\namplitude = [\"3 mm\", \"11 mm\", \"-2 mm\"]\nspeed = \"900 rpm\"",
+    {"vibrated_box",
+     "type = \"vibratory\"\namplitude = [\"3 mm\", \"11 mm\", \"-2 mm\"]\nspeed = \"900 rpm\"",
      "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]", "gravity = \"9.8 m/s2\""},
     {"still_box", "type = \"still\"", "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
      "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]"},
     {"spex_hexagon", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = \"9.8 m/s2\"", true},
-    {"table_hexagon", "type = \"table\"\namplitude = [\"3 mm\", \"11 mm\", \"-2 mm\"]\nspeed = \"900 rpm\"",
+    {"vibrated_hexagon",
+     "type = \"vibratory\"\namplitude = [\"3 mm\", \"11 mm\", \"-2 mm\"]\nspeed = \"900 rpm\"",
      "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"", "gravity = \"9.8 m/s2\"", true},
+    {"circled_box",
+     "type = \"vibratory\"\namplitude = [\"3 mm\", 0, 0]\namplitude_quarter = [0, \"4 mm\", 0]\nspeed = "
+     "\"1500 rpm\"",
+     "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
+     "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]"},
+    {"planetary_cylinder", "type = \"planetary\"\nradius = \"75 mm\"\nspeed = \"400 rpm\"\nratio = -2.18",
+     "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"", "gravity = \"9.8 m/s2\""},
+    {"planetary_box", "type = \"planetary\"\nradius = \"75 mm\"\nspeed = \"400 rpm\"\nratio = -3",
+     "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]", "gravity = \"9.8 m/s2\""},
+    {"drum_cylinder", "type = \"drum\"\nspeed = \"180 rpm\"",
+     "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
+     "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]"},
+    {"drum_hexagon", "type = \"drum\"\nspeed = \"180 rpm\"",
+     "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
+     "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]", true},
+    {"chain_cylinder", skew_chain, "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
+     "gravity = \"9.8 m/s2\""},
+    {"spex_sphere", "type = \"spex8000\"", "type = \"sphere\"\ndiameter = \"46 mm\"",
+     "gravity = \"9.8 m/s2\""},
+    {"spex_capsule", "type = \"spex8000\"", "type = \"capsule\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
+     "gravity = \"9.8 m/s2\""},
+    {"spex_rounded", "type = \"spex8000\"",
+     "type = \"rounded_cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"\nedge_radius = \"9 mm\"",
+     "gravity = \"9.8 m/s2\""},
+    {"planetary_rounded", "type = \"planetary\"\nradius = \"75 mm\"\nspeed = \"400 rpm\"\nratio = -2.18",
+     "type = \"rounded_cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"\nedge_radius = \"9 mm\"",
+     "gravity = \"9.8 m/s2\""},
+    {"vibrated_capsule",
+     "type = \"vibratory\"\namplitude = [\"3 mm\", \"11 mm\", \"-2 mm\"]\nspeed = \"900 rpm\"",
+     "type = \"capsule\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"", "gravity = \"9.8 m/s2\""},
 }};
 
 /// Six sides 19 mm from the y axis, with an end slanted by a tenth.

@@ -105,7 +105,15 @@ class Search {
     const Ball left(a), right(b);
     const Ball s = hull(left, right, prec);
     const Ranges r(f, s, prec);
-    if (positive(r.value) || not_negative(r.rate)) return {};
+    if (positive(r.value)) return {};
+    const Region region = problem_.region(wall_, f.offset(s, prec));
+    if (region == Region::outside) return {};
+    if (region == Region::across && (b - a) * nearest(f.half) > 1e-14) {
+      const double m = a + (b - a) / 2;
+      if (auto found = inside(f, a, m, depth + 1, begin)) return found;
+      return inside(f, m, b, depth + 1, begin);
+    }
+    if (not_negative(r.rate)) return {};
     if (negative(r.rate)) {
       const Ball at_left = value(f, left, false);
       if (not_positive(at_left)) return at(f.offset(left), begin, false);
@@ -132,7 +140,9 @@ class Search {
     }
     // Undecided: a new model where the remainder blurs this one, then halves.
     const bool narrow = b - a <= 1;
-    if (narrow && (b - a < 0x1p-36 || blurred(r.middle_value, r.value) || blurred(r.middle_rate, r.rate))) {
+    // A root of a range that holds zero is not finite.
+    if (narrow && (b - a < 0x1p-36 || !arb_is_finite(r.value.v) || blurred(r.middle_value, r.value) ||
+                   blurred(r.middle_rate, r.rate))) {
       Ball half(b - a), middle(a + (b - a) / 2);
       arb_mul_2exp_si(half.v, half.v, -1);
       arb_mul(half.v, half.v, f.half.v, exact);
@@ -232,9 +242,7 @@ std::vector<OracleContact> first_contacts(const OracleQuestion& question) {
   const Ball begin(question.begin_offset), overtime(question.overtime);
   Ball length(question.length);
   arb_add(length.v, length.v, overtime.v, exact);
-  std::vector<OracleContact> contacts(question.box              ? 6
-                                      : question.planes.empty() ? 3
-                                                                : question.planes.size());
+  std::vector<OracleContact> contacts(static_cast<std::size_t>(question.wall_count()));
   for (int wall = 0; wall < static_cast<int>(contacts.size()); ++wall) {
     auto& contact = contacts[static_cast<std::size_t>(wall)];
     for (const slong prec : {128, 256, 512, 1024}) {

@@ -9,14 +9,40 @@
 
 namespace edmill::testing {
 
+/// Turns in a drive period: whole ones and a binary fraction.
+struct OracleTurns {
+  std::int64_t whole;
+  std::array<std::uint64_t, 16> fraction;
+};
+/// amplitude sin(2 pi (turns of the drive + phase)): metres, or turns of a rotation.
+struct OracleSwing {
+  double amplitude, phase;
+  OracleTurns per_period;
+};
+/// One joint of a chain, from the ground to the vessel.
+struct OracleJoint {
+  bool rotates;
+  std::array<double, 3> axis, shift;
+  double angle;  ///< [turns]
+  OracleTurns per_period;
+  std::vector<OracleSwing> swings;
+};
+
 /// A mill, a flight and a window as plain doubles, all taken exactly.
 struct OracleQuestion {
-  double arm, theta_max, gamma_max, period;  ///< of the nested motion
-  double vessel_radius, half_height;         ///< of a cylinder
-  std::optional<std::array<double, 3>>
-      shaken;  ///< by this amplitude along a line, in place of the nested motion
-  std::optional<std::array<double, 3>> box;   ///< half of its edges, in place of a cylinder
-  std::vector<std::array<double, 4>> planes;  ///< outward normals and distances, in place of a cylinder
+  double arm, theta_max, gamma_max, period;       ///< of the nested motion
+  double vessel_radius, half_height;              ///< of a cylinder
+  std::optional<std::vector<OracleJoint>> chain;  ///< in place of the nested motion
+  std::optional<std::array<double, 3>> box;       ///< half of its edges, in place of a cylinder
+  std::optional<double> sphere;                   ///< its radius, in place of a cylinder
+  std::optional<std::array<double, 3>> rounded;   ///< core radius, half height of the core, rounding
+  std::vector<std::array<double, 4>> planes;      ///< outward normals and distances, in place of a cylinder
+  int wall_count() const {
+    if (box) return 6;
+    if (sphere) return 1;
+    if (rounded) return (*rounded)[0] > 0 ? 5 : 3;
+    return planes.empty() ? 3 : static_cast<int>(planes.size());
+  }
   std::array<double, 3> gravity;
   std::array<double, 3> position, velocity;  ///< at the start of the flight, inertial
   std::int64_t start_period;

@@ -1,88 +1,16 @@
 // Gap functions as Taylor series with Arb's coefficients, for the oracle of the wall tests.
 #pragma once
 
-#include <arb.h>
-#include <arb_poly.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "arb_chain.hpp"
 #include "arb_oracle.hpp"
 
 namespace edmill::testing {
 
-inline constexpr slong exact = ARF_PREC_EXACT;
-inline constexpr slong coarse = 64;  // bits for ranges and remainders
-
-/// Owner of one Arb ball.
-struct Ball {
-  arb_t v;
-  Ball() { arb_init(v); }
-  explicit Ball(double x) : Ball() { arb_set_d(v, x); }
-  Ball(const Ball& other) : Ball() { arb_set(v, other.v); }
-  Ball& operator=(const Ball& other) {
-    arb_set(v, other.v);
-    return *this;
-  }
-  ~Ball() { arb_clear(v); }
-};
-
-/// Owner of Taylor coefficients.
-class Series {
- public:
-  explicit Series(slong size = 0) : size_(size), data_(_arb_vec_init(size)) {}
-  Series(const Series& other) : Series(other.size_) { _arb_vec_set(data_, other.data_, size_); }
-  Series& operator=(Series other) {
-    std::swap(size_, other.size_);
-    std::swap(data_, other.data_);
-    return *this;
-  }
-  ~Series() { _arb_vec_clear(data_, size_); }
-  slong size() const { return size_; }
-  arb_ptr operator[](slong k) const { return data_ + k; }
-
-  Series derivative(slong prec) const {
-    if (size_ <= 1) return Series(1);
-    Series result(size_ - 1);
-    _arb_poly_derivative(result.data_, data_, size_, prec);
-    return result;
-  }
-  void at(Ball& result, const Ball& s, slong prec) const {
-    _arb_poly_evaluate_horner(result.v, data_, size_, s.v, prec);
-  }
-
- private:
-  slong size_;
-  arb_ptr data_;
-};
-
-inline Ball middle_of(const Ball& x) {
-  Ball m;
-  arb_get_mid_arb(m.v, x.v);
-  return m;
-}
-
-inline Ball hull(const Ball& a, const Ball& b, slong prec) {
-  Ball x;
-  arb_union(x.v, a.v, b.v, prec);
-  return x;
-}
-
-inline bool negative(const Ball& x) { return arb_is_negative(x.v); }
-inline bool positive(const Ball& x) { return arb_is_positive(x.v); }
-inline bool not_positive(const Ball& x) { return arb_is_nonpositive(x.v); }
-inline bool not_negative(const Ball& x) { return arb_is_nonnegative(x.v); }
-inline double nearest(const Ball& x) { return arf_get_d(arb_midref(x.v), ARF_RND_NEAR); }
-
-/// Whether most of the width of `range` comes from the uncertainty of the value at its middle.
-inline bool blurred(const Ball& at_middle, const Ball& range) {
-  mag_t m;
-  mag_init(m);
-  mag_mul_2exp_si(m, arb_radref(at_middle.v), 3);
-  const bool result = mag_cmp(m, arb_radref(range.v)) > 0;
-  mag_clear(m);
-  return result;
-}
+/// Where a ball is beside the places whose nearest wall is a certain one.
+enum class Region { inside, across, outside };
 
 /// One question at one precision. Time is the offset in the period of the window's begin.
 class Problem {
@@ -108,6 +36,8 @@ class Problem {
   /// they enclose those about every time in it.
   Series gap(int wall, const Ball& t, const Ball& h, slong count, slong prec) const {
     const slong n = count;
+    if (q_.sphere) return gap_to_centre(t, h, n, prec);
+    if (q_.rounded) return gap_to_rounded(wall, t, h, n, prec);
     if (!q_.planes.empty()) return gap_to_plane(q_.planes[static_cast<std::size_t>(wall)], t, h, n, prec);
     if (q_.box || wall < 2) {
       const int axis = q_.box ? wall / 2 : 1;
@@ -132,12 +62,89 @@ class Problem {
     return result;
   }
 
+  /// Which of them holds for all offsets of t. Regions reach a little into each other, so that a contact on
+  /// their border is found with both walls.
+  Region region(int wall, const Ball& t) const {
+    if (!q_.rounded) return Region::inside;
+    constexpr double overlap = 1e-10;  // [m]; the gaps differ by its square
+    const auto [a, b, rounding] = *q_.rounded;
+    if (q_.radius > rounding) return wall < 2 ? Region::outside : Region::inside;
+    const Ball h(1.0);
+    const Series x = coordinate(0, t, h, 1, coarse), y = coordinate(1, t, h, 1, coarse),
+                 z = coordinate(2, t, h, 1, coarse);
+    Ball square, height;
+    arb_mul(square.v, x[0], x[0], coarse);
+    arb_addmul(square.v, z[0], z[0], coarse);
+    arb_set(height.v, y[0]);
+    if (wall == 0 || wall == 3) arb_neg(height.v, height.v);
+    Region result = Region::inside;
+    const auto must = [&](const Ball& value, double bound, bool above) {
+      Ball off;
+      const Ball limit(bound);
+      arb_sub(off.v, value.v, limit.v, coarse);
+      if (!above) arb_neg(off.v, off.v);
+      if (negative(off)) result = Region::outside;
+      if (result == Region::inside && !not_negative(off)) result = Region::across;
+    };
+    if (wall == 2) {
+      must(height, b + overlap, false);
+      must(height, -b - overlap, true);
+    } else {
+      must(height, b - overlap, true);
+    }
+    if (a > 0 && wall < 3) must(square, (a - overlap) * (a - overlap), true);
+    if (a > 0 && wall >= 3) must(square, (a + overlap) * (a + overlap), false);
+    return result;
+  }
+
   /// Value and rate at one offset.
   Series sample(int wall, const Ball& t, slong count = 2) const {
     return gap(wall, t, Ball(1.0), count, prec_);
   }
 
  private:
+  /// size^2 - the sum of squares of the given series
+  static Series beyond_squares(const Ball& size, const std::vector<Series>& parts, slong prec) {
+    Series result(parts[0].size());
+    for (const auto& part : parts) add_product(result, -1, part, part, prec);
+    arb_addmul(result[0], size.v, size.v, prec);
+    return result;
+  }
+  Series gap_to_centre(const Ball& t, const Ball& h, slong n, slong prec) const {
+    Ball room(*q_.sphere);
+    const Ball radius(q_.radius);
+    arb_sub(room.v, room.v, radius.v, exact);
+    return beyond_squares(
+        room, {coordinate(0, t, h, n, prec), coordinate(1, t, h, n, prec), coordinate(2, t, h, n, prec)},
+        prec);
+  }
+  /// 0 and 1 the edges or ends, 2 the cylinder, 3 and 4 the caps.
+  Series gap_to_rounded(int wall, const Ball& t, const Ball& h, slong n, slong prec) const {
+    const Ball core((*q_.rounded)[0]), half((*q_.rounded)[1]), radius(q_.radius);
+    Ball room((*q_.rounded)[2]), along, around;
+    arb_sub(room.v, room.v, radius.v, exact);
+    arb_add(along.v, half.v, room.v, exact);
+    arb_add(around.v, core.v, room.v, exact);
+    const Series x = coordinate(0, t, h, n, prec), z = coordinate(2, t, h, n, prec);
+    if (wall == 2) return beyond_squares(around, {x, z}, prec);
+    Series y = coordinate(1, t, h, n, prec);
+    if (wall == 0 || wall == 3)
+      for (slong k = 0; k < n; ++k) arb_neg(y[k], y[k]);
+    if (wall >= 3) {
+      for (slong k = 0; k < n; ++k) arb_neg(y[k], y[k]);
+      arb_add(y[0], y[0], along.v, prec);
+      return y;
+    }
+    arb_sub(y[0], y[0], half.v, prec);
+    if (arb_is_zero(core.v)) return beyond_squares(room, {x, z, y}, prec);
+    Series square(n), distance(n);
+    add_product(square, 1, x, x, prec);
+    add_product(square, 1, z, z, prec);
+    _arb_poly_sqrt_series(distance[0], square[0], n, n, prec);
+    arb_sub(distance[0], distance[0], core.v, prec);
+    return beyond_squares(room, {distance, y}, prec);
+  }
+
   /// d - R - n.p
   Series gap_to_plane(const std::array<double, 4>& plane, const Ball& t, const Ball& h, slong n,
                       slong prec) const {
@@ -154,27 +161,13 @@ class Problem {
 
   /// A coordinate of the ball in the vessel frame.
   Series coordinate(int axis, const Ball& t, const Ball& h, slong n, slong prec) const {
-    return q_.shaken ? on_table(axis, t, h, n, prec) : in_nested(axis, t, h, n, prec);
-  }
-
-  /// P - A sin(phase).
-  Series on_table(int axis, const Ball& t, const Ball& h, slong n, slong prec) const {
-    Ball phase, wh, factor((*q_.shaken)[static_cast<std::size_t>(axis)]), s, c;
-    arb_mul(phase.v, omega_.v, t.v, prec);
-    arb_mul(wh.v, omega_.v, h.v, prec);
-    arb_sin_cos(s.v, c.v, phase.v, prec);
-    Series result(n);
-    const Series r = path(static_cast<std::size_t>(axis), t, h, n, prec);
-    for (slong k = 0; k < n; ++k) {
-      if (k > 0) {
-        arb_mul(factor.v, factor.v, wh.v, prec);
-        arb_div_ui(factor.v, factor.v, static_cast<ulong>(k), prec);
-      }
-      arb_mul(result[k], (k % 2 == 0 ? s : c).v, factor.v, prec);
-      if (k % 4 < 2) arb_neg(result[k], result[k]);  // -(sin, cos, -sin, -cos)
-      if (k < 3) arb_add(result[k], result[k], r[k], prec);
+    if (q_.chain) {
+      std::array<Series, 3> place;
+      for (std::size_t k = 0; k < 3; ++k) place[k] = cut(path(k, t, h, n, prec), n);
+      return through_chain(*q_.chain, {q_.begin_period, Ball(q_.period)}, place, t, h,
+                           prec)[static_cast<std::size_t>(axis)];
     }
-    return result;
+    return in_nested(axis, t, h, n, prec);
   }
 
   Series in_nested(int axis, const Ball& t, const Ball& h, slong n, slong prec) const {
@@ -240,19 +233,6 @@ class Problem {
     }
     sin_cos(alpha, sin_a, cos_a, prec);
     sin_cos(gamma, sin_g, cos_g, prec);
-  }
-
-  static void sin_cos(const Series& angle, Series& sine, Series& cosine, slong prec) {
-    const slong n = angle.size();
-    Series rate(n);  // k a_k
-    for (slong k = 1; k < n; ++k) arb_mul_ui(rate[k], angle[k], static_cast<ulong>(k), prec);
-    arb_sin_cos(sine[0], cosine[0], angle[0], prec);
-    for (slong k = 1; k < n; ++k) {
-      arb_dot(sine[k], nullptr, 0, rate[1], 1, cosine[k - 1], -1, k, prec);
-      arb_dot(cosine[k], nullptr, 1, rate[1], 1, sine[k - 1], -1, k, prec);
-      arb_div_ui(sine[k], sine[k], static_cast<ulong>(k), prec);
-      arb_div_ui(cosine[k], cosine[k], static_cast<ulong>(k), prec);
-    }
   }
 
   /// r0 + v0 dt + g dt^2 / 2 along one inertial axis.

@@ -21,22 +21,37 @@ const model::CylinderVessel<Real>& cylinder(const model::Mill<Real>& mill) {
 /// Of the gap function of a wall near contact.
 template <class Real>
 Real gap_per_metre(const model::Mill<Real>& mill, int wall, const Real& ball_radius) {
-  const auto* tube = mill.vessel.template get_if<model::CylinderVessel<Real>>();
-  return tube && wall == 2 ? Real(2 * (tube->radius - ball_radius)) : Real(1);
+  if (const auto* tube = mill.vessel.template get_if<model::CylinderVessel<Real>>())
+    return wall == 2 ? Real(2 * (tube->radius - ball_radius)) : Real(1);
+  if (const auto* sphere = mill.vessel.template get_if<model::SphereVessel<Real>>())
+    return 2 * (sphere->radius - ball_radius);
+  if (const auto* rounded = mill.vessel.template get_if<model::RoundedVessel<Real>>()) {
+    const Real room = rounded->rounding() - ball_radius;
+    return wall < 2 ? Real(2 * room) : wall == 2 ? Real(2 * (rounded->core_radius() + room)) : Real(1);
+  }
+  return Real(1);
 }
 
 /// Every digit of the motion and of the vessel.
 inline std::string text_of(const model::Mill<double>& mill) {
   std::ostringstream out;
   out << std::hexfloat;
-  if (const auto* table = mill.motion.get_if<model::ShakenTable<double>>())
-    out << "table, amplitude " << table->amplitude().transpose();
+  if (const auto* chain = mill.motion.get_if<model::ChainMotion<double>>())
+    for (const auto& j : chain->joints().list)
+      out << (j.rotates ? "turn " : "shift ") << j.axis[0] << " " << j.axis[1] << " " << j.axis[2] << " "
+          << j.shift[0] << " " << j.shift[1] << " " << j.shift[2] << " " << j.angle << " " << j.frequency
+          << " swings " << j.swings.size() << "; ";
   else
     out << "arm " << spex(mill).arm() << " theta_max " << spex(mill).theta_max() << " gamma_max "
         << spex(mill).gamma_max();
   out << " period " << mill.motion.period();
   if (const auto* box = mill.vessel.get_if<model::BoxVessel<double>>())
     out << ", box " << box->half.transpose();
+  else if (const auto* sphere = mill.vessel.get_if<model::SphereVessel<double>>())
+    out << ", sphere " << sphere->radius;
+  else if (const auto* rounded = mill.vessel.get_if<model::RoundedVessel<double>>())
+    out << ", rounded " << rounded->core_radius() << " " << rounded->core_half() << " "
+        << rounded->rounding();
   else if (const auto* polyhedron = mill.vessel.get_if<model::PolyhedronVessel<double>>())
     for (const auto& [n, d] : polyhedron->planes()) out << ", plane " << n.transpose() << " at " << d;
   else

@@ -13,8 +13,14 @@ inline OracleQuestion question_of(const model::Mill<double>& mill, const dynamic
   const auto array = [](const Vec3<double>& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
   OracleQuestion question{};
   question.period = mill.motion.period();
-  if (const auto* table = mill.motion.get_if<model::ShakenTable<double>>()) {
-    question.shaken = array(table->amplitude());
+  if (const auto* chain = mill.motion.get_if<model::ChainMotion<double>>()) {
+    question.chain.emplace();
+    for (const auto& j : chain->joints().list) {
+      OracleJoint joint{j.rotates, j.axis, j.shift, j.angle, {j.per_period.whole, j.per_period.bits}, {}};
+      for (const auto& s : j.swings)
+        joint.swings.push_back({s.amplitude, s.phase, {s.per_period.whole, s.per_period.bits}});
+      question.chain->push_back(joint);
+    }
   } else {
     const auto& motion = spex(mill);
     question.arm = motion.arm(), question.theta_max = motion.theta_max(),
@@ -22,6 +28,10 @@ inline OracleQuestion question_of(const model::Mill<double>& mill, const dynamic
   }
   if (const auto* box = mill.vessel.get_if<model::BoxVessel<double>>())
     question.box = array(box->half);
+  else if (const auto* sphere = mill.vessel.get_if<model::SphereVessel<double>>())
+    question.sphere = sphere->radius;
+  else if (const auto* rounded = mill.vessel.get_if<model::RoundedVessel<double>>())
+    question.rounded = {rounded->core_radius(), rounded->core_half(), rounded->rounding()};
   else if (const auto* polyhedron = mill.vessel.get_if<model::PolyhedronVessel<double>>())
     for (const auto& [n, d] : polyhedron->planes()) question.planes.push_back({n[0], n[1], n[2], d});
   else

@@ -57,13 +57,14 @@ struct WriteNumbers {
 
 /// The same part with each number converted. A part lists its parameters by
 /// `parameters(part, visit)`, which calls visit(parameter, number) or visit(parameter, three numbers) for
-/// each.
+/// each. A part with lists takes their lengths by `take_shape(from)`.
 template <template <class> class Part, class To, class From, class Convert>
 Part<To> converted(const Part<From>& from, const Convert& convert) {
   detail::ReadNumbers<To, From, Convert> read{convert, {}};
   Part<From>::parameters(from, read);
   detail::WriteNumbers<To> write{read.values};
   Part<To> to{};
+  if constexpr (requires { to.take_shape(from); }) to.take_shape(from);
   Part<To>::parameters(to, write);
   return to;
 }

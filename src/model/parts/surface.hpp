@@ -135,6 +135,102 @@ struct Tube {
   Rings<Real> rings() const { return {circle<Real>(*this, Real(0)), circle<Real>(*this, Real(1))}; }
 };
 
+/// Rings on a surface of revolution, at equal parts of v.
+template <class Real, class Surface>
+Rings<Real> circles(const Surface& surface, int count) {
+  Rings<Real> rings;
+  for (int k = 0; k <= count; ++k) rings.push_back(circle<Real>(surface, Real(k) / Real(count)));
+  return rings;
+}
+
+/// A zone of a sphere about the origin of its frame: u along the angle from x to z, v along y, which by
+/// Archimedes shares the area evenly.
+template <class Real>
+struct Zone {
+  static constexpr const char* name = "spheres";
+  static constexpr std::array coordinates{Coordinate::angle, Coordinate::height};
+
+  Frame<Real> frame;
+  Real radius, low, high;  ///< the zone is between these heights [m]
+
+  WallPlace<Real> map(const Vec3<Real>& p) const {
+    const Vec3<Real> d = frame.inside(p);
+    return {turns<Real>(d[0], d[2]), (d[1] - low) / (high - low)};
+  }
+  Vec3<Real> point(const Real& u, const Real& v) const {
+    using std::sqrt;
+    const auto angle = numerics::sin_cos_turns<Real>(u);
+    const Real y = low + (high - low) * v, square = radius * radius - y * y;
+    const Real r = square > 0 ? Real(sqrt(square)) : Real(0);
+    return frame.outside({r * angle.cos, y, r * angle.sin});
+  }
+  Real area() const { return 2 * numerics::pi<Real>() * radius * (high - low); }
+  Real edge(int axis, std::size_t k, std::size_t n) const {
+    if (axis == 0) return 2 * numerics::pi<Real>() * Real(k) / Real(n);
+    return frame.outside({Real(0), low + (high - low) * (Real(k) / Real(n)), Real(0)})[1];
+  }
+  Rings<Real> rings() const { return circles<Real>(*this, 12); }
+};
+
+/// The quarter of a torus about y that rounds the upper edge of a cylinder: u along the angle from x to z, v
+/// by area from the cap, where r = core, down to the cylinder, where r = core + rounding.
+template <class Real>
+struct Edge {
+  static constexpr const char* name = "edges";
+  static constexpr std::array coordinates{Coordinate::angle, Coordinate::height};
+
+  Frame<Real> frame;    ///< origin in the plane of the circle of the torus
+  Real core, rounding;  ///< radii of that circle and of the tube [m]
+
+  WallPlace<Real> map(const Vec3<Real>& p) const {
+    using std::sqrt;
+    const Vec3<Real> d = frame.inside(p);
+    const Real r = sqrt(d[0] * d[0] + d[2] * d[2]);
+    return {turns<Real>(d[0], d[2]), share(turns<Real>(d[1], Real(r - core)))};
+  }
+  Vec3<Real> point(const Real& u, const Real& v) const {
+    const auto angle = numerics::sin_cos_turns<Real>(u), tilt = numerics::sin_cos_turns<Real>(tilt_at(v));
+    const Real r = core + rounding * tilt.sin;
+    return frame.outside({r * angle.cos, rounding * tilt.cos, r * angle.sin});
+  }
+  Real area() const {
+    const Real pi = numerics::pi<Real>();
+    return 2 * pi * rounding * (core * pi / 2 + rounding);
+  }
+  Real edge(int axis, std::size_t k, std::size_t n) const {
+    if (axis == 0) return 2 * numerics::pi<Real>() * Real(k) / Real(n);
+    const auto tilt = numerics::sin_cos_turns<Real>(tilt_at(Real(k) / Real(n)));
+    return frame.outside({Real(0), rounding * tilt.cos, Real(0)})[1];
+  }
+  Rings<Real> rings() const { return circles<Real>(*this, 6); }
+
+ private:
+  /// Of the area, from the cap to the tilt [turns] from y.
+  Real share(const Real& tilt) const {
+    const Real quarter = numerics::pi<Real>() / 2;
+    const auto at = numerics::sin_cos_turns<Real>(tilt);
+    return (core * (4 * quarter * tilt) + rounding * (1 - at.cos)) / (core * quarter + rounding);
+  }
+  /// The inverse, by Newton's iteration between 0 and a quarter: the share grows throughout.
+  Real tilt_at(const Real& v) const {
+    if (!(v > 0)) return Real(0);
+    Real low(0), high = Real(1) / 4, tilt = v / 4;
+    const Real quarter = numerics::pi<Real>() / 2, whole = core * quarter + rounding;
+    for (int step = 0; step < 100; ++step) {
+      const Real off = share(tilt) - v;
+      (off > 0 ? high : low) = tilt;
+      const auto at = numerics::sin_cos_turns<Real>(tilt);
+      const Real slope = 4 * quarter * (core + rounding * at.sin) / whole;
+      Real next = tilt - off / slope;
+      if (!(next > low && next < high)) next = (low + high) / 2;
+      const Real moved = next - tilt;
+      tilt = next;
+      if (moved < epsilon<Real>() && -moved < epsilon<Real>()) break;
+    }
+    return tilt;
+  }
+};
+
 /// A flat rectangle: u and v along its edges.
 template <class Real>
 struct Rectangle {
@@ -193,7 +289,7 @@ Polygon<Real> polygon_of(const std::vector<Vec3<Real>>& corners) {
 template <class Real>
 class WallSurface {
  public:
-  using Kind = std::variant<Disc<Real>, Tube<Real>, Rectangle<Real>, Polygon<Real>>;
+  using Kind = std::variant<Disc<Real>, Tube<Real>, Zone<Real>, Edge<Real>, Rectangle<Real>, Polygon<Real>>;
 
   template <class Surface>
   WallSurface(const Surface& surface) : kind_(surface) {}

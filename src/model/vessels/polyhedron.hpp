@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "model/parts/parameter.hpp"
 #include "model/parts/partners.hpp"
 #include "model/parts/surface.hpp"
 #include "model/parts/vessel_frame.hpp"
@@ -30,36 +32,19 @@ class PolyhedronVessel {
     Real distance;      ///< d > 0, of the plane from the origin [m]
   };
 
+  /// What was found and what was expected, of planes that are no vessel.
+  struct Problem {
+    std::string found, expected;
+  };
+
   /// @throws InputError when the planes do not close a vessel about the origin, or one of them is no wall of
   /// it
   explicit PolyhedronVessel(const std::vector<Plane>& planes) {
-    if (planes.size() < 4 || planes.size() > most_walls)
-      throw InputError("vessel: found " + std::to_string(planes.size()) + " planes, expected 4 to 32");
-    for (const auto& plane : planes) {
-      const Real size = norm<Real>(plane.normal);
-      if (!(size > 0) || !(plane.distance > 0))
-        throw InputError("vessel: found a plane without normal or distance, expected the origin inside");
-      planes_.push_back({plane.normal / size, plane.distance});
-    }
-    const auto faces = make_faces();
-    Real reach(0);
-    for (std::size_t wall = 0; wall < faces.size(); ++wall) {
-      if (faces[wall].size() < 3)
-        throw InputError("vessel: found a plane " + std::to_string(wall) + " that is no wall of it");
-      for (const auto& corner : faces[wall]) {
-        const Real size = norm<Real>(corner);
-        reach = size > reach ? size : reach;
-        for (int axis = 0; axis < 3; ++axis) {
-          const Real far = corner[axis] < 0 ? Real(-corner[axis]) : Real(corner[axis]);
-          half_sizes_[axis] = far > half_sizes_[axis] ? far : half_sizes_[axis];
-        }
-      }
-      volume_ += planes_[wall].distance * area_of(faces[wall]) / 3;
-    }
-    if (is_open()) throw InputError("vessel: found planes that leave it open, expected a closed vessel");
-    const Real up = 1 + Real(1) / 1048576;
-    reach_ = reach * up;
-    half_sizes_ = half_sizes_ * up;
+    if (const auto problem = fill(planes))
+      throw InputError("vessel: found " + problem->found + ", expected " + problem->expected);
+  }
+  static std::optional<Problem> problem_of(const std::vector<Plane>& planes) {
+    return PolyhedronVessel().fill(planes);
   }
   template <class To>
   PolyhedronVessel<To> cast() const {
@@ -100,7 +85,8 @@ class PolyhedronVessel {
     for (auto& plane : smaller.planes_) plane.distance -= by;
     return smaller;
   }
-  /// A closed room that is not empty has a corner. Where planes were moved inwards, the origin may be outside.
+  /// A closed room that is not empty has a corner. Where planes were moved inwards, the origin may be
+  /// outside.
   bool is_empty() const {
     const auto faces = make_faces();
     return std::all_of(faces.begin(), faces.end(), [](const Polygon& face) { return face.empty(); });
@@ -170,6 +156,37 @@ class PolyhedronVessel {
 
   using Polygon = std::vector<Vec3<Real>>;
 
+  std::optional<Problem> fill(const std::vector<Plane>& planes) {
+    if (planes.size() < 4 || planes.size() > most_walls)
+      return Problem{std::to_string(planes.size()) + " planes", "4 to 32"};
+    for (const auto& plane : planes) {
+      const Real size = norm<Real>(plane.normal);
+      if (!(size > 0) || !(plane.distance > 0))
+        return Problem{"a plane without normal or distance", "the origin inside"};
+      planes_.push_back({plane.normal / size, plane.distance});
+    }
+    if (is_open()) return Problem{"planes that leave it open", "a closed vessel"};
+    const auto faces = make_faces();
+    Real reach(0);
+    for (std::size_t wall = 0; wall < faces.size(); ++wall) {
+      if (faces[wall].size() < 3)
+        return Problem{"a plane " + std::to_string(wall) + " that is no wall of it", "walls only"};
+      for (const auto& corner : faces[wall]) {
+        const Real size = norm<Real>(corner);
+        reach = size > reach ? size : reach;
+        for (int axis = 0; axis < 3; ++axis) {
+          const Real far = corner[axis] < 0 ? Real(-corner[axis]) : Real(corner[axis]);
+          half_sizes_[axis] = far > half_sizes_[axis] ? far : half_sizes_[axis];
+        }
+      }
+      volume_ += planes_[wall].distance * area_of(faces[wall]) / 3;
+    }
+    const Real up = 1 + Real(1) / 1048576;
+    reach_ = reach * up;
+    half_sizes_ = half_sizes_ * up;
+    return std::nullopt;
+  }
+
   /// The corners of each wall, in turn.
   std::vector<Polygon> make_faces() const {
     std::vector<Polygon> faces(planes_.size());
@@ -238,6 +255,43 @@ class PolyhedronVessel {
   boost::container::static_vector<Plane, most_walls> planes_;
   Vec3<Real> half_sizes_{Real(0), Real(0), Real(0)};
   Real reach_{0}, volume_{0};
+};
+
+/// A plane by its outward normal, of any length, a point of it and how far it is moved outwards.
+template <class Number>
+struct Face {
+  std::array<Number, 3> normal{}, point{};
+  Number distance{};
+};
+
+/// [vessel] type = "polyhedron": convex, by planes or by the hull of its vertices.
+template <class Number>
+struct Polyhedron {
+  static constexpr const char* name = "polyhedron";
+  std::vector<Face<Number>> faces;
+
+  template <class Other>
+  void take_shape(const Polyhedron<Other>& other) {
+    faces.resize(other.faces.size());
+  }
+  template <class Part, class Visit>
+  static void parameters(Part& part, Visit&& visit) {
+    for (auto& face : part.faces) {
+      visit(PartParameter{"normal", Dimension::none}, face.normal);
+      visit(PartParameter{"point", Dimension::length}, face.point);
+      visit(PartParameter{"distance", Dimension::length}, face.distance);
+    }
+  }
+  std::vector<typename PolyhedronVessel<Number>::Plane> planes() const {
+    std::vector<typename PolyhedronVessel<Number>::Plane> planes;
+    for (const auto& face : faces) {
+      const Vec3<Number> n{face.normal[0], face.normal[1], face.normal[2]};
+      const Vec3<Number> p{face.point[0], face.point[1], face.point[2]};
+      planes.push_back({n, face.distance + dot<Number>(n, p) / norm<Number>(n)});
+    }
+    return planes;
+  }
+  PolyhedronVessel<Number> vessel() const { return PolyhedronVessel<Number>(planes()); }
 };
 
 }  // namespace edmill::model

@@ -1,0 +1,191 @@
+#include "casefile/joints.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/scalar_list.hpp"
+#include "casefile/parts.hpp"
+#include "casefile/quantity_value.hpp"
+#include "casefile/section.hpp"
+
+namespace edmill::casefile {
+
+namespace {
+
+using boost::multiprecision::cpp_int;
+using model::Joint;
+using model::Joints;
+using model::Swing;
+
+constexpr int fraction_bits = 64 * static_cast<int>(TurnFraction::words);
+
+/// The share of a turn by which `turns` exceeds whole turns, cut to the bits of a TurnFraction.
+TurnFraction fraction_of(const Quantity& turns) {
+  cpp_int scaled;
+  if (turns.pi_power == 0) {
+    const cpp_int shifted = numerator(turns.value) << fraction_bits;
+    scaled = shifted / denominator(turns.value);
+  } else {
+    using Wide = mpfr_of<2 * fraction_bits * 3 / 10>;
+    scaled = static_cast<cpp_int>(Wide(ldexp(turns.to<Wide>(), fraction_bits)));
+  }
+  const cpp_int one = cpp_int(1) << fraction_bits;
+  TurnFraction fraction;
+  fraction.whole = static_cast<std::int64_t>(cpp_int(scaled / one));
+  scaled %= one;
+  if (scaled < 0) scaled += one, --fraction.whole;
+  for (std::size_t k = TurnFraction::words; k-- > 0; scaled >>= 64)
+    fraction.bits[k] = static_cast<std::uint64_t>(scaled & 0xffffffffffffffffu);
+  return fraction;
+}
+
+/// A frequency [1/s] for an angular speed [rad/s], turns for an angle [rad].
+Quantity in_turns(const Quantity& radians) { return {radians.value / 2, radians.pi_power - 1}; }
+
+const std::array<std::string, 3> axes{"x", "y", "z"};
+
+/// "x", "y", "z", or three numbers.
+std::array<Quantity, 3> read_axis(Section& joint, const std::string& key) {
+  if (joint.is_array(key)) {
+    const auto axis = joint.vector(key, Dimension::none).value_or(QuantityVector{Quantity{1}});
+    const bool zero = axis[0].zero() && axis[1].zero() && axis[2].zero();
+    joint.require(!zero, key, "an axis other than zero");
+    return axis;
+  }
+  const auto name = joint.text(key).value_or("x");
+  std::array<Quantity, 3> axis{};
+  bool known = false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (name == axes[k]) axis[k] = Quantity{1}, known = true;
+  joint.require(known, key, "\"x\", \"y\", \"z\" or an array of three numbers");
+  return axis;
+}
+
+std::vector<Swing<Quantity>> read_swings(Section& joint, bool rotates) {
+  std::vector<Swing<Quantity>> swings;
+  for (Section& entry : joint.sections("swing")) {
+    const auto amplitude = entry.required("amplitude", rotates ? Dimension::angle : Dimension::length);
+    const auto speed = entry.required("speed", Dimension::angular_speed);
+    entry.require(speed.positive(), "speed", "a positive angular speed");
+    const auto phase = entry.quantity("phase", Dimension::angle, Quantity{0});
+    swings.push_back({rotates ? in_turns(amplitude) : amplitude, in_turns(speed), in_turns(phase)});
+    entry.reject_unknown_keys();
+  }
+  return swings;
+}
+
+Joint<Quantity> read_rotation(Section& section) {
+  Joint<Quantity> joint;
+  joint.axis = read_axis(section, "rotate");
+  joint.angle = in_turns(section.quantity("angle", Dimension::angle, Quantity{0}));
+  joint.frequency = in_turns(section.quantity("speed", Dimension::angular_speed, Quantity{0}));
+  joint.swings = read_swings(section, true);
+  if (joint.angle.zero() && joint.frequency.zero() && joint.swings.empty())
+    section.problem("rotate", "a joint that does not turn", "one with angle, speed or swing");
+  return joint;
+}
+
+Joint<Quantity> read_translation(Section& section) {
+  Joint<Quantity> joint;
+  joint.rotates = false;
+  if (section.has("speed"))
+    section.problem("speed", "a translation at constant speed, which leads away from any mill",
+                    "a swing, or no speed");
+  if (section.is_array("translate")) {
+    joint.shift = section.vector("translate", Dimension::length).value_or(QuantityVector{Quantity{1}});
+    if (joint.shift[0].zero() && joint.shift[1].zero() && joint.shift[2].zero())
+      section.problem("translate", "a joint that shifts nothing", "a length other than zero");
+    if (section.has("distance") || section.has("swing"))
+      section.problem(section.has("swing") ? "swing" : "distance", "a shift with all three lengths given",
+                      "translate = \"x\", \"y\" or \"z\" with it");
+    return joint;
+  }
+  joint.axis = read_axis(section, "translate");
+  const auto distance = section.quantity("distance", Dimension::length, Quantity{0});
+  for (std::size_t k = 0; k < 3; ++k) joint.shift[k] = joint.axis[k] * distance;
+  joint.swings = read_swings(section, false);
+  if (distance.zero() && joint.swings.empty())
+    section.problem("translate", "a joint that shifts nothing", "one with distance or swing");
+  return joint;
+}
+
+/// The fastest joint sets the clock.
+Quantity period_of_fastest(const Joints<Quantity>& joints) {
+  Quantity fastest{0};
+  const auto see = [&](const Quantity& frequency) {
+    if (std::abs(frequency.to<double>()) > std::abs(fastest.to<double>())) fastest = frequency;
+  };
+  for (const auto& joint : joints.list) {
+    see(joint.frequency);
+    for (const auto& swing : joint.swings) see(swing.frequency);
+  }
+  if (fastest.zero()) return {boost::multiprecision::cpp_rational(1, 16)};
+  if (fastest.negative()) fastest.value = -fastest.value;
+  return Quantity{1} / fastest;
+}
+
+std::string axis_name(const std::array<Quantity, 3>& axis) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (axis[k].value == 1 && axis[(k + 1) % 3].zero() && axis[(k + 2) % 3].zero()) return axes[k];
+  return fmt::format("({:g}, {:g}, {:g})", axis[0].to<double>(), axis[1].to<double>(), axis[2].to<double>());
+}
+
+std::string swings_of(const Joint<Quantity>& joint) {
+  std::string text;
+  for (const auto& s : joint.swings) {
+    const double amplitude = s.amplitude.to<double>() * (joint.rotates ? 360 : 1);
+    text += fmt::format(" + {:g} {} sin(2 pi {:g} t", amplitude, joint.rotates ? "deg" : "m",
+                        s.frequency.to<double>());
+    if (!s.phase.zero()) text += fmt::format(" + {:g} deg", 360 * s.phase.to<double>());
+    text += ")";
+  }
+  return text;
+}
+
+std::string text_of_joint(const Joint<Quantity>& joint) {
+  if (joint.rotates) {
+    std::string angle = fmt::format("{:g} deg", 360 * joint.angle.to<double>());
+    if (!joint.frequency.zero()) angle += fmt::format(" + {:g} deg t", 360 * joint.frequency.to<double>());
+    return "turn about " + axis_name(joint.axis) + " by " + angle + swings_of(joint);
+  }
+  std::string text = fmt::format("shift by ({:g}, {:g}, {:g}) m", joint.shift[0].to<double>(),
+                                 joint.shift[1].to<double>(), joint.shift[2].to<double>());
+  if (!joint.swings.empty()) text += swings_of(joint) + " along " + axis_name(joint.axis);
+  return text;
+}
+
+}  // namespace
+
+Joints<Quantity> with_phases(Joints<Quantity> joints) {
+  for (auto& joint : joints.list) {
+    joint.per_period = fraction_of(joint.frequency * joints.period);
+    for (auto& swing : joint.swings) swing.per_period = fraction_of(swing.frequency * joints.period);
+  }
+  return joints;
+}
+
+Joints<Quantity> read_joints(Section& mill) {
+  Joints<Quantity> joints;
+  const auto entries = mill.sections("joint");
+  if (entries.empty() && !mill.has("joint")) mill.problem("joint", "nothing", "at least one [[mill.joint]]");
+  for (Section entry : entries) {
+    if (entry.has("rotate") == entry.has("translate")) {
+      entry.problem("rotate", entry.has("rotate") ? "rotate and translate" : "neither rotate nor translate",
+                    "one of them");
+      continue;
+    }
+    joints.list.push_back(entry.has("rotate") ? read_rotation(entry) : read_translation(entry));
+    entry.reject_unknown_keys();
+  }
+  joints.period = period_of_fastest(joints);
+  return joints;
+}
+
+std::string equation_of(const Joints<Quantity>& joints) {
+  std::string text;
+  for (const auto& joint : joints.list) text += (text.empty() ? "" : "; ") + text_of_joint(joint);
+  return text;
+}
+
+}  // namespace edmill::casefile

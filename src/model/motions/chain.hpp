@@ -1,0 +1,285 @@
+// A vessel on a chain of joints: turns and shifts, constant, at constant speed or swinging. docs/theory.md,
+// section 1.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "base/instant.hpp"
+#include "model/motions/chain_bounds.hpp"
+#include "model/motions/joints.hpp"
+
+namespace edmill::model {
+
+/// Where the vessel frame is and how it moves, in inertial coordinates.
+template <class Real>
+struct ChainPose {
+  Vec3<Real> x, y, z;                         ///< axes of the vessel frame
+  Vec3<Real> centre, velocity, acceleration;  ///< of its origin [m], [m/s], [m/s^2]
+  Vec3<Real> omega, omega_rate;               ///< angular velocity and its rate [rad/s], [rad/s^2]
+
+  void archive(Archive& a) { a(x, y, z, centre, velocity, acceleration, omega, omega_rate); }
+};
+
+/// Each joint moves the frame of what is behind it, from the ground to the vessel. Speeds of joints need not
+/// have a common period: whole drive periods of the clock are taken off each phase exactly.
+template <class Real>
+class ChainMotion {
+ public:
+  using Scalar = Real;
+  using Pose = ChainPose<Real>;
+
+  ChainMotion() : ChainMotion(Joints<Real>{{}, Real(1)}) {}
+  explicit ChainMotion(const Joints<Real>& joints) : joints_(with_frequencies(joints)), bounds_(joints_) {
+    for (const auto& joint : joints_.list) {
+      Step step{joint.rotates, ChainBounds<Real>::direction(joint), -1, {}, joint.angle, {}, {}};
+      step.shift = {joint.shift[0], joint.shift[1], joint.shift[2]};
+      if (joint.rotates) step.aligned = aligned(joint.axis);
+      const Real turn = 2 * numerics::pi<Real>();
+      if (joint.rotates && !(joint.frequency == 0))
+        step.drive = Drive{joint.frequency, turn * joint.frequency, joint.per_period};
+      for (const auto& s : joint.swings)
+        step.swings.push_back({{s.frequency, turn * s.frequency, s.per_period}, s.amplitude, s.phase});
+      step.fixed = numerics::sin_cos_turns<Real>(step.angle);
+      step.moves = joint.rotates && (step.drive.frequency != 0 || !step.swings.empty());
+      steps_.push_back(std::move(step));
+    }
+  }
+  template <class To>
+  ChainMotion<To> cast() const {
+    return ChainMotion<To>(converted_joints<To>(joints_, [](const Real& x) { return static_cast<To>(x); }));
+  }
+
+  const Joints<Real>& joints() const { return joints_; }
+  const ChainBounds<Real>& bounds() const { return bounds_; }
+  const Real& period() const { return joints_.period; }  ///< of the clock [s]
+
+  Pose pose(const Instant<Real>& when) const {
+    const Vec3<Real> zero = Vec3<Real>::Zero();
+    Pose p{Vec3<Real>::UnitX(), Vec3<Real>::UnitY(), Vec3<Real>::UnitZ(), zero, zero, zero, zero, zero};
+    for (const auto& step : steps_) {
+      if (step.rotates)
+        rotate(p, step, when);
+      else
+        shift(p, step, when);
+    }
+    return p;
+  }
+  /// The sines of a chain are its least cost: the pose is made anew.
+  template <bool with_rates = true>
+  Pose pose_nearby(const Instant<Real>& when, const Pose&, const Instant<Real>&) const {
+    return pose(when);
+  }
+
+  static const Vec3<Real>& axis_x(const Pose& p) { return p.x; }
+  static const Vec3<Real>& axis_y(const Pose& p) { return p.y; }
+  static const Vec3<Real>& axis_z(const Pose& p) { return p.z; }
+  static Vec3<Real> direction_to_inertial(const Pose& pose, const Vec3<Real>& n) {
+    return pose.x * n[0] + pose.y * n[1] + pose.z * n[2];
+  }
+  static Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) {
+    return pose.centre + direction_to_inertial(pose, p);
+  }
+  static Vec3<Real> position_in_vessel(const Pose& pose, const Vec3<Real>& position) {
+    return to_vessel(pose, position - pose.centre);
+  }
+  static VesselFrameState<Real> to_vessel_frame(const Pose& pose, const Vec3<Real>& position,
+                                                const Vec3<Real>& velocity) {
+    const Vec3<Real> d = position - pose.centre;
+    return {to_vessel(pose, d), to_vessel(pose, velocity - (pose.velocity + cross<Real>(pose.omega, d)))};
+  }
+  static Vec3<Real> vessel_frame_acceleration(const Pose& pose, const VesselFrameState<Real>& state,
+                                              const Vec3<Real>&, const Vec3<Real>& gravity) {
+    const Vec3<Real> d = direction_to_inertial(pose, state.position);
+    const Vec3<Real> v = direction_to_inertial(pose, state.velocity);
+    return to_vessel(pose, gravity - (acceleration_at(pose, d) + cross<Real>(pose.omega, v) * Real(2)));
+  }
+  static Vec3<Real> angular_velocity(const Pose& pose) { return pose.omega; }
+  static Vec3<Real> wall_velocity(const Pose& pose, const Vec3<Real>& point) {
+    return pose.velocity + cross<Real>(pose.omega, Vec3<Real>(point - pose.centre));
+  }
+  static Vec3<Real> wall_acceleration(const Pose& pose, const Vec3<Real>& point) {
+    return acceleration_at(pose, point - pose.centre);
+  }
+
+  Vec3<Real> middle() const {
+    const auto box = swept_box<Real>(joints_, Vec3<Real>::Zero());
+    return (box.low + box.high) / Real(2);
+  }
+  Real reach(const Real& vessel_reach) const { return bounds_.distance + vessel_reach; }
+  Real wall_speed(const Real& vessel_reach) const {
+    return bounds_.speed + bounds_.turning[0] * vessel_reach;
+  }
+  Real speed_within(const Real& distance) const { return wall_speed(distance + bounds_.distance); }
+  Real acceleration_within(const Real& distance) const {
+    return bounds_.acceleration[0] + bend() * (distance + bounds_.distance);
+  }
+  Real longest_window() const {
+    const Real& turning = bounds_.turning[0];
+    const Real quarter = turning > 0 ? Real(1 / (4 * turning)) : period();
+    return period() / 8 < quarter ? Real(period() / 8) : quarter;
+  }
+  SweptBox<Real> swept(const Vec3<Real>& sizes, const Real&) const { return swept_box<Real>(joints_, sizes); }
+
+  /// With p' and p the velocity and place in the frame, R its rotation and b the acceleration of its origin:
+  /// p'' = R g - b - 2 w x p' - w' x p - w x (w x p), and its derivatives by Leibniz' rule.
+  CoordinateBounds<Real> coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach,
+                                           const Real& gravity, const Real& speed, const Real& length) const {
+    const auto& w = bounds_.turning;
+    const auto& b = bounds_.acceleration;
+    const Real p0 = vessel_reach + (speed + bounds_.speed) * length;
+    const Real p1 = speed + bounds_.speed + w[0] * p0;
+    const Real square = w[0] * w[0], square1 = 2 * w[0] * w[1], square2 = 2 * (w[1] * w[1] + w[0] * w[2]);
+    const Real p2 = gravity + b[0] + 2 * w[0] * p1 + (w[1] + square) * p0;
+    const Real p3 = gravity * w[0] + b[1] + 2 * w[0] * p2 + (3 * w[1] + square) * p1 + (w[2] + square1) * p0;
+    const Real p4 = gravity * (w[1] + square) + b[2] + 2 * w[0] * p3 + (5 * w[1] + square) * p2 +
+                    (4 * w[2] + 2 * square1) * p1 + (w[3] + square2) * p0;
+    const auto along = [&](int axis) {
+      return numerics::Majorant<Real>{sizes[axis] + p1 * length, p1, p2, p3, p4};
+    };
+    return {along(0), along(1), along(2)};
+  }
+
+  Real speed_in_vessel(const FlightBounds<Real>& f) const {
+    return f.speed + bounds_.speed + bounds_.turning[0] * f.reach;
+  }
+  Real acceleration_in_vessel(const FlightBounds<Real>& f) const {
+    return f.gravity + bounds_.acceleration[0] + 2 * bounds_.turning[0] * speed_in_vessel(f) +
+           bend() * f.reach;
+  }
+  /// The flight's position and velocity, and all parts of the pose as ChainBounds counts them.
+  ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& f) const {
+    const Real fallen = f.gravity * f.elapsed;
+    const Real position = 12 * f.reach + 8 * (fallen * f.elapsed) + 2 * (f.speed * (f.elapsed + 3 * f.lag));
+    return through_pose(u, f, position, 8 * f.speed + 4 * fallen);
+  }
+  ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& f) const {
+    const Real time = period() + f.lag;
+    const Real position =
+        3 * f.reach + f.speed * (f.elapsed + time) + 2 * (f.gravity * f.elapsed * f.elapsed);
+    return through_pose(u, f, position, 2 * f.speed + f.gravity * (2 * f.elapsed + time));
+  }
+
+ private:
+  struct Drive {
+    Real frequency{0};  ///< [1/s]
+    Real speed{0};      ///< 2 pi frequency [rad/s]
+    TurnFraction per_period{};
+
+    Real turns(const Instant<Real>& when) const {
+      return per_period.times<Real>(when.period) + frequency * when.offset;
+    }
+  };
+  struct SwingDrive : Drive {
+    Real amplitude, phase;  ///< [m] or [turns], [turns]
+  };
+  struct Step {
+    bool rotates;
+    Vec3<Real> axis;   ///< unit
+    int aligned;       ///< axis along +x, +y, +z: 0, 1, 2; else -1
+    Vec3<Real> shift;  ///< [m]
+    Real angle;        ///< [turns]
+    Drive drive;       ///< of constant speed; frequency 0 for none
+    std::vector<SwingDrive> swings;
+    numerics::SinCos<Real> fixed{};  ///< of the constant angle
+    bool moves = false;
+  };
+  /// Value and two derivatives of a sum of swings.
+  struct Moved {
+    Real value, rate, second;
+  };
+
+  /// What a joint turns in a drive period is exact, its frequency rounded: so the pose at the end of a period
+  /// is that at the begin of the next in every scalar that the mill is passed to.
+  static Joints<Real> with_frequencies(Joints<Real> joints) {
+    for (auto& joint : joints.list) {
+      joint.frequency = joint.per_period.template value<Real>() / joints.period;
+      for (auto& swing : joint.swings)
+        swing.frequency = swing.per_period.template value<Real>() / joints.period;
+    }
+    return joints;
+  }
+  static int aligned(const std::array<Real, 3>& axis) {
+    for (int k = 0; k < 3; ++k)
+      if (axis[static_cast<std::size_t>(k)] > 0 && axis[static_cast<std::size_t>((k + 1) % 3)] == 0 &&
+          axis[static_cast<std::size_t>((k + 2) % 3)] == 0)
+        return k;
+    return -1;
+  }
+  Real bend() const { return bounds_.turning[1] + bounds_.turning[0] * bounds_.turning[0]; }
+
+  static Vec3<Real> to_vessel(const Pose& p, const Vec3<Real>& d) {
+    return {dot<Real>(p.x, d), dot<Real>(p.y, d), dot<Real>(p.z, d)};
+  }
+  static Vec3<Real> acceleration_at(const Pose& p, const Vec3<Real>& d) {
+    return p.acceleration + cross<Real>(p.omega_rate, d) + cross<Real>(p.omega, cross<Real>(p.omega, d));
+  }
+
+  static Moved swung(const Step& step, const Instant<Real>& when) {
+    Moved moved{Real(0), Real(0), Real(0)};
+    for (const auto& swing : step.swings) {
+      const auto phase = numerics::sin_cos_turns<Real>(swing.turns(when) + swing.phase);
+      const Real rate = swing.amplitude * swing.speed;
+      moved.value += swing.amplitude * phase.sin;
+      moved.rate += rate * phase.cos;
+      moved.second -= rate * swing.speed * phase.sin;
+    }
+    return moved;
+  }
+
+  static void rotate(Pose& p, const Step& step, const Instant<Real>& when) {
+    auto turned = step.fixed;
+    const Vec3<Real> axis = step.aligned >= 0 ? column(p, step.aligned) : direction_to_inertial(p, step.axis);
+    if (step.moves) {
+      const Real turn = 2 * numerics::pi<Real>();
+      const auto moved = swung(step, when);
+      Real turns = step.angle + moved.value, rate = moved.rate * turn;
+      if (step.drive.frequency != 0) turns += step.drive.turns(when), rate += step.drive.speed;
+      turned = numerics::sin_cos_turns<Real>(turns);
+      const Vec3<Real> relative = axis * rate;
+      p.omega_rate += axis * Real(moved.second * turn) + cross<Real>(p.omega, relative);
+      p.omega += relative;
+    }
+    if (step.aligned >= 0) {
+      Vec3<Real>&a = column(p, (step.aligned + 1) % 3), &b = column(p, (step.aligned + 2) % 3);
+      const Vec3<Real> old = a;
+      a = old * turned.cos + b * turned.sin;
+      b = b * turned.cos - old * turned.sin;
+      return;
+    }
+    const auto made = [&](int k) {
+      const Vec3<Real> unit = Vec3<Real>::Unit(k);
+      return direction_to_inertial(p,
+                                   Vec3<Real>(unit * turned.cos + cross<Real>(step.axis, unit) * turned.sin +
+                                              step.axis * Real(step.axis[k] * (1 - turned.cos))));
+    };
+    const Vec3<Real> x = made(0), y = made(1), z = made(2);
+    p.x = x, p.y = y, p.z = z;
+  }
+  static void shift(Pose& p, const Step& step, const Instant<Real>& when) {
+    const auto moved = swung(step, when);
+    const Vec3<Real> axis = direction_to_inertial(p, step.axis);
+    const Vec3<Real> d = direction_to_inertial(p, step.shift) + axis * moved.value, rate = axis * moved.rate;
+    p.acceleration += axis * moved.second + cross<Real>(p.omega, rate) * Real(2) +
+                      cross<Real>(p.omega_rate, d) + cross<Real>(p.omega, cross<Real>(p.omega, d));
+    p.velocity += rate + cross<Real>(p.omega, d);
+    p.centre += d;
+  }
+  static Vec3<Real>& column(Pose& p, int k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; }
+
+  /// @param position, velocity  errors of the flight's, in units of u
+  ErrorBounds<Real> through_pose(const Real& u, const FlightBounds<Real>& f, const Real& position,
+                                 const Real& velocity) const {
+    const Real& w = bounds_.turning[0];
+    return {u * (position + bounds_.errors * f.reach),
+            u * (velocity + w * position + bounds_.errors * speed_in_vessel(f)),
+            u * (2 * w * velocity + bend() * position + bounds_.errors * acceleration_in_vessel(f))};
+  }
+
+  Joints<Real> joints_;
+  ChainBounds<Real> bounds_;
+  std::vector<Step> steps_;
+};
+
+}  // namespace edmill::model

@@ -1,0 +1,109 @@
+// Mills that are chains of joints, by their usual parameters. Vertical is Y; the axis of a jar is its y.
+#pragma once
+
+#include <array>
+
+#include "model/motions/joints.hpp"
+#include "model/parts/parameter.hpp"
+
+namespace edmill::model {
+
+template <class Number>
+Joint<Number> axis_joint(bool rotates, std::size_t axis) {
+  Joint<Number> joint;
+  joint.rotates = rotates;
+  joint.axis[axis] = Number{1};
+  return joint;
+}
+
+/// [mill] type = "chain": joints as the case lists them.
+template <class Number>
+struct Chain {
+  static constexpr const char* name = "chain";
+  Joints<Number> given;
+
+  template <class Part, class Visit>
+  static void parameters(Part& part, Visit&& visit) {
+    for (auto& joint : part.given.list) {
+      visit(PartParameter{joint.rotates ? "rotate" : "translate", Dimension::none}, joint.axis);
+      visit(PartParameter{"shift", Dimension::length}, joint.shift);
+      visit(PartParameter{"angle", Dimension::angle}, joint.angle);
+      visit(PartParameter{"speed", Dimension::angular_speed}, joint.frequency);
+      for (auto& swing : joint.swings)
+        for (auto* number : {&swing.amplitude, &swing.frequency, &swing.phase})
+          visit(PartParameter{"swing", Dimension::none}, *number);
+    }
+  }
+  Joints<Number> joints() const { return given; }
+};
+
+/// [mill] type = "planetary": a jar on a disc, both about vertical axes. `ratio` is the jar's speed against
+/// the disc over that of the disc: -1 keeps the jar's direction in space.
+/// Source: Burgio et al., Il Nuovo Cimento D 13 (1991) 459, whose jar turns against the disc.
+template <class Number>
+struct Planetary {
+  static constexpr const char* name = "planetary";
+  Number radius, period, ratio;
+
+  template <class Part, class Visit>
+  static void parameters(Part& part, Visit&& visit) {
+    visit(PartParameter{"radius", Dimension::length, Range::positive}, part.radius);
+    visit(PartParameter{"speed", Dimension::angular_speed, Range::drive}, part.period);
+    visit(PartParameter{"ratio", Dimension::none}, part.ratio);
+  }
+  Joints<Number> joints() const {
+    auto disc = axis_joint<Number>(true, 1), arm = axis_joint<Number>(false, 0),
+         jar = axis_joint<Number>(true, 1);
+    disc.frequency = Number{1} / period;
+    arm.shift[0] = radius;
+    jar.frequency = ratio / period;
+    return {{disc, arm, jar}, period};
+  }
+};
+
+/// [mill] type = "drum": a vessel that turns about its y axis, which is horizontal, along Z.
+template <class Number>
+struct Drum {
+  static constexpr const char* name = "drum";
+  Number period;
+
+  template <class Part, class Visit>
+  static void parameters(Part& part, Visit&& visit) {
+    visit(PartParameter{"speed", Dimension::angular_speed, Range::drive}, part.period);
+  }
+  Joints<Number> joints() const {
+    auto lying = axis_joint<Number>(true, 0), turning = axis_joint<Number>(true, 1);
+    lying.angle = Number{1} / Number{4};
+    turning.frequency = Number{1} / period;
+    return {{lying, turning}, period};
+  }
+};
+
+/// [mill] type = "vibratory": the vessel's centre is at A sin(phase) + B cos(phase), its axes stay. One
+/// vector makes a line, two a circle or an ellipse.
+template <class Number>
+struct Vibratory {
+  static constexpr const char* name = "vibratory";
+  std::array<Number, 3> amplitude, quarter;
+  Number period;
+
+  template <class Part, class Visit>
+  static void parameters(Part& part, Visit&& visit) {
+    visit(PartParameter{"amplitude", Dimension::length}, part.amplitude);
+    visit(PartParameter{"amplitude_quarter", Dimension::length, Range::any, "0 m"}, part.quarter);
+    visit(PartParameter{"speed", Dimension::angular_speed, Range::drive}, part.period);
+  }
+  Joints<Number> joints() const {
+    Joints<Number> chain{{}, period};
+    const Number frequency = Number{1} / period;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      auto joint = axis_joint<Number>(false, axis);
+      joint.swings.push_back({amplitude[axis], frequency, Number{}});
+      joint.swings.push_back({quarter[axis], frequency, Number{1} / Number{4}});
+      chain.list.push_back(joint);
+    }
+    return chain;
+  }
+};
+
+}  // namespace edmill::model
