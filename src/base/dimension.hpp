@@ -3,6 +3,18 @@
 
 namespace edmill {
 
-enum class Dimension { none, length, mass, time, angle, energy, speed, angular_speed, acceleration, density };
+enum class Dimension {
+  none,
+  length,
+  mass,
+  time,
+  angle,
+  energy,
+  speed,
+  angular_speed,
+  acceleration,
+  density,
+  pressure
+};
 
 }  // namespace edmill

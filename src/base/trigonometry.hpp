@@ -33,12 +33,14 @@ SinCos<Real> sin_cos(const Real& angle) {
 
 namespace detail {
 
+// These are inlined whatever else grows: the search of the SPEX takes them for every pose.
+
 /// Two doubles that are worked on at once.
 typedef double TwoDoubles __attribute__((vector_size(16)));
 
 /// Taylor polynomials of sin and cos on [-pi/4, pi/4], side by side, in Estrin order: short dependency
 /// chains.
-inline SinCos<double> sin_cos_kernel(double x) {
+[[gnu::always_inline]] inline SinCos<double> sin_cos_kernel(double x) {
   const double square = x * x;
   const TwoDoubles z = {square, square};
   const TwoDoubles z2 = z * z;
@@ -53,7 +55,7 @@ inline SinCos<double> sin_cos_kernel(double x) {
 }
 
 /// Turned by quarters of a turn, without branches: the phase of a drive is in any of them.
-inline SinCos<double> quarter_turned(const SinCos<double>& v, int quarters) {
+[[gnu::always_inline]] inline SinCos<double> quarter_turned(const SinCos<double>& v, int quarters) {
   const double s = (quarters & 1) ? v.cos : v.sin;
   const double c = (quarters & 1) ? v.sin : v.cos;
   return {(quarters & 2) ? -s : s, ((quarters + 1) & 2) ? -c : c};
@@ -84,7 +86,7 @@ SinCos<Real> sin_cos_turns(const Real& turns) {
 }
 
 template <>
-inline SinCos<double> sin_cos_turns<double>(const double& turns) {
+[[gnu::always_inline]] inline SinCos<double> sin_cos_turns<double>(const double& turns) {
   const int quarters = detail::nearest(4 * turns);
   const double rest = turns - 0.25 * quarters;  // exact: both are multiples of the same small power of two
   return detail::quarter_turned(detail::sin_cos_kernel(6.283185307179586 * rest), quarters);

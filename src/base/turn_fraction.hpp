@@ -51,6 +51,7 @@ struct TurnFraction {
     for (std::size_t k = used; k-- > 0;) sum = (sum + Real(product[k])) * Real(0x1p-64);
     return above_half != negative ? Real(-sum) : sum;
   }
+  bool is_whole() const { return bits == decltype(bits){}; }
   bool operator==(const TurnFraction&) const = default;
 };
 

@@ -6,10 +6,21 @@ namespace edmill::casefile {
 
 namespace {
 
-void read_ball_spec(Section& s, BallSpec& ball) {
+void read_ball_spec(Section& s, BallSpec& ball, const CaseSpec& spec) {
   ball.where = s.where();
   ball.diameter = s.required("diameter", Dimension::length);
   s.require(ball.diameter.positive(), "diameter", "a positive length");
+  ball.material = read_material_of(s, "material", spec);
+  if (ball.material > 0) {
+    const auto& material = spec.materials[static_cast<std::size_t>(ball.material) - 1];
+    if (material.density)
+      ball.density = *material.density;
+    else if (!s.has("density"))
+      s.problem("density", "nothing, and material \"" + material.name + "\" has none",
+                describe(Dimension::density));
+    if (material.density && s.has("density"))
+      s.problem("density", "a density beside that of material \"" + material.name + "\"", "one of them");
+  }
   ball.density = s.quantity("density", Dimension::density, ball.density);
   s.require(ball.density.positive(), "density", "a positive density");
   ball.reduced_inertia = s.quantity("reduced_inertia", Dimension::none, ball.reduced_inertia);
@@ -23,7 +34,7 @@ void read_ball_spec(Section& s, BallSpec& ball) {
 
 void read_batch(Section s, CaseSpec& spec) {
   BallBatch batch;
-  read_ball_spec(s, batch);
+  read_ball_spec(s, batch, spec);
   const auto count = s.count("count").value_or(1);
   s.require(count > 0 && count <= largest_count, "count", "from 1 to " + std::to_string(largest_count));
   batch.count = static_cast<int>(std::min(count, largest_count));
@@ -47,7 +58,7 @@ void read_batch(Section s, CaseSpec& spec) {
 
 void read_ball(Section s, CaseSpec& spec) {
   ExplicitBall ball;
-  read_ball_spec(s, ball);
+  read_ball_spec(s, ball, spec);
   if (const auto position = s.vector("position", Dimension::length))
     ball.position = *position;
   else if (!s.has("position") && spec.initial_state.empty())

@@ -16,6 +16,10 @@ struct InitialCase {
   Instant<Real> start;
 };
 
+/// The vessel in one scalar, all walls at their places.
+template <class Real>
+model::AnyVessel<Real> build_vessel(const VesselSpec& spec);
+
 /// Values of the case in one scalar, without balls.
 template <class Real>
 model::Mill<Real> build_mill(const casefile::CaseSpec& spec);

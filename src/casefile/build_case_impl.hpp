@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
+#include "casefile/joints.hpp"
 #include "casefile/quantity_value.hpp"
 #include "casefile/random.hpp"
 #include "io/final_state.hpp"
@@ -42,10 +43,42 @@ model::AnyMotion<Real> to_motion(const auto& part) {
 }
 
 template <class Real>
+model::Pistons<Real> to_pistons(const casefile::CaseSpec& spec) {
+  const auto to = [](const casefile::Quantity& q) { return q.to<Real>(); };
+  const auto& period = period_of(spec.mill);
+  std::vector<model::Piston<Real>> pistons;
+  for (const auto& p : spec.pistons)
+    pistons.push_back({p.wall, to(p.distance), to(p.speed),
+                       model::converted_swings<Real>(with_phases(p.swings, period), to)});
+  return {std::move(pistons), to(period)};
+}
+
+template <class Real>
 model::BallProperties<Real> to_ball(const casefile::BallSpec& spec, const Real& diameter) {
   const Real radius = diameter / 2;
   const Real volume = 4 * numerics::pi<Real>() * (radius * radius * radius) / 3;
-  return {radius, spec.density.to<Real>() * volume, spec.reduced_inertia.to<Real>()};
+  return {radius, spec.density.to<Real>() * volume, spec.reduced_inertia.to<Real>(), spec.material};
+}
+
+/// The laws of pairs, with a table of which applies where.
+template <class Real>
+model::PairLaws<Real> to_pairs(const casefile::CaseSpec& spec, int walls) {
+  model::PairLaws<Real> pairs;
+  if (spec.pairs.empty()) return pairs;
+  pairs.materials = spec.materials.size() + 1;
+  const auto law_of = [&](int one, int other) {
+    for (std::size_t k = 0; k < spec.pairs.size(); ++k)
+      if (spec.pairs[k].is_of(one, other)) return static_cast<int>(k);
+    return -1;
+  };
+  for (int one = 0; one < static_cast<int>(pairs.materials); ++one) {
+    for (int other = 0; other < static_cast<int>(pairs.materials); ++other)
+      pairs.of_balls.push_back(law_of(one, other));
+    for (std::size_t wall = 0; wall < static_cast<std::size_t>(walls); ++wall)
+      pairs.of_walls.push_back(law_of(one, spec.wall_materials.at(wall)));
+  }
+  for (const auto& pair : spec.pairs) pairs.laws.push_back(to_law<Real>(pair.law));
+  return pairs;
 }
 
 /// Placed balls by cells of at least the widest centre distance that matters, in the vessel frame.
@@ -151,7 +184,14 @@ class Filling {
   }
 
   bool inside(const Vec3<Real>& local, const Real& radius) const {
-    return mill_.vessel.inset(radius).contains(local);
+    return mill_.vessel.inset(radius).contains(local) && clears_pistons(local, radius);
+  }
+  bool clears_pistons(const Vec3<Real>& local, const Real& radius) const {
+    const auto* pistons = mill_.vessel.pistons();
+    for (std::size_t k = 0; pistons && k < pistons->count(); ++k)
+      if (mill_.vessel.gap(pistons->wall(k), local) < radius + pistons->at(k, result_.start).value)
+        return false;
+    return true;
   }
 
   void add(const model::BallProperties<Real>& ball, const Vec3<Real>& local,
@@ -174,7 +214,7 @@ class Filling {
     for (std::uint64_t tries = 0; tries <= batch.max_relocations; ++tries) {
       const Real x = random_.symmetric<Real>(), z = random_.symmetric<Real>(), y = random_.symmetric<Real>();
       const auto local = room.place({x, y, z});
-      if (!local) continue;
+      if (!local || !clears_pistons(*local, radius + gap_wall)) continue;
       if (placed_.conflict(*local, [&](int other) {
             return radius + result_.the_case.balls[other].radius + gap_ball;
           }) < 0)
@@ -266,26 +306,39 @@ void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>&
   for (const auto& ball : spec.batches)
     check(ball, ball.diameter.template to<Real>() - ball.diameter_spread.template to<Real>());
   const Real least_hop = 4 * sqrt(rounding * (mill.motion.acceleration_within(reach) + gravity));
-  for (const bool walls : {false, true}) {
-    const Real& speed = (walls ? mill.ball_wall : mill.ball_ball).least_separation;
+  const auto check_least = [&](const Real& speed, const std::string& section) {
     if (speed > 0 && speed < least_hop)
-      problems.push_back(spec.file + ": key '" + (walls ? "contact.ball_wall" : "contact.ball_ball") +
-                         ".least_separation': found " + number(speed) + " m/s, expected 0 or at least " +
-                         number(least_hop) + " m/s: hops of a slower ball are lost in the rounding of " +
+      problems.push_back(spec.file + ": key '" + section + ".least_separation': found " + number(speed) +
+                         " m/s, expected 0 or at least " + number(least_hop) +
+                         " m/s: hops of a slower ball are lost in the rounding of " +
                          std::string(ScalarName<Real>::value));
-  }
+  };
+  check_least(mill.ball_ball.least_separation, "contact.ball_ball");
+  check_least(mill.ball_wall.least_separation, "contact.ball_wall");
+  for (std::size_t k = 0; k < mill.pairs.laws.size(); ++k)
+    check_least(mill.pairs.laws[k].least_separation, "contact.pair." + std::to_string(k));
   if (!problems.empty()) throw InputError(problems);
 }
 
 }  // namespace detail
 
 template <class Real>
+model::AnyVessel<Real> build_vessel(const VesselSpec& spec) {
+  return std::visit([](const auto& v) { return model::AnyVessel<Real>(detail::to_part<Real>(v).vessel()); },
+                    spec);
+}
+
+template <class Real>
 model::Mill<Real> build_mill(const casefile::CaseSpec& spec) {
+  auto vessel = build_vessel<Real>(spec.vessel);
+  if (!spec.pistons.empty()) vessel.set(detail::to_pistons<Real>(spec));
+  const int walls = vessel.wall_count();
   return {std::visit([](const auto& m) { return detail::to_motion<Real>(m); }, spec.mill),
-          std::visit([](const auto& v) { return model::AnyVessel<Real>(detail::to_part<Real>(v).vessel()); },
-                     spec.vessel),
-          detail::to_vector<Real>(spec.gravity), detail::to_law<Real>(spec.ball_ball),
-          detail::to_law<Real>(spec.ball_wall)};
+          std::move(vessel),
+          detail::to_vector<Real>(spec.gravity),
+          detail::to_law<Real>(spec.ball_ball),
+          detail::to_law<Real>(spec.ball_wall),
+          detail::to_pairs<Real>(spec, walls)};
 }
 
 template <class Real>

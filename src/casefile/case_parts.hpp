@@ -8,7 +8,20 @@ namespace edmill::casefile {
 
 inline constexpr std::uint64_t largest_count = 100000000;  ///< of balls
 
-/// [contact], [contact.ball_ball] and [contact.ball_wall].
+/// What the balls can collide with, unless the vessel is none, which has been reported.
+std::optional<model::Partners> known_partners(const CaseSpec& spec);
+/// An entry [[material]].
+void read_material(Section entry, CaseSpec& spec);
+/// The material that a key names; 0 where it is absent or, which is reported, unknown.
+int read_material_of(Section& section, const std::string& key, const CaseSpec& spec);
+/// vessel.material and [vessel.materials].
+void read_wall_materials(Section& vessel, CaseSpec& spec);
+/// [[vessel.piston]]. @return the entries, for what can be told when the rest has been read
+std::vector<Section> read_pistons(Section& vessel, CaseSpec& spec);
+/// Reports pistons that leave the vessel or meet the other end.
+void require_travel(std::vector<Section>& entries, const CaseSpec& spec);
+/// [contact], [contact.ball_ball], [contact.ball_wall] and [[contact.pair]].
+/// @pre all that they may refer to has been read: materials, vessel, powder and balls
 void read_contact(Section contact, CaseSpec& spec);
 /// An entry [[ball]].
 void read_ball(Section entry, CaseSpec& spec);

@@ -96,10 +96,29 @@ std::string canonical_text(const CaseSpec& c) {
       << optional(c.max_ball_speed) << "\nmax_collisions "
       << (c.max_collisions ? std::to_string(*c.max_collisions) : "-") << "\ngravity " << vector(c.gravity)
       << "\nmill " << text_of(c.mill) << "\nvessel " << text_of(c.vessel) << "\n";
-  for (const auto* law : {&c.ball_ball, &c.ball_wall}) {
-    out << "contact " << law->name();
-    law->parameters([&](const model::LawParameter&, const Quantity& value) { out << " " << value.text(); });
-    out << " " << law->least_separation.text() << "\n";
+  for (const auto& piston : c.pistons) {
+    out << "piston " << piston.wall << " " << piston.distance.text() << " " << piston.speed.text();
+    for (const auto& swing : piston.swings)
+      out << " " << swing.amplitude.text() << " " << swing.frequency.text() << " " << swing.phase.text();
+    out << "\n";
+  }
+  const auto write_law = [&](const ContactSpec& law) {
+    out << "contact " << law.name();
+    law.parameters([&](const model::LawParameter&, const Quantity& value) { out << " " << value.text(); });
+    out << " " << law.least_separation.text() << "\n";
+  };
+  write_law(c.ball_ball);
+  write_law(c.ball_wall);
+  for (const auto& pair : c.pairs) {
+    out << "pair " << pair.materials[0] << " " << pair.materials[1] << " ";
+    write_law(pair.law);
+  }
+  if (!c.pairs.empty()) {
+    out << "materials";
+    for (const int wall : c.wall_materials) out << " " << wall;
+    for (const auto& b : c.balls) out << " " << b.material;
+    for (const auto& b : c.batches) out << " " << b.material;
+    out << "\n";
   }
   for (const auto& b : c.balls)
     out << "ball " << b.diameter.text() << " " << b.density.text() << " " << b.reduced_inertia.text() << " "
@@ -201,9 +220,11 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   spec.mill = read_motion(mill);
   spec.vessel = read_vessel(vessel);
   spec.vessel_colour = vessel.colour("colour", spec.vessel_colour);
+  auto pistons = read_pistons(vessel, spec);
+  for (const auto& entry : top.sections("material")) read_material(entry, spec);
+  read_wall_materials(vessel, spec);
   mill.reject_unknown_keys();
   vessel.reject_unknown_keys();
-  read_contact(top.section("contact"), spec);
   if (Section powder = top.section("powder"); powder.present()) {
     spec.powder_mass = powder.required("mass", Dimension::mass);
     powder.require(spec.powder_mass->positive(), "mass", "a positive mass");
@@ -211,12 +232,14 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   }
   for (const auto& entry : top.sections("ball")) read_ball(entry, spec);
   for (const auto& entry : top.sections("balls")) read_batch(entry, spec);
+  read_contact(top.section("contact"), spec);
   for (const auto& entry : top.sections("output")) read_output(entry, spec);
   read_audit(top.section("audit"), spec.audit);
   if (!top.has("ball") && !top.has("balls"))
     top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
   top.reject_unknown_keys();
   check_times(top.section("run"), spec);
+  if (document.problems.empty()) require_travel(pistons, spec);
   if (!spec.initial_state.empty() && !finished) {
     const std::filesystem::path given(spec.initial_state);
     if (given.is_relative())
@@ -226,7 +249,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
       top.section("run").problem("initial_state", "no file '" + spec.initial_state + "'",
                                  "a final_state.csv");
   }
-  if (!document.problems.empty()) throw InputError(document.problems);
+  if (!document.problems.empty()) throw InputError(document.problems_by_line());
   if (spec.initial_state.empty() || !finished) spec.digest = sha256(canonical_text(spec));
   return spec;
 }

@@ -18,10 +18,17 @@ namespace edmill::casefile {
 
 using QuantityVector = std::array<Quantity, 3>;
 
+/// An entry [[material]].
+struct MaterialSpec {
+  std::string name;
+  std::optional<Quantity> density;  ///< balls need it, walls do not
+};
+
 /// What all ways of adding balls have in common.
 struct BallSpec {
   Quantity diameter;
   Quantity density{8000};
+  int material = 0;  ///< of CaseSpec::materials, from 1; 0 for none
   Quantity reduced_inertia{boost::multiprecision::cpp_rational(2, 5)};
   QuantityVector velocity{};
   Colour colour{0, 0, 1};  ///< in pictures
@@ -46,6 +53,16 @@ struct ExplicitBall : BallSpec {
 
 using ContactSpec = model::ContactLaw<Quantity>;
 
+/// An entry [[contact.pair]].
+struct PairSpec {
+  std::array<int, 2> materials{};  ///< from 1
+  ContactSpec law;
+
+  bool is_of(int one, int other) const {
+    return materials == std::array{one, other} || materials == std::array{other, one};
+  }
+};
+
 /// Section [audit]: how another code's collision log is to be read and judged. docs/audit.md
 struct AuditSpec {
   std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
@@ -68,18 +85,33 @@ struct CaseSpec {
   QuantityVector gravity{};
   MotionSpec mill;
   VesselSpec vessel;
+  std::vector<model::Piston<Quantity>> pistons;
   Colour vessel_colour{1, 1, 0};  ///< in pictures
+  std::vector<MaterialSpec> materials;
+  std::vector<int> wall_materials;  ///< by wall, from 1; 0 for none
   ContactSpec ball_ball, ball_wall;
+  std::vector<PairSpec> pairs;  ///< in place of both where two materials are named
+  bool pairs_only = false;      ///< every contact that can be is one of them
   std::optional<Quantity> powder_mass;
   std::vector<ExplicitBall> balls;
   std::vector<BallBatch> batches;
   std::vector<OutputSpec> outputs;
   AuditSpec audit;  ///< no part of what is simulated, nor of the digest
 
+  /// From 1; 0 when there is none.
+  int material_named(const std::string& name) const;
+  /// "steel, rubber", for readers.
+  std::string names_of(const PairSpec& pair) const {
+    return materials[static_cast<std::size_t>(pair.materials[0]) - 1].name + ", " +
+           materials[static_cast<std::size_t>(pair.materials[1]) - 1].name;
+  }
   std::size_t ball_count() const;
   /// Colours of all balls, in their order.
   std::vector<Colour> ball_colours() const;
 };
+
+/// "0.01 m + 0.001 m sin(2 pi 5 t) inward", for readers.
+std::string describe(const model::Piston<Quantity>& piston);
 
 /// What the balls of a case can collide with.
 model::Partners partners_of(const CaseSpec& spec);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -15,6 +16,7 @@ namespace {
 struct GivenLaw {
   std::string name;
   std::map<std::string, Quantity> parameters;
+  std::vector<std::array<Quantity, 2>> points;  ///< of restitution_by_speed
   Quantity least_separation{cpp_rational(1, 100)};
 };
 
@@ -34,7 +36,30 @@ std::vector<std::string> law_names() {
 }
 
 std::string expected(const model::LawParameter& p) {
+  if (p.dimension != Dimension::none) return describe(p.dimension) + " above 0";
   return fmt::format("a number from {} to {}", p.low, p.high);
+}
+
+bool in_range(const Quantity& q, const model::LawParameter& p) {
+  if (p.dimension != Dimension::none) return q.positive();
+  if (q.pi_power != 0) return q.to<double>() >= p.low && q.to<double>() <= p.high;
+  return q.value >= cpp_rational(p.low) && q.value <= cpp_rational(p.high);
+}
+
+void read_points(Section& s, GivenLaw& given) {
+  constexpr const char* key = "restitution_by_speed";
+  auto points = s.pairs(key, Dimension::speed, Dimension::none);
+  if (!s.has(key)) return;
+  given.points = std::move(points);
+  bool good = !given.points.empty() && !given.points.front()[0].negative();
+  for (std::size_t k = 0; k < given.points.size(); ++k) {
+    const auto& [speed, restitution] = given.points[k];
+    good = good && !restitution.negative() && restitution.value <= 1;
+    if (k > 0) good = good && given.points[k - 1][0].value < speed.value;
+  }
+  if (!good)
+    s.problem(key, fmt::format("a table of {} points", given.points.size()),
+              "points [speed, restitution], speeds rising from 0 or more, restitutions from 0 to 1");
 }
 
 /// Parameters of every law may be given, so that a sweep over laws has all that it needs in one section.
@@ -46,8 +71,8 @@ void read_law(Section& s, GivenLaw& given) {
     s.problem("restitution_normal", "both 'restitution' and 'restitution_normal'", "one of them");
   const auto take = [&](const std::string& key, const model::LawParameter& p) {
     const bool here = s.has(key);
-    const auto found = s.quantity(key, Dimension::none);
-    if (found) s.require(found->value >= p.low && found->value <= p.high, key, expected(p));
+    const auto found = s.quantity(key, p.dimension);
+    if (found) s.require(in_range(*found, p), key, expected(p));
     if (here) given.parameters[p.key] = found.value_or(Quantity{});  // what is wrong has been reported
   };
   std::map<std::string, bool> read;
@@ -58,6 +83,7 @@ void read_law(Section& s, GivenLaw& given) {
       if (p.key == std::string("restitution")) take("restitution_normal", p);
     });
   });
+  read_points(s, given);
   if (const auto speed = s.quantity("least_separation", Dimension::speed)) {
     given.least_separation = *speed;
     s.require(!speed->negative(), "least_separation", "a speed of 0 or more");
@@ -65,23 +91,122 @@ void read_law(Section& s, GivenLaw& given) {
   s.replaced("collapse_time", "'least_separation', the least speed at which bodies leave an impact");
 }
 
-ContactSpec to_spec(Section& contact, const GivenLaw& given) {
-  ContactSpec spec;
-  spec.least_separation = given.least_separation;
+/// Mass of the balls over that of the powder, where the case has powder.
+std::optional<Quantity> charge_ratio(const CaseSpec& spec) {
+  if (!spec.powder_mass || !spec.powder_mass->positive()) return std::nullopt;
+  cpp_rational mass = 0;  // times pi
+  const auto add = [&](const BallSpec& b, int count) {
+    const auto& d = b.diameter.value;
+    mass += count * b.density.value * d * d * d / 6;
+  };
+  for (const auto& ball : spec.balls) add(ball, 1);
+  for (const auto& batch : spec.batches) add(batch, batch.count);
+  return Quantity{mass / spec.powder_mass->value, 1};
+}
+
+/// The powder-load table has balls of 2.36 mm to 9.52 mm.
+void require_diameters(Section& s, const CaseSpec& spec) {
+  using Law = model::PowderLoad<Quantity>;
+  const cpp_rational least(Law::diameters.front(), 1000000), largest(Law::diameters.back(), 1000000);
+  const auto check = [&](const BallSpec& ball, const cpp_rational& spread) {
+    if (ball.diameter.value - spread < least || ball.diameter.value + spread > largest)
+      s.problem("model", fmt::format("\"{}\" with balls of {:g} m", Law::name, ball.diameter.to<double>()),
+                "balls of 2.36 mm to 9.52 mm, which its table is for");
+  };
+  for (const auto& ball : spec.balls) check(ball, 0);
+  for (const auto& batch : spec.batches) check(batch, batch.diameter_spread.value);
+}
+
+ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spec) {
+  ContactSpec result;
+  result.least_separation = given.least_separation;
   for_each_law([&](auto law) {
     if (given.name != law.name) return;
     law.parameters(law, [&](const model::LawParameter& p, Quantity& value) {
       const auto found = given.parameters.find(p.key);
-      if (found != given.parameters.end())
+      if (found != given.parameters.end()) {
         value = found->second;
-      else if (p.fallback)
+      } else if (p.fallback) {
         value = Quantity{cpp_rational(*p.fallback)};
-      else
+      } else if (const auto ratio = charge_ratio(spec); ratio && p.key == std::string("charge_ratio")) {
+        value = *ratio;
+        if (!in_range(value, p))
+          contact.problem(p.key, fmt::format("{:.4g} from [[balls]] and [powder]", value.to<double>()),
+                          expected(p));
+      } else {
         contact.problem(p.key, "nothing", expected(p));
+      }
     });
-    spec.law = law;
+    if constexpr (requires { law.points; }) {
+      law.points = given.points;
+      if (law.points.empty() && !contact.has("restitution_by_speed"))
+        contact.problem("restitution_by_speed", "nothing", "points [speed, restitution]");
+    }
+    if constexpr (std::is_same_v<decltype(law), model::PowderLoad<Quantity>>)
+      require_diameters(contact, spec);
+    result.law = law;
   });
-  return spec;
+  return result;
+}
+
+/// Whether all that its law needs is given.
+bool is_complete(const GivenLaw& given, const CaseSpec& spec) {
+  bool complete = true;
+  for_each_law([&](const auto& law) {
+    if (given.name != law.name) return;
+    law.parameters(law, [&](const model::LawParameter& p, const Quantity&) {
+      complete = complete && (given.parameters.contains(p.key) || p.fallback ||
+                              (p.key == std::string("charge_ratio") && charge_ratio(spec)));
+    });
+    if constexpr (requires { law.points; }) complete = complete && !given.points.empty();
+  });
+  return complete;
+}
+
+void read_pairs(Section& contact, const GivenLaw& shared, CaseSpec& spec) {
+  for (Section& entry : contact.sections("pair")) {
+    const auto names = entry.settings("materials", Section::Twice::allowed);
+    PairSpec pair;
+    bool known = names.size() == 2;
+    for (std::size_t k = 0; known && k < 2; ++k) {
+      pair.materials[k] = spec.material_named(names[k]);
+      known = pair.materials[k] > 0;
+    }
+    if (!known)
+      entry.problem("materials",
+                    names.empty() ? "nothing" : fmt::format("\"{}\"", fmt::join(names, "\", \"")),
+                    "the names of two [[material]] entries");
+    for (const auto& other : spec.pairs)
+      if (known && other.is_of(pair.materials[0], pair.materials[1]))
+        entry.problem("materials", fmt::format("\"{}\" and \"{}\" again", names[0], names[1]),
+                      "one entry for each pair");
+    GivenLaw given = shared;
+    read_law(entry, given);
+    entry.reject_unknown_keys();
+    pair.law = to_spec(entry, given, spec);
+    spec.pairs.push_back(std::move(pair));
+  }
+}
+
+/// Where the case has laws for pairs of materials only, every contact that can be has one.
+void require_all_pairs(Section& contact, const CaseSpec& spec) {
+  const auto& walls = spec.wall_materials;
+  std::vector<int> of_balls;
+  for (const auto& ball : spec.balls) of_balls.push_back(ball.material);
+  for (const auto& batch : spec.batches) of_balls.push_back(batch.material);
+  const auto name = [&](int material) {
+    return material == 0 ? "what has no material" : "\"" + spec.materials[material - 1].name + "\"";
+  };
+  const auto require = [&](int one, int other) {
+    for (const auto& pair : spec.pairs)
+      if (pair.is_of(one, other)) return;
+    contact.problem("pair", "no law between " + name(one) + " and " + name(other),
+                    "an entry [[contact.pair]] for it, or a law in [contact]");
+  };
+  for (const int ball : of_balls) {
+    for (const int other : of_balls) require(ball, other);
+    for (const int wall : walls) require(ball, wall);
+  }
 }
 
 }  // namespace
@@ -89,12 +214,20 @@ ContactSpec to_spec(Section& contact, const GivenLaw& given) {
 void read_contact(Section contact, CaseSpec& spec) {
   GivenLaw shared;
   read_law(contact, shared);
+  read_pairs(contact, shared, spec);
+  GivenLaw of_balls = shared, of_walls = shared;
   for (const bool balls : {true, false}) {
     Section own = contact.section(balls ? "ball_ball" : "ball_wall");
-    GivenLaw given = shared;
-    read_law(own, given);
+    read_law(own, balls ? of_balls : of_walls);
     own.reject_unknown_keys();
-    (balls ? spec.ball_ball : spec.ball_wall) = to_spec(contact, given);
+  }
+  if (!spec.pairs.empty() && !is_complete(of_balls, spec) && !is_complete(of_walls, spec)) {
+    spec.pairs_only = true;
+    spec.ball_ball = spec.ball_wall = spec.pairs.front().law;
+    require_all_pairs(contact, spec);
+  } else {
+    spec.ball_ball = to_spec(contact, of_balls, spec);
+    spec.ball_wall = to_spec(contact, of_walls, spec);
   }
   contact.reject_unknown_keys();
 }

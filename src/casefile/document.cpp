@@ -1,5 +1,6 @@
 // Files as they are read, and values that are passed on as they were written.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -86,7 +87,18 @@ std::optional<std::string> Section::setting(const std::string& key) {
   return node ? setting_of(*node, full(key)) : std::nullopt;
 }
 
-std::vector<std::string> Section::settings(const std::string& key) {
+std::vector<std::string> Document::problems_by_line() const {
+  const auto line_of = [&](const std::string& problem) {
+    if (!problem.starts_with(name + ":")) return 0L;
+    return std::strtol(problem.c_str() + name.size() + 1, nullptr, 10);
+  };
+  auto sorted = problems;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const auto& a, const auto& b) { return line_of(a) < line_of(b); });
+  return sorted;
+}
+
+std::vector<std::string> Section::settings(const std::string& key, Twice twice) {
   const auto* node = find(key);
   if (!node) return {};
   const auto* array = node->as_array();
@@ -101,7 +113,7 @@ std::vector<std::string> Section::settings(const std::string& key) {
     const std::string path = full(key) + "." + std::to_string(k);
     const auto value = setting_of(*array->get(k), path);
     if (!value) continue;
-    if (std::find(values.begin(), values.end(), *value) != values.end())
+    if (twice == Twice::refused && std::find(values.begin(), values.end(), *value) != values.end())
       document_->report(array->get(k), path, "\"" + *value + "\" twice", "each value once");
     values.push_back(*value);
   }

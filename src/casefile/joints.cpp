@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "base/scalar_list.hpp"
 #include "casefile/parts.hpp"
@@ -62,19 +63,6 @@ std::array<Quantity, 3> read_axis(Section& joint, const std::string& key) {
   return axis;
 }
 
-std::vector<Swing<Quantity>> read_swings(Section& joint, bool rotates) {
-  std::vector<Swing<Quantity>> swings;
-  for (Section& entry : joint.sections("swing")) {
-    const auto amplitude = entry.required("amplitude", rotates ? Dimension::angle : Dimension::length);
-    const auto speed = entry.required("speed", Dimension::angular_speed);
-    entry.require(speed.positive(), "speed", "a positive angular speed");
-    const auto phase = entry.quantity("phase", Dimension::angle, Quantity{0});
-    swings.push_back({rotates ? in_turns(amplitude) : amplitude, in_turns(speed), in_turns(phase)});
-    entry.reject_unknown_keys();
-  }
-  return swings;
-}
-
 Joint<Quantity> read_rotation(Section& section) {
   Joint<Quantity> joint;
   joint.axis = read_axis(section, "rotate");
@@ -131,36 +119,55 @@ std::string axis_name(const std::array<Quantity, 3>& axis) {
   return fmt::format("({:g}, {:g}, {:g})", axis[0].to<double>(), axis[1].to<double>(), axis[2].to<double>());
 }
 
-std::string swings_of(const Joint<Quantity>& joint) {
+std::string text_of_joint(const Joint<Quantity>& joint) {
+  if (joint.rotates) {
+    std::string angle = fmt::format("{:g} deg", 360 * joint.angle.to<double>());
+    if (!joint.frequency.zero()) angle += fmt::format(" + {:g} deg t", 360 * joint.frequency.to<double>());
+    return "turn about " + axis_name(joint.axis) + " by " + angle + equation_of(joint.swings, joint.rotates);
+  }
+  std::string text = fmt::format("shift by ({:g}, {:g}, {:g}) m", joint.shift[0].to<double>(),
+                                 joint.shift[1].to<double>(), joint.shift[2].to<double>());
+  if (!joint.swings.empty())
+    text += equation_of(joint.swings, joint.rotates) + " along " + axis_name(joint.axis);
+  return text;
+}
+
+}  // namespace
+
+std::vector<Swing<Quantity>> read_swings(Section& joint, bool rotates) {
+  std::vector<Swing<Quantity>> swings;
+  for (Section& entry : joint.sections("swing")) {
+    const auto amplitude = entry.required("amplitude", rotates ? Dimension::angle : Dimension::length);
+    const auto speed = entry.required("speed", Dimension::angular_speed);
+    entry.require(speed.positive(), "speed", "a positive angular speed");
+    const auto phase = entry.quantity("phase", Dimension::angle, Quantity{0});
+    swings.push_back({rotates ? in_turns(amplitude) : amplitude, in_turns(speed), in_turns(phase)});
+    entry.reject_unknown_keys();
+  }
+  return swings;
+}
+
+std::string equation_of(const std::vector<Swing<Quantity>>& swings, bool rotate) {
   std::string text;
-  for (const auto& s : joint.swings) {
-    const double amplitude = s.amplitude.to<double>() * (joint.rotates ? 360 : 1);
-    text += fmt::format(" + {:g} {} sin(2 pi {:g} t", amplitude, joint.rotates ? "deg" : "m",
-                        s.frequency.to<double>());
+  for (const auto& s : swings) {
+    const double amplitude = s.amplitude.to<double>() * (rotate ? 360 : 1);
+    text +=
+        fmt::format(" + {:g} {} sin(2 pi {:g} t", amplitude, rotate ? "deg" : "m", s.frequency.to<double>());
     if (!s.phase.zero()) text += fmt::format(" + {:g} deg", 360 * s.phase.to<double>());
     text += ")";
   }
   return text;
 }
 
-std::string text_of_joint(const Joint<Quantity>& joint) {
-  if (joint.rotates) {
-    std::string angle = fmt::format("{:g} deg", 360 * joint.angle.to<double>());
-    if (!joint.frequency.zero()) angle += fmt::format(" + {:g} deg t", 360 * joint.frequency.to<double>());
-    return "turn about " + axis_name(joint.axis) + " by " + angle + swings_of(joint);
-  }
-  std::string text = fmt::format("shift by ({:g}, {:g}, {:g}) m", joint.shift[0].to<double>(),
-                                 joint.shift[1].to<double>(), joint.shift[2].to<double>());
-  if (!joint.swings.empty()) text += swings_of(joint) + " along " + axis_name(joint.axis);
-  return text;
+std::vector<Swing<Quantity>> with_phases(std::vector<Swing<Quantity>> swings, const Quantity& period) {
+  for (auto& swing : swings) swing.per_period = fraction_of(swing.frequency * period);
+  return swings;
 }
-
-}  // namespace
 
 Joints<Quantity> with_phases(Joints<Quantity> joints) {
   for (auto& joint : joints.list) {
     joint.per_period = fraction_of(joint.frequency * joints.period);
-    for (auto& swing : joint.swings) swing.per_period = fraction_of(swing.frequency * joints.period);
+    joint.swings = with_phases(std::move(joint.swings), joints.period);
   }
   return joints;
 }

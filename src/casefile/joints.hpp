@@ -2,15 +2,24 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "casefile/quantity.hpp"
-#include "model/motions/joints.hpp"
+#include "model/motion.hpp"
 
 namespace edmill::casefile {
 
 class Section;
 /// [[mill.joint]]; what is wrong is reported.
 model::Joints<Quantity> read_joints(Section& mill);
+
+/// [[...swing]] of a joint or a piston; what is wrong is reported.
+std::vector<model::Swing<Quantity>> read_swings(Section& section, bool rotates);
+/// " + 0.01 m sin(2 pi 5 t)" for each.
+std::string equation_of(const std::vector<model::Swing<Quantity>>& swings, bool rotate);
+/// The swings with what each turns in a drive period, exactly.
+std::vector<model::Swing<Quantity>> with_phases(std::vector<model::Swing<Quantity>> swings,
+                                                const Quantity& period);
 
 /// "turn about y at 300 rpm, shift by (0.15, 0, 0) m, turn about y at -600 rpm".
 std::string equation_of(const model::Joints<Quantity>& joints);

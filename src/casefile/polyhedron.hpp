@@ -2,7 +2,7 @@
 #pragma once
 
 #include "casefile/quantity.hpp"
-#include "model/vessels/polyhedron.hpp"
+#include "model/vessel.hpp"
 
 namespace edmill::casefile {
 

@@ -62,6 +62,10 @@ const std::vector<Unit>& units() {
       {D::acceleration, {"cm/s2", "cm/s/s"}, ratio(1, 100)},
       {D::acceleration, {"in/s2", "in/s/s"}, ratio(254, 10000)},
       {D::acceleration, {"ft/s2", "ft/s/s"}, ratio(3048, 10000)},
+      {D::pressure, {"Pa", "pascal"}, 1},
+      {D::pressure, {"kPa"}, 1000},
+      {D::pressure, {"MPa"}, 1000000},
+      {D::pressure, {"GPa"}, 1000000000},
       {D::density, {"kg/m3"}, 1},
       {D::density, {"g/cm3", "g/cc"}, 1000},
       {D::density,
@@ -112,6 +116,8 @@ std::string name(Dimension dimension) {
       return "an acceleration";
     case Dimension::density:
       return "a density";
+    case Dimension::pressure:
+      return "a pressure";
   }
   return "?";
 }

@@ -136,6 +136,22 @@ Quantity Section::required(const std::string& key, Dimension dimension) {
   return quantity(key, dimension, Quantity{1});
 }
 
+std::optional<Quantity> Section::item(const toml::array& array, const std::string& path, std::size_t k,
+                                      Dimension dimension) {
+  const auto& node = *array.get(k);
+  const std::string item_path = path + "." + std::to_string(k);
+  if (!node.is_string() && !node.is_number()) {
+    document_->report(&node, item_path, kind_of(node), describe(dimension));
+    return std::nullopt;
+  }
+  const auto result = parse_quantity_or_si(document_->raw(node, item_path), dimension);
+  if (const auto* problem = std::get_if<QuantityProblem>(&result)) {
+    document_->report(&node, item_path, problem->found, describe(dimension));
+    return std::nullopt;
+  }
+  return std::get<Quantity>(result);
+}
+
 std::optional<QuantityVector> Section::vector(const std::string& key, Dimension dimension) {
   const auto* node = find(key);
   if (!node) return std::nullopt;
@@ -148,20 +164,33 @@ std::optional<QuantityVector> Section::vector(const std::string& key, Dimension 
   }
   QuantityVector vector;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto& item = *array->get(k);
-    const std::string item_path = full(key) + "." + std::to_string(k);
-    if (!item.is_string() && !item.is_number()) {
-      document_->report(&item, item_path, kind_of(item), describe(dimension));
-      return std::nullopt;
-    }
-    const auto result = parse_quantity_or_si(document_->raw(item, item_path), dimension);
-    if (const auto* problem = std::get_if<QuantityProblem>(&result)) {
-      document_->report(&item, item_path, problem->found, describe(dimension));
-      return std::nullopt;
-    }
-    vector[k] = std::get<Quantity>(result);
+    const auto value = item(*array, full(key), k, dimension);
+    if (!value) return std::nullopt;
+    vector[k] = *value;
   }
   return vector;
+}
+
+std::vector<std::array<Quantity, 2>> Section::pairs(const std::string& key, Dimension first,
+                                                    Dimension second) {
+  const auto* node = find(key);
+  if (!node) return {};
+  const auto* array = node->as_array();
+  std::vector<std::array<Quantity, 2>> pairs;
+  for (std::size_t k = 0; array && k < array->size(); ++k) {
+    const auto* pair = array->get(k)->as_array();
+    const std::string path = full(key) + "." + std::to_string(k);
+    if (!pair || pair->size() != 2) {
+      document_->report(array->get(k), path, kind_of(*array->get(k)),
+                        "an array of two: " + describe(first) + " and " + describe(second));
+      continue;
+    }
+    const auto one = item(*pair, path, 0, first), two = item(*pair, path, 1, second);
+    if (one && two) pairs.push_back({*one, *two});
+  }
+  if (!array || array->empty())
+    document_->report(node, full(key), array ? "an empty array" : kind_of(*node), "an array of pairs");
+  return pairs;
 }
 
 std::optional<std::uint64_t> Section::count(const std::string& key) {

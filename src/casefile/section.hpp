@@ -28,6 +28,8 @@ struct Document {
   std::string where(const toml::node* node, const std::string& path) const;
   /// Text of a value as it stands in the file, so that decimals stay exact.
   std::string raw(const toml::node& node, const std::string& path) const;
+  /// In the order of the lines of the file; before them those of no line.
+  std::vector<std::string> problems_by_line() const;
   /// One message a key, and none for what is inside of a key that is wrong itself.
   void report(const toml::node* node, const std::string& path, const std::string& found,
               const std::string& expected);
@@ -71,6 +73,8 @@ class Section {
   /// Reports the key when it is absent.
   Quantity required(const std::string& key, Dimension dimension);
   std::optional<QuantityVector> vector(const std::string& key, Dimension dimension);
+  /// An array of pairs, such as the points of a table; empty when it is not one, which is reported.
+  std::vector<std::array<Quantity, 2>> pairs(const std::string& key, Dimension first, Dimension second);
   std::optional<std::uint64_t> count(const std::string& key);
   std::optional<std::string> text(const std::string& key);
   /// A name, or red, green and blue: integers up to 255 or decimals up to 1.
@@ -84,8 +88,9 @@ class Section {
   std::vector<std::string> keys() const;
   /// A value as `--set` would take it: a text, a number, true or false, or an array in one line.
   std::optional<std::string> setting(const std::string& key);
-  /// An array of such values, none of them twice; empty when it is not one, which is reported.
-  std::vector<std::string> settings(const std::string& key);
+  enum class Twice { refused, allowed };
+  /// An array of such values; empty when it is not one, which is reported.
+  std::vector<std::string> settings(const std::string& key, Twice twice = Twice::refused);
 
   bool has(const std::string& key) const { return table_ && table_->contains(key); }
   bool is_array(const std::string& key) const { return has(key) && table_->get(key)->is_array(); }
@@ -100,6 +105,9 @@ class Section {
  private:
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   const toml::node* find(const std::string& key);
+  /// An entry of an array; nothing when it is no quantity, which is reported.
+  std::optional<Quantity> item(const toml::array& array, const std::string& path, std::size_t k,
+                               Dimension dimension);
   std::optional<std::string> setting_of(const toml::node& node, const std::string& path);
 
   Document* document_;

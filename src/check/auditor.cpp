@@ -116,15 +116,19 @@ void Auditor::complete_scene(const LoggedEvent& event, Scene& scene) const {
   LoggedImpact& impact = scene.impact;
   impact.with_wall = event.with_wall;
   impact.ball[0] = ball(event.ball);
-  if (!event.with_wall) impact.ball[1] = ball(event.partner);
+  if (event.with_wall)
+    impact.wall = event.partner;
+  else
+    impact.ball[1] = ball(event.partner);
   impact.set_masses();
   impact.normal = {1, 0, 0};
   if (!available_.positions(event.with_wall)) return;
   if (event.with_wall) {
     impact.normal = wall_normal(scene.nested, case_.mill.vessel, event.partner, event.body[0].position);
-    impact.wall_velocity =
-        wall_velocity(WallVelocity::nested, scene.nested, scene.printed,
-                      event.body[0].position - impact.normal * impact.ball[0].radius, event.body[0].position);
+    impact.wall_velocity = wall_velocity(WallVelocity::nested, scene.nested, scene.printed,
+                                         event.body[0].position - impact.normal * impact.ball[0].radius,
+                                         event.body[0].position) +
+                           piston_velocity(scene.nested, impact.wall, impact.normal);
   } else {
     const Vec apart = event.body[0].position - event.body[1].position;
     const double distance = size(apart);
@@ -169,7 +173,8 @@ auto Auditor::judge_wall_touch(LoggedEvent& event, Scene& scene, double allowed)
     scene.impact.normal = wall_normal(scene.printed, vessel, event.partner, position);
     const Vec point = position - scene.impact.normal * radius;
     scene.impact.wall_velocity =
-        wall_velocity(WallVelocity::nested, scene.nested, scene.printed, point, position);
+        wall_velocity(WallVelocity::nested, scene.nested, scene.printed, point, position) +
+        piston_velocity(scene.nested, event.partner, scene.impact.normal);
     return {gap < 0, true, true};
   }
   if (another_body_is_there(event, allowed, gap)) {

@@ -58,7 +58,8 @@ bool ImpactJudge::explain(const LoggedEvent& event, const Scene& scene, double a
   for (int k = 1; k < wall_velocity_count; ++k) {
     LoggedImpact theirs = impact;
     const auto formula = static_cast<WallVelocity>(k);
-    theirs.wall_velocity = wall_velocity(formula, scene.nested, scene.printed, point, centre);
+    theirs.wall_velocity = wall_velocity(formula, scene.nested, scene.printed, point, centre) +
+                           piston_velocity(scene.nested, impact.wall, impact.normal);
     if (distance(theirs, event, outcome(theirs, law(theirs), event, {})) <= allowed_off) {
       explanation = {Kind::wall_velocity, name_of(formula), theirs};
       return true;
@@ -72,8 +73,9 @@ bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const Log
                                              double allowed_off) const {
   const auto& l = law(impact);
   const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
-  const double by_restitution = l.restitution(-g_n) * -g_n;
-  const double other = separation_speed(l, g_n) > by_restitution ? by_restitution : l.least_separation;
+  const double by_restitution = l.restitution(-g_n, impact.bodies()) * -g_n;
+  const double other =
+      separation_speed(l, impact, g_n) > by_restitution ? by_restitution : l.least_separation;
   return l.least_separation > 0 && std::abs(left - other) <= allowed_off;
 }
 
@@ -82,7 +84,8 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const LoggedImpact& impa
                               double allowed_off) {
   const auto& l = law(impact);
   const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
-  const double right = separation_speed(l, g_n), by_restitution = l.restitution(-g_n) * -g_n;
+  const double right = separation_speed(l, impact, g_n),
+               by_restitution = l.restitution(-g_n, impact.bodies()) * -g_n;
   const auto finding = [&](Kind kind, double found, double expected, const char* note) {
     return Finding{kind,          off,   event.line, event.time, event.ball, event.with_wall,
                    event.partner, found, expected,   note};
@@ -96,7 +99,7 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const LoggedImpact& impa
   const auto by_ratio = g_n != 0 ? finding(Kind::normal_restitution, -left / g_n, -right / g_n, "")
                                  : finding(Kind::normal_restitution, unknown, unknown, "");
   if (left <= by_restitution + allowed_off) return findings_.add(by_ratio);
-  for (OtherLeast& other : other_least_) {
+  for (auto& [of_law, other] : other_least_) {
     // A constant restitution gives the same speed for the same approach only.
     if (!(std::abs(left - other.speed) <= allowed_off &&
           other.speed * std::abs(g_n - other.g_n) > 2 * allowed_off * std::abs(g_n)))
@@ -112,14 +115,14 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const LoggedImpact& impa
     other.confirmed = true;
     return tell_separation(note);
   }
-  OtherLeast& other = other_least_[impact.with_wall ? 1 : 0];
+  OtherLeast& other = other_least_[number_of(l)];
   if (other.confirmed || left > other.speed - allowed_off) return findings_.add(by_ratio);
   if (other.held) findings_.add(*other.held);
   other = {left, g_n, right, false, by_ratio};
 }
 
 void ImpactJudge::finish() {
-  for (auto& other : other_least_) {
+  for (auto& [of_law, other] : other_least_) {
     if (other.held) findings_.add(*other.held);
     other.held.reset();
   }

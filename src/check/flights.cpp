@@ -34,11 +34,11 @@ Flights::Flights(const model::Case<double>& the_case, const Available& available
       tracks_(the_case.balls.size()),
       missed_by_wall_(the_case.mill.vessel.walls().size()) {}
 
-VesselFrame Flights::nested_at(double time) const {
-  return frame_of(case_.mill.motion, case_.mill.motion.pose(clock_.at(time)), false);
-}
-VesselFrame Flights::printed_at(double time) const {
-  return frame_of(case_.mill.motion, case_.mill.motion.pose(clock_.at(time)), true);
+VesselFrame Flights::frame_at(double time, bool as_printed) const {
+  const auto when = clock_.at(time);
+  auto frame = frame_of(case_.mill.motion, case_.mill.motion.pose(when), as_printed);
+  frame.moved = moved_walls(case_.mill.vessel, when);
+  return frame;
 }
 
 Vec Flights::position_at(int ball, double time) const {

@@ -46,8 +46,8 @@ class Flights {
 
   /// Position of a ball, extrapolated from its last known state [m]. @pre its state is known
   Vec position_at(int ball, double time) const;
-  VesselFrame nested_at(double time) const;
-  VesselFrame printed_at(double time) const;
+  VesselFrame nested_at(double time) const { return frame_at(time, false); }
+  VesselFrame printed_at(double time) const { return frame_at(time, true); }
 
   /// Checks the flight of a ball that an event ends.
   void judge(int ball, const FlightEnd& end);
@@ -64,6 +64,7 @@ class Flights {
   std::uint64_t undecided() const { return undecided_; }
 
  private:
+  VesselFrame frame_at(double time, bool as_printed) const;
   struct Contact {
     double time = 0;
     bool with_wall = false;

@@ -47,7 +47,7 @@ double supplied(const LoggedImpact& impact, double g_n, double separation) {
 
 /// (2.30'), (2.36')
 double dose_by_law(const LoggedImpact& impact, const model::ContactLaw<double>& law, const Speeds& speeds) {
-  const double separation = separation_speed(law, speeds.g_n);
+  const double separation = separation_speed(law, impact, speeds.g_n);
   const double bounce = separation - speeds.g_n;
   const double e_t = tangential_restitution(law, impact.compliance, bounce, speeds.slip);
   const double normal = std::max(0.0, (-speeds.g_n - separation) * bounce);
@@ -87,8 +87,10 @@ auto ImpactJudge::residuals(const LoggedEvent& event, const LoggedImpact& impact
       off.spin = std::max(off.spin, size(missing) / (ball.mass * ball.radius));
     }
   const double bounce = std::max(0.0, dot(impulse[0], impact.normal)) / impact.effective_mass;
-  off.normal = std::abs(g_n_after - separation_speed(law(impact), g_n));
-  if (parting) off.normal = std::min(off.normal, std::abs(g_n_after + law(impact).restitution(-g_n) * g_n));
+  off.normal = std::abs(g_n_after - separation_speed(law(impact), impact, g_n));
+  if (parting)
+    off.normal =
+        std::min(off.normal, std::abs(g_n_after + law(impact).restitution(-g_n, impact.bodies()) * g_n));
   off.restitution_tangential = tangential_restitution(law(impact), impact.compliance, bounce, size(slip));
   if (known.spins) off.tangential = size(Vec(slip_after - slip * off.restitution_tangential));
   return off;
@@ -110,7 +112,7 @@ void ImpactJudge::tell_broken_equations(const LoggedEvent& event, const Scene& s
     const double v_n = dot(event.body[0].velocity_before, impact.normal);
     const double v_n_after = dot(event.body[0].velocity_after, impact.normal);
     const auto& l = law(impact);
-    const double e_n = l.restitution(-dot(impact.before(event), impact.normal));
+    const double e_n = l.restitution(-dot(impact.before(event), impact.normal), impact.bodies());
     double implied = v_n + (v_n_after - v_n) / (1 + e_n);
     if (v_n_after - implied < l.least_separation) implied = v_n_after - l.least_separation;
     return tell(Kind::wall_velocity, event, std::max(off.normal, off.tangential), implied,
@@ -136,7 +138,8 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
     LoggedImpact other = scene.impact;
     const Vec& centre = event.body[0].position;
     other.wall_velocity = wall_velocity(WallVelocity::of_the_printed_matrix, scene.nested, scene.printed,
-                                        centre - other.normal * other.ball[0].radius, centre);
+                                        centre - other.normal * other.ball[0].radius, centre) +
+                          piston_velocity(scene.nested, other.wall, other.normal);
     if (residuals(event, other, known, false).largest() <
         residuals(event, scene.impact, known, false).largest())
       scene.impact = other;
@@ -200,7 +203,7 @@ void ImpactJudge::judge_energies(const LoggedEvent& event, const LoggedImpact& r
   const double allowed_off = 4 * tolerances_.relative * right.effective_mass * scale * scale;
   const double work = work_of_wall(event, right), gained = kinetic_change(event, right);
   const Speeds speeds = speeds_before(event, right);
-  const double due = supplied(right, speeds.g_n, separation_speed(law(right), speeds.g_n));
+  const double due = supplied(right, speeds.g_n, separation_speed(law(right), right, speeds.g_n));
   ++energies_.impacts;
   energies_.wall_work += work;
   energies_.kinetic_change += gained;
@@ -237,7 +240,7 @@ void ImpactJudge::judge_dose(const LoggedEvent& event, const LoggedImpact& right
   const double expected = balance(right) + supplied_in_log(right);
   double off = std::min({away(expected), away(balance(theirs) + supplied_in_log(theirs)),
                          away(dose_by_law(theirs, law(theirs), speeds))});
-  const bool none_is_due = supplied(right, speeds.g_n, separation_speed(law(right), speeds.g_n)) == 0;
+  const bool none_is_due = supplied(right, speeds.g_n, separation_speed(law(right), right, speeds.g_n)) == 0;
   if (none_is_due) off = std::min({off, away(balance(right)), away(balance(theirs))});
   if (off > allowed_off)
     tell(Kind::milling_dose, event, off, event.milling_dose, expected,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "base/compensated_sum.hpp"
@@ -69,7 +70,13 @@ class ImpactJudge {
   };
 
   const model::ContactLaw<double>& law(const LoggedImpact& impact) const {
-    return impact.with_wall ? mill_.ball_wall : mill_.ball_ball;
+    return impact.with_wall ? mill_.law_with_wall(impact.ball[0], impact.wall)
+                            : mill_.law_between(impact.ball[0], impact.ball[1]);
+  }
+  /// Number of a law of the mill: of balls, with walls, pairs of materials.
+  std::ptrdiff_t number_of(const model::ContactLaw<double>& law) const {
+    if (&law == &mill_.ball_ball) return 0;
+    return &law == &mill_.ball_wall ? 1 : 2 + (&law - mill_.pairs.laws.data());
   }
   Residuals residuals(const LoggedEvent& event, const LoggedImpact& impact, const Known& known,
                       bool parting) const;
@@ -105,7 +112,7 @@ class ImpactJudge {
     bool confirmed = false;
     std::optional<Finding> held;
   };
-  std::array<OtherLeast, 2> other_least_;  ///< of impacts between balls, with walls
+  std::map<std::ptrdiff_t, OtherLeast> other_least_;  ///< by law of the impacts
 };
 
 }  // namespace edmill::audit

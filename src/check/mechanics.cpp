@@ -41,9 +41,17 @@ VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPos
   return frame;
 }
 
+std::vector<model::Moved<double>> moved_walls(const model::AnyVessel<double>& vessel,
+                                              const Instant<double>& when) {
+  std::vector<model::Moved<double>> moved;
+  if (const auto* pistons = vessel.pistons())
+    for (int wall = 0; wall < vessel.wall_count(); ++wall) moved.push_back(pistons->of_wall(wall, when));
+  return moved;
+}
+
 double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
                 const Vec& position) {
-  return -vessel.inset(radius).overlap(wall, inside(frame, position));
+  return -vessel.inset(radius).overlap(wall, inside(frame, position)) - frame.of_wall(wall).value;
 }
 
 Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall,
@@ -131,9 +139,9 @@ Vec LoggedImpact::after(const LoggedEvent& e) const {
                           e.body[1].spin_after);
 }
 
-double separation_speed(const model::ContactLaw<double>& law, double g_n) {
+double separation_speed(const model::ContactLaw<double>& law, const LoggedImpact& impact, double g_n) {
   // Bodies that already separate, by rounding, do not leave more slowly.
-  return std::max({law.restitution(-g_n) * -g_n, law.least_separation, g_n});
+  return std::max({law.restitution(-g_n, impact.bodies()) * -g_n, law.least_separation, g_n});
 }
 
 double tangential_restitution(const model::ContactLaw<double>& law, double compliance, double bounce,
@@ -152,9 +160,10 @@ std::array<BodyState, 2> outcome(const LoggedImpact& impact, const model::Contac
   const Vec g = impact.before(event);
   const double g_n = dot(g, impact.normal);
   const Vec slip = g - impact.normal * g_n;
-  const double bounce = separation_speed(law, g_n) - g_n;
-  const double in_friction =
-      formula.friction_of_restitution ? -(1 + law.restitution(-g_n)) * std::min(g_n, 0.0) : bounce;
+  const double bounce = separation_speed(law, impact, g_n) - g_n;
+  const double in_friction = formula.friction_of_restitution
+                                 ? -(1 + law.restitution(-g_n, impact.bodies())) * std::min(g_n, 0.0)
+                                 : bounce;
   const double c_in_law = formula.compliance_in_e_t > 0 ? formula.compliance_in_e_t : impact.compliance;
   const double c = formula.compliance_in_impulse > 0 ? formula.compliance_in_impulse : impact.compliance;
   const double e_t = tangential_restitution(law, c_in_law, in_friction, size(slip));

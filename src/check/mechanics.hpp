@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "check/event_log.hpp"
 #include "model/case.hpp"
@@ -22,7 +23,17 @@ struct VesselFrame {
   // Of the nested motion only, whose two rotations codes take for each other:
   Vec swing{0, 0, 0};    ///< theta' about Z [rad/s]
   double roll_rate = 0;  ///< gamma' about x' [rad/s]
+  /// Where the walls stand that move in the vessel, by wall; empty where none does.
+  std::vector<model::Moved<double>> moved{};
+
+  model::Moved<double> of_wall(int wall) const {
+    return moved.empty() ? model::Moved<double>{} : moved[static_cast<std::size_t>(wall)];
+  }
 };
+
+/// Of the walls of a vessel at an instant.
+std::vector<model::Moved<double>> moved_walls(const model::AnyVessel<double>& vessel,
+                                              const Instant<double>& when);
 
 /// The nested motion R_z(theta) R_x(gamma), (2.7'), or any other as it is.
 /// @param as_printed  R_x(gamma) R_z(theta) in place of it, as (2.14) is printed
@@ -55,9 +66,15 @@ const char* name_of(WallVelocity formula);
 Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselFrame& printed,
                   const Vec& point, const Vec& ball_centre);
 
+/// Velocity of a wall in its vessel, which comes on top of the above. @param normal  into the vessel
+inline Vec piston_velocity(const VesselFrame& frame, int wall, const Vec& normal) {
+  return normal * frame.of_wall(wall).rate;
+}
+
 /// The impact of a logged event as input of the contact law: bodies, geometry, and the wall's velocity.
 struct LoggedImpact {
   bool with_wall = false;
+  int wall = -1;                                      ///< id, of an impact with one
   std::array<model::BallProperties<double>, 2> ball;  ///< the partner only for balls
   Vec normal;                                         ///< unit, from the partner to the ball
   Vec wall_velocity{0, 0, 0};
@@ -65,6 +82,9 @@ struct LoggedImpact {
   double effective_mass = 0, compliance = 0;
 
   void set_masses();
+  model::ContactBodies<double> bodies() const {
+    return {effective_mass, ball[0].radius, with_wall ? -1 : ball[1].radius};
+  }
   /// Relative velocity of the contact points. (2.27)
   Vec contact_velocity(const Vec& v_i, const Vec& w_i, const Vec& v_j, const Vec& w_j) const;
   Vec before(const LoggedEvent& e) const;
@@ -73,7 +93,7 @@ struct LoggedImpact {
 
 /// Speed along the normal at which the contact points separate, max(e_n |g_n|, v_s) [m/s]. (2.23')
 /// @param g_n  before the impact; negative while the bodies approach
-double separation_speed(const model::ContactLaw<double>& law, double g_n);
+double separation_speed(const model::ContactLaw<double>& law, const LoggedImpact& impact, double g_n);
 
 /// e_t of the law for an impact that gives the normal impulse `bounce` times the effective mass. (2.24')
 /// @param bounce  |g_n| + g_n' [m/s]

@@ -121,10 +121,12 @@ Scene Flights::scene_at(int ball, int wall, double time, const Vec& position) co
   scene.printed = printed_at(time);
   LoggedImpact& impact = scene.impact;
   impact.with_wall = true;
+  impact.wall = wall;
   impact.ball[0] = case_.balls[static_cast<std::size_t>(ball)];
   impact.normal = wall_normal(scene.nested, case_.mill.vessel, wall, position);
   impact.wall_velocity = wall_velocity(WallVelocity::nested, scene.nested, scene.printed,
-                                       position - impact.normal * impact.ball[0].radius, position);
+                                       position - impact.normal * impact.ball[0].radius, position) +
+                         piston_velocity(scene.nested, wall, impact.normal);
   impact.set_masses();
   return scene;
 }
@@ -155,7 +157,8 @@ bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& 
     event.body[0].velocity_before = dynamics::velocity_after(state.flight, case_.mill.gravity, dt);
     event.body[0].spin_before = state.spin;
     const auto scene = scene_at(ball, contact->second, time, event.body[0].position);
-    const auto after = outcome(scene.impact, case_.mill.ball_wall, event, {});
+    const auto after =
+        outcome(scene.impact, case_.mill.law_with_wall(scene.impact.ball[0], scene.impact.wall), event, {});
     state = {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time};
     if (arrives(state, end)) return true;
   }
@@ -189,7 +192,7 @@ bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEn
   }
   apart = event.body[0].position - event.body[1].position;
   impact.normal = apart * (1 / size(apart));
-  const auto after = outcome(impact, case_.mill.ball_ball, event, {});
+  const auto after = outcome(impact, case_.mill.law_between(impact.ball[0], impact.ball[1]), event, {});
   return arrives(
       {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time}, end);
 }

@@ -46,8 +46,15 @@ std::string describe_case(const casefile::CaseSpec& spec) {
   if (const double peak = m.motion.wall_speed(0); peak > 0)
     row("peak wall speed", fmt::format("{:g} m/s at the vessel's centre", peak));
   row("vessel", casefile::describe(spec.vessel));
-  row("contact ball-ball", describe_law(m.ball_ball));
-  row("contact ball-wall", describe_law(m.ball_wall));
+  const auto partners = casefile::partners_of(spec);
+  for (const auto& piston : spec.pistons)
+    row("piston " + partners[piston.wall].label, casefile::describe(piston));
+  if (!spec.pairs_only) {
+    row("contact ball-ball", describe_law(m.ball_ball));
+    row("contact ball-wall", describe_law(m.ball_wall));
+  }
+  for (std::size_t k = 0; k < spec.pairs.size(); ++k)
+    row("contact " + spec.names_of(spec.pairs[k]), describe_law(m.pairs.laws[k]));
   double mass = 0, volume = 0;
   for (const auto& ball : c.balls) {
     mass += ball.mass;

@@ -72,7 +72,10 @@ struct MovingVessel {
         vessel_reach(its_vessel.reach()),
         reach(its_motion.reach(vessel_reach)),
         gravity_size(norm<Real>(acceleration)),
-        wall_speed(its_motion.wall_speed(vessel_reach)) {}
+        wall_speed(its_motion.wall_speed(vessel_reach)) {
+    if constexpr (model::HasPistons<V>)
+      if (const auto* pistons = vessel.pistons()) wall_speed += pistons->bound(1);
+  }
 
   M motion;
   V vessel;
@@ -131,8 +134,12 @@ class GapFunctions {
 
   /// The gap to one wall, of which only the place in the vessel is needed.
   Real gap(int wall, const Real& offset, const Pose& pose) const {
-    return room_.gap(
+    const Real own = room_.gap(
         wall, mill_.motion.position_in_vessel(pose, position_after(flight_, mill_.gravity, elapsed(offset))));
+    if constexpr (model::HasPistons<V>)
+      if (const auto* pistons = mill_.vessel.pistons())
+        return own - pistons->of_wall(wall, instant(offset)).value;
+    return own;
   }
 
   /// The ball at `offset`, where the vessel stands at `pose`.
@@ -147,7 +154,12 @@ class GapFunctions {
   Start start(const Real& offset, const Pose& pose, const SeenBall<Real>& ball) const {
     const auto second =
         mill_.motion.vessel_frame_acceleration(pose, ball.state, ball.velocity, mill_.gravity);
-    return {sample(offset, ball.state), room_.curvatures(ball.state.position, ball.state.velocity, second)};
+    Start start{plain_sample(offset, ball.state),
+                room_.curvatures(ball.state.position, ball.state.velocity, second)};
+    for_each_piston(offset, [&](int wall, const auto& moved) {
+      start.gap[wall] -= moved.value, start.rate[wall] -= moved.rate, start.curvature[wall] -= moved.second;
+    });
+    return start;
   }
   Start start(const Real& offset) const {
     const auto at = pose(offset);
@@ -156,7 +168,11 @@ class GapFunctions {
 
   /// The sample that a state in the vessel frame gives.
   Sample sample(const Real& offset, const model::VesselFrameState<Real>& state) const {
-    return {offset, room_.gaps(state.position), room_.rates(state.position, state.velocity)};
+    auto sample = plain_sample(offset, state);
+    for_each_piston(offset, [&](int wall, const auto& moved) {
+      sample.gap[wall] -= moved.value, sample.rate[wall] -= moved.rate;
+    });
+    return sample;
   }
 
   /// Rounding bounds for every sample up to `elapsed` [s] after the start of the flight with inertial speeds
@@ -180,6 +196,19 @@ class GapFunctions {
   }
 
  private:
+  /// With every wall at its place in the vessel.
+  Sample plain_sample(const Real& offset, const model::VesselFrameState<Real>& state) const {
+    return {offset, room_.gaps(state.position), room_.rates(state.position, state.velocity)};
+  }
+  /// Calls f(wall, moved) for the walls that move in the vessel.
+  template <class F>
+  void for_each_piston([[maybe_unused]] const Real& offset, [[maybe_unused]] F&& f) const {
+    if constexpr (model::HasPistons<V>)
+      if (const auto* pistons = mill_.vessel.pistons())
+        for (std::size_t k = 0; k < pistons->count(); ++k)
+          f(pistons->wall(k), pistons->at(k, instant(offset)));
+  }
+
   model::FlightBounds<Real> bounds(const Real& elapsed, const Real& speed) const {
     model::FlightBounds<Real> flight{mill_.reach, mill_.gravity_size, speed, elapsed,
                                      lag_ < 0 ? Real(-lag_) : lag_};
@@ -208,6 +237,13 @@ class GapFunctions {
       errors.gap[wall] = bounds.value, errors.rate[wall] = bounds.rate,
       errors.curvature[wall] = bounds.second;
     }
+    if constexpr (model::HasPistons<V>)
+      if (const auto* pistons = mill_.vessel.pistons())
+        for (std::size_t k = 0; k < pistons->count(); ++k) {
+          const auto own = pistons->errors(k, u, mill_.vessel.extent());
+          const int wall = pistons->wall(k);
+          errors.gap[wall] += own.value, errors.rate[wall] += own.rate, errors.curvature[wall] += own.second;
+        }
     return errors;
   }
 

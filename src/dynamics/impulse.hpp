@@ -46,8 +46,9 @@ struct ImpulseParts {
 /// @param law         one of the laws of model/laws
 template <class Real, class Law>
 ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, const Vec3<Real>& normal,
-                              const Vec3<Real>& contact_velocity, const Real& effective_mass,
+                              const Vec3<Real>& contact_velocity, const model::ContactBodies<Real>& bodies,
                               const Real& compliance) {
+  const Real& effective_mass = bodies.effective_mass;
   const Real normal_speed = dot<Real>(contact_velocity, normal);  // negative while approaching
   const Vec3<Real> slip = contact_velocity - normal * normal_speed;
   ImpulseParts<Real> parts;
@@ -55,7 +56,7 @@ ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, cons
   out.approach_speed = -normal_speed;
   out.slip_speed = norm<Real>(slip);
   const Real approach = normal_speed < 0 ? Real(-normal_speed) : Real(0);
-  const Real by_restitution = law.restitution(approach) * approach;
+  const Real by_restitution = model::restitution_of(law, approach, bodies) * approach;
   const Real separation = by_restitution < least_separation ? least_separation : by_restitution;
   out.least_separation = separation > by_restitution && separation > normal_speed;
   // Bodies that separate by rounding, and faster than they would leave, go on as they are.
@@ -80,12 +81,11 @@ ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, cons
 
 template <class Real>
 ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
-                                 const Real& effective_mass, const Real& compliance,
+                                 const model::ContactBodies<Real>& bodies, const Real& compliance,
                                  const model::ContactLaw<Real>& law) {
   return std::visit(
       [&](const auto& one) {
-        return impulse_by<Real>(one, law.least_separation, normal, contact_velocity, effective_mass,
-                                compliance);
+        return impulse_by<Real>(one, law.least_separation, normal, contact_velocity, bodies, compliance);
       },
       law.law);
 }
@@ -106,7 +106,8 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
   const Real compliance = 1 + share_i / ball_i.reduced_inertia + share_j / ball_j.reduced_inertia;
   const Vec3<Real> rolling = spin_i * ball_i.radius + spin_j * ball_j.radius;
   const Vec3<Real> contact_velocity = (velocity_i - velocity_j) - cross<Real>(rolling, normal);
-  const auto parts = detail::impulse_parts<Real>(normal, contact_velocity, effective_mass, compliance, law);
+  const model::ContactBodies<Real> bodies{effective_mass, ball_i.radius, ball_j.radius};
+  const auto parts = detail::impulse_parts<Real>(normal, contact_velocity, bodies, compliance, law);
   velocity_i += parts.per_mass * share_i;
   velocity_j -= parts.per_mass * share_j;
   spin_i += parts.spin_torque * (share_i / (ball_i.radius * ball_i.reduced_inertia));
@@ -124,7 +125,8 @@ ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal, const model::Bal
   const Real compliance = 1 + 1 / ball.reduced_inertia;
   const Vec3<Real> rolling = spin * ball.radius;
   const Vec3<Real> contact_velocity = (velocity - wall_velocity) - cross<Real>(rolling, normal);
-  auto parts = detail::impulse_parts<Real>(normal, contact_velocity, ball.mass, compliance, law);
+  auto parts =
+      detail::impulse_parts<Real>(normal, contact_velocity, {ball.mass, ball.radius}, compliance, law);
   velocity += parts.per_mass;
   spin += parts.spin_torque * (1 / (ball.radius * ball.reduced_inertia));
   parts.outcome.wall_work = ball.mass * dot<Real>(wall_velocity, parts.per_mass);

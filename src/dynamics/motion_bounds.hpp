@@ -24,7 +24,11 @@ DerivativeBounds<V> derivative_bounds(const MovingVessel<M, V>& mill, const Real
   for (int k = 2; k <= 4; ++k) {
     const auto of_kinds = mill.vessel.derivative_bounds(coordinates, k);
     if constexpr (requires { bounds.resize(of_kinds.size()); }) bounds.resize(of_kinds.size());
-    for (std::size_t kind = 0; kind < of_kinds.size(); ++kind) bounds[kind][k - 2] = margin * of_kinds[kind];
+    Real of_pistons(0);
+    if constexpr (model::HasPistons<V>)
+      if (const auto* pistons = mill.vessel.pistons()) of_pistons = pistons->bound(k);
+    for (std::size_t kind = 0; kind < of_kinds.size(); ++kind)
+      bounds[kind][k - 2] = margin * (of_kinds[kind] + of_pistons);
   }
   return bounds;
 }
@@ -36,6 +40,9 @@ class BoundsTable {
   using Real = typename M::Scalar;
 
   explicit BoundsTable(const MovingVessel<M, V>& mill) : mill_(mill), longest_(mill.motion.longest_window()) {
+    if constexpr (model::HasPistons<V>)
+      if (const auto* pistons = mill.vessel.pistons())
+        if (const Real longest = pistons->longest_window(); longest < longest_) longest_ = longest;
     const Real wall_speed = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
     speed_step_ = wall_speed > 0 ? Real(wall_speed / 16) : Real(1) / 4;
     per_speed_ = 1 / speed_step_;

@@ -47,8 +47,7 @@ class PairSearch {
     widest_ = 2 * mill.vessel.reach();
     largest_sum_ = mill.vessel.widest_ball();
     gravity_size_ = norm<Real>(gravity_);
-    const Real &one = mill.ball_ball.least_separation, &other = mill.ball_wall.least_separation;
-    least_separation_ = one < other ? one : other;
+    least_separation_ = mill.least_separation();
     filter_.gravity = gravity_;
     filter_.period = clock_.period();
     raise_top_speed(top_speed);
@@ -211,7 +210,7 @@ class PairSearch {
   Real smallest_sum_, reach_;
   Real widest_{}, largest_sum_{};  ///< bounds on the distance of two balls and on the sum of their radii [m]
   Real gravity_size_{}, top_speed_{}, position_error_{}, tie_window_{};
-  Real least_separation_{};  ///< the smaller one of balls and walls [m/s]
+  Real least_separation_{};  ///< the smallest one of all laws [m/s]
   PairFilter<Real> filter_;
 };
 

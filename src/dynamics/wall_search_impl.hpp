@@ -21,7 +21,11 @@ auto WallSearch<M, V>::within_reach(const Functions& functions, const Vec3<Real>
                                     const Real& length) const -> Walls {
   // A millionth covers the rounding of all this.
   const Real way = (speed + mill_.wall_speed) * length * (1 + Real(1) / 1048576) + mill_.reach / 1048576;
-  return functions.room().within(position, way);
+  auto near = functions.room().within(position, way);
+  if constexpr (model::HasPistons<V>)
+    if (const auto* pistons = mill_.vessel.pistons())
+      for (std::size_t k = 0; k < pistons->count(); ++k) near[pistons->wall(k)] = true;
+  return near;
 }
 
 template <model::Motion M, model::Vessel V>

@@ -37,7 +37,8 @@ Real largest_speed(const std::vector<model::BallState<Real>>& states, const mode
     const Real speed = norm<Real>(s.velocity);
     if (speed > largest) largest = speed;
   }
-  const Real wall = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
+  Real wall = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
+  if (const auto* pistons = mill.vessel.pistons()) wall += pistons->bound(1);
   return 2 * (largest + wall) + largest_fall(mill);
 }
 

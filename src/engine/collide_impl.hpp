@@ -62,16 +62,22 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   model::with_parts<Real>(
       mill_.motion, mill_.vessel, [&]<class M, class V>(const M& motion, const V& vessel) {
         const auto& pose = model::pose_of<M>(pose_);
-        const auto place = motion.to_vessel_frame(pose, flight.position, flight.velocity).position;
+        const auto place = motion.position_in_vessel(pose, flight.position);
         impact.normal = motion.direction_to_inertial(pose, vessel.normal(wall, place));
         impact.overlap = vessel.inset(radius).overlap(wall, place);
         impact.wall_velocity = motion.wall_velocity(pose, flight.position - impact.normal * radius);
       });
+  if (const auto* pistons = mill_.vessel.pistons()) {
+    const auto moved = pistons->of_wall(wall, now_);
+    impact.overlap += moved.value;
+    impact.wall_velocity += impact.normal * moved.rate;
+  }
   impact.velocity_before[0] = flight.velocity;
   impact.spin_before[0] = bodies_[ball].spin;
   impact.flight_time[0] = flight_time;
   impact.outcome = dynamics::collide_with_wall<Real>(impact.normal, properties(ball), impact.wall_velocity,
-                                                     flight.velocity, bodies_[ball].spin, mill_.ball_wall);
+                                                     flight.velocity, bodies_[ball].spin,
+                                                     mill_.law_with_wall(properties(ball), wall));
   agendas_.number_impact(ball, ball);
   candidates_.update(ball);
   return impact;
@@ -95,9 +101,9 @@ Impact<Real> Simulation<Real>::collide_pair(const Event<Real>& event) {
   impact.spin_before[0] = bodies_[ball].spin;
   impact.spin_before[1] = bodies_[partner].spin;
   impact.flight_time[0] = flight_times[0], impact.flight_time[1] = flight_times[1];
-  impact.outcome =
-      dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner), one.velocity,
-                                    bodies_[ball].spin, two.velocity, bodies_[partner].spin, mill_.ball_ball);
+  impact.outcome = dynamics::collide_balls<Real>(
+      impact.normal, properties(ball), properties(partner), one.velocity, bodies_[ball].spin, two.velocity,
+      bodies_[partner].spin, mill_.law_between(properties(ball), properties(partner)));
   agendas_.number_impact(ball, partner);
   candidates_.update(ball);
   candidates_.update(partner);
@@ -120,9 +126,9 @@ void Simulation<Real>::raise_top_speed(int ball) {
 /// Whether the impact is one of infinitely many in finite time; then everybody who watches is told of it.
 template <class Real>
 void Simulation<Real>::notify(const Impact<Real>& impact) {
-  if (impact.with_wall) {
+  if (may_collapse_ && impact.with_wall) {
     note_collapse(impact, impact.ball, ball_count() + impact.partner, true, impact.partner);
-  } else {
+  } else if (may_collapse_) {
     note_collapse(impact, impact.ball, impact.partner, false, impact.partner);
     note_collapse(impact, impact.partner, impact.ball, false, impact.ball);
   }
@@ -132,10 +138,11 @@ void Simulation<Real>::notify(const Impact<Real>& impact) {
 template <class Real>
 void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall,
                                      int partner) {
-  const auto& law = with_wall ? mill_.ball_wall : mill_.ball_ball;
+  const auto& law = with_wall ? mill_.law_with_wall(properties(ball), partner)
+                              : mill_.law_between(properties(ball), properties(partner));
   if (law.least_separation > 0) return;
   const bool collapsing = collapse_watch_.note(bodies_[ball].recent, key, now_, impact.outcome.approach_speed,
-                                               law.restitution(impact.outcome.approach_speed), clock_);
+                                               impact.outcome.restitution_normal(), clock_);
   if (!collapsing) return;
   collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner,
                                              collapse_watch_.accumulation_time(bodies_[ball].recent, clock_)};

@@ -160,6 +160,7 @@ class Simulation {
   EventQueue<Real> queue_;
   Prefetcher<Real> prefetcher_;
   CollapseWatch<Real> collapse_watch_;
+  bool may_collapse_;  ///< a law lets bodies separate at any speed
   std::vector<Observer<Real>*> observers_;
   EngineCounts<Real> counts_;
   std::optional<model::InelasticCollapse<Real>> collapse_;

@@ -23,6 +23,7 @@
   prefix class dynamics::DecisionLadder<Real>;                                                       \
   prefix class engine::Simulation<Real>;                                                             \
   prefix Real casefile::Quantity::to<Real>() const;                                                  \
+  prefix model::AnyVessel<Real> casefile::build_vessel<Real>(const casefile::VesselSpec&);           \
   prefix model::Mill<Real> casefile::build_mill<Real>(const casefile::CaseSpec&);                    \
   prefix casefile::InitialCase<Real> casefile::build_case<Real>(const casefile::CaseSpec&, bool);    \
   prefix casefile::InitialCase<Real> casefile::build_case_in<Real>(const model::Mill<Real>&,         \

@@ -10,10 +10,9 @@ struct BallProperties {
   Real radius;           ///< [m]
   Real mass;             ///< [kg]
   Real reduced_inertia;  ///< J / (m R^2) [1]; 2/5 for a solid sphere
+  int material = 0;      ///< for the contact law; 0 where the case names none
 
-  friend bool operator==(const BallProperties& a, const BallProperties& b) {
-    return a.radius == b.radius && a.mass == b.mass && a.reduced_inertia == b.reduced_inertia;
-  }
+  friend bool operator==(const BallProperties& a, const BallProperties& b) = default;
 };
 
 /// Position, velocity and spin of a ball at one instant, in the inertial frame.

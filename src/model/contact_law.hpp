@@ -8,6 +8,10 @@
 
 #include "model/laws/constant.hpp"
 #include "model/laws/custom.hpp"
+#include "model/laws/elastic_plastic.hpp"
+#include "model/laws/powder_load.hpp"
+#include "model/laws/restitution_by_speed.hpp"
+#include "model/laws/viscoelastic.hpp"
 #include "model/laws/walton_braun.hpp"
 
 namespace edmill::model {
@@ -15,8 +19,21 @@ namespace edmill::model {
 /// The laws that a case file can name, the default first. A new law is a file in model/laws/ and a line here:
 /// its parameters are read, described and passed to every scalar by its list of them.
 template <class Number>
-using NamedLaws = std::variant<WaltonBraun<Number>,  //
-                               ConstantRestitution<Number>>;
+using NamedLaws = std::variant<WaltonBraun<Number>,          //
+                               ConstantRestitution<Number>,  //
+                               RestitutionBySpeed<Number>,   //
+                               Viscoelastic<Number>,         //
+                               ElasticPlastic<Number>,       //
+                               PowderLoad<Number>>;
+
+/// e_n of one law, of those that ask for the bodies and those that do not.
+template <class Law, class Number>
+Number restitution_of(const Law& law, const Number& approach_speed, const ContactBodies<Number>& bodies) {
+  if constexpr (requires { law.restitution(approach_speed, bodies); })
+    return law.restitution(approach_speed, bodies);
+  else
+    return law.restitution(approach_speed);
+}
 
 namespace detail {
 template <class Law, class Variant>
@@ -43,13 +60,14 @@ struct ContactLaw {
   }
 
   /// e_n in [0, 1]. @param approach_speed  |g_n| >= 0 [m/s]
-  Number restitution(const Number& approach_speed) const {
-    return std::visit([&](const auto& l) { return Number(l.restitution(approach_speed)); }, law);
+  /// @param bodies  those that meet
+  Number restitution(const Number& approach_speed, const ContactBodies<Number>& bodies) const {
+    return std::visit([&](const auto& l) { return Number(restitution_of(l, approach_speed, bodies)); }, law);
   }
 
   /// Speed at which the contact points leave each other along the normal, max(e_n |g_n|, v_s) [m/s]. (2.23')
-  Number separation_speed(const Number& approach_speed) const {
-    const Number by_restitution = restitution(approach_speed) * approach_speed;
+  Number separation_speed(const Number& approach_speed, const ContactBodies<Number>& bodies) const {
+    const Number by_restitution = restitution(approach_speed, bodies) * approach_speed;
     return by_restitution < least_separation ? least_separation : by_restitution;
   }
 

@@ -1,14 +1,29 @@
 // The physical model without the balls: a vessel on its motion, gravity and what contacts do.
 #pragma once
 
+#include <cstddef>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "base/vector.hpp"
+#include "model/ball.hpp"
 #include "model/contact_law.hpp"
 #include "model/motion.hpp"
 #include "model/vessel.hpp"
 
 namespace edmill::model {
+
+/// Contact laws by materials. Empty where a case names no pairs of them.
+template <class Real>
+struct PairLaws {
+  std::vector<ContactLaw<Real>> laws;
+  std::size_t materials = 1;  ///< with the unnamed one, 0
+  std::vector<int> of_balls;  ///< law by material x material; -1 for the mill's ball_ball
+  std::vector<int> of_walls;  ///< law by material x wall; -1 for the mill's ball_wall
+
+  bool empty() const { return laws.empty(); }
+};
 
 template <class Real>
 struct Mill {
@@ -17,6 +32,32 @@ struct Mill {
   Vec3<Real> gravity;  ///< [m/s^2]
   ContactLaw<Real> ball_ball;
   ContactLaw<Real> ball_wall;
+  PairLaws<Real> pairs{};
+
+  const ContactLaw<Real>& law_between(const BallProperties<Real>& one,
+                                      const BallProperties<Real>& other) const {
+    if (pairs.empty()) [[likely]]
+      return ball_ball;
+    const int law = pairs.of_balls[static_cast<std::size_t>(one.material) * pairs.materials +
+                                   static_cast<std::size_t>(other.material)];
+    return law < 0 ? ball_ball : pairs.laws[static_cast<std::size_t>(law)];
+  }
+  const ContactLaw<Real>& law_with_wall(const BallProperties<Real>& ball, int wall) const {
+    if (pairs.empty()) [[likely]]
+      return ball_wall;
+    const std::size_t walls = pairs.of_walls.size() / pairs.materials;
+    const int law =
+        pairs.of_walls[static_cast<std::size_t>(ball.material) * walls + static_cast<std::size_t>(wall)];
+    return law < 0 ? ball_wall : pairs.laws[static_cast<std::size_t>(law)];
+  }
+  /// The smallest least separation speed of all laws [m/s].
+  Real least_separation() const {
+    Real least = ball_ball.least_separation < ball_wall.least_separation ? ball_ball.least_separation
+                                                                         : ball_wall.least_separation;
+    for (const auto& law : pairs.laws)
+      if (law.least_separation < least) least = law.least_separation;
+    return least;
+  }
 };
 
 /// The mill in another scalar: exact when that is wider, rounded otherwise.
@@ -25,8 +66,14 @@ Mill<To> mill_cast(const Mill<From>& m) {
   const auto law = [](const ContactLaw<From>& l) {
     return convert_law<To>(l, [](const From& x) { return static_cast<To>(x); });
   };
-  return {m.motion.template cast<To>(), m.vessel.template cast<To>(), vector_cast<To>(m.gravity),
-          law(m.ball_ball), law(m.ball_wall)};
+  PairLaws<To> pairs{{}, m.pairs.materials, m.pairs.of_balls, m.pairs.of_walls};
+  for (const auto& own : m.pairs.laws) pairs.laws.push_back(law(own));
+  return {m.motion.template cast<To>(),
+          m.vessel.template cast<To>(),
+          vector_cast<To>(m.gravity),
+          law(m.ball_ball),
+          law(m.ball_wall),
+          std::move(pairs)};
 }
 
 /// Calls f(motion, vessel): in double with the SPEX and the cylinder as what they are, so that f is compiled
@@ -37,7 +84,7 @@ template <class Real, class F>
   if constexpr (std::is_same_v<Real, double>) {
     const auto* spex = motion.template get_if<SpexMotion<Real>>();
     const auto* cylinder = vessel.template get_if<CylinderVessel<Real>>();
-    if (spex && cylinder) [[likely]]
+    if (spex && cylinder && !vessel.pistons()) [[likely]]
       return f(*spex, *cylinder);
   }
   return f(motion, vessel);

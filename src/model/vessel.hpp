@@ -3,12 +3,14 @@
 
 #include <boost/container/static_vector.hpp>
 #include <concepts>
+#include <memory>
 #include <utility>
 #include <variant>
 
 #include "base/errors.hpp"
 #include "model/vessels/box.hpp"
 #include "model/vessels/cylinder.hpp"
+#include "model/vessels/piston.hpp"
 #include "model/vessels/polyhedron.hpp"
 #include "model/vessels/rounded.hpp"
 #include "model/vessels/sphere.hpp"
@@ -128,8 +130,14 @@ class AnyVessel {
       : vessel_(std::move(vessel)) {}
   template <class To>
   AnyVessel<To> cast() const {
-    return visit([](const auto& v) { return AnyVessel<To>(v.template cast<To>()); });
+    auto to = visit([](const auto& v) { return AnyVessel<To>(v.template cast<To>()); });
+    if (pistons_) to.set(pistons_->template cast<To>());
+    return to;
   }
+
+  /// Walls that move; null where none does. They are no part of an inset.
+  const Pistons<Real>* pistons() const { return pistons_.get(); }
+  void set(Pistons<Real> pistons) { pistons_ = std::make_shared<const Pistons<Real>>(std::move(pistons)); }
 
   /// The vessel when it is a V, else none.
   template <class V>
@@ -248,6 +256,7 @@ class AnyVessel {
   }
 
   VesselVariant<Real> vessel_;
+  std::shared_ptr<const Pistons<Real>> pistons_;
 };
 
 static_assert(Vessel<CylinderVessel<double>> && Vessel<BoxVessel<double>> && Vessel<SphereVessel<double>> &&

@@ -39,7 +39,12 @@ class SceneOutput : public Output<Real> {
     const Vec3<double> target = vector_cast<double>(mill.motion.middle());
     // From above and in front, so that the arm points up in the picture.
     const Vec3<double> eye = target + Vec3<double>(0, 0, 4 * static_cast<double>(mill.vessel.extent()));
-    Scene s{{walls_, run_.vessel_colour, vessel_frame(mill.motion, now)}, eye, target, {}, {}, now};
+    Scene s{{walls_at(mill.vessel, time), run_.vessel_colour, vessel_frame(mill.motion, now)},
+            eye,
+            target,
+            {},
+            {},
+            now};
     for (int i = 0; i < simulation.ball_count(); ++i) {
       const auto state = state_of(i);
       s.balls.push_back({static_cast<double>(simulation.properties(i).radius),
@@ -50,6 +55,19 @@ class SceneOutput : public Output<Real> {
   }
 
  private:
+  /// The walls, with pistons where they stand.
+  std::vector<model::Mesh> walls_at(const model::AnyVessel<Real>& vessel, const Real& time) const {
+    auto walls = walls_;
+    const auto* pistons = vessel.pistons();
+    for (std::size_t k = 0; pistons && k < pistons->count(); ++k) {
+      const int wall = pistons->wall(k);
+      const Vec3<Real> normal = vessel.normal(wall, Vec3<Real>::Zero());
+      const auto moved = vector_cast<double>(Vec3<Real>(normal * pistons->at(k, {0, time}).value));
+      for (auto& point : walls[static_cast<std::size_t>(wall)].points) point += moved;
+    }
+    return walls;
+  }
+
   std::filesystem::path place_;
   std::optional<casefile::ContactPointSpec> contact_;
   RunContext<Real> run_;

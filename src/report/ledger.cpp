@@ -62,9 +62,15 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
         {"balls placed individually", ball_text(spec.balls.front(), static_cast<int>(spec.balls.size()))});
   if (spec.powder_mass) rows.push_back({"powder", brief(1000 * spec.powder_mass->to<double>()) + " g"});
   rows.push_back({"vessel", casefile::describe(spec.vessel)});
+  for (const auto& piston : spec.pistons)
+    rows.push_back({"piston " + run.partners[piston.wall].label, casefile::describe(piston)});
   rows.push_back({"mill", casefile::describe(spec.mill)});
-  rows.push_back({"contact of balls", law_text(spec.ball_ball)});
-  rows.push_back({"contact with walls", law_text(spec.ball_wall)});
+  if (!spec.pairs_only) {
+    rows.push_back({"contact of balls", law_text(spec.ball_ball)});
+    rows.push_back({"contact with walls", law_text(spec.ball_wall)});
+  }
+  for (const auto& pair : spec.pairs)
+    rows.push_back({"contact of " + spec.names_of(pair), law_text(pair.law)});
   rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time),
                                             brief(f.end_time), model::name(f.end_reason))});
   rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.seed, f.precision)});

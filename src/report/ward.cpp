@@ -76,7 +76,7 @@ std::vector<WardCase> ward_cases() {
 }
 
 std::optional<WardCase> ward_case_of(const CaseSpec& spec) {
-  if (!spec.powder_mass) return std::nullopt;
+  if (!spec.powder_mass || !spec.pairs.empty() || !spec.pistons.empty()) return std::nullopt;
   for (const auto& ward : ward_cases()) {
     if (static_cast<std::size_t>(ward.balls) != spec.ball_count()) continue;
     const CaseSpec known = spec_of(ward);

@@ -88,5 +88,29 @@ INSTANTIATE_TEST_SUITE_P(
         OwnLog{"mpfr50", demo, testing::batch(28, "4.76 mm"), "max_collisions = 1500\nseed = 1", "mpfr50"}),
     [](const auto& info) { return info.param.name; });
 
+/// Examples of other mills: regions of a rounded jar, a box, pistons, materials and laws by pairs.
+class ExampleLogs : public ProgramTest, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(ExampleLogs, AreClean) {
+  const auto file =
+      std::filesystem::path(EDMILL_SOURCE_DIR) / "docs/examples" / (std::string(GetParam()) + ".toml");
+  const auto run = edmill("run " + file.string() + " --quiet --out out --set run.max_collisions=6000" +
+                          " --set 'output=[{type=\"collisions\", states=true}]'");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto built = casefile::build_case<double>(casefile::read_case(file.string()));
+  Options options;
+  options.log = scratch / "out";
+  options.from_start = true;
+  const auto result = audit(built.the_case, built.states, options);
+  EXPECT_EQ(result.verdict, Verdict::clean) << table(result);
+  EXPECT_EQ(result.events, 6000u);
+  const auto summary = nlohmann::json::parse(contents(scratch / "out/summary.json"));
+  const double dose = summary["milling_dose"];
+  EXPECT_NEAR(result.energies.wall_work.value(), summary["wall_work"], 1e-12 * dose);
+  EXPECT_NEAR(result.energies.closure(), 0, 1e-12 * dose);
+}
+INSTANTIATE_TEST_SUITE_P(Audit, ExampleLogs, ::testing::Values("planetary", "shaken_box", "materials"),
+                         [](const auto& info) { return std::string(info.param); });
+
 }  // namespace
 }  // namespace edmill::audit

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <string>
+
 #include "instances/instances.hpp"
 #include "random_physics.hpp"
 
@@ -41,13 +44,45 @@ Real draw_least_separation() {
 template <class Real>
 model::ContactLaw<Real> draw_law() {
   model::ContactLaw<Real> law;
-  if (*rc::gen::inRange(0, 4) == 0)
-    law.law = model::ConstantRestitution<Real>{draw<Real>(Real(0), Real(1)), draw<Real>(Real(-1), Real(1))};
-  else
-    law.law = model::WaltonBraun<Real>{draw<Real>(Real(0), Real(1)), draw<Real>(Real(0), Real(2)),
-                                       draw<Real>(Real(-1), Real(1) / 2)};
+  const model::CoulombSlip<Real> slip{draw<Real>(Real(0), Real(2)), draw<Real>(Real(-1), Real(1) / 2)};
+  switch (*rc::gen::inRange(0, 8)) {
+    case 0:
+      law.law = model::ConstantRestitution<Real>{draw<Real>(Real(0), Real(1)), draw<Real>(Real(-1), Real(1))};
+      break;
+    case 1:
+      law.law = model::RestitutionBySpeed<Real>{{{Real(1) / 10, draw<Real>(Real(0), Real(1))},
+                                                 {Real(1), draw<Real>(Real(0), Real(1))},
+                                                 {Real(5), draw<Real>(Real(0), Real(1))}},
+                                                slip};
+      break;
+    case 2:
+      law.law = model::Viscoelastic<Real>{draw<Real>(Real(1000000), Real(1000000000)),
+                                          draw<Real>(Real(0), Real(1) / 10000), slip};
+      break;
+    case 3:
+      law.law = model::ElasticPlastic<Real>{draw<Real>(Real(1000000000), Real(100000000000)),
+                                            draw<Real>(Real(1000000), Real(1000000000)), slip};
+      break;
+    case 4:
+      law.law = model::PowderLoad<Real>{draw<Real>(Real(5) / 2, Real(10)), slip};
+      break;
+    default:
+      law.law = model::WaltonBraun<Real>{draw<Real>(Real(0), Real(1)), slip.friction, slip.min_tangential};
+  }
   law.least_separation = draw_least_separation<Real>();
   return law;
+}
+
+/// Friction and lowest restitution of a law that has them.
+template <class Real>
+std::optional<model::CoulombSlip<Real>> coulomb_of(const model::ContactLaw<Real>& law) {
+  if (std::holds_alternative<model::ConstantRestitution<Real>>(law.law)) return std::nullopt;
+  model::CoulombSlip<Real> slip;
+  law.parameters([&](const model::LawParameter& p, const Real& value) {
+    if (p.key == std::string("friction")) slip.friction = value;
+    if (p.key == std::string("min_tangential")) slip.min_tangential = value;
+  });
+  return slip;
 }
 
 /// Two balls about to collide.
@@ -68,6 +103,10 @@ struct Pair {
     outcome = collide_balls<Real>(normal, i, j, vi2, wi2, vj2, wj2, law);
   }
   Real mass() const { return i.mass * j.mass / (i.mass + j.mass); }
+  /// As the impact computes them, to the last bit.
+  model::ContactBodies<Real> bodies() const {
+    return {i.mass * Real(j.mass / (i.mass + j.mass)), i.radius, j.radius};
+  }
   Real compliance() const {
     return 1 + mass() / (i.mass * i.reduced_inertia) + mass() / (j.mass * j.reduced_inertia);
   }
@@ -147,21 +186,23 @@ TYPED_TEST(Impulse, BodiesLeaveAtTheLargerOfRestitutionAndLeastSeparation) {
   int touched = 0, by_restitution = 0;
   EXPECT_TRUE(rc::check([&] {
     const auto follows = [&](const Vec3<Real>& before, const Vec3<Real>& after, const Vec3<Real>& n,
-                             const ImpactOutcome<Real>& o, const model::ContactLaw<Real>& law) {
+                             const ImpactOutcome<Real>& o, const model::ContactLaw<Real>& law,
+                             const model::ContactBodies<Real>& bodies) {
       const Real gn = dot<Real>(before, n), gn2 = dot<Real>(after, n);
       RC_ASSERT(size<Real>(o.approach_speed + gn) <= tolerance<Real>() * 100);
       RC_ASSERT(size<Real>(gn2 - o.separation_speed) <= tolerance<Real>() * 100);
       // As stated in (2.23'), to the last bit.
-      const Real rebound = law.restitution(o.approach_speed) * o.approach_speed;
+      const Real rebound = law.restitution(o.approach_speed, bodies) * o.approach_speed;
       RC_ASSERT(o.separation_speed == (rebound < law.least_separation ? law.least_separation : rebound));
       RC_ASSERT(o.least_separation == (rebound < law.least_separation));
       ++(o.least_separation ? touched : by_restitution);
     };
     const Pair<Real> p;
     follows(p.contact_velocity(p.vi, p.wi, p.vj, p.wj), p.contact_velocity(p.vi2, p.wi2, p.vj2, p.wj2),
-            p.normal, p.outcome, p.law);
+            p.normal, p.outcome, p.law, p.bodies());
     const WallHit<Real> h;
-    follows(h.contact_velocity(h.v, h.w), h.contact_velocity(h.v2, h.w2), h.normal, h.outcome, h.law);
+    follows(h.contact_velocity(h.v, h.w), h.contact_velocity(h.v2, h.w2), h.normal, h.outcome, h.law,
+            {h.ball.mass, h.ball.radius});
   }));
   EXPECT_GT(touched, 300);
   EXPECT_GT(by_restitution, 300);
@@ -179,7 +220,7 @@ TYPED_TEST(Impulse, SlipIsLeftByTheLaw) {
       const Real slip = norm<Real>(gt);
       RC_PRE(slip > Real(1) / 1000);
       Real e_t;
-      if (const auto* coulomb = std::get_if<model::WaltonBraun<Real>>(&law.law)) {  // (2.24')
+      if (const auto coulomb = coulomb_of(law)) {  // (2.24')
         e_t = 1 - coulomb->friction * compliance * (gn2 - gn) / slip;
         if (e_t < coulomb->min_tangential) e_t = coulomb->min_tangential;
       } else {
@@ -246,7 +287,7 @@ TYPED_TEST(Impulse, SlidingImpulseIsFrictionTimesNormalImpulseAndStickingStopsAt
                            const Real& mass) {
       RC_ASSERT(size<Real>(o.normal_impulse - mass * (o.approach_speed + o.separation_speed)) <=
                 tolerance<Real>() * o.normal_impulse);
-      const auto* coulomb = std::get_if<model::WaltonBraun<Real>>(&law.law);
+      const auto coulomb = coulomb_of(law);
       if (!coulomb) return;
       RC_ASSERT(o.restitution_tangential >= coulomb->min_tangential);
       RC_ASSERT(o.restitution_tangential <= 1);

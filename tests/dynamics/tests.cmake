@@ -8,7 +8,7 @@ target_compile_options(edmill_arb_oracle PRIVATE ${edmill_warnings} $<$<BOOL:${E
 
 edmill_test(wall_search_test dynamics/wall_search_test.cpp)
 edmill_test(wall_oracle_test dynamics/wall_oracle_test.cpp TIMEOUT 1200 LIBRARIES edmill_arb_oracle)
-edmill_test(any_mill_test dynamics/any_mill_test.cpp TIMEOUT 1200 LIBRARIES edmill_arb_oracle)
+edmill_test(any_mill_test dynamics/any_mill_test.cpp TIMEOUT 1200 LONG LIBRARIES edmill_arb_oracle)
 edmill_test(pair_search_test dynamics/pair_search_test.cpp)
 edmill_test(impulse_test dynamics/impulse_test.cpp)
 edmill_test(impulse_cases_test dynamics/impulse_cases_test.cpp)

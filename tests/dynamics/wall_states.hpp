@@ -120,7 +120,8 @@ class StateMaker {
     float128 later = 0;
     if (kind == Kind::grazing || kind == Kind::dipping || kind == Kind::corner_hit)
       later = q.length * draw.uniform();
-    const Placement placed = place(draw, kind, q.radius);
+    Placement placed = place(draw, kind, q.radius);
+    follow_pistons(placed, {q.begin.period, float128(q.begin.offset) + later}, q.radius);
 
     // The flight starts at begin, earlier in that period, or in an earlier period.
     q.flight.start = q.begin;
@@ -135,6 +136,19 @@ class StateMaker {
     }
     set_flight(q, placed, later);
     return q;
+  }
+
+  /// What is placed near a wall that moves in the vessel goes along with it.
+  void follow_pistons(Placement& placed, const Instant<float128>& when, double radius) const {
+    const auto* pistons = mill_.vessel.pistons();
+    for (std::size_t k = 0; pistons && k < pistons->count(); ++k) {
+      const int wall = pistons->wall(k);
+      if (mill_.vessel.gap(wall, placed.position) > 2 * radius) continue;
+      const auto moved = pistons->at(k, when);
+      const Vec3<float128> normal = mill_.vessel.normal(wall, placed.position);
+      placed.position += normal * moved.value;
+      placed.velocity += normal * moved.rate;
+    }
   }
 
   /// Moves the placed ball from `later` after begin back to the start of the flight, and rounds.

@@ -38,8 +38,11 @@ class WallCheck : public Observer<double> {
         dynamics::position_after<float128>(flight, mill_.gravity, clock.elapsed(flight.start, now));
     const auto local = mill_.motion.position_in_vessel(mill_.motion.pose(now), place);
     const auto room = mill_.vessel.inset(float128(simulation.properties(ball).radius));
-    for (int wall = 0; wall < room.wall_count(); ++wall)
-      deepest = std::max(deepest, room.overlap(wall, local));
+    const auto* pistons = mill_.vessel.pistons();
+    for (int wall = 0; wall < room.wall_count(); ++wall) {
+      const float128 moved = pistons ? pistons->of_wall(wall, now).value : float128(0);
+      deepest = std::max(deepest, float128(room.overlap(wall, local) + moved));
+    }
   }
 
   model::Mill<float128> mill_;

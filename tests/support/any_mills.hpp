@@ -22,7 +22,7 @@ inline constexpr const char* skew_chain =
     "{amplitude = \"0.1 rad\", speed = \"31 rad/s\", phase = \"1 rad\"}]\n[[mill.joint]]\nrotate = \"x\"\n"
     "speed = \"-90 rpm\"";
 
-inline constexpr std::array<MillText, 18> all_mills = {{
+inline constexpr std::array<MillText, 20> all_mills = {{
     {"spex_cylinder", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = \"9.8 m/s2\""},
     {"spex_box", "type = \"spex8000\"", "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
@@ -70,6 +70,16 @@ inline constexpr std::array<MillText, 18> all_mills = {{
     {"vibrated_capsule",
      "type = \"vibratory\"\namplitude = [\"3 mm\", \"11 mm\", \"-2 mm\"]\nspeed = \"900 rpm\"",
      "type = \"capsule\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"", "gravity = \"9.8 m/s2\""},
+    {"spex_piston", "type = \"spex8000\"",
+     "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"\n[[vessel.piston]]\nwall = \"cap +y\"\n"
+     "distance = \"6 mm\"\nswing = [{amplitude = \"5 mm\", speed = \"2500 rpm\", phase = \"40 deg\"}]",
+     "gravity = \"9.8 m/s2\""},
+    {"planetary_pistons", "type = \"planetary\"\nradius = \"75 mm\"\nspeed = \"400 rpm\"\nratio = -2.18",
+     "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]\n[[vessel.piston]]\nwall = \"wall_1\"\n"
+     "distance = \"3 mm\"\nswing = [{amplitude = \"1 mm\", speed = \"31 rad/s\"}, {amplitude = \"2 mm\", "
+     "speed = "
+     "\"500 rpm\"}]\n[[vessel.piston]]\nwall = \"wall_2\"\ndistance = \"2 mm\"",
+     "gravity = \"9.8 m/s2\""},
 }};
 
 /// Six sides 19 mm from the y axis, with an end slanted by a tenth.

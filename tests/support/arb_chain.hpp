@@ -62,11 +62,11 @@ inline Series phase_series(const OracleTurns& per_period, const OracleClock& clo
   return cut(result, n);
 }
 
-/// Of all swings of a joint: [m] or [turns].
-inline Series swing_series(const OracleJoint& joint, const OracleClock& clock, const Ball& t, const Ball& h,
-                           slong n, slong prec) {
+/// The sum of swings: [m] or [turns].
+inline Series swing_series(const std::vector<OracleSwing>& swings, const OracleClock& clock, const Ball& t,
+                           const Ball& h, slong n, slong prec) {
   Series sum(n);
-  for (const auto& swing : joint.swings) {
+  for (const auto& swing : swings) {
     Series sine(n), cosine(n);
     sin_cos(phase_series(swing.per_period, clock, swing.phase, t, h, n, prec), sine, cosine, prec);
     const Ball amplitude(swing.amplitude);
@@ -124,7 +124,7 @@ inline std::array<Series, 3> through_chain(const std::vector<OracleJoint>& chain
   const slong n = p[0].size();
   for (const auto& joint : chain) {
     const auto axis = unit_vector(joint.axis, prec);
-    const Series swing = swing_series(joint, clock, t, h, n, prec);
+    const Series swing = swing_series(joint.swings, clock, t, h, n, prec);
     if (!joint.rotates) {
       for (std::size_t i = 0; i < 3; ++i) {
         const Ball shift(joint.shift[i]);

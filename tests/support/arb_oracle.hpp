@@ -28,6 +28,13 @@ struct OracleJoint {
   std::vector<OracleSwing> swings;
 };
 
+/// A wall that stands inward of its place by distance + speed t + swings [m].
+struct OraclePiston {
+  int wall;
+  double distance, speed;
+  std::vector<OracleSwing> swings;
+};
+
 /// A mill, a flight and a window as plain doubles, all taken exactly.
 struct OracleQuestion {
   double arm, theta_max, gamma_max, period;       ///< of the nested motion
@@ -37,6 +44,7 @@ struct OracleQuestion {
   std::optional<double> sphere;                   ///< its radius, in place of a cylinder
   std::optional<std::array<double, 3>> rounded;   ///< core radius, half height of the core, rounding
   std::vector<std::array<double, 4>> planes;      ///< outward normals and distances, in place of a cylinder
+  std::vector<OraclePiston> pistons;
   int wall_count() const {
     if (box) return 6;
     if (sphere) return 1;

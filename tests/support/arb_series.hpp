@@ -35,30 +35,20 @@ class Problem {
   /// Taylor coefficients of the gap function of `wall` about the offset `t` in units of `h`. Over a wide `t`
   /// they enclose those about every time in it.
   Series gap(int wall, const Ball& t, const Ball& h, slong count, slong prec) const {
-    const slong n = count;
-    if (q_.sphere) return gap_to_centre(t, h, n, prec);
-    if (q_.rounded) return gap_to_rounded(wall, t, h, n, prec);
-    if (!q_.planes.empty()) return gap_to_plane(q_.planes[static_cast<std::size_t>(wall)], t, h, n, prec);
-    if (q_.box || wall < 2) {
-      const int axis = q_.box ? wall / 2 : 1;
-      Series result = coordinate(axis, t, h, n, prec);
-      if (wall % 2 == 1)
-        for (slong k = 0; k < n; ++k) arb_neg(result[k], result[k]);
-      Ball room = cap_;
-      if (q_.box) {
-        const Ball half((*q_.box)[static_cast<std::size_t>(axis)]), radius(q_.radius);
-        arb_sub(room.v, half.v, radius.v, exact);
-      }
-      arb_add(result[0], result[0], room.v, prec);
-      return result;
+    Series result = fixed_gap(wall, t, h, count, prec);
+    for (const auto& piston : q_.pistons) {
+      if (piston.wall != wall) continue;
+      const OracleClock clock{q_.begin_period, Ball(q_.period)};
+      const Series swung = swing_series(piston.swings, clock, t, h, count, prec);
+      for (slong k = 0; k < count; ++k) arb_sub(result[k], result[k], swung[k], prec);
+      const Ball distance(piston.distance), speed(piston.speed);
+      Ball seconds;
+      arb_mul_si(seconds.v, clock.length.v, clock.count, exact);
+      arb_add(seconds.v, seconds.v, t.v, exact);
+      arb_sub(result[0], result[0], distance.v, prec);
+      arb_submul(result[0], speed.v, seconds.v, prec);
+      if (count > 1) arb_submul(result[1], speed.v, h.v, prec);
     }
-    const Series x = coordinate(0, t, h, n, prec), z = coordinate(2, t, h, n, prec);
-    Series result(n);
-    for (slong k = 0; k < n; ++k) {
-      arb_dot(result[k], nullptr, 1, x[0], 1, x[k], -1, k + 1, prec);
-      arb_dot(result[k], result[k], 1, z[0], 1, z[k], -1, k + 1, prec);
-    }
-    arb_addmul(result[0], cylinder_.v, cylinder_.v, prec);
     return result;
   }
 
@@ -103,6 +93,35 @@ class Problem {
   }
 
  private:
+  /// To the wall at its place in the vessel.
+  Series fixed_gap(int wall, const Ball& t, const Ball& h, slong count, slong prec) const {
+    const slong n = count;
+    if (q_.sphere) return gap_to_centre(t, h, n, prec);
+    if (q_.rounded) return gap_to_rounded(wall, t, h, n, prec);
+    if (!q_.planes.empty()) return gap_to_plane(q_.planes[static_cast<std::size_t>(wall)], t, h, n, prec);
+    if (q_.box || wall < 2) {
+      const int axis = q_.box ? wall / 2 : 1;
+      Series result = coordinate(axis, t, h, n, prec);
+      if (wall % 2 == 1)
+        for (slong k = 0; k < n; ++k) arb_neg(result[k], result[k]);
+      Ball room = cap_;
+      if (q_.box) {
+        const Ball half((*q_.box)[static_cast<std::size_t>(axis)]), radius(q_.radius);
+        arb_sub(room.v, half.v, radius.v, exact);
+      }
+      arb_add(result[0], result[0], room.v, prec);
+      return result;
+    }
+    const Series x = coordinate(0, t, h, n, prec), z = coordinate(2, t, h, n, prec);
+    Series result(n);
+    for (slong k = 0; k < n; ++k) {
+      arb_dot(result[k], nullptr, 1, x[0], 1, x[k], -1, k + 1, prec);
+      arb_dot(result[k], result[k], 1, z[0], 1, z[k], -1, k + 1, prec);
+    }
+    arb_addmul(result[0], cylinder_.v, cylinder_.v, prec);
+    return result;
+  }
+
   /// size^2 - the sum of squares of the given series
   static Series beyond_squares(const Ball& size, const std::vector<Series>& parts, slong prec) {
     Series result(parts[0].size());

@@ -188,7 +188,7 @@ class FaultyMill {
   static void fix_friction(model::ContactLaw<double>& law, const Vec& g, const Vec& normal,
                            double compliance) {
     const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();
-    const double e_n = law.restitution(-g_n);
+    const double e_n = law.restitution(-g_n, {1, 1});  // of no law that asks for the bodies
     law.law = model::ConstantRestitution<double>{
         e_n, law.restitution_of_slip((1 + e_n) * std::max(0.0, -g_n), slip, compliance)};
   }
@@ -238,8 +238,8 @@ class FaultyMill {
     if (faults_.printed_compliance) {
       const double g_n = g.dot(normal), slip = (g - normal * g_n).norm();
       law.law = model::ConstantRestitution<double>{
-          law.restitution(-g_n),
-          law.restitution_of_slip(law.separation_speed(-g_n) - g_n, slip, 1 + 1 / bi.reduced_inertia)};
+          law.restitution(-g_n, {1, 1}), law.restitution_of_slip(law.separation_speed(-g_n, {1, 1}) - g_n,
+                                                                 slip, 1 + 1 / bi.reduced_inertia)};
     }
     if (faults_.restitution_friction) {
       const double total = bi.mass + bj.mass;

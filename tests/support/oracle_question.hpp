@@ -36,6 +36,13 @@ inline OracleQuestion question_of(const model::Mill<double>& mill, const dynamic
     for (const auto& [n, d] : polyhedron->planes()) question.planes.push_back({n[0], n[1], n[2], d});
   else
     question.vessel_radius = cylinder(mill).radius, question.half_height = cylinder(mill).half_height;
+  if (const auto* pistons = mill.vessel.pistons())
+    for (const auto& p : pistons->given()) {
+      OraclePiston piston{p.wall, p.distance, p.speed, {}};
+      for (const auto& s : p.swings)
+        piston.swings.push_back({s.amplitude, s.phase, {s.per_period.whole, s.per_period.bits}});
+      question.pistons.push_back(piston);
+    }
   question.gravity = array(mill.gravity);
   question.position = array(q.flight.position), question.velocity = array(q.flight.velocity);
   question.start_period = q.flight.start.period, question.start_offset = q.flight.start.offset;

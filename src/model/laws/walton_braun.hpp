@@ -1,7 +1,7 @@
 // Coulomb friction while sliding, a lowest tangential restitution while sticking. (2.24')
 #pragma once
 
-#include "model/parts/parameter.hpp"
+#include "model/laws/coulomb_slip.hpp"
 
 namespace edmill::model {
 
@@ -25,10 +25,7 @@ struct WaltonBraun {
   const Number& restitution(const Number&) const { return normal; }
   Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
                              const Number& compliance) const {
-    const Number sliding = friction * compliance * normal_change;
-    // 1 - sliding / slip >= min_tangential, without dividing by a vanishing slip.
-    if (sliding >= (1 - min_tangential) * slip_speed) return slip_speed > 0 ? min_tangential : Number(1);
-    return 1 - sliding / slip_speed;
+    return coulomb_slip(friction, min_tangential, normal_change, slip_speed, compliance);
   }
 };
 

@@ -38,13 +38,13 @@ class ChainMotion {
       if (joint.rotates) step.aligned = aligned(joint.axis);
       const Real turn = 2 * numerics::pi<Real>();
       if (joint.rotates && !(joint.frequency == 0))
-        step.drive = Drive{joint.frequency, turn * joint.frequency, joint.per_period};
-      for (const auto& s : joint.swings)
-        step.swings.push_back({{s.frequency, turn * s.frequency, s.per_period}, s.amplitude, s.phase});
+        step.drive = Drive<Real>{joint.frequency, turn * joint.frequency, joint.per_period};
+      step.swings = Swings<Real>(joint.swings);
       step.fixed = numerics::sin_cos_turns<Real>(step.angle);
       step.moves = joint.rotates && (step.drive.frequency != 0 || !step.swings.empty());
       steps_.push_back(std::move(step));
     }
+    note_what_vanishes();
   }
   template <class To>
   ChainMotion<To> cast() const {
@@ -55,28 +55,20 @@ class ChainMotion {
   const ChainBounds<Real>& bounds() const { return bounds_; }
   const Real& period() const { return joints_.period; }  ///< of the clock [s]
 
-  Pose pose(const Instant<Real>& when) const {
-    const Vec3<Real> zero = Vec3<Real>::Zero();
-    Pose p{Vec3<Real>::UnitX(), Vec3<Real>::UnitY(), Vec3<Real>::UnitZ(), zero, zero, zero, zero, zero};
-    for (const auto& step : steps_) {
-      if (step.rotates)
-        rotate(p, step, when);
-      else
-        shift(p, step, when);
-    }
-    return p;
-  }
+  Pose pose(const Instant<Real>& when) const { return made<true>(when); }
   /// The sines of a chain are its least cost: the pose is made anew.
+  /// @param with_rates  whether more than the axes and the centre are asked for
   template <bool with_rates = true>
   Pose pose_nearby(const Instant<Real>& when, const Pose&, const Instant<Real>&) const {
-    return pose(when);
+    return made<with_rates>(when);
   }
 
   static const Vec3<Real>& axis_x(const Pose& p) { return p.x; }
   static const Vec3<Real>& axis_y(const Pose& p) { return p.y; }
   static const Vec3<Real>& axis_z(const Pose& p) { return p.z; }
   static Vec3<Real> direction_to_inertial(const Pose& pose, const Vec3<Real>& n) {
-    return pose.x * n[0] + pose.y * n[1] + pose.z * n[2];
+    const auto along = [&](int k) { return Real(pose.x[k] * n[0] + pose.y[k] * n[1] + pose.z[k] * n[2]); };
+    return {along(0), along(1), along(2)};
   }
   static Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) {
     return pose.centre + direction_to_inertial(pose, p);
@@ -162,34 +154,50 @@ class ChainMotion {
   }
 
  private:
-  struct Drive {
-    Real frequency{0};  ///< [1/s]
-    Real speed{0};      ///< 2 pi frequency [rad/s]
-    TurnFraction per_period{};
-
-    Real turns(const Instant<Real>& when) const {
-      return per_period.times<Real>(when.period) + frequency * when.offset;
-    }
-  };
-  struct SwingDrive : Drive {
-    Real amplitude, phase;  ///< [m] or [turns], [turns]
-  };
   struct Step {
     bool rotates;
-    Vec3<Real> axis;   ///< unit
-    int aligned;       ///< axis along +x, +y, +z: 0, 1, 2; else -1
-    Vec3<Real> shift;  ///< [m]
-    Real angle;        ///< [turns]
-    Drive drive;       ///< of constant speed; frequency 0 for none
-    std::vector<SwingDrive> swings;
+    Vec3<Real> axis;    ///< unit
+    int aligned;        ///< axis along +x, +y, +z: 0, 1, 2; else -1
+    Vec3<Real> shift;   ///< [m]
+    Real angle;         ///< [turns]
+    Drive<Real> drive;  ///< of constant speed; frequency 0 for none
+    Swings<Real> swings;
     numerics::SinCos<Real> fixed{};  ///< of the constant angle
     bool moves = false;
-  };
-  /// Value and two derivatives of a sum of swings.
-  struct Moved {
-    Real value, rate, second;
+    // Of the joints before:
+    bool level = true;      ///< none rotates: the axes are those of the ground
+    bool turned = false;    ///< there is an angular velocity
+    bool parallel = false;  ///< which has the direction of this axis
+    bool uneven = false;    ///< which changes
   };
 
+  /// Terms that vanish in every pose are left out.
+  void note_what_vanishes() {
+    bool level = true, turned = false, uneven = false;
+    int common = -1;  // the one axis that all rotations so far are about
+    for (auto& step : steps_) {
+      step.level = level, step.turned = turned, step.uneven = uneven;
+      step.parallel = step.aligned >= 0 && step.aligned == common;
+      if (!step.rotates) continue;
+      level = false;
+      if (step.moves) uneven = uneven || !step.swings.empty() || (turned && !step.parallel);
+      common = turned || common >= 0 ? (step.parallel ? common : -2) : step.aligned;
+      turned = turned || step.moves;
+    }
+  }
+
+  template <bool with_rates>
+  Pose made(const Instant<Real>& when) const {
+    const Vec3<Real> zero = Vec3<Real>::Zero();
+    Pose p{Vec3<Real>::UnitX(), Vec3<Real>::UnitY(), Vec3<Real>::UnitZ(), zero, zero, zero, zero, zero};
+    for (const auto& step : steps_) {
+      if (step.rotates)
+        rotate<with_rates>(p, step, when);
+      else
+        shift<with_rates>(p, step, when);
+    }
+    return p;
+  }
   /// What a joint turns in a drive period is exact, its frequency rounded: so the pose at the end of a period
   /// is that at the begin of the next in every scalar that the mill is passed to.
   static Joints<Real> with_frequencies(Joints<Real> joints) {
@@ -216,30 +224,23 @@ class ChainMotion {
     return p.acceleration + cross<Real>(p.omega_rate, d) + cross<Real>(p.omega, cross<Real>(p.omega, d));
   }
 
-  static Moved swung(const Step& step, const Instant<Real>& when) {
-    Moved moved{Real(0), Real(0), Real(0)};
-    for (const auto& swing : step.swings) {
-      const auto phase = numerics::sin_cos_turns<Real>(swing.turns(when) + swing.phase);
-      const Real rate = swing.amplitude * swing.speed;
-      moved.value += swing.amplitude * phase.sin;
-      moved.rate += rate * phase.cos;
-      moved.second -= rate * swing.speed * phase.sin;
-    }
-    return moved;
-  }
-
+  template <bool with_rates>
   static void rotate(Pose& p, const Step& step, const Instant<Real>& when) {
     auto turned = step.fixed;
-    const Vec3<Real> axis = step.aligned >= 0 ? column(p, step.aligned) : direction_to_inertial(p, step.axis);
     if (step.moves) {
       const Real turn = 2 * numerics::pi<Real>();
-      const auto moved = swung(step, when);
+      const auto moved = step.swings.at(when);
       Real turns = step.angle + moved.value, rate = moved.rate * turn;
       if (step.drive.frequency != 0) turns += step.drive.turns(when), rate += step.drive.speed;
       turned = numerics::sin_cos_turns<Real>(turns);
-      const Vec3<Real> relative = axis * rate;
-      p.omega_rate += axis * Real(moved.second * turn) + cross<Real>(p.omega, relative);
-      p.omega += relative;
+      if constexpr (with_rates) {
+        const Vec3<Real> axis =
+            step.aligned >= 0 ? column(p, step.aligned) : direction_to_inertial(p, step.axis);
+        const Vec3<Real> relative = axis * rate;
+        if (!step.swings.empty()) p.omega_rate += axis * Real(moved.second * turn);
+        if (step.turned && !step.parallel) p.omega_rate += cross<Real>(p.omega, relative);
+        p.omega += relative;
+      }
     }
     if (step.aligned >= 0) {
       Vec3<Real>&a = column(p, (step.aligned + 1) % 3), &b = column(p, (step.aligned + 2) % 3);
@@ -257,13 +258,30 @@ class ChainMotion {
     const Vec3<Real> x = made(0), y = made(1), z = made(2);
     p.x = x, p.y = y, p.z = z;
   }
+  template <bool with_rates>
   static void shift(Pose& p, const Step& step, const Instant<Real>& when) {
-    const auto moved = swung(step, when);
-    const Vec3<Real> axis = direction_to_inertial(p, step.axis);
-    const Vec3<Real> d = direction_to_inertial(p, step.shift) + axis * moved.value, rate = axis * moved.rate;
-    p.acceleration += axis * moved.second + cross<Real>(p.omega, rate) * Real(2) +
-                      cross<Real>(p.omega_rate, d) + cross<Real>(p.omega, cross<Real>(p.omega, d));
-    p.velocity += rate + cross<Real>(p.omega, d);
+    const auto outside = [&](const Vec3<Real>& v) { return step.level ? v : direction_to_inertial(p, v); };
+    Vec3<Real> d = outside(step.shift), acceleration = Vec3<Real>::Zero();
+    if (!step.swings.empty()) {
+      const auto moved = step.swings.at(when);
+      const Vec3<Real> axis = outside(step.axis);
+      d += axis * moved.value;
+      if constexpr (with_rates) {
+        const Vec3<Real> rate = axis * moved.rate;
+        acceleration = axis * moved.second;
+        if (step.turned) acceleration += cross<Real>(p.omega, rate) * Real(2);
+        p.velocity += rate;
+      }
+    }
+    if constexpr (with_rates) {
+      if (step.uneven) acceleration += cross<Real>(p.omega_rate, d);
+      if (step.turned) {
+        const Vec3<Real> velocity = cross<Real>(p.omega, d);
+        acceleration += cross<Real>(p.omega, velocity);
+        p.velocity += velocity;
+      }
+      p.acceleration += acceleration;
+    }
     p.centre += d;
   }
   static Vec3<Real>& column(Pose& p, int k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; }

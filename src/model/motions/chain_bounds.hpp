@@ -108,7 +108,8 @@ struct ChainBounds {
   void rotate(const std::array<Real, 5>& angle, bool parallel) {
     const Real &a = angle[1], &b = angle[2], &c = angle[3];
     const std::array<Real, 4> matrix{Real(1), a, a * a + b, a * a * a + 3 * a * b + c};
-    const auto w = turning, old = acceleration;
+    const auto w = turning;
+    const auto old = acceleration;
     for (std::size_t k = 0; k < 4; ++k)
       turning[k] = (parallel ? w[k] : product(matrix, 0, w, 0, k)) + angle[k + 1];
     for (std::size_t k = 0; k < 3; ++k) acceleration[k] = product(matrix, 0, old, 0, k);

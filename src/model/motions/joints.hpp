@@ -4,18 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "base/turn_fraction.hpp"
+#include "model/parts/swing.hpp"
 
 namespace edmill::model {
-
-/// amplitude sin(2 pi (frequency t + phase)).
-template <class Number>
-struct Swing {
-  Number amplitude;           ///< [m], or [turns] of a rotation
-  Number frequency;           ///< [1/s], of either sign
-  Number phase;               ///< [turns]
-  TurnFraction per_period{};  ///< of frequency times the chain's period
-};
 
 /// Turns what comes behind it about an axis, or shifts it.
 template <class Number>
@@ -47,9 +38,7 @@ Joints<To> converted_joints(const Joints<From>& from, const Convert& convert) {
                     convert(j.angle),
                     convert(j.frequency),
                     j.per_period,
-                    {}};
-    for (const auto& s : j.swings)
-      joint.swings.push_back({convert(s.amplitude), convert(s.frequency), convert(s.phase), s.per_period});
+                    converted_swings<To>(j.swings, convert)};
     to.list.push_back(std::move(joint));
   }
   return to;

@@ -68,8 +68,7 @@ class SpexMotion {
   Pose pose(const Instant<Real>& when) const;
   /// The pose at an instant, given the one at `known` in the same period. Both angles swing harmonically,
   /// alpha'' = -w^2 alpha, so with x = w dt they grow by alpha' sin(x) / w + alpha'' (1 - cos(x)) / w^2.
-  /// Error: two roundings more than `pose`.
-  /// @param with_rates  whether the rates and accelerations are asked for, and not the angles alone
+  /// Error: two roundings more than `pose`. @param with_rates  asks for rates and accelerations too
   template <bool with_rates = true>
   Pose pose_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known) const;
 
@@ -83,12 +82,14 @@ class SpexMotion {
   }
   /// A direction in the vessel frame, seen in the inertial one.
   static Vec3<Real> direction_to_inertial(const Pose& pose, const Vec3<Real>& n) {
-    return axis_x(pose) * n[0] + axis_y(pose) * n[1] + axis_z(pose) * n[2];
+    const Vec3<Real> x = axis_x(pose), y = axis_y(pose), z = axis_z(pose);
+    const auto along = [&](int k) { return Real(x[k] * n[0] + y[k] * n[1] + z[k] * n[2]); };
+    return {along(0), along(1), along(2)};
   }
   /// Inertial position of a point fixed in the vessel frame: P = R_z(theta) [ (l,0,0) + R_x(gamma) p ].
   /// (2.7')
   Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) const;
-  /// (2.16'): where a body at `position` is in the vessel.
+  /// (2.16'): where a body is in the vessel.
   Vec3<Real> position_in_vessel(const Pose& pose, const Vec3<Real>& position) const;
   /// (2.16') and its time derivative for a body at `position` moving with `velocity`.
   VesselFrameState<Real> to_vessel_frame(const Pose& pose, const Vec3<Real>& position,

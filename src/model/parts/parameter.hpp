@@ -9,11 +9,12 @@
 
 namespace edmill::model {
 
-/// A number without unit in [low, high], of a contact law.
+/// A number without unit in [low, high], or a positive quantity, of a contact law.
 struct LawParameter {
   const char* key;
-  int low, high;
+  double low, high;
   std::optional<int> fallback = std::nullopt;  ///< of a parameter that may be left out
+  Dimension dimension = Dimension::none;
 };
 
 enum class Range {

@@ -1,0 +1,49 @@
+// Restitution by approach speed, as a table gives it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "model/laws/coulomb_slip.hpp"
+
+namespace edmill::model {
+
+/// Straight lines between the points of the table, constant below the first and above the last one: what
+/// grows or falls in the table does so between its points, and another code has the same law in three lines.
+template <class Number>
+struct RestitutionBySpeed {
+  static constexpr const char* name = "restitution-by-speed";
+
+  std::vector<std::array<Number, 2>> points;  ///< approach speed [m/s], rising, and e_n
+  CoulombSlip<Number> slip;
+
+  template <class Law, class Visit>
+  static void parameters(Law& law, Visit&& visit) {
+    for (auto& point : law.points) {
+      visit(LawParameter{"speed", 0, 0, {}, Dimension::speed}, point[0]);
+      visit(LawParameter{"restitution", 0, 1}, point[1]);
+    }
+    law.slip.parameters(law.slip, visit);
+  }
+  template <class From>
+  void take_shape(const RestitutionBySpeed<From>& from) {
+    points.resize(from.points.size());
+  }
+
+  /// @pre there are points
+  Number restitution(const Number& approach_speed) const {
+    std::size_t k = 0;
+    while (k < points.size() && points[k][0] < approach_speed) ++k;
+    if (k == 0) return points.front()[1];
+    if (k == points.size()) return points.back()[1];
+    const auto &low = points[k - 1], &high = points[k];
+    const Number share = (approach_speed - low[0]) / (high[0] - low[0]);
+    return low[1] * (1 - share) + high[1] * share;
+  }
+  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
+                             const Number& compliance) const {
+    return slip.restitution_of_slip(normal_change, slip_speed, compliance);
+  }
+};
+
+}  // namespace edmill::model

@@ -1,0 +1,50 @@
+// Viscoelastic spheres: Hertz's force with a dissipative part.
+#pragma once
+
+#include <cmath>
+
+#include "base/roots.hpp"
+#include "model/laws/coulomb_slip.hpp"
+#include "model/parts/contact_bodies.hpp"
+
+namespace edmill::model {
+
+/// M x" + k (x^(3/2) + 3/2 A x^(1/2) x') = 0 with k = 4/3 E* R^(1/2), until the force vanishes. Its
+/// restitution depends on v* = (3/2 A)^(1/2) ((k/M)^2 v)^(1/10) alone. Sources: Ramirez, Poeschel,
+/// Brilliantov and Schwager 1999; the rational approximation by Mueller and Poeschel 2011.
+template <class Number>
+struct Viscoelastic {
+  static constexpr const char* name = "viscoelastic";
+
+  Number modulus{1};           ///< E* [Pa], 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j
+  Number dissipative_time{1};  ///< A [s]
+  CoulombSlip<Number> slip;
+
+  template <class Law, class Visit>
+  static void parameters(Law& law, Visit&& visit) {
+    visit(LawParameter{"effective_modulus", 0, 0, {}, Dimension::pressure}, law.modulus);
+    visit(LawParameter{"dissipative_time", 0, 0, {}, Dimension::time}, law.dissipative_time);
+    law.slip.parameters(law.slip, visit);
+  }
+
+  Number restitution(const Number& approach_speed, const ContactBodies<Number>& bodies) const {
+    using std::sqrt;
+    const Number stiffness = 4 * modulus * sqrt(bodies.effective_radius()) / 3;
+    const Number by_mass = stiffness / bodies.effective_mass;
+    const Number scaled = sqrt(3 * dissipative_time / 2) *
+                          sqrt(numerics::fifth_root(Number(by_mass * by_mass * approach_speed)));
+    return by_scaled_speed(scaled);
+  }
+  /// e_n(v*).
+  static Number by_scaled_speed(const Number& v) {
+    const auto c = [](int millionths) { return Number(millionths) / 1000000; };
+    const Number one = 1 + c(501086) * v;
+    return one / (one + v * v * (c(1153450) + v * (c(577977) + v * c(532178))));
+  }
+  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
+                             const Number& compliance) const {
+    return slip.restitution_of_slip(normal_change, slip_speed, compliance);
+  }
+};
+
+}  // namespace edmill::model

@@ -1,0 +1,114 @@
+// Flat walls of a vessel that move along their normals.
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "model/parts/swing.hpp"
+#include "model/parts/vessel_frame.hpp"
+
+namespace edmill::model {
+
+/// How far a wall stands inward of its place in the vessel: distance + speed t + swings.
+template <class Number>
+struct Piston {
+  int wall;         ///< id
+  Number distance;  ///< [m]
+  Number speed;     ///< [m/s]
+  std::vector<Swing<Number>> swings;
+};
+
+/// The pistons of a vessel.
+template <class Real>
+class Pistons {
+ public:
+  /// @param period  of the clock [s]
+  Pistons(std::vector<Piston<Real>> pistons, const Real& period)
+      : given_(std::move(pistons)), period_(period) {
+    for (auto& piston : given_)
+      for (auto& swing : piston.swings) swing.frequency = swing.per_period.template value<Real>() / period_;
+    for (const auto& piston : given_) swings_.emplace_back(piston.swings);
+  }
+  template <class To>
+  Pistons<To> cast() const {
+    const auto to = [](const Real& x) { return static_cast<To>(x); };
+    std::vector<Piston<To>> list;
+    for (const auto& p : given_)
+      list.push_back({p.wall, to(p.distance), to(p.speed), converted_swings<To>(p.swings, to)});
+    return {std::move(list), to(period_)};
+  }
+
+  const std::vector<Piston<Real>>& given() const { return given_; }
+  std::size_t count() const { return given_.size(); }
+  int wall(std::size_t k) const { return given_[k].wall; }
+
+  /// Displacement [m], its rate and its second derivative.
+  Moved<Real> at(std::size_t k, const Instant<Real>& when) const {
+    auto moved = swings_[k].at(when);
+    const auto& piston = given_[k];
+    const Real seconds = Real(when.period) * period_ + when.offset;
+    moved.value += piston.distance + piston.speed * seconds;
+    moved.rate += piston.speed;
+    return moved;
+  }
+  /// That of a wall, which may stand still.
+  Moved<Real> of_wall(int wall, const Instant<Real>& when) const {
+    for (std::size_t k = 0; k < given_.size(); ++k)
+      if (given_[k].wall == wall) return at(k, when);
+    return {};
+  }
+
+  /// No piston's n-th derivative is larger, n from 1 to 4 [m/s^n].
+  Real bound(int n) const {
+    Real most(0);
+    for (const auto& piston : given_) {
+      Real sum = n == 1 ? size_of(piston.speed) : Real(0);
+      for (const auto& s : piston.swings) {
+        Real term = size_of(s.amplitude);
+        for (int k = 0; k < n; ++k) term *= 2 * numerics::pi<Real>() * size_of(s.frequency);
+        sum += term;
+      }
+      most = sum > most ? sum : most;
+    }
+    return most * (1 + Real(1) / 1048576);
+  }
+  /// The derivative bounds serve windows of at most this length [s]: a quarter of a radian of each swing.
+  Real longest_window() const {
+    Real longest = period_;
+    for (const auto& piston : given_)
+      for (const auto& s : piston.swings) {
+        const Real turning = 8 * numerics::pi<Real>() * size_of(s.frequency);
+        if (turning * longest > 1) longest = 1 / turning;
+      }
+    return longest;
+  }
+  /// What rounding does to a displacement and its derivatives at most, that of the case's numbers included.
+  /// @param extent  of the vessel, beyond half of which no piston goes [m]
+  ErrorBounds<Real> errors(std::size_t k, const Real& u, const Real& extent) const {
+    const auto& piston = given_[k];
+    ErrorBounds<Real> e{32 * extent, 4 * size_of(piston.speed), Real(0)};
+    for (const auto& s : piston.swings) {
+      const Real turning = 2 * numerics::pi<Real>() * size_of(s.frequency);
+      const Real relative = 16 + 7 * (4 + 3 * size_of(s.frequency * period_) + size_of(s.phase));
+      const Real of_value = size_of(s.amplitude) * relative;
+      e.value += of_value, e.rate += of_value * turning, e.second += of_value * turning * turning;
+    }
+    return {u * e.value, u * e.rate, u * e.second};
+  }
+
+ private:
+  static Real size_of(const Real& x) { return x < 0 ? Real(-x) : x; }
+
+  std::vector<Piston<Real>> given_;
+  Real period_;
+  std::vector<Swings<Real>> swings_;
+};
+
+/// A vessel that may have pistons.
+template <class V>
+concept HasPistons = requires(const V& vessel) {
+  vessel.pistons();
+};
+
+}  // namespace edmill::model
