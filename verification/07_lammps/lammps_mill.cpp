@@ -80,8 +80,10 @@ LammpsMill::LammpsMill(const LammpsSetting& s, const std::vector<LammpsBall>& ba
   say("pair_coeff * *", contact.str());
   say("neighbor ", 0.3 * radius, " bin");
   say("neigh_modify delay 0 every 1 check yes");
-  say("region vial cylinder y 0 0 ", s.vessel_radius, " ", -s.vessel_half_height, " ", s.vessel_half_height,
-      " side in units box");
+  if (s.vial.empty())
+    say("region vial cylinder y 0 0 ", s.vessel_radius, " ", -s.vessel_half_height, " ", s.vessel_half_height,
+        " side in units box");
+  for (const auto& command : s.vial) say(command);
   say("fix walls all wall/gran/region granular", contact.str(), "region vial");
   say("fix motion all nve/sphere");
   // After the walls: `drive` then sees all forces of the contacts.
@@ -127,7 +129,7 @@ void LammpsMill::drive(std::int64_t step, int count, double** x, double** forces
   double **v = lammps_.vectors("v"), **spins = lammps_.vectors("omega");
   double **force = lammps_.vectors("f"), **torque = lammps_.vectors("torque");
   const double dt = setting_.time_step, half = step == 0 ? 0 : dt / 2;
-  const VesselFrame frame(setting_.motion, static_cast<double>(step) * dt);
+  const VesselFrame frame = frame_at(static_cast<double>(step) * dt);
   for (int i = 0; i < count; ++i) {
     const Triple p = triple(x[i]), old_v = triple(v[i]), old_spin = triple(spins[i]);
     Triple a = frame.acceleration(p, old_v), turn = frame.spin_acceleration(old_spin);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "lammps_library.hpp"
@@ -19,9 +21,10 @@ struct LammpsMotion {
 
 /// What drives a free ball as the vessel sees it. The vessel's axes throughout.
 struct VesselFrame {
-  Triple spin, spin_rate;  ///< of the vessel [rad/s, rad/s2]
-  Triple pull;             ///< gravity less the acceleration of the vessel's centre [m/s2]
+  Triple spin{}, spin_rate{};  ///< of the vessel [rad/s, rad/s2]
+  Triple pull{};               ///< gravity less the acceleration of the vessel's centre [m/s2]
 
+  VesselFrame() = default;
   VesselFrame(const LammpsMotion& motion, double time);
   /// Acceleration of a free ball: pull, Coriolis, Euler, centrifugal. [m/s2]
   Triple acceleration(const Triple& position, const Triple& velocity) const;
@@ -35,6 +38,8 @@ struct LammpsBall {
 
 struct LammpsSetting {
   LammpsMotion motion;
+  std::function<VesselFrame(double time)> frame{};  ///< of another motion, in the place of the above
+  std::vector<std::string> vial{};  ///< commands that make the region "vial", in the place of a cylinder
   double vessel_radius = 0, vessel_half_height = 0;  ///< [m]
   double ball_diameter = 0, density = 0;             ///< [m, kg/m3]
   double modulus = 0, poisson = 0.3;                 ///< Young's modulus [Pa]
@@ -61,6 +66,9 @@ class LammpsMill {
 
  private:
   static void on_step(void* self, std::int64_t step, int count, int* ids, double** x, double** forces);
+  VesselFrame frame_at(double time) const {
+    return setting_.frame ? setting_.frame(time) : VesselFrame(setting_.motion, time);
+  }
   void drive(std::int64_t step, int count, double** x, double** forces);
 
   LammpsSetting setting_;

@@ -5,7 +5,7 @@
 #include "claim.hpp"
 #include "instances/instances.hpp"
 #include "lammps_contacts.hpp"
-#include "study/statistics.hpp"
+#include "lammps_limit.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -13,13 +13,6 @@ namespace {
 const Claim claim("07 LAMMPS");
 const LammpsMotion spex{0.1, pi / 12, pi / 12, 60.0 / 1054, 9.8};
 constexpr int batch_periods = 9;  ///< half a second
-
-class LammpsPeer : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!Lammps::present()) GTEST_SKIP() << "LAMMPS is absent: apt install lammps";
-  }
-};
 
 /// The case's balls at rest against the inertial frame, placed as edmill places them.
 std::vector<LammpsBall> balls_of(const casefile::CaseSpec& spec) {
@@ -100,18 +93,6 @@ std::vector<double> edmill_rates(const WardCase& ward, int batches, Slip slip = 
   run::simulate<double>(spec, initial, {{&doses}, nullptr});
   for (int i = 1; i <= batches; ++i) rates.push_back(doses.sums.at(i) / batch);
   return rates;
-}
-
-/// Ratio of two means, and half the width of its 95 % interval.
-std::pair<double, double> ratio(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto one = study::estimate(a), two = study::estimate(b);
-  const double r = *one.mean / *two.mean;
-  return {r, r * std::hypot(*one.half_width / *one.mean, *two.half_width / *two.mean)};
-}
-
-std::string inverse(const std::vector<double>& rates) {
-  const auto e = study::estimate(rates);
-  return Claim::text(1 / *e.mean, 4) + " +- " + Claim::text(*e.half_width / (*e.mean * *e.mean), 2) + " s/J";
 }
 
 void agree(const WardCase& ward, int lammps_batches, int edmill_batches, double bound = 0.03) {
@@ -227,7 +208,7 @@ TEST_F(LammpsPeer, TangentialLawsDifferBetweenStickingAndSliding) {
   double sticking = 0, sliding = 0, between = 1;
   for (const double slip : {0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 8.0}) {
     const double theirs = tangential_restitution(s, slip);
-    const double ours = law.restitution_of_slip(1.0 + law.separation_speed(1.0), slip, 3.5);
+    const double ours = law.restitution_of_slip(1.0 + law.separation_speed(1.0, {1, 1}), slip, 3.5);
     claim.say("e_t at a slip of " + Claim::text(slip) + " per approach: LAMMPS " + Claim::text(theirs) +
               ", edmill " + Claim::text(ours));
     if (slip <= 0.75) raise(sticking, std::abs(theirs - ours));
@@ -242,20 +223,6 @@ TEST_F(LammpsPeer, TangentialLawsDifferBetweenStickingAndSliding) {
 /// Short, so with a wider bound; the long one follows.
 TEST_F(LammpsPeer, SevenBalls) { agree({7, 9.52, 0.52}, 8, 30, 0.05); }
 
-/// Line through values by weighted least squares, at zero: its value, and half of that value's interval.
-/// @param half  half widths of the values' intervals
-std::pair<double, double> at_zero(const std::vector<double>& x, const std::vector<double>& y,
-                                  const std::vector<double>& half) {
-  double w = 0, wx = 0, wxx = 0, wy = 0, wxy = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double weight = 1 / (half[k] * half[k]);
-    w += weight, wx += weight * x[k], wxx += weight * x[k] * x[k];
-    wy += weight * y[k], wxy += weight * x[k] * y[k];
-  }
-  const double determinant = w * wxx - wx * wx;
-  return {(wxx * wy - wx * wxy) / determinant, std::sqrt(wxx / determinant)};
-}
-
 TEST(LammpsLine, FindsALineAndItsInterval) {
   const std::vector<double> x{1, 2, 4}, y{5, 7, 11};
   const auto [exact_value, unequal] = at_zero(x, y, {0.1, 0.2, 0.1});
@@ -265,28 +232,9 @@ TEST(LammpsLine, FindsALineAndItsInterval) {
   EXPECT_GT(unequal, 0.1 * std::sqrt(1.5));
 }
 
-/// Softer and stiffer contacts: the dose rate of LAMMPS extrapolated to contacts that take no time, as
-/// edmill's do.
-void agree_in_the_limit(const WardCase& ward, int lammps_batches, int edmill_batches, double bound = 0.01) {
-  const auto edmill = edmill_rates(ward, edmill_batches);
-  claim.say(ward.name() + ", inverse dose rate: edmill " + inverse(edmill));
-  std::vector<double> durations, rates, halves;
-  for (const double duration : {100e-6, 50e-6, 25e-6}) {
-    const auto lammps = lammps_rates(ward, duration, lammps_batches);
-    const auto estimate = study::estimate(lammps);
-    durations.push_back(duration), rates.push_back(*estimate.mean), halves.push_back(*estimate.half_width);
-    const auto [r, half] = ratio(lammps, edmill);
-    claim.say(ward.name() + ", contacts of " + Claim::text(1e6 * duration) + " us: LAMMPS " +
-              inverse(lammps) + ", over edmill " + Claim::text(r, 4) + " +- " + Claim::text(half, 2));
-  }
-  const auto [limit, half] = at_zero(durations, rates, halves);
-  const auto peer = study::estimate(edmill);
-  const double r = limit / *peer.mean, r_half = r * std::hypot(half / limit, *peer.half_width / *peer.mean);
-  claim.at_most(ward.name() + ", contacts of no time: LAMMPS " + Claim::text(1 / limit, 4) + " +- " +
-                    Claim::text(half / (limit * limit), 2) + " s/J, over edmill " + Claim::text(r, 4) +
-                    " +- " + Claim::text(r_half, 2) + ", off one",
-                std::abs(r - 1), bound);
-  claim.at_most(ward.name() + ", half of the interval", r_half, bound / 2);
+void agree_in_the_limit(const WardCase& ward, int lammps_batches, int edmill_batches) {
+  agree_in_the_limit(claim, ward.name(), edmill_rates(ward, edmill_batches),
+                     [&](double duration) { return lammps_rates(ward, duration, lammps_batches); });
 }
 
 TEST_F(LammpsPeer, Long7Balls) { agree_in_the_limit({7, 9.52, 0.52}, 60, 300); }
