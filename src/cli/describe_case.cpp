@@ -4,6 +4,8 @@
 
 #include "cli/run_case.hpp"
 #include "instances/instances.hpp"
+#include "io/output_folder.hpp"
+#include "report/mill_drawing.hpp"
 
 namespace edmill::cli {
 
@@ -74,6 +76,14 @@ std::string describe_case(const casefile::CaseSpec& spec) {
                                     spec.powder_mass->to<double>()));
   for (const auto& output : spec.outputs) row("output", output.type + " to " + output.file);
   return out;
+}
+
+void draw_mill(const casefile::CaseSpec& spec, const std::filesystem::path& file) {
+  const auto built = casefile::build_case<double>(spec, false);
+  if (file.has_parent_path()) io::prepare_folder(file.parent_path());
+  io::AtomicFile out(file);
+  out.stream() << report::mill_drawing(built.the_case.mill);
+  out.commit();
 }
 
 }  // namespace edmill::cli

@@ -201,10 +201,14 @@ class CommandLine {
   }
 
   void add_check() {
-    take_case(add("check", "read and check a case; print it in SI with derived numbers", [this] {
-      fmt::print("{}", edmill::cli::describe_case(edmill::casefile::read_case(case_file_, overrides_)));
+    auto* command = add("check", "read and check a case; print it in SI with derived numbers", [this] {
+      const auto spec = edmill::casefile::read_case(case_file_, overrides_);
+      fmt::print("{}", edmill::cli::describe_case(spec));
+      if (!drawing_.empty()) edmill::cli::draw_mill(spec, drawing_);
       return edmill::cli::ok;
-    }));
+    });
+    take_case(command);
+    command->add_option("--draw", drawing_, "also draw how the vessel moves into this SVG file");
   }
 
   void add_variables() {
@@ -270,7 +274,7 @@ class CommandLine {
   const std::string every_ = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
   CLI::App app_{"edmill: event-driven simulation of ball mills, a validated reference solver"};
   std::vector<std::pair<CLI::App*, std::function<int()>>> actions_;
-  std::string case_file_, folder_, precision_, shadow_, checkpoint_;
+  std::string case_file_, folder_, precision_, shadow_, checkpoint_, drawing_;
   std::vector<std::string> overrides_;
   bool quiet_ = false, report_ = false;
   edmill::cli::CertifyOptions certification_;

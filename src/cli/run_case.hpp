@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -45,5 +46,8 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options);
 
 /// The case in SI with its derived numbers, for `edmill check`.
 std::string describe_case(const casefile::CaseSpec& spec);
+
+/// An SVG of how the vessel moves. @throws InputError when the file cannot be written
+void draw_mill(const casefile::CaseSpec& spec, const std::filesystem::path& file);
 
 }  // namespace edmill::cli

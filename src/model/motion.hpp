@@ -61,6 +61,7 @@ concept Motion = requires(const M& motion, const typename M::Pose& pose,
 /// that it lists say. A motion that is no chain of joints is a class with a line in MotionVariant too.
 template <class Number>
 using NamedMotions = std::variant<Spex8000<Number>,   //
+                                  Spex2d<Number>,     //
                                   StillMill<Number>,  //
                                   Vibratory<Number>,  //
                                   Planetary<Number>,  //

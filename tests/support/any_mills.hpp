@@ -22,9 +22,11 @@ inline constexpr const char* skew_chain =
     "{amplitude = \"0.1 rad\", speed = \"31 rad/s\", phase = \"1 rad\"}]\n[[mill.joint]]\nrotate = \"x\"\n"
     "speed = \"-90 rpm\"";
 
-inline constexpr std::array<MillText, 20> all_mills = {{
+inline constexpr std::array<MillText, 21> all_mills = {{
     {"spex_cylinder", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = \"9.8 m/s2\""},
+    {"spex_2d_cylinder", "type = \"spex_2d\"",
+     "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"", "gravity = \"9.8 m/s2\""},
     {"spex_box", "type = \"spex8000\"", "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
      "gravity = \"9.8 m/s2\""},
     {"vibrated_cylinder",

@@ -174,6 +174,23 @@ struct Spex8000 {
   SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
 };
 
+/// [mill] type = "spex_2d": the swing of the arm alone, in a plane. A planar model of this mill is that of
+/// Davis, McDermott and Koch, Metall. Trans. A 19 (1988) 2867; the lengths and angles are the thesis's.
+template <class Number>
+struct Spex2d {
+  static constexpr const char* name = "spex_2d";
+  Number arm, theta_max, gamma_max, period;
+
+  template <class Part, class Visit>
+  static void parameters(Part& part, Visit&& visit) {
+    visit(PartParameter{"arm", Dimension::length, Range::not_negative, "100 mm"}, part.arm);
+    visit(PartParameter{"theta_max", Dimension::angle, Range::quarter_turn, "15 deg"}, part.theta_max);
+    visit(PartParameter{nullptr, Dimension::angle, Range::any, "0 rad"}, part.gamma_max);
+    visit(PartParameter{"speed", Dimension::angular_speed, Range::drive, "1098 rpm"}, part.period);
+  }
+  SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
+};
+
 /// [mill] type = "still".
 template <class Number>
 struct StillMill {
