@@ -42,12 +42,12 @@ class AnyMill : public ::testing::TestWithParam<testing::MillText> {
 INSTANTIATE_TEST_SUITE_P(All, AnyMill, ::testing::ValuesIn(testing::all_mills),
                          [](const auto& info) { return std::string(info.param.name); });
 
-TEST_P(AnyMill, AgreesWithAnIndependentSolver) { expect_agreement<double>(20261101, states() / 20); }
+TEST_P(AnyMill, AgreesWithAnIndependentSolver) { expect_agreement<double>(20261101, states() / 40); }
 TEST_P(AnyMill, AgreesWithAnIndependentSolverInFloat128) {
-  expect_agreement<float128>(20261102, states() / 200);
+  expect_agreement<float128>(20261102, states() / 400);
 }
 TEST_P(AnyMill, AgreesWithAnIndependentSolverIn50Digits) {
-  expect_agreement<mpfr50>(20261103, states() / 200);
+  expect_agreement<mpfr50>(20261103, states() / 400);
 }
 // Behind the label `long`: EDMILL_WALL_STATES of each mill.
 TEST_P(AnyMill, LongAgreesWithAnIndependentSolver) { expect_agreement<double>(20261104, wanted_states()); }
