@@ -1,22 +1,40 @@
-# edmill_library(name ROOMS room...): a static library of the sources of these folders of src/. Dependencies between rooms go one
-# way, which tests/architecture checks.
+# Several sources in one compilation: most of the compile time of a small one goes into the headers that it shares with others.
+option(EDMILL_UNITY "compile sources without loops over impacts several at a time" ON)
+
+# edmill_library(name ROOMS room... LIGHT room...): a static library of the sources of these folders of src/. Dependencies
+# between rooms go one way, which tests/architecture checks. No loop over impacts is in LIGHT ones: they are compiled with fewer
+# optimisations, several sources at a time.
 function(edmill_library name)
-  cmake_parse_arguments(ARG "" "" "ROOMS" ${ARGN})
-  set(sources)
-  foreach(room ${ARG_ROOMS})
+  cmake_parse_arguments(ARG "" "" "ROOMS;LIGHT" ${ARGN})
+  add_library(${name} STATIC)
+  foreach(room ${ARG_ROOMS} ${ARG_LIGHT})
     file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
-    list(APPEND sources ${of_room})
+    list(FILTER of_room EXCLUDE REGEX "/main.cpp$")
+    target_sources(${name} PRIVATE ${of_room})
+    if(room IN_LIST ARG_LIGHT)
+      edmill_group(${room} ${of_room})
+    else()
+      set_property(SOURCE ${of_room} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+    endif()
   endforeach()
-  list(FILTER sources EXCLUDE REGEX "/main.cpp$")
-  add_library(${name} STATIC ${sources})
   target_link_libraries(${name} PUBLIC edmill_settings)
-  target_compile_options(${name} PRIVATE ${edmill_warnings})
+  target_compile_options(${name} PRIVATE ${edmill_warnings} $<$<CONFIG:Release>:-O1>)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${EDMILL_UNITY} UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# Sources that compile sooner at the price of speed: no loop over impacts is in them, or MPFR takes nearly all of its time.
+# edmill_group(room source...): groups of six, so that a change does not compile too many others again.
+function(edmill_group room)
+  set(count 0)
+  foreach(source ${ARGN})
+    math(EXPR group "${count} / 6")
+    set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${room}_${group})
+    math(EXPR count "${count} + 1")
+  endforeach()
+endfunction()
+
+# Sources that compile sooner at the price of speed, which MPFR takes nearly all of.
 function(edmill_compile_fast)
-  foreach(pattern ${ARGN})
-    file(GLOB of_pattern ${CMAKE_SOURCE_DIR}/src/${pattern})
-    set_source_files_properties(${of_pattern} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
+  foreach(source ${ARGN})
+    set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/${source} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
   endforeach()
 endfunction()

@@ -15,6 +15,7 @@ struct CaseSpec;
 
 template <class Real>
 class Run;
+struct CaseAccess;
 
 /// A case as its file states it, in exact quantities: no scalar is chosen yet. Copies share what was read.
 class Case {
@@ -36,6 +37,7 @@ class Case {
  private:
   template <class Real>
   friend class Run;
+  friend struct CaseAccess;
   explicit Case(casefile::CaseSpec spec);
   std::shared_ptr<const casefile::CaseSpec> spec_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "edmill/case.hpp"
 #include "edmill/contact_law.hpp"
@@ -29,6 +30,13 @@ class Run {
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
+
+  /// Has the outputs of the case, case.toml, final_state.csv and summary.json written into a folder, as
+  /// `edmill run --out`. To be called before the run advances; without it nothing is written.
+  /// @throws InputError when a file cannot be written
+  void write_to(const std::string& folder);
+  /// Puts these files in place; to be called once, behind the run's last advance.
+  void commit();
 
   /// Observers receive every impact, in the order of attachment; they must outlive the run.
   void attach(Observer<Real>& observer);

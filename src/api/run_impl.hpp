@@ -8,7 +8,10 @@
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
 #include "edmill/run.hpp"
+#include "io/final_state.hpp"
+#include "io/output_folder.hpp"
 #include "io/summary_impl.hpp"
+#include "output/outputs.hpp"
 #include "run/simulate_impl.hpp"
 
 namespace edmill {
@@ -68,6 +71,7 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
         driver_(built_, guests_) {}
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+    if (outputs_) outputs_->on_impact(impact, simulation);
     if (observers.empty()) return;
     const auto seen = detail::to_public<Real>(impact, simulation.seconds());
     for (auto* observer : observers) observer->on_impact(seen, run_);
@@ -76,10 +80,39 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
   /// @param limit  nothing for the end of the case
   bool advance(const std::optional<Real>& limit) {
     if (end_reason_ != model::EndReason::paused) return false;
+    advanced_ = true;
     const auto& simulation = driver_.simulation();
     if (limit && !(*limit > simulation.seconds())) return true;
     end_reason_ = limit ? driver_.go(simulation.clock().at(*limit)) : driver_.go();
     return end_reason_ == model::EndReason::paused;
+  }
+
+  void write_to(const std::string& folder) {
+    EDMILL_REQUIRE(!advanced_ && !outputs_, "write_to is called once, before the run advances");
+    folder_ = folder;
+    io::prepare_folder(folder_);
+    lock_.emplace(folder_, false);
+    outputs_.emplace(*case_.spec_, folder_, driver_.simulation().clock().seconds(built_.start));
+  }
+  void commit() {
+    EDMILL_REQUIRE(outputs_, "write_to was called");
+    const auto& simulation = driver_.simulation();
+    outputs_->on_end(simulation);
+    outputs_->commit(false);
+    io::SavedState<Real> saved{simulation.now(), {}};
+    for (int k = 0; k < simulation.ball_count(); ++k)
+      saved.states.push_back(simulation.state_at(k, simulation.now()));
+    const auto write = [&](const char* name, const auto& put) {
+      io::AtomicFile file(folder_ / name);
+      put(file.stream());
+      file.commit();
+    };
+    write("final_state.csv",
+          [&](std::ostream& out) { io::write_final_state<Real>(out, saved, simulation.clock()); });
+    write("summary.json", [&](std::ostream& out) { out << summary().json; });
+    write("case.toml", [&](std::ostream& out) { out << case_.spec_->text; });
+    outputs_.reset();
+    lock_.reset();
   }
 
   void stop() { driver_.simulation().request_stop(model::EndReason::stopped); }
@@ -109,6 +142,10 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
   casefile::InitialCase<Real> built_;
   run::Guests<Real> guests_;
   run::RunDriver<Real> driver_;
+  std::optional<output::Outputs<Real>> outputs_;
+  std::filesystem::path folder_;
+  std::optional<io::FolderLock> lock_;
+  bool advanced_ = false;
   model::EndReason end_reason_ = model::EndReason::paused;
 };
 
@@ -121,6 +158,14 @@ Run<Real>::~Run() = default;
 template <class Real>
 void Run<Real>::attach(Observer<Real>& observer) {
   implementation_->observers.push_back(&observer);
+}
+template <class Real>
+void Run<Real>::write_to(const std::string& folder) {
+  implementation_->write_to(folder);
+}
+template <class Real>
+void Run<Real>::commit() {
+  implementation_->commit();
 }
 template <class Real>
 bool Run<Real>::advance_to(const Real& time) {

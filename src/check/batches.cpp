@@ -1,10 +1,11 @@
 #include "check/batches.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <random>
+
+#include "base/student.hpp"
 
 namespace edmill::compare {
 
@@ -57,7 +58,7 @@ double paired_t_probability(const BatchValues& differences) {
   for (const double d : differences) squares += (d - mean) * (d - mean);
   const double error = std::sqrt(squares / (n - 1) / n);
   if (!(error > 0)) return mean == 0 ? 1 : 0;
-  const boost::math::students_t student(n - 1);
+  const numerics::Student student(n - 1);
   return 2 * boost::math::cdf(boost::math::complement(student, std::abs(mean) / error));
 }
 

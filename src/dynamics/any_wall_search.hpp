@@ -11,25 +11,32 @@
 
 namespace edmill::dynamics {
 
-/// In double the SPEX with a cylinder has a search of its own, in which everything is inlined; all else goes
-/// through one that asks the motion and the vessel what they are at every step. Both give the same bits.
+/// In double a cylinder has searches of its own, for the SPEX and for a chain, in which everything is
+/// inlined; all else goes through one that asks the motion and the vessel what they are at every step. They
+/// give the same bits.
 template <class Real>
 class AnyWallSearch {
  public:
   using Spex = WallSearch<model::SpexMotion<Real>, model::CylinderVessel<Real>>;
+  using OnChain = WallSearch<model::ChainMotion<Real>, model::CylinderVessel<Real>>;
   using General = WallSearch<model::AnyMotion<Real>, model::AnyVessel<Real>>;
   /// Another search in the place of these, given the vessel's pose at the window's begin.
   using Policy = std::function<WallAnswer<Real>(const model::AnyPose<Real>&, const WallQuery<Real>&)>;
 
   AnyWallSearch(const model::AnyMotion<Real>& motion, const model::AnyVessel<Real>& vessel,
                 const Vec3<Real>& gravity) {
-    model::with_parts<Real>(motion, vessel, [&](const auto& its_motion, const auto& its_vessel) {
-      using Search = WallSearch<std::decay_t<decltype(its_motion)>, std::decay_t<decltype(its_vessel)>>;
-      if constexpr (std::is_same_v<Search, General>)
-        general_.emplace(its_motion, its_vessel, gravity);
-      else
-        spex_.emplace(its_motion, its_vessel, gravity);
-    });
+    if constexpr (std::is_same_v<Real, double>) {
+      const auto* cylinder = vessel.template get_if<model::CylinderVessel<Real>>();
+      const auto* spex = motion.template get_if<model::SpexMotion<Real>>();
+      const auto* chain = motion.template get_if<model::ChainMotion<Real>>();
+      if (cylinder && !vessel.pistons()) {
+        if (spex) spex_.emplace(*spex, *cylinder, gravity);
+        if (chain) on_chain_.emplace(*chain, *cylinder, gravity);
+      }
+      if (!spex_ && !on_chain_) general_.emplace(motion, vessel, gravity);
+    } else {
+      general_.emplace(motion, vessel, gravity);
+    }
     longest_window_ = with([](const auto& search) { return search.longest_window(); });
     reach_ = with([](const auto& search) { return search.mill().reach; });
   }
@@ -56,9 +63,12 @@ class AnyWallSearch {
   }
   /// From here on a policy of the caller's own decides, which nothing certifies.
   void replace(Policy policy) {
-    if constexpr (std::is_same_v<Real, double>)
-      if (spex_) general_.emplace(spex_->mill().motion, spex_->mill().vessel, spex_->mill().gravity);
-    spex_.reset();
+    const auto keep = [&](const auto& own) {
+      if constexpr (std::is_same_v<Real, double>)
+        if (own) general_.emplace(own->mill().motion, own->mill().vessel, own->mill().gravity);
+    };
+    keep(spex_), keep(on_chain_);
+    spex_.reset(), on_chain_.reset();
     policy_ = std::move(policy);
   }
   RoughAnswer rough(const WallQuery<Real>& query) const {
@@ -71,6 +81,8 @@ class AnyWallSearch {
     if constexpr (std::is_same_v<Real, double>)
       if (spex_) [[likely]]
         return f(*spex_);
+    if constexpr (std::is_same_v<Real, double>)
+      if (on_chain_) return f(*on_chain_);
     return f(*general_);
   }
 
@@ -79,6 +91,7 @@ class AnyWallSearch {
     void reset() {}
   };
   std::conditional_t<std::is_same_v<Real, double>, std::optional<Spex>, Never> spex_{};
+  std::conditional_t<std::is_same_v<Real, double>, std::optional<OnChain>, Never> on_chain_{};
   std::optional<General> general_;
   Policy policy_;
   Real longest_window_, reach_;

@@ -115,9 +115,8 @@ class GapFunctions {
   Instant<Real> instant(const Real& offset) const { return {period_, offset}; }
   Pose pose(const Real& offset) const { return mill_.motion.pose(instant(offset)); }
   /// The same within a moment of an offset where it is known.
-  template <bool with_rates = true>
   Pose pose_nearby(const Real& offset, const Pose& pose, const Real& known) const {
-    return mill_.motion.template pose_nearby<with_rates>(instant(offset), pose, instant(known));
+    return mill_.motion.pose_nearby(instant(offset), pose, instant(known));
   }
 
   /// What the vessel leaves to the ball's centre.
@@ -132,10 +131,11 @@ class GapFunctions {
                                                        velocity_after(flight_, mill_.gravity, dt)));
   }
 
-  /// The gap to one wall, of which only the place in the vessel is needed.
-  Real gap(int wall, const Real& offset, const Pose& pose) const {
-    const Real own = room_.gap(
-        wall, mill_.motion.position_in_vessel(pose, position_after(flight_, mill_.gravity, elapsed(offset))));
+  /// The gap to one wall, within a moment of an offset where the pose is known.
+  Real gap_nearby(int wall, const Real& offset, const Pose& pose, const Real& known) const {
+    const auto position = position_after(flight_, mill_.gravity, elapsed(offset));
+    const Real own =
+        room_.gap(wall, mill_.motion.position_nearby(instant(offset), pose, instant(known), position));
     if constexpr (model::HasPistons<V>)
       if (const auto* pistons = mill_.vessel.pistons())
         return own - pistons->of_wall(wall, instant(offset)).value;

@@ -70,9 +70,7 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
       t = centre;
       continue;
     }
-    const auto gap = [&](const Real& time) {
-      return functions.gap(wall, time, functions.template pose_nearby<false>(time, pose, t));
-    };
+    const auto gap = [&](const Real& time) { return functions.gap_nearby(wall, time, pose, t); };
     const auto closed = [this](const Real& low, const Real& high) { return is_closed(low, high); };
     const Real time_error = -value_error / slope;
     // Rounding moves the place where the computed gap changes its sign: step on until both signs are seen.

@@ -10,5 +10,6 @@
 #include "engine/simulation_impl.hpp"
 #include "io/final_state_impl.hpp"
 #include "io/summary_impl.hpp"
+#include "output/outputs_impl.hpp"
 #include "run/event_source_impl.hpp"
 #include "run/simulate_impl.hpp"

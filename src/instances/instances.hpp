@@ -12,6 +12,7 @@
 #include "engine/simulation.hpp"
 #include "io/final_state.hpp"
 #include "io/summary.hpp"
+#include "output/outputs.hpp"
 #include "run/event_source.hpp"
 #include "run/simulate.hpp"
 
@@ -36,6 +37,7 @@
                                                const casefile::InitialCase<Real>&,                   \
                                                const run::Guests<Real>&);                            \
   prefix std::unique_ptr<run::EventSource> run::make_source<Real>(const casefile::CaseSpec&, bool);  \
+  prefix class output::Outputs<Real>;                                                                \
   prefix class Run<Real>;                                                                            \
   }
 
@@ -50,7 +52,9 @@
 EDMILL_FOR_EACH_SCALAR(EDMILL_DECLARE_INSTANCES)
 #undef EDMILL_DECLARE_INSTANCES
 
-// In double the search for any mill stands in a file of its own: beside it, that of the SPEX would be inlined
-// less.
+// In double the searches for any mill and for a cylinder on a chain stand in a file of their own: beside
+// them, that of the SPEX would be inlined less.
 extern template class edmill::dynamics::WallSearch<edmill::model::SpexMotion<double>,
+                                                   edmill::model::CylinderVessel<double>>;
+extern template class edmill::dynamics::WallSearch<edmill::model::ChainMotion<double>,
                                                    edmill::model::CylinderVessel<double>>;

@@ -14,7 +14,8 @@ namespace edmill::model {
 /// A rigid motion of the vessel frame, periodic or not, and bounds on it that hold at all times. A search
 /// asks for the pose once for each instant and for everything else by that pose.
 ///
-/// - `pose(when)`; `pose_nearby(when, pose, known)`, the same at less cost within a moment of a known one
+/// - `pose(when)`; `pose_nearby(when, pose, known)`, the same at less cost within a moment of a known one, if
+///   the motion can; `position_nearby(when, pose, known, position)`, what `position_in_vessel` gives for that
 /// - `to_inertial`, `direction_to_inertial`, `position_in_vessel`, `to_vessel_frame` and
 ///   `vessel_frame_acceleration`: places, velocities and accelerations of free bodies between the frames
 /// - `wall_velocity`, `wall_acceleration`: inertial, of the vessel's material point at an inertial place
@@ -34,7 +35,8 @@ concept Motion = requires(const M& motion, const typename M::Pose& pose,
                           const FlightBounds<typename M::Scalar>& flight) {
   { motion.period() } -> std::convertible_to<typename M::Scalar>;
   { motion.pose(when) } -> std::same_as<typename M::Pose>;
-  { motion.template pose_nearby<true>(when, pose, when) } -> std::same_as<typename M::Pose>;
+  { motion.pose_nearby(when, pose, when) } -> std::same_as<typename M::Pose>;
+  { motion.position_nearby(when, pose, when, v) } -> std::same_as<Vec3<typename M::Scalar>>;
   { motion.to_inertial(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
   { motion.direction_to_inertial(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
   { motion.position_in_vessel(pose, v) } -> std::same_as<Vec3<typename M::Scalar>>;
@@ -114,11 +116,13 @@ class AnyMotion {
   Pose pose(const Instant<Real>& when) const {
     return visit([&](const auto& m) { return Pose(m.pose(when)); });
   }
-  template <bool with_rates = true>
   Pose pose_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known) const {
-    return at(pose, [&](const auto& m, const auto& own) {
-      return Pose(m.template pose_nearby<with_rates>(when, own, known));
-    });
+    return at(pose, [&](const auto& m, const auto& own) { return Pose(m.pose_nearby(when, own, known)); });
+  }
+  Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known,
+                             const Vec3<Real>& position) const {
+    return at(pose,
+              [&](const auto& m, const auto& own) { return m.position_nearby(when, own, known, position); });
   }
   Vec3<Real> axis_x(const Pose& pose) const {
     return at(pose, [](const auto& m, const auto& own) { return m.axis_x(own); });

@@ -90,12 +90,26 @@ class AnimationOutput : public FramesOutput<Real> {
     for (auto& path : paths_.balls) to_fractions(path);
     to_fractions(paths_.contact);
     const auto& motion = simulation.mill().motion;
-    // As many keys of the vessel as frames, and enough for turns of the drive between them.
-    const double turns = length / static_cast<double>(motion.period());
+    const auto& vessel = simulation.mill().vessel;
+    // As many keys of the vessel as frames, and enough for turns of the drive, or of a piston's, between
+    // them.
+    double frequency = 1 / static_cast<double>(motion.period());
+    if (const auto* pistons = vessel.pistons())
+      for (const auto& piston : pistons->given())
+        for (const auto& swing : piston.swings)
+          frequency = std::max(frequency, std::abs(static_cast<double>(swing.frequency)));
+    const double turns = length * frequency;
     const auto keys = std::max({min_frames_, frames_ - 1, static_cast<std::uint64_t>(std::ceil(64 * turns))});
+    std::vector<Vec3<double>> at_first;  // the pistons
     for (std::uint64_t k = 0; k <= keys; ++k) {
       const double key = static_cast<double>(k) / static_cast<double>(keys);
       paths_.vessel.emplace_back(key, vessel_frame(motion, from + length * key));
+      std::size_t piston = 0;
+      this->for_each_piston(vessel, Real(from + length * key), [&](std::size_t wall, const auto& moved) {
+        if (k == 0) paths_.pistons.push_back({wall, {}}), at_first.push_back(moved);
+        paths_.pistons[piston].second.emplace_back(key, moved - at_first[piston]);
+        ++piston;
+      });
     }
     paths_.duration = length / speed_;
     file_.stream() << x3d_text(*first_, &paths_);

@@ -47,10 +47,11 @@ struct SceneMotion {
   double duration;  ///< of one playback [s]
   std::vector<std::pair<double, Frame<double>>> vessel;
   using Path = std::vector<std::pair<double, Vec3<double>>>;
-  std::vector<Path> balls;  ///< of each ball
-  Path contact;             ///< where the scene marks the contact point
+  std::vector<std::pair<std::size_t, Path>> pistons;  ///< by wall, from where the scene shows it [m]
+  std::vector<Path> balls;                            ///< of each ball
+  Path contact;                                       ///< where the scene marks the contact point
 
-  void archive(Archive& a) { a(duration, vessel, balls, contact); }
+  void archive(Archive& a) { a(duration, vessel, pistons, balls, contact); }
 };
 
 /// A page of X3D 3.3, still or, with `motion`, moving and repeated for ever.

@@ -31,6 +31,18 @@ class SceneOutput : public Output<Real> {
     return {contact_->radius.template to<double>(), contact_->colour, vector_cast<double>(point)};
   }
 
+  /// Calls f(wall, moved) with how far each piston stands from its wall's place [m].
+  template <class F>
+  static void for_each_piston(const model::AnyVessel<Real>& vessel, const Real& time, F&& f) {
+    const auto* pistons = vessel.pistons();
+    for (std::size_t k = 0; pistons && k < pistons->count(); ++k) {
+      const int wall = pistons->wall(k);
+      const Vec3<Real> normal = vessel.normal(wall, Vec3<Real>::Zero());
+      f(static_cast<std::size_t>(wall),
+        vector_cast<double>(Vec3<Real>(normal * pistons->at(k, {0, time}).value)));
+    }
+  }
+
   /// @param state_of  state of a ball by its id at `time`
   template <class StateOf>
   Scene scene(const engine::Simulation<Real>& simulation, const Real& time, StateOf&& state_of) const {
@@ -58,13 +70,9 @@ class SceneOutput : public Output<Real> {
   /// The walls, with pistons where they stand.
   std::vector<model::Mesh> walls_at(const model::AnyVessel<Real>& vessel, const Real& time) const {
     auto walls = walls_;
-    const auto* pistons = vessel.pistons();
-    for (std::size_t k = 0; pistons && k < pistons->count(); ++k) {
-      const int wall = pistons->wall(k);
-      const Vec3<Real> normal = vessel.normal(wall, Vec3<Real>::Zero());
-      const auto moved = vector_cast<double>(Vec3<Real>(normal * pistons->at(k, {0, time}).value));
-      for (auto& point : walls[static_cast<std::size_t>(wall)].points) point += moved;
-    }
+    for_each_piston(vessel, time, [&](std::size_t wall, const Vec3<double>& moved) {
+      for (auto& point : walls[wall].points) point += moved;
+    });
     return walls;
   }
 

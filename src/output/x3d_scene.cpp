@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -60,12 +61,20 @@ void add_wall(pugi::xml_node parent, const model::Mesh& wall, const casefile::Co
   add(faces, "Coordinate", {{"point", points}});
 }
 
-void add_vessel(pugi::xml_node parent, const SceneVessel& vessel) {
+std::string name_of_wall(std::size_t wall) { return fmt::format("wall_{}", wall); }
+
+/// A wall that moves in the vessel has a Transform of its own.
+void add_vessel(pugi::xml_node parent, const SceneVessel& vessel, const SceneMotion* motion) {
   auto place = add(parent, "Transform",
                    {{"DEF", "vessel"},
                     {"translation", vector(vessel.frame.origin)},
                     {"rotation", rotation(vessel.frame)}});
-  for (const auto& wall : vessel.walls) add_wall(place, wall, vessel.colour);
+  for (std::size_t id = 0; id < vessel.walls.size(); ++id) {
+    const bool moves = motion && std::any_of(motion->pistons.begin(), motion->pistons.end(),
+                                             [&](const auto& piston) { return piston.first == id; });
+    add_wall(moves ? add(place, "Transform", {{"DEF", name_of_wall(id)}}) : place, vessel.walls[id],
+             vessel.colour);
+  }
 }
 
 void add_route(pugi::xml_node scene, const std::string& from, const char* from_field, const std::string& to,
@@ -103,6 +112,7 @@ void add_motion(pugi::xml_node scene, const SceneMotion& motion) {
   }
   add_path(scene, places, "vessel");
   add_interpolator(scene, "OrientationInterpolator", "vessel_turn", "vessel", "set_rotation", keys, turns);
+  for (const auto& [wall, path] : motion.pistons) add_path(scene, path, name_of_wall(wall));
   for (std::size_t i = 0; i < motion.balls.size(); ++i)
     add_path(scene, motion.balls[i], fmt::format("ball_{}", i));
   if (!motion.contact.empty()) add_path(scene, motion.contact, "contact_point");
@@ -134,7 +144,7 @@ std::string x3d_text(const Scene& s, const SceneMotion* motion) {
   add(scene, "Background", {{"skyColor", "1 1 1"}});
   add(scene, "Viewpoint",
       {{"description", "mill"}, {"position", vector(s.eye)}, {"centerOfRotation", vector(s.target)}});
-  add_vessel(scene, s.vessel);
+  add_vessel(scene, s.vessel, motion);
   for (std::size_t i = 0; i < s.balls.size(); ++i) add_ball(scene, s.balls[i], fmt::format("ball_{}", i));
   if (s.contact) add_ball(scene, *s.contact, "contact_point");
   if (motion) add_motion(scene, *motion);

@@ -83,14 +83,20 @@ model::Mesh mesh_of(const pugi::xml_node& faces) {
 }
 
 MovingVessel vessel_of(const pugi::xml_node& transform) {
-  const auto first = transform.child("Shape");
+  const auto shape_of = [](const pugi::xml_node& wall) {
+    return wall.child("Shape") ? wall.child("Shape") : wall;  // a piston has a Transform around it
+  };
+  const auto first = shape_of(transform.first_child());
   MovingVessel vessel{{},
+                      {},
                       colour_of(first),
                       1 - material_of(first).attribute("transparency").as_double(),
                       place_of(transform),
                       track_of(transform, "rotation", "OrientationInterpolator", "_turn", 4)};
-  for (const auto& shape : transform.children("Shape"))
-    vessel.walls.push_back(mesh_of(shape.child("IndexedFaceSet")));
+  for (const auto& wall : transform.children()) {
+    vessel.walls.push_back(mesh_of(shape_of(wall).child("IndexedFaceSet")));
+    vessel.shifts.push_back(place_of(wall));
+  }
   return vessel;
 }
 

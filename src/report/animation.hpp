@@ -35,6 +35,7 @@ struct MovingSphere {
 
 struct MovingVessel {
   std::vector<model::Mesh> walls;  ///< by id, in the vessel frame
+  std::vector<Track> shifts;       ///< of each wall in the vessel, one that moves or none [m]
   std::string colour;              ///< #rrggbb
   double opacity;                  ///< from 0 to 1
   Track place;                     ///< of the vessel frame [m]

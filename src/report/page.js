@@ -58,7 +58,16 @@ function addVessel(scene, vessel) {
   mesh.renderOrder = 1; // after the balls, which are seen through it
   scene.add(mesh);
   const place = new THREE.Vector3(), turn = new THREE.Quaternion();
+  const points = walls.getAttribute("position");
+  const movePiston = ({ first, count, shifts }, frame, share) => {
+    for (let k = 3 * first; k < 3 * (first + count); ++k) {
+      const from = 3 * frame + k % 3;
+      points.array[k] = vessel.points[k] + (1 - share) * shifts[from] + share * shifts[from + 3];
+    }
+    points.needsUpdate = true;
+  };
   return (frame, share) => {
+    for (const piston of vessel.pistons) movePiston(piston, frame, share);
     mesh.position.fromArray(vessel.poses, 7 * frame).lerp(place.fromArray(vessel.poses, 7 * (frame + 1)), share);
     mesh.quaternion.fromArray(vessel.poses, 7 * frame + 3).slerp(turn.fromArray(vessel.poses, 7 * (frame + 1) + 3), share);
   };

@@ -37,6 +37,10 @@ std::size_t frame_count(const Animation& animation) {
          std::clamp<std::size_t>(most_places / std::max<std::size_t>(1, animation.spheres.size()), 40, 640);
 }
 
+double fraction_of(std::size_t frame, std::size_t frames) {
+  return static_cast<double>(frame) / static_cast<double>(frames - 1);
+}
+
 /// Corners of the triangles of all walls, by their places in the list of all points.
 Json triangles_of(const std::vector<model::Mesh>& walls) {
   Json triangles = Json::array();
@@ -48,6 +52,23 @@ Json triangles_of(const std::vector<model::Mesh>& walls) {
     first += static_cast<int>(wall.points.size());
   }
   return triangles;
+}
+
+/// Of each wall that moves in the vessel: its part of the list of all points, and its shift in each frame.
+Json pistons_of(const MovingVessel& vessel, std::size_t frames) {
+  Json pistons = Json::array();
+  std::size_t first = 0;
+  for (std::size_t wall = 0; wall < vessel.walls.size(); ++wall) {
+    const std::size_t count = vessel.walls[wall].points.size();
+    if (const auto& shift = vessel.shifts[wall]; shift.keys.size() > 1) {
+      Json shifts = Json::array();
+      for (std::size_t frame = 0; frame < frames; ++frame)
+        append(shifts, 1000 * shift.at(fraction_of(frame, frames)), 1000);
+      pistons.push_back({{"first", first}, {"count", count}, {"shifts", std::move(shifts)}});
+    }
+    first += count;
+  }
+  return pistons;
 }
 
 using Outline = std::vector<Vec3<double>>;
@@ -88,7 +109,7 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
     colours.push_back(sphere.colour);
   }
   for (std::size_t frame = 0; frame < frames; ++frame) {
-    const double fraction = static_cast<double>(frame) / static_cast<double>(frames - 1);
+    const double fraction = fraction_of(frame, frames);
     const auto pose = vessel.pose(fraction);
     append(poses, 1000 * pose.translation(), 100);
     append(poses, Eigen::Quaterniond(pose.rotation()).coeffs(), 1e6);
@@ -102,6 +123,7 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
                         {"triangles", triangles_of(vessel.walls)},
                         {"colour", vessel.colour},
                         {"opacity", vessel.opacity},
+                        {"pistons", pistons_of(vessel, frames)},
                         {"poses", poses}}},
                       {"spheres", {{"radii", radii}, {"colours", colours}, {"places", places}}}};
   add(parent, "script", {{"type", "application/json"}, {"id", "frames"}}, scene.dump());

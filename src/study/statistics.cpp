@@ -1,7 +1,8 @@
 #include "study/statistics.hpp"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+
+#include "base/student.hpp"
 
 namespace edmill::study {
 
@@ -23,7 +24,7 @@ double variance_of_mean(const std::vector<double>& values) {
 
 /// The value that a |t| of `freedom` degrees exceeds with probability `significance`.
 double student_limit(double freedom, double significance) {
-  const boost::math::students_t distribution(freedom);
+  const numerics::Student distribution(freedom);
   return boost::math::quantile(boost::math::complement(distribution, significance / 2));
 }
 

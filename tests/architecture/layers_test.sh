@@ -15,15 +15,17 @@ declare -A allowed=(
   [io]="base model model/parts"
   [casefile]="base model model/parts io"
   [run]="base model model/parts dynamics engine io casefile"
-  [api]="base model model/parts engine io casefile run"
+  [api]="base model model/parts engine io casefile run output"
   [output]="base model model/parts engine io casefile run"
   [study]="base model model/parts io casefile"
   [check]="base model model/parts dynamics io casefile study" # never the engine: a judge that shares its code proves nothing
   [plot]=""
   [report]="base model model/parts io casefile study plot"
   [cli]="base model model/parts dynamics engine io casefile run output study check report instances instances/tools"
-  [instances]="base model model/parts dynamics engine io casefile run api" # the core in every scalar
-  [instances/tools]="base io casefile output report cli instances" # and what is around it
+  [instances]="base model model/parts dynamics engine io casefile run output api" # the core in every scalar
+  [instances/tools]="base io casefile report cli instances" # and what is around it
+  [python]="base api check cli report instances" # a program like those of users, and the commands
+  [python/edmill]=""
 )
 
 status=0

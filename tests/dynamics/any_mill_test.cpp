@@ -154,10 +154,12 @@ TEST_P(AnyMill, PosesNearbyAgreeWithPosesFromSines) {
     const Vec3<float128> p{draw.symmetric() * 0.03, draw.symmetric() * 0.03, draw.symmetric() * 0.03};
     const auto near = motion.pose_nearby(later, motion.pose(known), known), direct = motion.pose(later);
     const float128 size = motion.reach(float128(0.06)), unit = 32 * epsilon<float128>();
+    const Vec3<float128> place = motion.to_inertial(direct, p);
     const auto off = [](const Vec3<float128>& a, const Vec3<float128>& b) {
       return norm<float128>(Vec3<float128>(a - b));
     };
-    ASSERT_LE(off(motion.to_inertial(near, p), motion.to_inertial(direct, p)), size * unit);
+    ASSERT_LE(off(motion.to_inertial(near, p), place), size * unit);
+    ASSERT_LE(off(motion.position_nearby(later, motion.pose(known), known, place), p), size * unit);
     ASSERT_LE(off(motion.wall_velocity(near, p), motion.wall_velocity(direct, p)), size * w * unit);
     ASSERT_LE(off(motion.wall_acceleration(near, p), motion.wall_acceleration(direct, p)),
               size * w * w * unit);

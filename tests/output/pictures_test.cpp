@@ -100,6 +100,33 @@ TEST_F(Chapter4, AnimationPlaysTheFirstImpacts) {
   EXPECT_EQ(routes, 8);
 }
 
+/// The piston of the animation stands where the case says, in the page and as the report reads it.
+TEST_F(Outputs, AnimationMovesPistons) {
+  write("case.toml",
+        std::string(small_case) +
+            "[[vessel.piston]]\nwall = \"cap +y\"\ndistance = \"4 mm\"\n"
+            "swing = [{amplitude = \"3 mm\", speed = \"1500 rpm\"}]\n[[output]]\ntype = \"animation\"\n");
+  ASSERT_EQ(edmill("run case.toml --quiet --out out").code, 0);
+  const auto animation = report::read_animation(scratch / "out/animation.x3d");
+  const auto& vessel = animation.vessel;
+  ASSERT_EQ(vessel.walls.size(), 3u);
+  int moving = 0;
+  for (std::size_t wall = 0; wall < 3; ++wall) {
+    const auto& shift = vessel.shifts[wall];
+    if (shift.keys.size() == 1) {
+      EXPECT_EQ(shift.values.norm(), 0);
+      continue;
+    }
+    ++moving;
+    for (const double key : shift.keys) {
+      const double inward = 0.004 + 0.003 * std::sin(2 * std::acos(-1.0) * 25 * 0.2 * key);
+      for (const auto& point : vessel.walls[wall].points)
+        ASSERT_NEAR(point[1] + shift.at(key)[1], 0.0285 - inward, 1e-9) << "at " << key;
+    }
+  }
+  EXPECT_EQ(moving, 1);
+}
+
 TEST_F(Outputs, ParaviewFramesHoldBallsAndVessel) {
   write("case.toml", std::string(small_case) +
                          "[[output]]\ntype = \"paraview\"\nfolder = \"movie\"\ninterval = \"30 ms\"\n");
@@ -170,7 +197,7 @@ TEST(BoxScene, HasSixWallsInTheVesselFrame) {
 
 TEST(BoxScene, IsReadBackAndTurnsTheShortWay) {
   const auto file = std::filesystem::temp_directory_path() / ("box_" + std::to_string(::getpid()) + ".x3d");
-  const output::SceneMotion motion{1, {{0, turned(170, 1)}, {1, turned(-170, 3)}}, {}, {}};
+  const output::SceneMotion motion{1, {{0, turned(170, 1)}, {1, turned(-170, 3)}}, {}, {}, {}};
   std::ofstream(file) << output::x3d_text(box_scene(), &motion);
   const auto vessel = report::read_animation(file).vessel;
   std::filesystem::remove(file);

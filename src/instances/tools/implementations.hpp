@@ -4,5 +4,4 @@
 #include "instances/tools/instances.hpp"
 //
 #include "cli/run_case_impl.hpp"
-#include "output/outputs_impl.hpp"
 #include "report/result_table_impl.hpp"

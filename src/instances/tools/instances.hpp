@@ -4,7 +4,6 @@
 #include "instances/instances.hpp"
 //
 #include "cli/run_case.hpp"
-#include "output/outputs.hpp"
 #include "report/result_table.hpp"
 
 /// `prefix` is `extern template` to declare and `template` to define.
@@ -12,7 +11,6 @@
   namespace edmill {                                                                 \
   prefix std::string report::result_table<Real>(const io::Summary<Real>&);           \
   prefix int cli::run_case<Real>(const casefile::CaseSpec&, const cli::RunOptions&); \
-  prefix class output::Outputs<Real>;                                                \
   }
 
 #define EDMILL_DECLARE_INSTANCES(Real) EDMILL_TOOL_INSTANCES(extern template, Real)

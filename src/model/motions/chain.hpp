@@ -31,7 +31,10 @@ class ChainMotion {
   using Pose = ChainPose<Real>;
 
   ChainMotion() : ChainMotion(Joints<Real>{{}, Real(1)}) {}
-  explicit ChainMotion(const Joints<Real>& joints) : joints_(with_frequencies(joints)), bounds_(joints_) {
+  explicit ChainMotion(const Joints<Real>& joints)
+      : joints_(with_frequencies(joints)),
+        bounds_(joints_, ChainBounds<Real>::Speeds::summed),
+        terms_(joints_, ChainBounds<Real>::Speeds::apart) {
     for (const auto& joint : joints_.list) {
       Step step{joint.rotates, ChainBounds<Real>::direction(joint), -1, {}, joint.angle, {}, {}};
       step.shift = {joint.shift[0], joint.shift[1], joint.shift[2]};
@@ -45,6 +48,7 @@ class ChainMotion {
       steps_.push_back(std::move(step));
     }
     note_what_vanishes();
+    moment_ = moment();
   }
   template <class To>
   ChainMotion<To> cast() const {
@@ -56,11 +60,23 @@ class ChainMotion {
   const Real& period() const { return joints_.period; }  ///< of the clock [s]
 
   Pose pose(const Instant<Real>& when) const { return made<true>(when); }
-  /// The sines of a chain are its least cost: the pose is made anew.
-  /// @param with_rates  whether more than the axes and the centre are asked for
-  template <bool with_rates = true>
-  Pose pose_nearby(const Instant<Real>& when, const Pose&, const Instant<Real>&) const {
-    return made<with_rates>(when);
+  /// Made anew: the rates would need derivatives beyond those of the pose.
+  Pose pose_nearby(const Instant<Real>& when, const Pose&, const Instant<Real>&) const { return pose(when); }
+  /// `position_in_vessel` at the pose of an instant of the same period as `known`, whose pose is given. With
+  /// R and C the orientation and the centre, R' = [w] R and R'' = [w'] R + [w]^2 R: within a moment their
+  /// Taylor polynomials are as sharp as the scalar.
+  Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose_known, const Instant<Real>& known,
+                             const Vec3<Real>& position) const {
+    const Real dt = when.offset - known.offset;
+    const auto short_dt = static_cast<double>(dt);
+    if (!(short_dt <= moment_ && short_dt >= -moment_)) [[unlikely]]
+      return position_in_vessel(made<false>(when), position);
+    const Real half = dt / 2;
+    const Vec3<Real> turn = (pose_known.omega + pose_known.omega_rate * half) * dt;
+    const Vec3<Real> centre = pose_known.centre + (pose_known.velocity + pose_known.acceleration * half) * dt;
+    const Vec3<Real> d = position - centre;
+    const Vec3<Real> first = cross<Real>(turn, d);
+    return to_vessel(pose_known, d - (first - cross<Real>(turn, first) / Real(2)));
   }
 
   static const Vec3<Real>& axis_x(const Pose& p) { return p.x; }
@@ -133,12 +149,9 @@ class ChainMotion {
     return {along(0), along(1), along(2)};
   }
 
-  Real speed_in_vessel(const FlightBounds<Real>& f) const {
-    return f.speed + bounds_.speed + bounds_.turning[0] * f.reach;
-  }
+  Real speed_in_vessel(const FlightBounds<Real>& f) const { return speed_in_vessel(bounds_, f); }
   Real acceleration_in_vessel(const FlightBounds<Real>& f) const {
-    return f.gravity + bounds_.acceleration[0] + 2 * bounds_.turning[0] * speed_in_vessel(f) +
-           bend() * f.reach;
+    return acceleration_in_vessel(bounds_, f);
   }
   /// The flight's position and velocity, and all parts of the pose as ChainBounds counts them.
   ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& f) const {
@@ -215,7 +228,14 @@ class ChainMotion {
         return k;
     return -1;
   }
-  Real bend() const { return bounds_.turning[1] + bounds_.turning[0] * bounds_.turning[0]; }
+  Real bend() const { return bend(bounds_); }
+  static Real bend(const ChainBounds<Real>& b) { return b.turning[1] + b.turning[0] * b.turning[0]; }
+  static Real speed_in_vessel(const ChainBounds<Real>& b, const FlightBounds<Real>& f) {
+    return f.speed + b.speed + b.turning[0] * f.reach;
+  }
+  static Real acceleration_in_vessel(const ChainBounds<Real>& b, const FlightBounds<Real>& f) {
+    return f.gravity + b.acceleration[0] + 2 * b.turning[0] * speed_in_vessel(b, f) + bend(b) * f.reach;
+  }
 
   static Vec3<Real> to_vessel(const Pose& p, const Vec3<Real>& d) {
     return {dot<Real>(p.x, d), dot<Real>(p.y, d), dot<Real>(p.z, d)};
@@ -286,18 +306,35 @@ class ChainMotion {
   }
   static Vec3<Real>& column(Pose& p, int k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; }
 
+  /// How long [s] the Taylor polynomials of second order leave less than a quarter of u of a turn and of the
+  /// centre's distance: a fraction of the period by a power of two, the same on every machine.
+  double moment() const {
+    const auto& w = bounds_.turning;
+    const auto& b = bounds_.acceleration;
+    const auto third_of_turn = static_cast<double>(w[2] + 6 * w[0] * w[1] + w[0] * w[0] * w[0]);
+    const auto third_of_centre = static_cast<double>(b[1] + w[0] * b[0]);
+    const auto u = static_cast<double>(epsilon<Real>() / 2);
+    const double distance = static_cast<double>(bounds_.distance);
+    double t = static_cast<double>(period());
+    while (4 * third_of_turn * (t * t * t) > u || 4 * third_of_centre * (t * t * t) > u * distance) t /= 2;
+    return t;
+  }
+
   /// @param position, velocity  errors of the flight's, in units of u
   ErrorBounds<Real> through_pose(const Real& u, const FlightBounds<Real>& f, const Real& position,
                                  const Real& velocity) const {
-    const Real& w = bounds_.turning[0];
-    return {u * (position + bounds_.errors * f.reach),
-            u * (velocity + w * position + bounds_.errors * speed_in_vessel(f)),
-            u * (2 * w * velocity + bend() * position + bounds_.errors * acceleration_in_vessel(f))};
+    const Real& w = terms_.turning[0];
+    return {
+        u * (position + terms_.errors * f.reach),
+        u * (velocity + w * position + terms_.errors * speed_in_vessel(terms_, f)),
+        u * (2 * w * velocity + bend(terms_) * position + terms_.errors * acceleration_in_vessel(terms_, f))};
   }
 
   Joints<Real> joints_;
-  ChainBounds<Real> bounds_;
+  ChainBounds<Real> bounds_;  ///< on the motion
+  ChainBounds<Real> terms_;   ///< on the terms of which its vectors are sums, for their rounding
   std::vector<Step> steps_;
+  double moment_ = 0;  ///< [s]
 };
 
 }  // namespace edmill::model

@@ -22,15 +22,21 @@ Real magnitude(const Real& x) {
 /// derivatives, of the acceleration of the origin and its first two, all as the frame itself sees them.
 template <class Real>
 struct ChainBounds {
+  enum class Speeds {
+    summed,  ///< constant speeds about parallel axes have signs: a jar may turn against its disc
+    apart    ///< the size of each counts, as rounding sees them
+  };
+
   std::array<Real, 4> turning{};       ///< [rad/s], [rad/s^2], ...
   std::array<Real, 3> acceleration{};  ///< [m/s^2], ...
   Real speed{0};                       ///< of the origin [m/s]
   Real distance{0};                    ///< of the origin from that of the ground [m]
-  Real errors{16};  ///< what rounding does to any of these at most, relative and in units of u
+  Real errors{20};  ///< what rounding does to any of these at most, relative and in units of u
 
-  explicit ChainBounds(const Joints<Real>& joints) {
+  ChainBounds(const Joints<Real>& joints, Speeds speeds) {
     std::optional<Vec3<Real>> common;  // of all axes so far, in the present frame
     bool parallel = true;
+    Real sum(0), sizes(0);  // of the constant speeds about it
     for (const auto& joint : joints.list) {
       const auto rates = rates_of(joint);
       errors += error_of(joint, joints.period);
@@ -41,8 +47,14 @@ struct ChainBounds {
         if (common) *common = turned_back(*common, axis, joint.angle);
       } else {
         parallel = parallel && (!common || are_parallel(*common, axis));
+        if (common && dot<Real>(*common, axis) < 0) sum = -sum;
         common = axis;
         rotate(rates, parallel);
+        if (!parallel || speeds == Speeds::apart) continue;
+        const Real own = 2 * numerics::pi<Real>() * joint.frequency,
+                   sum_of_sizes = magnitude(sum) + magnitude(own);
+        sum += own, sizes += magnitude(own);
+        turning[0] += (magnitude(sum) - sum_of_sizes) + 8 * epsilon<Real>() * sizes;
       }
     }
     const Real up = 1 + Real(1) / 1048576;  // over the rounding of all this

@@ -71,6 +71,11 @@ class SpexMotion {
   /// Error: two roundings more than `pose`. @param with_rates  asks for rates and accelerations too
   template <bool with_rates = true>
   Pose pose_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known) const;
+  /// `position_in_vessel` at the pose of `pose_nearby`.
+  Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known,
+                             const Vec3<Real>& position) const {
+    return position_in_vessel(pose_nearby<false>(when, pose, known), position);
+  }
 
   /// Axes of the vessel frame x (along the arm), y (vessel axis), z in inertial coordinates.
   static Vec3<Real> axis_x(const Pose& p) { return {-p.sin_alpha, p.cos_alpha, Real(0)}; }

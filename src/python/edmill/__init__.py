@@ -1,0 +1,17 @@
+"""edmill: certified event-driven simulation of ball mills.
+
+    import edmill
+    run = edmill.run(edmill.Case.spex8000(balls=28, diameter="4.76 mm"), until="2 s")
+    run.milling_dose_rate       # W
+    run.events["milling_dose"]  # a NumPy array with a number for each impact
+
+Quantities are strings with units or plain numbers in SI. The manual explains cases, outputs and precisions.
+"""
+from ._edmill import InputError, UndecidedError, __version__
+from .case import Case
+from .judges import Judgement, audit, compare
+from .runs import Interrupted, Run, report, run
+from .studies import Study, optimize, sweep
+
+__all__ = ["Case", "InputError", "Interrupted", "Judgement", "Run", "Study", "UndecidedError", "__version__", "audit",
+           "compare", "optimize", "report", "run", "sweep"]

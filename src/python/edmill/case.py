@@ -1,0 +1,140 @@
+"""Cases: everything that a run depends on."""
+from __future__ import annotations
+
+import json
+import math
+import os
+import pathlib
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from . import _edmill
+
+
+def _text_of(value: Any) -> str:
+    """A value as TOML."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_key(k)} = {_text_of(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, Sequence):
+        return "[" + ", ".join(map(_text_of, value)) + "]"
+    if isinstance(value, os.PathLike):
+        return _text_of(os.fspath(value))
+    if hasattr(value, "tolist"):  # of NumPy
+        return _text_of(value.tolist())
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise _edmill.InputError(f"found {value}, expected a finite number")
+        return repr(value)
+    return _text_of(str(value))  # a Decimal, a Fraction's text, ...
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _text_of(str(key))
+
+
+def _toml(tree: Mapping[str, Any], path: str = "") -> str:
+    """A dictionary as a TOML document: a section for each dictionary in it, a list of sections for a list of them."""
+    lines, sections = [], []
+    for key, value in tree.items():
+        name = f"{path}.{_key(key)}" if path else _key(key)
+        if isinstance(value, Mapping):
+            sections.append(f"\n[{name}]\n{_toml(value, name)}")
+        elif isinstance(value, (list, tuple)) and value and all(isinstance(v, Mapping) for v in value):
+            sections += [f"\n[[{name}]]\n{_toml(v, name)}" for v in value]
+        else:
+            lines.append(f"{_key(key)} = {_text_of(value)}\n")
+    return "".join(lines + sections)
+
+
+class Case:
+    """A case as its file states it, in exact quantities.
+
+    `source` is a case file's path, or a dictionary of its sections and keys:
+
+        Case({"run": {"end_time": "2 s"}, "mill": {"type": "spex8000"}, "vessel": {...}, ...})
+
+    `settings` are "section.key=value" over it, as `edmill run --set`. Raises `InputError` with every problem.
+    """
+
+    def __init__(self, source: Mapping[str, Any] | str | os.PathLike, settings: Sequence[str] = ()):
+        if isinstance(source, Mapping):
+            text, name = _toml(source), "case"
+        else:
+            path = pathlib.Path(source)
+            try:
+                text, name = path.read_text(encoding="utf-8"), str(path)
+            except (OSError, UnicodeDecodeError) as error:
+                raise _edmill.InputError(f"{path}: {error}") from None
+        self._set(text, name, settings)
+
+    @classmethod
+    def parse(cls, text: str, name: str = "case.toml", settings: Sequence[str] = ()) -> Case:
+        """A case of the text of a case file; `name` stands for the file in messages."""
+        made = cls.__new__(cls)
+        made._set(text, name, settings)
+        return made
+
+    @classmethod
+    def spex8000(cls, balls: int = 28, diameter: str | float = "4.76 mm", *, density: str | float = "8 g/cm3",
+                 speed: str = "1054 rpm", vessel_diameter: str | float = "38 mm", vessel_height: str | float = "57 mm",
+                 restitution: float | Mapping = 0.53, friction: float = 0.4, gravity: Any = "9.8 m/s2", end_time: str | float = "10 s",
+                 start_time: str | float = "0.5 s", seed: int = 1, **sections: Any) -> Case:
+        """Equal balls in the vial of a SPEX 8000. `sections` are further ones of the case file, such as `output`."""
+        return cls({
+            "run": {"seed": seed, "start_time": start_time, "end_time": end_time, "gravity": gravity},
+            "mill": {"type": "spex8000", "speed": speed},
+            "vessel": {"type": "cylinder", "diameter": vessel_diameter, "height": vessel_height},
+            "contact": {"restitution": restitution, "friction": friction},
+            "balls": [{"count": balls, "diameter": diameter, "density": density}],
+            **sections,
+        })
+
+    def _set(self, text: str, name: str, settings: Sequence[str]) -> None:
+        self._text, self._name, self._settings = text, name, tuple(settings)
+        self._case = _edmill.Case.parse(text, name, list(settings))
+
+    def with_settings(self, *settings: str) -> Case:
+        """The same with "section.key=value" over it."""
+        return Case.parse(self._text, self._name, [*self._settings, *settings])
+
+    @property
+    def text(self) -> str:
+        """The case file, without `settings`."""
+        return self._text
+
+    @property
+    def settings(self) -> tuple[str, ...]:
+        return self._settings
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the canonical text: in one precision, cases with the same digest give the same bits."""
+        return self._case.digest
+
+    @property
+    def precision(self) -> str:
+        """Of a run, unless that names another."""
+        return self._case.precision
+
+    @property
+    def ball_count(self) -> int:
+        return self._case.ball_count
+
+    def __repr__(self) -> str:
+        return f"<edmill.Case {self._name}: {self.ball_count} balls, digest {self.digest[:12]}>"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Case) and self.digest == other.digest
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __reduce__(self):
+        return Case.parse, (self._text, self._name, self._settings)

@@ -1,0 +1,148 @@
+"""Runs of a case, and what they gather."""
+from __future__ import annotations
+
+import decimal
+import json
+import pathlib
+import shutil
+import tempfile
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from . import _edmill
+from .case import Case
+from .tables import Tables
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C ended a run; `run` holds what it had until then."""
+
+    def __init__(self, run: Run):
+        super().__init__(f"interrupted at {run.time} s")
+        self.run = run
+
+
+class Run:
+    """What a run came to. The numbers of summary.json are attributes: `run.milling_dose_rate` and so on.
+
+    In precisions wider than double, numbers of events and states are `decimal.Decimal` with all digits."""
+
+    case: Case
+    precision: str
+    summary: dict[str, Any]  #: summary.json; its keys: the manual, "Files"
+    events: np.ndarray  #: one row for each impact; empty unless events were asked for
+    states: np.ndarray  #: position [m], velocity [m/s] and spin [rad/s] of each ball at the end
+    time: float | decimal.Decimal  #: at the end [s]
+    folder: pathlib.Path | None  #: of its files
+
+    def __init__(self, case: Case, precision: str, folder: pathlib.Path | None, result: Mapping[str, Any]):
+        self.case, self.precision, self.folder = case, precision, folder
+        number = float if precision == "double" else decimal.Decimal
+        self.summary = json.loads(result["summary"], parse_float=number)
+        self.time = result["time"]
+        self.events = _array(result["events"], _edmill.event_dtype)
+        self.states = _array(result["states"], _edmill.state_dtype)
+        self._page: str | None = None
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_") and "summary" in self.__dict__ and name in self.summary:
+            return self.summary[name]
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def __dir__(self):
+        return [*super().__dir__(), *self.summary]
+
+    @property
+    def series(self) -> Tables:
+        """Tables of the run's outputs by the names of their files, as NumPy structured arrays; needs a folder."""
+        return Tables(self.folder)
+
+    def report(self) -> str:
+        """The run's report, a page of HTML. A run without one is simulated again, to the end that it had."""
+        if self._page is None:
+            with tempfile.TemporaryDirectory() as folder:
+                run(self.case, precision=self.precision, until=self.time, folder=folder, report=True, events=False)
+                self._page = (pathlib.Path(folder) / "report.html").read_text(encoding="utf-8")
+        return self._page
+
+    def _repr_html_(self) -> str:
+        import html
+
+        return f'<iframe srcdoc="{html.escape(self.report())}" style="width:100%;height:80vh;border:0"></iframe>'
+
+    def __repr__(self) -> str:
+        s = self.summary
+        return (f"<edmill.Run of {self.case!r} in {self.precision} to {self.time} s ({s['end_reason']}): "
+                f"{s['collisions']['total']} collisions, {float(s['milling_dose_rate']):.4g} W>")
+
+
+def _array(rows: Any, dtype: np.dtype) -> np.ndarray:
+    """Rows of a run in double are an array already; numbers of others become objects."""
+    if isinstance(rows, np.ndarray):
+        return rows
+    fields = []
+    for name in dtype.names:
+        field, shape = dtype[name].base, dtype[name].shape
+        fields.append((name, object if field.kind == "f" else field, shape))
+    return np.array(rows, dtype=fields)
+
+
+def _progress(case: Case, until: float | None) -> Callable[[float, int], None] | None:
+    """A bar of tqdm, where that is installed."""
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return None
+    bar = tqdm(total=until, unit="s", unit_scale=True, desc="simulated")
+
+    def show(time: float, collisions: int) -> None:
+        bar.n = time
+        bar.set_postfix(collisions=collisions)
+
+    show.close = bar.close  # type: ignore[attr-defined]
+    return show
+
+
+def run(case: Case | Mapping | str, precision: str | None = None, until: str | float | decimal.Decimal | None = None, *,
+        folder: str | pathlib.Path | None = None, events: bool = True, report: bool = False,
+        observers: Iterable[Callable[[Any, Any], Any]] = (), ball_ball_law: Any = None, ball_wall_law: Any = None,
+        progress: bool | Callable[[float, int], Any] = False) -> Run:
+    """Simulates a case, without Python's lock.
+
+    precision      double, float128, mpfr50, mpfr100 or mpfr200; that of the case unless given
+    until          where the run ends, in place of the case's `end_time`: "2 s", or a number [s]
+    folder         where the outputs of the case, summary.json and final_state.csv are written; nowhere unless given
+    events         whether to keep each impact: 128 bytes each in double
+    report         writes report.html into `folder`, with the outputs that it shows
+    observers      callables of an impact and the run, called after each impact: 1 us each, where the engine takes as long
+                   for a whole impact. `run.stop()` ends the run.
+    ball_ball_law, ball_wall_law
+                   objects with `restitution(approach_speed)` and `restitution_of_slip(normal_change, slip_speed,
+                   compliance)`, in place of the case's laws; slow, unlike the laws that a case names
+    progress       True for a bar of tqdm, or a callable of time [s] and number of collisions, ten times a second
+
+    Raises `InputError`, `UndecidedError` when no precision decides, and `Interrupted` on Ctrl-C."""
+    case = case if isinstance(case, Case) else Case(case)
+    if until is not None:
+        case = case.with_settings(f"run.end_time={json.dumps(until if isinstance(until, str) else f'{until} s')}")
+    precision = precision or case.precision
+    if report and folder is None:
+        raise _edmill.InputError("report: found no folder, expected one to write the report into")
+    show = _progress(case, None) if progress is True else progress or None
+    try:
+        result = _edmill.run(case._case, precision, "" if folder is None else str(folder), events, report,
+                             list(observers), ball_ball_law, ball_wall_law, show)
+    finally:
+        if hasattr(show, "close"):
+            show.close()
+    done = Run(case, precision, None if folder is None else pathlib.Path(folder), result)
+    if result["interrupted"]:
+        raise Interrupted(done)
+    return done
+
+
+def report(folder: str | pathlib.Path) -> pathlib.Path:
+    """Makes the report of a run's folder, as `edmill report`. Returns the page's path."""
+    return pathlib.Path(_edmill.report(str(folder)))

@@ -1,0 +1,57 @@
+"""Tables that edmill writes as CSV, as NumPy structured arrays."""
+from __future__ import annotations
+
+import csv
+import pathlib
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+
+def _cell(text: str):
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text
+
+
+def read_table(file: str | pathlib.Path) -> np.ndarray:
+    """A CSV file of edmill: its columns have the names of the header without units, which `dtype.fields` keep as titles.
+    Empty cells are NaN."""
+    with open(file, newline="", encoding="utf-8") as stream:
+        rows = list(csv.reader(line for line in stream if not line.startswith("#")))
+    header, cells = rows[0], rows[1:]
+    fields, columns = [], []
+    for k, title in enumerate(header):
+        values = [_cell(row[k]) for row in cells]
+        if any(isinstance(v, str) and v for v in values):
+            column = np.array([str(row[k]) for row in cells], dtype=object)
+        else:
+            numbers = [np.nan if v == "" else v for v in values]
+            whole = all(isinstance(v, int) for v in numbers)
+            column = np.array(numbers, dtype=np.int64 if whole and numbers else np.float64)
+        name = title.split(" [")[0]
+        fields.append(((title, name) if title != name else name, column.dtype))
+        columns.append(column)
+    table = np.empty(len(cells), dtype=fields)
+    for field, column in zip(fields, columns):
+        table[field[0][1] if isinstance(field[0], tuple) else field[0]] = column
+    return table
+
+
+class Tables(Mapping):
+    """The CSV files of a folder by their names without ending, read when they are asked for."""
+
+    def __init__(self, folder: pathlib.Path | None):
+        self._files = {} if folder is None else {f.stem: f for f in sorted(pathlib.Path(folder).rglob("*.csv"))}
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return read_table(self._files[name])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._files)
+
+    def __len__(self) -> int:
+        return len(self._files)

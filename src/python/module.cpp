@@ -1,0 +1,34 @@
+// The extension module edmill._edmill: cases, runs, studies and judges of the library as plain Python values.
+// The package edmill (src/python/edmill) is what users import.
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "base/version.hpp"
+#include "edmill/case.hpp"
+#include "edmill/errors.hpp"
+#include "python/run_in_python.hpp"
+#include "python/tools_in_python.hpp"
+
+namespace py = pybind11;
+
+PYBIND11_MODULE(_edmill, m) {
+  using namespace edmill;
+  m.attr("__version__") = version();
+  m.attr("commit") = commit();
+
+  py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
+  py::register_exception<UndecidedError>(m, "UndecidedError", PyExc_ArithmeticError);
+
+  py::class_<Case>(m, "Case")
+      .def_static("read", &Case::read, py::arg("path"), py::arg("settings") = std::vector<std::string>{})
+      .def_static("parse", &Case::parse, py::arg("text"), py::arg("name") = "case.toml",
+                  py::arg("settings") = std::vector<std::string>{})
+      .def_property_readonly("digest", &Case::digest)
+      .def_property_readonly("precision", &Case::precision)
+      .def_property_readonly("ball_count", &Case::ball_count);
+
+  python::add_runs(m);
+  python::add_tools(m);
+}

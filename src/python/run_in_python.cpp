@@ -1,0 +1,279 @@
+#include "python/run_in_python.hpp"
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "api/case_access.hpp"
+#include "edmill/run.hpp"
+#include "instances/instances.hpp"
+#include "report/report_page.hpp"
+#include "report/run_folder.hpp"
+
+namespace py = pybind11;
+
+namespace edmill::python {
+
+namespace {
+
+/// A float, or a Decimal with all digits of a wider scalar.
+template <class Real>
+py::object to_python(const Real& x) {
+  if constexpr (std::is_same_v<Real, double>)
+    return py::float_(x);
+  else
+    return py::module_::import("decimal").attr("Decimal")(to_text<Real>(x));
+}
+template <class Real>
+py::tuple to_python(const Vector<Real>& v) {
+  return py::make_tuple(to_python<Real>(v[0]), to_python<Real>(v[1]), to_python<Real>(v[2]));
+}
+template <class Real>
+Real from_python(const py::handle& x) {
+  if constexpr (std::is_same_v<Real, double>)
+    return py::cast<double>(x);
+  else
+    return from_text<Real>(py::str(x));
+}
+
+/// Calls f(name, member) for everything that is known of an impact.
+template <class Real, class F>
+void for_each_member(F&& f) {
+  using I = Impact<Real>;
+  f("index", &I::index), f("time", &I::time), f("ball", &I::ball), f("with_wall", &I::with_wall);
+  f("partner", &I::partner), f("normal", &I::normal), f("approach_speed", &I::approach_speed);
+  f("slip_speed", &I::slip_speed), f("separation_speed", &I::separation_speed);
+  f("restitution_tangential", &I::restitution_tangential), f("normal_impulse", &I::normal_impulse);
+  f("tangential_impulse", &I::tangential_impulse), f("milling_dose", &I::milling_dose);
+  f("supplied_energy", &I::supplied_energy), f("wall_work", &I::wall_work);
+}
+template <class Real>
+py::object member(const Impact<Real>& impact, const auto& which) {
+  const auto& value = impact.*which;
+  if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>)
+    return py::cast(value);
+  else
+    return to_python<Real>(value);
+}
+
+/// The array owns what the list held: nothing is copied.
+template <class Row>
+py::array as_array(std::vector<Row> rows) {
+  auto owner = std::make_unique<std::vector<Row>>(std::move(rows));
+  const auto size = static_cast<py::ssize_t>(owner->size());
+  const Row* data = owner->data();
+  py::capsule keeper(owner.release(), [](void* p) { delete static_cast<std::vector<Row>*>(p); });
+  return py::array_t<Row>(size, data, keeper);
+}
+/// Wide numbers are objects, a list of tuples for the package to make an array of.
+template <class Real>
+py::object events_of(std::vector<Impact<Real>> events) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return as_array(std::move(events));
+  } else {
+    py::list rows;
+    for (const auto& event : events) {
+      py::list row;
+      for_each_member<Real>([&](const char*, const auto& which) { row.append(member<Real>(event, which)); });
+      rows.append(py::tuple(row));
+    }
+    return rows;
+  }
+}
+template <class Real>
+py::object states_of(const Run<Real>& run) {
+  std::vector<BallState<Real>> states;
+  for (int k = 0; k < run.ball_count(); ++k) states.push_back(run.ball(k));
+  if constexpr (std::is_same_v<Real, double>) {
+    return as_array(std::move(states));
+  } else {
+    py::list rows;
+    for (const auto& s : states)
+      rows.append(
+          py::make_tuple(to_python<Real>(s.position), to_python<Real>(s.velocity), to_python<Real>(s.spin)));
+    return rows;
+  }
+}
+
+template <class Real>
+class Collector : public Observer<Real> {
+ public:
+  void on_impact(const Impact<Real>& impact, Run<Real>&) override { events.push_back(impact); }
+  std::vector<Impact<Real>> events;
+};
+
+/// Lets Python's signal handlers run and tells of progress, ten times a second.
+template <class Real>
+class Pulse : public Observer<Real> {
+ public:
+  explicit Pulse(py::object progress) : progress_(std::move(progress)) {}
+
+  void on_impact(const Impact<Real>& impact, Run<Real>& run) override {
+    if (++since_look_ < look_every_) return;
+    since_look_ = 0;
+    const auto now = Clock::now();
+    if (now - last_ < std::chrono::milliseconds(100)) return;
+    last_ = now;
+    const py::gil_scoped_acquire python;
+    if (PyErr_CheckSignals() != 0) {
+      PyErr_Clear();
+      interrupted = true;
+      run.stop();
+    } else if (!progress_.is_none()) {
+      progress_(static_cast<double>(impact.time), impact.index + 1);
+    }
+  }
+  bool interrupted = false;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int look_every_ = std::is_same_v<Real, double> ? 1024 : 16;
+  py::object progress_;
+  Clock::time_point last_ = Clock::now();
+  int since_look_ = 0;
+};
+
+/// A callable that receives each impact and the run.
+template <class Real>
+class CallingObserver : public Observer<Real> {
+ public:
+  explicit CallingObserver(py::object callable) : callable_(std::move(callable)) {}
+  void on_impact(const Impact<Real>& impact, Run<Real>& run) override {
+    const py::gil_scoped_acquire python;
+    callable_(impact, py::cast(&run, py::return_value_policy::reference));
+  }
+
+ private:
+  py::object callable_;
+};
+
+/// An object with `restitution` and `restitution_of_slip`.
+template <class Real>
+class CallingLaw : public CustomLaw<Real> {
+ public:
+  explicit CallingLaw(const py::object& law)
+      : restitution_(law.attr("restitution")), of_slip_(law.attr("restitution_of_slip")) {}
+  /// A run may let go of it without Python's lock.
+  ~CallingLaw() override {
+    const py::gil_scoped_acquire python;
+    restitution_ = py::none();
+    of_slip_ = py::none();
+  }
+  Real restitution(const Real& approach_speed) const override {
+    const py::gil_scoped_acquire python;
+    return from_python<Real>(restitution_(to_python<Real>(approach_speed)));
+  }
+  Real restitution_of_slip(const Real& normal_change, const Real& slip_speed,
+                           const Real& compliance) const override {
+    const py::gil_scoped_acquire python;
+    return from_python<Real>(
+        of_slip_(to_python<Real>(normal_change), to_python<Real>(slip_speed), to_python<Real>(compliance)));
+  }
+
+ private:
+  py::object restitution_, of_slip_;
+};
+
+template <class Real>
+std::shared_ptr<const CustomLaw<Real>> law_of(const py::object& law) {
+  if (law.is_none()) return nullptr;
+  return std::make_shared<CallingLaw<Real>>(law);
+}
+
+struct Wishes {
+  std::string folder;  ///< of the outputs; none when empty
+  bool events, report;
+  std::vector<py::object> observers;
+  py::object ball_ball, ball_wall, progress;
+};
+
+template <class Real>
+py::dict run_in(Case the_case, const Wishes& wishes) {
+  if (wishes.report) {
+    auto spec = CaseAccess::spec(the_case);
+    report::add_report_outputs(spec);
+    the_case = CaseAccess::make(std::move(spec));
+  }
+  const Laws<Real> laws{law_of<Real>(wishes.ball_ball), law_of<Real>(wishes.ball_wall)};
+  Collector<Real> collector;
+  Pulse<Real> pulse(wishes.progress);
+  std::vector<std::unique_ptr<CallingObserver<Real>>> callables;
+  for (const auto& o : wishes.observers) callables.push_back(std::make_unique<CallingObserver<Real>>(o));
+
+  std::unique_ptr<Run<Real>> run;
+  {
+    const py::gil_scoped_release others;
+    run = std::make_unique<Run<Real>>(the_case, laws);
+    if (!wishes.folder.empty()) run->write_to(wishes.folder);
+    if (wishes.events) run->attach(collector);
+    for (auto& callable : callables) run->attach(*callable);
+    run->attach(pulse);
+    run->finish();
+    if (!wishes.folder.empty()) run->commit();
+    if (wishes.report) {
+      report::write_case(wishes.folder, CaseAccess::spec(the_case), true);
+      report::write_report(wishes.folder);
+    }
+  }
+  py::dict result;
+  result["summary"] = run->summary().json;
+  result["events"] = events_of<Real>(std::move(collector.events));
+  result["states"] = states_of<Real>(*run);
+  result["time"] = to_python<Real>(run->time());
+  result["interrupted"] = pulse.interrupted;
+  return result;
+}
+
+template <class Real>
+void add_scalar(py::module_& m, const std::string& name) {
+  auto impact = py::class_<Impact<Real>>(m, ("Impact_" + name).c_str());
+  for_each_member<Real>([&](const char* title, const auto& which) {
+    impact.def_property_readonly(title, [which](const Impact<Real>& i) { return member<Real>(i, which); });
+  });
+  py::class_<Run<Real>>(m, ("Run_" + name).c_str())
+      .def_property_readonly("time", [](const Run<Real>& run) { return to_python<Real>(run.time()); })
+      .def_property_readonly("ball_count", &Run<Real>::ball_count)
+      .def("ball",
+           [](const Run<Real>& run, int k) {
+             if (k < 0 || k >= run.ball_count()) throw py::index_error("no such ball");
+             const auto s = run.ball(k);
+             return py::make_tuple(to_python<Real>(s.position), to_python<Real>(s.velocity),
+                                   to_python<Real>(s.spin));
+           })
+      .def("stop", &Run<Real>::stop);
+}
+
+py::dict run(const Case& the_case, const std::string& precision, const std::string& folder, bool events,
+             bool report, const std::vector<py::object>& observers, const py::object& ball_ball,
+             const py::object& ball_wall, const py::object& progress) {
+  const Wishes wishes{folder, events, report, observers, ball_ball, ball_wall, progress};
+#define EDMILL_RUN_IN(Real) \
+  if (precision == ScalarName<Real>::value) return run_in<Real>(the_case, wishes);
+  EDMILL_FOR_EACH_SCALAR(EDMILL_RUN_IN)
+#undef EDMILL_RUN_IN
+  throw InputError("precision: found '" + precision +
+                   "', expected double, float128, mpfr50, mpfr100 or mpfr200");
+}
+
+}  // namespace
+
+void add_runs(py::module_& m) {
+  PYBIND11_NUMPY_DTYPE(Impact<double>, index, time, ball, with_wall, partner, normal, approach_speed,
+                       slip_speed, separation_speed, restitution_tangential, normal_impulse,
+                       tangential_impulse, milling_dose, supplied_energy, wall_work);
+  PYBIND11_NUMPY_DTYPE(BallState<double>, position, velocity, spin);
+#define EDMILL_ADD(Real) add_scalar<Real>(m, std::string(ScalarName<Real>::value));
+  EDMILL_FOR_EACH_SCALAR(EDMILL_ADD)
+#undef EDMILL_ADD
+  m.attr("event_dtype") = py::dtype::of<Impact<double>>();
+  m.attr("state_dtype") = py::dtype::of<BallState<double>>();
+  m.def("run", &run);
+}
+
+}  // namespace edmill::python
