@@ -12,6 +12,7 @@
 #include "base/version.hpp"
 #include "cli/audit_command.hpp"
 #include "cli/certify_command.hpp"
+#include "cli/command_texts.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/list_variables.hpp"
 #include "cli/report_command.hpp"
@@ -20,6 +21,7 @@
 #include "cli/run_folder_guard.hpp"
 #include "cli/signals.hpp"
 #include "cli/study_command.hpp"
+#include "report/embedded.hpp"
 
 namespace {
 
@@ -116,6 +118,7 @@ class CommandLine {
         "few data to decide,\n"
         "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
     add_run();
+    add_demo();
     add_resume();
     add_report();
     add_certify();
@@ -125,6 +128,7 @@ class CommandLine {
     add_study("optimize", "search for the largest dose rate within bounds", edmill::cli::run_optimize);
     add_compare();
     add_audit();
+    add_texts();
   }
 
   /// @return the exit code
@@ -169,6 +173,17 @@ class CommandLine {
             ->check(precisions);
     command->add_option("--checkpoint", checkpoint_, every_ + "; never unless given")->excludes(shadow);
     command->add_flag("--report", report_, "write report.html, and the tables that it shows");
+    command->add_flag("--quiet", quiet_, "no progress line and no result table");
+  }
+
+  void add_demo() {
+    auto* command = add("demo", "simulate the demo, 28 balls in a SPEX 8000, with its report", [this] {
+      const auto spec = edmill::casefile::parse_case(std::string(edmill::report::demo_toml), "demo.toml");
+      auto options = run_options(folder_.empty() ? "out/demo" : folder_, quiet_);
+      options.report = true;
+      return edmill::cli::with_signal(edmill::cli::run_and_report(spec.precision, spec, options));
+    });
+    command->add_option("--out", folder_, "folder for the results; out/demo unless given");
     command->add_flag("--quiet", quiet_, "no progress line and no result table");
   }
 
@@ -227,6 +242,17 @@ class CommandLine {
     command->add_option("--jobs", study_.jobs, "runs at a time in each process; all cores unless given")
         ->check(CLI::Range(1, 4096));
     command->add_flag("--quiet", study_.quiet, "no progress line and no report");
+  }
+
+  void add_texts() {
+    add("manual", "print the manual page, edmill(1), for man", [this] {
+      fmt::print("{}", edmill::cli::man_page(app_, edmill::version()));
+      return edmill::cli::ok;
+    });
+    add("completion", "print the completion of these commands for bash", [this] {
+      fmt::print("{}", edmill::cli::bash_completion(app_));
+      return edmill::cli::ok;
+    });
   }
 
   void add_compare() {

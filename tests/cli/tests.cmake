@@ -12,3 +12,4 @@ add_test(NAME disk_full_test COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/disk_full_t
 set_tests_properties(disk_full_test PROPERTIES TIMEOUT 300)
 edmill_test(limits_test cli/limits_test.cpp)
 add_dependencies(limits_test edmill_cli)
+add_test(NAME texts_test COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/texts_test.sh $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/texts)

@@ -23,7 +23,7 @@ def folders(demo, tmp_path):
     made = []
     for seed in (1, 1, 2):
         made.append(tmp_path / f"run_{len(made)}")
-        edmill.run(edmill.Case(demo, [f"run.seed={seed}", 'output=[{type="collisions"}]']), until="3 s", folder=made[-1],
+        edmill.run(edmill.Case(demo, [f"run.seed={seed}", 'output=[{type="collisions", states=true}]']), until="3 s", folder=made[-1],
                    events=False)
     return made
 
