@@ -22,7 +22,7 @@ test_packages=(
   chromium chromium-driver python3-selenium
 )
 
-long_packages=(lammps)
+long_packages=(lammps debootstrap dpkg-dev)
 
 say() { printf '\n== %s\n' "$*"; }
 
