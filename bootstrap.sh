@@ -22,7 +22,7 @@ test_packages=(
   chromium chromium-driver python3-selenium
 )
 
-long_packages=(lammps debootstrap dpkg-dev)
+long_packages=(lammps debootstrap dpkg-dev python3-venv python3-pip)
 
 say() { printf '\n== %s\n' "$*"; }
 

@@ -5,4 +5,6 @@ if(EDMILL_PYTHON)
     set_tests_properties(python_${name} PROPERTIES ENVIRONMENT
       "EDMILL=$<TARGET_FILE:edmill_cli>;PYTHONPATH=${CMAKE_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1")
   endforeach()
+  add_test(NAME python_wheel_test COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/python/wheel_test.sh ${CMAKE_BINARY_DIR}/wheel)
+  set_tests_properties(python_wheel_test PROPERTIES LABELS long TIMEOUT 3600)
 endif()

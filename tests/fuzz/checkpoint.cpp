@@ -1,0 +1,23 @@
+// Checkpoints: the file around the state, with a digest that fits.
+#include "base/digest.hpp"
+#include "base/errors.hpp"
+#include "base/version.hpp"
+#include "input.hpp"
+#include "io/checkpoint_file.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace edmill;
+  std::string program = version(), program_commit = commit();
+  Archive begin;
+  begin(program, program_commit);
+  const auto rest = fuzz::text_of(data, size);
+  for (const auto& body : {begin.bytes() + std::string(rest), std::string(rest)}) {
+    const auto file = fuzz::file_of("edmill checkpoint 1\n" + sha256(body) + "\n" + body, "checkpoint");
+    try {
+      io::read_checkpoint(file.parent_path());
+    } catch (const InputError&) {
+    }
+  }
+  fuzz::file_of(rest, "checkpoint");
+  return 0;
+}

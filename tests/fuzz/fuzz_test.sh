@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Builds the fuzz targets and searches for inputs that break them: SECONDS for each, 60 unless given, two at a time.
+# usage: fuzz_test.sh BUILD [SECONDS]
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+build=$1
+seconds=${2:-60}
+command -v clang++ >/dev/null || {
+  echo "skipped: needs clang"
+  exit 77
+}
+cmake --preset fuzz -B "$build" >/dev/null
+cmake --build "$build" >"$build.log" || {
+  tail -n 30 "$build.log" >&2
+  exit 1
+}
+search() { # target
+  local found=$build/found/$1 log=$build/$1.log
+  mkdir -p "$found/corpus"
+  if "$build/tests/fuzz/fuzz_$1" -seed=20110101 -max_total_time="$seconds" -max_len=8192 -timeout=10 -rss_limit_mb=2048 \
+    -artifact_prefix="$found/" -print_final_stats=1 "$found/corpus" "tests/fuzz/corpus/$1" >"$log" 2>&1; then
+    echo "$1: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, 0 findings"
+  else
+    tail -n 40 "$log" >&2
+    echo "$1: a finding, kept in $found" >&2
+    return 1
+  fi
+}
+export -f search
+export build seconds
+printf '%s\n' case_file study_file quantity collision_log checkpoint sweep_record | xargs -P 2 -I {} bash -c 'search {}'
+rm -rf "${TMPDIR:-/tmp}"/edmill-fuzz-*
