@@ -20,6 +20,7 @@ test_packages=(
   libbenchmark-dev clang clang-format valgrind
   python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-h5py python3-vtk9 view3dscene libxml2-utils
   chromium chromium-driver python3-selenium
+  doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-nbclient python3-ipykernel python3-matplotlib
 )
 
 long_packages=(lammps debootstrap dpkg-dev python3-venv python3-pip)
@@ -42,19 +43,22 @@ install_missing() {
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
-build() { # preset
+build() { # preset [option...]
   say "configuring and building (preset $1); the first time takes a few minutes"
-  cmake --preset "$1" >/dev/null
+  cmake --preset "$@" >/dev/null
   cmake --build --preset "$1"
 }
 
 case "${1:-}" in
   build | demo)
     install_missing "${program_packages[@]}"
-    build release
+    quick=OFF
+    [ "$1" = build ] || quick=ON
+    build release "-DEDMILL_QUICK=$quick"
     if [ "$1" = demo ]; then
       say "running docs/examples/demo.toml: 28 balls, 10 s simulated"
       build/release/edmill run docs/examples/demo.toml
+      say "precisions beyond double are compiled without optimisation so far: ./bootstrap.sh build makes them twice as fast"
     fi
     ;;
   test)

@@ -32,9 +32,18 @@ function(edmill_group room)
   endforeach()
 endfunction()
 
+# Wide scalars are most of the compile time. Without optimisation they compile in half of it and run at half their speed.
+option(EDMILL_QUICK "compile wide scalars without optimisation" OFF)
+if(EDMILL_QUICK)
+  set(edmill_wide_optimisation -O0)
+else()
+  set(edmill_wide_optimisation -O1)
+endif()
+
 # Sources that compile sooner at the price of speed, which MPFR takes nearly all of.
 function(edmill_compile_fast)
   foreach(source ${ARGN})
-    set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/${source} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+    set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/${source} APPEND PROPERTY COMPILE_OPTIONS
+                 $<$<CONFIG:Release>:${edmill_wide_optimisation}>)
   endforeach()
 endfunction()

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "casefile/key.hpp"
 #include "casefile/section.hpp"
 
 namespace edmill::casefile {
@@ -14,7 +15,9 @@ using ReadOutputKeys = void(Section& entry, const CaseSpec& spec, OutputSpec& ou
 struct OutputType {
   std::string_view name;       ///< `type` in a case
   std::string_view extension;  ///< of its file unless the entry names one; ".csv" for tables
+  std::string_view what;       ///< it writes, for readers
   ReadOutputKeys* read;
+  std::span<const KeyText> keys = {};  ///< that `read` looks up
 };
 
 /// Every type of output. The registry of the outputs defines it, and makes outputs from the same rows.

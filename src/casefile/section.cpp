@@ -4,6 +4,9 @@
 #include <cctype>
 #include <sstream>
 
+#include "base/errors.hpp"
+#include "casefile/keys.hpp"
+
 namespace edmill::casefile {
 
 namespace {
@@ -86,6 +89,7 @@ void Document::report(const toml::node* node, const std::string& path, const std
 }
 
 const toml::node* Section::find(const std::string& key) {
+  EDMILL_REQUIRE(is_key(path_, key), "the table of keys has " + full(key));
   known_.insert(key);
   return table_ ? table_->get(key) : nullptr;
 }

@@ -15,6 +15,7 @@
 #include "cli/command_texts.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/list_variables.hpp"
+#include "cli/reference.hpp"
 #include "cli/report_command.hpp"
 #include "cli/resume_command.hpp"
 #include "cli/run_command.hpp"
@@ -110,13 +111,10 @@ class CommandLine {
   CommandLine() {
     app_.set_version_flag("--version", version_text());
     app_.require_subcommand(1);
-    app_.footer(
-        "Exit codes: 0 done, 2 bad input, 3 ended in inelastic collapse, 4 a decision that no scalar could "
-        "make,\n"
-        "5 some runs of a sweep failed, 6 the compared outputs differ or the audited log has violations, 7 "
-        "too "
-        "few data to decide,\n"
-        "130 and 143 interrupted by SIGINT and SIGTERM with the results so far on disk, 1 any other error.");
+    std::string codes = "Exit codes:";
+    for (const auto& row : edmill::cli::exit_codes)
+      codes += fmt::format("\n  {:<9} {}", row.code, row.meaning);
+    app_.footer(codes);
     add_run();
     add_demo();
     add_resume();
@@ -249,6 +247,11 @@ class CommandLine {
       fmt::print("{}", edmill::cli::man_page(app_, edmill::version()));
       return edmill::cli::ok;
     });
+    add("reference", "print the reference of commands, exit codes, keys of files and outputs, as Markdown",
+        [this] {
+          fmt::print("{}", edmill::cli::reference(app_));
+          return edmill::cli::ok;
+        });
     add("completion", "print the completion of these commands for bash", [this] {
       fmt::print("{}", edmill::cli::bash_completion(app_));
       return edmill::cli::ok;

@@ -8,22 +8,10 @@
 #include <string>
 
 #include "casefile/case_spec.hpp"
+#include "cli/exit_codes.hpp"
 #include "io/checkpoint_file.hpp"
 
 namespace edmill::cli {
-
-/// Exit codes of the program; docs/usage.md explains them.
-enum ExitCode : int {
-  ok = 0,
-  internal_error = 1,
-  bad_input = 2,
-  inelastic_collapse = 3,
-  undecided = 4,
-  some_runs_failed = 5,
-  outputs_differ = 6,
-  too_few_data = 7,
-  interrupted = 128,  ///< plus the number of the signal, which the caller adds
-};
 
 struct RunOptions {
   std::string folder;  ///< of the outputs

@@ -10,6 +10,12 @@
 
 namespace edmill::output {
 
+inline constexpr casefile::KeyText animation_keys[] = {
+    {"speed", "number", "0.001", "of playback; 1 is real time"},
+    {"frames_per_minute", "count", "60", "of playback"},
+    {"min_frames", "count", "8", ""},
+    casefile::contact_point_key};
+
 inline void read_animation(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   casefile::read_contact_point(s, output);
   auto& a = output.animation;

@@ -13,6 +13,9 @@ struct StatesKey {
   bool states;
 };
 
+inline constexpr casefile::KeyText states_keys[] = {
+    {"states", "true or false", "false", "also the places and velocities before and after each impact"}};
+
 inline void read_states_key(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   output.own = StatesKey{s.flag("states")};
 }

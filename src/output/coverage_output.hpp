@@ -26,6 +26,12 @@ struct CoverageKeys {
   }
 };
 
+inline constexpr casefile::KeyText coverage_keys[] = {
+    {"angles", "count", "36", "cells about the axis"},
+    {"heights", "count", "24", "cells along the axis"},
+    {"rings", "count", "6", "of equal area on round caps"},
+    {"parts", "count", "12", "along each edge of a rectangle"}};
+
 inline void read_coverage(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   using casefile::read_size;
   output.own = CoverageKeys{read_size(s, "angles", 36), read_size(s, "heights", 24), read_size(s, "rings", 6),

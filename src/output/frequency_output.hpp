@@ -9,6 +9,17 @@
 
 namespace edmill::output {
 
+inline constexpr casefile::KeyText frequency_keys[] = {
+    {"variable", "name", "required", "a number"},
+    {"low", "as the variable", "required", "begin of the first interval"},
+    {"high", "as the variable", "required", "end of the last interval"},
+    {"intervals", "count", "10", "of equal length"},
+    {"label", "text", "the variable's name", "in the header"},
+    {"title", "text", "none", "of the table"},
+    {"wall_details", "true or false", "false", "columns for each wall"},
+    {"percentages", "true or false", "false", "shares"},
+    {"out_of_range", "true or false", "false", "rows below and above the range"}};
+
 inline void read_frequency(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   auto& f = output.frequency;
   const auto variable = casefile::read_variable(s, false, false, true);

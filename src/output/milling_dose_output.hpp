@@ -24,6 +24,11 @@ inline const std::vector<Column>& dose_fields() {
   return fields;
 }
 
+inline constexpr casefile::KeyText milling_dose_keys[] = {
+    {"fields", "list of names", "all",
+     "`milling_dose`, `milling_dose_rate`, `inverse_milling_dose_rate`, `specific_milling_dose`, "
+     "`specific_milling_dose_rate`, `powder_mass`, `charge_ratio`"}};
+
 /// Its own keys are the places of its fields in dose_fields.
 inline void read_milling_dose(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   std::vector<std::string> known;

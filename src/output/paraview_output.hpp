@@ -8,6 +8,8 @@
 
 namespace edmill::output {
 
+inline constexpr casefile::KeyText paraview_keys[] = {casefile::interval_of_10_ms, casefile::max_rows_key};
+
 inline void read_paraview(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   casefile::read_interval(s, output.timer, casefile::Quantity{casefile::Rational(1, 100)});
 }

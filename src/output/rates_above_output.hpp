@@ -12,6 +12,9 @@ namespace edmill::output {
 
 using Cutoffs = std::vector<casefile::Quantity>;  ///< ascending [m/s]
 
+inline constexpr casefile::KeyText rates_above_keys[] = {
+    {"cutoffs", "list of speeds", "0, 1 mm/s, 1 cm/s, 0.1 m/s, 1 m/s", "a row for each"}};
+
 inline void read_rates_above(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   Cutoffs cutoffs;
   if (!s.has("cutoffs")) {

@@ -37,23 +37,56 @@ struct OutputRow : casefile::OutputType {
 };
 
 inline constexpr std::tuple output_registry{
-    OutputRow<CollisionsOutput>{{"collisions", ".csv", read_collisions}},
-    OutputRow<MillingDoseOutput>{{"milling_dose", ".csv", read_milling_dose}},
-    OutputRow<FrequencyOutput>{{"frequency", ".csv", read_frequency}},
-    OutputRow<StatisticsOutput>{{"statistics", ".csv", read_statistics_output}},
-    OutputRow<TrendsOutput>{{"trends", ".csv", read_trends}},
-    OutputRow<TrendsInstantOutput>{{"trends_instant", ".csv", read_trends_instant}},
-    OutputRow<TrendsBallsOutput>{{"trends_balls", ".csv", read_trends_balls}},
-    OutputRow<TraceOutput>{{"trace", ".csv", read_trace}},
-    OutputRow<IterationsOutput>{{"iterations", ".csv", read_iterations}},
-    OutputRow<EventsOutput>{{"events", ".h5", read_events}},
-    OutputRow<SpectraOutput>{{"spectra", ".csv", read_spectra}},
-    OutputRow<RatesAboveOutput>{{"rates_above", ".csv", read_rates_above}},
-    OutputRow<VesselLoadOutput>{{"vessel_load", ".csv", read_vessel_load}},
-    OutputRow<CoverageOutput>{{"coverage", ".csv", read_coverage}},
-    OutputRow<SnapshotOutput>{{"snapshot", ".x3d", read_snapshot}},
-    OutputRow<AnimationOutput>{{"animation", ".x3d", read_animation}},
-    OutputRow<ParaviewOutput>{{"paraview", ".pvd", read_paraview}}};
+    OutputRow<CollisionsOutput>{
+        {"collisions", ".csv", "the log of files.md, a row for each impact", read_collisions, states_keys}},
+    OutputRow<MillingDoseOutput>{{"milling_dose", ".csv",
+                                  "one row: dose, rates and specific doses of the record", read_milling_dose,
+                                  milling_dose_keys}},
+    OutputRow<FrequencyOutput>{{"frequency", ".csv",
+                                "how often a number falls in each of equal intervals, lower <= value < upper",
+                                read_frequency, frequency_keys}},
+    OutputRow<StatisticsOutput>{
+        {"statistics", ".csv",
+         "statistics of flags and numbers, for each wall, all walls, other balls, all impacts",
+         read_statistics_output, casefile::column_keys}},
+    OutputRow<TrendsOutput>{
+        {"trends", ".csv",
+         "statistics of each interval of time, with a last, shorter one if the record ends within it",
+         read_trends, trends_keys}},
+    OutputRow<TrendsInstantOutput>{{"trends_instant", ".csv",
+                                    "values of variables at each impact, or at the first after each interval",
+                                    read_trends_instant, trends_instant_keys}},
+    OutputRow<TrendsBallsOutput>{{"trends_balls", ".csv",
+                                  "statistics over the balls at the end of each interval", read_trends_balls,
+                                  trends_balls_keys}},
+    OutputRow<TraceOutput>{{"trace", ".csv",
+                            "position of one ball at each of its impacts, or at the end of each interval",
+                            read_trace, trace_keys}},
+    OutputRow<IterationsOutput>{{"iterations", ".csv", "all variables of each impact", read_iterations}},
+    OutputRow<EventsOutput>{{"events", ".h5",
+                             "the log as HDF5: `/events` with one dataset per column, and the final state of "
+                             "the balls; 64-bit numbers in every scalar",
+                             read_events, states_keys}},
+    OutputRow<SpectraOutput>{
+        {"spectra", ".csv",
+         "impact energies, normal, tangential and total, or impact speeds, in logarithmic bins", read_spectra,
+         spectra_keys}},
+    OutputRow<RatesAboveOutput>{{"rates_above", ".csv",
+                                 "collision rates and dose rates of the impacts above speed cutoffs",
+                                 read_rates_above, rates_above_keys}},
+    OutputRow<VesselLoadOutput>{
+        {"vessel_load", ".csv",
+         "impulse, force and torque on the vessel, and the power draw, of each interval", read_vessel_load,
+         vessel_load_keys}},
+    OutputRow<CoverageOutput>{{"coverage", ".csv", "dose and impacts by position on the vessel's walls",
+                               read_coverage, coverage_keys}},
+    OutputRow<SnapshotOutput>{{"snapshot", ".x3d", "an X3D page for each impact, `NAME_<index>.x3d`",
+                               read_snapshot, snapshot_keys}},
+    OutputRow<AnimationOutput>{
+        {"animation", ".x3d", "an X3D page that plays the record", read_animation, animation_keys}},
+    OutputRow<ParaviewOutput>{{"paraview", ".pvd",
+                               "`NAME.pvd` and a folder `NAME` with balls and vessel of each frame as VTP",
+                               read_paraview, paraview_keys}}};
 
 /// @throws ContractError when there is no such type
 template <class Real>

@@ -7,6 +7,8 @@
 
 namespace edmill::output {
 
+inline constexpr casefile::KeyText snapshot_keys[] = {casefile::contact_point_key};
+
 /// Of one impact unless told: there is a file for each.
 inline void read_snapshot(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   casefile::read_contact_point(s, output);

@@ -16,6 +16,12 @@ struct SpectraKeys {
   std::uint64_t bins_per_decade = 10;
 };
 
+inline constexpr casefile::KeyText spectra_keys[] = {
+    {"of", "name", "`\"energy\"`", "this or `speed`"},
+    {"low", "energy or speed", "`\"1e-9 J\"`, `\"1 mm/s\"`", "begin of the first bin"},
+    {"high", "energy or speed", "`\"1 J\"`, `\"10 m/s\"`", "end of the last bin"},
+    {"bins_per_decade", "count", "10", ""}};
+
 inline void read_spectra(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   SpectraKeys spectra;
   spectra.of_speed = s.choice("of", {"energy", "speed"}) == "speed";

@@ -11,6 +11,9 @@ struct TraceKeys {
   std::uint64_t ball;
 };
 
+inline constexpr casefile::KeyText trace_keys[] = {
+    casefile::interval_if_given, casefile::max_rows_key, {"ball", "count", "0", "its id"}};
+
 inline void read_trace(casefile::Section& s, const casefile::CaseSpec& spec, casefile::OutputSpec& output) {
   casefile::read_interval(s, output.timer);
   const TraceKeys keys{s.count("ball").value_or(0)};

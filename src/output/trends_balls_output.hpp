@@ -10,6 +10,9 @@
 
 namespace edmill::output {
 
+inline constexpr casefile::KeyText trends_balls_keys[] = {casefile::interval_of_30_s, casefile::max_rows_key,
+                                                          casefile::columns_key};
+
 inline void read_trends_balls(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   casefile::read_interval(s, output.timer, casefile::Quantity{30});
   using enum casefile::Statistic;

@@ -6,6 +6,9 @@
 
 namespace edmill::output {
 
+inline constexpr casefile::KeyText trends_instant_keys[] = {casefile::interval_if_given,
+                                                            casefile::max_rows_key, casefile::columns_key};
+
 inline void read_trends_instant(casefile::Section& s, const casefile::CaseSpec&,
                                 casefile::OutputSpec& output) {
   casefile::read_interval(s, output.timer);

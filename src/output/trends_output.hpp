@@ -7,6 +7,12 @@
 
 namespace edmill::output {
 
+inline constexpr casefile::KeyText trends_keys[] = {
+    casefile::interval_of_30_s,
+    casefile::max_rows_key,
+    {"accumulated", "true or false", "false", "from the start of the record in place of the interval"},
+    casefile::columns_key};
+
 inline void read_trends(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   casefile::read_interval(s, output.timer, casefile::Quantity{30});
   if (!output.timer.max_rows) output.timer.max_rows = 32000;

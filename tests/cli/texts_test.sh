@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the program says of itself: the manual page, the completion of bash, and the demo that needs no file.
+# What the program says of itself: the manual page, the completion of bash, the reference, and the demo that needs no file.
 # usage: texts_test.sh EDMILL FOLDER
 set -euo pipefail
 edmill=$1
@@ -32,6 +32,9 @@ for command in $commands; do
     [ "${COMPREPLY[0]:-}" = "$option" ] || fail "bash does not complete $command $option"
   done
 done
+
+"$edmill" reference >reference.md
+diff "$source_folder/docs/reference.md" reference.md || fail "docs/reference.md is not what 'edmill reference' prints"
 
 "$edmill" demo --quiet --out demo
 "$edmill" run "$source_folder/docs/examples/demo.toml" --quiet --out run

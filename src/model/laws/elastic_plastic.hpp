@@ -21,8 +21,17 @@ struct ElasticPlastic {
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
-    visit(LawParameter{"effective_modulus", 0, 0, {}, Dimension::pressure}, law.modulus);
-    visit(LawParameter{"yield_pressure", 0, 0, {}, Dimension::pressure}, law.yield_pressure);
+    visit(LawParameter{"effective_modulus",
+                       "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j",
+                       0,
+                       0,
+                       {},
+                       Dimension::pressure},
+          law.modulus);
+    visit(
+        LawParameter{
+            "yield_pressure", "contact pressure at which yielding begins", 0, 0, {}, Dimension::pressure},
+        law.yield_pressure);
     law.slip.parameters(law.slip, visit);
   }
 

@@ -24,7 +24,8 @@ struct PowderLoad {
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
-    visit(LawParameter{"charge_ratio", 2.5, 10}, law.charge_ratio);
+    visit(LawParameter{"charge_ratio", "mass of the balls over that of the powder", 2.5, 10},
+          law.charge_ratio);
     law.slip.parameters(law.slip, visit);
   }
 

@@ -20,8 +20,8 @@ struct RestitutionBySpeed {
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
     for (auto& point : law.points) {
-      visit(LawParameter{"speed", 0, 0, {}, Dimension::speed}, point[0]);
-      visit(LawParameter{"restitution", 0, 1}, point[1]);
+      visit(LawParameter{"speed", "of a point", 0, 0, {}, Dimension::speed}, point[0]);
+      visit(LawParameter{"restitution", "of a point", 0, 1}, point[1]);
     }
     law.slip.parameters(law.slip, visit);
   }

@@ -22,8 +22,15 @@ struct Viscoelastic {
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
-    visit(LawParameter{"effective_modulus", 0, 0, {}, Dimension::pressure}, law.modulus);
-    visit(LawParameter{"dissipative_time", 0, 0, {}, Dimension::time}, law.dissipative_time);
+    visit(LawParameter{"effective_modulus",
+                       "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j",
+                       0,
+                       0,
+                       {},
+                       Dimension::pressure},
+          law.modulus);
+    visit(LawParameter{"dissipative_time", "A of the dissipative force", 0, 0, {}, Dimension::time},
+          law.dissipative_time);
     law.slip.parameters(law.slip, visit);
   }
 

@@ -25,13 +25,13 @@ struct Chain {
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
     for (auto& joint : part.given.list) {
-      visit(PartParameter{joint.rotates ? "rotate" : "translate", Dimension::none}, joint.axis);
-      visit(PartParameter{"shift", Dimension::length}, joint.shift);
-      visit(PartParameter{"angle", Dimension::angle}, joint.angle);
-      visit(PartParameter{"speed", Dimension::angular_speed}, joint.frequency);
+      visit(PartParameter{joint.rotates ? "rotate" : "translate", Dimension::none, ""}, joint.axis);
+      visit(PartParameter{"shift", Dimension::length, ""}, joint.shift);
+      visit(PartParameter{"angle", Dimension::angle, ""}, joint.angle);
+      visit(PartParameter{"speed", Dimension::angular_speed, ""}, joint.frequency);
       for (auto& swing : joint.swings)
         for (auto* number : {&swing.amplitude, &swing.frequency, &swing.phase})
-          visit(PartParameter{"swing", Dimension::none}, *number);
+          visit(PartParameter{"swing", Dimension::none, ""}, *number);
     }
   }
   Joints<Number> joints() const { return given; }
@@ -47,9 +47,13 @@ struct Planetary {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"radius", Dimension::length, Range::positive}, part.radius);
-    visit(PartParameter{"speed", Dimension::angular_speed, Range::drive}, part.period);
-    visit(PartParameter{"ratio", Dimension::none}, part.ratio);
+    visit(
+        PartParameter{"radius", Dimension::length, "of the disc, to the centre of the jar", Range::positive},
+        part.radius);
+    visit(PartParameter{"speed", Dimension::angular_speed, "of the disc, about Y", Range::drive},
+          part.period);
+    visit(PartParameter{"ratio", Dimension::none, "speed of the jar against the disc over that of the disc"},
+          part.ratio);
   }
   Joints<Number> joints() const {
     auto disc = axis_joint<Number>(true, 1), arm = axis_joint<Number>(false, 0),
@@ -69,7 +73,9 @@ struct Drum {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"speed", Dimension::angular_speed, Range::drive}, part.period);
+    visit(PartParameter{"speed", Dimension::angular_speed,
+                        "of the drum, about its y axis, horizontal along Z", Range::drive},
+          part.period);
   }
   Joints<Number> joints() const {
     auto lying = axis_joint<Number>(true, 0), turning = axis_joint<Number>(true, 1);
@@ -89,9 +95,11 @@ struct Vibratory {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"amplitude", Dimension::length}, part.amplitude);
-    visit(PartParameter{"amplitude_quarter", Dimension::length, Range::any, "0 m"}, part.quarter);
-    visit(PartParameter{"speed", Dimension::angular_speed, Range::drive}, part.period);
+    visit(PartParameter{"amplitude", Dimension::length,
+                        "A of A sin(w t) + B cos(w t), the place of the centre"},
+          part.amplitude);
+    visit(PartParameter{"amplitude_quarter", Dimension::length, "B of it", Range::any, "0 m"}, part.quarter);
+    visit(PartParameter{"speed", Dimension::angular_speed, "of the drive", Range::drive}, part.period);
   }
   Joints<Number> joints() const {
     Joints<Number> chain{{}, period};

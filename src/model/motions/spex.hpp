@@ -171,10 +171,18 @@ struct Spex8000 {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"arm", Dimension::length, Range::not_negative, "100 mm"}, part.arm);
-    visit(PartParameter{"theta_max", Dimension::angle, Range::quarter_turn, "15 deg"}, part.theta_max);
-    visit(PartParameter{"gamma_max", Dimension::angle, Range::quarter_turn, "15 deg"}, part.gamma_max);
-    visit(PartParameter{"speed", Dimension::angular_speed, Range::drive, "1098 rpm"}, part.period);
+    visit(PartParameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
+                        Range::not_negative, "100 mm"},
+          part.arm);
+    visit(PartParameter{"theta_max", Dimension::angle, "amplitude of the swing of the arm, thesis (2.9)",
+                        Range::quarter_turn, "15 deg"},
+          part.theta_max);
+    visit(
+        PartParameter{"gamma_max", Dimension::angle, "amplitude of the rotation about the arm, thesis (2.9)",
+                      Range::quarter_turn, "15 deg"},
+        part.gamma_max);
+    visit(PartParameter{"speed", Dimension::angular_speed, "of the drive", Range::drive, "1098 rpm"},
+          part.period);
   }
   SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
 };
@@ -188,10 +196,15 @@ struct Spex2d {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"arm", Dimension::length, Range::not_negative, "100 mm"}, part.arm);
-    visit(PartParameter{"theta_max", Dimension::angle, Range::quarter_turn, "15 deg"}, part.theta_max);
-    visit(PartParameter{nullptr, Dimension::angle, Range::any, "0 rad"}, part.gamma_max);
-    visit(PartParameter{"speed", Dimension::angular_speed, Range::drive, "1098 rpm"}, part.period);
+    visit(PartParameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
+                        Range::not_negative, "100 mm"},
+          part.arm);
+    visit(PartParameter{"theta_max", Dimension::angle, "amplitude of the swing of the arm, thesis (2.9)",
+                        Range::quarter_turn, "15 deg"},
+          part.theta_max);
+    visit(PartParameter{nullptr, Dimension::angle, "", Range::any, "0 rad"}, part.gamma_max);
+    visit(PartParameter{"speed", Dimension::angular_speed, "of the drive", Range::drive, "1098 rpm"},
+          part.period);
   }
   SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
 };
@@ -204,10 +217,12 @@ struct StillMill {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"arm", Dimension::length, Range::not_negative, "0 m"}, part.arm);
-    visit(PartParameter{nullptr, Dimension::angle, Range::any, "0 rad"}, part.theta_max);
-    visit(PartParameter{nullptr, Dimension::angle, Range::any, "0 rad"}, part.gamma_max);
-    visit(PartParameter{nullptr, Dimension::time, Range::positive, "0.0625 s"}, part.period);
+    visit(PartParameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
+                        Range::not_negative, "0 m"},
+          part.arm);
+    visit(PartParameter{nullptr, Dimension::angle, "", Range::any, "0 rad"}, part.theta_max);
+    visit(PartParameter{nullptr, Dimension::angle, "", Range::any, "0 rad"}, part.gamma_max);
+    visit(PartParameter{nullptr, Dimension::time, "", Range::positive, "0.0625 s"}, part.period);
   }
   SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
 };

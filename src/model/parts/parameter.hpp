@@ -12,6 +12,7 @@ namespace edmill::model {
 /// A number without unit in [low, high], or a positive quantity, of a contact law.
 struct LawParameter {
   const char* key;
+  const char* meaning;
   double low, high;
   std::optional<int> fallback = std::nullopt;  ///< of a parameter that may be left out
   Dimension dimension = Dimension::none;
@@ -29,6 +30,7 @@ enum class Range {
 struct PartParameter {
   const char* key;  ///< null for a constant, which a file does not give
   Dimension dimension;
+  const char* meaning;
   Range range = Range::any;
   const char* fallback = nullptr;  ///< as in a file; null for one that must be given
 };

@@ -277,9 +277,9 @@ struct Polyhedron {
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
     for (auto& face : part.faces) {
-      visit(PartParameter{"normal", Dimension::none}, face.normal);
-      visit(PartParameter{"point", Dimension::length}, face.point);
-      visit(PartParameter{"distance", Dimension::length}, face.distance);
+      visit(PartParameter{"normal", Dimension::none, ""}, face.normal);
+      visit(PartParameter{"point", Dimension::length, ""}, face.point);
+      visit(PartParameter{"distance", Dimension::length, ""}, face.distance);
     }
   }
   std::vector<typename PolyhedronVessel<Number>::Plane> planes() const {

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Makes the manual; warnings are errors.
+# usage: make.sh FOLDER
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+folder=$1
+rm -rf "$folder"
+mkdir -p "$folder/doxygen"
+(
+  cd "$root"
+  cat docs/sphinx/Doxyfile
+  printf 'INPUT = %s/include/edmill\nOUTPUT_DIRECTORY = %s/doxygen\n' "$root" "$folder"
+) | doxygen - 2>"$folder/doxygen.log"
+if [ -s "$folder/doxygen.log" ]; then
+  cat "$folder/doxygen.log" >&2
+  exit 1
+fi
+EDMILL_DOXYGEN_XML=$folder/doxygen/xml sphinx-build -q -W --keep-going -c "$root/docs/sphinx" "$root/docs" "$folder/html"
+echo "the manual is $folder/html/index.html"

@@ -1,0 +1,327 @@
+#include "casefile/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <type_traits>
+#include <utility>
+
+#include "casefile/case_spec.hpp"
+#include "casefile/output_entry.hpp"
+#include "casefile/parts.hpp"
+#include "casefile/quantity.hpp"
+
+namespace edmill::casefile {
+
+namespace {
+
+struct FixedKey {
+  std::string_view section, name, kind, fallback, meaning, of = "";
+};
+
+// clang-format off
+constexpr FixedKey fixed_keys[] = {
+    {"run", "end_time", "time", "none", "the run ends here; at least one of the stop rules `end_time`, `max_collisions`, `max_milling_dose`, `max_ball_speed` is required, the first that is met ends the run"},
+    {"run", "max_collisions", "count", "none", "the run ends after so many impacts"},
+    {"run", "max_milling_dose", "energy", "none", "the run ends when so much has been dissipated since `start_time`"},
+    {"run", "max_ball_speed", "speed", "none", "the run ends when a ball is faster after an impact"},
+    {"run", "start_time", "time", "`initial_time`", "statistics begin here"},
+    {"run", "initial_time", "time", "`\"0 s\"`", "instant of the initial state"},
+    {"run", "precision", "name of a scalar", "`\"double\"`", "`double`, `float128`, `mpfr50`, `mpfr100` or `mpfr200`"},
+    {"run", "seed", "count", "1", "of the random placement"},
+    {"run", "gravity", "acceleration, or a vector", "none", "along -Y when it is one number"},
+    {"run", "initial_state", "file", "none", "a `final_state.csv` to start from, relative to the case file; the properties of the balls stay those of the case"},
+
+    {"mill", "type", "name", "`\"spex8000\"`", "how the vessel moves"},
+    {"mill", "joint", "tables", "required", "from the ground to the vessel, any number of entries `[[mill.joint]]`", "chain"},
+    {"mill.joint", "rotate", "axis", "this or `translate`", "`\"x\"`, `\"y\"`, `\"z\"` or three numbers: the axis in the frame of the joint before"},
+    {"mill.joint", "translate", "axis or three lengths", "this or `rotate`", "along an axis, or by a constant shift"},
+    {"mill.joint", "angle", "angle", "`\"0 deg\"`", "constant part of a rotation"},
+    {"mill.joint", "speed", "angular speed", "`\"0 rpm\"`", "of a rotation; joints need no common period"},
+    {"mill.joint", "distance", "length", "`\"0 m\"`", "constant part of a translation along an axis"},
+    {"mill.joint", "swing", "tables", "none", "harmonic parts, amplitude sin(speed t + phase)"},
+    {"mill.joint.swing", "amplitude", "angle or length", "required", "as the joint rotates or translates"},
+    {"mill.joint.swing", "speed", "angular speed", "required", "2 pi times the frequency"},
+    {"mill.joint.swing", "phase", "angle", "`\"0 deg\"`", "at the time 0"},
+
+    {"vessel", "type", "name", "`\"cylinder\"`", "shape of the inside; its y axis is the axis of round vessels"},
+    {"vessel", "plane", "tables", "this or `vertex`", "entries `[[vessel.plane]]`, one for each wall", "polyhedron"},
+    {"vessel", "vertex", "tables", "this or `plane`", "entries `[[vessel.vertex]]`, the corners of a convex vessel", "polyhedron"},
+    {"vessel", "colour", "colour", "yellow", "in pictures: a name, three integers up to 255 or three decimals up to 1"},
+    {"vessel", "material", "name", "none", "of all walls"},
+    {"vessel", "materials", "table", "none", "by wall, `[vessel.materials]`"},
+    {"vessel", "piston", "tables", "none", "flat walls that move, entries `[[vessel.piston]]`"},
+    {"vessel.plane", "normal", "three numbers", "required", "outward, of any length"},
+    {"vessel.plane", "distance", "length", "required", "from the vessel's origin, which is inside"},
+    {"vessel.vertex", "at", "three lengths", "required", "in the vessel frame"},
+    {"vessel.materials", "*", "name", "`vessel.material`", "the key is a wall by its label or its number: `\"cap +y\"`, `wall_1`"},
+    {"vessel.piston", "wall", "name", "required", "a flat wall by its label or its number: `\"cap -y\"`, `wall_0`"},
+    {"vessel.piston", "distance", "length", "`\"0 m\"`", "inward of the wall's place at the time 0"},
+    {"vessel.piston", "speed", "speed", "`\"0 m/s\"`", "inward; needs `run.end_time`"},
+    {"vessel.piston", "swing", "tables", "none", "harmonic parts, amplitude sin(speed t + phase)"},
+    {"vessel.piston.swing", "amplitude", "length", "required", "inward"},
+    {"vessel.piston.swing", "speed", "angular speed", "required", "2 pi times the frequency"},
+    {"vessel.piston.swing", "phase", "angle", "`\"0 deg\"`", "at the time 0"},
+
+    {"material", "name", "text", "required", "by which balls, walls and pairs name it"},
+    {"material", "density", "density", "none", "required for a material of balls"},
+
+    {"contact", "model", "name", "`\"walton-braun\"`", "the contact law"},
+    {"contact", "restitution_normal", "number", "none", "another name of `restitution`", "walton-braun, constant"},
+    {"contact", "restitution_by_speed", "list of pairs", "required", "points `[[\"0.1 m/s\", 0.9], [\"3 m/s\", 0.6]]`; straight lines between, constant beyond", "restitution-by-speed"},
+    {"contact", "least_separation", "speed", "`\"1 cm/s\"`", "bodies do not separate more slowly after an impact; `\"0 m/s\"` is the exact model, which ends at a Zeno point"},
+    {"contact", "ball_ball", "table", "none", "keys that override those of `[contact]` between balls"},
+    {"contact", "ball_wall", "table", "none", "keys that override those of `[contact]` at walls"},
+    {"contact", "pair", "tables", "none", "keys that override those of `[contact]` between two materials, entries `[[contact.pair]]`"},
+    {"contact.pair", "materials", "two names", "required", "beside these, all keys of `[contact]` that describe a law"},
+
+    {"powder", "mass", "mass", "required", "for the charge ratio and the specific dose"},
+
+    {"balls", "count", "count", "1", "of balls that are placed at random"},
+    {"balls", "diameter", "length", "required", ""},
+    {"balls", "diameter_spread", "length", "`\"0 m\"`", "diameters are uniform within so much of `diameter`, on either side"},
+    {"balls", "density", "density", "`\"8 g/cm3\"`", "this or a material that has one"},
+    {"balls", "material", "name", "none", "of a `[[material]]`"},
+    {"balls", "reduced_inertia", "number", "0.4", "moment of inertia over m R^2; 0.4 of a solid sphere"},
+    {"balls", "velocity", "three speeds", "at rest", "of each ball of the batch"},
+    {"balls", "random_speed", "speed", "none", "each velocity has this size and a random direction, in place of `velocity`"},
+    {"balls", "gap_ball", "length", "`\"1 mm\"`", "least distance to other balls"},
+    {"balls", "gap_wall", "length", "`\"1 mm\"`", "least distance to walls"},
+    {"balls", "max_relocations", "count", "100000", "attempts to place a ball"},
+    {"balls", "colour", "colour", "blue", "in pictures"},
+
+    {"ball", "diameter", "length", "required", ""},
+    {"ball", "position", "three lengths", "required", "of the centre, in the inertial frame; not needed with `run.initial_state`"},
+    {"ball", "velocity", "three speeds", "at rest", "in the inertial frame"},
+    {"ball", "spin", "three angular speeds", "none", "in the inertial frame"},
+    {"ball", "density", "density", "`\"8 g/cm3\"`", "this or a material that has one"},
+    {"ball", "material", "name", "none", "of a `[[material]]`"},
+    {"ball", "reduced_inertia", "number", "0.4", "moment of inertia over m R^2"},
+    {"ball", "colour", "colour", "blue", "in pictures"},
+
+    {"output", "type", "name", "required", "which table or picture"},
+    {"output", "file", "text", "type and extension", "a plain name; a table whose name ends in `.h5` is written as HDF5"},
+    {"output", "folder", "text", "the run's folder", "inside the run's folder; created if absent"},
+    {"output", "append", "true or false", "false", "of CSV: keep the content of the file and add to it; outputs that all append can share a file"},
+    {"output", "on", "true or false", "true", "false leaves the table empty"},
+    {"output", "start_time", "time", "the start of the run", "the record begins at this time or at `start_collision`, whichever is earlier"},
+    {"output", "start_collision", "count", "none", "index of an impact, from 0"},
+    {"output", "end_time", "time", "the end of the run", "the record ends at this time, after `duration` or after `collisions`, whichever is earliest"},
+    {"output", "duration", "time", "none", "of the record"},
+    {"output", "collisions", "count", "none", "number of impacts in the record, with those that `only` excludes"},
+    {"output", "only", "table", "all impacts", "only impacts with these values of flags and counts"},
+    {"output.only", "*", "true, false or count", "", "the key is a flag or a count"},
+    {"output.columns", "variable", "name", "required", "a variable; of `trends_balls` a quantity of a ball"},
+    {"output.columns", "statistics", "list of names", "required", "`sum`, `average`, `minimum`, `maximum`, `rate` (per second), `percentage` (of the total's sum); of flags `sum`, `rate` and `percentage`. Not of `trends_instant`"},
+    {"output.columns", "label", "text", "the variable's name", "in the table's header"},
+    {"output.columns", "true_text", "text", "`\"1\"`", "for a flag that is true", "trends_instant"},
+    {"output.columns", "false_text", "text", "`\"0\"`", "for a flag that is false", "trends_instant"},
+    {"output.columns", "with_ball", "true or false", "false", "also which ball has the minimum or maximum", "trends_balls"},
+    {"output.contact_point", "radius", "length", "`\"1 mm\"`", "of the sphere that marks it"},
+    {"output.contact_point", "colour", "colour", "yellow", "of the sphere that marks it"},
+
+    {"audit", "columns", "table", "none", "names of columns in the other code's log, `[audit.columns]`"},
+    {"audit", "tolerance", "number", "1e-9", "relative"},
+    {"audit", "gap_tolerance", "length", "by rounding", "largest gap or overlap of bodies in contact"},
+    {"audit", "first_ball", "count", "0", "number of the log's first ball"},
+    {"audit", "walls", "text", "those of edmill", "numbers of the walls by id: `\"1, 2, 3\"`"},
+    {"audit", "from_start", "true or false", "false", "the log begins at the initial state of the case"},
+    {"audit.columns", "*", "text", "the same name", "ours = theirs, with a unit in brackets: `approach_speed = \"vn [mm/s]\"`"},
+
+    {"sweep", "case", "file", "required", "relative to the sweep file"},
+    {"sweep", "precision", "name of a scalar", "that of the case", "of all runs"},
+    {"sweep", "seed", "count", "1", "the first of the seeds"},
+    {"sweep", "replicas", "count", "1", "runs of each point, with successive seeds"},
+    {"sweep", "grid", "table", "none", "every combination of the values, `[sweep.grid]`"},
+    {"sweep", "point", "tables", "none", "single points, each with all of the grid, entries `[[sweep.point]]`"},
+    {"sweep.grid", "*", "list of values", "", "the key is one of the case, as `--set` takes it, or `charge_ratio`"},
+    {"sweep.point", "name", "text", "none", "of the point in the tables"},
+    {"sweep.point", "set", "table", "required", "keys of the case with their values"},
+    {"sweep.point.set", "*", "value", "", "the key is one of the case"},
+
+    {"optimize", "case", "file", "required", "relative to the optimisation file"},
+    {"optimize", "precision", "name of a scalar", "that of the case", "of all runs"},
+    {"optimize", "seed", "count", "1", "the first of the seeds"},
+    {"optimize", "objective", "name", "`\"specific_milling_dose_rate\"`", "this or `milling_dose_rate`"},
+    {"optimize", "runs_max", "count", "required", "the whole budget"},
+    {"optimize", "replicas_first", "count", "3", "runs of every point"},
+    {"optimize", "replicas_max", "count", "24", "runs of a point that may be the best"},
+    {"optimize", "points", "count", "5", "of the first grid along each variable"},
+    {"optimize", "refinements", "count", "2", "finer grids around the best point"},
+    {"optimize", "variable", "tables", "required", "one to three entries `[[optimize.variable]]`"},
+    {"optimize.variable", "key", "text", "required", "a key of the case, or `charge_ratio`"},
+    {"optimize.variable", "low", "value", "required without `values`", "lower bound"},
+    {"optimize.variable", "high", "value", "required without `values`", "upper bound"},
+    {"optimize.variable", "integer", "true or false", "false", "whole numbers only"},
+    {"optimize.variable", "values", "list of values", "none", "the only values, in place of bounds"},
+};
+
+constexpr SectionText texts[] = {
+    {"run", "[run]", "Begin and end of the run, its scalar, gravity."},
+    {"mill", "[mill]", "How the vessel moves."},
+    {"mill.joint", "[[mill.joint]]", "Joints of a chain."},
+    {"mill.joint.swing", "swing of [[mill.joint]]", "A list of tables: `swing = [{ amplitude = \"5 mm\", speed = \"1500 rpm\" }]`."},
+    {"vessel", "[vessel]", "Shape, walls and materials of the vessel, inside."},
+    {"vessel.plane", "[[vessel.plane]]", "Walls of a polyhedron."},
+    {"vessel.vertex", "[[vessel.vertex]]", "Corners of a polyhedron."},
+    {"vessel.materials", "[vessel.materials]", "Materials of single walls."},
+    {"vessel.piston", "[[vessel.piston]]", "A wall that stands inward of its place by distance + speed t + swings."},
+    {"vessel.piston.swing", "swing of [[vessel.piston]]", "A list of tables."},
+    {"material", "[[material]]", "Materials of balls and walls."},
+    {"contact", "[contact]", "The contact law. `[contact.ball_ball]`, `[contact.ball_wall]` and `[[contact.pair]]` take the same keys but for the last three."},
+    {"contact.pair", "[[contact.pair]]", "A law for two materials."},
+    {"powder", "[powder]", "Powder that the balls mill."},
+    {"balls", "[[balls]]", "Batches of balls, placed at random after the single balls."},
+    {"ball", "[[ball]]", "Single balls."},
+    {"output", "[[output]]", "Tables and pictures that the run writes."},
+    {"output.only", "only of [[output]]", "`only = { ball_ball = false, partner = 1 }`"},
+    {"output.columns", "columns of [[output]]", "A list of tables, one for each column."},
+    {"output.contact_point", "contact_point of [[output]]", "A table."},
+    {"audit", "[audit]", "How `edmill audit` reads another code's log."},
+    {"audit.columns", "[audit.columns]", "Names of columns."},
+    {"sweep", "[sweep]", "Of a sweep file."},
+    {"sweep.grid", "[sweep.grid]", "Values of keys."},
+    {"sweep.point", "[[sweep.point]]", "Single points."},
+    {"sweep.point.set", "set of [[sweep.point]]", "A table."},
+    {"optimize", "[optimize]", "Of an optimisation file."},
+    {"optimize.variable", "[[optimize.variable]]", "What is varied."},
+};
+// clang-format on
+
+std::string kind_of(Dimension dimension) {
+  const auto text = describe(dimension);  // "a length with a unit (m, ...)"
+  if (dimension == Dimension::none) return "number";
+  const auto from = text.find(' ') + 1;
+  return text.substr(from, std::min(text.find(" with"), text.find(" (")) - from);
+}
+
+class Table {
+ public:
+  Table() {
+    for (const auto& section : texts) {
+      const std::string name(section.name);
+      // What chooses a type comes before the keys of the types.
+      add_fixed(name, true);
+      if (name == "mill") add_parts<MotionSpec>(name);
+      if (name == "vessel") add_parts<VesselSpec>(name);
+      if (name == "contact") add_laws();
+      add_fixed(name, false);
+      if (name == "output") add_outputs();
+    }
+    for (const auto& text : texts)
+      if (text.name.find('.') == std::string_view::npos) names_.insert("." + std::string(text.name));
+    for (const auto& key : rows_) names_.insert(key.section + "." + key.name);
+  }
+
+  const std::vector<Key>& rows() const { return rows_; }
+  bool has(const std::string& section, const std::string& name) const {
+    return names_.contains(section + "." + name) || names_.contains(section + ".*");
+  }
+
+ private:
+  void add_fixed(const std::string& section, bool choice) {
+    for (const auto& k : fixed_keys)
+      if (k.section == section && (k.name == "type" || k.name == "model") == choice)
+        rows_.push_back({section, std::string(k.of), std::string(k.name), std::string(k.kind),
+                         std::string(k.fallback), std::string(k.meaning)});
+  }
+
+  /// A parameter that several types have in the same sense is one row.
+  void add(Key key) {
+    for (auto& row : rows_) {
+      if (row.section != key.section || row.name != key.name || row.kind != key.kind ||
+          row.fallback != key.fallback || row.meaning != key.meaning || row.of.empty())
+        continue;
+      if (row.of.find(key.of) == std::string::npos) row.of += ", " + key.of;
+      return;
+    }
+    rows_.push_back(std::move(key));
+  }
+
+  template <class Variant>
+  void add_parts(const std::string& section) {
+    [&]<std::size_t... kind>(std::index_sequence<kind...>) {
+      (add_part<std::variant_alternative_t<kind, Variant>>(section), ...);
+    }
+    (std::make_index_sequence<std::variant_size_v<Variant>>{});
+  }
+  template <class Part>
+  void add_part(const std::string& section) {
+    if constexpr (
+        requires(Part part) { part.given; } || requires(Part part) { part.faces; })
+      return;
+    Part part{};
+    const auto row = [&](const model::PartParameter& p, const auto& value) {
+      if (!p.key) return;
+      const bool vector = !std::is_same_v<std::decay_t<decltype(value)>, Quantity>;
+      const auto kind = kind_of(p.dimension);
+      add({section, Part::name, p.key, vector ? "three " + kind + "s" : kind,
+           p.fallback ? fmt::format("`\"{}\"`", p.fallback) : "required", p.meaning});
+    };
+    Part::parameters(part, row);
+  }
+
+  void add_laws() {
+    using Laws = model::NamedLaws<Quantity>;
+    [&]<std::size_t... kind>(std::index_sequence<kind...>) {
+      (add_law(std::variant_alternative_t<kind, Laws>{}), ...);
+    }
+    (std::make_index_sequence<std::variant_size_v<Laws>>{});
+  }
+  void add_law(const auto& law) {
+    law.parameters(law, [&](const model::LawParameter& p, const Quantity&) { add_law_key(p, law.name); });
+  }
+  void add_law_key(const model::LawParameter& p, const char* law) {
+    add({"contact", law, p.key, kind_of(p.dimension),
+         p.fallback                                  ? std::to_string(*p.fallback)
+         : p.key == std::string_view("charge_ratio") ? "that of the case"
+                                                     : "required",
+         p.meaning});
+  }
+
+  void add_outputs() {
+    for (const auto& type : output_types())
+      for (const auto& k : type.keys)
+        add({"output", std::string(type.name), std::string(k.name), std::string(k.kind),
+             std::string(k.fallback), std::string(k.meaning)});
+  }
+
+  std::vector<Key> rows_;
+  std::set<std::string> names_;
+};
+
+const Table& table() {
+  static const Table table;
+  return table;
+}
+
+/// "output.0.columns.1" is a section "output.columns".
+std::string section_of(const std::string& path) {
+  std::string section;
+  std::istringstream parts(path);
+  for (std::string part; std::getline(parts, part, '.');)
+    if (part.find_first_not_of("0123456789") != std::string::npos)
+      section += (section.empty() ? "" : ".") + part;
+  return section;
+}
+
+}  // namespace
+
+const std::vector<SectionText>& section_texts() {
+  static const std::vector<SectionText> list(std::begin(texts), std::end(texts));
+  return list;
+}
+
+const std::vector<Key>& keys() { return table().rows(); }
+
+bool is_key(const std::string& path, const std::string& name) {
+  const auto section = section_of(path);
+  if (table().has(section, name)) return true;
+  const bool law =
+      section == "contact.ball_ball" || section == "contact.ball_wall" || section == "contact.pair";
+  return law && table().has("contact", name);
+}
+
+}  // namespace edmill::casefile

@@ -1,0 +1,42 @@
+// The exit codes of the program, for itself and for readers.
+#pragma once
+
+#include <string_view>
+
+namespace edmill::cli {
+
+enum ExitCode : int {
+  ok = 0,
+  internal_error = 1,
+  bad_input = 2,
+  inelastic_collapse = 3,
+  undecided = 4,
+  some_runs_failed = 5,
+  outputs_differ = 6,
+  too_few_data = 7,
+  interrupted = 128,  ///< plus the number of the signal, which the caller adds
+};
+
+struct ExitCodeText {
+  std::string_view code, meaning;
+};
+
+inline constexpr ExitCodeText exit_codes[] = {
+    {"0", "done"},
+    {"1", "any other error, e.g. a full disk"},
+    {"2", "bad input: each problem is one line with file, line, key, what was found and what was expected"},
+    {"3", "the run ended in inelastic collapse; its results are on disk"},
+    {"4",
+     "a decision that no scalar could make; the message reproduces it, the results so far are on disk. "
+     "certify: the widest two scalars do not agree on that many events or digits, or a rule and not the "
+     "equations orders two simultaneous contacts"},
+    {"5", "some runs of a sweep or an optimisation failed; the tables say which and why"},
+    {"6",
+     "compare: a quantity differs, or fewer events agree than --events requires. audit: the log violates "
+     "the physics of the case"},
+    {"7", "compare: too few data to decide. audit: no events, or no columns that could be checked"},
+    {"130, 143",
+     "interrupted by SIGINT or SIGTERM; the results so far are on disk, unless it came before the first "
+     "event"}};
+
+}  // namespace edmill::cli
