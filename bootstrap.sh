@@ -4,6 +4,7 @@
 #   ./bootstrap.sh demo    install what is missing, build, run the demo case
 #   ./bootstrap.sh test    install what is missing, build with tests, run all but the long studies
 #   ./bootstrap.sh verify  the same set-up and LAMMPS, then the long studies
+#   ./bootstrap.sh analyse the same set-up, then clang-tidy, and the tests with the checks of the standard library
 #   ./bootstrap.sh build   install what is missing, build the program: build/release/edmill
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -73,8 +74,18 @@ case "${1:-}" in
     say "running the long studies"
     ctest --preset verify
     ;;
+  analyse)
+    install_missing "${program_packages[@]}" "${test_packages[@]}" clang-tidy
+    say "clang-tidy; .clang-tidy says what it looks for"
+    cmake --preset analyse >/dev/null
+    run-clang-tidy -quiet -j 2 -p build/analyse 'src/(api|base|casefile|check|cli|engine|io|output|plot|report|run|study)/' 2>/dev/null |
+      { ! grep -E 'error:|warning:'; }
+    build debug
+    say "running the tests"
+    ctest --preset debug
+    ;;
   *)
-    sed -n '2,7s/^# \{0,1\}//p' "$0"
+    sed -n '2,8s/^# \{0,1\}//p' "$0"
     exit 2
     ;;
 esac

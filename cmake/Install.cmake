@@ -21,7 +21,7 @@ install(DIRECTORY include/edmill TYPE INCLUDE COMPONENT dev)
 install(EXPORT edmill-targets NAMESPACE edmill:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/edmill COMPONENT dev)
 configure_package_config_file(cmake/edmill-config.cmake.in ${CMAKE_BINARY_DIR}/edmill-config.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/edmill)
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/edmill-config-version.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/edmill-config-version.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/edmill-config.cmake ${CMAKE_BINARY_DIR}/edmill-config-version.cmake cmake/FindGMP.cmake
               cmake/FindMPFR.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/edmill COMPONENT dev)
 configure_file(cmake/edmill.pc.in ${CMAKE_BINARY_DIR}/edmill.pc @ONLY)

@@ -20,7 +20,8 @@ struct CaseAccess;
 /// A case as its file states it, in exact quantities: no scalar is chosen yet. Copies share what was read.
 class Case {
  public:
-  /// Reads and checks a case file; its keys: docs/files.md.
+  /// Reads and checks a case file; its keys: docs/reference.md.
+  /// @param path      of the file
   /// @param settings  "section.key=value" over the file, as `edmill run --set`
   /// @throws InputError with every problem of the file
   static Case read(const std::string& path, const std::vector<std::string>& settings = {});

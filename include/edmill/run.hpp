@@ -8,6 +8,7 @@
 #include "edmill/contact_law.hpp"
 #include "edmill/observer.hpp"
 #include "edmill/summary.hpp"
+#include "edmill/version.hpp"
 #include "edmill/vessel.hpp"
 
 namespace edmill {

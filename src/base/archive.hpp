@@ -71,10 +71,17 @@ inline void archive_value(Archive& a, std::string& text) {
   text.resize(a.count(text.size()));
   a.raw(text.data(), text.size());
 }
+/// A vector that has elements before it is loaded has got its length from the case, and keeps it. Others grow
+/// with what is read, so that a wrong number asks for no more memory than the bytes account for.
 template <class T, class Allocator>
 void archive_value(Archive& a, std::vector<T, Allocator>& values) {
-  values.resize(a.count(values.size()));
-  for (auto& value : values) a(value);
+  const std::size_t size = a.count(values.size());
+  if (values.size() == size) {
+    for (auto& value : values) a(value);
+    return;
+  }
+  if (!values.empty()) throw InputError("found a saved state of another case");
+  for (std::size_t k = 0; k < size; ++k) a(values.emplace_back());
 }
 template <class T, std::size_t size>
 void archive_value(Archive& a, std::array<T, size>& values) {
@@ -111,7 +118,12 @@ void archive_value(Archive& a, Vec3<Real>& v) {
 
 template <class T>
 void Archive::one(T& value) {
-  if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>)
+  if constexpr (std::is_same_v<T, bool>) {
+    std::uint8_t byte = value;
+    raw(&byte, 1);
+    if (byte > 1) throw InputError("found neither true nor false in a saved state");
+    value = byte == 1;
+  } else if constexpr (std::is_arithmetic_v<T>)
     raw(&value, sizeof value);
   else if constexpr (requires { value.archive(*this); })
     value.archive(*this);

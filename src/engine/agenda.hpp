@@ -78,6 +78,19 @@ struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Agenda {
     forgotten_from = Instant<Real>::never();
   }
 
+  /// Whether its numbers are some that a run of so many balls and walls can have.
+  bool is_sound(int balls, int walls, std::uint32_t latest_impact) const {
+    bool sound = pair_count >= 0 && pair_count <= capacity && crossing_face >= 0 && crossing_face < 6 &&
+                 wall >= -1 && (wall < walls || (wall >= tied && wall < tied + walls)) &&
+                 last_impact <= latest_impact && latest_impact <= 1 << 20;
+    for (int k = 0; sound && k < capacity; ++k) {
+      const bool free = k >= pair_count;
+      sound =
+          free ? times[first_pair + k] == Instant<Real>::never() : partners[k] >= 0 && partners[k] < balls;
+    }
+    return sound;
+  }
+
   void archive(Archive& a) {
     a(times, wall_pose, forgotten_from, partners, known, last_impact, pair_count, wall, crossing_face);
   }

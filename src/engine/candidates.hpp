@@ -79,6 +79,10 @@ class Candidates {
   }
 
   void archive(Archive& a) { a(grid_); }
+  template <class CellOf>
+  bool holds_all(const CellOf& cell_of) const {
+    return grid_.holds_all(cell_of);
+  }
 
  private:
   static constexpr bool is_double = std::is_same_v<Real, double>;

@@ -147,10 +147,41 @@ class CellGrid {
     std::vector<std::pair<std::size_t, Cell>> occupied;  // most are empty
     for (std::size_t at = 0; at < content_.size(); ++at)
       if (content_[at].second != Cell::empty) occupied.emplace_back(at, content_[at]);
+    if (a.loading()) occupied.clear();
     a(occupied, next_);
     if (!a.loading()) return;
     std::fill(content_.begin(), content_.end(), Cell());
-    for (const auto& [at, cell] : occupied) content_.at(at) = cell;
+    for (const auto& [at, cell] : occupied) {
+      if (at >= content_.size()) throw InputError("found a cell that the grid does not have");
+      content_[at] = cell;
+    }
+  }
+  /// Whether each ball is once in the grid, in the cell that `cell_of(ball)` says; after loading.
+  template <class CellOf>
+  bool holds_all(const CellOf& cell_of) const {
+    std::vector<bool> seen(next_.size());
+    std::size_t count = 0;
+    const auto is_here = [&](std::uint32_t ball, std::size_t place) {
+      if (ball >= seen.size() || seen[ball] || !has(cell_of(static_cast<int>(ball)))) return false;
+      seen[ball] = true;
+      ++count;
+      return static_cast<std::size_t>(index(cell_of(static_cast<int>(ball)))) == place;
+    };
+    for (std::size_t place = 0; place < content_.size(); ++place) {
+      const Cell& cell = content_[place];
+      if (cell.second == Cell::empty) continue;
+      if (!is_here(cell.first, place)) return false;
+      if (cell.second == Cell::crowded) {
+        int length = 1;
+        for (int ball = next_[cell.first]; ball != none;
+             ball = next_[static_cast<std::size_t>(ball)], ++length)
+          if (!is_here(static_cast<std::uint32_t>(ball), place)) return false;
+        if (length < 3) return false;
+      } else if (cell.second != Cell::single && !is_here(cell.second, place)) {
+        return false;
+      }
+    }
+    return count == seen.size();
   }
 
  private:
@@ -204,6 +235,11 @@ class CellGrid {
     void archive(Archive& a) { a(first, second); }
   };
 
+  bool has(const CellOfBall& cell) const {
+    bool inside = true;
+    for (int k = 0; k < 3; ++k) inside = inside && cell.at[k] >= 0 && cell.at[k] < cells_[k];
+    return inside;
+  }
   int index(const CellOfBall& cell) const {
     return at_[0][cell.at[0] + 1] + at_[1][cell.at[1] + 1] + at_[2][cell.at[2] + 1];
   }

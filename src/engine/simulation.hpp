@@ -78,6 +78,7 @@ class Simulation {
   /// Everything that changes in a run, so that another simulation of the same case goes on with the same
   /// bits.
   /// @pre no event is being processed
+  /// @throws InputError when what is loaded can be no state of this case
   void archive(Archive& a);
 
   const Instant<Real>& now() const { return now_; }
@@ -102,6 +103,7 @@ class Simulation {
  private:
   using DoubleState = typename Candidates<Real>::DoubleState;
 
+  bool is_sound() const;
   Event<Real> event_of(int ball);
   Event<Real> queued_event(int ball) const;
   void requeue(int ball);

@@ -54,12 +54,37 @@ void Simulation<Real>::archive(Archive& a) {
   a(flights_, bodies_, agendas_, ladder_, candidates_, counts_, now_, top_speed_);
   if (!a.loading()) return;
   EDMILL_REQUIRE(flights_.size() == balls && agendas_.size() == balls, "a saved state of the same case");
+  if (!is_sound()) throw InputError("found a saved state that no run of the case can have");
   ladder_.raise_top_speed(top_speed_);
   candidates_.raise_top_speed(top_speed_);
   for (int i = 0; i < ball_count(); ++i) {
     candidates_.update(i);
     requeue(i);  // equal times go to the lower ball, whatever the queue's history
   }
+}
+
+/// Saved states can come from elsewhere: what the loop would take on trust is looked at once.
+template <class Real>
+bool Simulation<Real>::is_sound() const {
+  using std::isfinite;
+  const std::int64_t most = Instant<Real>::never().period;
+  const auto timed = [&](const Instant<Real>& t) {
+    return t.period >= -most && t.period <= most && t.offset >= 0 && t.offset <= clock_.period();
+  };
+  const auto finite = [](const Vec3<Real>& v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); };
+  bool sound = timed(now_) && now_.period < most && isfinite(top_speed_) && top_speed_ >= 0 &&
+               candidates_.holds_all([this](int ball) -> const CellOfBall& { return bodies_[ball].cell; });
+  for (int i = 0; sound && i < ball_count(); ++i) {
+    const auto& agenda = agendas_[i];
+    sound = finite(flights_[i].position) && finite(flights_[i].velocity) && finite(bodies_[i].spin) &&
+            timed(flights_[i].start) && !(now_ < flights_[i].start) && timed(bodies_[i].recent.last) &&
+            bodies_[i].recent.burst >= 0 && bodies_[i].recent.burst <= CollapseWatch<Real>::enough &&
+            timed(agenda.forgotten_from) &&
+            agenda.is_sound(ball_count(), mill_.vessel.wall_count(), agendas_.latest_impact()) &&
+            !(top_speed_ * top_speed_ < squared_norm<Real>(flights_[i].velocity));
+    for (const auto& time : agenda.times) sound = sound && timed(time) && !(time < now_);
+  }
+  return sound;
 }
 
 template <class Real>

@@ -38,7 +38,7 @@ void AtomicFolder::archive(Archive& a) {
 
   fs::remove_all(temporary_);
   const fs::path copy = temporary_;
-  temporary_.replace_filename(name);
+  temporary_.replace_filename(temporary_name_from(name, place_));
   if (fs::is_directory(temporary_)) return;
   if (!fs::is_directory(place_))
     throw InputError(place_.string() + ": found no folder, expected the frames that the run left");

@@ -109,6 +109,15 @@ fs::path temporary_name(const fs::path& place) {
   return place.string() + temporary_mark() + "-" + std::to_string(count++);
 }
 
+std::string temporary_name_from(const std::string& found, const fs::path& place) {
+  const std::string begin = place.filename().string() + partial;
+  if (!found.starts_with(begin) || found.size() == begin.size() ||
+      found.find_first_not_of("0123456789-", begin.size()) != std::string::npos)
+    throw InputError(place.string() + ": found '" + found + "' as the name of its temporary file, expected " +
+                     begin + "...");
+  return found;
+}
+
 void remove_temporaries(const fs::path& place, const std::string& kept) {
   std::error_code error;
   std::vector<fs::path> found;
@@ -184,7 +193,7 @@ void AtomicFile::archive(Archive& a) {
   if (!a.loading()) return;
 
   const fs::path fresh = temporary_;
-  temporary_.replace_filename(name);
+  temporary_.replace_filename(temporary_name_from(name, place_));
   if (append_ && !fs::exists(temporary_)) {
     // Only `commit` can have removed it: the rows are in place, and those of this process are dropped.
     temporary_ = fresh;

@@ -14,6 +14,10 @@ namespace edmill::io {
 /// @throws InputError when it cannot be created or written to
 void prepare_folder(const std::filesystem::path& folder);
 
+/// The name of a temporary file of `place` as a checkpoint has it, which can come from elsewhere.
+/// @throws InputError unless it is such a name: no other file is opened, changed or removed for it
+std::string temporary_name_from(const std::string& found, const std::filesystem::path& place);
+
 /// A shared or exclusive lock on a folder; the system releases it when the process is killed.
 class FolderLock {
  public:

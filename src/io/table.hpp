@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
+#include "base/errors.hpp"
 #include "base/scalar.hpp"
 #include "io/csv_cell.hpp"
 
@@ -92,6 +93,11 @@ class Table {
   void archive(Archive& a) {
     a(next_);
     for (auto& column : cells_) std::visit([&](auto& values) { a(values); }, column);
+    if (!a.loading()) return;
+    bool whole = next_ < cells_.size() || next_ == 0;
+    for (std::size_t k = 0; k < cells_.size(); ++k)
+      whole = whole && std::visit([](const auto& v) { return v.size(); }, cells_[k]) == rows() + (k < next_);
+    if (!whole) throw InputError("found a saved table with columns of different lengths");
   }
 
  private:

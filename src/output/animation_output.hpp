@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.hpp"
 #include "casefile/output_columns.hpp"
 #include "io/output_folder.hpp"
 #include "output/frames_output.hpp"
@@ -65,6 +66,9 @@ class AnimationOutput : public FramesOutput<Real> {
   void archive_record(Archive& a) override {
     FramesOutput<Real>::archive_record(a);
     a(file_, first_, paths_, frames_);
+    const auto balls = static_cast<std::size_t>(this->ball_count());
+    if (first_ ? first_->balls.size() != balls || paths_.balls.size() != balls : !paths_.balls.empty())
+      throw InputError("found a saved animation of other balls");
   }
 
  private:

@@ -72,10 +72,13 @@ struct EventFile::Data {
   /// Takes over the full blocks of a file of the same columns.
   void take_blocks(const std::filesystem::path& from, hsize_t rows) {
     std::ifstream in(from, std::ios::binary);
+    const auto size = std::filesystem::file_size(from);
     std::string bytes;
     for (written = 0; written < rows; written += block)
       for (auto& c : columns) {
         const ChunkPlace& chunk = c.chunks.at(written / block);
+        if (chunk.at > size || chunk.size > size - chunk.at)
+          throw InputError(place.string() + ": found a checkpoint with a block beyond the end of the file");
         bytes.resize(chunk.size);
         in.seekg(static_cast<std::streamoff>(chunk.at));
         if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
@@ -155,6 +158,9 @@ void EventFile::archive(Archive& a) {
   hsize_t rows = d.written;
   a(name, rows, d.waiting);
   for (auto& c : d.columns) a(c.integers, c.numbers, c.chunks);
+  for (const auto& c : d.columns)
+    if (a.loading() && (rows % block != 0 || c.chunks.size() != rows / block))
+      throw InputError(d.place.string() + ": found a checkpoint with blocks for another number of rows");
   const std::uint64_t end = rows > 0 ? d.columns.back().chunks.back().end() : 0;
   std::optional<std::string> before;
   if (!a.loading()) before = io::bytes_before(d.temporary, end);
@@ -164,7 +170,8 @@ void EventFile::archive(Archive& a) {
     return;
   }
 
-  const auto left = std::filesystem::path(d.temporary).replace_filename(name);
+  const auto left =
+      std::filesystem::path(d.temporary).replace_filename(io::temporary_name_from(name, d.place));
   const auto& from = std::filesystem::exists(left) ? left : d.place;
   if (rows > 0) {
     if (!before || io::bytes_before(from, end) != before)

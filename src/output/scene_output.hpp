@@ -24,6 +24,7 @@ class SceneOutput : public Output<Real> {
   }
 
  protected:
+  int ball_count() const { return static_cast<int>(run_.ball_colours.size()); }
   const std::filesystem::path& place() const { return place_; }
   bool shows_contact() const { return contact_.has_value(); }
 

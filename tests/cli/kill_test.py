@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs with checkpoints and a report that are killed, interrupted and resumed end like an uninterrupted run.
+"""Runs with checkpoints and a report that are killed, interrupted and resumed end like an uninterrupted run; so do studies and
+reports.
 
 usage: kill_test.py EDMILL [KILLS]
 Moments are drawn with a fixed seed, but the machine's load decides what a moment hits.
@@ -261,6 +262,53 @@ while interrupts < 6:
             command = [edmill, "resume", place, "--quiet"]
     check_same(place, expected, f"interrupted run {runs}")
 
+# A study that is killed and started again gives the tables of one that was not.
+with open(os.path.join(scratch, "study.sweep.toml"), "w") as out:
+    out.write("""[sweep]
+case = "case.toml"
+replicas = 2
+[sweep.grid]
+"run.end_time" = ["0.4 s", "0.5 s"]
+"contact.restitution" = [0.5, 0.6, 0.7]
+""")
+
+
+def study(place):
+    return [edmill, "sweep", "study.sweep.toml", "--quiet", "--jobs", "2", "--out", place]
+
+
+def tables(place):
+    return {name: open(os.path.join(scratch, place, name), "rb").read() for name in ("sweep.csv", "runs.csv", "sweep.h5")}
+
+
+begun_study = time.monotonic()
+subprocess.run(study("whole"), cwd=scratch, check=True)
+whole_study = time.monotonic() - begun_study
+expected_tables = tables("whole")
+study_kills = studies = 0
+while study_kills < kills_wanted // 2:
+    place = f"study-{studies}"
+    while True:
+        running, code = stopped_after(study(place), whole_study * rng.uniform(0.05, 1.1), signal.SIGKILL)
+        study_kills += running and code == -signal.SIGKILL
+        if not running:
+            break
+    check(tables(place) == expected_tables, f"the tables of killed study {studies}")
+    shutil.rmtree(os.path.join(scratch, place))
+    studies += 1
+
+# A page is the old one or the new one, whole, whenever the program is killed.
+page = os.path.join(reference, "report.html")
+before = open(page, "rb").read()
+report_kills = 0
+for k in range(kills_wanted // 2):
+    running, code = stopped_after([edmill, "report", reference, "--quiet"], rng.uniform(0.0, 0.15), signal.SIGKILL)
+    report_kills += running and code == -signal.SIGKILL
+    check(open(page, "rb").read() == before, "the page after a kill")
+check(subprocess.run([edmill, "report", reference, "--quiet"], cwd=scratch).returncode == 0, "the report after kills")
+check(results(reference) == expected, "the files of the run after kills of its report")
+
 shutil.rmtree(scratch)
-print(f"{kills} kills in {ends} runs, {resumed_kills} of them during a resume, {interrupts} interrupts: "
+print(f"{kills} kills in {ends} runs, {resumed_kills} of them during a resume, {interrupts} interrupts, "
+      f"{study_kills} kills in {studies} studies, {report_kills} kills of reports: "
       f"all ended alike; {time.monotonic() - begun:.0f} s, one run takes {whole:.1f} s")

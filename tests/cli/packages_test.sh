@@ -26,6 +26,9 @@ import edmill
 rate = edmill.run(edmill.Case.spex8000(balls=28, diameter='4.76 mm'), until='2 s').milling_dose_rate
 print(rate, 'W')
 assert 5 < rate < 7"
+# The manual's tutorial, with nothing but the packages; the machine time that it takes is printed.
+cp "$(dirname "$0")/../manual/pages_test.py" "$folder/root/tmp"
+time inside python3 /tmp/pages_test.py /usr/bin/edmill /usr/lib/python3/dist-packages /usr/share/doc/edmill /tmp/tutorial docs/tutorial.md
 inside test -s /usr/share/man/man1/edmill.1 -o -s /usr/share/man/man1/edmill.1.gz
 inside sh -c 'cp /usr/share/doc/edmill/docs/examples/own_observer.cpp /tmp &&
   cd /tmp && apt-get install -y -qq --no-install-recommends pkg-config >/dev/null 2>&1 &&

@@ -10,6 +10,7 @@ edmill_test(inelastic_collapse_test engine/inelastic_collapse_test.cpp TIMEOUT 1
 edmill_test(least_separation_test engine/least_separation_test.cpp TIMEOUT 120)
 edmill_test(prefetcher_test engine/prefetcher_test.cpp)
 edmill_test(checkpoint_test engine/checkpoint_test.cpp TIMEOUT 300)
+edmill_test(saved_state_test engine/saved_state_test.cpp LONG TIMEOUT 300)
 edmill_test(near_ties_test engine/near_ties_test.cpp TIMEOUT 600)
 add_test(NAME near_ties_long COMMAND near_ties_test --gtest_filter=NearTies*)
 set_tests_properties(near_ties_long PROPERTIES LABELS long TIMEOUT 3600 ENVIRONMENT EDMILL_NEAR_TIES=10000)
