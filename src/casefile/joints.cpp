@@ -49,7 +49,7 @@ const std::array<std::string, 3> axes{"x", "y", "z"};
 /// "x", "y", "z", or three numbers.
 std::array<Quantity, 3> read_axis(Section& joint, const std::string& key) {
   if (joint.is_array(key)) {
-    const auto axis = joint.vector(key, Dimension::none).value_or(QuantityVector{Quantity{1}});
+    auto axis = joint.vector(key, Dimension::none).value_or(QuantityVector{Quantity{1}});
     const bool zero = axis[0].zero() && axis[1].zero() && axis[2].zero();
     joint.require(!zero, key, "an axis other than zero");
     return axis;

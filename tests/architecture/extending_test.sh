@@ -7,7 +7,7 @@ folder=$1
 compiler=$2
 rm -rf "$folder"
 mkdir -p "$folder"
-cp -r CMakeLists.txt cmake src include docs tests verification regression "$folder"
+cp -r CMakeLists.txt README.md cmake src include docs tests verification regression "$folder"
 sed -n '/^```diff$/,/^```$/{/^```/!p}' docs/extending.md >"$folder/change.diff"
 grep -q '^+' "$folder/change.diff" || {
   echo "docs/extending.md shows no change" >&2
