@@ -80,19 +80,19 @@ constexpr FixedKey fixed_keys[] = {
     {"powder", "mass", "mass", "required", "for the charge ratio and the specific dose"},
 
     {"balls", "count", "count", "1", "of balls that are placed at random"},
-    {"balls", "diameter", "length", "required", ""},
+    {"balls", "diameter", "length", "required", "of each ball"},
     {"balls", "diameter_spread", "length", "`\"0 m\"`", "diameters are uniform within so much of `diameter`, on either side"},
     {"balls", "density", "density", "`\"8 g/cm3\"`", "this or a material that has one"},
     {"balls", "material", "name", "none", "of a `[[material]]`"},
     {"balls", "reduced_inertia", "number", "0.4", "moment of inertia over m R^2; 0.4 of a solid sphere"},
     {"balls", "velocity", "three speeds", "at rest", "of each ball of the batch"},
-    {"balls", "random_speed", "speed", "none", "each velocity has this size and a random direction, in place of `velocity`"},
+    {"balls", "random_speed", "speed", "none", "each ball gets a random direction and a random speed up to this one, in place of `velocity`"},
     {"balls", "gap_ball", "length", "`\"1 mm\"`", "least distance to other balls"},
     {"balls", "gap_wall", "length", "`\"1 mm\"`", "least distance to walls"},
     {"balls", "max_relocations", "count", "100000", "attempts to place a ball"},
     {"balls", "colour", "colour", "blue", "in pictures"},
 
-    {"ball", "diameter", "length", "required", ""},
+    {"ball", "diameter", "length", "required", "of the ball"},
     {"ball", "position", "three lengths", "required", "of the centre, in the inertial frame; not needed with `run.initial_state`"},
     {"ball", "velocity", "three speeds", "at rest", "in the inertial frame"},
     {"ball", "spin", "three angular speeds", "none", "in the inertial frame"},
@@ -225,7 +225,26 @@ class Table {
     for (const auto& k : fixed_keys)
       if (k.section == section && (k.name == "type" || k.name == "model") == choice)
         rows_.push_back({section, std::string(k.of), std::string(k.name), std::string(k.kind),
-                         std::string(k.fallback), std::string(k.meaning)});
+                         std::string(k.fallback), std::string(k.meaning) + (choice ? choices(section) : "")});
+  }
+
+  /// ": `cylinder`, `box`", of the keys that choose a type.
+  static std::string choices(const std::string& section) {
+    if (section == "mill") return names_of<MotionSpec>();
+    if (section == "vessel") return names_of<VesselSpec>();
+    if (section == "contact") return names_of<model::NamedLaws<Quantity>>();
+    return ": see the types of outputs above";
+  }
+  template <class Variant>
+  static std::string names_of() {
+    std::string list;
+    [&]<std::size_t... kind>(std::index_sequence<kind...>) {
+      ((list +=
+        fmt::format("{}`{}`", list.empty() ? ": " : ", ", std::variant_alternative_t<kind, Variant>::name)),
+       ...);
+    }
+    (std::make_index_sequence<std::variant_size_v<Variant>>{});
+    return list;
   }
 
   /// A parameter that several types have in the same sense is one row.
