@@ -5,7 +5,7 @@ import re
 
 root = pathlib.Path(__file__).resolve().parents[2]
 project = "edmill"
-author = "the edmill developers"
+author = copyright = "the edmill developers"
 release = re.search(r"project\(edmill VERSION ([0-9.]+)", (root / "CMakeLists.txt").read_text()).group(1)
 
 extensions = ["myst_parser", "breathe"]
@@ -19,10 +19,7 @@ html_theme = "furo"
 html_title = f"edmill {release}"
 highlight_language = "none"
 
-# Links to files of the sources, and to pages outside of docs/, go to the sources.
-sources = os.environ.get("EDMILL_SOURCES_URL", "https://example.org/edmill/blob/main")
-
-
+# Links to files that are no pages become downloads; folders are named.
 def link_to_sources(app, docname, source):
     page = pathlib.Path(app.srcdir) / f"{docname}.md"
 
@@ -34,7 +31,10 @@ def link_to_sources(app, docname, source):
             return match.group(0)
         if not place.exists():
             raise FileNotFoundError(f"{docname}.md: a link to {path}, which does not exist")
-        return f"{text}({sources}/{place.relative_to(root)})"
+        words = text[1:-1].replace("`", "")
+        if place.is_dir():
+            return f"{words} (`{place.relative_to(root)}`)"
+        return f"{{download}}`{words} <{path.split('#')[0]}>`"
 
     source[0] = re.sub(r"(!?\[[^\]]*\])\(([^)\s]+)\)", target, source[0])
 
