@@ -139,6 +139,8 @@ class Page:
             self.ran += 1
             text = (done.stdout + done.stderr).replace(str(self.folder), "").rstrip("\n")
             printed = [line.rstrip() for line in text.splitlines()]
+            if "Traceback (most recent call last):" in printed:
+                self.problem(place + first, f"'{command}' fails:\n{text}")
             if not self.matches(expected, printed):
                 if not self.a.update:
                     self.problem(place + first, f"'{command}' prints\n" + "\n".join(printed) + "\nwhere the page has\n" +
