@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "cli/exit_codes.hpp"
+
 namespace edmill::cli {
 
 /// Text for troff: backslashes, hyphens and leading dots mean something there.
@@ -36,7 +38,10 @@ inline std::string man_page(const CLI::App& app, const std::string& version) {
       page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", in_roff(option->get_name(true, true)),
                           in_roff(option->get_description()));
   }
-  return page + ".SH EXIT STATUS\n" + in_roff(app.get_footer()) + "\n";
+  page += ".SH EXIT STATUS\n";
+  for (const auto& row : exit_codes)
+    page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", row.code, in_roff(std::string(row.meaning)));
+  return page;
 }
 
 /// For bash: source it, or install it as share/bash-completion/completions/edmill.
