@@ -2,7 +2,7 @@
 """Runs with checkpoints and a report that are killed, interrupted and resumed end like an uninterrupted run; so do studies and
 reports.
 
-usage: kill_test.py EDMILL [KILLS]
+usage: kill_test.py EDMILL [KILLS]    of runs, 30 unless given, and a third of that of studies and of reports each
 Moments are drawn with a fixed seed, but the machine's load decides what a moment hits.
 """
 import json
@@ -17,7 +17,7 @@ import tempfile
 import time
 
 edmill = os.path.realpath(sys.argv[1])
-kills_wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 50
+kills_wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 30
 rng = random.Random(20110101)
 
 CASE = """
@@ -286,7 +286,7 @@ subprocess.run(study("whole"), cwd=scratch, check=True)
 whole_study = time.monotonic() - begun_study
 expected_tables = tables("whole")
 study_kills = studies = 0
-while study_kills < kills_wanted // 2:
+while study_kills < kills_wanted // 3:
     place = f"study-{studies}"
     while True:
         running, code = stopped_after(study(place), whole_study * rng.uniform(0.05, 1.1), signal.SIGKILL)
@@ -301,7 +301,7 @@ while study_kills < kills_wanted // 2:
 page = os.path.join(reference, "report.html")
 before = open(page, "rb").read()
 report_kills = 0
-for k in range(kills_wanted // 2):
+while report_kills < kills_wanted // 3:
     running, code = stopped_after([edmill, "report", reference, "--quiet"], rng.uniform(0.0, 0.15), signal.SIGKILL)
     report_kills += running and code == -signal.SIGKILL
     check(open(page, "rb").read() == before, "the page after a kill")
