@@ -18,7 +18,7 @@ program_packages=(
 
 test_packages=(
   libgtest-dev librapidcheck-dev libflint-arb-dev libudunits2-dev libgsl-dev
-  libbenchmark-dev clang clang-format valgrind
+  libbenchmark-dev clang libclang-rt-14-dev clang-format patch valgrind
   python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-h5py python3-vtk9 view3dscene libxml2-utils
   chromium chromium-driver python3-selenium
   doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-nbclient python3-ipykernel python3-matplotlib
