@@ -8,8 +8,6 @@
 
 namespace edmill {
 
-const int detail::EDMILL_ABI_NAME(EDMILL_ABI) = EDMILL_ABI;
-
 std::string library_version() { return version(); }
 
 Case::Case(casefile::CaseSpec spec) : spec_(std::make_shared<casefile::CaseSpec>(std::move(spec))) {}
