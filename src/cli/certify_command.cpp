@@ -24,15 +24,6 @@ using run::Event;
 using run::Number;
 using run::Quantity;
 
-std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
-                                            bool to_end) {
-#define EDMILL_SOURCE_IN(Real) \
-  if (precision == ScalarName<Real>::value) return run::make_source<Real>(spec, to_end);
-  EDMILL_FOR_EACH_SCALAR(EDMILL_SOURCE_IN)
-#undef EDMILL_SOURCE_IN
-  throw ContractError("no scalar named " + precision);
-}
-
 bool stop_asked(const std::atomic<bool>* interrupt) {
   return interrupt && interrupt->load(std::memory_order_relaxed);
 }
@@ -115,6 +106,15 @@ std::string describe(const Event& e) {
 }
 
 }  // namespace
+
+std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
+                                            bool to_end) {
+#define EDMILL_SOURCE_IN(Real) \
+  if (precision == ScalarName<Real>::value) return run::make_source<Real>(spec, to_end);
+  EDMILL_FOR_EACH_SCALAR(EDMILL_SOURCE_IN)
+#undef EDMILL_SOURCE_IN
+  throw ContractError("no scalar named " + precision);
+}
 
 int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options) {
   const auto& precisions = casefile::precisions();

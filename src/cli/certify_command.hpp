@@ -2,9 +2,11 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <string>
 
 #include "casefile/case_spec.hpp"
+#include "run/event_source.hpp"
 
 namespace edmill::cli {
 
@@ -20,6 +22,10 @@ struct CertifyOptions {
 /// required, and writes them with the evidence.
 /// @return an exit code; `undecided` when the widest two do not agree
 int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options);
+
+/// The events of a case in the scalar of this name.
+std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
+                                            bool to_end);
 
 /// @throws InputError when `shadow` is not wider than `precision`
 void check_shadow(const std::string& precision, const std::string& shadow);

@@ -29,7 +29,7 @@ inline constexpr ExitCodeText exit_codes[] = {
     {"4",
      "a decision that no scalar could make; the message reproduces it, the results so far are on disk. "
      "certify: the widest two scalars do not agree on that many events or digits, or a rule and not the "
-     "equations orders two simultaneous contacts"},
+     "equations orders two simultaneous contacts. prove: the same, or more bits than allowed"},
     {"5", "some runs of a sweep or an optimisation failed; the tables say which and why"},
     {"6",
      "compare: a quantity differs, or fewer events agree than --events requires. audit: the log violates "

@@ -15,6 +15,7 @@
 #include "cli/command_texts.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/list_variables.hpp"
+#include "cli/prove_command.hpp"
 #include "cli/reference.hpp"
 #include "cli/report_command.hpp"
 #include "cli/resume_command.hpp"
@@ -81,6 +82,13 @@ int certify(const std::string& case_file, const std::vector<std::string>& overri
   return interruptible([&] { return cli::run_certify(spec, options); }, options);
 }
 
+int prove(const std::string& case_file, const std::vector<std::string>& overrides,
+          edmill::cli::ProveOptions& options) {
+  using namespace edmill;
+  const auto spec = casefile::read_case(case_file, overrides);
+  return interruptible([&] { return cli::run_prove(spec, options); }, options);
+}
+
 int audit(const std::string& case_file, const std::vector<std::string>& overrides,
           edmill::cli::AuditOptions& options) {
   using namespace edmill;
@@ -120,6 +128,7 @@ class CommandLine {
     add_resume();
     add_report();
     add_certify();
+    add_prove();
     add_check();
     add_variables();
     add_study("sweep", "run a case at many points and tabulate the results", edmill::cli::run_sweep);
@@ -211,6 +220,22 @@ class CommandLine {
         ->check(CLI::Range(1, 90));
     command->add_option("--out", certification_.file, "file; out/<case name>.reference.csv unless given");
     command->add_flag("--quiet", certification_.quiet, "no progress and no report");
+  }
+
+  void add_prove() {
+    auto* command = add("prove", "prove the first events of a case in ball arithmetic",
+                        [this] { return prove(case_file_, overrides_, proof_); });
+    take_case(command);
+    command->add_option("--collisions", proof_.collisions, "how many events")
+        ->required()
+        ->check(CLI::Range(1, 10000000));
+    command->add_option("--out", proof_.file, "file for the events, each number with its radius (CSV)");
+    command->add_option("--certificate", proof_.certificate,
+                        "file for a certificate that can be checked without edmill");
+    command->add_option("--most-bits", proof_.most_bits, "give up beyond so many; 16384 unless given")
+        ->check(CLI::Range(128, 1048576));
+    command->add_flag("--compare", proof_.compare, "also tell how many events each precision gets right");
+    command->add_flag("--quiet", proof_.quiet, "no progress and no report");
   }
 
   void add_check() {
@@ -307,6 +332,7 @@ class CommandLine {
   std::vector<std::string> overrides_;
   bool quiet_ = false, report_ = false;
   edmill::cli::CertifyOptions certification_;
+  edmill::cli::ProveOptions proof_;
   edmill::cli::StudyOptions study_;
   edmill::cli::CompareOptions compare_;
   edmill::cli::AuditOptions audited_;

@@ -1,9 +1,7 @@
-# The second solver of the wall tests uses Arb (Debian: libflint-arb-dev).
-find_library(ARB_LIBRARY NAMES flint-arb arb REQUIRED)
-find_library(FLINT_LIBRARY flint REQUIRED)
+# The second solver of the wall tests uses Arb.
 add_library(edmill_arb_oracle STATIC support/arb_oracle.cpp)
 target_include_directories(edmill_arb_oracle PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/support)
-target_link_libraries(edmill_arb_oracle PRIVATE ${ARB_LIBRARY} ${FLINT_LIBRARY})
+target_link_libraries(edmill_arb_oracle PRIVATE Arb::Arb)
 target_compile_options(edmill_arb_oracle PRIVATE ${edmill_warnings} $<$<BOOL:${EDMILL_WERROR}>:-Werror>)
 
 edmill_test(wall_search_test dynamics/wall_search_test.cpp)

@@ -1,0 +1,126 @@
+#include "prove/certificate.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <nlohmann/json.hpp>
+
+#include "prove/exact_text.hpp"
+
+namespace edmill::prove {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json texts(const QuantityVector& v) { return {v[0].text(), v[1].text(), v[2].text()}; }
+Json texts(const Vector& v) { return {text_of(v[0]), text_of(v[1]), text_of(v[2])}; }
+
+Json line_of(const model::Joint<Quantity>& joint) {
+  Json line;
+  if (joint.rotates)
+    line = {
+        {"rotate", texts(joint.axis)}, {"angle", joint.angle.text()}, {"frequency", joint.frequency.text()}};
+  else
+    line = {{"shift", texts(joint.shift)}, {"along", texts(joint.axis)}};
+  line["swings"] = Json::array();
+  for (const auto& s : joint.swings)
+    line["swings"].push_back(
+        {{"amplitude", s.amplitude.text()}, {"frequency", s.frequency.text()}, {"phase", s.phase.text()}});
+  return line;
+}
+
+Json line_of(const ExactWall& wall) {
+  if (wall.kind == ExactWall::plane)
+    return {{"plane", texts(wall.normal)}, {"point", texts(wall.point)}, {"distance", wall.size.text()}};
+  return {{wall.kind == ExactWall::cylinder ? "cylinder" : "sphere", wall.size.text()}};
+}
+
+Json line_of(const ExactLaw& law) {
+  Json line{{"law", law.coulomb ? "walton-braun" : "constant"}, {"restitution", law.restitution.text()}};
+  if (law.coulomb)
+    line.update({{"friction", law.friction.text()}, {"min_tangential", law.tangential.text()}});
+  else
+    line["restitution_tangential"] = law.tangential.text();
+  line["least_separation"] = law.least_separation.text();
+  return line;
+}
+
+Json line_of(const ExactBall& ball) {
+  return {{"radius", ball.radius.text()},
+          {"density", ball.density.text()},
+          {"reduced_inertia", ball.reduced_inertia.text()},
+          {"in_vessel", ball.in_vessel},
+          {"position", texts(ball.position)},
+          {"velocity", texts(ball.velocity)},
+          {"spin", texts(ball.spin)}};
+}
+
+template <class Part>
+Json lines_of(const std::vector<Part>& parts) {
+  Json lines = Json::array();
+  for (const auto& part : parts) lines.push_back(line_of(part));
+  return lines;
+}
+
+Json header(const Proof& proof) {
+  const ExactCase& c = proof.exact;
+  return {{"format", "edmill certificate"},
+          {"version", 1},
+          {"case", c.name},
+          {"digest", c.digest},
+          {"events", proof.events.size()},
+          {"bits", proof.bits},
+          {"start", c.start.text()},
+          {"gravity", texts(c.gravity)},
+          {"joints", lines_of(c.joints)},
+          {"walls", lines_of(c.walls)},
+          {"laws", lines_of(c.laws)},
+          {"balls", lines_of(c.balls)},
+          {"law_of_walls", c.law_of_walls},
+          {"law_of_balls", c.law_of_balls}};
+}
+
+Json line_of(const ProvenEvent& event, std::size_t number) {
+  Json line{{"event", number},
+            {"ball", event.ball},
+            {event.with_wall ? "wall" : "partner", event.partner},
+            {"time", text_of(event.time)}};
+  line["states"] = Json::array();
+  for (const auto& flight : event.after)
+    line["states"].push_back(
+        {{"r", texts(flight.position)}, {"v", texts(flight.velocity)}, {"s", texts(flight.spin)}});
+  line["windows"] = event.windows;
+  return line;
+}
+
+}  // namespace
+
+void write_certificate(std::ostream& out, const Proof& proof) {
+  out << header(proof).dump() << '\n';
+  for (std::size_t k = 0; k < proof.events.size(); ++k) out << line_of(proof.events[k], k).dump() << '\n';
+  Json open = Json::object();
+  for (std::size_t ball = 0; ball < proof.open_windows.size(); ++ball)
+    if (!proof.open_windows[ball].empty()) open[std::to_string(ball)] = proof.open_windows[ball];
+  out << Json{{"end", proof.events.size()}, {"windows", open}}.dump() << '\n';
+}
+
+void write_events(std::ostream& out, const Proof& proof, int digits) {
+  fmt::print(out, "# edmill proven events 1\n# case {}, digest {}\n# {} events, proven in {} bits\n",
+             proof.exact.name, proof.exact.digest, proof.events.size(), proof.bits);
+  out << "index,time,time_radius,ball,partner_kind,partner,approach_speed,approach_speed_radius,slip_speed,"
+         "slip_speed_radius\n";
+  const Precision scope(proof.bits + 64);
+  const Enclosure start = enclosure_of(proof.exact.start);
+  for (std::size_t k = 0; k < proof.events.size(); ++k) {
+    const auto& e = proof.events[k];
+    const auto number = [&](const Enclosure& value) {
+      const auto text = decimal_of(value, digits);
+      return text.middle + "," + text.radius;
+    };
+    fmt::print(out, "{},{},{},{},{},{},{}\n", k, number(start + e.time), e.ball,
+               e.with_wall ? "wall" : "ball", e.partner, number(e.approach_speed), number(e.slip_speed));
+  }
+}
+
+}  // namespace edmill::prove

@@ -1,0 +1,159 @@
+// Real numbers known to within a radius: Arb's balls with operators.
+#pragma once
+
+#include <arb.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+
+#include "base/vector.hpp"
+
+namespace edmill::prove {
+
+/// What an enclosure is too wide to tell. More bits may.
+struct Undecided {
+  std::string what;
+};
+
+/// Bits of all arithmetic in the scope. Scopes nest; they belong to one thread.
+class Precision {
+ public:
+  explicit Precision(slong bits) : before_(current) { current = bits; }
+  ~Precision() { current = before_; }
+  Precision(const Precision&) = delete;
+  Precision& operator=(const Precision&) = delete;
+  static slong bits() { return current; }
+
+ private:
+  static thread_local slong current;
+  slong before_;
+};
+
+/// All real numbers within a radius of a midpoint. Each operation encloses the exact results.
+class Enclosure {
+ public:
+  Enclosure() { arb_init(ball_); }
+  Enclosure(int x) : Enclosure() { arb_set_si(ball_, x); }  // NOLINT: numbers of formulas
+  explicit Enclosure(double x) : Enclosure() { arb_set_d(ball_, x); }
+  Enclosure(const Enclosure& other) : Enclosure() { arb_set(ball_, other.ball_); }
+  Enclosure(Enclosure&& other) noexcept : Enclosure() { arb_swap(ball_, other.ball_); }
+  Enclosure& operator=(Enclosure other) noexcept {
+    arb_swap(ball_, other.ball_);
+    return *this;
+  }
+  ~Enclosure() { arb_clear(ball_); }
+
+  arb_ptr arb() { return ball_; }
+  arb_srcptr arb() const { return ball_; }
+
+  friend Enclosure operator+(const Enclosure& a, const Enclosure& b) { return by(arb_add, a, b); }
+  friend Enclosure operator-(const Enclosure& a, const Enclosure& b) { return by(arb_sub, a, b); }
+  friend Enclosure operator*(const Enclosure& a, const Enclosure& b) { return by(arb_mul, a, b); }
+  friend Enclosure operator/(const Enclosure& a, const Enclosure& b) { return by(arb_div, a, b); }
+  Enclosure operator-() const {
+    Enclosure result;
+    arb_neg(result.ball_, ball_);
+    return result;
+  }
+  Enclosure& operator+=(const Enclosure& b) { return *this = *this + b; }
+  Enclosure& operator-=(const Enclosure& b) { return *this = *this - b; }
+  Enclosure& operator*=(const Enclosure& b) { return *this = *this * b; }
+  Enclosure& operator/=(const Enclosure& b) { return *this = *this / b; }
+
+  bool is_zero() const { return arb_is_zero(ball_); }
+  bool is_positive() const { return arb_is_positive(ball_); }
+  bool is_negative() const { return arb_is_negative(ball_); }
+  bool is_not_negative() const { return arb_is_nonnegative(ball_); }
+  bool is_not_positive() const { return arb_is_nonpositive(ball_); }
+
+  /// The midpoint, exact.
+  Enclosure middle() const {
+    Enclosure result;
+    arb_get_mid_arb(result.ball_, ball_);
+    return result;
+  }
+  /// The radius, exact.
+  Enclosure radius() const {
+    Enclosure result;
+    arb_get_rad_arb(result.ball_, ball_);
+    return result;
+  }
+  /// The ends, exact.
+  Enclosure low() const {
+    Enclosure result;
+    arb_sub(result.ball_, middle().ball_, radius().ball_, ARF_PREC_EXACT);
+    return result;
+  }
+  Enclosure high() const {
+    Enclosure result;
+    arb_add(result.ball_, middle().ball_, radius().ball_, ARF_PREC_EXACT);
+    return result;
+  }
+  /// [-r, r] for r = |this|.
+  Enclosure both_signs() const {
+    Enclosure result;
+    arb_add_error(result.ball_, ball_);
+    return result;
+  }
+  double nearest() const { return arf_get_d(arb_midref(ball_), ARF_RND_NEAR); }
+  /// Bits of the midpoint that the radius leaves.
+  slong accuracy() const { return arb_rel_accuracy_bits(ball_); }
+
+ private:
+  template <class Operation>
+  static Enclosure by(const Operation& operation, const Enclosure& a, const Enclosure& b) {
+    Enclosure result;
+    operation(result.ball_, a.ball_, b.ball_, Precision::bits());
+    return result;
+  }
+  arb_t ball_;
+};
+
+inline Enclosure sqrt(const Enclosure& a) {
+  Enclosure result;
+  arb_sqrtpos(result.arb(), a.arb(), Precision::bits());
+  return result;
+}
+
+struct SinCos {
+  Enclosure sin, cos;
+};
+/// Of an angle in turns.
+inline SinCos sin_cos_turns(const Enclosure& turns) {
+  SinCos result;
+  const Enclosure half_turns = turns + turns;
+  arb_sin_cos_pi(result.sin.arb(), result.cos.arb(), half_turns.arb(), Precision::bits());
+  return result;
+}
+
+/// Whether a < b for all numbers of both.
+inline bool less(const Enclosure& a, const Enclosure& b) { return arb_lt(a.arb(), b.arb()); }
+
+}  // namespace edmill::prove
+
+template <>
+struct Eigen::NumTraits<edmill::prove::Enclosure> : Eigen::GenericNumTraits<edmill::prove::Enclosure> {
+  using Real = edmill::prove::Enclosure;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = Real;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 6,
+    AddCost = 150,
+    MulCost = 100
+  };
+};
+
+namespace edmill::prove {
+
+using Vector = Vec3<Enclosure>;
+using Matrix = Eigen::Matrix<Enclosure, 3, 3>;
+
+inline Vector zero_vector() { return {Enclosure(), Enclosure(), Enclosure()}; }
+
+}  // namespace edmill::prove

@@ -1,0 +1,234 @@
+#include "prove/exact_case.hpp"
+
+#include <filesystem>
+#include <optional>
+
+#include "base/errors.hpp"
+#include "base/scalar_list.hpp"
+#include "base/wide_trigonometry.hpp"
+#include "casefile/build_case.hpp"
+
+namespace edmill::prove {
+
+namespace {
+
+using boost::multiprecision::cpp_int;
+using boost::multiprecision::cpp_rational;
+using casefile::CaseSpec;
+using model::Joint;
+
+Quantity number(int n, int d = 1) { return {cpp_rational(n, d)}; }
+Quantity in_turns(const Quantity& radians) { return {radians.value / 2, radians.pi_power - 1}; }
+
+/// The SPEX as joints: turn about z by theta = theta_max cos(w t) + pi/2, go the arm's length along x, turn
+/// about x by gamma = gamma_max sin(w t). (2.2), (2.5), (2.7')
+template <class Spex>
+std::vector<Joint<Quantity>> spex_joints(const Spex& spex) {
+  const Quantity frequency = Quantity{1} / spex.period;
+  Joint<Quantity> swing, arm, turn;
+  swing.axis[2] = number(1);
+  swing.angle = number(1, 4);
+  swing.swings.push_back({in_turns(spex.theta_max), frequency, number(1, 4)});
+  arm.rotates = false;
+  arm.shift[0] = spex.arm;
+  turn.axis[0] = number(1);
+  turn.swings.push_back({in_turns(spex.gamma_max), frequency, number(0)});
+  return {swing, arm, turn};
+}
+
+std::vector<Joint<Quantity>> joints_of(const casefile::MotionSpec& motion) {
+  auto joints = std::visit(
+      [](const auto& m) {
+        if constexpr (requires { m.joints(); })
+          return m.joints().list;
+        else
+          return spex_joints(m);
+      },
+      motion);
+  for (auto& joint : joints) {
+    if (joint.axis[0].zero() && joint.axis[1].zero() && joint.axis[2].zero()) joint.axis[0] = number(1);
+    std::erase_if(joint.swings, [](const auto& swing) { return swing.amplitude.zero(); });
+  }
+  return joints;
+}
+
+/// An axis from -1, the origin, to 1, at this distance.
+ExactWall plane(std::size_t axis, int side, const Quantity& distance) {
+  ExactWall wall;
+  wall.normal[axis] = number(side);
+  wall.size = distance;
+  return wall;
+}
+ExactWall round_wall(ExactWall::Kind kind, const Quantity& diameter) {
+  ExactWall wall;
+  wall.kind = kind;
+  wall.size = diameter / number(2);
+  return wall;
+}
+
+/// The walls of a vessel in their order, and half its sizes where balls are placed at random by them.
+struct Vessel {
+  std::vector<ExactWall> walls;
+  std::optional<QuantityVector> half;
+};
+
+Vessel vessel_of(const model::Cylinder<Quantity>& v) {
+  const Quantity half = v.height / number(2), radius = v.diameter / number(2);
+  return {{plane(1, -1, half), plane(1, 1, half), round_wall(ExactWall::cylinder, v.diameter)},
+          QuantityVector{radius, half, radius}};
+}
+Vessel vessel_of(const model::Box<Quantity>& v) {
+  Vessel vessel{{}, QuantityVector{}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Quantity half = v.size[axis] / number(2);
+    (*vessel.half)[axis] = half;
+    for (const int side : {-1, 1}) vessel.walls.push_back(plane(axis, side, half));
+  }
+  return vessel;
+}
+Vessel vessel_of(const model::Sphere<Quantity>& v) {
+  const Quantity radius = v.diameter / number(2);
+  return {{round_wall(ExactWall::sphere, v.diameter)}, QuantityVector{radius, radius, radius}};
+}
+Vessel vessel_of(const model::Polyhedron<Quantity>& v) {
+  Vessel vessel;
+  for (const auto& face : v.faces) {
+    ExactWall wall;
+    wall.normal = face.normal;
+    wall.point = face.point;
+    wall.size = face.distance;
+    vessel.walls.push_back(wall);
+  }
+  return vessel;
+}
+template <class Other>
+Vessel vessel_of(const Other& other) {
+  throw InputError(
+      std::string("[vessel] type: found \"") + other.name +
+      "\", expected one with walls that are planes, a cylinder or a sphere: `prove` knows no others");
+}
+
+ExactLaw law_of(const casefile::ContactSpec& spec, const std::string& file) {
+  ExactLaw law;
+  law.least_separation = spec.least_separation;
+  if (const auto* walton = std::get_if<model::WaltonBraun<Quantity>>(&spec.law)) {
+    law.restitution = walton->normal, law.friction = walton->friction,
+    law.tangential = walton->min_tangential;
+    return law;
+  }
+  if (const auto* constant = std::get_if<model::ConstantRestitution<Quantity>>(&spec.law)) {
+    law.coulomb = false;
+    law.restitution = constant->normal, law.tangential = constant->tangential;
+    return law;
+  }
+  throw InputError(file + ": key 'contact.model': found \"" + spec.name() +
+                   "\", expected \"walton-braun\" or \"constant\": `prove` knows no others");
+}
+
+/// Which law two materials have: 0 between balls, 1 with walls, then those of pairs.
+std::size_t law_between(const CaseSpec& spec, int one, int other, std::size_t otherwise) {
+  for (std::size_t k = 0; k < spec.pairs.size(); ++k)
+    if (spec.pairs[k].is_of(one, other)) return k + 2;
+  return otherwise;
+}
+
+void fill_laws(const CaseSpec& spec, const std::vector<int>& materials, ExactCase& result) {
+  std::vector<bool> used(spec.pairs.size() + 2);
+  const auto use = [&](std::size_t law) {
+    used[law] = true;
+    return law;
+  };
+  for (const int one : materials) {
+    auto& walls = result.law_of_walls.emplace_back();
+    for (std::size_t wall = 0; wall < result.walls.size(); ++wall)
+      walls.push_back(
+          use(law_between(spec, one, wall < spec.wall_materials.size() ? spec.wall_materials[wall] : 0, 1)));
+    auto& balls = result.law_of_balls.emplace_back();
+    for (const int other : materials) balls.push_back(use(law_between(spec, one, other, 0)));
+  }
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    const auto& law = k == 0 ? spec.ball_ball : k == 1 ? spec.ball_wall : spec.pairs[k - 2].law;
+    result.laws.push_back(used[k] ? law_of(law, spec.file) : ExactLaw{});
+  }
+}
+
+/// Places of balls at random are multiples of 2^-52 of the room that their centres have: as whole numbers
+/// they are recovered from a run's placing in 200 digits.
+QuantityVector exact_place(const Vec3<mpfr200>& local, const QuantityVector& room, const std::string& where) {
+  QuantityVector place{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const mpfr200 size(room[axis].to<mpfr200>());
+    const mpfr200 steps = ldexp(mpfr200(local[static_cast<int>(axis)] / size), 52), whole = round(steps);
+    if (!(abs(mpfr200(steps - whole)) < 1e-100))
+      throw InputError(where +
+                       ": found balls whose places are not known exactly, expected a position for each");
+    place[axis] = {room[axis].value * cpp_rational(cpp_int(whole.convert_to<cpp_int>()), cpp_int(1) << 52)};
+  }
+  return place;
+}
+
+ExactBall ball_of(const casefile::BallSpec& spec) {
+  ExactBall ball;
+  ball.radius = spec.diameter / number(2);
+  ball.density = spec.density;
+  ball.reduced_inertia = spec.reduced_inertia;
+  ball.velocity = spec.velocity;
+  return ball;
+}
+
+void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half, std::vector<int>& materials,
+                 ExactCase& result) {
+  if (spec.batches.empty()) return;
+  const auto built = casefile::build_case<mpfr200>(spec, false);
+  const auto& motion = built.the_case.mill.motion;
+  const auto pose = motion.pose(built.start);
+  for (const auto& batch : spec.batches) {
+    if (!half || batch.diameter_spread.positive() || batch.random_speed)
+      throw InputError(
+          batch.where +
+          ": found random diameters, random velocities or a polyhedron to fill, expected balls with position "
+          "and velocity: `prove` needs exact ones");
+    for (int k = 0; k < batch.count; ++k) {
+      ExactBall ball = ball_of(batch);
+      QuantityVector room = *half;
+      for (auto& size : room) size.value -= ball.radius.value + batch.gap_wall.value;
+      ball.in_vessel = true;
+      ball.position = exact_place(motion.position_in_vessel(pose, built.states[result.balls.size()].position),
+                                  room, batch.where);
+      result.balls.push_back(ball);
+      materials.push_back(batch.material);
+    }
+  }
+}
+
+}  // namespace
+
+ExactCase exact_case(const CaseSpec& spec) {
+  if (!spec.pistons.empty())
+    throw InputError(spec.file +
+                     ": [[piston]]: found walls that move in the vessel, expected none: `prove` knows none");
+  if (!spec.initial_state.empty())
+    throw InputError(spec.file +
+                     ": key 'run.initial_state': found a saved state, expected the balls of the case");
+  ExactCase result;
+  result.name = std::filesystem::path(spec.file).filename().string();
+  result.digest = spec.digest;
+  result.start = spec.initial_time;
+  result.gravity = spec.gravity;
+  result.joints = joints_of(spec.mill);
+  auto vessel = std::visit([](const auto& v) { return vessel_of(v); }, spec.vessel);
+  result.walls = std::move(vessel.walls);
+  std::vector<int> materials;
+  for (const auto& given : spec.balls) {
+    ExactBall ball = ball_of(given);
+    ball.position = given.position;
+    ball.spin = given.spin;
+    result.balls.push_back(ball);
+    materials.push_back(given.material);
+  }
+  add_batches(spec, vessel.half, materials, result);
+  fill_laws(spec, materials, result);
+  return result;
+}
+
+}  // namespace edmill::prove

@@ -1,0 +1,54 @@
+// A case as a proof needs it: exact numbers, every motion a chain of joints, every wall a plane, cylinder or
+// sphere.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "casefile/case_spec.hpp"
+#include "model/motions/joints.hpp"
+
+namespace edmill::prove {
+
+using casefile::Quantity;
+using casefile::QuantityVector;
+
+struct ExactWall {
+  enum Kind { plane, cylinder, sphere } kind = plane;
+  QuantityVector normal{}, point{};  ///< of a plane: outward, of any length; inside, n.(p - point)/|n| < size
+  Quantity size;                     ///< distance of the plane from the point, or radius [m]
+};
+
+struct ExactLaw {
+  bool coulomb = true;        ///< Walton and Braun's; else constant
+  Quantity restitution;       ///< e_n
+  Quantity tangential;        ///< least e_t with friction, e_t without
+  Quantity friction;          ///< mu
+  Quantity least_separation;  ///< v_s [m/s]
+};
+
+struct ExactBall {
+  Quantity radius, density, reduced_inertia;
+  bool in_vessel = false;     ///< the position is that in the vessel frame
+  QuantityVector position{};  ///< at the start [m]
+  QuantityVector velocity{}, spin{};
+};
+
+struct ExactCase {
+  std::string name, digest;
+  Quantity start;  ///< the initial time [s]
+  QuantityVector gravity{};
+  std::vector<model::Joint<Quantity>> joints;  ///< from the ground to the vessel
+  std::vector<ExactWall> walls;
+  std::vector<ExactLaw> laws;
+  std::vector<ExactBall> balls;
+  std::vector<std::vector<std::size_t>> law_of_walls;  ///< by ball and wall
+  std::vector<std::vector<std::size_t>> law_of_balls;  ///< by ball and ball
+};
+
+/// @throws InputError for what cannot be proven: rounded vessels, pistons, saved states, random velocities
+/// and diameters, laws but walton-braun and constant
+ExactCase exact_case(const casefile::CaseSpec& spec);
+
+}  // namespace edmill::prove

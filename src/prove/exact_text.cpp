@@ -1,0 +1,95 @@
+#include "prove/exact_text.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+namespace edmill::prove {
+
+namespace {
+
+/// Owner of one of FLINT's integers.
+struct Integer {
+  fmpz_t v;
+  Integer() { fmpz_init(v); }
+  Integer(const Integer&) = delete;
+  Integer& operator=(const Integer&) = delete;
+  ~Integer() { fmpz_clear(v); }
+};
+
+Enclosure integer(const boost::multiprecision::cpp_int& value) {
+  Integer whole;
+  fmpz_set_str(whole.v, value.str().c_str(), 10);
+  Enclosure result;
+  arb_set_fmpz(result.arb(), whole.v);
+  return result;
+}
+
+/// "-0x1a2bp-140" for an exact number.
+std::string dyadic_text(const arf_t number) {
+  if (arf_is_zero(number)) return "0x0p0";
+  Integer mantissa, exponent;
+  arf_get_fmpz_2exp(mantissa.v, exponent.v, number);
+  const bool negative = fmpz_sgn(mantissa.v) < 0;
+  fmpz_abs(mantissa.v, mantissa.v);
+  const std::unique_ptr<char, void (*)(void*)> digits(fmpz_get_str(nullptr, 16, mantissa.v), flint_free),
+      power(fmpz_get_str(nullptr, 10, exponent.v), flint_free);
+  return std::string(negative ? "-0x" : "0x") + digits.get() + "p" + power.get();
+}
+
+}  // namespace
+
+Enclosure enclosure_of(const casefile::Quantity& quantity) {
+  Enclosure result = integer(numerator(quantity.value)) / integer(denominator(quantity.value));
+  if (quantity.pi_power == 0) return result;
+  Enclosure pi;
+  arb_const_pi(pi.arb(), Precision::bits());
+  for (int k = 0; k < quantity.pi_power; ++k) result *= pi;
+  for (int k = 0; k > quantity.pi_power; --k) result /= pi;
+  return result;
+}
+
+std::string text_of(const Enclosure& value) {
+  std::string text = dyadic_text(arb_midref(value.arb()));
+  if (arb_is_exact(value.arb())) return text;
+  return text + "+/-" + dyadic_text(arb_midref(value.radius().arb()));
+}
+
+Enclosure rounded_out(const Enclosure& value, slong bits) {
+  if (arb_is_exact(value.arb()) && arb_bits(value.arb()) <= bits) return value;
+  Enclosure result;
+  const slong kept = std::min(std::max<slong>(arb_rel_accuracy_bits(value.arb()) + 22, 22), bits);
+  arb_set_round(result.arb(), value.arb(), kept);  // what the midpoint loses is added to the radius
+  const auto radius = result.radius();
+  Enclosure more;
+  arb_mul_2exp_si(more.arb(), radius.arb(), -20);
+  arb_add(more.arb(), more.arb(), radius.arb(), ARF_PREC_EXACT);
+  arf_t ten;
+  arf_init(ten);
+  arf_set_round(ten, arb_midref(more.arb()), 10, ARF_RND_UP);
+  Integer mantissa, exponent;
+  arf_get_fmpz_2exp(mantissa.v, exponent.v, ten);
+  arf_clear(ten);
+  mag_set_ui_2exp_si(arb_radref(result.arb()), fmpz_get_ui(mantissa.v), fmpz_get_si(exponent.v));
+  return result;
+}
+
+DecimalText decimal_of(const Enclosure& value, int digits) {
+  const std::unique_ptr<char, void (*)(void*)> middle(arf_get_str(arb_midref(value.arb()), digits + 1),
+                                                      flint_free);
+  Enclosure printed, difference;
+  arb_set_str(printed.arb(), middle.get(), 8 * digits + 64);
+  arb_sub(difference.arb(), value.arb(), printed.arb(), 64);
+  mag_t bound;
+  mag_init(bound);
+  arb_get_mag(bound, difference.arb());
+  arf_t radius;
+  arf_init_set_mag_shallow(radius, bound);
+  char text[64];
+  const double size = arf_get_d(radius, ARF_RND_UP);
+  std::snprintf(text, sizeof text, "%.1e", size * 1.05);
+  mag_clear(bound);
+  return {middle.get(), text};
+}
+
+}  // namespace edmill::prove

@@ -1,0 +1,84 @@
+// Proves, event by event, which bodies of a case meet and when. docs/theory.md, section 7;
+// docs/certificates.md
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "prove/exclusion.hpp"
+#include "prove/impact.hpp"
+
+namespace edmill::prove {
+
+/// Two bodies that may meet next, and about when.
+struct Candidate {
+  int ball = 0;
+  bool with_wall = false;
+  int partner = 0;  ///< ball or wall
+  Enclosure time;   ///< about when [s] after the start, exact
+};
+
+struct ProvenEvent {
+  int ball = 0;
+  bool with_wall = false;
+  int partner = 0;
+  Enclosure time;                                 ///< the bracket [s]
+  Enclosure approach_speed, slip_speed;           ///< before the impact [m/s]
+  std::vector<Flight> after;                      ///< of the ball and of a partner that is a ball
+  std::vector<std::vector<std::string>> windows;  ///< of the flights that end, by body and wall
+};
+
+/// The state of a proof after some events: all balls in flights that enclose the true ones.
+class Prover {
+ public:
+  /// @param bits  of the numbers that are kept; arithmetic has 64 more
+  Prover(const ExactCase& exact, slong bits);
+
+  /// Proves that this is the next event, and goes on to its other side.
+  /// @throws Undecided
+  ProvenEvent take(const Candidate& next);
+  /// Proves that the flights that have not ended meet nothing up to the end of the last bracket.
+  /// @return by ball, the windows by wall; none for the balls of the last event
+  std::vector<std::vector<std::string>> finish();
+
+  /// Bits that the radii leave of the least known velocity.
+  slong accuracy() const;
+
+ private:
+  /// What arithmetic at one precision needs.
+  struct Tools {
+    slong bits;
+    Motion motion;
+    Vector gravity;
+    std::vector<Walls> walls;
+    std::vector<Enclosure> radius, density, inertia;
+    std::vector<Law> laws;
+  };
+  struct Track {
+    Flight flight, coarse;
+    Enclosure begin;           ///< lower end of the bracket of its first event
+    long event = -1;           ///< its number; -1 for the start
+    int wall = -1, with = -1;  ///< that it was an impact with
+  };
+
+  static Tools tools(const ExactCase& exact, slong bits);
+  Enclosure bracket(const Candidate& next) const;
+  Gap gap_at(const Candidate& next, const Enclosure& time) const;
+  bool brackets(const Candidate& next, const Enclosure& time) const;
+  std::vector<std::string> exclude_walls(int ball, const Enclosure& end, int end_wall) const;
+  /// @param through  the number of the event at `end`
+  void exclude_balls(int ball, int partner, const Enclosure& end, long through) const;
+  ProvenEvent impact_on_wall(const Candidate& next, const Enclosure& time) const;
+  ProvenEvent impact_of_balls(const Candidate& next, const Enclosure& time) const;
+  void follow(const ProvenEvent& event);
+
+  const ExactCase& exact_;
+  slong bits_;
+  Tools coarse_, fine_;
+  std::vector<Track> tracks_;
+  Enclosure last_end_;  ///< upper end of the last bracket
+  long events_ = 0;
+};
+
+}  // namespace edmill::prove
