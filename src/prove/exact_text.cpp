@@ -25,18 +25,6 @@ Enclosure integer(const boost::multiprecision::cpp_int& value) {
   return result;
 }
 
-/// "-0x1a2bp-140" for an exact number.
-std::string dyadic_text(const arf_t number) {
-  if (arf_is_zero(number)) return "0x0p0";
-  Integer mantissa, exponent;
-  arf_get_fmpz_2exp(mantissa.v, exponent.v, number);
-  const bool negative = fmpz_sgn(mantissa.v) < 0;
-  fmpz_abs(mantissa.v, mantissa.v);
-  const std::unique_ptr<char, void (*)(void*)> digits(fmpz_get_str(nullptr, 16, mantissa.v), flint_free),
-      power(fmpz_get_str(nullptr, 10, exponent.v), flint_free);
-  return std::string(negative ? "-0x" : "0x") + digits.get() + "p" + power.get();
-}
-
 }  // namespace
 
 Enclosure enclosure_of(const casefile::Quantity& quantity) {
@@ -50,15 +38,15 @@ Enclosure enclosure_of(const casefile::Quantity& quantity) {
 }
 
 std::string text_of(const Enclosure& value) {
-  std::string text = dyadic_text(arb_midref(value.arb()));
-  if (arb_is_exact(value.arb())) return text;
-  return text + "+/-" + dyadic_text(arb_midref(value.radius().arb()));
+  const std::unique_ptr<char, void (*)(void*)> text(arb_dump_str(value.arb()), flint_free);
+  return text.get();
 }
 
 Enclosure rounded_out(const Enclosure& value, slong bits) {
   if (arb_is_exact(value.arb()) && arb_bits(value.arb()) <= bits) return value;
   Enclosure result;
-  const slong kept = std::min(std::max<slong>(arb_rel_accuracy_bits(value.arb()) + 22, 22), bits);
+  const slong kept =
+      arb_is_exact(value.arb()) ? bits : std::max<slong>(arb_rel_accuracy_bits(value.arb()) + 22, 22);
   arb_set_round(result.arb(), value.arb(), kept);  // what the midpoint loses is added to the radius
   const auto radius = result.radius();
   Enclosure more;

@@ -59,6 +59,8 @@ bool apart(const Flight& one, const Flight& two, const Enclosure& reach, const V
   const Enclosure value = at_begin.value(), half_rate = at_begin.half_rate();
   if (value.is_positive() && half_rate.is_not_negative()) return true;
   if (at_end.value().is_positive() && at_end.half_rate().is_not_positive()) return true;
+  // The tangent of a convex function lies below it.
+  if (value.is_positive() && (value + 2 * half_rate * (end - begin)).is_positive()) return true;
   return less(half_rate * half_rate, squared_norm<Enclosure>(at_begin.relative) * value);
 }
 

@@ -28,5 +28,5 @@ search() { # target
 }
 export -f search
 export build seconds
-printf '%s\n' case_file study_file quantity collision_log checkpoint sweep_record | xargs -P 2 -I {} bash -c 'search {}'
+printf '%s\n' case_file study_file quantity collision_log checkpoint sweep_record certificate | xargs -P 2 -I {} bash -c 'search {}'
 rm -rf "${TMPDIR:-/tmp}"/edmill-fuzz-*

@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+"""Proofs and their certificates: short proofs are made and checked by the independent checker, which must reject every kind of
+tampering; the certificates that are shipped are checked. With --all the shipped ones are made again and must be the same.
+
+usage: certificates_test.py EDMILL CHECKER REFERENCE FOLDER [--all]"""
+import copy
+import csv
+import hashlib
+import json
+import lzma
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+from decimal import Decimal, getcontext
+
+getcontext().prec = 60
+EDMILL, CHECKER, REFERENCE, FOLDER = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
+SHIPPED = {"one_ball": 500, "three_balls": 500, "balls_28": 2000, "planetary": 500, "box": 500}
+SHORT = {"one_ball": 20, "three_balls": 40, "balls_28": 60, "planetary": 40, "box": 40}
+
+
+def fail(text):
+    sys.exit("failed: " + text)
+
+
+def prove(case, events, name, *more):
+    return subprocess.run([EDMILL, "prove", case, "--collisions", str(events), "--certificate", name, *more], text=True,
+                          capture_output=True, check=False)
+
+
+def verdict(lines):
+    """Exit code and text of the checker for these lines."""
+    pathlib.Path("tampered").write_text("".join(line + "\n" for line in lines))
+    done = subprocess.run([CHECKER, "tampered"], text=True, capture_output=True, check=False)
+    return done.returncode, (done.stdout + done.stderr).strip()
+
+
+def scaled(text, midpoint=0, radius=0):
+    """An enclosure with this many units more in its midpoint or its radius."""
+    m, e, r, f = text.split()
+    hexadecimal = lambda t, more: format(int(t, 16) + more, "x")
+    return " ".join([hexadecimal(m, midpoint), e, hexadecimal(r, radius), f])
+
+
+def half(text):
+    """An enclosure with half the radius."""
+    m, e, r, f = text.split()
+    return " ".join([m, e, r, format(int(f, 16) - 1, "x")])
+
+
+def moved(text):
+    """An enclosure whose midpoint is two radii farther."""
+    m, e, r, f = (int(part, 16) for part in text.split())
+    low = min(e, f)
+    return " ".join(format(part, "x") for part in ((m << (e - low)) + 2 * (r << (f - low)), low, r, f))
+
+
+def tamperings(lines):
+    """Name and lines of each: `lines` are the header, the events and the last line, as objects."""
+    def changed(name, how, *places):
+        new = copy.deepcopy(lines)
+        how(*[new[p] for p in places]) if places else how(new)
+        return name, new
+    events = range(1, len(lines) - 1)
+    wall = next(k for k in events if k > 5 and "wall" in lines[k])
+    pair = next((k for k in events if k > 2 and "partner" in lines[k]), None)
+    deep = next(k for k in events if k > 3 and any(re.search(r"[prf][1-9].*f", t) for t in lines[k]["windows"][0]))
+    balls = len(lines[0]["balls"])
+
+    def renumbered(new):
+        for k in range(1, len(new) - 1):
+            new[k]["event"] = k - 1
+        new[0]["events"] = new[-1]["end"] = len(new) - 2
+
+    def left_out(new):
+        del new[wall]
+        renumbered(new)
+
+    def swapped(new):
+        new[wall], new[wall + 1] = new[wall + 1], new[wall]
+
+    def exchanged(new):
+        swapped(new)
+        renumbered(new)
+
+    def at(part, component, how):
+        def change(line):
+            line["states"][0][part][component] = how(line["states"][0][part][component])
+        return change
+
+    def coarse(line):  # also where the ball begins or ends its flight at that wall
+        line["windows"][0] = ["p0" for _ in line["windows"][0]]
+
+    def cut(line):
+        k = next(k for k, t in enumerate(line["windows"][0]) if re.search(r"[prf][1-9]", t))
+        line["windows"][0][k] = re.sub(r"[prf]\d+$", "", line["windows"][0][k])
+
+    def claimed(line):
+        k = next(k for k, t in enumerate(line["windows"][0]) if "p" in t)
+        line["windows"][0][k] = line["windows"][0][k].replace("p", "f")
+
+    def put(key, value):
+        return lambda line: line.__setitem__(key, value)
+
+    yield changed("an event left out, its line alone", lambda new: new.__delitem__(wall))
+    yield changed("an event left out, and the others numbered anew", left_out)
+    yield changed("two events swapped", swapped)
+    yield changed("two events swapped and numbered anew", exchanged)
+    yield changed("the velocity's enclosure too narrow by one unit", at("v", 0, lambda t: scaled(t, radius=-1)), wall)
+    yield changed("the position's enclosure too narrow by one unit", at("r", 1, lambda t: scaled(t, radius=-1)), wall)
+    yield changed("the spin's enclosure too narrow by one unit", at("s", 2, lambda t: scaled(t, radius=-1)), wall)
+    yield changed("an enclosure with half the radius", at("v", 1, half), wall)
+    yield changed("an enclosure beside the true one", at("v", 0, moved), wall)
+    yield changed("a bracket beside the true one", lambda line: put("time", moved(line["time"]))(line), wall)
+    yield changed("a bracket with half the radius", lambda line: put("time", half(line["time"]))(line), wall)
+    yield changed("another wall", lambda line: put("wall", (line["wall"] + 1) % len(lines[0]["walls"]))(line), wall)
+    if balls > 1:
+        yield changed("another ball", lambda line: put("ball", (line["ball"] + 1) % balls)(line), wall)
+        yield changed("last line without a ball", lambda line: line["windows"].popitem(), -1)
+    if pair and balls > 2:
+        other = next(b for b in range(balls) if b not in (lines[pair]["ball"], lines[pair]["partner"]))
+        yield changed("another partner", put("partner", other), pair)
+        yield changed("the states of two balls exchanged", lambda line: line["states"].reverse(), pair)
+    yield changed("windows that do not leave out the contacts at the ends", coarse, deep)
+    yield changed("windows that leave the end of a flight out", cut, deep)
+    yield changed("windows that claim a contact that is none", claimed, deep)
+    yield changed("windows of one wall left out", lambda line: line["windows"][0].pop(), wall)
+    yield changed("another case: friction", put("laws", [{**law, "friction": "41/100"} for law in lines[0]["laws"]]), 0)
+    yield changed("another case: restitution", put("laws", [{**law, "restitution": "51/100"} for law in lines[0]["laws"]]), 0)
+    yield changed("another case: gravity", put("gravity", ["0", "-981/100", "0"]), 0)
+    yield changed("another case: start", put("start", "1/1000"), 0)
+    yield changed("another case: a ball's place", lambda h: put("position", ["1/1000", "1/1000", "1/1000"])(h["balls"][0]), 0)
+    yield changed("another case: radius of a ball", lambda h: put("radius", "1/251")(h["balls"][0]), 0)
+    yield changed("fewer bits than the enclosures were computed with", lambda h: put("bits", h["bits"] - 32)(h), 0)
+    yield changed("more events announced than there are", lambda h: put("events", h["events"] + 1)(h), 0)
+    yield changed("last line left out", lambda new: new.pop())
+    yield changed("a line behind the last one", lambda new: new.append(new[1]))
+
+
+def check_short(name, events):
+    case = str(REFERENCE / f"{name}.toml")
+    done = prove(case, events, f"{name}.cert", "--out", f"{name}.csv", "--quiet")
+    if done.returncode:
+        fail(f"prove {name}: {done.stderr}")
+    text = pathlib.Path(f"{name}.cert").read_text().splitlines()
+    code, said = verdict(text)
+    if code != 0 or not said.startswith(f"accepted: {events} events"):
+        fail(f"{name}: the checker says {said}")
+    # What is proven holds what two scalars agree on.
+    certified = list(csv.DictReader(l for l in (REFERENCE / f"{name}.events.csv").open() if not l.startswith("#")))
+    proven = list(csv.DictReader(l for l in open(f"{name}.csv") if not l.startswith("#")))
+    for one, two in zip(proven, certified):
+        if (one["ball"], one["partner_kind"], one["partner"]) != (two["ball"], two["partner_kind"], two["partner"]):
+            fail(f"{name}: event {one['index']} is another one in {name}.events.csv")
+        for column in ("time", "approach_speed", "slip_speed"):
+            off = abs(Decimal(one[column]) - Decimal(two[column]))
+            if off > Decimal(one[column + "_radius"]) + Decimal("1e-24") * 10:
+                fail(f"{name}: event {one['index']}: {column} is off by {off}")
+    rejected = 0
+    for what, lines in tamperings([json.loads(line) for line in text]):
+        code, said = verdict([json.dumps(line) for line in lines])
+        if code != 1 or not said.startswith("rejected: "):
+            fail(f"{name}: {what}: exit code {code}: {said}")
+        rejected += 1
+    print(f"claim {name}: {events} events proven and accepted, {rejected} of {rejected} kinds of tampering rejected")
+    return rejected
+
+
+def check_shipped(name, events, again):
+    packed = (REFERENCE / f"{name}.certificate.xz").read_bytes()
+    digest = hashlib.sha256(packed).hexdigest()
+    if f"`{digest}`" not in (REFERENCE / "README.md").read_text():
+        fail(f"{name}.certificate.xz has the digest {digest}, which regression/reference/README.md does not name")
+    pathlib.Path("shipped").write_bytes(lzma.decompress(packed))
+    said = subprocess.run([CHECKER, "shipped"], text=True, capture_output=True, check=False)
+    if said.returncode != 0 or not said.stdout.startswith(f"accepted: {events} events"):
+        fail(f"{name}.certificate.xz: {said.stdout}{said.stderr}")
+    told = subprocess.run([EDMILL, "check", str(REFERENCE / f"{name}.toml")], text=True, capture_output=True, check=True).stdout
+    header = json.loads(pathlib.Path("shipped").open().readline())
+    if header["digest"] not in told:
+        fail(f"{name}.certificate.xz is of another case: edmill check prints\n{told}")
+    if again:
+        done = prove(str(REFERENCE / f"{name}.toml"), events, "again")
+        if done.returncode or pathlib.Path("again").read_bytes() != pathlib.Path("shipped").read_bytes():
+            fail(f"{name}: another certificate than the one that is shipped: {done.stderr}")
+        print(done.stdout.splitlines()[-1])
+    print(f"claim {name}.certificate.xz: {said.stdout.strip()}")
+
+
+def main():
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    FOLDER.mkdir(parents=True)
+    import os
+    os.chdir(FOLDER)
+    if "--all" not in sys.argv:
+        kinds = max(check_short(name, events) for name, events in SHORT.items())
+        if kinds < 20:
+            fail(f"{kinds} kinds of tampering were tried")
+    for name, events in SHIPPED.items():
+        check_shipped(name, events, "--all" in sys.argv)
+
+
+if __name__ == "__main__":
+    main()
