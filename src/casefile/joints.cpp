@@ -195,4 +195,37 @@ std::string equation_of(const Joints<Quantity>& joints) {
   return text;
 }
 
+namespace {
+
+template <class Spex>
+std::vector<model::Joint<Quantity>> spex_joints(const Spex& spex) {
+  const auto in_turns = [](const Quantity& radians) {
+    return Quantity{radians.value / 2, radians.pi_power - 1};
+  };
+  const auto number = [](int n, int d) { return Quantity{cpp_rational(n, d)}; };
+  const Quantity frequency = Quantity{1} / spex.period;
+  model::Joint<Quantity> swing, arm, turn;
+  swing.axis[2] = number(1, 1);
+  swing.angle = number(1, 4);
+  swing.swings.push_back({in_turns(spex.theta_max), frequency, number(1, 4)});
+  arm.rotates = false;
+  arm.shift[0] = spex.arm;
+  turn.axis[0] = number(1, 1);
+  turn.swings.push_back({in_turns(spex.gamma_max), frequency, number(0, 1)});
+  return {swing, arm, turn};
+}
+
+}  // namespace
+
+std::vector<model::Joint<Quantity>> joints_of(const MotionSpec& motion) {
+  return std::visit(
+      [](const auto& m) {
+        if constexpr (requires { m.joints(); })
+          return m.joints().list;
+        else
+          return spex_joints(m);
+      },
+      motion);
+}
+
 }  // namespace edmill::casefile

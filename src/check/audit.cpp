@@ -89,23 +89,25 @@ std::string_view name_of(Verdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 
-Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
-            const Options& options) {
+namespace {
+
+/// @param next  gives the events in order of time
+template <class Next>
+Audit audit_events(const model::Case<double>& the_case, const std::vector<model::BallState<double>>* states,
+                   const Options& options, const std::string& file, const Available& available,
+                   const Next& next) {
   Audit result;
   result.options = options;
   result.findings = Findings(options.examples);
-  result.tolerances.relative = options.tolerance;
-  result.tolerances.reach = reach_of(the_case.mill);
-  result.tolerances.gap = options.gap_tolerance.value_or(options.tolerance * result.tolerances.reach);
+  result.tolerances = tolerances_of(the_case, options);
+  result.log_name = file;
+  result.available = available;
   const auto partners = model::partners_of(the_case.mill.vessel);
-  EventLog log(options.log, options.conventions, static_cast<int>(the_case.balls.size()), partners.walls());
-  result.log_name = log.file();
-  result.available = log.available();
   Auditor auditor(the_case, result.available, result.tolerances, result.findings);
-  if (options.from_start)
-    auditor.begin(states, DriveClock<double>(the_case.mill.motion.period()).seconds(the_case.initial_time));
+  if (states)
+    auditor.begin(*states, DriveClock<double>(the_case.mill.motion.period()).seconds(the_case.initial_time));
   bool any_pairs = false;
-  while (auto event = log.next()) {
+  while (auto event = next()) {
     if (options.interrupt && options.interrupt->load(std::memory_order_relaxed)) {
       result.interrupted = true;
       break;
@@ -128,6 +130,45 @@ Audit audit(const model::Case<double>& the_case, const std::vector<model::BallSt
                    : judged                    ? Verdict::clean
                                                : Verdict::too_few;
   return result;
+}
+
+EventLog open_log(const model::Case<double>& the_case, const Options& options) {
+  return {options.log, options.conventions, static_cast<int>(the_case.balls.size()),
+          static_cast<int>(the_case.mill.vessel.walls().size())};
+}
+
+}  // namespace
+
+Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options) {
+  Tolerances tolerances;
+  tolerances.relative = options.tolerance;
+  tolerances.reach = reach_of(the_case.mill);
+  tolerances.gap = options.gap_tolerance.value_or(options.tolerance * tolerances.reach);
+  return tolerances;
+}
+
+Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
+            const Options& options) {
+  EventLog log = open_log(the_case, options);
+  return audit_events(the_case, options.from_start ? &states : nullptr, options, log.file(), log.available(),
+                      [&] { return log.next(); });
+}
+
+EventsAtHand read_events(const model::Case<double>& the_case, const Options& options, std::size_t most) {
+  EventLog log = open_log(the_case, options);
+  EventsAtHand result{log.file(), log.available(), {}};
+  while (result.events.size() < most) {
+    auto event = log.next();
+    if (!event) break;
+    result.events.push_back(*std::move(event));
+  }
+  return result;
+}
+
+Audit audit(const model::Case<double>& the_case, const EventsAtHand& log, const Options& options) {
+  std::size_t k = 0;
+  return audit_events(the_case, nullptr, options, log.file, log.available,
+                      [&] { return k < log.events.size() ? std::optional(log.events[k++]) : std::nullopt; });
 }
 
 }  // namespace edmill::audit

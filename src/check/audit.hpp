@@ -11,6 +11,7 @@
 #include "check/event_log.hpp"
 #include "check/finding.hpp"
 #include "check/impact_judge.hpp"
+#include "io/json_text.hpp"
 #include "model/case.hpp"
 
 namespace edmill::audit {
@@ -59,9 +60,22 @@ struct Audit {
 Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
             const Options& options);
 
+/// Events of a log that were read, in order of time.
+struct EventsAtHand {
+  std::string file;
+  Available available;
+  std::vector<LoggedEvent> events;
+};
+/// The first events of a log. @throws InputError
+EventsAtHand read_events(const model::Case<double>& the_case, const Options& options, std::size_t most);
+/// The same audit of events at hand. The options' log is not read, nor is it asked to begin at the start.
+Audit audit(const model::Case<double>& the_case, const EventsAtHand& log, const Options& options);
+/// What gaps and speeds may be off by.
+Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options);
+
 /// The result as text.
 std::string table(const Audit& audit);
-/// docs/files.md, "Audit".
-std::string to_json(const Audit& audit);
+/// docs/files.md, "Audit": the document's entries.
+void put_json(io::JsonText& json, const Audit& audit);
 
 }  // namespace edmill::audit

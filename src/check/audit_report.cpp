@@ -4,7 +4,6 @@
 
 #include "base/version.hpp"
 #include "check/audit.hpp"
-#include "io/json_text.hpp"
 
 namespace edmill {
 extern template std::string to_text<double>(const double&);
@@ -153,8 +152,7 @@ void put_checks(io::JsonText& json, const Audit& a) {
 
 }  // namespace
 
-std::string to_json(const Audit& a) {
-  io::JsonText json;
+void put_json(io::JsonText& json, const Audit& a) {
   json.text("format", "edmill audit 1");
   json.text("version", version());
   json.text("commit", commit());
@@ -172,7 +170,6 @@ std::string to_json(const Audit& a) {
   put_energies(json, a);
   put_checks(json, a);
   json.integer("undecided", a.undecided);
-  return json.finish();
 }
 
 }  // namespace edmill::audit

@@ -5,58 +5,6 @@
 
 namespace edmill::audit {
 
-namespace {
-
-std::size_t bodies(const LoggedImpact& impact) { return impact.with_wall ? 1 : 2; }
-
-/// Kinetic energy gained by the balls [J].
-double kinetic_change(const LoggedEvent& event, const LoggedImpact& impact) {
-  double change = 0;
-  for (std::size_t k = 0; k < bodies(impact); ++k) {
-    const auto& ball = impact.ball[k];
-    const auto& b = event.body[k];
-    // (a - b).(a + b) loses fewer digits than a.a - b.b.
-    change += ball.mass / 2 *
-              dot(Vec(b.velocity_after - b.velocity_before), Vec(b.velocity_after + b.velocity_before));
-    change += ball.mass * ball.reduced_inertia * ball.radius * ball.radius / 2 *
-              dot(Vec(b.spin_after - b.spin_before), Vec(b.spin_after + b.spin_before));
-  }
-  return change;
-}
-
-double work_of_wall(const LoggedEvent& event, const LoggedImpact& impact) {
-  if (!impact.with_wall) return 0;
-  return impact.ball[0].mass *
-         dot(impact.wall_velocity, Vec(event.body[0].velocity_after - event.body[0].velocity_before));
-}
-
-/// Of the contact points before an impact [m/s].
-struct Speeds {
-  double g_n, slip;
-};
-Speeds speeds_before(const LoggedEvent& event, const LoggedImpact& impact) {
-  const Vec g = impact.before(event);
-  const double g_n = dot(g, impact.normal);
-  return {g_n, size(Vec(g - impact.normal * g_n))};
-}
-
-/// Energy that an impact adds along the normal [J]; 0 where it dissipates.
-double supplied(const LoggedImpact& impact, double g_n, double separation) {
-  return std::max(0.0, impact.effective_mass / 2 * (separation - g_n) * (separation + g_n));
-}
-
-/// (2.30'), (2.36')
-double dose_by_law(const LoggedImpact& impact, const model::ContactLaw<double>& law, const Speeds& speeds) {
-  const double separation = separation_speed(law, impact, speeds.g_n);
-  const double bounce = separation - speeds.g_n;
-  const double e_t = tangential_restitution(law, impact.compliance, bounce, speeds.slip);
-  const double normal = std::max(0.0, (-speeds.g_n - separation) * bounce);
-  return impact.effective_mass / 2 *
-         (normal + (1 - e_t * e_t) / impact.compliance * speeds.slip * speeds.slip);
-}
-
-}  // namespace
-
 double ImpactJudge::Residuals::largest() const { return std::max({normal, tangential, momentum, spin}); }
 
 void ImpactJudge::tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
@@ -74,11 +22,11 @@ auto ImpactJudge::residuals(const LoggedEvent& event, const LoggedImpact& impact
   const double g_n = dot(g, impact.normal), g_n_after = dot(g_after, impact.normal);
   const Vec slip = g - impact.normal * g_n, slip_after = g_after - impact.normal * g_n_after;
   std::array<Vec, 2> impulse;  // on each ball
-  for (std::size_t k = 0; k < bodies(impact); ++k)
+  for (std::size_t k = 0; k < impact.count(); ++k)
     impulse[k] = (event.body[k].velocity_after - event.body[k].velocity_before) * impact.ball[k].mass;
   if (!impact.with_wall) off.momentum = size(Vec(impulse[0] + impulse[1])) / impact.effective_mass;
   if (known.spins)
-    for (std::size_t k = 0; k < bodies(impact); ++k) {
+    for (std::size_t k = 0; k < impact.count(); ++k) {
       const auto& ball = impact.ball[k];
       const Vec arm = impact.normal * (k == 0 ? -ball.radius : ball.radius);
       const Vec change = event.body[k].spin_after - event.body[k].spin_before;

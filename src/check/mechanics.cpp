@@ -206,4 +206,43 @@ double velocity_scale(const LoggedImpact& impact, const LoggedEvent& event, bool
   return scale;
 }
 
+double kinetic_change(const LoggedEvent& event, const LoggedImpact& impact) {
+  double change = 0;
+  for (std::size_t k = 0; k < impact.count(); ++k) {
+    const auto& ball = impact.ball[k];
+    const auto& b = event.body[k];
+    // (a - b).(a + b) loses fewer digits than a.a - b.b.
+    change += ball.mass / 2 *
+              dot(Vec(b.velocity_after - b.velocity_before), Vec(b.velocity_after + b.velocity_before));
+    change += ball.mass * ball.reduced_inertia * ball.radius * ball.radius / 2 *
+              dot(Vec(b.spin_after - b.spin_before), Vec(b.spin_after + b.spin_before));
+  }
+  return change;
+}
+
+double work_of_wall(const LoggedEvent& event, const LoggedImpact& impact) {
+  if (!impact.with_wall) return 0;
+  return impact.ball[0].mass *
+         dot(impact.wall_velocity, Vec(event.body[0].velocity_after - event.body[0].velocity_before));
+}
+
+Speeds speeds_before(const LoggedEvent& event, const LoggedImpact& impact) {
+  const Vec g = impact.before(event);
+  const double g_n = dot(g, impact.normal);
+  return {g_n, size(Vec(g - impact.normal * g_n))};
+}
+
+double supplied(const LoggedImpact& impact, double g_n, double separation) {
+  return std::max(0.0, impact.effective_mass / 2 * (separation - g_n) * (separation + g_n));
+}
+
+double dose_by_law(const LoggedImpact& impact, const model::ContactLaw<double>& law, const Speeds& speeds) {
+  const double separation = separation_speed(law, impact, speeds.g_n);
+  const double bounce = separation - speeds.g_n;
+  const double e_t = tangential_restitution(law, impact.compliance, bounce, speeds.slip);
+  const double normal = std::max(0.0, (-speeds.g_n - separation) * bounce);
+  return impact.effective_mass / 2 *
+         (normal + (1 - e_t * e_t) / impact.compliance * speeds.slip * speeds.slip);
+}
+
 }  // namespace edmill::audit

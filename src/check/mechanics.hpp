@@ -82,6 +82,7 @@ struct LoggedImpact {
   double effective_mass = 0, compliance = 0;
 
   void set_masses();
+  std::size_t count() const { return with_wall ? 1 : 2; }  ///< of balls
   model::ContactBodies<double> bodies() const {
     return {effective_mass, ball[0].radius, with_wall ? -1 : ball[1].radius};
   }
@@ -120,5 +121,20 @@ double distance(const LoggedImpact& impact, const LoggedEvent& event,
 
 /// Magnitude of the velocities involved [m/s], to which tolerances are relative.
 double velocity_scale(const LoggedImpact& impact, const LoggedEvent& event, bool with_spins);
+
+/// Kinetic energy that the balls of a logged impact gain [J].
+double kinetic_change(const LoggedEvent& event, const LoggedImpact& impact);
+/// Work of the wall on the ball of a logged impact [J]. (A.82)
+double work_of_wall(const LoggedEvent& event, const LoggedImpact& impact);
+
+/// Of the contact points before an impact [m/s].
+struct Speeds {
+  double g_n, slip;
+};
+Speeds speeds_before(const LoggedEvent& event, const LoggedImpact& impact);
+/// Energy that an impact adds along the normal [J]; 0 where it dissipates.
+double supplied(const LoggedImpact& impact, double g_n, double separation);
+/// Milling dose of an impact at these speeds [J]. (2.30'), (2.36')
+double dose_by_law(const LoggedImpact& impact, const model::ContactLaw<double>& law, const Speeds& speeds);
 
 }  // namespace edmill::audit

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "cli/run_case.hpp"
+#include "identify/identify.hpp"
 #include "instances/instances.hpp"
 #include "io/output_folder.hpp"
 #include "run/progress.hpp"
@@ -60,12 +61,18 @@ int run_audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   auto result = audit::audit(built.the_case, built.states, options);
   line.reset();
   result.case_name = spec.file;
+  std::optional<identify::Identification> found;
+  if (given.identify && !result.interrupted) found = identify::identify(spec, options);
   if (!given.json.empty()) {
+    io::JsonText json;
+    audit::put_json(json, result);
+    if (found) identify::put_json(json, *found);
     io::AtomicFile file(given.json);
-    file.stream() << audit::to_json(result);
+    file.stream() << json.finish();
     file.commit();
   }
   if (!given.quiet) fmt::print("{}", audit::table(result));
+  if (!given.quiet && found) fmt::print("{}", identify::table(*found));
   switch (result.verdict) {
     case audit::Verdict::clean:
       return ok;

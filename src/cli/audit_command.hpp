@@ -17,6 +17,7 @@ struct AuditOptions {
   std::optional<int> first_ball;
   std::string walls;
   bool from_start = false;
+  bool identify = false;  ///< search for the cause
   std::size_t examples = 3;
   std::string json;  ///< file for the result; none when empty
   bool quiet = false;

@@ -319,6 +319,8 @@ class CommandLine {
                      "largest gap or overlap of bodies in contact, in m")
         ->check(CLI::PositiveNumber);
     command->add_flag("--from-start", audited_.from_start, "the log begins at the case's initial state");
+    command->add_flag("--identify", audited_.identify,
+                      "search for the value or mistake that explains the violations");
     command->add_option("--examples", audited_.examples, "of each kind of violation; 3 unless given")
         ->check(CLI::Range(0, 1000));
     command->add_option("--json", audited_.json, "file for the result in JSON");

@@ -18,33 +18,9 @@ using casefile::CaseSpec;
 using model::Joint;
 
 Quantity number(int n, int d = 1) { return {cpp_rational(n, d)}; }
-Quantity in_turns(const Quantity& radians) { return {radians.value / 2, radians.pi_power - 1}; }
-
-/// The SPEX as joints: turn about z by theta = theta_max cos(w t) + pi/2, go the arm's length along x, turn
-/// about x by gamma = gamma_max sin(w t). (2.2), (2.5), (2.7')
-template <class Spex>
-std::vector<Joint<Quantity>> spex_joints(const Spex& spex) {
-  const Quantity frequency = Quantity{1} / spex.period;
-  Joint<Quantity> swing, arm, turn;
-  swing.axis[2] = number(1);
-  swing.angle = number(1, 4);
-  swing.swings.push_back({in_turns(spex.theta_max), frequency, number(1, 4)});
-  arm.rotates = false;
-  arm.shift[0] = spex.arm;
-  turn.axis[0] = number(1);
-  turn.swings.push_back({in_turns(spex.gamma_max), frequency, number(0)});
-  return {swing, arm, turn};
-}
-
-std::vector<Joint<Quantity>> joints_of(const casefile::MotionSpec& motion) {
-  auto joints = std::visit(
-      [](const auto& m) {
-        if constexpr (requires { m.joints(); })
-          return m.joints().list;
-        else
-          return spex_joints(m);
-      },
-      motion);
+/// Without what does not move: a certificate lists no zeros.
+std::vector<Joint<Quantity>> moving_joints(const casefile::MotionSpec& motion) {
+  auto joints = casefile::joints_of(motion);
   for (auto& joint : joints) {
     if (joint.axis[0].zero() && joint.axis[1].zero() && joint.axis[2].zero()) joint.axis[0] = number(1);
     std::erase_if(joint.swings, [](const auto& swing) { return swing.amplitude.zero(); });
@@ -215,7 +191,7 @@ ExactCase exact_case(const CaseSpec& spec) {
   result.digest = spec.digest;
   result.start = spec.initial_time;
   result.gravity = spec.gravity;
-  result.joints = joints_of(spec.mill);
+  result.joints = moving_joints(spec.mill);
   auto vessel = std::visit([](const auto& v) { return vessel_of(v); }, spec.vessel);
   result.walls = std::move(vessel.walls);
   std::vector<int> materials;

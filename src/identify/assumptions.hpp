@@ -1,0 +1,49 @@
+// What another code may have taken differently from the case: numbers of the model, and how its log is
+// written.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "casefile/build_case.hpp"
+#include "check/event_log.hpp"
+
+namespace edmill::identify {
+
+/// How a log differs from what its header and the conventions say. Factors lead to SI.
+struct LogChange {
+  double time = 1, positions = 1, velocities = 1, spins = 1, energies = 1, speeds = 1;
+  double delay = 0;                         ///< [s], added to each time: the phase of the drive
+  bool states_exchanged = false;            ///< of the two balls of an impact
+  std::array<int, 2> exchanged = {-1, -1};  ///< numbers of two balls that are taken for each other
+
+  bool none() const;
+  void apply(audit::LoggedEvent& event) const;
+};
+
+/// Values that may explain a log. The balls are those of the built case; the mill follows from the file's
+/// exact quantities, so that every mill, vessel and law is varied by its own parameters.
+struct Assumptions {
+  casefile::CaseSpec spec;
+  std::vector<model::BallProperties<double>> balls;
+  LogChange log;
+
+  model::Case<double> built() const;
+};
+
+/// @pre the spec can be built
+Assumptions assumptions_of(const casefile::CaseSpec& spec);
+
+/// The number as an exact quantity.
+casefile::Quantity exactly(double value);
+
+/// Balls of each entry of the case, [first, last): explicit balls, then batches.
+struct BallGroup {
+  std::string key;  ///< "ball.0", "balls.1"
+  std::size_t first, last;
+  const casefile::BallSpec* spec;
+};
+std::vector<BallGroup> ball_groups(const casefile::CaseSpec& spec);
+
+}  // namespace edmill::identify

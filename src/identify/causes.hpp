@@ -1,0 +1,24 @@
+// Mistakes that are no numbers: orders, signs, directions, units, and what columns stand for.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "check/audit.hpp"
+#include "identify/parameters.hpp"
+
+namespace edmill::identify {
+
+/// A mistake that is made or not.
+struct Mistake {
+  std::string key;   ///< "mill, order of rotations"
+  std::string text;  ///< "R_x(gamma) R_z(theta) in place of R_z(theta) R_x(gamma)"
+  std::function<void(Assumptions&)> make;
+};
+
+/// Those that can be told apart in a log with these columns.
+std::vector<Mistake> mistakes_of(const Assumptions& nominal, const std::vector<Parameter>& parameters,
+                                 const audit::EventsAtHand& log);
+
+}  // namespace edmill::identify

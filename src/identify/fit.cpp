@@ -1,0 +1,225 @@
+#include "identify/fit.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit_nlinear.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "base/errors.hpp"
+
+namespace edmill::identify {
+
+namespace {
+
+/// Rows below this share of the tolerance fit perfectly: rounding.
+constexpr double perfect = 1e-4;
+
+double median_size(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  for (double& v : values) v = std::abs(v);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Scales of the weights, from those of the start down to rounding.
+std::vector<double> scales_for(const std::vector<double>& rows) {
+  double largest = 0;
+  std::vector<double> off;
+  for (const double r : rows)
+    if (std::abs(r) > 1) off.push_back(r);
+  largest = std::max(1.0, median_size(off));
+  std::vector<double> scales;
+  for (double s = 3 * largest; s > 1; s /= 30) scales.push_back(s);
+  scales.push_back(1);
+  return scales;
+}
+
+/// What GSL asks for the rows through.
+struct Problem {
+  const Residuals& residuals;
+  const Model& model;
+
+  std::vector<double> values_at(const gsl_vector* x) const {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < model.free.size(); ++k)
+      values.push_back(gsl_vector_get(x, k) * model.free[k]->change);
+    return values;
+  }
+  static int rows(const gsl_vector* x, void* self, gsl_vector* out) {
+    const auto& problem = *static_cast<const Problem*>(self);
+    const auto assumed = problem.model.with(problem.values_at(x));
+    const auto rows = problem.residuals.rows(assumed.built(), assumed.log);
+    for (std::size_t k = 0; k < rows.size(); ++k) gsl_vector_set(out, k, rows[k]);
+    return GSL_SUCCESS;
+  }
+  /// Forward differences of a step that neither rounding nor curvature spoils.
+  static int derivatives(const gsl_vector* x, void* self, gsl_matrix* out) {
+    const auto& problem = *static_cast<const Problem*>(self);
+    auto values = problem.values_at(x);
+    const auto assumed = problem.model.with(values);
+    const auto here = problem.residuals.rows(assumed.built(), assumed.log);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double step = 1e-7;
+      auto moved = values;
+      moved[k] += step * problem.model.free[k]->change;
+      const auto there_with = problem.model.with(moved);
+      const auto there = problem.residuals.rows(there_with.built(), there_with.log);
+      for (std::size_t i = 0; i < here.size(); ++i) gsl_matrix_set(out, i, k, (there[i] - here[i]) / step);
+    }
+    return GSL_SUCCESS;
+  }
+};
+
+using Vector = std::unique_ptr<gsl_vector, void (*)(gsl_vector*)>;
+Vector vector_of(const std::vector<double>& values) {
+  Vector v(gsl_vector_alloc(values.size()), gsl_vector_free);
+  for (std::size_t k = 0; k < values.size(); ++k) gsl_vector_set(v.get(), k, values[k]);
+  return v;
+}
+
+std::vector<double> weights_of(const std::vector<double>& rows, double scale) {
+  std::vector<double> weights;
+  for (const double r : rows) weights.push_back(1 / (1 + r * r / (scale * scale)));
+  return weights;
+}
+
+/// Intervals: what noise of the rows' own size leaves open, and what a shift of all rows by that size, each
+/// in the worst direction, would do; rounding of a log does shift rows of a kind together.
+std::vector<double> half_widths_of(const gsl_matrix* jacobian, const std::vector<double>& rows,
+                                   const std::vector<double>& weights, const Model& model,
+                                   const std::vector<double>& values) {
+  const auto n = static_cast<Eigen::Index>(rows.size()), p = static_cast<Eigen::Index>(model.free.size());
+  Eigen::MatrixXd j(n, p);
+  Eigen::VectorXd w(n);
+  double sum = 0, total = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    double reach = 0;
+    for (Eigen::Index c = 0; c < p; ++c) {
+      j(i, c) = gsl_matrix_get(jacobian, k, static_cast<std::size_t>(c));
+      reach = std::max(reach, std::abs(j(i, c)));
+    }
+    w[i] = weights[k];
+    if (reach == 0) continue;  // tells nothing of the parameters, nor of their noise
+    sum += weights[k] * rows[k] * rows[k];
+    total += weights[k];
+  }
+  const double noise = total > 0 ? std::sqrt(sum / total) : 0;
+  const Eigen::MatrixXd inverse = (j.transpose() * w.asDiagonal() * j).inverse();
+  const Eigen::MatrixXd influence = inverse * j.transpose() * w.asDiagonal();
+  std::vector<double> half;
+  for (Eigen::Index c = 0; c < p; ++c) {
+    const auto& parameter = *model.free[static_cast<std::size_t>(c)];
+    const double random = 3 * std::sqrt(std::max(0.0, inverse(c, c))) * noise,
+                 shift = influence.row(c).cwiseAbs().sum() * noise;
+    const double rounding =
+        4e-16 * std::max(std::abs(values[static_cast<std::size_t>(c)]), std::abs(parameter.value));
+    half.push_back((random + shift) * parameter.change + rounding);
+  }
+  return half;
+}
+
+}  // namespace
+
+Assumptions Model::with(const std::vector<double>& values) const {
+  Assumptions result = base;
+  for (std::size_t k = 0; k < free.size(); ++k) free[k]->set(result, values[k]);
+  return result;
+}
+
+double misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds) {
+  std::array<std::vector<double>, row_kinds> of_kind;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    of_kind[static_cast<std::size_t>(kinds[k])].push_back(rows[k]);
+  double cost = 0;
+  for (const auto& own : of_kind) {
+    const double scale = std::max(median_size(own), perfect);
+    for (const double r : own) cost += 2 * std::log1p(r * r / (scale * scale)) + 2 * std::log(scale);
+  }
+  return cost;
+}
+
+Fit fit(const Residuals& residuals, const Model& model, std::vector<double> start) {
+  gsl_set_error_handler_off();
+  const std::size_t n = residuals.count(), p = model.free.size();
+  Problem problem{residuals, model};
+  gsl_multifit_nlinear_fdf fdf{};
+  fdf.f = &Problem::rows, fdf.df = &Problem::derivatives, fdf.n = n, fdf.p = p, fdf.params = &problem;
+  gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
+  settings.scale = gsl_multifit_nlinear_scale_levenberg;
+  const std::unique_ptr<gsl_multifit_nlinear_workspace, void (*)(gsl_multifit_nlinear_workspace*)> work(
+      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, p), gsl_multifit_nlinear_free);
+  EDMILL_REQUIRE(work, "room for a fit");
+
+  std::vector<double> x;
+  for (std::size_t k = 0; k < p; ++k) x.push_back(start[k] / model.free[k]->change);
+  const auto rows_at = [&](const std::vector<double>& at) {
+    const auto assumed = model.with(at);
+    return residuals.rows(assumed.built(), assumed.log);
+  };
+  const auto in_units = [&] {
+    auto values = x;
+    for (std::size_t k = 0; k < p; ++k) values[k] *= model.free[k]->change;
+    return values;
+  };
+  auto rows = rows_at(start);
+  std::vector<double> weights;
+  const auto scales = scales_for(rows);
+  for (std::size_t round = 0; round < scales.size() + 2; ++round) {
+    weights = weights_of(rows, scales[std::min(round, scales.size() - 1)]);
+    const auto from = vector_of(x), w = vector_of(weights);
+    if (gsl_multifit_nlinear_winit(from.get(), w.get(), &fdf, work.get()) != GSL_SUCCESS) break;
+    int info = 0;
+    gsl_multifit_nlinear_driver(3, 1e-15, 1e-15, 0, nullptr, nullptr, &info, work.get());
+    const gsl_vector* found = gsl_multifit_nlinear_position(work.get());
+    for (std::size_t k = 0; k < p; ++k)
+      if (std::isfinite(gsl_vector_get(found, k))) x[k] = gsl_vector_get(found, k);
+    rows = rows_at(in_units());
+  }
+  Fit result;
+  result.values = in_units();
+  const std::unique_ptr<gsl_matrix, void (*)(gsl_matrix*)> jacobian(gsl_matrix_alloc(n, p), gsl_matrix_free);
+  Problem::derivatives(vector_of(x).get(), &problem, jacobian.get());
+  result.half_widths = half_widths_of(jacobian.get(), rows, weights_of(rows, 1), model, result.values);
+  result.cost = misfit(rows, residuals.kinds());
+  return result;
+}
+
+double linear_misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds,
+                     const std::vector<const std::vector<double>*>& columns, std::vector<double>& change) {
+  const auto p = static_cast<Eigen::Index>(columns.size());
+  const std::size_t n = rows.size();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(p);
+  std::vector<double> left = rows;
+  const auto scales = scales_for(rows);
+  for (std::size_t round = 0; round < scales.size() + 2; ++round) {
+    const double s = scales[std::min(round, scales.size() - 1)];
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(p, p);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(p);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double w = 1 / (1 + left[i] * left[i] / (s * s));
+      for (Eigen::Index k = 0; k < p; ++k) {
+        const double jk = (*columns[static_cast<std::size_t>(k)])[i];
+        if (jk == 0) continue;
+        b[k] -= w * jk * rows[i];
+        for (Eigen::Index l = 0; l <= k; ++l) a(k, l) += w * jk * (*columns[static_cast<std::size_t>(l)])[i];
+      }
+    }
+    const Eigen::VectorXd now = a.selfadjointView<Eigen::Lower>().ldlt().solve(b);
+    if (!now.allFinite()) break;
+    x = now;
+    for (std::size_t i = 0; i < n; ++i) {
+      left[i] = rows[i];
+      for (Eigen::Index k = 0; k < p; ++k) left[i] += (*columns[static_cast<std::size_t>(k)])[i] * x[k];
+    }
+  }
+  change.assign(x.data(), x.data() + p);
+  return misfit(left, kinds);
+}
+
+}  // namespace edmill::identify

@@ -1,0 +1,381 @@
+#include "identify/identify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "identify/causes.hpp"
+#include "identify/fit.hpp"
+
+namespace edmill::identify {
+
+namespace {
+
+constexpr std::size_t most_events = 20000;
+constexpr double enough = 0.9;          ///< of the violations
+constexpr double strong_evidence = 10;  ///< least gain of Schwarz's criterion (Kass and Raftery 1995)
+constexpr double same_evidence = 2;
+
+/// A combination of free numbers and mistakes, fitted.
+struct Candidate {
+  Model model;
+  std::vector<std::string> mistakes;
+  std::vector<double> values, half_widths;
+  double criterion = 0;    ///< misfit + parameters ln(rows)
+  std::uint64_t left = 0;  ///< violations
+
+  std::size_t complexity() const { return model.free.size() + mistakes.size(); }
+};
+
+class Search {
+ public:
+  Search(const casefile::CaseSpec& spec, audit::Options options)
+      : nominal_(assumptions_of(spec)), the_case_(nominal_.built()), options_(std::move(options)) {
+    options_.from_start = false;
+    options_.examples = 0;
+    options_.progress = nullptr;
+    log_ = audit::read_events(the_case_, options_, most_events);
+    parameters_ = parameters_of(nominal_);
+    if (!log_.events.empty()) residuals_.emplace(log_, audit::tolerances_of(the_case_, options_), the_case_);
+  }
+
+  const audit::EventsAtHand& log() const { return log_; }
+  const model::Case<double>& the_case() const { return the_case_; }
+
+  Identification run() {
+    Identification result;
+    result.events = log_.events.size();
+    if (log_.events.empty()) return result;
+    violations_ = violations(nominal_);
+    result.violations = violations_;
+    if (violations_ == 0) return result;
+    choose_samples();
+    take(whole_);
+    if (residuals_->count() < 12) return result;
+    null_ = misfit_of(nominal_);
+    auto accepted = singles();
+    if (accepted.empty() || accepted.front().left > 0) {
+      for (auto& pair : pairs()) accepted.push_back(std::move(pair));
+      sort(accepted);
+    }
+    report(accepted, result);
+    return result;
+  }
+
+ private:
+  std::uint64_t violations(const Assumptions& assumed) const {
+    if (assumed.log.none()) return audit::audit(assumed.built(), log_, options_).findings.total();
+    audit::EventsAtHand changed = log_;
+    for (auto& event : changed.events) assumed.log.apply(event);
+    return audit::audit(assumed.built(), changed, options_).findings.total();
+  }
+
+  // ---- samples: events evenly over a span of the log
+  void choose_samples() {
+    const auto& events = log_.events;
+    const double begin = events.front().time, span = events.back().time - begin;
+    const double period = the_case_.mill.motion.period();
+    const double first = std::max(period, events[std::min<std::size_t>(79, events.size() - 1)].time - begin);
+    for (double window = first; window < span; window *= 4) windows_.push_back(sample(begin + window, 160));
+    whole_ = sample(events.back().time, 300);
+    windows_.push_back(whole_);
+    few_ = sample(events.back().time, 60);
+    early_ = windows_.front();
+    all_ = sample(events.back().time, 1500);
+  }
+  std::vector<std::size_t> sample(double until, std::size_t most) const {
+    std::size_t n = 0;
+    while (n < log_.events.size() && log_.events[n].time <= until) ++n;
+    std::vector<std::size_t> chosen;
+    if (n <= most) {
+      chosen.resize(n);
+      std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+      return chosen;
+    }
+    for (std::size_t k = 0; k < most; ++k) chosen.push_back(k * n / most);
+    return chosen;
+  }
+  void take(const std::vector<std::size_t>& sample) { residuals_->choose(sample); }
+
+  // ---- misfits of what is chosen
+  std::vector<double> rows_of(const Assumptions& assumed) const {
+    return residuals_->rows(assumed.built(), assumed.log);
+  }
+  double misfit_of(const Assumptions& assumed) const { return misfit(rows_of(assumed), residuals_->kinds()); }
+  double penalty(std::size_t parameters) const {
+    return static_cast<double>(parameters) * std::log(static_cast<double>(residuals_->count()));
+  }
+
+  /// Derivative of the rows by each parameter, at the base.
+  std::vector<std::vector<double>> columns(const Assumptions& base, const std::vector<double>& rows) const {
+    constexpr double step = 1e-6;
+    std::vector<std::vector<double>> list;
+    for (const auto& p : parameters_) {
+      Assumptions moved = base;
+      p.set(moved, p.value + step * p.change);
+      auto column = rows_of(moved);
+      for (std::size_t i = 0; i < column.size(); ++i) column[i] = (column[i] - rows[i]) / step;
+      list.push_back(std::move(column));
+    }
+    return list;
+  }
+  static bool any(const std::vector<double>& column) {
+    return std::any_of(column.begin(), column.end(), [](double x) { return x != 0; });
+  }
+
+  // ---- fits
+  /// Values to begin with, from afar where the rows are periodic in the parameter.
+  std::vector<double> starts(const Assumptions& base, const Parameter& p) {
+    if (!p.is_speed && !p.is_phase) return {p.value};
+    take(early_);
+    std::vector<std::pair<double, double>> tried;
+    const auto add = [&](double value) {
+      Assumptions moved = base;
+      p.set(moved, value);
+      tried.emplace_back(misfit_of(moved), value);
+    };
+    add(p.value);
+    const double period = the_case_.mill.motion.period();
+    if (p.is_phase) {
+      for (int k = 1; k < 16; ++k) add(period * (k <= 8 ? k : k - 16) / 16);
+    } else {
+      const double turns = std::abs(log_.events[early_.back()].time) * p.value / (2 * std::numbers::pi);
+      const int steps = std::clamp(static_cast<int>(std::ceil(0.12 * turns * 10)), 1, 400);
+      for (int k = -steps; k <= steps; ++k)
+        if (k != 0) add(p.value * (1 + 0.12 * k / steps));
+    }
+    const double here = tried.front().second;
+    std::sort(tried.begin(), tried.end());
+    std::vector<double> best = {here};
+    for (std::size_t k = 0; k < std::min<std::size_t>(2, tried.size()); ++k)
+      if (tried[k].second != here) best.push_back(tried[k].second);
+    return best;
+  }
+
+  /// Fits over growing spans where a motion's speed is free, and over the whole log.
+  Candidate fitted(const Model& model, const std::vector<std::string>& mistakes,
+                   const std::vector<double>& start) {
+    Candidate c{model, mistakes, start, {}, 0, 0};
+    const bool staged =
+        std::any_of(model.free.begin(), model.free.end(), [](const auto* p) { return p->is_speed; });
+    for (std::size_t w = staged ? 0 : windows_.size() - 1; w < windows_.size(); ++w) {
+      take(windows_[w]);
+      auto result = fit(*residuals_, model, c.values);
+      c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
+      c.criterion = result.cost + penalty(model.free.size());
+    }
+    return c;
+  }
+
+  /// The fit with the final sample, and what the audit says of it.
+  bool accept(Candidate& c) {
+    take(whole_);
+    if (!(null_ - c.criterion >= strong_evidence)) return false;
+    if (!c.model.free.empty()) {
+      take(all_);
+      auto result = fit(*residuals_, c.model, c.values);
+      c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
+    }
+    for (std::size_t k = 0; k < c.values.size(); ++k)
+      if (!(std::abs(c.values[k] - c.model.free[k]->value) > c.half_widths[k])) return false;
+    c.left = violations(c.model.with(c.values));
+    return static_cast<double>(c.left) <= (1 - enough) * static_cast<double>(violations_);
+  }
+
+  static void sort(std::vector<Candidate>& list) {
+    std::stable_sort(list.begin(), list.end(),
+                     [](const auto& a, const auto& b) { return a.criterion < b.criterion; });
+  }
+
+  struct Tried {
+    double misfit;
+    Mistake mistake;
+  };
+  /// Mistakes that make the rows fit better, the best first.
+  std::vector<Tried> promising(const Assumptions& base, const std::vector<Mistake>& mistakes,
+                               std::size_t most) {
+    take(few_);
+    const double before = misfit_of(base);
+    std::vector<Tried> better;
+    for (const auto& mistake : mistakes) {
+      Assumptions assumed = base;
+      mistake.make(assumed);
+      const double now = misfit_of(assumed);
+      if (now < before - strong_evidence) better.push_back({now, mistake});
+    }
+    std::stable_sort(better.begin(), better.end(),
+                     [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
+    if (better.size() > most) better.resize(most);
+    return better;
+  }
+
+  Candidate with_mistakes(const Assumptions& base, const std::vector<std::string>& names) {
+    take(whole_);
+    return {{base, {}}, names, {}, {}, misfit_of(base), 0};
+  }
+  static std::string name_of(const Mistake& m) { return m.key + ": " + m.text; }
+
+  /// The parameters whose fit promises most on top of a base, by a linear fit of the first span.
+  std::vector<const Parameter*> ranked(const Assumptions& base, std::size_t most) {
+    take(early_);
+    const auto rows = rows_of(base);
+    const auto slopes = columns(base, rows);
+    std::vector<std::pair<double, const Parameter*>> order;
+    for (std::size_t k = 0; k < parameters_.size(); ++k) {
+      if (!any(slopes[k])) continue;
+      std::vector<double> change;
+      order.emplace_back(linear_misfit(rows, residuals_->kinds(), {&slopes[k]}, change), &parameters_[k]);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<const Parameter*> best;
+    for (std::size_t k = 0; k < order.size(); ++k)
+      if (k < most || order[k].second->is_speed || order[k].second->is_phase) best.push_back(order[k].second);
+    return best;
+  }
+
+  /// The best of the fits of one more number on top of a base.
+  std::vector<Candidate> one_more(const Assumptions& base, const std::vector<std::string>& mistakes,
+                                  std::size_t most) {
+    std::vector<Candidate> found;
+    for (const auto* p : ranked(base, most)) {
+      std::vector<Candidate> of_starts;
+      for (const double start : starts(base, *p)) of_starts.push_back(fitted({base, {p}}, mistakes, {start}));
+      sort(of_starts);
+      found.push_back(of_starts.front());
+    }
+    return found;
+  }
+
+  std::vector<Candidate> accepted_of(std::vector<Candidate> tried) {
+    std::vector<Candidate> good;
+    sort(tried);
+    for (auto& c : tried)
+      if (accept(c)) good.push_back(std::move(c));
+    sort(good);
+    return good;
+  }
+
+  std::vector<Candidate> singles() {
+    mistakes_ = mistakes_of(nominal_, parameters_, log_);
+    promising_ = promising(nominal_, mistakes_, 8);
+    std::vector<Candidate> tried;
+    for (const auto& t : promising_) {
+      Assumptions assumed = nominal_;
+      t.mistake.make(assumed);
+      tried.push_back(with_mistakes(assumed, {name_of(t.mistake)}));
+    }
+    singles_ = one_more(nominal_, {}, 6);
+    for (const auto& c : singles_) tried.push_back(c);
+    return accepted_of(std::move(tried));
+  }
+
+  std::vector<Candidate> pairs() {
+    std::vector<Candidate> tried;
+    // A mistake and another one, or a number.
+    for (const auto& t : promising_) {
+      Assumptions base = nominal_;
+      t.mistake.make(base);
+      for (const auto& other : promising(base, mistakes_, 2)) {
+        Assumptions both = base;
+        other.mistake.make(both);
+        tried.push_back(with_mistakes(both, {name_of(t.mistake), name_of(other.mistake)}));
+      }
+      for (auto& c : one_more(base, {name_of(t.mistake)}, 3)) tried.push_back(std::move(c));
+    }
+    for (auto& c : two_numbers()) tried.push_back(std::move(c));
+    return accepted_of(std::move(tried));
+  }
+
+  std::vector<Candidate> two_numbers() {
+    take(early_);
+    const auto rows = rows_of(nominal_);
+    const auto slopes = columns(nominal_, rows);
+    struct Pair {
+      double misfit;
+      std::size_t one, two;
+      std::vector<double> start;
+    };
+    std::vector<Pair> order;
+    for (std::size_t i = 0; i < parameters_.size(); ++i)
+      for (std::size_t j = i + 1; j < parameters_.size(); ++j) {
+        if (!any(slopes[i]) || !any(slopes[j])) continue;
+        std::vector<double> change;
+        const double left = linear_misfit(rows, residuals_->kinds(), {&slopes[i], &slopes[j]}, change);
+        if (change.size() == 2) order.push_back({left, i, j, change});
+      }
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
+    std::vector<Candidate> found;
+    constexpr std::size_t most = 12;
+    for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
+      const Parameter &one = parameters_[order[k].one], &two = parameters_[order[k].two];
+      const Model model{nominal_, {&one, &two}};
+      auto best = fitted(model, {}, {one.value, two.value});
+      const auto from = [&](double a, double b) {
+        auto other = fitted(model, {}, {a, b});
+        if (other.criterion < best.criterion) best = std::move(other);
+      };
+      from(one.value + order[k].start[0] * one.change, two.value + order[k].start[1] * two.change);
+      for (const auto& single : singles_) {
+        if (single.model.free[0] == &one) from(single.values[0], two.value);
+        if (single.model.free[0] == &two) from(one.value, single.values[0]);
+      }
+      found.push_back(std::move(best));
+    }
+    return found;
+  }
+
+  Cause cause_of(const Candidate& c) const {
+    Cause cause;
+    for (std::size_t k = 0; k < c.values.size(); ++k) {
+      const auto& p = *c.model.free[k];
+      cause.values.push_back({p.key, p.dimension, c.values[k], c.half_widths[k], p.value});
+    }
+    cause.mistakes = c.mistakes;
+    cause.of = violations_;
+    cause.explains = violations_ - std::min(violations_, c.left);
+    cause.gain = null_ - c.criterion;
+    return cause;
+  }
+
+  /// The best cause, and of the others those that are no worse with as few numbers.
+  void report(const std::vector<Candidate>& accepted, Identification& result) const {
+    if (accepted.empty()) return;
+    const auto& best = accepted.front();
+    Cause cause = cause_of(best);
+    for (std::size_t k = 1; k < accepted.size(); ++k)
+      if (accepted[k].criterion - best.criterion < same_evidence &&
+          accepted[k].complexity() <= best.complexity())
+        cause.alike.push_back(cause_of(accepted[k]).text());
+    result.causes.push_back(std::move(cause));
+  }
+
+  Assumptions nominal_;
+  model::Case<double> the_case_;
+  audit::Options options_;
+  audit::EventsAtHand log_;
+  std::vector<Parameter> parameters_;
+  std::vector<Mistake> mistakes_;
+  std::optional<Residuals> residuals_;
+  std::vector<std::vector<std::size_t>> windows_;  ///< samples of growing spans, the last of the whole log
+  std::vector<std::size_t> whole_, few_, early_, all_;
+  std::vector<Tried> promising_;
+  std::vector<Candidate> singles_;
+  std::uint64_t violations_ = 0;
+  double null_ = 0;
+};
+
+}  // namespace
+
+Identification identify(const casefile::CaseSpec& spec, const audit::Options& options) {
+  Search search(spec, options);
+  auto result = search.run();
+  result.stepping = time_stepping(search.log(), search.the_case(), options);
+  return result;
+}
+
+}  // namespace edmill::identify

@@ -1,0 +1,49 @@
+// What is wrong with a log: the values or mistakes that explain its violations. docs/audit.md, "Causes"
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "check/audit.hpp"
+#include "identify/parameters.hpp"
+#include "identify/time_stepping.hpp"
+
+namespace edmill::identify {
+
+/// A number as the log has it.
+struct Found {
+  std::string key;
+  Dimension dimension;
+  double value, half_width, nominal;  ///< SI
+};
+
+/// One or two values or mistakes that explain nine tenths of the violations or more.
+struct Cause {
+  std::vector<Found> values;
+  std::vector<std::string> mistakes;   ///< "mill, sign of gamma: ..."
+  std::uint64_t explains = 0, of = 0;  ///< violations
+  double gain = 0;                     ///< of Schwarz's criterion over no cause
+  std::vector<std::string> alike;      ///< other causes that this log does not tell from it
+
+  /// "mill.arm = 100.500 +- 0.001 mm in place of 100 mm"
+  std::string text() const;
+};
+
+struct Identification {
+  std::uint64_t events = 0, violations = 0;  ///< that were searched
+  std::vector<Cause> causes;                 ///< the best first; empty where nothing explains the log
+  TimeStepping stepping;
+};
+
+/// Searches the first events of a log: one value or mistake at a time, then two together.
+/// @param options  of the audit; its log is read again
+/// @throws InputError
+Identification identify(const casefile::CaseSpec& spec, const audit::Options& options);
+
+/// As lines of the audit's report.
+std::string table(const Identification& found);
+/// As the entry "identified" of the audit's document. docs/files.md, "Audit"
+void put_json(io::JsonText& json, const Identification& found);
+
+}  // namespace edmill::identify

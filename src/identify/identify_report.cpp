@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include "identify/identify.hpp"
+
+namespace edmill {
+extern template std::string to_text<double>(const double&);
+}
+
+namespace edmill::identify {
+
+std::string Cause::text() const {
+  std::string text;
+  const auto join = [&](const std::string& part) { text += (text.empty() ? "" : ", and ") + part; };
+  for (const auto& mistake : mistakes) join(mistake);
+  for (const auto& v : values)
+    join(fmt::format("{} = {} in place of {}", v.key, value_text(v.dimension, v.value, v.half_width),
+                     value_text(v.dimension, v.nominal)));
+  return text;
+}
+
+std::string table(const Identification& found) {
+  std::string out = "\n";
+  for (const auto& cause : found.causes) {
+    out += fmt::format("  looks like   {}: explains {} of {} violations\n", cause.text(), cause.explains,
+                       cause.of);
+    for (const auto& other : cause.alike)
+      out += fmt::format("    this log does not tell it from   {}\n", other);
+  }
+  out += table(found.stepping);
+  if (found.causes.empty() && !found.stepping.found())
+    out += found.violations == 0
+               ? fmt::format("  no cause: {} impacts without a violation\n", found.events)
+               : fmt::format("  no cause explains nine tenths of the {} violations of {} impacts\n",
+                             found.violations, found.events);
+  return out;
+}
+
+namespace {
+
+void put_optional(io::JsonText& json, std::string_view key, const std::optional<double>& value) {
+  if (value) json.number(key, *value);
+}
+
+void put_stepping(io::JsonText& json, const TimeStepping& stepping) {
+  json.begin("time_stepping");
+  put_optional(json, "step", stepping.step);
+  put_optional(json, "step_by_depth", stepping.step_by_depth);
+  put_optional(json, "first_order_step", stepping.first_order_step);
+  if (stepping.second_order) json.integer("order", 2);
+  if (const auto& soft = stepping.soft) {
+    json.begin("soft_contacts");
+    json.number("duration", soft->duration);
+    json.number("low", soft->low);
+    json.number("high", soft->high);
+    json.text("logged_at", soft->at == LoggedAt::begin ? "begin" : "end");
+    json.integer("contacts", soft->contacts);
+    json.number("exponent", soft->exponent);
+    json.number("spring", soft->spring);
+    json.number("modulus", soft->modulus);
+    json.end();
+  }
+  json.end();
+}
+
+}  // namespace
+
+void put_json(io::JsonText& json, const Identification& found) {
+  json.begin("identified");
+  json.integer("events", found.events);
+  json.integer("violations", found.violations);
+  json.begin("causes");
+  for (std::size_t k = 0; k < found.causes.size(); ++k) {
+    const auto& cause = found.causes[k];
+    json.begin(std::to_string(k + 1));
+    json.text("text", cause.text());
+    json.integer("explains", cause.explains);
+    json.number("gain", cause.gain);
+    json.begin("mistakes");
+    for (std::size_t m = 0; m < cause.mistakes.size(); ++m)
+      json.text(std::to_string(m + 1), cause.mistakes[m]);
+    json.end();
+    json.begin("values");
+    for (const auto& v : cause.values) {
+      json.begin(v.key);
+      json.number("value", v.value);
+      json.number("half_width", v.half_width);
+      json.number("nominal", v.nominal);
+      json.end();
+    }
+    json.end();
+    json.begin("alike");
+    for (std::size_t a = 0; a < cause.alike.size(); ++a) json.text(std::to_string(a + 1), cause.alike[a]);
+    json.end();
+    json.end();
+  }
+  json.end();
+  put_stepping(json, found.stepping);
+  json.end();
+}
+
+}  // namespace edmill::identify

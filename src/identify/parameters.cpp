@@ -1,0 +1,329 @@
+#include "identify/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace edmill::casefile {
+extern template double Quantity::to<double>() const;
+}
+
+namespace edmill::identify {
+
+namespace {
+
+using casefile::Quantity;
+using model::PartParameter;
+using model::Range;
+
+constexpr double pi = std::numbers::pi;
+
+/// Visits each number of a motion or a vessel: f(parameter, number, axis), axis -1 for a scalar.
+template <class Part, class F>
+void each_number(Part& part, F&& f) {
+  struct Visit {
+    F& f;
+    void operator()(const PartParameter& p, Quantity& q) const { f(p, q, -1); }
+    void operator()(const PartParameter& p, std::array<Quantity, 3>& q) const {
+      for (int axis = 0; axis < 3; ++axis) f(p, q[static_cast<std::size_t>(axis)], axis);
+    }
+  } visit{f};
+  std::visit([&](auto& own) { own.parameters(own, visit); }, part);
+}
+
+std::string with_axis(const std::string& key, int axis) {
+  return axis < 0 ? key : key + "." + std::string(1, "xyz"[axis]);
+}
+
+Parameter number(std::string key, std::string meaning, Dimension dimension, double value,
+                 std::function<void(Assumptions&, double)> set) {
+  const double size = std::abs(value);
+  return {std::move(key),        std::move(meaning), dimension, value,
+          size > 0 ? size : 1.0, std::move(set),     size > 0};
+}
+
+template <class Member>
+void add_numbers(const std::string& section, const Assumptions& nominal, Member member,
+                 std::vector<Parameter>& list) {
+  auto part = nominal.spec.*member;
+  std::size_t place = 0;
+  each_number(part, [&](const PartParameter& p, Quantity& q, int axis) {
+    const std::size_t own = place++;
+    if (!p.key) return;
+    const bool drive = p.range == Range::drive;
+    const double nominal_value = drive ? 2 * pi / q.to<double>() : q.to<double>();
+    // What does not move, and directions of axes, are not numbers that a code takes for another.
+    if (nominal_value == 0) return;
+    const auto set = [member, own, drive](Assumptions& a, double value) {
+      std::size_t k = 0;
+      each_number(a.spec.*member, [&](const PartParameter&, Quantity& target, int) {
+        if (k++ == own) target = exactly(drive ? 2 * pi / value : value);
+      });
+    };
+    auto parameter =
+        number(section + "." + with_axis(p.key, axis), p.meaning, p.dimension, nominal_value, set);
+    parameter.is_speed = drive;
+    parameter.is_diameter = parameter.key == "vessel.diameter";
+    list.push_back(std::move(parameter));
+  });
+}
+
+/// The joints of a chain, each number by itself.
+void add_joints(const Assumptions& nominal, std::vector<Parameter>& list) {
+  const auto& joints = std::get<model::Chain<Quantity>>(nominal.spec.mill).given.list;
+  const auto add = [&](const std::string& key, Dimension dimension, double unit, const Quantity& value,
+                       auto member) {
+    if (value.zero()) return;
+    list.push_back(
+        number(key, "", dimension, unit * value.to<double>(), [member, unit](Assumptions& a, double x) {
+          member(std::get<model::Chain<Quantity>>(a.spec.mill).given.list) = exactly(x / unit);
+        }));
+  };
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const std::string key = fmt::format("mill.joint.{}", j);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      add(
+          with_axis(key + ".translate", static_cast<int>(axis)), Dimension::length, 1,
+          joints[j].shift[axis], [=](auto& l) -> auto& { return l[j].shift[axis]; });
+    add(
+        key + ".angle", Dimension::angle, 2 * pi,
+        joints[j].angle, [=](auto& l) -> auto& { return l[j].angle; });
+    add(
+        key + ".speed", Dimension::angular_speed, 2 * pi,
+        joints[j].frequency, [=](auto& l) -> auto& { return l[j].frequency; });
+    if (!joints[j].frequency.zero()) list.back().is_speed = true;
+    for (std::size_t s = 0; s < joints[j].swings.size(); ++s) {
+      const std::string swing = fmt::format("{}.swing.{}", key, s);
+      const auto& own = joints[j].swings[s];
+      add(
+          swing + ".amplitude", joints[j].rotates ? Dimension::angle : Dimension::length,
+          joints[j].rotates ? 2 * pi : 1,
+          own.amplitude, [=](auto& l) -> auto& { return l[j].swings[s].amplitude; });
+      add(
+          swing + ".speed", Dimension::angular_speed, 2 * pi,
+          own.frequency, [=](auto& l) -> auto& { return l[j].swings[s].frequency; });
+      list.back().is_speed = true;
+    }
+  }
+}
+
+void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
+  Vec3<double> g;
+  for (int k = 0; k < 3; ++k) g[k] = nominal.spec.gravity[static_cast<std::size_t>(k)].to<double>();
+  const double size = norm<double>(g);
+  const auto put = [](Assumptions& a, const Vec3<double>& to) {
+    for (int k = 0; k < 3; ++k) a.spec.gravity[static_cast<std::size_t>(k)] = exactly(to[k]);
+  };
+  if (size == 0) {
+    for (int axis = 0; axis < 3; ++axis) {
+      auto p = number(
+          with_axis("run.gravity", axis), "gravity, which the case has not", Dimension::acceleration, 0,
+          [=](Assumptions& a, double x) { a.spec.gravity[static_cast<std::size_t>(axis)] = exactly(x); });
+      p.change = 10;
+      list.push_back(std::move(p));
+    }
+    return;
+  }
+  list.push_back(number("run.gravity", "size", Dimension::acceleration, size, [=](Assumptions& a, double x) {
+    Vec3<double> now;
+    for (int k = 0; k < 3; ++k) now[k] = a.spec.gravity[static_cast<std::size_t>(k)].to<double>();
+    put(a, Vec3<double>(now * (x / norm<double>(now))));
+  }));
+  // Two tilts of the direction: towards the axes that are most across it.
+  std::array<int, 3> axes = {0, 1, 2};
+  std::sort(axes.begin(), axes.end(), [&](int i, int j) { return std::abs(g[i]) < std::abs(g[j]); });
+  const int along = axes[2];
+  for (int tilt = 0; tilt < 2; ++tilt) {
+    const int axis = axes[static_cast<std::size_t>(tilt)];
+    auto p = number(with_axis("run.gravity, tilted towards", axis), "direction", Dimension::angle, 0,
+                    [=](Assumptions& a, double x) {
+                      Vec3<double> now;
+                      for (int k = 0; k < 3; ++k)
+                        now[k] = a.spec.gravity[static_cast<std::size_t>(k)].to<double>();
+                      const double c = std::cos(x), s = std::sin(x), side = g[along] < 0 ? -1 : 1;
+                      const double u = now[axis], v = now[along] * side;
+                      now[axis] = c * u + s * v, now[along] = (c * v - s * u) * side;
+                      put(a, now);
+                    });
+    p.change = 0.1;
+    list.push_back(std::move(p));
+  }
+}
+
+/// Numbers of contact laws: those of both kinds of contact together where they are equal, and of each.
+class Laws {
+ public:
+  explicit Laws(const Assumptions& nominal, std::vector<Parameter>& list) : nominal_(nominal), list_(list) {}
+
+  void add() {
+    const auto& spec = nominal_.spec;
+    if (!spec.pairs_only) add_both(spec.ball_ball, spec.ball_wall);
+    for (std::size_t k = 0; k < spec.pairs.size(); ++k)
+      add_law(fmt::format("contact.pair.{}", k), spec.pairs[k].law,
+              [k](Assumptions& a) -> casefile::ContactSpec& { return a.spec.pairs[k].law; });
+  }
+
+ private:
+  using Law = casefile::ContactSpec;
+  struct Entry {
+    std::string key, meaning;
+    Dimension dimension;
+    double value;
+  };
+  /// The single numbers of a law; tables of numbers are left out.
+  template <class L, class F>
+  static void each(L& law, F&& f) {
+    const auto visit = [&]<class Value>(const auto& p, Value& value) {
+      if constexpr (std::is_same_v<Value, Quantity>) f(p.key, p.meaning, p.dimension, value);
+    };
+    std::visit([&](auto& own) { own.parameters(own, visit); }, law.law);
+    f("least_separation", "v_s", Dimension::speed, law.least_separation);
+  }
+  static std::vector<Entry> entries(Law law) {
+    std::vector<Entry> list;
+    each(law, [&](const char* key, const char* meaning, Dimension dimension, Quantity& q) {
+      list.push_back({key, meaning, dimension, q.to<double>()});
+    });
+    return list;
+  }
+  static void put(Law& law, std::size_t place, double value) {
+    std::size_t k = 0;
+    each(law, [&](const char*, const char*, Dimension, Quantity& q) {
+      if (k++ == place) q = exactly(value);
+    });
+  }
+  void push(const Entry& e, const std::string& section, std::function<void(Assumptions&, double)> set) {
+    auto p = number(section + "." + e.key, e.meaning, e.dimension, e.value, std::move(set));
+    if (e.value == 0) p.change = e.dimension == Dimension::speed ? 0.01 : 0.1;
+    list_.push_back(std::move(p));
+  }
+  template <class Find>
+  void add_law(const std::string& section, const Law& law, Find find) {
+    const auto own = entries(law);
+    for (std::size_t k = 0; k < own.size(); ++k)
+      push(own[k], section, [find, k](Assumptions& a, double x) { put(find(a), k, x); });
+  }
+  void add_both(const Law& balls, const Law& walls) {
+    const auto one = entries(balls), two = entries(walls);
+    const bool alike = balls.law.index() == walls.law.index();
+    for (std::size_t k = 0; alike && k < one.size(); ++k)
+      if (one[k].value == two[k].value)
+        push(one[k], "contact",
+             [k](Assumptions& a, double x) { put(a.spec.ball_ball, k, x), put(a.spec.ball_wall, k, x); });
+    add_law("contact.ball_ball", balls, [](Assumptions& a) -> Law& { return a.spec.ball_ball; });
+    add_law("contact.ball_wall", walls, [](Assumptions& a) -> Law& { return a.spec.ball_wall; });
+  }
+
+  const Assumptions& nominal_;
+  std::vector<Parameter>& list_;
+};
+
+/// Of the balls [first, last), whose numbers are all scaled alike.
+void add_balls(const std::string& key, std::size_t first, std::size_t last, const casefile::BallSpec& spec,
+               std::vector<Parameter>& list) {
+  const auto each = [first, last](Assumptions& a, auto&& change) {
+    for (std::size_t k = first; k < last; ++k) change(a.balls[k]);
+  };
+  const double diameter = spec.diameter.to<double>(), density = spec.density.to<double>();
+  list.push_back(number(key + ".diameter", "", Dimension::length, diameter, [=](Assumptions& a, double x) {
+    const double by = x / diameter;
+    each(a, [&](auto& ball) { ball.radius *= by, ball.mass *= by * by * by; });
+  }));
+  list.back().is_diameter = true;
+  list.push_back(number(key + ".density", "", Dimension::density, density, [=](Assumptions& a, double x) {
+    each(a, [&](auto& ball) { ball.mass *= x / density; });
+  }));
+  list.push_back(
+      number(key + ".reduced_inertia", "J", Dimension::none, spec.reduced_inertia.to<double>(),
+             [=](Assumptions& a, double x) { each(a, [&](auto& ball) { ball.reduced_inertia = x; }); }));
+}
+
+void add_all_balls(const Assumptions& nominal, std::vector<Parameter>& list) {
+  const auto groups = ball_groups(nominal.spec);
+  if (groups.empty()) return;
+  constexpr std::size_t most_groups = 8;
+  const auto same = [&](auto member) {
+    return std::all_of(groups.begin(), groups.end(), [&](const BallGroup& g) {
+      return (g.spec->*member).text() == (groups[0].spec->*member).text();
+    });
+  };
+  using Spec = casefile::BallSpec;
+  if (groups.size() == 1) return add_balls(groups[0].key, 0, nominal.balls.size(), *groups[0].spec, list);
+  if (same(&Spec::diameter) && same(&Spec::density) && same(&Spec::reduced_inertia))
+    add_balls("all balls", 0, nominal.balls.size(), *groups[0].spec, list);
+  if (groups.size() <= most_groups)
+    for (const auto& g : groups) add_balls(g.key, g.first, g.last, *g.spec, list);
+}
+
+}  // namespace
+
+std::vector<Parameter> parameters_of(const Assumptions& nominal) {
+  std::vector<Parameter> list;
+  if (std::holds_alternative<model::Chain<Quantity>>(nominal.spec.mill))
+    add_joints(nominal, list);
+  else
+    add_numbers("mill", nominal, &casefile::CaseSpec::mill, list);
+  if (!std::holds_alternative<model::StillMill<Quantity>>(nominal.spec.mill)) {
+    const double period = casefile::period_of(nominal.spec.mill).to<double>();
+    auto phase = number("phase of the drive", "as a time that the log's clock is behind", Dimension::time, 0,
+                        [](Assumptions& a, double x) { a.log.delay = x; });
+    phase.change = period / 10;
+    phase.is_phase = true;
+    list.push_back(std::move(phase));
+  }
+  if (!std::holds_alternative<model::Polyhedron<Quantity>>(nominal.spec.vessel))
+    add_numbers("vessel", nominal, &casefile::CaseSpec::vessel, list);
+  add_gravity(nominal, list);
+  Laws(nominal, list).add();
+  add_all_balls(nominal, list);
+  return list;
+}
+
+namespace {
+
+struct Unit {
+  const char* name;
+  double size;
+};
+Unit unit_of(Dimension dimension, double value) {
+  switch (dimension) {
+    case Dimension::length:
+      return {" mm", 1e-3};
+    case Dimension::time:
+      return {" ms", 1e-3};
+    case Dimension::angle:
+      return {" deg", pi / 180};
+    case Dimension::speed:
+      return {" m/s", 1};
+    case Dimension::angular_speed:
+      return {" rpm", 2 * pi / 60};
+    case Dimension::acceleration:
+      return {" m/s2", 1};
+    case Dimension::density:
+      return {" kg/m3", 1};
+    case Dimension::pressure:
+      return std::abs(value) < 1e9 ? Unit{" MPa", 1e6} : Unit{" GPa", 1e9};
+    default:
+      return {"", 1};
+  }
+}
+
+}  // namespace
+
+std::string value_text(Dimension dimension, double value) {
+  const Unit unit = unit_of(dimension, value);
+  return fmt::format("{:.9g}{}", value / unit.size, unit.name);
+}
+
+std::string value_text(Dimension dimension, double value, double half_width) {
+  const Unit unit = unit_of(dimension, value);
+  const double v = value / unit.size, h = half_width / unit.size;
+  if (!(h > 0) || !std::isfinite(h)) return fmt::format("{:.9g}{}", v, unit.name);
+  const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(h))) + 1, 0, 15);
+  if (h < 1e-6 * std::max(std::abs(v), 1e-3)) return fmt::format("{:.9g} +- {:.1e}{}", v, h, unit.name);
+  return fmt::format("{:.{}f} +- {:.{}f}{}", v, decimals, h, decimals, unit.name);
+}
+
+}  // namespace edmill::identify

@@ -1,0 +1,60 @@
+// How far logged impacts and flights are from a model: the rows of a fit.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "check/audit.hpp"
+#include "check/mechanics.hpp"
+#include "identify/assumptions.hpp"
+
+namespace edmill::identify {
+
+/// What a row compares; rows of one kind have one scale of noise.
+enum class RowKind : unsigned char { touch, law, energy, speed, place, velocity };
+inline constexpr std::size_t row_kinds = 6;
+
+/// The equations that an audit checks, as differences over what the audit allows: gaps of bodies in contact,
+/// states after an impact, energies and speeds in their columns, the ends of flights. Which rows there are
+/// depends on the columns of the log alone, so that a fit has the same rows for all values.
+class Residuals {
+ public:
+  /// @param nominal  what the audit's tolerances are taken from
+  Residuals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
+            const model::Case<double>& nominal);
+
+  /// Sets which events are compared; each flight is that before its event.
+  void choose(const std::vector<std::size_t>& events);
+  std::size_t count() const { return kinds_.size(); }
+  const std::vector<RowKind>& kinds() const { return kinds_; }
+  /// The event of each row, as its place among the chosen ones.
+  const std::vector<std::size_t>& events() const { return row_events_; }
+  /// @return one number for each row; a large one where it is not finite
+  std::vector<double> rows(const model::Case<double>& model, const LogChange& change) const;
+
+ private:
+  struct Before {
+    long event = -1;
+    std::size_t body = 0;
+  };
+  struct Writer;
+  void event_rows(std::size_t k, const model::Case<double>& model, const LogChange& change,
+                  Writer& out) const;
+  void flight_rows(std::size_t k, std::size_t body, const audit::LoggedEvent& event,
+                   const model::Case<double>& model, const LogChange& change, Writer& out) const;
+  void impact_rows(const audit::LoggedEvent& event, const audit::LoggedImpact& impact,
+                   const model::ContactLaw<double>& law, Writer& out) const;
+  void speed_rows(const audit::LoggedEvent& event, const audit::LoggedImpact& impact,
+                  const model::ContactLaw<double>& law, Writer& out) const;
+
+  const audit::EventsAtHand& log_;
+  audit::Tolerances tolerances_;
+  std::vector<std::array<Before, 2>> before_;  ///< the impact at which the flight of each body began
+  std::vector<std::size_t> chosen_;
+  std::vector<double> allowed_;  ///< by row
+  std::vector<RowKind> kinds_;
+  std::vector<std::size_t> row_events_;
+  const model::Case<double>& nominal_;
+};
+
+}  // namespace edmill::identify

@@ -1,0 +1,266 @@
+#include "identify/time_stepping.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "base/instant.hpp"
+#include "check/mechanics.hpp"
+
+namespace edmill::identify {
+
+namespace {
+
+using audit::LoggedEvent;
+using audit::Vec;
+
+constexpr std::size_t least_number = 20;
+
+double quantile(std::vector<double>& values, double share) {
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Whether the values agree within a factor: their quartiles are within half of the median.
+bool agree(std::vector<double>& values) {
+  const double middle = quantile(values, 0.5);
+  return std::abs(quantile(values, 0.75) - quantile(values, 0.25)) < std::abs(middle);
+}
+
+/// The largest step of which all times are multiples, by Euclid's algorithm on their differences.
+std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
+  if (events.size() < least_number) return std::nullopt;
+  const double latest = std::max(std::abs(events.front().time), std::abs(events.back().time));
+  const double rounding = 64 * std::numeric_limits<double>::epsilon() * latest;
+  double step = 0;
+  for (std::size_t k = 1; k < events.size(); ++k) {
+    double a = events[k].time - events[k - 1].time, b = step;
+    if (!(a > rounding)) continue;
+    while (b > rounding) {
+      const double rest = std::abs(a - b * std::round(a / b));
+      a = b, b = rest;
+    }
+    step = a;
+    if (step < 100 * rounding) return std::nullopt;
+  }
+  if (!(step > 0)) return std::nullopt;
+  // Times that are rounded to doubles have a smallest step too, which means nothing.
+  const double span = events.back().time - events.front().time;
+  if (span / step < static_cast<double>(events.size())) return std::nullopt;
+  // The mean step over the whole log is sharper than any difference.
+  return span / std::round(span / step);
+}
+
+/// An impact with its geometry, and what the flights on either side of it miss.
+struct Contact {
+  double duration_from_begin = audit::unknown, duration_from_end = audit::unknown;
+  double approach = audit::unknown, effective_mass = 0, effective_radius = 0;
+};
+
+class Measured {
+ public:
+  Measured(const audit::EventsAtHand& log, const model::Case<double>& the_case,
+           const audit::Tolerances& tolerances)
+      : log_(log), case_(the_case), tolerances_(tolerances), contacts_(log.events.size()) {
+    normals_.reserve(log.events.size());
+    for (std::size_t k = 0; k < log.events.size(); ++k) add(k);
+    std::vector<long> last(the_case.balls.size(), -1);
+    for (std::size_t k = 0; k < log.events.size(); ++k) {
+      const auto& event = log.events[k];
+      for (std::size_t body = 0; body < (event.with_wall ? 1u : 2u); ++body) {
+        const int ball = body == 0 ? event.ball : event.partner;
+        if (!event.problem.empty() || ball < 0 || ball >= static_cast<int>(last.size())) continue;
+        if (const long from = last[static_cast<std::size_t>(ball)]; from >= 0)
+          flight(static_cast<std::size_t>(from), k, ball);
+        last[static_cast<std::size_t>(ball)] = static_cast<long>(k);
+      }
+    }
+  }
+
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  std::vector<double> depth_over_speed, first_order;
+
+ private:
+  /// Geometry of an impact and its depth.
+  void add(std::size_t k) {
+    const auto& event = log_.events[k];
+    normals_.emplace_back(Vec(0, 0, 0), Vec(0, 0, 0));
+    if (!event.problem.empty()) return;
+    auto& [normal, carrier] = normals_.back();
+    const auto& one = event.body[0];
+    Contact& contact = contacts_[k];
+    const auto& ball = case_.balls[static_cast<std::size_t>(event.ball)];
+    double gap;
+    if (event.with_wall) {
+      const auto when = DriveClock<double>(case_.mill.motion.period()).at(event.time);
+      auto frame = audit::frame_of(case_.mill.motion, case_.mill.motion.pose(when), false);
+      frame.moved = audit::moved_walls(case_.mill.vessel, when);
+      gap = audit::wall_gap(frame, case_.mill.vessel, event.partner, ball.radius, one.position);
+      normal = audit::wall_normal(frame, case_.mill.vessel, event.partner, one.position);
+      const Vec point = one.position - normal * ball.radius;
+      carrier = audit::wall_velocity(audit::WallVelocity::nested, frame, frame, point, one.position) +
+                audit::piston_velocity(frame, event.partner, normal);
+      contact.effective_mass = ball.mass, contact.effective_radius = ball.radius;
+    } else {
+      const auto& other = case_.balls[static_cast<std::size_t>(event.partner)];
+      const auto& two = event.body[1];
+      const Vec apart = one.position - two.position;
+      const double distance = audit::size(apart);
+      if (!(distance > 0)) return;
+      gap = distance - ball.radius - other.radius;
+      normal = apart * (1 / distance);
+      carrier = (one.velocity_before * ball.mass + two.velocity_before * other.mass) *
+                (1 / (ball.mass + other.mass));
+      contact.effective_mass = ball.mass * other.mass / (ball.mass + other.mass);
+      contact.effective_radius = ball.radius * other.radius / (ball.radius + other.radius);
+      contact.approach = -audit::dot(Vec(one.velocity_before - two.velocity_before), normal);
+    }
+    if (event.with_wall) contact.approach = -audit::dot(Vec(one.velocity_before - carrier), normal);
+    if (gap < -tolerances_.touch(event.time, audit::size(one.velocity_before)) && contact.approach > 0)
+      depth_over_speed.push_back(-gap / contact.approach);
+  }
+
+  /// A ball's flight from the impact `from` to the impact `to`.
+  void flight(std::size_t from, std::size_t to, int ball) {
+    const auto &begin = log_.events[from], &end = log_.events[to];
+    const std::size_t side = begin.ball == ball ? 0 : 1, arriving = end.ball == ball ? 0 : 1;
+    const auto &left = begin.body[side], &came = end.body[arriving];
+    const double dt = end.time - begin.time;
+    if (!(dt > 0)) return;
+    const Vec& g = case_.mill.gravity;
+    const Vec off = came.position - (left.position + (left.velocity_after + g * (dt / 2)) * dt);
+    const double noise = tolerances_.position(end.time, audit::size(left.velocity_after) * dt,
+                                              audit::size(left.velocity_after));
+    const auto& [normal_a, carrier_a] = normals_[from];
+    const auto& [normal_b, carrier_b] = normals_[to];
+    const double leaving = audit::dot(Vec(left.velocity_after - carrier_a), normal_a);
+    const double coming = audit::dot(Vec(came.velocity_before - carrier_b), normal_b);
+    const bool large = audit::size(off) > 3 * noise;
+    // The ball leaves later than its line says, or its line comes later than its arrival.
+    if (large && std::abs(leaving) > 0.05)
+      contacts_[from].duration_from_begin = -audit::dot(off, normal_a) / leaving;
+    if (large && std::abs(coming) > 0.05)
+      contacts_[to].duration_from_end = -audit::dot(off, normal_b) / coming;
+    if (const double size = audit::size(g); size > 0)
+      first_order.push_back(2 * audit::dot(off, g) / (size * size * dt));
+  }
+
+  const audit::EventsAtHand& log_;
+  const model::Case<double>& case_;
+  audit::Tolerances tolerances_;
+  std::vector<Contact> contacts_;
+  std::vector<std::pair<Vec, Vec>> normals_;  ///< of each impact, and what carries the contact [m/s]
+};
+
+/// Slope of ln(duration) over ln(speed) by medians of its pairs (Theil and Sen), on neighbours a third of the
+/// list apart.
+double exponent_of(std::vector<std::pair<double, double>> points) {
+  std::sort(points.begin(), points.end());
+  std::vector<double> slopes;
+  const std::size_t apart = points.size() / 2;
+  for (std::size_t k = 0; k + apart < points.size(); ++k) {
+    const double dx = points[k + apart].first - points[k].first;
+    if (dx > 0.1) slopes.push_back((points[k + apart].second - points[k].second) / dx);
+  }
+  return slopes.size() < least_number / 2 ? audit::unknown : quantile(slopes, 0.5);
+}
+
+std::optional<SoftContacts> soft_contacts(const std::vector<Contact>& contacts, LoggedAt at) {
+  std::vector<double> durations, springs, moduli;
+  std::vector<std::pair<double, double>> points;
+  std::size_t known = 0;
+  for (const auto& c : contacts) {
+    const double t = at == LoggedAt::begin ? c.duration_from_begin : c.duration_from_end;
+    if (!std::isfinite(t)) continue;
+    ++known;
+    if (!(t > 0)) continue;
+    durations.push_back(t);
+    constexpr double pi = std::numbers::pi;
+    springs.push_back(c.effective_mass * pi * pi / (t * t));
+    if (!(c.approach > 0)) continue;
+    // t = 2.868 (M^2 / (R E*^2 v))^(1/5)
+    moduli.push_back(std::sqrt(std::pow(2.868 / t, 5) * c.effective_mass * c.effective_mass /
+                               (c.effective_radius * c.approach)));
+    points.emplace_back(std::log(c.approach), std::log(t));
+  }
+  // Contacts last in one sense of time: nearly all of the durations are positive, and they agree.
+  if (durations.size() < least_number || 10 * durations.size() < 8 * known || !agree(durations))
+    return std::nullopt;
+  return SoftContacts{quantile(durations, 0.5),  quantile(durations, 0.25),
+                      quantile(durations, 0.75), at,
+                      durations.size(),          exponent_of(std::move(points)),
+                      quantile(springs, 0.5),    moduli.empty() ? audit::unknown : quantile(moduli, 0.5)};
+}
+
+}  // namespace
+
+TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<double>& the_case,
+                           const audit::Options& options) {
+  TimeStepping result;
+  result.step = common_step(log.events);
+  const auto& has = log.available;
+  if (!has.positions(false) || !has.velocities_before(false) || !has.velocities_after(false)) return result;
+  Measured measured(log, the_case, audit::tolerances_of(the_case, options));
+  const auto begin = soft_contacts(measured.contacts(), LoggedAt::begin),
+             end = soft_contacts(measured.contacts(), LoggedAt::end);
+  const auto spread = [](const SoftContacts& s) { return (s.high - s.low) / s.duration; };
+  if (begin && end)
+    result.soft = spread(*begin) <= spread(*end) ? begin : end;
+  else
+    result.soft = begin ? begin : end;
+  if (auto& depths = measured.depth_over_speed;
+      depths.size() >= least_number && 2 * depths.size() > log.events.size()) {
+    const double most = quantile(depths, 0.98);
+    // Evenly from 0 to a step: the median is half of the largest.
+    if (std::abs(quantile(depths, 0.5) / most - 0.5) < 0.15) result.step_by_depth = most / 0.98;
+  }
+  auto& orders = measured.first_order;
+  if (orders.size() < least_number || audit::size(the_case.mill.gravity) == 0) return result;
+  const double middle = std::abs(quantile(orders, 0.5));
+  const double step = result.step.value_or(result.step_by_depth.value_or(0));
+  if (agree(orders) && middle > 1e-9 && (step == 0 || middle > step / 10))
+    result.first_order_step = middle;
+  else
+    result.second_order = step > 0;
+  return result;
+}
+
+std::string table(const TimeStepping& found) {
+  std::string out;
+  if (found.soft) {
+    const auto& s = *found.soft;
+    const std::string law =
+        !std::isfinite(s.exponent) ? ""
+        : s.exponent < -0.1 ? fmt::format("; it falls as speed^{:.2f}, as of Hertz's contacts", s.exponent)
+                            : fmt::format("; it goes as speed^{:.2f}, as of a linear spring", s.exponent);
+    out += fmt::format(
+        "  looks like   soft contacts that last {:.3g} us (quartiles {:.3g} and {:.3g}), shown by {} "
+        "impacts, logged at their {}{}\n"
+        "    stiffness {:.3g} N/m of a linear spring, or E* {:.3g} MPa of Hertz's contacts\n",
+        s.duration * 1e6, s.low * 1e6, s.high * 1e6, s.contacts, s.at == LoggedAt::begin ? "begin" : "end",
+        law, s.spring, s.modulus / 1e6);
+  }
+  if (found.step)
+    out += fmt::format(
+        "  looks like   time steps: all times are multiples of {:.6g} s, the step or the rounding of times\n",
+        *found.step);
+  if (found.step_by_depth)
+    out += fmt::format("  looks like   contacts found by overlap, with a step near {:.3g} s\n",
+                       *found.step_by_depth);
+  if (found.first_order_step)
+    out += fmt::format(
+        "  looks like   an integrator of first order with steps of {:.3g} s: flights leave the parabola by g "
+        "h t/2\n",
+        *found.first_order_step);
+  if (found.second_order) out += "    flights under gravity have no error of first order in the step\n";
+  return out;
+}
+
+}  // namespace edmill::identify
