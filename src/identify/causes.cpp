@@ -120,7 +120,7 @@ void add_columns(const audit::Available& has, std::vector<Mistake>& list) {
 
 /// Numbers of balls of different kinds that a log has exchanged. Balls alike cannot be told apart.
 void add_exchanged_balls(const Assumptions& nominal, std::vector<Mistake>& list) {
-  constexpr int most = 12;
+  constexpr int most = 40;
   const int count = static_cast<int>(nominal.balls.size());
   if (count > most) return;
   for (int i = 0; i < count; ++i)

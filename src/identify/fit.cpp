@@ -150,8 +150,8 @@ Fit fit(const Residuals& residuals, const Model& model, std::vector<double> star
   Problem problem{residuals, model};
   gsl_multifit_nlinear_fdf fdf{};
   fdf.f = &Problem::rows, fdf.df = &Problem::derivatives, fdf.n = n, fdf.p = p, fdf.params = &problem;
-  gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-  settings.scale = gsl_multifit_nlinear_scale_levenberg;
+  auto settings = gsl_multifit_nlinear_default_parameters();
+  settings.scale = gsl_multifit_nlinear_scale_marquardt;  // columns differ by orders of magnitude
   const std::unique_ptr<gsl_multifit_nlinear_workspace, void (*)(gsl_multifit_nlinear_workspace*)> work(
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, p), gsl_multifit_nlinear_free);
   EDMILL_REQUIRE(work, "room for a fit");
@@ -170,16 +170,23 @@ Fit fit(const Residuals& residuals, const Model& model, std::vector<double> star
   auto rows = rows_at(start);
   std::vector<double> weights;
   const auto scales = scales_for(rows);
-  for (std::size_t round = 0; round < scales.size() + 2; ++round) {
+  constexpr std::size_t most_rounds = 25;
+  for (std::size_t round = 0; round < scales.size() + most_rounds; ++round) {
     weights = weights_of(rows, scales[std::min(round, scales.size() - 1)]);
     const auto from = vector_of(x), w = vector_of(weights);
     if (gsl_multifit_nlinear_winit(from.get(), w.get(), &fdf, work.get()) != GSL_SUCCESS) break;
     int info = 0;
     gsl_multifit_nlinear_driver(3, 1e-15, 1e-15, 0, nullptr, nullptr, &info, work.get());
     const gsl_vector* found = gsl_multifit_nlinear_position(work.get());
-    for (std::size_t k = 0; k < p; ++k)
-      if (std::isfinite(gsl_vector_get(found, k))) x[k] = gsl_vector_get(found, k);
+    double moved = 0;
+    for (std::size_t k = 0; k < p; ++k) {
+      const double now = gsl_vector_get(found, k);
+      if (!std::isfinite(now)) continue;
+      moved = std::max(moved, std::abs(now - x[k]) / std::max(1.0, std::abs(now)));
+      x[k] = now;
+    }
     rows = rows_at(in_units());
+    if (round >= scales.size() && moved < 1e-13) break;
   }
   Fit result;
   result.values = in_units();

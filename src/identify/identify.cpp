@@ -52,12 +52,15 @@ class Search {
     violations_ = violations(nominal_);
     result.violations = violations_;
     if (violations_ == 0) return result;
+    violating_.assign(log_.events.size(), false);
+    note_violating(nominal_);
     choose_samples();
     take(whole_);
     if (residuals_->count() < 12) return result;
     null_ = misfit_of(nominal_);
     auto accepted = singles();
     if (accepted.empty() || accepted.front().left > 0) {
+      resample(accepted);
       for (auto& pair : pairs()) accepted.push_back(std::move(pair));
       sort(accepted);
     }
@@ -73,30 +76,44 @@ class Search {
     return audit::audit(assumed.built(), changed, options_).findings.total();
   }
 
-  // ---- samples: events evenly over a span of the log
+  // ---- samples: half of them events that violate something, half of them any, evenly over a span of the log
   void choose_samples() {
     const auto& events = log_.events;
     const double begin = events.front().time, span = events.back().time - begin;
     const double period = the_case_.mill.motion.period();
     const double first = std::max(period, events[std::min<std::size_t>(79, events.size() - 1)].time - begin);
+    windows_.clear();
     for (double window = first; window < span; window *= 4) windows_.push_back(sample(begin + window, 160));
     whole_ = sample(events.back().time, 300);
     windows_.push_back(whole_);
-    few_ = sample(events.back().time, 60);
+    few_ = sample(events.back().time, 80);
     early_ = windows_.front();
     all_ = sample(events.back().time, 1500);
   }
   std::vector<std::size_t> sample(double until, std::size_t most) const {
-    std::size_t n = 0;
-    while (n < log_.events.size() && log_.events[n].time <= until) ++n;
-    std::vector<std::size_t> chosen;
-    if (n <= most) {
-      chosen.resize(n);
-      std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-      return chosen;
+    std::vector<std::size_t> all, violating, chosen;
+    for (std::size_t k = 0; k < log_.events.size() && log_.events[k].time <= until; ++k) {
+      all.push_back(k);
+      if (violating_[k]) violating.push_back(k);
     }
-    for (std::size_t k = 0; k < most; ++k) chosen.push_back(k * n / most);
+    if (all.size() <= most) return all;
+    for (const auto* list : {&violating, &all}) {
+      const std::size_t number = std::min(list->size(), list == &all ? most - chosen.size() : most / 2);
+      for (std::size_t k = 0; k < number; ++k) chosen.push_back((*list)[k * list->size() / number]);
+    }
+    std::sort(chosen.begin(), chosen.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     return chosen;
+  }
+  /// Notes the events that are off by more than the audit allows.
+  void note_violating(const Assumptions& assumed) {
+    std::vector<std::size_t> every(log_.events.size());
+    std::iota(every.begin(), every.end(), std::size_t{0});
+    take(every);
+    const auto rows = rows_of(assumed);
+    const auto& places = residuals_->events();
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (std::abs(rows[k]) > 1) violating_[places[k]] = true;
   }
   void take(const std::vector<std::size_t>& sample) { residuals_->choose(sample); }
 
@@ -273,6 +290,22 @@ class Search {
     return accepted_of(std::move(tried));
   }
 
+  /// New samples with the events that the best single causes leave unexplained.
+  void resample(std::vector<Candidate>& accepted) {
+    sort(singles_);
+    violating_.assign(log_.events.size(), false);
+    const std::size_t bases = std::min<std::size_t>(2, singles_.size());
+    for (std::size_t k = 0; k < bases; ++k) note_violating(singles_[k].model.with(singles_[k].values));
+    if (bases == 0) note_violating(nominal_);
+    choose_samples();
+    take(whole_);
+    null_ = misfit_of(nominal_);
+    for (auto* list : {&accepted, &singles_}) {
+      for (auto& c : *list) c.criterion = misfit_of(c.model.with(c.values)) + penalty(c.model.free.size());
+      sort(*list);
+    }
+  }
+
   std::vector<Candidate> pairs() {
     std::vector<Candidate> tried;
     // A mistake and another one, or a number.
@@ -287,6 +320,13 @@ class Search {
       for (auto& c : one_more(base, {name_of(t.mistake)}, 3)) tried.push_back(std::move(c));
     }
     for (auto& c : two_numbers()) tried.push_back(std::move(c));
+    // A number on top of the best ones, then both together.
+    for (std::size_t k = 0; k < std::min<std::size_t>(3, singles_.size()); ++k) {
+      const auto& single = singles_[k];
+      const auto* first = single.model.free[0];
+      for (const auto* p : ranked(single.model.with(single.values), 3))
+        if (p != first) tried.push_back(fitted({nominal_, {first, p}}, {}, {single.values[0], p->value}));
+    }
     return accepted_of(std::move(tried));
   }
 
@@ -359,6 +399,7 @@ class Search {
   audit::Options options_;
   audit::EventsAtHand log_;
   std::vector<Parameter> parameters_;
+  std::vector<bool> violating_;  ///< by event
   std::vector<Mistake> mistakes_;
   std::optional<Residuals> residuals_;
   std::vector<std::vector<std::size_t>> windows_;  ///< samples of growing spans, the last of the whole log
