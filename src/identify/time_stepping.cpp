@@ -43,9 +43,10 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   for (std::size_t k = 1; k < events.size(); ++k) {
     double a = events[k].time - events[k - 1].time, b = step;
     if (!(a > rounding)) continue;
-    while (b > rounding) {
-      const double rest = std::abs(a - b * std::round(a / b));
-      a = b, b = rest;
+    // What is small beside the divisor is the rounding of it and of the times.
+    for (double rest = b; b > 0; a = b, b = rest) {
+      rest = std::abs(a - b * std::round(a / b));
+      if (rest < std::max(rounding, 1e-3 * b)) rest = 0;
     }
     step = a;
     if (step < 100 * rounding) return std::nullopt;
@@ -54,8 +55,13 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   // Times that are rounded to doubles have a smallest step too, which means nothing.
   const double span = events.back().time - events.front().time;
   if (span / step < static_cast<double>(events.size())) return std::nullopt;
-  // The mean step over the whole log is sharper than any difference.
-  return span / std::round(span / step);
+  const double begin = events.front().time;
+  step = span / std::round(span / step);  // sharper than any difference
+  for (const auto& event : events) {
+    const double steps = (event.time - begin) / step;
+    if (std::abs(steps - std::round(steps)) > 0.02) return std::nullopt;
+  }
+  return step;
 }
 
 /// An impact with its geometry, and what the flights on either side of it miss.
