@@ -76,7 +76,7 @@ void add_units(const std::vector<Parameter>& parameters, std::vector<Mistake>& l
       list.push_back({p.key,
                       fmt::format("{} in place of {}, {}", value_text(p.dimension, factor.by * p.value),
                                   value_text(p.dimension, p.value), factor.text),
-                      [set = p.set, value = factor.by * p.value](Assumptions& a) { set(a, value); }});
+                      [set = p.set, value = factor.by * p.value](Assumptions& a) { set(a, value); }, true});
     };
     const bool angle = p.dimension == Dimension::angle || p.dimension == Dimension::angular_speed;
     for (const auto& factor : unit_factors)

@@ -15,6 +15,7 @@ struct Mistake {
   std::string key;   ///< "mill, order of rotations"
   std::string text;  ///< "R_x(gamma) R_z(theta) in place of R_z(theta) R_x(gamma)"
   std::function<void(Assumptions&)> make;
+  bool by_factor = false;  ///< of a number, as a wrong unit makes it
 };
 
 /// Those that can be told apart in a log with these columns.

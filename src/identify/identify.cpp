@@ -9,6 +9,7 @@
 
 #include "identify/causes.hpp"
 #include "identify/fit.hpp"
+#include "identify/replay.hpp"
 
 namespace edmill::identify {
 
@@ -34,6 +35,7 @@ class Search {
  public:
   Search(const casefile::CaseSpec& spec, audit::Options options)
       : nominal_(assumptions_of(spec)), the_case_(nominal_.built()), options_(std::move(options)) {
+    from_start_ = options_.from_start;
     options_.from_start = false;
     options_.examples = 0;
     options_.progress = nullptr;
@@ -49,6 +51,11 @@ class Search {
     Identification result;
     result.events = log_.events.size();
     if (log_.events.empty()) return result;
+    const auto& has = log_.available.body[0];
+    if (!has.position && from_start_) {
+      follow(result);
+      return result;
+    }
     violations_ = violations(nominal_);
     result.violations = violations_;
     if (violations_ == 0) return result;
@@ -69,6 +76,22 @@ class Search {
   }
 
  private:
+  /// Without places nothing can be checked impact by impact, but a run from the case's start can follow the
+  /// log.
+  void follow(Identification& result) const {
+    const auto found = replay(nominal_, parameters_, mistakes_of(nominal_, parameters_, log_), log_);
+    result.follows = found.without;
+    result.follows_all = found.clean;
+    if (!found.cause) return;
+    Cause cause;
+    if (const auto* p = found.cause->parameter)
+      cause.values.push_back({p->key, p->dimension, found.cause->value, found.cause->half_width, p->value});
+    else
+      cause.mistakes.push_back(found.cause->mistake);
+    cause.follows = found.cause->follows, cause.could_follow = found.cause->of;
+    result.causes.push_back(std::move(cause));
+  }
+
   std::uint64_t violations(const Assumptions& assumed) const {
     if (assumed.log.none()) return audit::audit(assumed.built(), log_, options_).findings.total();
     audit::EventsAtHand changed = log_;
@@ -408,6 +431,7 @@ class Search {
   std::vector<Candidate> singles_;
   std::uint64_t violations_ = 0;
   double null_ = 0;
+  bool from_start_ = false;
 };
 
 }  // namespace

@@ -21,17 +21,33 @@ std::string Cause::text() const {
 std::string table(const Identification& found) {
   std::string out = "\n";
   for (const auto& cause : found.causes) {
+    if (cause.could_follow > 0) {
+      out += fmt::format(
+          "  looks like   {}: a run with it follows the first {} impacts of the log, the case itself {}\n",
+          cause.text(), cause.follows, found.follows.value_or(0));
+      continue;
+    }
     out += fmt::format("  looks like   {}: explains {} of {} violations\n", cause.text(), cause.explains,
                        cause.of);
     for (const auto& other : cause.alike)
       out += fmt::format("    this log does not tell it from   {}\n", other);
   }
   out += table(found.stepping);
-  if (found.causes.empty() && !found.stepping.found())
-    out += found.violations == 0
-               ? fmt::format("  no cause: {} impacts without a violation\n", found.events)
-               : fmt::format("  no cause explains nine tenths of the {} violations of {} impacts\n",
-                             found.violations, found.events);
+  if (!found.causes.empty()) return out;
+  if (found.follows)
+    out +=
+        found.follows_all
+            ? fmt::format(
+                  "  no cause: a run of the case follows the log, {} impacts, as far as rounding lets it\n",
+                  *found.follows)
+            : fmt::format("  no cause found: a run of the case follows the first {} impacts\n",
+                          *found.follows);
+  else if (found.violations > 0 && !found.stepping.found())
+    out += fmt::format("  no cause explains nine tenths of the {} violations of {} impacts\n",
+                       found.violations, found.events);
+  else if (found.violations == 0)
+    out +=
+        fmt::format("  no cause: {} impacts without a violation of what their columns show\n", found.events);
   return out;
 }
 
@@ -68,12 +84,17 @@ void put_json(io::JsonText& json, const Identification& found) {
   json.begin("identified");
   json.integer("events", found.events);
   json.integer("violations", found.violations);
+  if (found.follows) json.integer("follows", *found.follows);
   json.begin("causes");
   for (std::size_t k = 0; k < found.causes.size(); ++k) {
     const auto& cause = found.causes[k];
     json.begin(std::to_string(k + 1));
     json.text("text", cause.text());
     json.integer("explains", cause.explains);
+    if (cause.could_follow > 0) {
+      json.integer("follows", cause.follows);
+      json.integer("could_follow", cause.could_follow);
+    }
     json.number("gain", cause.gain);
     json.begin("mistakes");
     for (std::size_t m = 0; m < cause.mistakes.size(); ++m)

@@ -1,0 +1,226 @@
+#include "identify/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/errors.hpp"
+#include "run/event_source.hpp"
+
+namespace edmill::run {
+extern template std::unique_ptr<EventSource> make_source<double>(const casefile::CaseSpec&, bool);
+}
+namespace edmill::casefile {
+extern template InitialCase<double> build_case<double>(const CaseSpec&, bool);
+extern template model::Mill<double> build_mill<double>(const CaseSpec&);
+extern template double Quantity::to<double>() const;
+}  // namespace edmill::casefile
+
+namespace edmill::identify {
+
+namespace {
+
+constexpr std::size_t most_impacts = 1000;
+constexpr double same_time = 1e-6;  ///< of a drive period: an impact that comes later is another one
+
+struct Impact {
+  double time;
+  int ball, partner;  ///< of two balls the lower number first; walls are -1 - id
+  bool same_bodies(const Impact& other) const { return ball == other.ball && partner == other.partner; }
+};
+
+class Replay {
+ public:
+  Replay(const Assumptions& nominal, const audit::EventsAtHand& log)
+      : nominal_(nominal), states_(casefile::build_case<double>(nominal.spec).states) {
+    const auto mill = nominal.built().mill;
+    period_ = mill.motion.period();
+    start_ = nominal.spec.initial_time.to<double>();
+    const auto pose = mill.motion.pose(DriveClock<double>(period_).at(start_));
+    for (const auto& state : states_) places_.push_back(mill.motion.position_in_vessel(pose, state.position));
+    for (const auto& e : log.events) {
+      if (!e.problem.empty() || log_.size() == most_impacts) break;
+      const bool turn = !e.with_wall && e.partner < e.ball;
+      log_.push_back({e.time, turn ? e.partner : e.ball,
+                      e.with_wall ? -1 - e.partner
+                      : turn      ? e.ball
+                                  : e.partner});
+    }
+  }
+
+  std::size_t count() const { return log_.size(); }
+
+  /// The first impacts of the case with these values, from the initial state of the nominal one.
+  std::vector<Impact> impacts(const Assumptions& assumed, std::size_t count) const {
+    casefile::CaseSpec spec = assumed.spec;
+    spec.batches.clear(), spec.balls.clear();
+    spec.initial_state.clear();
+    const auto mill = casefile::build_mill<double>(assumed.spec);
+    const auto pose = mill.motion.pose(DriveClock<double>(mill.motion.period()).at(start_));
+    const double volume = 4.0 / 3 * 3.14159265358979323846;
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+      casefile::ExplicitBall ball;
+      const auto& own = assumed.balls[k];
+      ball.diameter = exactly(2 * own.radius);
+      ball.density = exactly(own.mass / (volume * own.radius * own.radius * own.radius));
+      ball.reduced_inertia = exactly(own.reduced_inertia);
+      ball.material = own.material;
+      const Vec3<double> place = in_vessel ? mill.motion.to_inertial(pose, places_[k]) : states_[k].position;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        ball.position[a] = exactly(place[axis]);
+        ball.velocity[a] = exactly(states_[k].velocity[axis]);
+        ball.spin[a] = exactly(states_[k].spin[axis]);
+      }
+      spec.balls.push_back(std::move(ball));
+    }
+    std::vector<Impact> list;
+    try {
+      const auto source = run::make_source<double>(spec, false);
+      for (const auto& e : source->next(count))
+        list.push_back({static_cast<double>(e.values[run::time]) / assumed.log.time - assumed.log.delay,
+                        e.ball, e.with_wall ? -1 - e.partner : e.partner});
+    } catch (const InputError&) {  // balls that do not fit into this vessel
+    } catch (const UndecidedError&) {
+    }
+    return list;
+  }
+
+  /// How many impacts from the first on two lists have in common.
+  std::size_t common(const std::vector<Impact>& one, const std::vector<Impact>& two) const {
+    std::size_t n = 0;
+    while (n < std::min(one.size(), two.size()) && one[n].same_bodies(two[n]) &&
+           std::abs(one[n].time - two[n].time) < same_time * period_)
+      ++n;
+    return n;
+  }
+  std::size_t follows(const std::vector<Impact>& list) const { return common(list, log_); }
+
+  /// Differences of times of the impacts of each ball, as far as its partners are the log's, at most `depth`
+  /// of each.
+  std::vector<double> differences(const std::vector<Impact>& list, std::size_t depth,
+                                  std::vector<std::size_t>& places) const {
+    std::vector<double> off;
+    std::vector<std::size_t> next(states_.size(), 0), seen(states_.size(), 0);
+    std::vector<std::vector<std::size_t>> of_ball(states_.size());
+    std::vector<bool> lost(states_.size(), false);
+    for (std::size_t k = 0; k < log_.size(); ++k) {
+      of_ball[static_cast<std::size_t>(log_[k].ball)].push_back(k);
+      if (log_[k].partner >= 0) of_ball[static_cast<std::size_t>(log_[k].partner)].push_back(k);
+    }
+    for (const auto& impact : list) {
+      const auto ball = static_cast<std::size_t>(impact.ball);
+      if (lost[ball] || seen[ball] >= depth || next[ball] >= of_ball[ball].size()) continue;
+      const std::size_t k = of_ball[ball][next[ball]];
+      if (!log_[k].same_bodies(impact)) {
+        lost[ball] = true;
+        continue;
+      }
+      ++next[ball], ++seen[ball];
+      if (impact.partner >= 0) ++next[static_cast<std::size_t>(impact.partner)];
+      off.push_back(impact.time - log_[k].time);
+      places.push_back(k);
+    }
+    return off;
+  }
+
+  double period() const { return period_; }
+  /// Whether the balls begin at the nominal case's places in the vessel, and not in space: codes place them
+  /// either way.
+  bool in_vessel = false;
+
+ private:
+  const Assumptions& nominal_;
+  std::vector<model::BallState<double>> states_;
+  std::vector<Vec3<double>> places_;  ///< in the vessel [m]
+  std::vector<Impact> log_;
+  double period_, start_;
+};
+
+double weighted_median(std::vector<std::pair<double, double>> values) {
+  std::sort(values.begin(), values.end());
+  double total = 0, sum = 0;
+  for (const auto& [value, weight] : values) total += weight;
+  for (const auto& [value, weight] : values)
+    if ((sum += weight) >= total / 2) return value;
+  return 0;
+}
+
+/// The value with which the times of the first impacts are the log's: least absolute deviations of times that
+/// are linear in it, over more and more impacts of each ball. @return the value and what its last impacts
+/// leave open
+std::pair<double, double> fitted_value(const Replay& replay, const Assumptions& nominal, const Parameter& p) {
+  double value = p.value, open = std::abs(p.change);
+  for (const std::size_t depth : {1, 1, 2, 2, 3, 4, 6, 8, 8}) {
+    const std::size_t count = std::min(replay.count(), 2 * depth * nominal.balls.size() + 20);
+    const double step = 1e-7 * p.change;
+    Assumptions here = nominal, there = nominal;
+    p.set(here, value), p.set(there, value + step);
+    std::vector<std::size_t> places, places_there;
+    const auto off = replay.differences(replay.impacts(here, count), depth, places);
+    const auto off_there = replay.differences(replay.impacts(there, count), depth, places_there);
+    if (places != places_there || off.empty()) continue;
+    std::vector<std::pair<double, double>> steps;
+    for (std::size_t k = 0; k < off.size(); ++k) {
+      const double slope = (off_there[k] - off[k]) / step;
+      if (std::abs(slope) * p.change > 1e-9 * replay.period())
+        steps.emplace_back(-off[k] / slope, std::abs(slope));
+    }
+    if (steps.empty()) continue;
+    const double move = std::clamp(weighted_median(steps), -0.3 * p.change, 0.3 * p.change);
+    value += move;
+    std::vector<std::pair<double, double>> scatter;
+    for (const auto& [by, weight] : steps) scatter.emplace_back(std::abs(by - move), weight);
+    open = 10 * weighted_median(scatter) + std::abs(move) * 1e-3 + 1e-14 * std::abs(value);
+  }
+  return {value, open};
+}
+
+}  // namespace
+
+ReplayResult replay(const Assumptions& nominal, const std::vector<Parameter>& parameters,
+                    const std::vector<Mistake>& mistakes, const audit::EventsAtHand& log) {
+  Replay runs(nominal, log);
+  ReplayResult result;
+  if (runs.count() < 20) return result;
+  const auto case_itself = runs.impacts(nominal, runs.count());
+  const std::size_t without = result.without = runs.follows(case_itself);
+  // How far two runs agree that differ by rounding alone.
+  const auto horizon = [&](const Assumptions& assumed, const std::vector<Impact>& list) {
+    Assumptions other = assumed;
+    for (auto& ball : other.balls) ball.radius *= 1 + 1e-15;
+    return std::max<std::size_t>(1, runs.common(list, runs.impacts(other, runs.count())));
+  };
+  const auto enough = [&](std::size_t follows, std::size_t could) { return 10 * follows >= 9 * could; };
+  result.clean = enough(without, horizon(nominal, case_itself));
+  if (result.clean) return result;
+
+  auto& best = result.cause;
+  const auto consider = [&](Replayed found, const Assumptions& assumed) {
+    const auto list = runs.impacts(assumed, runs.count());
+    found.follows = runs.follows(list);
+    if (found.follows < without + 10 || (best && found.follows <= best->follows)) return;
+    found.of = horizon(assumed, list);
+    if (enough(found.follows, found.of)) best = std::move(found);
+  };
+  for (const bool in_vessel : {false, true}) {
+    runs.in_vessel = in_vessel;
+    for (const auto& mistake : mistakes) {
+      if (mistake.by_factor) continue;  // a mill that turns a thousand times as fast is not run in a hurry
+      Assumptions assumed = nominal;
+      mistake.make(assumed);
+      if (runs.follows(runs.impacts(assumed, 30)) < std::min<std::size_t>(20, runs.count())) continue;
+      consider({mistake.key + ": " + mistake.text, nullptr, 0, 0, 0, 0}, assumed);
+    }
+    for (const auto& p : parameters) {
+      const auto [value, open] = fitted_value(runs, nominal, p);
+      if (!(std::abs(value - p.value) > open)) continue;
+      Assumptions assumed = nominal;
+      p.set(assumed, value);
+      consider({"", &p, value, open, 0, 0}, assumed);
+    }
+  }
+  return result;
+}
+
+}  // namespace edmill::identify
