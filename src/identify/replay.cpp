@@ -171,7 +171,9 @@ std::pair<double, double> fitted_value(const Replay& replay, const Assumptions& 
     value += move;
     std::vector<std::pair<double, double>> scatter;
     for (const auto& [by, weight] : steps) scatter.emplace_back(std::abs(by - move), weight);
-    open = 10 * weighted_median(scatter) + std::abs(move) * 1e-3 + 1e-14 * std::abs(value);
+    // The last term: what rounding in two runs of the case makes of their times.
+    open =
+        10 * weighted_median(scatter) + std::abs(move) * 1e-3 + 1e-12 * std::max(std::abs(value), p.change);
   }
   return {value, open};
 }

@@ -34,34 +34,45 @@ bool agree(std::vector<double>& values) {
   return std::abs(quantile(values, 0.75) - quantile(values, 0.25)) < std::abs(middle);
 }
 
-/// The largest step of which all times are multiples, by Euclid's algorithm on their differences.
+/// The step of which two lengths of time are multiples: their ratio as the first continued fraction that
+/// rounding does not tell from it. @param rounding  of a time [s]
+std::optional<double> step_of(double one, double two, double rounding) {
+  double p = 1, q = 0, p_before = 0, q_before = 1, rest = one / two;
+  const double most =
+      0.1 * std::sqrt(std::min(one, two) / rounding);  // beyond, any two lengths have such a fraction
+  for (int term = 0; term < 40; ++term) {
+    const double whole = std::floor(rest);
+    std::swap(p, p_before), std::swap(q, q_before);
+    p += whole * p_before, q += whole * q_before;
+    if (p + q > most) return std::nullopt;
+    if (std::abs(one * q - two * p) <= rounding * (p + q)) return (one + two) / (p + q);
+    rest = 1 / (rest - whole);
+  }
+  return std::nullopt;
+}
+
+/// The largest step of which all times are multiples.
 std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   if (events.size() < least_number) return std::nullopt;
-  const double latest = std::max(std::abs(events.front().time), std::abs(events.back().time));
-  const double rounding = 64 * std::numeric_limits<double>::epsilon() * latest;
-  double step = 0;
-  for (std::size_t k = 1; k < events.size(); ++k) {
-    double a = events[k].time - events[k - 1].time, b = step;
-    if (!(a > rounding)) continue;
-    // What is small beside the divisor is the rounding of it and of the times.
-    for (double rest = b; b > 0; a = b, b = rest) {
-      rest = std::abs(a - b * std::round(a / b));
-      if (rest < std::max(rounding, 1e-3 * b)) rest = 0;
-    }
-    step = a;
-    if (step < 100 * rounding) return std::nullopt;
+  const double begin = events.front().time, span = events.back().time - begin;
+  const double rounding =
+      2 * std::numeric_limits<double>::epsilon() * std::max(std::abs(begin), std::abs(begin + span));
+  const auto holds = [&](double step) {
+    if (span / step < static_cast<double>(events.size())) return false;
+    return std::all_of(events.begin(), events.end(), [&](const LoggedEvent& event) {
+      const double steps = (event.time - begin) / step;
+      return std::abs(steps - std::round(steps)) < 0.02;
+    });
+  };
+  std::optional<double> best;
+  for (std::size_t k = 2; k < std::min<std::size_t>(events.size(), 100); ++k) {
+    const double one = events[k - 1].time - events[k - 2].time, two = events[k].time - events[k - 1].time;
+    if (!(one > 100 * rounding) || !(two > 100 * rounding)) continue;
+    const auto step = step_of(one, two, rounding);
+    if (step && *step > 100 * rounding && (!best || *step > *best) && holds(*step)) best = step;
   }
-  if (!(step > 0)) return std::nullopt;
-  // Times that are rounded to doubles have a smallest step too, which means nothing.
-  const double span = events.back().time - events.front().time;
-  if (span / step < static_cast<double>(events.size())) return std::nullopt;
-  const double begin = events.front().time;
-  step = span / std::round(span / step);  // sharper than any difference
-  for (const auto& event : events) {
-    const double steps = (event.time - begin) / step;
-    if (std::abs(steps - std::round(steps)) > 0.02) return std::nullopt;
-  }
-  return step;
+  if (best) best = span / std::round(span / *best);  // sharper than any difference
+  return best;
 }
 
 /// An impact with its geometry, and what the flights on either side of it miss.
@@ -146,7 +157,8 @@ class Measured {
                                               audit::size(left.velocity_after));
     const auto& [normal_a, carrier_a] = normals_[from];
     const auto& [normal_b, carrier_b] = normals_[to];
-    const double leaving = audit::dot(Vec(left.velocity_after - carrier_a), normal_a);
+    // A ball that leaves its contact late is late by its speed at the end of the flight.
+    const double leaving = audit::dot(Vec(left.velocity_after + g * dt - carrier_a), normal_a);
     const double coming = audit::dot(Vec(came.velocity_before - carrier_b), normal_b);
     const bool large = audit::size(off) > 3 * noise;
     // The ball leaves later than its line says, or its line comes later than its arrival.
@@ -218,7 +230,7 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
              end = soft_contacts(measured.contacts(), LoggedAt::end);
   const auto spread = [](const SoftContacts& s) { return (s.high - s.low) / s.duration; };
   if (begin && end)
-    result.soft = spread(*begin) <= spread(*end) ? begin : end;
+    result.soft = spread(*end) < 0.8 * spread(*begin) ? end : begin;
   else
     result.soft = begin ? begin : end;
   if (auto& depths = measured.depth_over_speed;
@@ -249,9 +261,9 @@ std::string table(const TimeStepping& found) {
     out += fmt::format(
         "  looks like   soft contacts that last {:.3g} us (quartiles {:.3g} and {:.3g}), shown by {} "
         "impacts, logged at their {}{}\n"
-        "    stiffness {:.3g} N/m of a linear spring, or E* {:.3g} MPa of Hertz's contacts\n",
+        "    stiffness {:.3g} N/m of a linear spring, or E* {:.3g} GPa of Hertz's contacts\n",
         s.duration * 1e6, s.low * 1e6, s.high * 1e6, s.contacts, s.at == LoggedAt::begin ? "begin" : "end",
-        law, s.spring, s.modulus / 1e6);
+        law, s.spring, s.modulus / 1e9);
   }
   if (found.step)
     out += fmt::format(

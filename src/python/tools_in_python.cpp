@@ -5,14 +5,19 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <sstream>
 #include <string>
+#include <type_traits>
 
 #include "api/case_access.hpp"
+#include "base/errors.hpp"
 #include "check/comparison.hpp"
 #include "cli/audit_command.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/run_case.hpp"
 #include "cli/study_command.hpp"
+#include "io/output_folder.hpp"
+#include "prove/certificate.hpp"
 #include "report/report_page.hpp"
 
 namespace py = pybind11;
@@ -24,7 +29,7 @@ namespace {
 /// Work on a thread of its own, while this one lets Python's signal handlers run: Ctrl-C sets the flag, which
 /// the work obeys, and is raised when that has ended.
 template <class Work>
-int interruptible(std::atomic<bool>& interrupt, const Work& work) {
+std::invoke_result_t<Work> interruptible(std::atomic<bool>& interrupt, const Work& work) {
   auto done = std::async(std::launch::async, work);
   bool raised = false;
   for (;;) {
@@ -37,12 +42,12 @@ int interruptible(std::atomic<bool>& interrupt, const Work& work) {
       raised = interrupt = true;
     }
   }
-  const int code = done.get();
+  auto result = done.get();
   if (raised) {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
     throw py::error_already_set();
   }
-  return code;
+  return result;
 }
 
 template <class Command>
@@ -66,13 +71,33 @@ int compare(const std::string& a, const std::string& b, const std::string& json,
 int audit(const Case& the_case, const std::string& log, const std::string& json,
           const std::vector<std::string>& columns, std::optional<double> tolerance,
           std::optional<double> gap_tolerance, std::optional<int> first_ball, const std::string& walls,
-          bool from_start) {
+          bool from_start, bool identify) {
   std::atomic<bool> interrupt{false};
   cli::AuditOptions options;
   options.log = log, options.json = json, options.columns = columns, options.tolerance = tolerance;
   options.gap_tolerance = gap_tolerance, options.first_ball = first_ball, options.walls = walls;
-  options.from_start = from_start, options.quiet = true, options.interrupt = &interrupt;
+  options.from_start = from_start, options.identify = identify;
+  options.quiet = true, options.interrupt = &interrupt;
   return interruptible(interrupt, [&] { return cli::run_audit(CaseAccess::spec(the_case), options); });
+}
+
+/// @return the events as CSV, the bits of the proof and those that are left
+/// @throws UndecidedError when the events cannot be proven
+py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
+                const std::string& certificate) {
+  std::atomic<bool> interrupt{false};
+  const auto proof = interruptible(interrupt, [&] {
+    return prove::prove(CaseAccess::spec(the_case), {collisions, most_bits, &interrupt, {}});
+  });
+  if (!proof.impossible.empty()) throw UndecidedError(proof.impossible);
+  std::ostringstream events;
+  prove::write_events(events, proof, 40);
+  if (!certificate.empty()) {
+    io::AtomicFile file(certificate);
+    prove::write_certificate(file.stream(), proof);
+    file.commit();
+  }
+  return py::make_tuple(events.str(), proof.bits, proof.accuracy);
 }
 
 std::string report(const std::string& folder) {
@@ -91,6 +116,7 @@ void add_tools(py::module_& m) {
   });
   m.def("compare", &compare);
   m.def("audit", &audit);
+  m.def("prove", &prove);
   m.def("report", &report);
 }
 

@@ -2,8 +2,9 @@
 """`edmill audit --identify` in random trials: logs of cases with one value or mistake other than the audited case's, with two, with
 none, and with rounding alone. The right cause must come first, with its value within its interval.
 
-usage: trials.py EDMILL FOLDER [--trials N] [--pairs N] [--clean N] [--jobs J] [--only TEXT] [--seed S]
-N trials of each parameter, by 0.1 % and by 5 %, and of each mistake; N trials of two at once; N clean and N rounded logs."""
+usage: trials.py EDMILL FOLDER [--trials N] [--pairs N] [--clean N] [--jobs J] [--only TEXT] [--every K] [--seed S]
+N trials of each parameter, by 0.1 % and by 5 %, of each mistake, and of logs with `time, ball, partner` alone; N trials of two at
+once; N clean and N rounded logs. A log in which a change does not show is drawn again."""
 import argparse
 import concurrent.futures
 import csv
@@ -141,6 +142,9 @@ def changed_log(file, how, random_numbers):
             row[at["ball"]] = names.get(row[at["ball"]], row[at["ball"]])
             if row[at["partner_kind"]] == "ball":
                 row[at["partner"]] = names.get(row[at["partner"]], row[at["partner"]])
+    elif kind == "few":
+        header = ["time", "ball", "partner_kind", "partner"]
+        rows = [[row[at[name]] for name in header] for row in rows]
     elif kind == "rounded":
         digits = random_numbers.choice([6, 7, 8, 9, 10, 12])
         for row in rows:
@@ -163,7 +167,8 @@ def run(edmill, folder, text, settings, change, random_numbers, audited):
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
     for how in change:
         changed_log(folder / "out" / "collisions.csv", how, random_numbers)
-    done = subprocess.run([edmill, "audit", "case.toml", "out/collisions.csv", "--identify", "--quiet", "--json", "found.json"],
+    done = subprocess.run([edmill, "audit", "case.toml", "out/collisions.csv", "--identify", "--quiet", "--json", "found.json",
+                           *(["--from-start"] if "few" in change else [])],
                           cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode not in (0, 6, 7):
         raise RuntimeError(done.stderr)
@@ -233,6 +238,8 @@ def trial(job):
         change = [how] if how else []
     elif kind in ("clean", "rounded"):
         change = ["rounded"] if kind == "rounded" else []
+    elif name == "none":
+        change = ["few"]
     else:
         for key in name.split(" + "):
             amount = rng.choice([-1, 1]) * (share or 10**rng.uniform(-3, math.log10(0.05)))
@@ -240,13 +247,16 @@ def trial(job):
             settings += [setting] if setting else []
             change += [how] if how else []
             truths[key] = truth
+        change += ["few"] if kind == "few" else []
     try:
         found = run(edmill, folder, text, settings, change, rng, audited)
         if kind in ("value", "pair") and not shows(found) and number < 20000:
             return trial((edmill, place, kind, name, share, number + 1000, seed))
     except (RuntimeError, subprocess.CalledProcessError) as error:
         return kind, name, share, f"{error} {getattr(error, 'stderr', '')}"
-    if kind in ("clean", "rounded"):
+    if kind == "few" and name == "none":
+        wrong = found["causes"]["1"]["text"] if found["causes"] else ""
+    elif kind in ("clean", "rounded"):
         wrong = found["causes"]["1"]["text"] if found["causes"] else ""
     elif kind == "mistake":
         first = found["causes"].get("1")
@@ -255,6 +265,10 @@ def trial(job):
     else:
         wrong = right(found, truths)
     return kind, name, share, wrong
+
+
+FEW = ("none", "mill.arm", "mill.theta_max", "mill.gamma_max", "mill.speed", "contact.friction", "contact.restitution",
+       "contact.ball_wall.restitution", "balls.0.reduced_inertia", "phase of the drive")
 
 
 def jobs_of(a):
@@ -274,6 +288,9 @@ def jobs_of(a):
             if not laws and not (one.startswith("run.gravity") and two.startswith("run.gravity")):
                 break
         yield (*common, "pair", f"{one} + {two}", 0, number, a.seed)
+    for name in FEW:
+        for number in range(a.trials):
+            yield (*common, "few", name, 0.001 if name != "none" else 0, number, a.seed)
     for kind in ("clean", "rounded"):
         for number in range(a.clean):
             yield (*common, kind, "", 0, number, a.seed)
@@ -288,21 +305,22 @@ def main():
     parser.add_argument("--clean", type=int, default=3)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="")
+    parser.add_argument("--every", type=int, default=1, help="only every so many of these trials")
     parser.add_argument("--seed", type=int, default=20110101)
     parser.add_argument("--verbose", action="store_true")
     a = parser.parse_args()
     a.edmill, a.folder = str(pathlib.Path(a.edmill).resolve()), str(pathlib.Path(a.folder).resolve())
-    jobs = [job for job in jobs_of(a) if a.only in f"{job[2]} {job[3]}"]
+    jobs = [job for job in jobs_of(a) if a.only in f"{job[2]} {job[3]}"][::a.every]
     print(f"seed {a.seed}, {len(jobs)} logs of {EVENTS} impacts")
     tally = {}
     with concurrent.futures.ProcessPoolExecutor(a.jobs) as pool:
         for kind, name, share, wrong in pool.map(trial, jobs):
-            key = (kind, name if kind in ("value", "mistake") else "", share)
+            key = (kind, name if kind in ("value", "mistake", "few") else "", share)
             good, all_of, said = tally.get(key, (0, 0, []))
             tally[key] = (good + (not wrong), all_of + 1, said + ([f"{name}: {wrong}"] if wrong else []))
     failed = 0
     for (kind, name, share), (good, all_of, said) in tally.items():
-        least = {"value": 0.95, "mistake": 0.95, "pair": 0.8}.get(kind, 1.0)
+        least = {"value": 0.95, "mistake": 0.95, "few": 0.9, "pair": 0.8}.get(kind, 1.0)
         by = f" off by {share * 100:g} %" if share else ""
         print(f"claim identify, {kind} {name}{by}: {good} of {all_of}")
         if good < least * all_of:

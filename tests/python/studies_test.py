@@ -1,4 +1,6 @@
 """Studies and judges from Python."""
+from decimal import Decimal
+
 import pytest
 
 import edmill
@@ -40,3 +42,23 @@ def test_a_log_is_audited(demo, folders):
     assert clean.good and clean["verdict"] == "clean"
     wrong = edmill.audit(edmill.Case(demo, ['mill.arm="10.05 cm"']), folders[0])
     assert not wrong.good and wrong["verdict"] == "violations"
+
+
+def test_the_cause_of_a_wrong_log_is_identified(demo, folders):
+    found = edmill.audit(edmill.Case(demo, ['mill.arm="10.05 cm"']), folders[0], identify=True)["identified"]
+    cause = found["causes"]["1"]
+    arm = cause["values"]["mill.arm"]
+    assert list(cause["values"]) == ["mill.arm"] and cause["explains"] == found["violations"] > 0
+    assert abs(arm["value"] - 0.1) <= arm["half_width"] < 1e-12 and arm["nominal"] == 0.1005
+    assert not edmill.audit(demo, folders[0], identify=True)["identified"]["causes"]
+
+
+def test_events_are_proven(demo, tmp_path):
+    proof = edmill.prove(demo, 10, certificate=tmp_path / "certificate")
+    run = edmill.run(edmill.Case(demo, ["run.max_collisions=10"]), precision="float128")
+    assert len(proof.events) == 10 and (tmp_path / "certificate").read_text().count("\n") == 12
+    for proven, event in zip(proof.events, run.events):
+        assert abs(proven.time - event["time"]) < Decimal("1e-30")
+        assert 0 < proven.time_radius < Decimal("1e-30")
+    with pytest.raises(edmill.UndecidedError, match="bits do not tell"):
+        edmill.prove(demo, 400, most_bits=128)

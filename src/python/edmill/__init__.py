@@ -9,9 +9,9 @@ Quantities are strings with units or plain numbers in SI. The manual explains ca
 """
 from ._edmill import InputError, UndecidedError, __version__
 from .case import Case
-from .judges import Judgement, audit, compare
+from .judges import Judgement, Proof, ProvenEvent, audit, compare, prove
 from .runs import Interrupted, Run, report, run
 from .studies import Study, optimize, sweep
 
-__all__ = ["Case", "InputError", "Interrupted", "Judgement", "Run", "Study", "UndecidedError", "__version__", "audit",
-           "compare", "optimize", "report", "run", "sweep"]
+__all__ = ["Case", "InputError", "Interrupted", "Judgement", "Proof", "ProvenEvent", "Run", "Study", "UndecidedError",
+           "__version__", "audit", "compare", "optimize", "prove", "report", "run", "sweep"]

@@ -1,11 +1,14 @@
 """Other codes' results against those of edmill, and against the physics."""
 from __future__ import annotations
 
+import csv
+import dataclasses
 import json
 import os
 import pathlib
 import tempfile
 from collections.abc import Mapping
+from decimal import Decimal
 from typing import Any
 
 from . import _edmill
@@ -39,10 +42,47 @@ def compare(a: str | os.PathLike, b: str | os.PathLike, *, tolerance: float = 1e
 
 def audit(case: Case | Mapping | str | os.PathLike, log: str | os.PathLike, *, columns: Mapping[str, str] | None = None,
           tolerance: float | None = None, gap_tolerance: float | None = None, first_ball: int | None = None,
-          walls: str = "", from_start: bool = False) -> Judgement:
+          walls: str = "", from_start: bool = False, identify: bool = False) -> Judgement:
     """As `edmill audit`: the log of any code, against the physics of the case. `columns` has our name of each of its
-    columns and theirs, with a unit: {"time": "t [ms]"}."""
+    columns and theirs, with a unit: {"time": "t [ms]"}. With `identify` the result's entry "identified" has the values or
+    mistakes that explain the violations."""
     given = [f"{ours}={theirs}" for ours, theirs in (columns or {}).items()]
     case = case if isinstance(case, Case) else Case(case)
     return _judge(lambda file: _edmill.audit(case._case, os.fspath(log), file, given, tolerance, gap_tolerance, first_ball,
-                                             walls, from_start))
+                                             walls, from_start, identify))
+
+
+@dataclasses.dataclass(frozen=True)
+class ProvenEvent:
+    """An impact that is proven to be the next one; each number is within its radius of what is given. SI."""
+    index: int
+    time: Decimal
+    time_radius: Decimal
+    ball: int
+    partner_kind: str  #: "wall" or "ball"
+    partner: int
+    approach_speed: Decimal
+    approach_speed_radius: Decimal
+    slip_speed: Decimal
+    slip_speed_radius: Decimal
+
+
+@dataclasses.dataclass(frozen=True)
+class Proof:
+    """The first events of a case, proven in ball arithmetic."""
+    events: list[ProvenEvent]
+    bits: int  #: of the arithmetic
+    bits_left: int  #: of the least known velocity behind the point
+
+
+def prove(case: Case | Mapping | str | os.PathLike, collisions: int, *, certificate: str | os.PathLike | None = None,
+          most_bits: int = 16384) -> Proof:
+    """As `edmill prove`: the first events of a case as a theorem, with a certificate that others can check.
+    Raises UndecidedError where the equations do not say what comes next."""
+    case = case if isinstance(case, Case) else Case(case)
+    text, bits, left = _edmill.prove(case._case, collisions, most_bits, os.fspath(certificate) if certificate else "")
+    whole = {"index", "ball", "partner"}
+    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
+    events = [ProvenEvent(**{k: int(v) if k in whole else v if k == "partner_kind" else Decimal(v) for k, v in row.items()})
+              for row in rows]
+    return Proof(events, bits, left)
