@@ -8,17 +8,11 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <vector>
 
 using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> list;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) list.push_back(cell);
-  return list;
-}
 
 std::vector<Row> read(const char* file) {
   std::ifstream in(file);
@@ -26,21 +20,22 @@ std::vector<Row> read(const char* file) {
   std::vector<Row> rows;
   for (std::string line; std::getline(in, line);) {
     if (line.empty() || line[0] == '#') continue;
-    const auto row = cells(line);
-    if (header.empty()) {
-      header = row;
-      continue;
-    }
-    rows.emplace_back();
-    for (std::size_t k = 0; k < std::min(row.size(), header.size()); ++k) rows.back()[header[k]] = row[k];
+    std::vector<std::string> cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+    if (!header.empty()) rows.emplace_back();
+    for (std::size_t k = 0; k < std::min(cells.size(), header.size()); ++k) rows.back()[header[k]] = cells[k];
+    if (header.empty()) header = cells;
   }
   return rows;
 }
 
+double number(Row& row, const std::string& name) { return std::atof(row[name].c_str()); }
+
 std::string bodies(Row& row) {
   auto one = row["ball"], two = row["partner"], kind = row["partner_kind"];
-  return kind +
-         (kind == "ball" && std::stol(one) > std::stol(two) ? " " + two + " " + one : " " + one + " " + two);
+  if (kind == "ball" && number(row, "ball") > number(row, "partner")) std::swap(one, two);
+  return kind + " " + one + " " + two;
 }
 
 int main(int argc, char** argv) {
@@ -48,27 +43,19 @@ int main(int argc, char** argv) {
   auto expected = read(argv[1]), found = read(argv[2]);
   const std::size_t count = std::strtoul(argv[3], nullptr, 10);
   if (expected.size() < count || count == 0) return std::cerr << argv[1] << " has too few events\n", 2;
-  if (found.size() < count)
-    return std::cout << "the log has " << found.size() << " of " << count << " events\n", 1;
-  std::map<std::string, double> scale;
+  if (found.size() < count) return std::cout << "the log ends after " << found.size() << " events\n", 1;
+  const std::set<std::string> whole{"index", "ball", "partner", "partner_kind"};
+  std::map<std::string, double> scale;  // the largest of each column that both have
   for (const auto& [name, cell] : expected[0])
-    if (name != "index" && name != "ball" && name != "partner" && name != "partner_kind" &&
-        found[0].count(name))
-      for (std::size_t k = 0; k < count; ++k)
-        scale[name] = std::max(scale[name], std::fabs(std::atof(expected[k][name].c_str())));
+    for (std::size_t k = 0; k < count && found[0].count(name) && !whole.count(name); ++k)
+      scale[name] = std::max(scale[name], std::fabs(number(expected[k], name)));
   for (std::size_t k = 0; k < count; ++k) {
-    if (bodies(expected[k]) != bodies(found[k]))
-      return std::cout << "event " << k << ": found " << bodies(found[k]) << ", expected "
-                       << bodies(expected[k]) << "\n",
-             1;
-    for (const auto& [name, size] : scale) {
-      const double error =
-          std::fabs(std::atof(found[k][name].c_str()) - std::atof(expected[k][name].c_str()));
-      if (!(error <= std::atof(argv[4]) * (size > 0 ? size : 1)))
-        return std::cout << "event " << k << ": " << name << " is " << found[k][name] << ", expected "
-                         << expected[k][name] << "\n",
-               1;
-    }
+    std::string is = bodies(found[k]), should = bodies(expected[k]);
+    for (const auto& [name, size] : scale)
+      if (is == should && !(std::fabs(number(found[k], name) - number(expected[k], name)) <=
+                            std::atof(argv[4]) * (size > 0 ? size : 1)))
+        is = name + " " + found[k][name], should = name + " " + expected[k][name];
+    if (is != should) return std::cout << "event " << k << ": " << is << ", expected " << should << "\n", 1;
   }
   std::cout << count << " events agree\n";
 }

@@ -30,8 +30,10 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     try:
         case = json.loads((folder / "suite.json").read_text(encoding="utf-8"))
-        if case["schema"] != 1:
-            raise ValueError(f"schema {case['schema']}, this script reads 1")
+        if case["schema"] != 2:
+            raise ValueError(f"schema {case['schema']}, this script reads 2")
+        if "events" not in case:
+            raise ValueError(f"{case['name']} has statistics alone: compare_statistics.py reads them")
         expected, found = rows_of(folder / case["events"]), rows_of(sys.argv[2])
         tolerance = float(sys.argv[3]) if len(sys.argv) == 4 else case["tolerance"]
         count = case["agree"]
