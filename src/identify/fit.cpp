@@ -197,6 +197,26 @@ Fit fit(const Residuals& residuals, const Model& model, std::vector<double> star
   return result;
 }
 
+std::vector<std::vector<double>> slopes_of(const Residuals& residuals, const Assumptions& base,
+                                           const std::vector<Parameter>& parameters) {
+  constexpr double step = 1e-6;
+  const auto rows = residuals.rows(base.built(), base.log);
+  std::vector<std::vector<double>> list;
+  for (const auto& p : parameters) {
+    Assumptions moved = base;
+    p.set(moved, p.value + step * p.change);
+    auto column = residuals.rows(moved.built(), moved.log);
+    bool any = false;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      column[i] = (column[i] - rows[i]) / step;
+      any = any || column[i] != 0;
+    }
+    if (!any) column.clear();
+    list.push_back(std::move(column));
+  }
+  return list;
+}
+
 double linear_misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds,
                      const std::vector<const std::vector<double>*>& columns, std::vector<double>& change) {
   const auto p = static_cast<Eigen::Index>(columns.size());

@@ -33,6 +33,10 @@ double misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds
 /// @param start  values to begin with
 Fit fit(const Residuals& residuals, const Model& model, std::vector<double> start);
 
+/// Derivatives of the rows by each parameter, at the base; empty for one that the rows do not depend on.
+std::vector<std::vector<double>> slopes_of(const Residuals& residuals, const Assumptions& base,
+                                           const std::vector<Parameter>& parameters);
+
 /// The change of the parameters that explains the rows best if they are linear in them, in units of
 /// `columns`.
 /// @param columns  derivative of the rows by each parameter

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "identify/causes.hpp"
 #include "identify/fit.hpp"
 #include "identify/replay.hpp"
+#include "identify/samples.hpp"
 
 namespace edmill::identify {
 
@@ -59,10 +59,10 @@ class Search {
     violations_ = violations(nominal_);
     result.violations = violations_;
     if (violations_ == 0) return result;
-    violating_.assign(log_.events.size(), false);
+    samples_ = Samples(log_.events, the_case_.mill.motion.period());
     note_violating(nominal_);
-    choose_samples();
-    take(whole_);
+    samples_.choose();
+    take(samples_.whole());
     if (residuals_->count() < 12) return result;
     null_ = misfit_of(nominal_);
     auto accepted = singles();
@@ -99,44 +99,12 @@ class Search {
     return audit::audit(assumed.built(), changed, options_).findings.total();
   }
 
-  // ---- samples: half of them events that violate something, half of them any, evenly over a span of the log
-  void choose_samples() {
-    const auto& events = log_.events;
-    const double begin = events.front().time, span = events.back().time - begin;
-    const double period = the_case_.mill.motion.period();
-    const double first = std::max(period, events[std::min<std::size_t>(79, events.size() - 1)].time - begin);
-    windows_.clear();
-    for (double window = first; window < span; window *= 4) windows_.push_back(sample(begin + window, 160));
-    whole_ = sample(events.back().time, 300);
-    windows_.push_back(whole_);
-    few_ = sample(events.back().time, 80);
-    early_ = windows_.front();
-    all_ = sample(events.back().time, 1500);
-  }
-  std::vector<std::size_t> sample(double until, std::size_t most) const {
-    std::vector<std::size_t> all, violating, chosen;
-    for (std::size_t k = 0; k < log_.events.size() && log_.events[k].time <= until; ++k) {
-      all.push_back(k);
-      if (violating_[k]) violating.push_back(k);
-    }
-    if (all.size() <= most) return all;
-    for (const auto* list : {&violating, &all}) {
-      const std::size_t number = std::min(list->size(), list == &all ? most - chosen.size() : most / 2);
-      for (std::size_t k = 0; k < number; ++k) chosen.push_back((*list)[k * list->size() / number]);
-    }
-    std::sort(chosen.begin(), chosen.end());
-    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    return chosen;
-  }
   /// Notes the events that are off by more than the audit allows.
   void note_violating(const Assumptions& assumed) {
-    std::vector<std::size_t> every(log_.events.size());
-    std::iota(every.begin(), every.end(), std::size_t{0});
-    take(every);
+    take(samples_.every());
     const auto rows = rows_of(assumed);
-    const auto& places = residuals_->events();
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (std::abs(rows[k]) > 1) violating_[places[k]] = true;
+      if (std::abs(rows[k]) > 1) samples_.note_violating(residuals_->events()[k]);
   }
   void take(const std::vector<std::size_t>& sample) { residuals_->choose(sample); }
 
@@ -149,28 +117,11 @@ class Search {
     return static_cast<double>(parameters) * std::log(static_cast<double>(residuals_->count()));
   }
 
-  /// Derivative of the rows by each parameter, at the base.
-  std::vector<std::vector<double>> columns(const Assumptions& base, const std::vector<double>& rows) const {
-    constexpr double step = 1e-6;
-    std::vector<std::vector<double>> list;
-    for (const auto& p : parameters_) {
-      Assumptions moved = base;
-      p.set(moved, p.value + step * p.change);
-      auto column = rows_of(moved);
-      for (std::size_t i = 0; i < column.size(); ++i) column[i] = (column[i] - rows[i]) / step;
-      list.push_back(std::move(column));
-    }
-    return list;
-  }
-  static bool any(const std::vector<double>& column) {
-    return std::any_of(column.begin(), column.end(), [](double x) { return x != 0; });
-  }
-
   // ---- fits
   /// Values to begin with, from afar where the rows are periodic in the parameter.
   std::vector<double> starts(const Assumptions& base, const Parameter& p) {
     if (!p.is_speed && !p.is_phase) return {p.value};
-    take(early_);
+    take(samples_.early());
     std::vector<std::pair<double, double>> tried;
     const auto add = [&](double value) {
       Assumptions moved = base;
@@ -182,7 +133,8 @@ class Search {
     if (p.is_phase) {
       for (int k = 1; k < 16; ++k) add(period * (k <= 8 ? k : k - 16) / 16);
     } else {
-      const double turns = std::abs(log_.events[early_.back()].time) * p.value / (2 * std::numbers::pi);
+      const double turns =
+          std::abs(log_.events[samples_.early().back()].time) * p.value / (2 * std::numbers::pi);
       const int steps = std::clamp(static_cast<int>(std::ceil(0.12 * turns * 10)), 1, 400);
       for (int k = -steps; k <= steps; ++k)
         if (k != 0) add(p.value * (1 + 0.12 * k / steps));
@@ -201,8 +153,8 @@ class Search {
     Candidate c{model, mistakes, start, {}, 0, 0};
     const bool staged =
         std::any_of(model.free.begin(), model.free.end(), [](const auto* p) { return p->is_speed; });
-    for (std::size_t w = staged ? 0 : windows_.size() - 1; w < windows_.size(); ++w) {
-      take(windows_[w]);
+    for (std::size_t w = staged ? 0 : samples_.windows().size() - 1; w < samples_.windows().size(); ++w) {
+      take(samples_.windows()[w]);
       auto result = fit(*residuals_, model, c.values);
       c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
       c.criterion = result.cost + penalty(model.free.size());
@@ -212,10 +164,10 @@ class Search {
 
   /// The fit with the final sample, and what the audit says of it.
   bool accept(Candidate& c) {
-    take(whole_);
+    take(samples_.whole());
     if (!(null_ - c.criterion >= strong_evidence)) return false;
     if (!c.model.free.empty()) {
-      take(all_);
+      take(samples_.many());
       auto result = fit(*residuals_, c.model, c.values);
       c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
     }
@@ -237,7 +189,7 @@ class Search {
   /// Mistakes that make the rows fit better, the best first.
   std::vector<Tried> promising(const Assumptions& base, const std::vector<Mistake>& mistakes,
                                std::size_t most) {
-    take(few_);
+    take(samples_.few());
     const double before = misfit_of(base);
     std::vector<Tried> better;
     for (const auto& mistake : mistakes) {
@@ -253,19 +205,19 @@ class Search {
   }
 
   Candidate with_mistakes(const Assumptions& base, const std::vector<std::string>& names) {
-    take(whole_);
+    take(samples_.whole());
     return {{base, {}}, names, {}, {}, misfit_of(base), 0};
   }
   static std::string name_of(const Mistake& m) { return m.key + ": " + m.text; }
 
   /// The parameters whose fit promises most on top of a base, by a linear fit of the first span.
   std::vector<const Parameter*> ranked(const Assumptions& base, std::size_t most) {
-    take(early_);
+    take(samples_.early());
     const auto rows = rows_of(base);
-    const auto slopes = columns(base, rows);
+    const auto slopes = slopes_of(*residuals_, base, parameters_);
     std::vector<std::pair<double, const Parameter*>> order;
     for (std::size_t k = 0; k < parameters_.size(); ++k) {
-      if (!any(slopes[k])) continue;
+      if (slopes[k].empty()) continue;
       std::vector<double> change;
       order.emplace_back(linear_misfit(rows, residuals_->kinds(), {&slopes[k]}, change), &parameters_[k]);
     }
@@ -316,12 +268,12 @@ class Search {
   /// New samples with the events that the best single causes leave unexplained.
   void resample(std::vector<Candidate>& accepted) {
     sort(singles_);
-    violating_.assign(log_.events.size(), false);
+    samples_.forget_violating();
     const std::size_t bases = std::min<std::size_t>(2, singles_.size());
     for (std::size_t k = 0; k < bases; ++k) note_violating(singles_[k].model.with(singles_[k].values));
     if (bases == 0) note_violating(nominal_);
-    choose_samples();
-    take(whole_);
+    samples_.choose();
+    take(samples_.whole());
     null_ = misfit_of(nominal_);
     for (auto* list : {&accepted, &singles_}) {
       for (auto& c : *list) c.criterion = misfit_of(c.model.with(c.values)) + penalty(c.model.free.size());
@@ -354,9 +306,9 @@ class Search {
   }
 
   std::vector<Candidate> two_numbers() {
-    take(early_);
+    take(samples_.early());
     const auto rows = rows_of(nominal_);
-    const auto slopes = columns(nominal_, rows);
+    const auto slopes = slopes_of(*residuals_, nominal_, parameters_);
     struct Pair {
       double misfit;
       std::size_t one, two;
@@ -365,7 +317,7 @@ class Search {
     std::vector<Pair> order;
     for (std::size_t i = 0; i < parameters_.size(); ++i)
       for (std::size_t j = i + 1; j < parameters_.size(); ++j) {
-        if (!any(slopes[i]) || !any(slopes[j])) continue;
+        if (slopes[i].empty() || slopes[j].empty()) continue;
         std::vector<double> change;
         const double left = linear_misfit(rows, residuals_->kinds(), {&slopes[i], &slopes[j]}, change);
         if (change.size() == 2) order.push_back({left, i, j, change});
@@ -422,11 +374,9 @@ class Search {
   audit::Options options_;
   audit::EventsAtHand log_;
   std::vector<Parameter> parameters_;
-  std::vector<bool> violating_;  ///< by event
+  Samples samples_;
   std::vector<Mistake> mistakes_;
   std::optional<Residuals> residuals_;
-  std::vector<std::vector<std::size_t>> windows_;  ///< samples of growing spans, the last of the whole log
-  std::vector<std::size_t> whole_, few_, early_, all_;
   std::vector<Tried> promising_;
   std::vector<Candidate> singles_;
   std::uint64_t violations_ = 0;
