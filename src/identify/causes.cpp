@@ -12,7 +12,7 @@ namespace {
 using casefile::Quantity;
 using Joints = std::vector<model::Joint<Quantity>>;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void put_chain(Assumptions& a, Joints joints) {
   const auto period = casefile::period_of(a.spec.mill);

@@ -18,7 +18,7 @@ using casefile::Quantity;
 using model::PartParameter;
 using model::Range;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Visits each number of a motion or a vessel: f(parameter, number, axis), axis -1 for a scalar.
 template <class Part, class F>
