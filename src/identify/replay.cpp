@@ -168,7 +168,8 @@ std::pair<double, double> fitted_value(const Replay& replay, const Assumptions& 
     }
     if (steps.empty()) continue;
     const double move = std::clamp(weighted_median(steps), -0.3 * p.change, 0.3 * p.change);
-    value += move;
+    // Mills that are far from the case's are not run: they may take for ever.
+    value = std::clamp(value + move, p.value - p.change / 2, p.value + p.change / 2);
     std::vector<std::pair<double, double>> scatter;
     for (const auto& [by, weight] : steps) scatter.emplace_back(std::abs(by - move), weight);
     // The last term: what rounding in two runs of the case makes of their times.

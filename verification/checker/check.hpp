@@ -10,7 +10,6 @@ namespace checker {
 struct Rejected : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
 /// Position and velocity at the exact time m. Flown after an event of a bracket that begins at `begin`.
 struct Flight {
   Real m;
@@ -39,7 +38,7 @@ class Check {
     const bool on_wall = line.contains("wall");
     const Index i = body(line.at("ball"), balls());
     const Index j = body(line.at(on_wall ? "wall" : "partner"), on_wall ? mill_.walls.size() : balls());
-    if (!on_wall && j == i) reject("a ball that meets itself");
+    if (!on_wall && j <= i) reject("the ball with the lower number is not the first");
     const Real T = enclosure(line.at("time")), until = end(T, 1);
     if (!(end_ < end(T, -1))) reject("rule 1: it does not come after the one before");
     const Json &windows = line.at("windows"), &states = line.at("states");
@@ -59,7 +58,6 @@ class Check {
     if (!on_wall && !dot(between(i, j, T), relative(i, j, T)).positive()) reject("rule 5: the balls do not part");
     end_ = until, ++events_;
   }
-
   void finish(const Json& line) {
     if (line.value("end", -1L) != events_) reject("rule 6: the last line names another number of events");
     for (Index i = 0; i < balls(); ++i) {
@@ -168,17 +166,14 @@ class Check {
   std::array<Vec, 2> impulse(const Law& law, const Vec& n, const Vec& G, const Real& c) const {
     const Real a = 0 - dot(G, n), e = law.restitution * a;
     if (!a.positive()) reject("rule 3: the surfaces do not approach each other");
-    const bool by_restitution = law.least.zero() || law.least < e;
+    const bool by_restitution = e >= law.least;
     if (!by_restitution && !(e < law.least)) reject("rule 3: the speed of separation is not decided");
     const Real k = a + (by_restitution ? e : law.least);
     const Vec S = G + n * a;
     const Real L = root(dot(S, S)), reversed = 1 - law.tangential, friction = law.friction * c * k;
-    Real gain = reversed / c;
-    if (law.coulomb && law.friction.zero()) gain = 0;
-    if (law.coulomb && !law.friction.zero() && !(friction >= reversed * L)) {
-      if (!(friction < reversed * L)) reject("rule 3: sliding is not decided");
-      gain = law.friction * k / L;
-    }
+    const bool sticks = !law.coulomb || friction >= reversed * L, smooth = law.friction.zero();
+    if (!sticks && !smooth && !(friction < reversed * L)) reject("rule 3: sliding is not decided");
+    const Real gain = sticks ? reversed / c : smooth ? Real() : law.friction * k / L;
     return {n * k - S * gain, cross(n, S) * gain};
   }
   std::vector<Flight> wall_impact(Index i, Index j, const Real& T) const {
@@ -205,7 +200,6 @@ class Check {
         {m, position(i, m) - P * share_i * d, velocity(i, m) + P * share_i, s_i + Q * (share_i / (A.radius * A.inertia)), 0},
         {m, position(j, m) + P * share_j * d, velocity(j, m) - P * share_j, s_j + Q * (share_j / (B.radius * B.inertia)), 0}};
   }
-
   slong bits_;
   AtPrecision at_;
   Mill mill_;
@@ -213,12 +207,11 @@ class Check {
   Real end_;
   long events_ = 0;
 };
-
 /// @return "accepted: ..." @throws Rejected, or another std::exception for a file that is no certificate
 inline std::string check(std::istream& in) {
   const auto next = [&] {
     std::string line;
-    if (!std::getline(in, line)) throw Rejected("rule 6: the file ends too early");
+    if (!std::getline(in, line) || line.find('\\') != line.npos) throw Rejected("rule 6: no line, or one with escapes");
     return Json::parse(line);
   };
   const Json header = next();

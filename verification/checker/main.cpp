@@ -1,5 +1,4 @@
-// check_certificate FILE: exit code 0 "accepted", 1 "rejected" with the event and the rule, 2 for a file that is no
-// certificate.
+// check_certificate FILE: exit code 0 "accepted", 1 "rejected" with the event and the rule, 2 for what is no certificate.
 #include <fstream>
 #include <iostream>
 

@@ -39,7 +39,6 @@ inline Vec vector(const Json& j) {
   const auto at = [&](Index k) { return exact_number(list(j, 3).at(k).get<std::string>()); };
   return {at(0), at(1), at(2)};
 }
-
 /// docs/certificates.md, "Rules for the states": R by rows.
 struct Pose {
   std::array<Vec, 3> R{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
@@ -65,6 +64,8 @@ struct Mill {
     for (const auto& j : list(h.at("balls"), 4096))
       balls.push_back({number(j, "radius"), number(j, "density"), number(j, "reduced_inertia"), j.at("in_vessel").get<bool>(),
                        vector(j.at("position")), vector(j.at("velocity")), vector(j.at("spin"))});
+    for (const Ball& b : balls)
+      if (!b.radius.positive() || !b.density.positive() || !b.inertia.positive()) throw std::invalid_argument("no ball");
     law_of_walls = table(h.at("law_of_walls"), walls.size());
     law_of_balls = table(h.at("law_of_balls"), balls.size());
   }
@@ -93,7 +94,7 @@ struct Mill {
   static Real gap(const Wall& w, const Ball& ball, const Vec& p) {
     const Real room = w.size - ball.radius;
     if (w.kind == Wall::plane) return root(dot(w.outward, w.outward)) * room + dot(w.outward, w.point) - dot(w.outward, p);
-    return room * room - dot(seen(w, p), seen(w, p));
+    return (room.positive() ? room * room : room) - dot(seen(w, p), seen(w, p));
   }
   /// f' where it moves with the velocity u there.
   static Real rate(const Wall& w, const Vec& p, const Vec& u) {
@@ -135,8 +136,9 @@ struct Mill {
   static Law law(const Json& j) {
     const bool coulomb = j.at("law") == "walton-braun";
     if (!coulomb && j.at("law") != "constant") throw std::invalid_argument("an unknown law");
-    return {coulomb, number(j, "restitution"), coulomb ? number(j, "friction") : Real(),
-            number(j, coulomb ? "min_tangential" : "restitution_tangential"), number(j, "least_separation")};
+    const Law l{coulomb, number(j, "restitution"), coulomb ? number(j, "friction") : Real(),
+                number(j, coulomb ? "min_tangential" : "restitution_tangential"), number(j, "least_separation")};
+    return l.restitution >= 0 && l.friction >= 0 && 1 >= l.tangential && l.least >= 0 ? l : throw std::invalid_argument("law");
   }
   std::vector<std::vector<Index>> table(const Json& j, Index columns) const {
     const auto rows = list(j, 4096).get<std::vector<std::vector<Index>>>();

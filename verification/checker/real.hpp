@@ -5,6 +5,7 @@
 #include <flint/fmpq.h>
 
 #include <array>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -56,21 +57,19 @@ inline Real dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] +
 inline Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-
 [[noreturn]] inline void no_number(const std::string& s) { throw std::invalid_argument("no number: " + s.substr(0, 60)); }
 inline slong small_number(const std::string& text) {
   const bool digits = text.find_first_not_of("0123456789", text[0] == '-') == std::string::npos;
   if (text.empty() || text == "-" || text.size() > 7 || !digits) no_number(text);
   return std::stol(text);
 }
-
 /// "119/25000", "-2", "1/12*pi", "55*pi^-1"
 inline Real exact_number(const std::string& text) {
   const auto star = text.find("*pi");
   fmpq_t rational;
   fmpq_init(rational);
-  const bool bad = text.size() > 100000 || fmpq_set_str(rational, text.substr(0, star).c_str(), 10) != 0 ||
-                   fmpz_is_zero(fmpq_denref(rational));
+  const bool bad = text.size() > 100000 || text.find_first_not_of("-0123456789/*pi^") != text.npos ||
+                   fmpq_set_str(rational, text.substr(0, star).c_str(), 10) != 0 || fmpz_is_zero(fmpq_denref(rational));
   Real value = bad ? Real() : made(arb_set_fmpq, rational, precision);
   fmpq_clear(rational);
   const auto power = star == std::string::npos ? "^0" : text.substr(star + 3);
@@ -80,12 +79,19 @@ inline Real exact_number(const std::string& text) {
   for (slong i = 0; i < std::abs(k); ++i) value = k > 0 ? value * pi() : value / pi();
   return value;
 }
-
 /// "1a2b -8c 3ff -98": midpoint and radius, each a whole number times a power of two, all in hexadecimal.
 inline Real enclosure(const std::string& text) {
+  std::istringstream in(text);
+  std::string word[4], more;
+  bool good = in >> word[0] >> word[1] >> word[2] >> word[3] && !(in >> more);
+  for (std::size_t k = 0; k < 4 && good; ++k) {  // Arb aborts on a radius of more than 30 bits, and on zeros with exponents
+    const auto digits = word[k].substr(word[k][0] == '-' && k != 2);
+    good = !digits.empty() && digits.size() <= std::array<std::size_t, 4>{25000, 6, 7, 6}[k] &&
+           digits.find_first_not_of("0123456789abcdef") == digits.npos;
+    if (k % 2 == 0 && digits[0] == '0') good = good && word[k] == "0" && word[k + 1] == "0";
+  }
   Real value;
-  if (text.size() > 100000 || arb_load_str(value.x, text.c_str()) != 0 || !arb_is_finite(value.x)) no_number(text);
-  if (fmpz_bits(ARF_EXPREF(arb_midref(value.x))) > 20 || fmpz_bits(MAG_EXPREF(arb_radref(value.x))) > 20) no_number(text);
+  if (!good || arb_load_str(value.x, text.c_str()) != 0) no_number(text);
   return value;
 }
 
