@@ -202,7 +202,7 @@ std::vector<model::Joint<Quantity>> spex_joints(const Spex& spex) {
   const auto in_turns = [](const Quantity& radians) {
     return Quantity{radians.value / 2, radians.pi_power - 1};
   };
-  const auto number = [](int n, int d) { return Quantity{cpp_rational(n, d)}; };
+  const auto number = [](int n, int d) { return Quantity{boost::multiprecision::cpp_rational(n, d)}; };
   const Quantity frequency = Quantity{1} / spex.period;
   model::Joint<Quantity> swing, arm, turn;
   swing.axis[2] = number(1, 1);

@@ -118,7 +118,7 @@ std::vector<double> half_widths_of(const gsl_matrix* jacobian, const std::vector
     const double random = 3 * std::sqrt(std::max(0.0, inverse(c, c))) * noise,
                  shift = influence.row(c).cwiseAbs().sum() * noise;
     const double rounding =
-        4e-16 * std::max(std::abs(values[static_cast<std::size_t>(c)]), std::abs(parameter.value));
+        2e-15 * std::max(std::abs(values[static_cast<std::size_t>(c)]), std::abs(parameter.value));
     half.push_back((random + shift) * parameter.change + rounding);
   }
   return half;

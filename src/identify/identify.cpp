@@ -76,8 +76,7 @@ class Search {
   }
 
  private:
-  /// Without places nothing can be checked impact by impact, but a run from the case's start can follow the
-  /// log.
+  /// Without places impacts cannot be checked, but a run from the case's start can follow the log.
   void follow(Identification& result) const {
     const auto found = replay(nominal_, parameters_, mistakes_of(nominal_, parameters_, log_), log_);
     result.follows = found.without;
@@ -178,8 +177,7 @@ class Search {
   }
 
   static void sort(std::vector<Candidate>& list) {
-    std::stable_sort(list.begin(), list.end(),
-                     [](const auto& a, const auto& b) { return a.criterion < b.criterion; });
+    std::ranges::stable_sort(list, {}, &Candidate::criterion);
   }
 
   struct Tried {
@@ -198,8 +196,7 @@ class Search {
       const double now = misfit_of(assumed);
       if (now < before - strong_evidence) better.push_back({now, mistake});
     }
-    std::stable_sort(better.begin(), better.end(),
-                     [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
+    std::ranges::stable_sort(better, {}, &Tried::misfit);
     if (better.size() > most) better.resize(most);
     return better;
   }
@@ -210,10 +207,19 @@ class Search {
   }
   static std::string name_of(const Mistake& m) { return m.key + ": " + m.text; }
 
+  /// Rows of the first span, where a wrong speed has not gone far; of the whole log when that span shows
+  /// nothing.
+  std::vector<double> telling_rows(const Assumptions& base) {
+    take(samples_.early());
+    auto rows = rows_of(base);
+    if (std::count_if(rows.begin(), rows.end(), [](double r) { return std::abs(r) > 1; }) > 12) return rows;
+    take(samples_.whole());
+    return rows_of(base);
+  }
+
   /// The parameters whose fit promises most on top of a base, by a linear fit of the first span.
   std::vector<const Parameter*> ranked(const Assumptions& base, std::size_t most) {
-    take(samples_.early());
-    const auto rows = rows_of(base);
+    const auto rows = telling_rows(base);
     const auto slopes = slopes_of(*residuals_, base, parameters_);
     std::vector<std::pair<double, const Parameter*>> order;
     for (std::size_t k = 0; k < parameters_.size(); ++k) {
@@ -306,8 +312,7 @@ class Search {
   }
 
   std::vector<Candidate> two_numbers() {
-    take(samples_.early());
-    const auto rows = rows_of(nominal_);
+    const auto rows = telling_rows(nominal_);
     const auto slopes = slopes_of(*residuals_, nominal_, parameters_);
     struct Pair {
       double misfit;
@@ -322,8 +327,7 @@ class Search {
         const double left = linear_misfit(rows, residuals_->kinds(), {&slopes[i], &slopes[j]}, change);
         if (change.size() == 2) order.push_back({left, i, j, change});
       }
-    std::stable_sort(order.begin(), order.end(),
-                     [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
+    std::ranges::stable_sort(order, {}, &Pair::misfit);
     std::vector<Candidate> found;
     constexpr std::size_t most = 12;
     for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
