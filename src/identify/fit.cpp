@@ -109,7 +109,9 @@ std::vector<double> half_widths_of(const gsl_matrix* jacobian, const std::vector
     sum += weights[k] * rows[k] * rows[k];
     total += weights[k];
   }
-  const double noise = total > 0 ? std::sqrt(sum / total) : 0;
+  // A few rows may fit better than the rounding of their doubles, over the usual tolerance of 1e-9, allows.
+  constexpr double rounding_of_rows = 4e-7;
+  const double noise = std::max(total > 0 ? std::sqrt(sum / total) : 0, rounding_of_rows);
   const Eigen::MatrixXd inverse = (j.transpose() * w.asDiagonal() * j).inverse();
   const Eigen::MatrixXd influence = inverse * j.transpose() * w.asDiagonal();
   std::vector<double> half;

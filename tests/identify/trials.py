@@ -4,7 +4,7 @@ none, and with rounding alone. The right cause must come first, with its value w
 
 usage: trials.py EDMILL FOLDER [--trials N] [--pairs N] [--clean N] [--jobs J] [--only TEXT] [--every K] [--seed S]
 N trials of each parameter, by 0.1 % and by 5 %, of each mistake, and of logs with `time, ball, partner` alone; N trials of two at
-once; N clean and N rounded logs. A log in which a change does not show is drawn again."""
+once; N clean and N rounded logs. A log that does not tell a change from others is drawn again."""
 import argparse
 import concurrent.futures
 import csv
@@ -202,8 +202,9 @@ def other_value(key, share):
 
 
 def shows(found):
-    """Whether the log has an impact that the change acts on: there is none where no two balls meet slowly, for one."""
-    return found["violations"] > 0 and all(n > 0 for n in found.get("without", {}).values())
+    """Whether the log has impacts that tell the change from others: none does where no two balls meet slowly, for one."""
+    told = not any(cause["alike"] for cause in found["causes"].values())
+    return found["violations"] > 0 and told and all(n > 0 for n in found.get("without", {}).values())
 
 
 def right(found, truths):
@@ -250,7 +251,8 @@ def trial(job):
         change += ["few"] if kind == "few" else []
     try:
         found = run(edmill, folder, text, settings, change, rng, audited)
-        if kind in ("value", "pair", "mistake") and not shows(found) and number < 20000:
+        silent = not found["violations"] if kind == "mistake" else kind in ("value", "pair") and not shows(found)
+        if silent and number < 20000:
             return trial((edmill, place, kind, name, share, number + 1000, seed))
     except (RuntimeError, subprocess.CalledProcessError) as error:
         return kind, name, share, f"{error} {getattr(error, 'stderr', '')}"
