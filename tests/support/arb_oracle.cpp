@@ -9,33 +9,29 @@
 namespace edmill::testing {
 namespace {
 
-/// Taylor model of one gap function on [centre - half, centre + half], in s in [-1, 1]. The last coefficient
-/// encloses the Lagrange remainder; formal derivatives of such a polynomial enclose the derivatives.
-struct TaylorModel {
-  Ball centre, half;
+/// Taylor model of one function on [-1, 1]. The last coefficient encloses the Lagrange remainder; formal
+/// derivatives of such a polynomial enclose the derivatives.
+struct Polynomial {
   Series d0, d1, d2, d3;
 
-  TaylorModel(const Problem& problem, int wall, const Ball& c, const Ball& h) : centre(c), half(h) {
-    const double drive = 2 * M_PI / problem.question().period;
-    const double width = std::max(drive * nearest(h) / 0.75, 1e-300);
-    const double bits = -std::log2(width);
-    const double wanted = static_cast<double>(problem.prec()) / 2 / std::max(bits, 1.0);
-    const slong order = static_cast<slong>(std::clamp(wanted, 4.0, 18.0));
-    // A hair wider than the interval, so that rounded radii of its parts stay inside.
-    Ball wide(h);
-    arb_mul_ui(wide.v, wide.v, 1025, coarse);
-    arb_mul_2exp_si(wide.v, wide.v, -10);
-    Ball all(c);
-    arb_add_error(all.v, wide.v);
-    const Series at_centre = problem.gap(wall, c, h, order, problem.prec());
-    const Series everywhere = problem.gap(wall, all, h, order + 1, coarse);
-    d0 = Series(order + 1);
+  Polynomial(const Series& at_centre, const Series& everywhere, slong prec) : d0(everywhere.size()) {
+    const slong order = at_centre.size();
     for (slong k = 0; k < order; ++k) arb_set(d0[k], at_centre[k]);
     arb_set(d0[order], everywhere[order]);
-    d1 = d0.derivative(problem.prec());
-    d2 = d1.derivative(problem.prec());
-    d3 = d2.derivative(problem.prec());
+    d1 = d0.derivative(prec);
+    d2 = d1.derivative(prec);
+    d3 = d2.derivative(prec);
   }
+};
+
+/// A gap function and the borders of its region on [centre - half, centre + half], in s in [-1, 1].
+struct TaylorModel {
+  Ball centre, half;
+  Polynomial gap;
+  std::vector<Polynomial> borders;
+
+  TaylorModel(const Problem& problem, int wall, const Ball& c, const Ball& h)
+      : TaylorModel(problem, wall, c, h, around(c, h), order_of(problem, h)) {}
 
   Ball offset(const Ball& s, slong prec = exact) const {
     Ball t;
@@ -43,14 +39,43 @@ struct TaylorModel {
     arb_add(t.v, t.v, centre.v, prec);
     return t;
   }
+
+ private:
+  TaylorModel(const Problem& problem, int wall, const Ball& c, const Ball& h, const Ball& all, slong order)
+      : centre(c),
+        half(h),
+        gap(problem.gap(wall, c, h, order, problem.prec()), problem.gap(wall, all, h, order + 1, coarse),
+            problem.prec()) {
+    const auto at_centre = problem.borders(wall, c, h, order, problem.prec());
+    const auto everywhere = problem.borders(wall, all, h, order + 1, coarse);
+    for (std::size_t k = 0; k < at_centre.size(); ++k)
+      borders.emplace_back(at_centre[k], everywhere[k], problem.prec());
+  }
+
+  static slong order_of(const Problem& problem, const Ball& h) {
+    const double drive = 2 * M_PI / problem.question().period;
+    const double width = std::max(drive * nearest(h) / 0.75, 1e-300);
+    const double bits = -std::log2(width);
+    const double wanted = static_cast<double>(problem.prec()) / 2 / std::max(bits, 1.0);
+    return static_cast<slong>(std::clamp(wanted, 4.0, 18.0));
+  }
+  /// A hair wider than the interval, so that rounded radii of its parts stay inside.
+  static Ball around(const Ball& c, const Ball& h) {
+    Ball wide(h);
+    arb_mul_ui(wide.v, wide.v, 1025, coarse);
+    arb_mul_2exp_si(wide.v, wide.v, -10);
+    Ball all(c);
+    arb_add_error(all.v, wide.v);
+    return all;
+  }
 };
 
-/// Enclosures of a gap function and its derivatives by s over a part of a model.
+/// Enclosures of a function and its derivatives by s over a part of a model.
 struct Ranges {
   Ball value, rate, second;
   Ball middle_value, middle_rate;
 
-  Ranges(const TaylorModel& f, const Ball& s, slong prec) {
+  Ranges(const Polynomial& f, const Ball& s, slong prec) {
     const Ball m = middle_of(s);
     Ball d, third, term;
     arb_sub(d.v, s.v, m.v, coarse);
@@ -73,6 +98,12 @@ struct Ranges {
     arb_mul(value.v, value.v, d.v, coarse);
     arb_add(value.v, value.v, middle_value.v, coarse);
     arb_add(second.v, second.v, term.v, coarse);
+  }
+
+  /// Whether the model rather than the width of the part makes these enclosures wide.
+  bool model_is_coarse() const {
+    // A root of a range that holds zero is not finite.
+    return !arb_is_finite(value.v) || blurred(middle_value, value) || blurred(middle_rate, rate);
   }
 };
 
@@ -104,15 +135,18 @@ class Search {
     const slong prec = problem_.prec();
     const Ball left(a), right(b);
     const Ball s = hull(left, right, prec);
-    const Ranges r(f, s, prec);
+    const Ranges r(f.gap, s, prec);
     if (positive(r.value)) return {};
-    const Region region = problem_.region(wall_, f.offset(s, prec));
-    if (region == Region::outside) return {};
-    if (region == Region::across && (b - a) * nearest(f.half) > 1e-14) {
-      const double m = a + (b - a) / 2;
-      if (auto found = inside(f, a, m, depth + 1, begin)) return found;
-      return inside(f, m, b, depth + 1, begin);
+    bool on_border = false, coarse_border = false;
+    for (const auto& border : f.borders) {
+      const Ranges beyond(border, s, prec);
+      if (negative(beyond.value)) return {};
+      if (not_negative(beyond.value)) continue;
+      on_border = true;
+      coarse_border |= beyond.model_is_coarse();
     }
+    if (on_border && (b - a) * nearest(f.half) > 1e-14)
+      return in_parts(f, a, b, depth, begin, coarse_border || !arb_is_finite(r.value.v));
     if (not_negative(r.rate)) return {};
     if (negative(r.rate)) {
       const Ball at_left = value(f, left, false);
@@ -138,16 +172,19 @@ class Search {
         if (not_negative(at_right)) return {};
       }
     }
-    // Undecided: a new model where the remainder blurs this one, then halves.
-    const bool narrow = b - a <= 1;
-    // A root of a range that holds zero is not finite.
-    if (narrow && (b - a < 0x1p-36 || !arb_is_finite(r.value.v) || blurred(r.middle_value, r.value) ||
-                   blurred(r.middle_rate, r.rate))) {
+    return in_parts(f, a, b, depth, begin, r.model_is_coarse());
+  }
+
+  /// What is undecided: by a new model where the remainder blurs this one, then by halves.
+  Found in_parts(const TaylorModel& f, double a, double b, int depth, const Ball& begin,
+                 bool model_is_coarse) const {
+    if (b - a <= 1 && (b - a < 0x1p-36 || model_is_coarse)) {
       Ball half(b - a), middle(a + (b - a) / 2);
       arb_mul_2exp_si(half.v, half.v, -1);
       arb_mul(half.v, half.v, f.half.v, exact);
       return inside(TaylorModel(problem_, wall_, f.offset(middle), half), -1, 1, depth, begin);
     }
+    const slong prec = problem_.prec();
     if (arf_cmpabs_2exp_si(arb_midref(f.half.v), -prec / 2 - 8) < 0 || depth > 600) return unresolved();
     const double m = a + (b - a) / 2;
     if (auto found = inside(f, a, m, depth + 1, begin)) return found;
@@ -157,7 +194,7 @@ class Search {
   /// Value (or rate, in units of s) at one place; straight from the equations where the model is too blurred.
   Ball value(const TaylorModel& f, const Ball& s, bool rate) const {
     Ball v;
-    (rate ? f.d1 : f.d0).at(v, s, problem_.prec());
+    (rate ? f.gap.d1 : f.gap.d0).at(v, s, problem_.prec());
     if (!arb_contains_zero(v.v)) return v;
     const Series direct = problem_.sample(wall_, f.offset(s));
     arb_set(v.v, direct[rate ? 1 : 0]);
@@ -173,7 +210,7 @@ class Search {
       Ball radius;
       arb_get_rad_arb(radius.v, s.v);
       if (nearest(radius) * nearest(f.half) < 1e-24) return at(f.offset(s, prec), begin, of_rate);
-      const Ranges r(f, s, prec);
+      const Ranges r(f.gap, s, prec);
       const Ball& slope = of_rate ? r.second : r.rate;
       if (!fresh && (blurred(r.middle_rate, r.rate) || arb_contains_zero(slope.v))) {
         const Ball t = f.offset(s);
@@ -246,7 +283,9 @@ std::vector<OracleContact> first_contacts(const OracleQuestion& question) {
   for (int wall = 0; wall < static_cast<int>(contacts.size()); ++wall) {
     auto& contact = contacts[static_cast<std::size_t>(wall)];
     for (const slong prec : {128, 256, 512, 1024}) {
-      contact = Search(Problem(question, prec), wall)(begin, length);
+      const Problem problem(question, prec);
+      if (!problem.within_reach(wall)) break;
+      contact = Search(problem, wall)(begin, length);
       if (contact.verdict != OracleVerdict::unresolved) break;
     }
     const Ball needed(contact.latest + beyond);

@@ -9,9 +9,6 @@
 
 namespace edmill::testing {
 
-/// Where a ball is beside the places whose nearest wall is a certain one.
-enum class Region { inside, across, outside };
-
 /// One question at one precision. Time is the offset in the period of the window's begin.
 class Problem {
  public:
@@ -52,38 +49,39 @@ class Problem {
     return result;
   }
 
-  /// Which of them holds for all offsets of t. Regions reach a little into each other, so that a contact on
-  /// their border is found with both walls.
-  Region region(int wall, const Ball& t) const {
-    if (!q_.rounded) return Region::inside;
+  /// Whether a ball of this size ever touches `wall`: edges rounder than the ball are beyond its reach.
+  bool within_reach(int wall) const { return !edges_unreachable() || wall >= 2; }
+
+  /// Taylor coefficients of functions that are at least zero where `wall` is the nearest one. These regions
+  /// reach a little into each other, so that a contact on their border is found with both walls.
+  std::vector<Series> borders(int wall, const Ball& t, const Ball& h, slong count, slong prec) const {
+    std::vector<Series> result;
+    if (!q_.rounded || edges_unreachable()) return result;
     constexpr double overlap = 1e-10;  // [m]; the gaps differ by its square
     const auto [a, b, rounding] = *q_.rounded;
-    if (q_.radius > rounding) return wall < 2 ? Region::outside : Region::inside;
-    const Ball h(1.0);
-    const Series x = coordinate(0, t, h, 1, coarse), y = coordinate(1, t, h, 1, coarse),
-                 z = coordinate(2, t, h, 1, coarse);
-    Ball square, height;
-    arb_mul(square.v, x[0], x[0], coarse);
-    arb_addmul(square.v, z[0], z[0], coarse);
-    arb_set(height.v, y[0]);
-    if (wall == 0 || wall == 3) arb_neg(height.v, height.v);
-    Region result = Region::inside;
-    const auto must = [&](const Ball& value, double bound, bool above) {
-      Ball off;
+    const auto place = coordinates(t, h, count, prec);
+    const auto add = [&](const Series& value, double bound, bool above) {
+      result.push_back(value);
       const Ball limit(bound);
-      arb_sub(off.v, value.v, limit.v, coarse);
-      if (!above) arb_neg(off.v, off.v);
-      if (negative(off)) result = Region::outside;
-      if (result == Region::inside && !not_negative(off)) result = Region::across;
+      arb_sub(result.back()[0], value[0], limit.v, prec);
+      for (slong k = 0; !above && k < count; ++k) arb_neg(result.back()[k], result.back()[k]);
     };
+    Series height = place[1];
+    if (wall == 0 || wall == 3)
+      for (slong k = 0; k < count; ++k) arb_neg(height[k], height[k]);
     if (wall == 2) {
-      must(height, b + overlap, false);
-      must(height, -b - overlap, true);
+      add(height, b + overlap, false);
+      add(height, -b - overlap, true);
     } else {
-      must(height, b - overlap, true);
+      add(height, b - overlap, true);
     }
-    if (a > 0 && wall < 3) must(square, (a - overlap) * (a - overlap), true);
-    if (a > 0 && wall >= 3) must(square, (a + overlap) * (a + overlap), false);
+    if (a > 0 && wall != 2) {
+      Series square(count);
+      add_product(square, 1, place[0], place[0], prec);
+      add_product(square, 1, place[2], place[2], prec);
+      const double edge = wall < 3 ? a - overlap : a + overlap;
+      add(square, edge * edge, wall < 3);
+    }
     return result;
   }
 
@@ -112,7 +110,8 @@ class Problem {
       arb_add(result[0], result[0], room.v, prec);
       return result;
     }
-    const Series x = coordinate(0, t, h, n, prec), z = coordinate(2, t, h, n, prec);
+    const auto place = coordinates(t, h, n, prec);
+    const Series &x = place[0], &z = place[2];
     Series result(n);
     for (slong k = 0; k < n; ++k) {
       arb_dot(result[k], nullptr, 1, x[0], 1, x[k], -1, k + 1, prec);
@@ -133,9 +132,8 @@ class Problem {
     Ball room(*q_.sphere);
     const Ball radius(q_.radius);
     arb_sub(room.v, room.v, radius.v, exact);
-    return beyond_squares(
-        room, {coordinate(0, t, h, n, prec), coordinate(1, t, h, n, prec), coordinate(2, t, h, n, prec)},
-        prec);
+    const auto place = coordinates(t, h, n, prec);
+    return beyond_squares(room, {place[0], place[1], place[2]}, prec);
   }
   /// 0 and 1 the edges or ends, 2 the cylinder, 3 and 4 the caps.
   Series gap_to_rounded(int wall, const Ball& t, const Ball& h, slong n, slong prec) const {
@@ -144,9 +142,8 @@ class Problem {
     arb_sub(room.v, room.v, radius.v, exact);
     arb_add(along.v, half.v, room.v, exact);
     arb_add(around.v, core.v, room.v, exact);
-    const Series x = coordinate(0, t, h, n, prec), z = coordinate(2, t, h, n, prec);
+    auto [x, y, z] = coordinates(t, h, n, prec);
     if (wall == 2) return beyond_squares(around, {x, z}, prec);
-    Series y = coordinate(1, t, h, n, prec);
     if (wall == 0 || wall == 3)
       for (slong k = 0; k < n; ++k) arb_neg(y[k], y[k]);
     if (wall >= 3) {
@@ -170,60 +167,53 @@ class Problem {
     Series result(n);
     const Ball distance(plane[3]), radius(q_.radius);
     arb_sub(result[0], distance.v, radius.v, exact);
+    const auto place = coordinates(t, h, n, prec);
     for (int axis = 0; axis < 3; ++axis) {
       const Ball normal(plane[static_cast<std::size_t>(axis)]);
-      const Series x = coordinate(axis, t, h, n, prec);
+      const Series& x = place[static_cast<std::size_t>(axis)];
       for (slong k = 0; k < n; ++k) arb_submul(result[k], x[k], normal.v, prec);
     }
     return result;
   }
 
-  /// A coordinate of the ball in the vessel frame.
+  bool edges_unreachable() const { return q_.rounded && q_.radius > (*q_.rounded)[2]; }
+
+  /// The ball in the vessel frame.
+  std::array<Series, 3> coordinates(const Ball& t, const Ball& h, slong n, slong prec) const {
+    if (!q_.chain) return in_nested(t, h, n, prec);
+    std::array<Series, 3> place;
+    for (std::size_t k = 0; k < 3; ++k) place[k] = cut(path(k, t, h, n, prec), n);
+    return through_chain(*q_.chain, {q_.begin_period, Ball(q_.period)}, place, t, h, prec);
+  }
   Series coordinate(int axis, const Ball& t, const Ball& h, slong n, slong prec) const {
-    if (q_.chain) {
-      std::array<Series, 3> place;
-      for (std::size_t k = 0; k < 3; ++k) place[k] = cut(path(k, t, h, n, prec), n);
-      return through_chain(*q_.chain, {q_.begin_period, Ball(q_.period)}, place, t, h,
-                           prec)[static_cast<std::size_t>(axis)];
-    }
-    return in_nested(axis, t, h, n, prec);
+    return coordinates(t, h, n, prec)[static_cast<std::size_t>(axis)];
   }
 
-  Series in_nested(int axis, const Ball& t, const Ball& h, slong n, slong prec) const {
+  std::array<Series, 3> in_nested(const Ball& t, const Ball& h, slong n, slong prec) const {
     Series sin_a(n), cos_a(n), sin_g(n), cos_g(n);
     turn_drive(t, h, prec, sin_a, cos_a, sin_g, cos_g);
-    // R_z(-theta) P = (a, b, Z) with a = Y cos(alpha) - X sin(alpha), b = -X cos(alpha) - Y sin(alpha).
+    // R_z(-theta) P = (x, b, Z) with x = Y cos(alpha) - X sin(alpha), b = -X cos(alpha) - Y sin(alpha),
+    // R_x(-gamma): y = b cos(gamma) + Z sin(gamma), z = Z cos(gamma) - b sin(gamma).
     const Series X = path(0, t, h, n, prec), Y = path(1, t, h, n, prec), Z = path(2, t, h, n, prec);
-    Series result(n);
-    if (axis == 0) {
-      for (slong k = 0; k < n; ++k) {
-        const slong terms = std::min<slong>(k + 1, 3);
-        arb_dot(result[k], nullptr, 0, Y[0], 1, cos_a[k], -1, terms, prec);
-        arb_dot(result[k], result[k], 1, X[0], 1, sin_a[k], -1, terms, prec);
-      }
-      const Ball arm(q_.arm);
-      arb_sub(result[0], result[0], arm.v, prec);
-      return result;
-    }
-    Series b(n);
+    Series x(n), y(n), z(n), b(n);
     for (slong k = 0; k < n; ++k) {
-      const slong terms = std::min<slong>(k + 1, 3);
+      const slong terms = std::min<slong>(k + 1, 3);  // of a path
+      arb_dot(x[k], nullptr, 0, Y[0], 1, cos_a[k], -1, terms, prec);
+      arb_dot(x[k], x[k], 1, X[0], 1, sin_a[k], -1, terms, prec);
       arb_dot(b[k], nullptr, 0, X[0], 1, cos_a[k], -1, terms, prec);
       arb_dot(b[k], b[k], 0, Y[0], 1, sin_a[k], -1, terms, prec);
       arb_neg(b[k], b[k]);
     }
-    // R_x(-gamma): y = b cos(gamma) + Z sin(gamma), z = Z cos(gamma) - b sin(gamma).
+    const Ball arm(q_.arm);
+    arb_sub(x[0], x[0], arm.v, prec);
     for (slong k = 0; k < n; ++k) {
       const slong terms = std::min<slong>(k + 1, 3);
-      if (axis == 1) {
-        arb_dot(result[k], nullptr, 0, b[0], 1, cos_g[k], -1, k + 1, prec);
-        arb_dot(result[k], result[k], 0, Z[0], 1, sin_g[k], -1, terms, prec);
-      } else {
-        arb_dot(result[k], nullptr, 0, Z[0], 1, cos_g[k], -1, terms, prec);
-        arb_dot(result[k], result[k], 1, b[0], 1, sin_g[k], -1, k + 1, prec);
-      }
+      arb_dot(y[k], nullptr, 0, b[0], 1, cos_g[k], -1, k + 1, prec);
+      arb_dot(y[k], y[k], 0, Z[0], 1, sin_g[k], -1, terms, prec);
+      arb_dot(z[k], nullptr, 0, Z[0], 1, cos_g[k], -1, terms, prec);
+      arb_dot(z[k], z[k], 1, b[0], 1, sin_g[k], -1, k + 1, prec);
     }
-    return result;
+    return {x, y, z};
   }
 
   /// Sine and cosine of alpha = theta - pi/2 and of gamma.
