@@ -56,9 +56,10 @@ def main():
     edmill = sys.argv[1]
     ball = lambda diameter: 7800 * numpy.pi * diameter**3 / 6
     show("SPEX, 28 balls of 4.76 mm", impacts(edmill, "demo.toml", ["run.end_time=\"5 s\""]), ball(0.00476))
-    for rpm in (300, 500):
-        show(f"planetary mill, disc at {rpm} rpm, 20 balls of 8 mm",
-             impacts(edmill, "planetary.toml", [f'mill.speed="{rpm} rpm"', 'run.start_time="0.5 s"', 'run.end_time="1.5 s"']),
+    for rpm, friction in ((300, 0.3), (500, 0.3), (300, 0.75), (300, 1.5)):
+        show(f"planetary mill, disc at {rpm} rpm, 20 balls of 8 mm, friction {friction}",
+             impacts(edmill, "planetary.toml", [f'mill.speed="{rpm} rpm"', f"contact.friction={friction}",
+                                                'run.start_time="0.5 s"', 'run.end_time="1.5 s"']),
              ball(0.008))
     return 0
 

@@ -23,6 +23,8 @@ STUDIES = {
     "drum": ("mill.speed", 100 / CRITICAL_RPM, "speed in % of the critical one", range(0, 121, 20)),
     "law": ("mill.speed", 1, "speed of the drive [rpm]", range(600, 1401, 200)),
 }
+# Of studies with several curves: the column that tells them apart, and its label.
+CURVES = {"law": ("name", "law"), "planetary": ("contact.friction", "friction")}
 QUANTITIES = (("milling_dose_rate", 1, "milling dose rate [W]"),
               ("collision_rate_total", 1e-3, "impacts [1/ms]"),
               ("dose_per_impact", 1e6, "milling dose of an impact [\u00b5J]"))
@@ -57,13 +59,14 @@ def main():
     with open(folder / "sweep.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     column, factor, label, x_ticks = STUDIES[given.study]
+    curve, curve_label = CURVES.get(given.study, ("", ""))
     groups = {}
     for row in rows:
         x = float(row[column].split()[0]) * factor
-        group = row["name"] if given.study == "law" else ""
+        group = row[curve] if curve else ""
         groups.setdefault(group, []).append((x, row))
-    print(f"| {label} |" + (" law |" if given.study == "law" else "") + "".join(f" {q[2]} |" for q in QUANTITIES))
-    print("|---" * (len(QUANTITIES) + 1 + (given.study == "law")) + "|")
+    print(f"| {label} |" + (f" {curve_label} |" if curve else "") + "".join(f" {q[2]} |" for q in QUANTITIES))
+    print("|---" * (len(QUANTITIES) + 1 + bool(curve)) + "|")
     panels = []
     for quantity, scale, title in QUANTITIES:
         series = {name: [(x, *(scale * v for v in values(row, quantity))) for x, row in points]
@@ -71,7 +74,7 @@ def main():
         highest = max(y + half for points in series.values() for _, y, half in points)
         panel = Panel(title, label, title, list(x_ticks), ticks(highest))
         for colour, (name, points) in enumerate(series.items()):
-            panel.add(name or title, points, colour)
+            panel.add((name if curve == "name" else f"{curve_label} {name}") if curve else title, points, colour)
         panels.append(panel)
     for name, points in groups.items():
         for x, row in points:

@@ -31,6 +31,13 @@ inline LammpsSetting setting_of(double diameter, double contact_duration, double
   return s;
 }
 
+/// Linear springs under which a ball touches a wall for `duration` at any speed: half a period of pi /
+/// duration.
+inline void make_linear(LammpsSetting& s, double contact_duration) {
+  const double radius = s.ball_diameter / 2, mass = s.density * 4 / 3 * pi * radius * radius * radius;
+  s.stiffness = mass * pi * pi / (contact_duration * contact_duration);
+}
+
 /// Speed after a head-on impact over the speed before: of a ball with a cap, or of two balls. The mean over
 /// impacts that begin at different places within a step.
 inline double rebound(const LammpsSetting& s, bool pair, double speed, int phases = 8) {

@@ -73,8 +73,13 @@ LammpsMill::LammpsMill(const LammpsSetting& s, const std::vector<LammpsBall>& ba
   contact.precision(17);
   // The polynomial of tsuji has no zero at restitution 1.
   const bool elastic = s.damping == 1;
-  contact << " hertz/material " << s.modulus << " " << (elastic ? 0 : s.damping) << " " << s.poisson
-          << " tangential mindlin NULL " << s.tangential_damping << " " << s.friction << " damping "
+  if (s.stiffness > 0)
+    contact << " hooke " << s.stiffness << " " << (elastic ? 0 : s.damping) << " tangential linear_history "
+            << s.stiffness * 2 / 7;
+  else
+    contact << " hertz/material " << s.modulus << " " << (elastic ? 0 : s.damping) << " " << s.poisson
+            << " tangential mindlin NULL";
+  contact << " " << s.tangential_damping << " " << s.friction << " damping "
           << (elastic ? "velocity" : "tsuji") << " limit_damping ";
   say("pair_style granular");
   say("pair_coeff * *", contact.str());

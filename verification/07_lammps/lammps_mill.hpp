@@ -43,7 +43,8 @@ struct LammpsSetting {
   double vessel_radius = 0, vessel_half_height = 0;  ///< [m]
   double ball_diameter = 0, density = 0;             ///< [m, kg/m3]
   double modulus = 0, poisson = 0.3;                 ///< Young's modulus [Pa]
-  double damping = 1;  ///< the number that `damping tsuji` takes for the restitution; 1: elastic
+  double stiffness = 0;  ///< [N/m]: linear springs in the place of Hertz's and Mindlin's
+  double damping = 1;    ///< the number that `damping tsuji` takes for the restitution; 1: elastic
   double friction = 0, tangential_damping = 0;  ///< mu; the latter as a share of the normal damping
   double time_step = 0;                         ///< [s]
 };
