@@ -43,8 +43,14 @@ TEST_P(AnyMill, AgreesWithAnIndependentSolverInFloat128) {
 TEST_P(AnyMill, AgreesWithAnIndependentSolverIn50Digits) {
   expect_agreement<mpfr50>(20261103, wanted_states() / 400);
 }
-// Behind the label `long`: EDMILL_WALL_STATES of each mill.
+// Behind the label `long`: EDMILL_WALL_STATES of each mill, a tenth in wide scalars.
 TEST_P(AnyMill, LongAgreesWithAnIndependentSolver) { expect_agreement<double>(20261104, wanted_states()); }
+TEST_P(AnyMill, LongAgreesWithAnIndependentSolverInFloat128) {
+  expect_agreement<float128>(20261105, wanted_states() / 10);
+}
+TEST_P(AnyMill, LongAgreesWithAnIndependentSolverIn50Digits) {
+  expect_agreement<mpfr50>(20261106, wanted_states() / 10);
+}
 
 /// A ball of random size somewhere in the vessel at the instant, flying at random.
 struct RandomFlight {
