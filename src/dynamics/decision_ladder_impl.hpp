@@ -79,13 +79,24 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
   } else {
     using Wide = Wider<Real>;
     ++passed_up_.wall;
-    const auto wide =
-        above().ladder.wall(WallQuery<Wide>{flight_cast<Wide>(query.flight), Wide(query.radius),
-                                            instant_cast<Wide>(query.begin), Wide(query.length)});
+    auto& ladder = above().ladder;
+    const Wide length(query.length);
+    const auto begin = instant_cast<Wide>(query.begin);
+    WallQuery<Wide> rest{flight_cast<Wide>(query.flight), Wide(query.radius), begin, length};
+    auto wide = ladder.wall(rest);
+    // A border between regions may be closer to the begin than this scalar's clock can tell.
+    const Wide least(64 * epsilon<Real>() * pairs_.clock().period());
+    Wide proven = wide.searched;
+    while (wide.verdict == Verdict::none && proven < least && proven < length) {
+      rest.begin = ladder.pairs().clock().after(begin, proven);
+      rest.length = length - proven;
+      wide = ladder.wall(rest);
+      proven += wide.searched;
+    }
     auto time = rounded_down<Real>(wide.time);
     if (wide.verdict == Verdict::contact && time < query.begin) time = query.begin;
-    Real searched = static_cast<Real>(wide.searched);
-    if (Wide(searched) > wide.searched) searched -= searched * epsilon<Real>();
+    Real searched = static_cast<Real>(proven);
+    if (Wide(searched) > proven) searched -= searched * epsilon<Real>();
     return {wide.verdict, wide.wall, time,
             wide.tie,     searched,  static_cast<Real>(wide.time_error) + rounding()};
   }

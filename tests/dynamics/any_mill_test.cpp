@@ -52,6 +52,24 @@ TEST_P(AnyMill, LongAgreesWithAnIndependentSolverIn50Digits) {
   expect_agreement<mpfr50>(20261106, wanted_states() / 10);
 }
 
+// The ball crosses from one region into the next as its window begins, within less than double tells apart:
+// float128, which decides here, has to go on into the next region before double asks again.
+TEST(AnyMillStates, ASearchGetsAheadOfABorderThatDoubleCannotTellFromItsBegin) {
+  const auto mill = testing::mill_of(testing::mill_named("planetary_rounded"));
+  WallQuery<double> query{};
+  query.flight = {{0x1.544ddbb6d5966p-6, -0x1.552f86aa59e6ap-6, 0x1.b7327914f8987p-5},
+                  {0x1.cdd9b2f179f8fp+0, 0x1.e22ddac30033bp-2, -0x1.cfe696605c731p-1},
+                  {1000000007, 0x1.efcda4cda4bbcp-4}};
+  query.radius = 0x1.4153518b98faep-10;
+  query.begin = {1000000007, 0x1.fbae78ba5ec75p-4};
+  query.length = 0x1.08cdb66eb178cp-11;
+  Comparison<double> compare(mill);
+  Tally tally;
+  compare(query, tally);
+  EXPECT_EQ(tally.bad(), 0);
+  EXPECT_EQ(tally.by_float128 + tally.by_mpfr50, 1);
+}
+
 /// A ball of random size somewhere in the vessel at the instant, flying at random.
 struct RandomFlight {
   Flight<double> flight;

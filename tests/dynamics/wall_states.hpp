@@ -2,6 +2,7 @@
 #pragma once
 
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -282,7 +283,8 @@ class StateMaker {
 template <class Decide, class Real>
 WallAnswer<Real> over_window(Decide&& decide, WallQuery<Real> query, const Real& period) {
   const DriveClock<Real> clock(period);
-  for (;;) {
+  for (int parts = 1;; ++parts) {
+    if (parts == 10000) throw std::runtime_error("the search does not get ahead");
     const WallAnswer<Real> answer = decide(query);
     const Real left = query.length - answer.searched;
     if (answer.verdict != Verdict::none || !(left > epsilon<Real>() * period)) return answer;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "instances/instances.hpp"
 
@@ -83,6 +85,12 @@ inline constexpr std::array<MillText, 21> all_mills = {{
      "\"500 rpm\"}]\n[[vessel.piston]]\nwall = \"wall_2\"\ndistance = \"2 mm\"",
      "gravity = \"9.8 m/s2\""},
 }};
+
+inline const MillText& mill_named(std::string_view name) {
+  for (const auto& mill : all_mills)
+    if (mill.name == name) return mill;
+  throw std::out_of_range(std::string(name));
+}
 
 /// Six sides 19 mm from the y axis, with an end slanted by a tenth.
 inline model::PolyhedronVessel<double> hexagonal_jar() {
