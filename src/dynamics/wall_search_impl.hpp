@@ -90,9 +90,13 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
     reachable[wall] = !numerics::proven_clear(start, first.curvature[wall], query.length, curve.bounds);
     if (!reachable[wall]) continue;
     any = true;
-    // A little beyond the first possible contact there is nothing to look for.
+    // A little beyond the first possible contact there is nothing to look for; but so far beyond that
+    // rounding does not hide the contact of a ball that touches the wall.
+    Point hinted = start;
+    if (start.slope < 0 && start.value < 8 * curve.bounds.value_error)
+      hinted.value += 4 * curve.bounds.value_error;
     const Real hint =
-        static_cast<Real>(numerics::first_root_hint(start, first.curvature[wall], query.length) * 9 / 8);
+        static_cast<Real>(numerics::first_root_hint(hinted, first.curvature[wall], query.length) * 9 / 8);
     if (hint < length && hint > 64 * resolution()) length = hint;
   }
   if (!any) return {Verdict::none, -1, {}, false, query.length, Real(0)};

@@ -70,6 +70,24 @@ TEST(AnyMillStates, ASearchGetsAheadOfABorderThatDoubleCannotTellFromItsBegin) {
   EXPECT_EQ(tally.by_float128 + tally.by_mpfr50, 1);
 }
 
+// The gap is zero to within the rounding of 50 digits, and falls slowly: the window that is looked at first
+// has to be long enough for the fall to show.
+TEST(AnyMillStates, ATouchingBallThatApproachesSlowlyIsInContact) {
+  const auto mill = testing::mill_of(testing::mill_named("planetary_box"));
+  WallQuery<double> query{};
+  query.flight = {{0x1.e584ccd143043p-7, -0x1.4d29f395127dap-6, -0x1.5ed53ab94a7fap-4},
+                  {-0x1.1fe49dffe901dp+1, -0x1.487290cede1f7p-21, 0x1.3dc580197f1acp+0},
+                  {0, 0x1.3333333333333p-5}};
+  query.radius = 0x1.b939daff1f2a8p-10;
+  query.begin = {0, 0x1.3333333333333p-5};
+  query.length = 0x1.194466dc44c86p-10;
+  Comparison<double> compare(mill);
+  Tally tally;
+  compare(query, tally);
+  EXPECT_EQ(tally.bad(), 0);
+  EXPECT_EQ(tally.contacts, 1);
+}
+
 /// A ball of random size somewhere in the vessel at the instant, flying at random.
 struct RandomFlight {
   Flight<double> flight;
