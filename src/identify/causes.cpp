@@ -23,8 +23,10 @@ void put_chain(Assumptions& a, Joints joints) {
 Joints reversed(Joints joints) {
   for (auto& joint : joints) {
     joint.frequency.value = -joint.frequency.value;
-    for (auto& swing : joint.swings)  // sin(2 pi (-f t + p)) = sin(2 pi (f t - p + 1/2))
-      swing.phase.value = boost::multiprecision::cpp_rational(1, 2) - swing.phase.value;
+    for (auto& swing : joint.swings) {  // sin(2 pi (-f t + p)) = -sin(2 pi (f t - p))
+      swing.amplitude.value = -swing.amplitude.value;
+      swing.phase.value = -swing.phase.value;
+    }
   }
   return joints;
 }
@@ -41,22 +43,24 @@ void add_motions(const Assumptions& nominal, std::vector<Mistake>& list) {
                       back.angle.value = -back.angle.value;
                       for (auto& swing : back.swings) swing.amplitude.value = -swing.amplitude.value;
                       put_chain(a, {joints[0], joints[1], back, joints[2], joints[0]});
-                    }});
+                    },
+                    false, true});
     list.push_back({"mill, sign of gamma", "-gamma_max sin(phase) in place of gamma_max sin(phase)",
                     [joints](Assumptions& a) {
                       auto turned = joints;
                       for (auto& swing : turned[2].swings) swing.amplitude.value = -swing.amplitude.value;
                       put_chain(a, turned);
-                    }});
+                    },
+                    false, true});
     list.push_back({"mill, direction of rotation", "the drive turns the other way",
-                    [joints](Assumptions& a) { put_chain(a, reversed(joints)); }});
+                    [joints](Assumptions& a) { put_chain(a, reversed(joints)); }, false, true});
     return;
   }
   bool moves = false;
   for (const auto& joint : joints) moves = moves || !joint.frequency.zero() || !joint.swings.empty();
   if (moves)
     list.push_back({"mill, direction of rotation", "all joints move the other way in time",
-                    [joints](Assumptions& a) { put_chain(a, reversed(joints)); }});
+                    [joints](Assumptions& a) { put_chain(a, reversed(joints)); }, false, true});
 }
 
 struct Factor {
@@ -100,7 +104,7 @@ void add_columns(const audit::Available& has, std::vector<Mistake>& list) {
   const auto thousands = [&](const std::string& columns, double LogChange::*member, const char* small,
                              const char* unit) {
     add(columns, member, 1e-3, fmt::format("in {} in place of {}", small, unit));
-    add(columns, member, 1e3, fmt::format("1000 times too small for {}", unit));
+    add(columns, member, 1e3, fmt::format("in units of 1000 {}", unit));
   };
   thousands("times", &LogChange::time, "ms", "s");
   if (has.body[0].position) thousands("positions", &LogChange::positions, "mm", "m");

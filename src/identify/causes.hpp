@@ -1,4 +1,4 @@
-// Mistakes that are no numbers: orders, signs, directions, units, and what columns stand for.
+// Mistakes other than wrong numbers: orders, signs, directions, units, and what columns stand for.
 #pragma once
 
 #include <functional>
@@ -16,6 +16,7 @@ struct Mistake {
   std::string text;  ///< "R_x(gamma) R_z(theta) in place of R_z(theta) R_x(gamma)"
   std::function<void(Assumptions&)> make;
   bool by_factor = false;  ///< of a number, as a wrong unit makes it
+  bool of_motion = false;  ///< it makes another mill, which has not the numbers of the case's
 };
 
 /// Those that can be told apart in a log with these columns.

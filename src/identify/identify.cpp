@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <utility>
 
 #include "identify/causes.hpp"
 #include "identify/fit.hpp"
@@ -40,6 +42,7 @@ class Search {
     options_.examples = 0;
     options_.progress = nullptr;
     log_ = audit::read_events(the_case_, options_, most_events);
+    interrupt_ = std::exchange(options_.interrupt, nullptr);  // an audit that ends early finds nothing wrong
     parameters_ = parameters_of(nominal_);
     if (!log_.events.empty()) residuals_.emplace(log_, audit::tolerances_of(the_case_, options_), the_case_);
   }
@@ -50,7 +53,7 @@ class Search {
   Identification run() {
     Identification result;
     result.events = log_.events.size();
-    if (log_.events.empty()) return result;
+    if ((result.interrupted = is_interrupted()) || log_.events.empty()) return result;
     const auto& has = log_.available.body[0];
     if (!has.position && from_start_) {
       follow(result);
@@ -59,11 +62,13 @@ class Search {
     violations_ = violations(nominal_);
     result.violations = violations_;
     if (violations_ == 0) return result;
+    result.too_few = std::ranges::count_if(log_.events, [](const auto& e) { return e.problem.empty(); }) < 12;
+    if (result.too_few) return result;
     samples_ = Samples(log_.events, the_case_.mill.motion.period());
     note_violating(nominal_);
     samples_.choose();
     take(samples_.whole());
-    if (residuals_->count() < 12) return result;
+    if ((result.too_few = residuals_->count() < 12)) return result;
     null_ = misfit_of(nominal_);
     auto accepted = singles();
     if (accepted.empty() || accepted.front().left > 0) {
@@ -71,14 +76,19 @@ class Search {
       for (auto& pair : pairs()) accepted.push_back(std::move(pair));
       sort(accepted);
     }
-    report(accepted, result);
+    if (!(result.interrupted = is_interrupted())) report(accepted, result);
     return result;
   }
 
  private:
+  bool is_interrupted() const { return interrupt_ && interrupt_->load(std::memory_order_relaxed); }
+
   /// Without places impacts cannot be checked, but a run from the case's start can follow the log.
   void follow(Identification& result) const {
-    const auto found = replay(nominal_, parameters_, mistakes_of(nominal_, parameters_, log_), log_);
+    const auto found = replay(nominal_, parameters_, mistakes_of(nominal_, parameters_, log_), log_,
+                              [this] { return is_interrupted(); });
+    result.interrupted = is_interrupted(), result.too_few = found.too_few;
+    if (result.interrupted || result.too_few) return;
     result.follows = found.without;
     result.follows_all = found.clean;
     if (!found.cause) return;
@@ -133,7 +143,7 @@ class Search {
       for (int k = 1; k < 16; ++k) add(period * (k <= 8 ? k : k - 16) / 16);
     } else {
       const double turns =
-          std::abs(log_.events[samples_.early().back()].time) * p.value / (2 * std::numbers::pi);
+          std::abs(log_.events[samples_.early().back()].time * p.value) / (2 * std::numbers::pi);
       const int steps = std::clamp(static_cast<int>(std::ceil(0.12 * turns * 10)), 1, 400);
       for (int k = -steps; k <= steps; ++k)
         if (k != 0) add(p.value * (1 + 0.12 * k / steps));
@@ -154,6 +164,7 @@ class Search {
         std::any_of(model.free.begin(), model.free.end(), [](const auto* p) { return p->is_speed; });
     for (std::size_t w = staged ? 0 : samples_.windows().size() - 1; w < samples_.windows().size(); ++w) {
       take(samples_.windows()[w]);
+      if (residuals_->count() < 12 && w + 1 < samples_.windows().size()) continue;
       auto result = fit(*residuals_, model, c.values);
       c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
       c.criterion = result.cost + penalty(model.free.size());
@@ -236,10 +247,12 @@ class Search {
   }
 
   /// The best of the fits of one more number on top of a base.
-  std::vector<Candidate> one_more(const Assumptions& base, const std::vector<std::string>& mistakes,
-                                  std::size_t most) {
+  std::vector<Candidate> one_more(
+      const Assumptions& base, const std::vector<std::string>& mistakes, std::size_t most,
+      const std::function<bool(const Parameter&)>& free_of = [](const auto&) { return true; }) {
     std::vector<Candidate> found;
     for (const auto* p : ranked(base, most)) {
+      if (is_interrupted() || !free_of(*p)) continue;
       std::vector<Candidate> of_starts;
       for (const double start : starts(base, *p)) of_starts.push_back(fitted({base, {p}}, mistakes, {start}));
       sort(of_starts);
@@ -252,7 +265,7 @@ class Search {
     std::vector<Candidate> good;
     sort(tried);
     for (auto& c : tried)
-      if (accept(c)) good.push_back(std::move(c));
+      if (!is_interrupted() && accept(c)) good.push_back(std::move(c));
     sort(good);
     return good;
   }
@@ -294,11 +307,15 @@ class Search {
       Assumptions base = nominal_;
       t.mistake.make(base);
       for (const auto& other : promising(base, mistakes_, 2)) {
+        if (other.mistake.key == t.mistake.key || (other.mistake.of_motion && t.mistake.of_motion)) continue;
         Assumptions both = base;
         other.mistake.make(both);
         tried.push_back(with_mistakes(both, {name_of(t.mistake), name_of(other.mistake)}));
       }
-      for (auto& c : one_more(base, {name_of(t.mistake)}, 3)) tried.push_back(std::move(c));
+      const auto free_of = [&](const Parameter& p) {
+        return p.key != t.mistake.key && !(t.mistake.of_motion && p.key.starts_with("mill."));
+      };
+      for (auto& c : one_more(base, {name_of(t.mistake)}, 3, free_of)) tried.push_back(std::move(c));
     }
     for (auto& c : two_numbers()) tried.push_back(std::move(c));
     // A number on top of the best ones, then both together.
@@ -330,7 +347,7 @@ class Search {
     std::ranges::stable_sort(order, {}, &Pair::misfit);
     std::vector<Candidate> found;
     constexpr std::size_t most = 12;
-    for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
+    for (std::size_t k = 0; k < std::min(most, order.size()) && !is_interrupted(); ++k) {
       const Parameter &one = parameters_[order[k].one], &two = parameters_[order[k].two];
       const Model model{nominal_, {&one, &two}};
       auto best = fitted(model, {}, {one.value, two.value});
@@ -385,6 +402,7 @@ class Search {
   std::vector<Candidate> singles_;
   std::uint64_t violations_ = 0;
   double null_ = 0;
+  const std::atomic<bool>* interrupt_ = nullptr;
   bool from_start_ = false;
 };
 
@@ -393,7 +411,7 @@ class Search {
 Identification identify(const casefile::CaseSpec& spec, const audit::Options& options) {
   Search search(spec, options);
   auto result = search.run();
-  result.stepping = time_stepping(search.log(), search.the_case(), options);
+  if (!result.interrupted) result.stepping = time_stepping(search.log(), search.the_case(), options);
   return result;
 }
 

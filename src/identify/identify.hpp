@@ -27,7 +27,7 @@ struct Cause {
   /// Of logs without states: impacts that a run with the cause follows, of those that rounding lets it
   /// follow, and those that the case itself follows.
   std::uint64_t follows = 0, could_follow = 0, follows_without = 0;
-  std::vector<std::string> alike;  ///< other causes that this log does not tell from it
+  std::vector<std::string> alike;  ///< other causes that this log cannot distinguish from it
 
   /// "mill.arm = 100.500 +- 0.001 mm in place of 100 mm"
   std::string text() const;
@@ -40,6 +40,8 @@ struct Identification {
   /// that.
   std::optional<std::uint64_t> follows;
   bool follows_all = false;
+  bool too_few = false;      ///< impacts that can be checked or followed; no cause was sought
+  bool interrupted = false;  ///< the search ended before it was through; no cause is named then
   TimeStepping stepping;
 };
 

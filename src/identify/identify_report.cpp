@@ -2,10 +2,6 @@
 
 #include "identify/identify.hpp"
 
-namespace edmill {
-extern template std::string to_text<double>(const double&);
-}
-
 namespace edmill::identify {
 
 std::string Cause::text() const {
@@ -23,31 +19,33 @@ std::string table(const Identification& found) {
   for (const auto& cause : found.causes) {
     if (cause.could_follow > 0) {
       out += fmt::format(
-          "  looks like   {}: a run with it follows the first {} impacts of the log, the case itself {}\n",
+          "  looks like   {}: a run with it reproduces the first {} impacts of the log, the case as given "
+          "{}\n",
           cause.text(), cause.follows, found.follows.value_or(0));
       continue;
     }
     out += fmt::format("  looks like   {}: explains {} of {} violations\n", cause.text(), cause.explains,
                        cause.of);
     for (const auto& other : cause.alike)
-      out += fmt::format("    this log does not tell it from   {}\n", other);
+      out += fmt::format("    this log cannot distinguish it from   {}\n", other);
   }
   out += table(found.stepping);
+  if (found.interrupted) return out + "  interrupted before a cause was found\n";
+  if (found.too_few) return out + "  no cause sought: too few impacts\n";
   if (!found.causes.empty()) return out;
   if (found.follows)
-    out +=
-        found.follows_all
-            ? fmt::format(
-                  "  no cause: a run of the case follows the log, {} impacts, as far as rounding lets it\n",
-                  *found.follows)
-            : fmt::format("  no cause found: a run of the case follows the first {} impacts\n",
-                          *found.follows);
+    out += found.follows_all
+               ? fmt::format(
+                     "  no cause: a run of the case reproduces the log, {} impacts, as far as rounding lets "
+                     "it\n",
+                     *found.follows)
+               : fmt::format("  no cause found: a run of the case reproduces the first {} impacts\n",
+                             *found.follows);
   else if (found.violations > 0 && !found.stepping.found())
     out += fmt::format("  no cause explains nine tenths of the {} violations of {} impacts\n",
                        found.violations, found.events);
   else if (found.violations == 0)
-    out +=
-        fmt::format("  no cause: {} impacts without a violation of what their columns show\n", found.events);
+    out += fmt::format("  no cause: no violation in the columns of the first {} impacts\n", found.events);
   return out;
 }
 
@@ -84,6 +82,8 @@ void put_json(io::JsonText& json, const Identification& found) {
   json.begin("identified");
   json.integer("events", found.events);
   json.integer("violations", found.violations);
+  if (found.too_few) json.text("ended", "too few impacts");
+  if (found.interrupted) json.text("ended", "interrupted");
   if (found.follows) json.integer("follows", *found.follows);
   json.begin("causes");
   for (std::size_t k = 0; k < found.causes.size(); ++k) {

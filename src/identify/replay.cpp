@@ -31,12 +31,14 @@ struct Impact {
 
 class Replay {
  public:
-  Replay(const Assumptions& nominal, const audit::EventsAtHand& log)
-      : nominal_(nominal), states_(casefile::build_case<double>(nominal.spec).states) {
-    const auto mill = nominal.built().mill;
+  Replay(const Assumptions& nominal, const audit::EventsAtHand& log) : nominal_(nominal) {
+    const auto initial = casefile::build_case<double>(nominal.spec);
+    states_ = initial.states;
+    const auto& mill = initial.the_case.mill;
     period_ = mill.motion.period();
-    start_ = nominal.spec.initial_time.to<double>();
-    const auto pose = mill.motion.pose(DriveClock<double>(period_).at(start_));
+    const DriveClock<double> clock(period_);
+    start_ = clock.elapsed({0, 0.0}, initial.start);
+    const auto pose = mill.motion.pose(initial.start);
     for (const auto& state : states_) places_.push_back(mill.motion.position_in_vessel(pose, state.position));
     for (const auto& e : log.events) {
       if (!e.problem.empty() || log_.size() == most_impacts) break;
@@ -54,7 +56,12 @@ class Replay {
   std::vector<Impact> impacts(const Assumptions& assumed, std::size_t count) const {
     casefile::CaseSpec spec = assumed.spec;
     spec.batches.clear(), spec.balls.clear();
+    if (!spec.initial_state.empty()) spec.initial_time = exactly(start_);
     spec.initial_state.clear();
+    if (!log_.empty()) {  // a mill whose balls come to rest has no more impacts
+      const double last = log_[std::min(count, log_.size()) - 1].time;
+      spec.end_time = exactly(start_ + 1.5 * std::max(last - start_, 0.0) + period_);
+    }
     const auto mill = casefile::build_mill<double>(assumed.spec);
     const auto pose = mill.motion.pose(DriveClock<double>(mill.motion.period()).at(start_));
     const double volume = 4.0 / 3 * 3.14159265358979323846;
@@ -76,7 +83,7 @@ class Replay {
     }
     std::vector<Impact> list;
     try {
-      const auto source = run::make_source<double>(spec, false);
+      const auto source = run::make_source<double>(spec, true);
       for (const auto& e : source->next(count))
         list.push_back({static_cast<double>(e.values[run::time]) / assumed.log.time - assumed.log.delay,
                         e.ball, e.with_wall ? -1 - e.partner : e.partner});
@@ -182,10 +189,14 @@ std::pair<double, double> fitted_value(const Replay& replay, const Assumptions& 
 }  // namespace
 
 ReplayResult replay(const Assumptions& nominal, const std::vector<Parameter>& parameters,
-                    const std::vector<Mistake>& mistakes, const audit::EventsAtHand& log) {
+                    const std::vector<Mistake>& mistakes, const audit::EventsAtHand& log,
+                    const std::function<bool()>& is_interrupted) {
   Replay runs(nominal, log);
   ReplayResult result;
-  if (runs.count() < 20) return result;
+  if (runs.count() < 20) {
+    result.too_few = true;
+    return result;
+  }
   const auto case_itself = runs.impacts(nominal, runs.count());
   const std::size_t without = result.without = runs.follows(case_itself);
   // How far two runs agree that differ by rounding alone.
@@ -209,6 +220,7 @@ ReplayResult replay(const Assumptions& nominal, const std::vector<Parameter>& pa
   for (const bool in_vessel : {false, true}) {
     runs.in_vessel = in_vessel;
     for (const auto& mistake : mistakes) {
+      if (is_interrupted()) return result;
       if (mistake.by_factor) continue;  // a mill that turns a thousand times as fast is not run in a hurry
       Assumptions assumed = nominal;
       mistake.make(assumed);
@@ -216,6 +228,7 @@ ReplayResult replay(const Assumptions& nominal, const std::vector<Parameter>& pa
       consider({mistake.key + ": " + mistake.text, nullptr, 0, 0, 0, 0}, assumed);
     }
     for (const auto& p : parameters) {
+      if (is_interrupted()) return result;
       const auto [value, open] = fitted_value(runs, nominal, p);
       if (!(std::abs(value - p.value) > open)) continue;
       Assumptions assumed = nominal;

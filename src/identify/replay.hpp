@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,13 +22,16 @@ struct Replayed {
 };
 
 struct ReplayResult {
+  bool too_few = false;           ///< fewer than 20 impacts: nothing is said
   std::uint64_t without = 0;      ///< impacts that the case itself follows
   bool clean = false;             ///< as far as rounding lets it
   std::optional<Replayed> cause;  ///< the best with which nine tenths can be followed
 };
 
 /// The first impacts of the log and of runs of the case, from the case's initial state.
+/// @param is_interrupted  asked between runs; yes ends the search
 ReplayResult replay(const Assumptions& nominal, const std::vector<Parameter>& parameters,
-                    const std::vector<Mistake>& mistakes, const audit::EventsAtHand& log);
+                    const std::vector<Mistake>& mistakes, const audit::EventsAtHand& log,
+                    const std::function<bool()>& is_interrupted);
 
 }  // namespace edmill::identify

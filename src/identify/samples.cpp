@@ -1,6 +1,7 @@
 #include "identify/samples.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace edmill::identify {
@@ -13,7 +14,8 @@ auto Samples::every() const -> Places {
 
 void Samples::choose() {
   const auto& events = *events_;
-  const double begin = events.front().time, end = events.back().time, span = end - begin;
+  const auto known = std::ranges::find_if(events, [](const auto& e) { return std::isfinite(e.time); });
+  const double begin = known == events.end() ? 0 : known->time, end = events.back().time, span = end - begin;
   const double first = std::max(period_, events[std::min<std::size_t>(79, events.size() - 1)].time - begin);
   windows_.clear();
   for (double window = first; window < span; window *= 4) windows_.push_back(sample(begin + window, 160));

@@ -243,10 +243,10 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
   if (orders.size() < least_number || audit::size(the_case.mill.gravity) == 0) return result;
   const double middle = std::abs(quantile(orders, 0.5));
   const double step = result.step.value_or(result.step_by_depth.value_or(0));
-  if (agree(orders) && middle > 1e-9 && (step == 0 || middle > step / 10))
-    result.first_order_step = middle;
-  else
-    result.second_order = step > 0;
+  if (agree(orders) && middle > 1e-9 && (step == 0 || middle > step / 10)) result.first_order_step = middle;
+  // That nothing is seen says something only where a delay of a tenth of a step would be seen.
+  const double scatter = quantile(orders, 0.75) - quantile(orders, 0.25);
+  result.second_order = !result.first_order_step && step > 0 && middle < step / 10 && scatter < step / 10;
   return result;
 }
 
@@ -256,13 +256,13 @@ std::string table(const TimeStepping& found) {
     const auto& s = *found.soft;
     const std::string law =
         !std::isfinite(s.exponent) ? ""
-        : s.exponent < -0.1 ? fmt::format("; it falls as speed^{:.2f}, as of Hertz's contacts", s.exponent)
-                            : fmt::format("; it goes as speed^{:.2f}, as of a linear spring", s.exponent);
+        : s.exponent < -0.1 ? fmt::format("; it falls as speed^{:.2f}, as for Hertz's contacts", s.exponent)
+                            : fmt::format("; it scales as speed^{:.2f}, as for a linear spring", s.exponent);
     out += fmt::format(
         "  looks like   soft contacts that last {:.3g} us (quartiles {:.3g} and {:.3g}), shown by {} "
         "impacts, logged at their {}{}\n"
         "    stiffness {:.3g} N/m of a linear spring, or E* {:.3g} GPa of Hertz's contacts\n",
-        s.duration * 1e6, s.low * 1e6, s.high * 1e6, s.contacts, s.at == LoggedAt::begin ? "begin" : "end",
+        s.duration * 1e6, s.low * 1e6, s.high * 1e6, s.contacts, s.at == LoggedAt::begin ? "start" : "end",
         law, s.spring, s.modulus / 1e9);
   }
   if (found.step)
@@ -274,8 +274,8 @@ std::string table(const TimeStepping& found) {
                        *found.step_by_depth);
   if (found.first_order_step)
     out += fmt::format(
-        "  looks like   an integrator of first order with steps of {:.3g} s: flights leave the parabola by g "
-        "h t/2\n",
+        "  looks like   an integrator of first order with steps of {:.3g} s: flights leave the parabola by "
+        "g h t/2, h the step\n",
         *found.first_order_step);
   if (found.second_order) out += "    flights under gravity have no error of first order in the step\n";
   return out;

@@ -4,4 +4,6 @@ add_test(NAME identify_test COMMAND ${trials} ${CMAKE_BINARY_DIR}/identify --pai
 set_tests_properties(identify_test PROPERTIES TIMEOUT 600)
 add_test(NAME identify_long COMMAND ${trials} ${CMAKE_BINARY_DIR}/identify-long --trials 100 --pairs 100 --clean 50)
 set_tests_properties(identify_long PROPERTIES TIMEOUT 36000 LABELS long)
+add_test(NAME identify_cases_test COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/identify/cases.py $<TARGET_FILE:edmill_cli>)
+set_tests_properties(identify_cases_test PROPERTIES TIMEOUT 300)
 edmill_test(time_stepping_test identify/time_stepping_test.cpp)

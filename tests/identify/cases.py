@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""`edmill audit --identify` where there is little to go by: few lines, lines that cannot be read, balls that come to rest, a log that
+begins at a saved state, and a signal.
+
+usage: cases.py EDMILL"""
+import csv
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+EDMILL = pathlib.Path(sys.argv[1]).resolve()
+DEMO = """[run]
+end_time = "100 s"
+gravity = "9.8 m/s2"
+[mill]
+type = "spex8000"
+arm = "100 mm"
+[vessel]
+type = "cylinder"
+diameter = "38 mm"
+height = "57 mm"
+[contact]
+friction = 0.4
+restitution = 0.53
+[[balls]]
+count = 28
+diameter = "4.76 mm"
+"""
+REST = """[run]
+end_time = "1 s"
+[mill]
+type = "still"
+[vessel]
+type = "box"
+size = ["60 mm", "60 mm", "60 mm"]
+[contact]
+friction = 0.4
+restitution = 0.9
+[[balls]]
+count = 6
+diameter = "5 mm"
+"""
+
+
+def run(folder, case, *settings, states=True):
+    (folder / "case.toml").write_text(case, encoding="utf-8")
+    output = "output=[{type=\"collisions\", states=" + ("true" if states else "false") + "}]"
+    arguments = [EDMILL, "run", "case.toml", "--quiet", "--out", "out", "--set", output]
+    for setting in settings:
+        arguments += ["--set", setting]
+    subprocess.run(arguments, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    with open(folder / "out" / "collisions.csv", encoding="utf-8") as file:
+        return list(csv.reader(file))
+
+
+def write(folder, rows):
+    with open(folder / "log.csv", "w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows(rows)
+
+
+def few_columns(rows):
+    kept = [rows[0].index(name) for name in ("time", "ball", "partner_kind", "partner")]
+    return [[row[k] for k in kept] for row in rows]
+
+
+def audit(folder, *options):
+    done = subprocess.run([EDMILL, "audit", "case.toml", "log.csv", "--identify", "--examples", "0", *options], cwd=folder,
+                          check=False, capture_output=True, text=True, timeout=200)
+    assert done.returncode in (0, 6, 7), (done.returncode, done.stderr)
+    return done.stdout
+
+
+def few_lines(folder):
+    rows = run(folder, DEMO, "run.max_collisions=8", 'mill.arm="100.5 mm"')
+    write(folder, rows)
+    said = audit(folder)
+    assert "no cause sought: too few impacts" in said and "looks like" not in said, said
+
+
+def unreadable_lines(folder):
+    rows = run(folder, DEMO, "run.max_collisions=600", 'mill.arm="100.5 mm"')
+    for row in rows[1:101]:
+        row[rows[0].index("vx_before")] = "nan"
+    rows[1][rows[0].index("time")] = "nan"
+    write(folder, rows)
+    said = audit(folder)
+    assert "looks like   mill.arm = 100.5" in said, said
+
+
+def balls_at_rest(folder):
+    """The case has no gravity, so that its balls never move; the log was made with gravity."""
+    rows = run(folder, REST, 'run.gravity="9.8 m/s2"', "run.max_collisions=200", states=False)
+    write(folder, few_columns(rows))
+    said = audit(folder, "--from-start")
+    assert "reproduces the first 0 impacts" in said or "gravity" in said, said
+
+
+def saved_state(folder):
+    run(folder, DEMO, 'run.end_time="0.2073 s"')
+    (folder / "out" / "final_state.csv").rename(folder / "state.csv")
+    case = DEMO.replace("[run]\n", "[run]\ninitial_state = \"state.csv\"\n")
+    rows = run(folder, case, "run.max_collisions=400", states=False)
+    write(folder, few_columns(rows))
+    said = audit(folder, "--from-start")
+    assert "no cause: a run of the case reproduces the log" in said, said
+
+
+def interrupted(folder):
+    rows = run(folder, DEMO, "run.max_collisions=20000", 'mill.arm="100.5 mm"', "contact.restitution=0.55")
+    write(folder, rows)
+    with subprocess.Popen([EDMILL, "audit", "case.toml", "log.csv", "--identify"], cwd=folder, stdout=subprocess.PIPE,
+                          text=True) as process:
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=60)[0]
+    assert "interrupted before a cause was found" in said and "looks like" not in said, said
+
+
+for test in (few_lines, unreadable_lines, balls_at_rest, saved_state, interrupted):
+    with tempfile.TemporaryDirectory() as place:
+        test(pathlib.Path(place))
+    print(f"{test.__name__}: right")
