@@ -34,10 +34,10 @@ class Check {
   }
   Index balls() const { return flights_.size(); }
   void take(const Json& line) {
-    if (line.value("event", -1L) != events_) reject("rule 6: its number is not the next");
+    if (line.value("event", Json()) != events_) reject("rule 6: its number is not the next");
     const bool on_wall = line.contains("wall");
-    const Index i = body(line.at("ball"), balls());
-    const Index j = body(line.at(on_wall ? "wall" : "partner"), on_wall ? mill_.walls.size() : balls());
+    const Index i = index(line.at("ball"), balls());
+    const Index j = index(line.at(on_wall ? "wall" : "partner"), on_wall ? mill_.walls.size() : balls());
     if (!on_wall && j <= i) reject("the ball with the lower number is not the first");
     const Real T = enclosure(line.at("time")), until = end(T, 1);
     if (!(end_ < end(T, -1))) reject("rule 1: it does not come after the one before");
@@ -59,7 +59,7 @@ class Check {
     end_ = until, ++events_;
   }
   void finish(const Json& line) {
-    if (line.value("end", -1L) != events_) reject("rule 6: the last line names another number of events");
+    if (line.value("end", Json()) != events_) reject("rule 6: the last line names another number of events");
     for (Index i = 0; i < balls(); ++i) {
       if (flights_[i].event + 1 == events_ && events_ > 0) continue;
       if (!line.at("windows").contains(std::to_string(i))) reject("rule 6: the last line lacks a ball");
@@ -69,10 +69,6 @@ class Check {
 
  private:
   [[noreturn]] void reject(const std::string& why) const { throw Rejected("event " + std::to_string(events_) + ": " + why); }
-  static Index body(const Json& j, Index count) {
-    if (!j.is_number_unsigned() || j.get<Index>() >= count) throw std::invalid_argument("a body that does not exist");
-    return j.get<Index>();
-  }
   /// The enclosures of the file, which must hold the computed ones. (rule 3)
   Vec holding(const Json& given, const Vec& computed) const {
     Vec result;
@@ -215,11 +211,11 @@ inline std::string check(std::istream& in) {
     return Json::parse(line);
   };
   const Json header = next();
-  const long bits = header.at("bits").get<long>(), events = header.at("events").get<long>();
-  if (header.at("format") != "edmill certificate" || header.at("version") != 1 || bits < 64 || bits > 65536 || events < 1)
+  const Index bits = index(header.at("bits"), 65537), events = index(header.at("events"), Index(1) << 40);
+  if (header.at("format") != "edmill certificate" || header.at("version") != 1 || bits < 64 || events < 1)
     throw std::invalid_argument("another format");
-  Check check(header, bits);
-  for (long k = 0; k < events; ++k) check.take(next());
+  Check check(header, static_cast<long>(bits));
+  for (Index k = 0; k < events; ++k) check.take(next());
   check.finish(next());
   if (in.peek() != EOF) throw Rejected("rule 6: there is more behind the last line");
   const auto text = [](auto n) { return std::to_string(n); };

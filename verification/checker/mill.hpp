@@ -35,6 +35,9 @@ inline Real number(const Json& j, const char* key) { return exact_number(j.at(ke
 inline const Json& list(const Json& j, Index most) {
   return j.is_array() && j.size() <= most ? j : throw std::invalid_argument("not a list of at most " + std::to_string(most));
 }
+inline Index index(const Json& j, Index count) {
+  return j.is_number_unsigned() && j.get<Index>() < count ? j.get<Index>() : throw std::invalid_argument("a number too large");
+}
 inline Vec vector(const Json& j) {
   const auto at = [&](Index k) { return exact_number(list(j, 3).at(k).get<std::string>()); };
   return {at(0), at(1), at(2)};
@@ -141,11 +144,12 @@ struct Mill {
     return l.restitution >= 0 && l.friction >= 0 && 1 >= l.tangential && l.least >= 0 ? l : throw std::invalid_argument("law");
   }
   std::vector<std::vector<Index>> table(const Json& j, Index columns) const {
-    const auto rows = list(j, 4096).get<std::vector<std::vector<Index>>>();
-    if (rows.size() != balls.size()) throw std::invalid_argument("laws of other balls");
-    for (const auto& row : rows)
-      for (Index k = 0; k < std::max(columns, row.size()); ++k)
-        if (row.size() != columns || row[k] >= laws.size()) throw std::invalid_argument("laws of other bodies");
+    std::vector<std::vector<Index>> rows;
+    for (const auto& row : j.size() == balls.size() ? list(j, 4096) : throw std::invalid_argument("laws of other balls")) {
+      rows.emplace_back();
+      for (const auto& law : list(row, 4096)) rows.back().push_back(index(law, laws.size()));
+      if (row.size() != columns) throw std::invalid_argument("laws of other bodies");
+    }
     return rows;
   }
 };
