@@ -52,10 +52,17 @@ TEST_P(AnyMill, LongAgreesWithAnIndependentSolverIn50Digits) {
   expect_agreement<mpfr50>(20261106, wanted_states() / 10);
 }
 
-// The ball crosses from one region into the next as its window begins, within less than double tells apart:
+/// One state of a mill beside the independent solver.
+Tally compared(const char* mill, const WallQuery<double>& query) {
+  Comparison<double> compare(testing::mill_of(testing::mill_named(mill)));
+  Tally tally;
+  compare(query, tally);
+  return tally;
+}
+
+// The ball crosses into the next region sooner after its window begins than double can resolve:
 // float128, which decides here, has to go on into the next region before double asks again.
 TEST(AnyMillStates, ASearchGetsAheadOfABorderThatDoubleCannotTellFromItsBegin) {
-  const auto mill = testing::mill_of(testing::mill_named("planetary_rounded"));
   WallQuery<double> query{};
   query.flight = {{0x1.544ddbb6d5966p-6, -0x1.552f86aa59e6ap-6, 0x1.b7327914f8987p-5},
                   {0x1.cdd9b2f179f8fp+0, 0x1.e22ddac30033bp-2, -0x1.cfe696605c731p-1},
@@ -63,9 +70,7 @@ TEST(AnyMillStates, ASearchGetsAheadOfABorderThatDoubleCannotTellFromItsBegin) {
   query.radius = 0x1.4153518b98faep-10;
   query.begin = {1000000007, 0x1.fbae78ba5ec75p-4};
   query.length = 0x1.08cdb66eb178cp-11;
-  Comparison<double> compare(mill);
-  Tally tally;
-  compare(query, tally);
+  const auto tally = compared("planetary_rounded", query);
   EXPECT_EQ(tally.bad(), 0);
   EXPECT_EQ(tally.by_float128 + tally.by_mpfr50, 1);
 }
@@ -73,7 +78,6 @@ TEST(AnyMillStates, ASearchGetsAheadOfABorderThatDoubleCannotTellFromItsBegin) {
 // The gap is zero to within the rounding of 50 digits, and falls slowly: the window that is looked at first
 // has to be long enough for the fall to show.
 TEST(AnyMillStates, ATouchingBallThatApproachesSlowlyIsInContact) {
-  const auto mill = testing::mill_of(testing::mill_named("planetary_box"));
   WallQuery<double> query{};
   query.flight = {{0x1.e584ccd143043p-7, -0x1.4d29f395127dap-6, -0x1.5ed53ab94a7fap-4},
                   {-0x1.1fe49dffe901dp+1, -0x1.487290cede1f7p-21, 0x1.3dc580197f1acp+0},
@@ -81,9 +85,7 @@ TEST(AnyMillStates, ATouchingBallThatApproachesSlowlyIsInContact) {
   query.radius = 0x1.b939daff1f2a8p-10;
   query.begin = {0, 0x1.3333333333333p-5};
   query.length = 0x1.194466dc44c86p-10;
-  Comparison<double> compare(mill);
-  Tally tally;
-  compare(query, tally);
+  const auto tally = compared("planetary_box", query);
   EXPECT_EQ(tally.bad(), 0);
   EXPECT_EQ(tally.contacts, 1);
 }
