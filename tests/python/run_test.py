@@ -188,5 +188,24 @@ def test_a_folder_holds_the_files_of_a_run(program, tmp_path):
         assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / "theirs" / name).read_bytes(), name
 
 
+def test_series_of_a_run_without_a_folder(small):
+    class Soft:
+        def restitution(self, approach_speed):
+            return 0.2
+
+        def restitution_of_slip(self, normal_change, slip_speed, compliance):
+            return 0
+
+    plain = edmill.run(small, until="0.6 s", events=False)
+    run = edmill.run(small, until="0.6 s", events=False, ball_ball_law=Soft(), ball_wall_law=Soft())
+    for each in (plain, run):
+        ends = np.stack([each.series["final_state"][name] for name in ("position_x", "position_y", "position_z")], axis=-1)
+        assert np.array_equal(ends, each.states["position"])
+    assert not np.array_equal(plain.states, run.states)
+    assert set(pickle.loads(pickle.dumps(plain)).series) == set(plain.series)
+    with pytest.raises(edmill.InputError, match="folder"):
+        pickle.loads(pickle.dumps(edmill.run(small, until="0.6 s", ball_wall_law=Soft()))).series
+
+
 def test_a_run_shows_its_report_in_notebooks(small):
     assert edmill.run(small, until="0.6 s")._repr_html_().startswith("<iframe srcdoc=")

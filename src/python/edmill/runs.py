@@ -45,6 +45,12 @@ class Run:
         self.events = _array(result["events"], _edmill.event_dtype)
         self.states = _array(result["states"], _edmill.state_dtype)
         self._page: str | None = None
+        self._series: dict[str, np.ndarray] | None = None
+        self._laws: dict[str, Any] = {}  # of Python
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Laws of Python stay behind: most cannot be pickled."""
+        return self.__dict__ | {"_laws": None if self._laws else {}}
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_") and "summary" in self.__dict__ and name in self.summary:
@@ -54,16 +60,28 @@ class Run:
     def __dir__(self):
         return [*super().__dir__(), *self.summary]
 
+    def _simulate_again(self, folder: str, report: bool) -> None:
+        if self._laws is None:
+            raise _edmill.InputError("a pickled run with laws of Python is not simulated again: give run() a folder")
+        run(self.case, precision=self.precision, until=self.time, folder=folder, report=report, events=False, **self._laws)
+
     @property
-    def series(self) -> Tables:
-        """Tables of the run's outputs by the names of their files, as NumPy structured arrays; needs a folder."""
-        return Tables(self.folder)
+    def series(self) -> Mapping[str, np.ndarray]:
+        """Tables of the case's outputs by the names of their files, as NumPy structured arrays. A run without a folder is
+        simulated again, to the end that it had, when they are first asked for."""
+        if self.folder is not None:
+            return Tables(self.folder)
+        if self._series is None:
+            with tempfile.TemporaryDirectory() as folder:
+                self._simulate_again(folder, False)
+                self._series = dict(Tables(pathlib.Path(folder)))
+        return self._series
 
     def report(self) -> str:
         """The run's report, a page of HTML. A run without one is simulated again, to the end that it had."""
         if self._page is None:
             with tempfile.TemporaryDirectory() as folder:
-                run(self.case, precision=self.precision, until=self.time, folder=folder, report=True, events=False)
+                self._simulate_again(folder, True)
                 self._page = (pathlib.Path(folder) / "report.html").read_text(encoding="utf-8")
         return self._page
 
@@ -138,6 +156,8 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
         if hasattr(show, "close"):
             show.close()
     done = Run(case, precision, None if folder is None else pathlib.Path(folder), result)
+    laws = {"ball_ball_law": ball_ball_law, "ball_wall_law": ball_wall_law}
+    done._laws = {name: law for name, law in laws.items() if law is not None}
     if result["interrupted"]:
         raise Interrupted(done)
     return done
