@@ -8,10 +8,13 @@
 
 #include "edmill/contact_law.hpp"
 #include "lammps_mill.hpp"
+#include "model/contact_law.hpp"
 
 namespace edmill::verification {
 
 inline constexpr double pi = 3.14159265358979323846;
+/// Contacts so short that the normal does not turn during them: those that laws are measured on. [s]
+inline constexpr double brief = 1e-6;
 
 /// Young's modulus at which a ball that meets a wall at v = 1 m/s touches it for `duration` by Hertz's
 /// theory: 2.9432 x / v, with the depth x = (5 m v^2 / (4 k))^(2/5), the force k x^(3/2), k = (4/3) E / (2 (1
@@ -38,22 +41,47 @@ inline void make_linear(LammpsSetting& s, double contact_duration) {
   s.stiffness = mass * pi * pi / (contact_duration * contact_duration);
 }
 
-/// Speed after a head-on impact over the speed before: of a ball with a cap, or of two balls. The mean over
-/// impacts that begin at different places within a step.
-inline double rebound(const LammpsSetting& s, bool pair, double speed, int phases = 8) {
+/// What an impact leaves of the approach and of the slip of the surfaces: restitution and e_t.
+struct Left {
+  double normal, tangential;
+};
+
+/// An impact in LAMMPS of a ball with a cap, or of two balls: the mean over impacts that begin at different
+/// places within a step. @param speed, slip  approach and slip [m/s]
+inline Left impact(const LammpsSetting& s, bool pair, double speed, double slip = 0, int phases = 8) {
   const double radius = s.ball_diameter / 2;
-  double sum = 0;
+  Left sum{0, 0};
   for (int k = 0; k < phases; ++k) {
-    const double start = speed * s.time_step * (1 + (k + 0.5) / phases);
-    std::vector<LammpsBall> balls{{{0, s.vessel_half_height - radius - start, 0}, {0, speed, 0}, {}}};
+    const double gap = speed * s.time_step * (1 + (k + 0.5) / phases);
+    std::vector<LammpsBall> balls{{{0, s.vessel_half_height - radius - gap, 0}, {slip, speed, 0}, {}}};
     if (pair)
-      balls = {{{0, -radius - start / 2, 0}, {0, speed / 2, 0}, {}},
-               {{0, radius + start / 2, 0}, {0, -speed / 2, 0}, {}}};
+      balls = {{{0, -radius - gap / 2, 0}, {slip / 2, speed / 2, 0}, {}},
+               {{0, radius + gap / 2, 0}, {-slip / 2, -speed / 2, 0}, {}}};
     LammpsMill mill(s, balls);
-    mill.run(static_cast<std::int64_t>(200e-6 / s.time_step));
-    sum -= mill.balls()[0].velocity[1] / balls[0].velocity[1];
+    const auto velocity = [&] {
+      auto now = mill.balls();
+      if (!pair) now.push_back({});
+      return Left{now[0].velocity[1] - now[1].velocity[1],
+                  now[0].velocity[0] - now[1].velocity[0] - (now[0].spin[2] + now[1].spin[2]) * radius};
+    };
+    // Parting, and at the same velocities later on.
+    Left left = velocity(), before{1, 0};
+    for (int i = 0;
+         i < 100 && (left.normal > 0 || left.normal != before.normal || left.tangential != before.tangential);
+         ++i) {
+      before = left;
+      mill.run(50);
+      left = velocity();
+    }
+    sum.normal -= left.normal / speed / phases;
+    if (slip != 0) sum.tangential += left.tangential / slip / phases;
   }
-  return sum / phases;
+  return sum;
+}
+
+/// Restitution of head-on impacts.
+inline double rebound(const LammpsSetting& s, bool pair, double speed, int phases = 8) {
+  return impact(s, pair, speed, 0, phases).normal;
 }
 
 /// The number for `damping tsuji` at which LAMMPS's own balls rebound with `restitution`, in fine steps.
@@ -67,26 +95,16 @@ inline double damping_for(double restitution, LammpsSetting s) {
   return (low + high) / 2;
 }
 
-/// Velocity of the contact point along the wall after an impact over that before: e_t of a contact that
-/// sticks. `slip` is that of an approach of 1 m/s.
-inline double tangential_restitution(LammpsSetting s, double slip) {
-  s.time_step /= 8;
-  const double radius = s.ball_diameter / 2;
-  LammpsMill mill(s, {{{0, s.vessel_half_height - radius - 1e-6, 0}, {slip, 1, 0}, {}}});
-  mill.run(static_cast<std::int64_t>(200e-6 / s.time_step));
-  const LammpsBall after = mill.balls()[0];
-  return (after.velocity[0] - after.spin[2] * radius) / slip;
-}
-
 /// Walton and Braun's law turns from sticking to sliding at once; a Mindlin contact slips in part between
-/// them. This law has the restitution of LAMMPS's balls and e_t as measured on its contacts, by slip over
-/// approach.
+/// them. This law has the restitution and e_t, by slip over approach, that LAMMPS's own contacts have with
+/// the time step of its mills, of walls or of pairs: their springs along the surface differ by more than a
+/// factor of two.
 class MindlinLaw : public CustomLaw<double> {
  public:
-  MindlinLaw(double restitution, const LammpsSetting& s) : restitution_(restitution) {
+  MindlinLaw(LammpsSetting s, bool pair) : restitution_(impact(s, pair, 1).normal) {
     for (double slip = 0.125; slip <= 8; slip += slip < 3 ? 0.125 : 0.5) {
       slips_.push_back(slip);
-      left_.push_back(tangential_restitution(s, slip));
+      left_.push_back(impact(s, pair, 1, slip).tangential);
     }
   }
 
@@ -106,5 +124,9 @@ class MindlinLaw : public CustomLaw<double> {
   double restitution_;
   std::vector<double> slips_, left_;
 };
+
+inline model::LawOfProgram<double> law_of_contacts(const LammpsSetting& s, bool pair) {
+  return {std::make_shared<MindlinLaw>(s, pair)};
+}
 
 }  // namespace edmill::verification

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "claim.hpp"
+#include "instances/instances.hpp"
 #include "lammps_library.hpp"
 #include "study/statistics.hpp"
 
@@ -26,6 +27,25 @@ inline std::pair<double, double> ratio(const std::vector<double>& a, const std::
   const auto one = study::estimate(a), two = study::estimate(b);
   const double r = *one.mean / *two.mean;
   return {r, r * std::hypot(*one.half_width / *one.mean, *two.half_width / *two.mean)};
+}
+
+/// Dose rates of a run of edmill in batches of `batch` seconds, the first left out. [W]
+inline std::vector<double> rates_of_run(const casefile::CaseSpec& spec,
+                                        casefile::InitialCase<double>& initial, double batch, int batches) {
+  struct Doses : engine::Observer<double> {
+    std::vector<double> sums;
+    double batch = 0;
+    void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& s) override {
+      const auto k = static_cast<std::size_t>(s.seconds() / batch);
+      if (k >= sums.size()) sums.resize(k + 1);
+      sums[k] += impact.outcome.milling_dose;
+    }
+  } doses;
+  doses.batch = batch;
+  run::simulate<double>(spec, initial, {{&doses}, nullptr});
+  std::vector<double> rates;
+  for (int i = 1; i <= batches; ++i) rates.push_back(doses.sums.at(static_cast<std::size_t>(i)) / batch);
+  return rates;
 }
 
 inline std::string inverse(const std::vector<double>& rates) {

@@ -68,31 +68,17 @@ enum class Slip { as_lammps, walton_braun };
 
 /// With the case's least separation speed, 1 cm/s. @param slip  what contacts leave of a slip
 std::vector<double> edmill_rates(const WardCase& ward, int batches, Slip slip = Slip::as_lammps) {
-  std::vector<double> rates;
   const double batch = batch_periods * spex.period;
-  struct Doses : engine::Observer<double> {
-    std::vector<double> sums;
-    double batch;
-    void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& s) override {
-      const auto k = static_cast<std::size_t>(s.seconds() / batch);
-      if (k >= sums.size()) sums.resize(k + 1);
-      sums[k] += impact.outcome.milling_dose;
-    }
-  } doses;
-  doses.batch = batch;
   const auto spec =
       ward.spec({"run.start_time=0 s", "run.end_time=" + Claim::text(batch * (batches + 1), 15) + " s"});
   auto initial = casefile::build_case<double>(spec);
   if (slip == Slip::as_lammps) {
-    LammpsSetting s = setting_of(ward.diameter * 1e-3, 50e-6);
+    LammpsSetting s = setting_of(ward.diameter * 1e-3, brief);
     s.damping = damping_for(ward.restitution, s);
     auto& mill = initial.the_case.mill;
-    mill.ball_ball.law = mill.ball_wall.law =
-        model::LawOfProgram<double>{std::make_shared<MindlinLaw>(ward.restitution, s)};
+    mill.ball_ball.law = law_of_contacts(s, true), mill.ball_wall.law = law_of_contacts(s, false);
   }
-  run::simulate<double>(spec, initial, {{&doses}, nullptr});
-  for (int i = 1; i <= batches; ++i) rates.push_back(doses.sums.at(i) / batch);
-  return rates;
+  return rates_of_run(spec, initial, batch, batches);
 }
 
 void agree(const WardCase& ward, int lammps_batches, int edmill_batches, double bound = 0.03) {
@@ -207,7 +193,7 @@ TEST_F(LammpsPeer, TangentialLawsDifferBetweenStickingAndSliding) {
   const model::ContactLaw<double> law{model::WaltonBraun<double>{0.52, 0.4, -1}, 0};
   double sticking = 0, sliding = 0, between = 1;
   for (const double slip : {0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 8.0}) {
-    const double theirs = tangential_restitution(s, slip);
+    const double theirs = impact(s, false, 1, slip).tangential;
     const double ours = law.restitution_of_slip(1.0 + law.separation_speed(1.0, {1, 1}), slip, 3.5);
     claim.say("e_t at a slip of " + Claim::text(slip) + " per approach: LAMMPS " + Claim::text(theirs) +
               ", edmill " + Claim::text(ours));
