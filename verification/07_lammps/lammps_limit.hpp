@@ -69,13 +69,14 @@ inline std::pair<double, double> at_zero(const std::vector<double>& x, const std
 
 /// Softer and stiffer contacts: the dose rate of LAMMPS extrapolated to contacts that take no time, as
 /// edmill's do.
-/// @param lammps  rates of batches with contacts of a duration [s]
+/// @param lammps   rates of batches with contacts of a duration [s]
+/// @param longest  of the durations [s]
 inline void agree_in_the_limit(const Claim& claim, const std::string& name, const std::vector<double>& edmill,
-                               const std::function<std::vector<double>(double)>& lammps,
-                               double bound = 0.01) {
+                               const std::function<std::vector<double>(double)>& lammps, double bound = 0.01,
+                               double longest = 100e-6) {
   claim.say(name + ", inverse dose rate: edmill " + inverse(edmill));
   std::vector<double> durations, rates, halves;
-  for (const double duration : {100e-6, 50e-6, 25e-6}) {
+  for (const double duration : {longest, longest / 2, longest / 4}) {
     const auto found = lammps(duration);
     const auto estimate = study::estimate(found);
     durations.push_back(duration), rates.push_back(*estimate.mean), halves.push_back(*estimate.half_width);
