@@ -228,14 +228,15 @@ TEST_F(LammpsPeer, Long28Balls) { agree_in_the_limit({28, 4.76, 0.53}, 24, 100);
 TEST_F(LammpsPeer, Long95Balls) { agree_in_the_limit({95, 3.16, 0.54}, 10, 40); }
 TEST_F(LammpsPeer, Long227Balls) { agree_in_the_limit({227, 2.36, 0.56}, 6, 20); }
 
-/// What the difference of the tangential laws makes of the dose rate.
-TEST_F(LammpsPeer, LongSlippingInPartRaisesTheDoseRate) {
+/// What the difference of the tangential laws makes of the dose rate: as much as LAMMPS's rate is above that by
+/// Walton and Braun, 1.1 +- 0.4 %.
+TEST_F(LammpsPeer, LongLawsOfSlipChangeTheDoseRate) {
   const WardCase ward{7, 9.52, 0.52};
   const auto [r, half] = ratio(edmill_rates(ward, 2000), edmill_rates(ward, 2000, Slip::walton_braun));
   claim.say(ward.name() + ", dose rate with e_t of LAMMPS over that by Walton and Braun " +
             Claim::text(r, 4) + " +- " + Claim::text(half, 2));
-  claim.at_least("what it has more", r - 1, 0.001);
-  claim.at_most("and no more than", r - 1, 0.006);
+  claim.at_least("what it has more", r - 1, 0.007);
+  claim.at_most("and no more than", r - 1, 0.015);
 }
 
 /// The comparison can fail: with LAMMPS's damping taken at its word, so that balls rebound with 0.64, it
