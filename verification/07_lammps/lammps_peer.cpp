@@ -196,7 +196,7 @@ TEST_F(LammpsPeer, TangentialLawsDifferBetweenStickingAndSliding) {
     const double theirs = impact(s, false, 1, slip).tangential, of_pair = impact(s, true, 1, slip).tangential;
     const double ours = law.restitution_of_slip(1.0 + law.separation_speed(1.0, {1, 1}), slip, 3.5);
     claim.say("e_t at a slip of " + Claim::text(slip) + " per approach: LAMMPS " + Claim::text(theirs) +
-              ", edmill " + Claim::text(ours));
+              " of walls and " + Claim::text(of_pair) + " of pairs, edmill " + Claim::text(ours));
     raise(pairs, std::abs(of_pair - theirs));
     if (slip <= 0.75) raise(sticking, std::abs(theirs - ours));
     if (slip >= 2.5) raise(sliding, std::abs(theirs - ours));
