@@ -9,7 +9,7 @@ mkdir -p "$folder/doxygen"
 (
   cd "$root"
   cat docs/sphinx/Doxyfile
-  printf 'INPUT = %s/include/edmill\nOUTPUT_DIRECTORY = %s/doxygen\n' "$root" "$folder"
+  printf 'INPUT = %s/include/edmill\nSTRIP_FROM_INC_PATH = %s/include\nOUTPUT_DIRECTORY = %s/doxygen\n' "$root" "$root" "$folder"
 ) | doxygen - 2>"$folder/doxygen.log"
 if [ -s "$folder/doxygen.log" ]; then
   cat "$folder/doxygen.log" >&2

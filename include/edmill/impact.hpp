@@ -20,10 +20,10 @@ struct BallState {
 /// One impact as programs see it: plain numbers, vectors inertial.
 template <class Real>
 struct Impact {
-  std::uint64_t index;  ///< counts from 0 since the start of the run
-  Real time;            ///< [s]
-  int ball;
-  bool with_wall;
+  std::uint64_t index;          ///< counts from 0 since the start of the run
+  Real time;                    ///< [s]
+  int ball;                     ///< its id
+  bool with_wall;               ///< whether the partner is a wall
   int partner;                  ///< ball or wall id
   Vector<Real> normal;          ///< unit, from the partner to the ball
   Real approach_speed;          ///< of the contact points along the normal, before [m/s]

@@ -13,7 +13,7 @@ template <class Real>
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// @param impact  with states before and after it, SI, inertial frame
+  /// @param impact  SI, inertial frame; states are those of the run, after it
   /// @param run  at the time of the impact; `run.stop()` ends the run after it
   virtual void on_impact(const Impact<Real>& impact, Run<Real>& run) = 0;
 };

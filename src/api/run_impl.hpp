@@ -68,9 +68,11 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
         case_(the_case),
         built_(detail::build(*the_case.spec_, laws, vessel)),
         guests_{{this}, nullptr},
+        own_laws_(laws.ball_ball || laws.ball_wall),
         driver_(built_, guests_) {}
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+    if (own_laws_) require_no_gain(impact);
     if (outputs_) outputs_->on_impact(impact, simulation);
     if (observers.empty()) return;
     const auto seen = detail::to_public<Real>(impact, simulation.seconds());
@@ -137,10 +139,23 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
   std::vector<edmill::Observer<Real>*> observers;
 
  private:
+  /// A law with e_t beyond -1 may give an impact more energy than it had.
+  static void require_no_gain(const engine::Impact<Real>& impact) {
+    const auto& o = impact.outcome;
+    const Real rounding =
+        (o.normal_impulse * o.approach_speed + o.tangential_impulse * o.slip_speed) / 1000000000;
+    if (!(o.milling_dose >= -rounding))
+      throw InputError("contact law of the program: impact " + std::to_string(impact.index) + " of ball " +
+                       std::to_string(impact.ball) + " and " + (impact.with_wall ? "wall " : "ball ") +
+                       std::to_string(impact.partner) + " gains " + to_text<Real>(-o.milling_dose) +
+                       " J: e_t is " + to_text<Real>(o.restitution_tangential) + ", expected -1 to 1");
+  }
+
   Run& run_;
   Case case_;
   casefile::InitialCase<Real> built_;
   run::Guests<Real> guests_;
+  bool own_laws_;
   run::RunDriver<Real> driver_;
   std::optional<output::Outputs<Real>> outputs_;
   std::filesystem::path folder_;

@@ -95,12 +95,13 @@ void read_law(Section& s, GivenLaw& given) {
 std::optional<Quantity> charge_ratio(const CaseSpec& spec) {
   if (!spec.powder_mass || !spec.powder_mass->positive()) return std::nullopt;
   cpp_rational mass = 0;  // times pi
-  const auto add = [&](const BallSpec& b, int count) {
+  // The mean cube of diameters that are uniform in d +- s is d^3 + d s^2.
+  const auto add = [&](const BallSpec& b, int count, const cpp_rational& s) {
     const auto& d = b.diameter.value;
-    mass += count * b.density.value * d * d * d / 6;
+    mass += count * b.density.value * d * (d * d + s * s) / 6;
   };
-  for (const auto& ball : spec.balls) add(ball, 1);
-  for (const auto& batch : spec.batches) add(batch, batch.count);
+  for (const auto& ball : spec.balls) add(ball, 1, 0);
+  for (const auto& batch : spec.batches) add(batch, batch.count, batch.diameter_spread.value);
   return Quantity{mass / spec.powder_mass->value, 1};
 }
 

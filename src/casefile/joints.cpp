@@ -119,11 +119,24 @@ std::string axis_name(const std::array<Quantity, 3>& axis) {
   return fmt::format("({:g}, {:g}, {:g})", axis[0].to<double>(), axis[1].to<double>(), axis[2].to<double>());
 }
 
+/// With its sign, behind other terms.
+std::string term(double value) { return fmt::format(" {} {:g}", value < 0 ? '-' : '+', std::abs(value)); }
+
+/// Terms that may begin with a sign.
+std::string as_sum(const std::string& terms) {
+  if (terms.empty()) return "0 deg";
+  return terms.starts_with(" + ")   ? terms.substr(3)
+         : terms.starts_with(" - ") ? "-" + terms.substr(3)
+                                    : terms;
+}
+
 std::string text_of_joint(const Joint<Quantity>& joint) {
   if (joint.rotates) {
-    std::string angle = fmt::format("{:g} deg", 360 * joint.angle.to<double>());
-    if (!joint.frequency.zero()) angle += fmt::format(" + {:g} deg t", 360 * joint.frequency.to<double>());
-    return "turn about " + axis_name(joint.axis) + " by " + angle + equation_of(joint.swings, joint.rotates);
+    std::string angle;
+    if (!joint.angle.zero()) angle = fmt::format("{:g} deg", 360 * joint.angle.to<double>());
+    if (!joint.frequency.zero()) angle += term(360 * joint.frequency.to<double>()) + " deg/s t";
+    return "turn about " + axis_name(joint.axis) + " by " +
+           as_sum(angle + equation_of(joint.swings, joint.rotates));
   }
   std::string text = fmt::format("shift by ({:g}, {:g}, {:g}) m", joint.shift[0].to<double>(),
                                  joint.shift[1].to<double>(), joint.shift[2].to<double>());
@@ -139,7 +152,8 @@ std::vector<Swing<Quantity>> read_swings(Section& joint, bool rotates) {
   for (Section& entry : joint.sections("swing")) {
     const auto amplitude = entry.required("amplitude", rotates ? Dimension::angle : Dimension::length);
     const auto speed = entry.required("speed", Dimension::angular_speed);
-    entry.require(speed.positive(), "speed", "a positive angular speed");
+    entry.require(speed.positive() && speed.to<double>() < 1e6, "speed",
+                  "a positive angular speed below 1e6 rad/s");
     const auto phase = entry.quantity("phase", Dimension::angle, Quantity{0});
     swings.push_back({rotates ? in_turns(amplitude) : amplitude, in_turns(speed), in_turns(phase)});
     entry.reject_unknown_keys();
@@ -150,10 +164,9 @@ std::vector<Swing<Quantity>> read_swings(Section& joint, bool rotates) {
 std::string equation_of(const std::vector<Swing<Quantity>>& swings, bool rotate) {
   std::string text;
   for (const auto& s : swings) {
-    const double amplitude = s.amplitude.to<double>() * (rotate ? 360 : 1);
-    text +=
-        fmt::format(" + {:g} {} sin(2 pi {:g} t", amplitude, rotate ? "deg" : "m", s.frequency.to<double>());
-    if (!s.phase.zero()) text += fmt::format(" + {:g} deg", 360 * s.phase.to<double>());
+    text += term(s.amplitude.to<double>() * (rotate ? 360 : 1)) +
+            fmt::format(" {} sin(2 pi {:g} t/s", rotate ? "deg" : "m", s.frequency.to<double>());
+    if (!s.phase.zero()) text += term(360 * s.phase.to<double>()) + " deg";
     text += ")";
   }
   return text;

@@ -33,6 +33,14 @@ double largest_diameter(const CaseSpec& spec) {
   return largest;
 }
 
+using PolyhedronVessel = model::PolyhedronVessel<double>;
+
+/// Whether the wall can move along its normal and leave its neighbours as they are.
+bool can_move(const model::AnyVessel<double>& vessel, int wall) {
+  if (vessel.get_if<PolyhedronVessel>()) return true;
+  return vessel.is_flat(wall) && vessel.function_count() == vessel.wall_count();
+}
+
 /// From a flat wall to what is opposite [m].
 double depth_of(const model::AnyVessel<double>& vessel, int wall) {
   const Vec3<double> origin = Vec3<double>::Zero(), normal = vessel.normal(wall, origin);
@@ -53,7 +61,7 @@ std::vector<Section> read_pistons(Section& vessel, CaseSpec& spec) {
     const auto name = entry.text("wall").value_or("");
     std::string flat;
     for (int wall = 0; wall < partners.walls(); ++wall) {
-      if (!built.is_flat(wall) || built.function_count() != partners.walls()) continue;
+      if (!can_move(built, wall)) continue;
       flat += (flat.empty() ? "one of \"" : ", \"") + partners[wall].label + "\"";
       if (name == partners[wall].label || name == partners[wall].key) piston.wall = wall;
     }
@@ -71,6 +79,23 @@ std::vector<Section> read_pistons(Section& vessel, CaseSpec& spec) {
   return entries;
 }
 
+namespace {
+
+/// All pistons may be as far inward as they go at the same time; a ball at the origin is free then.
+void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std::vector<PistonSpec>& pistons,
+                  double from, double to, double diameter) {
+  auto planes = polyhedron.planes();
+  for (const auto& piston : pistons)
+    planes[static_cast<std::size_t>(piston.wall)].distance -= travel_of(piston, from, to).most;
+  for (const auto& plane : planes)
+    if (plane.distance < diameter / 2)
+      return entry.problem(
+          "wall", fmt::format("pistons or walls that come as near as {:g} m to the origin", plane.distance),
+          fmt::format("room for a ball of {:g} m there all the time", diameter));
+}
+
+}  // namespace
+
 void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
   if (std::any_of(spec.pistons.begin(), spec.pistons.end(), [](const auto& p) { return p.wall < 0; })) return;
   if (entries.empty()) return;
@@ -85,10 +110,15 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
     }
     const double to = spec.end_time ? spec.end_time->to<double>() : from;
     const auto own = travel_of(piston, from, to);
-    if (own.least < 0)
+    const double depth = depth_of(vessel, piston.wall);
+    if (own.least < -1e-14 * depth)  // what is left is rounding
       entries[k].problem("wall", fmt::format("a piston that leaves the vessel by {:g} m", -own.least),
                          "a distance from which its speed and swings do not bring it out");
-    double room = depth_of(vessel, piston.wall) - own.most;
+    if (const auto* polyhedron = vessel.get_if<PolyhedronVessel>()) {
+      if (k == 0) require_room(entries[k], *polyhedron, spec.pistons, from, to, diameter);
+      continue;
+    }
+    double room = depth - own.most;
     const auto normal = [&](int wall) { return vessel.normal(wall, Vec3<double>::Zero()); };
     for (std::size_t other = 0; other < spec.pistons.size(); ++other)
       if (dot<double>(normal(piston.wall), normal(spec.pistons[other].wall)) < -0.5)
@@ -102,7 +132,9 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
 
 std::string describe(const PistonSpec& piston) {
   std::string text = fmt::format("{:g} m", piston.distance.to<double>());
-  if (!piston.speed.zero()) text += fmt::format(" + {:g} m/s t", piston.speed.to<double>());
+  if (!piston.speed.zero())
+    text += fmt::format(" {} {:g} m/s t", piston.speed.negative() ? '-' : '+',
+                        std::abs(piston.speed.to<double>()));
   return text + equation_of(piston.swings, false) + " inward";
 }
 

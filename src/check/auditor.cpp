@@ -124,7 +124,8 @@ void Auditor::complete_scene(const LoggedEvent& event, Scene& scene) const {
   impact.normal = {1, 0, 0};
   if (!available_.positions(event.with_wall)) return;
   if (event.with_wall) {
-    impact.normal = wall_normal(scene.nested, case_.mill.vessel, event.partner, event.body[0].position);
+    impact.normal = wall_normal(scene.nested, case_.mill.vessel, event.partner, impact.ball[0].radius,
+                                event.body[0].position);
     impact.wall_velocity = wall_velocity(WallVelocity::nested, scene.nested, scene.printed,
                                          event.body[0].position - impact.normal * impact.ball[0].radius,
                                          event.body[0].position) +
@@ -170,7 +171,7 @@ auto Auditor::judge_wall_touch(LoggedEvent& event, Scene& scene, double allowed)
     tell(Kind::rotation_order, event, std::abs(gap), gap, 0, "touches with the printed matrix (2.14)");
     // The other checks use the wall as that code has it.
     scene.displaced = true;
-    scene.impact.normal = wall_normal(scene.printed, vessel, event.partner, position);
+    scene.impact.normal = wall_normal(scene.printed, vessel, event.partner, radius, position);
     const Vec point = position - scene.impact.normal * radius;
     scene.impact.wall_velocity =
         wall_velocity(WallVelocity::nested, scene.nested, scene.printed, point, position) +

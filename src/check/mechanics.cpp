@@ -54,9 +54,9 @@ double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel
   return -vessel.inset(radius).overlap(wall, inside(frame, position)) - frame.of_wall(wall).value;
 }
 
-Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall,
+Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
                 const Vec& position) {
-  const Vec own = vessel.normal(wall, inside(frame, position));
+  const Vec own = vessel.inset(radius).normal(wall, inside(frame, position));
   const Vec normal = frame.x * own[0] + frame.y * own[1] + frame.z * own[2];
   return size(normal) > 0 ? normal : frame.x;  // on the axis of a cylinder there is none
 }

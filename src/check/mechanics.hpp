@@ -44,7 +44,7 @@ VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPos
 double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
                 const Vec& position);
 /// Unit, from the wall to the ball.
-Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall,
+Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
                 const Vec& position);
 
 /// Velocities of the wall in different codes; the first is right: V = W_Z x P + (R_z W_x') x (P - C).

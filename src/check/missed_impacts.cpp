@@ -123,7 +123,7 @@ Scene Flights::scene_at(int ball, int wall, double time, const Vec& position) co
   impact.with_wall = true;
   impact.wall = wall;
   impact.ball[0] = case_.balls[static_cast<std::size_t>(ball)];
-  impact.normal = wall_normal(scene.nested, case_.mill.vessel, wall, position);
+  impact.normal = wall_normal(scene.nested, case_.mill.vessel, wall, impact.ball[0].radius, position);
   impact.wall_velocity = wall_velocity(WallVelocity::nested, scene.nested, scene.printed,
                                        position - impact.normal * impact.ball[0].radius, position) +
                          piston_velocity(scene.nested, wall, impact.normal);

@@ -70,7 +70,8 @@ std::string describe_case(const casefile::CaseSpec& spec) {
   };
   for (const auto& b : spec.balls) kind(b, 1);
   for (const auto& b : spec.batches) kind(b, b.count);
-  row("packing fraction", fmt::format("{:.4g}", volume / m.vessel.volume()));
+  row("packing fraction", fmt::format("{:.4g}{}", volume / m.vessel.volume(),
+                                      spec.pistons.empty() ? "" : " of the vessel without its pistons"));
   if (spec.powder_mass)
     row("charge ratio", fmt::format("{:.4g} on {:g} kg of powder", mass / spec.powder_mass->to<double>(),
                                     spec.powder_mass->to<double>()));

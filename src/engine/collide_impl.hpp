@@ -63,8 +63,9 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
       mill_.motion, mill_.vessel, [&]<class M, class V>(const M& motion, const V& vessel) {
         const auto& pose = model::pose_of<M>(pose_);
         const auto place = motion.position_in_vessel(pose, flight.position);
-        impact.normal = motion.direction_to_inertial(pose, vessel.normal(wall, place));
-        impact.overlap = vessel.inset(radius).overlap(wall, place);
+        const auto room = vessel.inset(radius);
+        impact.normal = motion.direction_to_inertial(pose, room.normal(wall, place));
+        impact.overlap = room.overlap(wall, place);
         impact.wall_velocity = motion.wall_velocity(pose, flight.position - impact.normal * radius);
       });
   if (const auto* pistons = mill_.vessel.pistons()) {

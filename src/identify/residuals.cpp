@@ -34,7 +34,8 @@ LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& mode
   if (event.with_wall) {
     impact.wall = event.partner;
     if (with_positions) {
-      impact.normal = audit::wall_normal(frame, model.mill.vessel, event.partner, place);
+      impact.normal =
+          audit::wall_normal(frame, model.mill.vessel, event.partner, impact.ball[0].radius, place);
       const Vec point = place - impact.normal * impact.ball[0].radius;
       impact.wall_velocity = audit::wall_velocity(audit::WallVelocity::nested, frame, frame, point, place) +
                              audit::piston_velocity(frame, event.partner, impact.normal);

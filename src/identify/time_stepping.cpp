@@ -120,7 +120,7 @@ class Measured {
       auto frame = audit::frame_of(case_.mill.motion, case_.mill.motion.pose(when), false);
       frame.moved = audit::moved_walls(case_.mill.vessel, when);
       gap = audit::wall_gap(frame, case_.mill.vessel, event.partner, ball.radius, one.position);
-      normal = audit::wall_normal(frame, case_.mill.vessel, event.partner, one.position);
+      normal = audit::wall_normal(frame, case_.mill.vessel, event.partner, ball.radius, one.position);
       const Vec point = one.position - normal * ball.radius;
       carrier = audit::wall_velocity(audit::WallVelocity::nested, frame, frame, point, one.position) +
                 audit::piston_velocity(frame, event.partner, normal);

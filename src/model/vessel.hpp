@@ -26,7 +26,8 @@ namespace edmill::model {
 /// - `reach()` [m]: from the centre to the farthest point; `extent()`, no less and without a root;
 ///   `half_sizes()`: bounds on the coordinates; `volume()` [m3]; `widest_ball()`: diameter of the largest
 ///   that fits [m]
-/// - `inset(R)`; `is_empty()`; `contains(p)`; `place(drawn)`: uniform in the vessel, from three numbers that
+/// - `inset(R)`; `is_empty()`, also where a ball just fits and cannot move; `contains(p)`; `place(drawn)`:
+/// uniform in the vessel, from three numbers that
 ///   are uniform in [-1, 1], or nothing when these must be drawn again
 /// - `gaps(p)`, `gap(wall, p)`; `rates(p, u)` and `curvatures(p, u, a)`, their derivatives where p' = u, u' =
 /// a

@@ -15,7 +15,7 @@ namespace {
 
 /// max(e_n a, v_s)
 Enclosure separation_speed(const Law& law, const Enclosure& approach) {
-  const Enclosure by_restitution = law.restitution * approach;
+  Enclosure by_restitution = law.restitution * approach;
   if (law.least_separation.is_zero() || less(law.least_separation, by_restitution)) return by_restitution;
   if (less(by_restitution, law.least_separation)) return law.least_separation;
   throw Undecided{"whether the restitution or the least separation speed decides"};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/errors.hpp"
 #include "prove/exact_text.hpp"
@@ -41,10 +42,17 @@ Attempt attempt(Proof& proof, const std::vector<Candidate>& next, slong bits, co
 
 }  // namespace
 
-std::vector<Candidate> candidates(const casefile::CaseSpec& spec, std::size_t collisions,
+std::vector<Candidate> candidates(const casefile::CaseSpec& spec, const ProofOptions& options,
                                   std::string& impossible) {
+  const std::size_t collisions = options.collisions;
   const auto source = run::make_source<mpfr200>(spec, false);
-  const auto events = source->next(collisions);
+  std::vector<run::Event> events;
+  while (events.size() < collisions && !stopped(options)) {
+    auto more = source->next(std::min<std::size_t>(64, collisions - events.size()));
+    if (more.empty()) break;
+    std::move(more.begin(), more.end(), std::back_inserter(events));
+  }
+  if (stopped(options)) return {};
   if (events.size() < collisions)
     throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec.file,
                                  events.size(), collisions));
@@ -70,7 +78,8 @@ std::vector<Candidate> candidates(const casefile::CaseSpec& spec, std::size_t co
 Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options) {
   Proof proof;
   proof.exact = exact_case(spec);
-  const auto next = candidates(spec, options.collisions, proof.impossible);
+  const auto next = candidates(spec, options, proof.impossible);
+  if ((proof.interrupted = stopped(options))) return proof;
   if (!proof.impossible.empty()) return proof;
   for (slong bits = first_bits;; bits *= 2) {
     proof.attempts.push_back(attempt(proof, next, bits, options));

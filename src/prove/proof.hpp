@@ -39,9 +39,9 @@ struct Proof {
                            ///< look; no proof then
 };
 
-/// Where to look for each event: the first ones of a run in the widest scalar.
+/// Where to look for each event: the first ones of a run in the widest scalar; none when it is interrupted.
 /// @throws InputError when the case ends before
-std::vector<Candidate> candidates(const casefile::CaseSpec& spec, std::size_t collisions,
+std::vector<Candidate> candidates(const casefile::CaseSpec& spec, const ProofOptions& options,
                                   std::string& impossible);
 
 /// Proves the first events with 128 bits, and twice as many until all are proven; then once more with as many

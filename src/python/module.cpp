@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "api/case_access.hpp"
 #include "base/version.hpp"
 #include "edmill/case.hpp"
 #include "edmill/errors.hpp"
@@ -27,7 +28,11 @@ PYBIND11_MODULE(_edmill, m) {
                   py::arg("settings") = std::vector<std::string>{})
       .def_property_readonly("digest", &Case::digest)
       .def_property_readonly("precision", &Case::precision)
-      .def_property_readonly("ball_count", &Case::ball_count);
+      .def_property_readonly("ball_count", &Case::ball_count)
+      .def_property_readonly("end_time", [](const Case& c) {
+        const auto& end = CaseAccess::spec(c).end_time;
+        return end ? std::optional<double>(end->to<double>()) : std::nullopt;
+      });
 
   python::add_runs(m);
   python::add_tools(m);

@@ -34,13 +34,28 @@ template <class Real>
 py::tuple to_python(const Vector<Real>& v) {
   return py::make_tuple(to_python<Real>(v[0]), to_python<Real>(v[1]), to_python<Real>(v[2]));
 }
+/// @throws InputError where it is no number. @param what  the function that gave it
 template <class Real>
-Real from_python(const py::handle& x) {
-  if constexpr (std::is_same_v<Real, double>)
-    return py::cast<double>(x);
-  else
-    return from_text<Real>(py::str(x));
+Real from_python(const py::handle& x, const char* what) {
+  PyErr_Clear();
+  if (PyNumber_Check(x.ptr()) != 0) {
+    if constexpr (std::is_same_v<Real, double>) {
+      const double value = PyFloat_AsDouble(x.ptr());
+      if (!PyErr_Occurred()) return value;
+      PyErr_Clear();
+    } else {
+      try {
+        return from_text<Real>(py::str(x));
+      } catch (const std::exception&) {  // told below
+      }
+    }
+  }
+  throw InputError(std::string("contact law of the program: ") + what + ": found " +
+                   std::string(py::str(py::repr(x))) + ", expected a number");
 }
+
+/// Ctrl-C while Python code runs in a callback.
+bool is_control_c(const py::error_already_set& error) { return error.matches(PyExc_KeyboardInterrupt); }
 
 /// Calls f(name, member) for everything that is known of an impact.
 template <class Real, class F>
@@ -108,13 +123,15 @@ class Collector : public Observer<Real> {
   std::vector<Impact<Real>> events;
 };
 
-/// Lets Python's signal handlers run and tells of progress, ten times a second.
+/// Lets Python's signal handlers run and tells of progress, ten times a second; ends the run after Ctrl-C.
 template <class Real>
 class Pulse : public Observer<Real> {
  public:
-  explicit Pulse(py::object progress) : progress_(std::move(progress)) {}
+  /// @param interrupted  set here, and by callbacks during which Ctrl-C came
+  Pulse(py::object progress, bool& interrupted) : interrupted_(interrupted), progress_(std::move(progress)) {}
 
   void on_impact(const Impact<Real>& impact, Run<Real>& run) override {
+    if (interrupted_) return run.stop();
     if (++since_look_ < look_every_) return;
     since_look_ = 0;
     const auto now = Clock::now();
@@ -123,17 +140,23 @@ class Pulse : public Observer<Real> {
     const py::gil_scoped_acquire python;
     if (PyErr_CheckSignals() != 0) {
       PyErr_Clear();
-      interrupted = true;
+      interrupted_ = true;
       run.stop();
     } else if (!progress_.is_none()) {
-      progress_(static_cast<double>(impact.time), impact.index + 1);
+      try {
+        progress_(static_cast<double>(impact.time), impact.index + 1);
+      } catch (const py::error_already_set& error) {
+        if (!is_control_c(error)) throw;
+        interrupted_ = true;
+        run.stop();
+      }
     }
   }
-  bool interrupted = false;
 
  private:
   using Clock = std::chrono::steady_clock;
   static constexpr int look_every_ = std::is_same_v<Real, double> ? 1024 : 16;
+  bool& interrupted_;
   py::object progress_;
   Clock::time_point last_ = Clock::now();
   int since_look_ = 0;
@@ -143,22 +166,32 @@ class Pulse : public Observer<Real> {
 template <class Real>
 class CallingObserver : public Observer<Real> {
  public:
-  explicit CallingObserver(py::object callable) : callable_(std::move(callable)) {}
+  CallingObserver(py::object callable, bool& interrupted)
+      : callable_(std::move(callable)), interrupted_(interrupted) {}
   void on_impact(const Impact<Real>& impact, Run<Real>& run) override {
     const py::gil_scoped_acquire python;
-    callable_(impact, py::cast(&run, py::return_value_policy::reference));
+    try {
+      callable_(impact, py::cast(&run, py::return_value_policy::reference));
+    } catch (const py::error_already_set& error) {
+      if (!is_control_c(error)) throw;
+      interrupted_ = true;
+      run.stop();
+    }
   }
 
  private:
   py::object callable_;
+  bool& interrupted_;
 };
 
 /// An object with `restitution` and `restitution_of_slip`.
 template <class Real>
 class CallingLaw : public CustomLaw<Real> {
  public:
-  explicit CallingLaw(const py::object& law)
-      : restitution_(law.attr("restitution")), of_slip_(law.attr("restitution_of_slip")) {}
+  CallingLaw(const py::object& law, bool& interrupted)
+      : restitution_(law.attr("restitution")),
+        of_slip_(law.attr("restitution_of_slip")),
+        interrupted_(interrupted) {}
   /// A run may let go of it without Python's lock.
   ~CallingLaw() override {
     const py::gil_scoped_acquire python;
@@ -167,23 +200,38 @@ class CallingLaw : public CustomLaw<Real> {
   }
   Real restitution(const Real& approach_speed) const override {
     const py::gil_scoped_acquire python;
-    return from_python<Real>(restitution_(to_python<Real>(approach_speed)));
+    return ask("restitution", [&] { return restitution_(to_python<Real>(approach_speed)); });
   }
   Real restitution_of_slip(const Real& normal_change, const Real& slip_speed,
                            const Real& compliance) const override {
     const py::gil_scoped_acquire python;
-    return from_python<Real>(
-        of_slip_(to_python<Real>(normal_change), to_python<Real>(slip_speed), to_python<Real>(compliance)));
+    return ask("restitution_of_slip", [&] {
+      return of_slip_(to_python<Real>(normal_change), to_python<Real>(slip_speed),
+                      to_python<Real>(compliance));
+    });
   }
 
  private:
+  /// An impact needs an answer: after Ctrl-C the law is asked again, and the run ends behind the impact.
+  template <class Ask>
+  Real ask(const char* what, const Ask& of_law) const {
+    try {
+      return from_python<Real>(of_law(), what);
+    } catch (const py::error_already_set& error) {
+      if (!is_control_c(error)) throw;
+      interrupted_ = true;
+    }
+    return from_python<Real>(of_law(), what);
+  }
+
   py::object restitution_, of_slip_;
+  bool& interrupted_;
 };
 
 template <class Real>
-std::shared_ptr<const CustomLaw<Real>> law_of(const py::object& law) {
+std::shared_ptr<const CustomLaw<Real>> law_of(const py::object& law, bool& interrupted) {
   if (law.is_none()) return nullptr;
-  return std::make_shared<CallingLaw<Real>>(law);
+  return std::make_shared<CallingLaw<Real>>(law, interrupted);
 }
 
 struct Wishes {
@@ -200,11 +248,14 @@ py::dict run_in(Case the_case, const Wishes& wishes) {
     report::add_report_outputs(spec);
     the_case = CaseAccess::make(std::move(spec));
   }
-  const Laws<Real> laws{law_of<Real>(wishes.ball_ball), law_of<Real>(wishes.ball_wall)};
+  bool interrupted = false;
+  const Laws<Real> laws{law_of<Real>(wishes.ball_ball, interrupted),
+                        law_of<Real>(wishes.ball_wall, interrupted)};
   Collector<Real> collector;
-  Pulse<Real> pulse(wishes.progress);
+  Pulse<Real> pulse(wishes.progress, interrupted);
   std::vector<std::unique_ptr<CallingObserver<Real>>> callables;
-  for (const auto& o : wishes.observers) callables.push_back(std::make_unique<CallingObserver<Real>>(o));
+  for (const auto& o : wishes.observers)
+    callables.push_back(std::make_unique<CallingObserver<Real>>(o, interrupted));
 
   std::unique_ptr<Run<Real>> run;
   {
@@ -226,7 +277,7 @@ py::dict run_in(Case the_case, const Wishes& wishes) {
   result["events"] = events_of<Real>(std::move(collector.events));
   result["states"] = states_of<Real>(*run);
   result["time"] = to_python<Real>(run->time());
-  result["interrupted"] = pulse.interrupted;
+  result["interrupted"] = interrupted;
   return result;
 }
 

@@ -120,7 +120,7 @@ std::string report_page(const RunFolder& run) {
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {
   const auto page = report_page(read_run_folder(folder));
-  const auto place = folder / "report.html";
+  auto place = folder / "report.html";
   io::AtomicFile file(place);
   file.stream() << page;
   file.commit();

@@ -2,7 +2,7 @@
 # A double run gives the same bits from g++ -O0, g++ -O3 -march=native and clang++ -O2, and from the program as it was
 # built: the SHA-256 of the logs of 28 balls, which are all searched, of 600 in cells, and of 2000, with prefetching; and of a
 # box that is shaken, which the general wall search serves; of a planetary jar with rounded edges; and of a vial with a piston,
-# with a contact law of each kind.
+# with several contact laws; of a sphere, a capsule in a drum and a polyhedron that a chain moves.
 # usage: same_bits_test.sh PROGRAM FOLDER LIBRARY... -- FLAG...
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -15,7 +15,8 @@ while [ "$1" != -- ]; do
   shift
 done
 common=("${@:2}" -std=gnu++20 -Isrc -Iinclude -DEDMILL_WIDE_FROM_LIBRARY)
-cases=("28 20000" "600 20000" "2000 20000" "box 4000" "planetary 4000" "materials 4000") # balls, collisions
+cases=("28 20000" "600 20000" "2000 20000" "box 4000" "planetary 4000" "materials 4000"
+  "sphere 4000" "capsule 4000" "polyhedron 4000") # balls, collisions
 small=(balls.0.diameter="2.36 mm" balls.0.gap_ball="0.2 mm" contact.restitution=0.8)
 
 settings_of() { # balls
@@ -24,6 +25,10 @@ settings_of() { # balls
   case $1 in
     28) ;;
     box) case_file=docs/examples/shaken_box.toml ;;
+    sphere) settings=("mill={type=\"spex_2d\",speed=\"1054 rpm\"}" "vessel={type=\"sphere\",diameter=\"48 mm\"}") ;;
+    capsule) settings=("mill={type=\"drum\",speed=\"120 rpm\"}" "vessel={type=\"capsule\",diameter=\"38 mm\",height=\"57 mm\"}") ;;
+    polyhedron) settings=("mill={type=\"chain\",joint=[{rotate=\"z\",speed=\"300 rpm\"},{translate=\"x\",swing=[{amplitude=\"5 mm\",speed=\"1500 rpm\"}]}]}"
+      "vessel={type=\"polyhedron\",vertex=[{at=[\"40 mm\",0,0]},{at=[\"-40 mm\",0,0]},{at=[0,\"40 mm\",0]},{at=[0,\"-40 mm\",0]},{at=[0,0,\"40 mm\"]},{at=[0,0,\"-40 mm\"]}]}") ;;
     planetary | materials) case_file=docs/examples/$1.toml ;;
     *) settings=("balls.0.count=$1" "${small[@]}") ;;
   esac

@@ -165,6 +165,15 @@ TEST(Laws, TakeTheChargeRatioFromThePowder) {
   for (const auto& ball : built.balls) mass += ball.mass;
   const auto& law = std::get<model::PowderLoad<double>>(built.mill.ball_ball.law);
   EXPECT_NEAR(law.charge_ratio, mass / 0.001, 1e-12);
+  // The mean over uniform diameters d +- s, by Gauss's rule with two points, which is exact for a cube.
+  const auto spread = casefile::build_case<double>(
+                          parse_case(plain + "diameter_spread = \"1 mm\"\n[powder]\nmass = \"1 "
+                                             "g\"\n[contact]\nmodel = \"powder-load\"\nfriction = 0.4\n",
+                                     "case.toml"))
+                          .the_case;
+  const double off = 1 / std::sqrt(3.0), big = (4.76 + off) / 4.76, small = (4.76 - off) / 4.76;
+  EXPECT_NEAR(std::get<model::PowderLoad<double>>(spread.mill.ball_ball.law).charge_ratio,
+              mass / 0.001 * (big * big * big + small * small * small) / 2, 1e-12);
   EXPECT_NE(refusal(plain + "[powder]\nmass = \"1 mg\"\n[contact]\nmodel = \"powder-load\"\nfriction = 0.4\n")
                 .find("from [[balls]] and [powder], expected a number from 2.5 to 10"),
             std::string::npos);

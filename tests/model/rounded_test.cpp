@@ -90,9 +90,15 @@ TEST(Rounded, LargeBallsSeeASharpCylinder) {
     RC_ASSERT(std::abs(room.gap(4, p) - expected.gap(1, p)) < 1e-17);
     const auto active = room.active(p);
     RC_ASSERT(!active[0] && !active[1] && active[2] && active[3] && active[4]);
+    const std::array<int, 3> of_cylinder{2, 0, 1};
+    for (int wall = 2; wall < 5; ++wall)
+      RC_ASSERT((room.normal(wall, p) - expected.normal(of_cylinder[static_cast<std::size_t>(wall - 2)], p))
+                    .norm() < 1e-15);
   }));
   EXPECT_FALSE(jar.inset(0.0189).is_empty());
   EXPECT_TRUE(jar.inset(0.0191).is_empty());
+  EXPECT_TRUE(jar.inset(0.019).is_empty());
+  EXPECT_TRUE(capsule.inset(capsule.rounding()).is_empty());
   EXPECT_TRUE(capsule.inset(0.0201).is_empty());
   EXPECT_TRUE(sphere.inset(0.0201).is_empty());
 }

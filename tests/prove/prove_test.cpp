@@ -1,11 +1,14 @@
 // Proofs against closed forms, and what cannot be proven.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <boost/multiprecision/mpfr.hpp>
 #include <map>
 #include <vector>
 
+#include "casefile/case_spec.hpp"
 #include "program.hpp"
+#include "prove/proof.hpp"
 
 namespace edmill {
 namespace {
@@ -94,6 +97,15 @@ TEST_F(ProveTest, TwoContactsAtOnceOfDifferentBallsAreNotOrdered) {
   EXPECT_EQ(outcome.code, 4);
   EXPECT_NE(outcome.err.find("512 bits do not tell"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("may be simultaneous"), std::string::npos) << outcome.err;
+}
+
+/// Also where it looks for the events, which takes minutes here.
+TEST_F(ProveTest, EndsWhenItIsInterrupted) {
+  std::atomic<bool> interrupt{true};
+  const auto proof = prove::prove(casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/demo.toml"),
+                                  {100000, 16384, &interrupt, {}});
+  EXPECT_TRUE(proof.interrupted);
+  EXPECT_TRUE(proof.events.empty());
 }
 
 TEST_F(ProveTest, WhatHasNoExactNumbersIsRefused) {

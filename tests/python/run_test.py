@@ -207,5 +207,79 @@ def test_series_of_a_run_without_a_folder(small):
         pickle.loads(pickle.dumps(edmill.run(small, until="0.6 s", ball_wall_law=Soft()))).series
 
 
+def test_series_of_a_run_that_an_observer_ended():
+    case = edmill.Case.spex8000(balls=5, diameter="9.52 mm", end_time="1 s", start_time="0 s",
+                                output=[{"type": "collisions"}])
+    run = edmill.run(case, observers=[lambda impact, run: impact.index == 300 and run.stop()])
+    assert len(run.events) == 301 == len(run.series["collisions"])
+    assert run.series["collisions"]["time"][-1] == run.events["time"][-1]
+
+
+def test_a_run_that_ends_before_its_start_time(small):
+    run = edmill.run(small.with_settings("run.max_collisions=50"))
+    assert "ended before its start_time" in repr(run)
+    assert len(run.series["final_state"]) == 5
+    assert "<html" in run.report()
+
+
+def test_control_c_in_callbacks_keeps_the_run(small):
+    class Law:
+        def __init__(self, at):
+            self.calls, self.at = 0, at
+
+        def restitution(self, approach_speed):
+            self.calls += 1
+            if self.calls == self.at:
+                raise KeyboardInterrupt
+            return 0.5
+
+        def restitution_of_slip(self, normal_change, slip_speed, compliance):
+            return 0.1
+
+    def observe(impact, run):
+        if impact.index == 200:
+            raise KeyboardInterrupt
+
+    for given in ({"observers": [observe]}, {"ball_wall_law": Law(100)}, {"ball_ball_law": Law(30)}):
+        with pytest.raises(edmill.Interrupted) as interrupted:
+            edmill.run(small, until="100000 s", **given)
+        assert len(interrupted.value.run.events) > 29
+        again = pickle.loads(pickle.dumps(interrupted.value))
+        assert again.run.time == interrupted.value.run.time
+
+
+@pytest.mark.parametrize("answer, expected", [
+    (float("nan"), "expected 0 to 1"), (-0.3, "expected 0 to 1"), (5.0, "expected 0 to 1"), (None, "found None, expected a number"),
+    ("a", "found 'a', expected a number")])
+@pytest.mark.parametrize("precision", ["double", "float128"])
+def test_laws_that_are_none_are_refused(small, answer, expected, precision):
+    class Law:
+        def restitution(self, approach_speed):
+            return answer
+
+        def restitution_of_slip(self, normal_change, slip_speed, compliance):
+            return 0.1
+
+    with pytest.raises(edmill.InputError, match=expected):
+        edmill.run(small, precision, ball_ball_law=Law(), ball_wall_law=Law())
+
+
+def test_arguments_are_checked(small):
+    with pytest.raises(edmill.InputError, match="ball_ball_law: found"):
+        edmill.run(small, ball_ball_law=lambda speed: 0.5)
+    with pytest.raises(edmill.InputError, match="progress: found 5"):
+        edmill.run(small, progress=5)
+    with pytest.raises(edmill.InputError, match="settings: found 'run.seed=2'"):
+        edmill.Case({"run": {}}, "run.seed=2")
+    with pytest.raises(edmill.InputError, match="collisions: found 0"):
+        edmill.prove(small, 0)
+    with pytest.raises(edmill.InputError, match="tolerance: found -1"):
+        edmill.audit(small, "log.csv", tolerance=-1)
+    with pytest.raises(edmill.InputError, match="start: found '0.5 s'"):
+        edmill.compare("a", "b", start="0.5 s")
+    with pytest.raises(edmill.InputError, match="jobs: found -1"):
+        edmill.sweep({}, "nowhere", jobs=-1)
+
+
 def test_a_run_shows_its_report_in_notebooks(small):
     assert edmill.run(small, until="0.6 s")._repr_html_().startswith("<iframe srcdoc=")

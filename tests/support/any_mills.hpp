@@ -24,7 +24,7 @@ inline constexpr const char* skew_chain =
     "{amplitude = \"0.1 rad\", speed = \"31 rad/s\", phase = \"1 rad\"}]\n[[mill.joint]]\nrotate = \"x\"\n"
     "speed = \"-90 rpm\"";
 
-inline constexpr std::array<MillText, 21> all_mills = {{
+inline constexpr std::array<MillText, 24> all_mills = {{
     {"spex_cylinder", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = \"9.8 m/s2\""},
     {"spex_2d_cylinder", "type = \"spex_2d\"",
@@ -83,6 +83,21 @@ inline constexpr std::array<MillText, 21> all_mills = {{
      "distance = \"3 mm\"\nswing = [{amplitude = \"1 mm\", speed = \"31 rad/s\"}, {amplitude = \"2 mm\", "
      "speed = "
      "\"500 rpm\"}]\n[[vessel.piston]]\nwall = \"wall_2\"\ndistance = \"2 mm\"",
+     "gravity = \"9.8 m/s2\""},
+    {"chain_sphere", skew_chain, "type = \"sphere\"\ndiameter = \"46 mm\"", "gravity = \"9.8 m/s2\""},
+    {"drum_capsule", "type = \"drum\"\nspeed = \"180 rpm\"",
+     "type = \"capsule\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
+     "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]"},
+    {"spex_2d_prism_pistons", "type = \"spex_2d\"",
+     "type = \"polyhedron\"\nvertex = [{at = [\"30 mm\", \"-25 mm\", 0]}, {at = [\"-18 mm\", \"-25 mm\", "
+     "\"27 mm\"]}, "
+     "{at = [\"-18 mm\", \"-25 mm\", \"-27 mm\"]}, {at = [\"36 mm\", \"25 mm\", 0]}, {at = [\"-21.6 mm\", "
+     "\"25 "
+     "mm\", \"32.4 mm\"]}, "
+     "{at = [\"-21.6 mm\", \"25 mm\", \"-32.4 mm\"]}]\n[[vessel.piston]]\nwall = \"wall_0\"\ndistance = \"4 "
+     "mm\"\n"
+     "swing = [{amplitude = \"3 mm\", speed = \"1500 rpm\"}]\n[[vessel.piston]]\nwall = \"wall_1\"\n"
+     "distance = \"2 mm\"\nswing = [{amplitude = \"1 mm\", speed = \"40 rad/s\", phase = \"1 rad\"}]",
      "gravity = \"9.8 m/s2\""},
 }};
 

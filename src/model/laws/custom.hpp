@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include "base/scalar.hpp"
 #include "edmill/contact_law.hpp"
+#include "edmill/errors.hpp"
 
 namespace edmill::model {
 
@@ -18,9 +20,24 @@ struct LawOfProgram {
   template <class Law, class Visit>
   static void parameters(Law&, Visit&&) {}
 
-  Real restitution(const Real& approach_speed) const { return law->restitution(approach_speed); }
+  /// @throws InputError unless the program's answer is in [0, 1]
+  Real restitution(const Real& approach_speed) const {
+    const Real e = law->restitution(approach_speed);
+    if (!(e >= 0 && e <= 1))
+      throw InputError("contact law of the program: restitution(" + to_text<Real>(approach_speed) +
+                       "): found " + to_text<Real>(e) + ", expected 0 to 1");
+    return e;
+  }
+  /// @throws InputError unless the program's answer is a number that is no gain of more than a half; whether
+  /// an
+  ///                    impact gains energy is asked when all of it is known
   Real restitution_of_slip(const Real& normal_change, const Real& slip_speed, const Real& compliance) const {
-    return law->restitution_of_slip(normal_change, slip_speed, compliance);
+    const Real e = law->restitution_of_slip(normal_change, slip_speed, compliance);
+    if (!(e >= -1.5 && e <= 1))
+      throw InputError("contact law of the program: restitution_of_slip(" + to_text<Real>(normal_change) +
+                       ", " + to_text<Real>(slip_speed) + ", " + to_text<Real>(compliance) + "): found " +
+                       to_text<Real>(e) + ", expected -1 to 1");
+    return e;
   }
 };
 

@@ -50,7 +50,7 @@ struct BoxVessel {
   }
 
   BoxVessel inset(const Real& by) const { return {{half[0] - by, half[1] - by, half[2] - by}}; }
-  bool is_empty() const { return !(half[0] >= 0 && half[1] >= 0 && half[2] >= 0); }
+  bool is_empty() const { return !(half[0] > 0 && half[1] > 0 && half[2] > 0); }
   bool contains(const Vec3<Real>& p) const {
     bool inside = true;
     for (int axis = 0; axis < 3; ++axis) inside &= p[axis] <= half[axis] && p[axis] >= -half[axis];

@@ -59,7 +59,7 @@ struct CylinderVessel {
   Real widest_ball() const { return 2 * (radius < half_height ? radius : half_height); }
 
   CylinderVessel inset(const Real& by) const { return {radius - by, half_height - by}; }
-  bool is_empty() const { return !(radius >= 0 && half_height >= 0); }
+  bool is_empty() const { return !(radius > 0 && half_height > 0); }
   bool contains(const Vec3<Real>& p) const {
     return !is_empty() && p[0] * p[0] + p[2] * p[2] <= radius * radius && p[1] <= half_height &&
            p[1] >= -half_height;

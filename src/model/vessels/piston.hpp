@@ -84,10 +84,12 @@ class Pistons {
     return longest;
   }
   /// What rounding does to a displacement and its derivatives at most, that of the case's numbers included.
+  /// A piston stays in the vessel, so that speed t is below |distance| + extent.
   /// @param extent  of the vessel, beyond half of which no piston goes [m]
   ErrorBounds<Real> errors(std::size_t k, const Real& u, const Real& extent) const {
     const auto& piston = given_[k];
-    ErrorBounds<Real> e{32 * extent, 4 * size_of(piston.speed), Real(0)};
+    ErrorBounds<Real> e{32 * extent + (piston.speed == 0 ? Real(0) : Real(16 * size_of(piston.distance))),
+                        4 * size_of(piston.speed), Real(0)};
     for (const auto& s : piston.swings) {
       const Real turning = 2 * numerics::pi<Real>() * size_of(s.frequency);
       const Real relative = 16 + 7 * (4 + 3 * size_of(s.frequency * period_) + size_of(s.phase));

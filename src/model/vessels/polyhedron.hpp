@@ -162,9 +162,15 @@ class PolyhedronVessel {
     for (const auto& plane : planes) {
       const Real size = norm<Real>(plane.normal);
       if (!(size > 0) || !(plane.distance > 0))
-        return Problem{"a plane without normal or distance", "the origin inside"};
+        return Problem{"a plane that has no normal or does not leave the origin inside", "the origin inside"};
       planes_.push_back({plane.normal / size, plane.distance});
     }
+    for (std::size_t i = 0; i < planes_.size(); ++i)
+      for (std::size_t j = i + 1; j < planes_.size(); ++j)
+        if (norm<Real>(planes_[i].normal - planes_[j].normal) < Real(1) / 1048576)
+          return Problem{
+              "planes " + std::to_string(i) + " and " + std::to_string(j) + " with the same normal",
+              "a plane for each wall"};
     if (is_open()) return Problem{"planes that leave it open", "a closed vessel"};
     const auto faces = make_faces();
     Real reach(0);

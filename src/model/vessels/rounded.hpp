@@ -94,15 +94,15 @@ class RoundedVessel {
   }
   Real widest_ball() const { return 2 * (a_ < b_ ? Real(a_ + rounding_) : Real(b_ + rounding_)); }
 
-  /// A ball larger than the rounding touches the caps and the cylinder only: the place of its centre is a
-  /// cylinder with sharp edges.
+  /// A ball that is no smaller than the rounding touches the caps and the cylinder only: the place of its
+  /// centre is a cylinder with sharp edges.
   RoundedVessel inset(const Real& by) const {
-    if (is_sharp_ || by > rounding_) return sharp(by);
+    if (is_sharp_ || !(by < rounding_)) return sharp(by);
     RoundedVessel smaller(*this);
     smaller.rounding_ -= by;
     return smaller;
   }
-  bool is_empty() const { return !(rounding_ >= 0 && a_ >= 0 && b_ >= 0); }
+  bool is_empty() const { return is_sharp_ ? !(a_ > 0 && b_ > 0) : !(rounding_ > 0); }
   bool contains(const Vec3<Real>& p) const {
     if (is_empty()) return false;
     const Vec3<Real> d = from_core(p);

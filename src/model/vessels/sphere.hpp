@@ -46,7 +46,7 @@ struct SphereVessel {
   Real widest_ball() const { return 2 * radius; }
 
   SphereVessel inset(const Real& by) const { return {radius - by}; }
-  bool is_empty() const { return !(radius >= 0); }
+  bool is_empty() const { return !(radius > 0); }
   bool contains(const Vec3<Real>& p) const { return !is_empty() && squared_norm<Real>(p) <= radius * radius; }
   std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
     if (squared_norm<Real>(drawn) > 1) return std::nullopt;

@@ -5,7 +5,7 @@
     run.milling_dose_rate       # W
     run.events["milling_dose"]  # a NumPy array with a number for each impact
 
-Quantities are strings with units or plain numbers in SI. The manual explains cases, outputs and precisions.
+Quantities are strings with units; numbers without a unit are for counts and ratios. The manual explains cases, outputs and precisions.
 """
 from ._edmill import InputError, UndecidedError, __version__
 from .case import Case

@@ -82,10 +82,10 @@ class Case:
         return made
 
     @classmethod
-    def spex8000(cls, balls: int = 28, diameter: str | float = "4.76 mm", *, density: str | float = "8 g/cm3",
-                 speed: str = "1054 rpm", vessel_diameter: str | float = "38 mm", vessel_height: str | float = "57 mm",
-                 restitution: float | Mapping = 0.53, friction: float = 0.4, gravity: Any = "9.8 m/s2", end_time: str | float = "10 s",
-                 start_time: str | float = "0.5 s", seed: int = 1, **sections: Any) -> Case:
+    def spex8000(cls, balls: int = 28, diameter: str = "4.76 mm", *, density: str = "8 g/cm3", speed: str = "1054 rpm",
+                 vessel_diameter: str = "38 mm", vessel_height: str = "57 mm", restitution: float | Mapping = 0.53,
+                 friction: float = 0.4, gravity: Any = "9.8 m/s2", end_time: str = "10 s", start_time: str = "0.5 s",
+                 seed: int = 1, **sections: Any) -> Case:
         """Equal balls in the vial of a SPEX 8000. `sections` are further ones of the case file, such as `output`."""
         return cls({
             "run": {"seed": seed, "start_time": start_time, "end_time": end_time, "gravity": gravity},
@@ -97,6 +97,8 @@ class Case:
         })
 
     def _set(self, text: str, name: str, settings: Sequence[str]) -> None:
+        if isinstance(settings, str):
+            raise _edmill.InputError(f"settings: found {settings!r}, expected a list of \"section.key=value\"")
         self._text, self._name, self._settings = text, name, tuple(settings)
         self._case = _edmill.Case.parse(text, name, list(settings))
 
@@ -126,6 +128,11 @@ class Case:
     @property
     def ball_count(self) -> int:
         return self._case.ball_count
+
+    @property
+    def end_time(self) -> float | None:
+        """Of a run [s]; None where other rules end it."""
+        return self._case.end_time
 
     def __repr__(self) -> str:
         return f"<edmill.Case {self._name}: {self.ball_count} balls, digest {self.digest[:12]}>"

@@ -27,6 +27,16 @@ class Judgement(dict):
         return self.code == 0
 
 
+def _require(name: str, value: Any, good: bool, expected: str) -> None:
+    if not good:
+        raise _edmill.InputError(f"{name}: found {value!r}, expected {expected}")
+
+
+def _require_numbers(**values: Any) -> None:
+    for name, value in values.items():
+        _require(name, value, value is None or isinstance(value, (int, float)) and value >= 0, "a number, 0 or above")
+
+
 def _judge(call) -> Judgement:
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "result.json"
@@ -37,6 +47,8 @@ def _judge(call) -> Judgement:
 def compare(a: str | os.PathLike, b: str | os.PathLike, *, tolerance: float = 1e-9, events: int | None = None,
             start: float | None = None, end: float | None = None, batch: float | None = None) -> Judgement:
     """As `edmill compare`: two folders of runs, or logs; `a` is the reference. Times in s."""
+    _require_numbers(tolerance=tolerance, start=start, end=end, batch=batch)
+    _require("events", events, events is None or isinstance(events, int) and events > 0, "a whole number above 0")
     return _judge(lambda file: _edmill.compare(os.fspath(a), os.fspath(b), file, tolerance, events, start, end, batch))
 
 
@@ -46,6 +58,7 @@ def audit(case: Case | Mapping | str | os.PathLike, log: str | os.PathLike, *, c
     """As `edmill audit`: the log of any code, against the physics of the case. `columns` has our name of each of its
     columns and theirs, with a unit: {"time": "t [ms]"}. With `identify` the result's entry "identified" has the values or
     mistakes that explain the violations."""
+    _require_numbers(tolerance=tolerance, gap_tolerance=gap_tolerance)
     given = [f"{ours}={theirs}" for ours, theirs in (columns or {}).items()]
     case = case if isinstance(case, Case) else Case(case)
     return _judge(lambda file: _edmill.audit(case._case, os.fspath(log), file, given, tolerance, gap_tolerance, first_ball,
@@ -79,6 +92,8 @@ def prove(case: Case | Mapping | str | os.PathLike, collisions: int, *, certific
           most_bits: int = 16384) -> Proof:
     """As `edmill prove`: the first events of a case as a theorem, with a certificate that others can check.
     Raises UndecidedError where the equations do not say what comes next."""
+    _require("collisions", collisions, isinstance(collisions, int) and collisions > 0, "a whole number above 0")
+    _require("most_bits", most_bits, isinstance(most_bits, int) and 128 <= most_bits <= 1048576, "128 to 1048576")
     case = case if isinstance(case, Case) else Case(case)
     text, bits, left = _edmill.prove(case._case, collisions, most_bits, os.fspath(certificate) if certificate else "")
     whole = {"index", "ball", "partner"}

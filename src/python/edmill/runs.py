@@ -23,6 +23,9 @@ class Interrupted(KeyboardInterrupt):
         super().__init__(f"interrupted at {run.time} s")
         self.run = run
 
+    def __reduce__(self):
+        return Interrupted, (self.run,)
+
 
 class Run:
     """What a run came to. The numbers of summary.json are attributes: `run.milling_dose_rate` and so on.
@@ -63,7 +66,13 @@ class Run:
     def _simulate_again(self, folder: str, report: bool) -> None:
         if self._laws is None:
             raise _edmill.InputError("a pickled run with laws of Python is not simulated again: give run() a folder")
-        run(self.case, precision=self.precision, until=self.time, folder=folder, report=report, events=False, **self._laws)
+        case = self.case
+        if self.summary["end_reason"] in ("stopped", "interrupted"):
+            impacts = self.summary["impacts_since_start"]
+            if impacts == 0:
+                raise _edmill.InputError("the run was ended before its first impact: it has no tables and no report")
+            case = case.with_settings(f"run.max_collisions={impacts}")
+        run(case, precision=self.precision, folder=folder, report=report, events=False, **self._laws)
 
     @property
     def series(self) -> Mapping[str, np.ndarray]:
@@ -92,8 +101,10 @@ class Run:
 
     def __repr__(self) -> str:
         s = self.summary
-        return (f"<edmill.Run of {self.case!r} in {self.precision} to {self.time} s ({s['end_reason']}): "
-                f"{s['collisions']['total']} collisions, {float(s['milling_dose_rate']):.4g} W>")
+        rate = s["milling_dose_rate"]
+        counted = ("ended before its start_time" if rate is None else
+                   f"{s['collisions']['total']} collisions, {float(rate):.4g} W")
+        return f"<edmill.Run of {self.case!r} in {self.precision} to {self.time} s ({s['end_reason']}): {counted}>"
 
 
 def _array(rows: Any, dtype: np.dtype) -> np.ndarray:
@@ -107,8 +118,8 @@ def _array(rows: Any, dtype: np.dtype) -> np.ndarray:
     return np.array(rows, dtype=fields)
 
 
-def _progress(case: Case, until: float | None) -> Callable[[float, int], None] | None:
-    """A bar of tqdm, where that is installed."""
+def _progress(until: float | None) -> Callable[[float, int], None] | None:
+    """A bar of tqdm, where that is installed. @param until  the end [s]"""
     try:
         from tqdm.auto import tqdm
     except ImportError:
@@ -121,6 +132,13 @@ def _progress(case: Case, until: float | None) -> Callable[[float, int], None] |
 
     show.close = bar.close  # type: ignore[attr-defined]
     return show
+
+
+def _check_law(name: str, law: Any) -> None:
+    for method in ("restitution", "restitution_of_slip"):
+        if law is not None and not callable(getattr(law, method, None)):
+            raise _edmill.InputError(f"{name}: found {law!r}, expected an object with restitution(approach_speed) and "
+                                     "restitution_of_slip(normal_change, slip_speed, compliance)")
 
 
 def run(case: Case | Mapping | str, precision: str | None = None, until: str | float | decimal.Decimal | None = None, *,
@@ -148,7 +166,11 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     precision = precision or case.precision
     if report and folder is None:
         raise _edmill.InputError("report: found no folder, expected one to write the report into")
-    show = _progress(case, None) if progress is True else progress or None
+    _check_law("ball_ball_law", ball_ball_law)
+    _check_law("ball_wall_law", ball_wall_law)
+    if not (isinstance(progress, bool) or callable(progress)):
+        raise _edmill.InputError(f"progress: found {progress!r}, expected True, False or a callable")
+    show = _progress(case.end_time) if progress is True else progress or None
     try:
         result = _edmill.run(case._case, precision, "" if folder is None else str(folder), events, report,
                              list(observers), ball_ball_law, ball_wall_law, show)

@@ -27,6 +27,8 @@ class Study:
 
 
 def _study(work, name: str, source: Any, folder: Any, jobs: int) -> Study:
+    if not isinstance(jobs, int) or jobs < 0:
+        raise _edmill.InputError(f"jobs: found {jobs!r}, expected a whole number, 0 or above")
     def on(file: str) -> Study:
         code = work(file, str(folder), jobs)
         return Study(pathlib.Path(folder), name, code != 0)

@@ -42,10 +42,13 @@ def read_table(file: str | pathlib.Path) -> np.ndarray:
 
 
 class Tables(Mapping):
-    """The CSV files of a folder by their names without ending, read when they are asked for."""
+    """The CSV files of a folder by their names without ending, those with the same name with their folders; read when they are
+    asked for. Logs in HDF5 are not among them."""
 
     def __init__(self, folder: pathlib.Path | None):
-        self._files = {} if folder is None else {f.stem: f for f in sorted(pathlib.Path(folder).rglob("*.csv"))}
+        files = [] if folder is None else sorted(pathlib.Path(folder).rglob("*.csv"))
+        stems = [f.stem for f in files]
+        self._files = {f.stem if stems.count(f.stem) == 1 else f.relative_to(folder).with_suffix("").as_posix(): f for f in files}
 
     def __getitem__(self, name: str) -> np.ndarray:
         return read_table(self._files[name])
