@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/scalar_list.hpp"
+#include "base/wide_trigonometry.hpp"
 
 namespace edmill::model {
 namespace {
