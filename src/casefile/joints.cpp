@@ -80,12 +80,20 @@ Joint<Quantity> read_translation(Section& section) {
   if (section.has("speed"))
     section.problem("speed", "a translation at constant speed, which leads away from any mill",
                     "a swing, or no speed");
+  if (section.is_array("translate") && section.has("swing")) {
+    joint.axis = read_axis(section, "translate");
+    if (section.has("distance"))
+      section.problem("distance", "a distance along an axis of three numbers",
+                      "a joint of its own for it, translate = [..] with three lengths");
+    joint.swings = read_swings(section, false);
+    return joint;
+  }
   if (section.is_array("translate")) {
     joint.shift = section.vector("translate", Dimension::length).value_or(QuantityVector{Quantity{1}});
     if (joint.shift[0].zero() && joint.shift[1].zero() && joint.shift[2].zero())
       section.problem("translate", "a joint that shifts nothing", "a length other than zero");
-    if (section.has("distance") || section.has("swing"))
-      section.problem(section.has("swing") ? "swing" : "distance", "a shift with all three lengths given",
+    if (section.has("distance"))
+      section.problem("distance", "a shift with all three lengths given",
                       "translate = \"x\", \"y\" or \"z\" with it");
     return joint;
   }

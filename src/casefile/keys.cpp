@@ -37,7 +37,7 @@ constexpr FixedKey fixed_keys[] = {
     {"mill", "type", "name", "`\"spex8000\"`", "how the vessel moves"},
     {"mill", "joint", "tables", "required", "from the ground to the vessel, any number of entries `[[mill.joint]]`", "chain"},
     {"mill.joint", "rotate", "axis", "this or `translate`", "`\"x\"`, `\"y\"`, `\"z\"` or three numbers: the axis in the frame of the joint before"},
-    {"mill.joint", "translate", "axis or three lengths", "this or `rotate`", "along an axis, or by a constant shift"},
+    {"mill.joint", "translate", "axis or three lengths", "this or `rotate`", "along an axis: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `swing`; without one, three lengths are a constant shift"},
     {"mill.joint", "angle", "angle", "`\"0 deg\"`", "constant part of a rotation"},
     {"mill.joint", "speed", "angular speed", "`\"0 rpm\"`", "of a rotation; joints need no common period"},
     {"mill.joint", "distance", "length", "`\"0 m\"`", "constant part of a translation along an axis"},

@@ -81,6 +81,25 @@ TEST(Chain, APlanetaryJarRunsOnItsEpicycle) {
   }
 }
 
+/// 3 mm along (1, 2, 2) are 1, 2 and 2 mm along x, y and z.
+TEST(Chain, ASwingAlongAnyAxisIsThreeAlongTheAxes) {
+  const auto swing = [](const std::string& along, const std::string& amplitude) {
+    return "[[mill.joint]]\ntranslate = " + along + "\nswing = [{amplitude = \"" + amplitude +
+           "\", speed = \"31 rad/s\", phase = \"1 rad\"}]\n";
+  };
+  const std::string before = "type = \"chain\"\n[[mill.joint]]\nrotate = \"z\"\nspeed = \"300 rpm\"\n";
+  const auto one = motion_of<float128>(before + swing("[1, 2, 2]", "3 mm"));
+  const auto three =
+      motion_of<float128>(before + swing("\"x\"", "1 mm") + swing("\"y\"", "2 mm") + swing("\"z\"", "2 mm"));
+  const Vec3<float128> p(float128(0.01), float128(-0.02), float128(0.005));
+  for (int k = 0; k < 100; ++k) {
+    const Instant<float128> when{k, float128(k) / 1000};
+    const auto a = one.pose(when), b = three.pose(when);
+    EXPECT_LT(distance<float128>(one.to_inertial(a, p), three.to_inertial(b, p)), 1e-32);
+    EXPECT_LT(distance<float128>(one.wall_velocity(a, p), three.wall_velocity(b, p)), 1e-30);
+  }
+}
+
 TEST(Chain, ADrumTurnsAboutItsHorizontalAxis) {
   const auto motion = motion_of<double>("type = \"drum\"\nspeed = \"60 rpm\"");
   for (const double t : {0.0, 0.1, 0.7}) {

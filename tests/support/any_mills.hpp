@@ -24,6 +24,12 @@ inline constexpr const char* skew_chain =
     "{amplitude = \"0.1 rad\", speed = \"31 rad/s\", phase = \"1 rad\"}]\n[[mill.joint]]\nrotate = \"x\"\n"
     "speed = \"-90 rpm\"";
 
+/// A translation along an axis of its own.
+inline constexpr const char* oblique_chain =
+    "type = \"chain\"\n[[mill.joint]]\nrotate = [1, 2, 2]\nspeed = \"7 rad/s\"\n[[mill.joint]]\n"
+    "translate = [2, 1, -2]\nswing = [{amplitude = \"4 mm\", speed = \"600 rpm\", phase = \"30 deg\"}]\n"
+    "[[mill.joint]]\nrotate = \"x\"\nspeed = \"-90 rpm\"";
+
 inline constexpr std::array<MillText, 24> all_mills = {{
     {"spex_cylinder", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = \"9.8 m/s2\""},
@@ -84,7 +90,7 @@ inline constexpr std::array<MillText, 24> all_mills = {{
      "speed = "
      "\"500 rpm\"}]\n[[vessel.piston]]\nwall = \"wall_2\"\ndistance = \"2 mm\"",
      "gravity = \"9.8 m/s2\""},
-    {"chain_sphere", skew_chain, "type = \"sphere\"\ndiameter = \"46 mm\"", "gravity = \"9.8 m/s2\""},
+    {"chain_sphere", oblique_chain, "type = \"sphere\"\ndiameter = \"46 mm\"", "gravity = \"9.8 m/s2\""},
     {"drum_capsule", "type = \"drum\"\nspeed = \"180 rpm\"",
      "type = \"capsule\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]"},
