@@ -3,10 +3,9 @@
 
 namespace edmill {
 
-/// Answers beyond their ranges, and impacts that gain energy by them, end the run with an InputError.
-///
 /// How fast two bodies leave an impact, and how much of their slip is left. edmill keeps bodies from leaving
 /// slower than the case's least separation speed, whatever the law says (docs/theory.md, section 6).
+/// Answers beyond their ranges, and impacts that gain energy by them, end the run with an InputError.
 template <class Real>
 class CustomLaw {
  public:

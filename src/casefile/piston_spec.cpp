@@ -47,6 +47,19 @@ double depth_of(const model::AnyVessel<double>& vessel, int wall) {
   return vessel.gap(wall, origin) + dot<double>(normal.cwiseAbs(), vessel.half_sizes());
 }
 
+/// Even with all pistons as far inward as they go, the largest ball has room at the origin.
+void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std::vector<PistonSpec>& pistons,
+                  double from, double to, double diameter) {
+  auto planes = polyhedron.planes();
+  for (const auto& piston : pistons)
+    planes[static_cast<std::size_t>(piston.wall)].distance -= travel_of(piston, from, to).most;
+  for (const auto& plane : planes)
+    if (plane.distance < diameter / 2)
+      return entry.problem(
+          "wall", fmt::format("pistons or walls that come as near as {:g} m to the origin", plane.distance),
+          fmt::format("room for a ball of {:g} m there all the time", diameter));
+}
+
 }  // namespace
 
 std::vector<Section> read_pistons(Section& vessel, CaseSpec& spec) {
@@ -78,23 +91,6 @@ std::vector<Section> read_pistons(Section& vessel, CaseSpec& spec) {
   }
   return entries;
 }
-
-namespace {
-
-/// All pistons may be as far inward as they go at the same time; a ball at the origin is free then.
-void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std::vector<PistonSpec>& pistons,
-                  double from, double to, double diameter) {
-  auto planes = polyhedron.planes();
-  for (const auto& piston : pistons)
-    planes[static_cast<std::size_t>(piston.wall)].distance -= travel_of(piston, from, to).most;
-  for (const auto& plane : planes)
-    if (plane.distance < diameter / 2)
-      return entry.problem(
-          "wall", fmt::format("pistons or walls that come as near as {:g} m to the origin", plane.distance),
-          fmt::format("room for a ball of {:g} m there all the time", diameter));
-}
-
-}  // namespace
 
 void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
   if (std::any_of(spec.pistons.begin(), spec.pistons.end(), [](const auto& p) { return p.wall < 0; })) return;

@@ -37,7 +37,6 @@ py::tuple to_python(const Vector<Real>& v) {
 /// @throws InputError where it is no number. @param what  the function that gave it
 template <class Real>
 Real from_python(const py::handle& x, const char* what) {
-  PyErr_Clear();
   if (PyNumber_Check(x.ptr()) != 0) {
     if constexpr (std::is_same_v<Real, double>) {
       const double value = PyFloat_AsDouble(x.ptr());

@@ -28,9 +28,9 @@ struct LawOfProgram {
                        "): found " + to_text<Real>(e) + ", expected 0 to 1");
     return e;
   }
-  /// @throws InputError unless the program's answer is a number that is no gain of more than a half; whether
-  /// an
-  ///                    impact gains energy is asked when all of it is known
+  /// Measured contacts may reverse a little more than the slip; whether an impact gains energy by that is
+  /// checked when all of it is known.
+  /// @throws InputError unless the program's answer is in [-1.5, 1]
   Real restitution_of_slip(const Real& normal_change, const Real& slip_speed, const Real& compliance) const {
     const Real e = law->restitution_of_slip(normal_change, slip_speed, compliance);
     if (!(e >= -1.5 && e <= 1))
