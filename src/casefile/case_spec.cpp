@@ -218,6 +218,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   read_run(top.section("run"), spec);
   Section mill = top.section("mill"), vessel = top.section("vessel");
   spec.mill = read_motion(mill);
+  if (!top.section("run").has("end_time")) require_end(mill);
   spec.vessel = read_vessel(vessel);
   spec.vessel_colour = vessel.colour("colour", spec.vessel_colour);
   auto pistons = read_pistons(vessel, spec);

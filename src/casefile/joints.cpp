@@ -67,9 +67,9 @@ Joint<Quantity> read_rotation(Section& section) {
   Joint<Quantity> joint;
   joint.axis = read_axis(section, "rotate");
   joint.angle = in_turns(section.quantity("angle", Dimension::angle, Quantity{0}));
-  joint.frequency = in_turns(section.quantity("speed", Dimension::angular_speed, Quantity{0}));
+  joint.speed = in_turns(section.quantity("speed", Dimension::angular_speed, Quantity{0}));
   joint.swings = read_swings(section, true);
-  if (joint.angle.zero() && joint.frequency.zero() && joint.swings.empty())
+  if (joint.angle.zero() && joint.speed.zero() && joint.swings.empty())
     section.problem("rotate", "a joint that does not turn", "one with angle, speed or swing");
   return joint;
 }
@@ -77,10 +77,8 @@ Joint<Quantity> read_rotation(Section& section) {
 Joint<Quantity> read_translation(Section& section) {
   Joint<Quantity> joint;
   joint.rotates = false;
-  if (section.has("speed"))
-    section.problem("speed", "a translation at constant speed, which leads away from any mill",
-                    "a swing, or no speed");
-  if (section.is_array("translate") && section.has("swing")) {
+  joint.speed = section.quantity("speed", Dimension::speed, Quantity{0});
+  if (section.is_array("translate") && (section.has("swing") || section.has("speed"))) {
     joint.axis = read_axis(section, "translate");
     if (section.has("distance"))
       section.problem("distance", "a distance along an axis of three numbers",
@@ -101,8 +99,8 @@ Joint<Quantity> read_translation(Section& section) {
   const auto distance = section.quantity("distance", Dimension::length, Quantity{0});
   for (std::size_t k = 0; k < 3; ++k) joint.shift[k] = joint.axis[k] * distance;
   joint.swings = read_swings(section, false);
-  if (distance.zero() && joint.swings.empty())
-    section.problem("translate", "a joint that shifts nothing", "one with distance or swing");
+  if (distance.zero() && joint.speed.zero() && joint.swings.empty())
+    section.problem("translate", "a joint that shifts nothing", "one with distance, speed or swing");
   return joint;
 }
 
@@ -113,7 +111,7 @@ Quantity period_of_fastest(const Joints<Quantity>& joints) {
     if (std::abs(frequency.to<double>()) > std::abs(fastest.to<double>())) fastest = frequency;
   };
   for (const auto& joint : joints.list) {
-    see(joint.frequency);
+    if (joint.rotates) see(joint.speed);
     for (const auto& swing : joint.swings) see(swing.frequency);
   }
   if (fastest.zero()) return {boost::multiprecision::cpp_rational(1, 16)};
@@ -142,14 +140,15 @@ std::string text_of_joint(const Joint<Quantity>& joint) {
   if (joint.rotates) {
     std::string angle;
     if (!joint.angle.zero()) angle = fmt::format("{:g} deg", 360 * joint.angle.to<double>());
-    if (!joint.frequency.zero()) angle += term(360 * joint.frequency.to<double>()) + " deg/s t";
+    if (!joint.speed.zero()) angle += term(360 * joint.speed.to<double>()) + " deg/s t";
     return "turn about " + axis_name(joint.axis) + " by " +
            as_sum(angle + equation_of(joint.swings, joint.rotates));
   }
   std::string text = fmt::format("shift by ({:g}, {:g}, {:g}) m", joint.shift[0].to<double>(),
                                  joint.shift[1].to<double>(), joint.shift[2].to<double>());
-  if (!joint.swings.empty())
-    text += equation_of(joint.swings, joint.rotates) + " along " + axis_name(joint.axis);
+  if (!joint.speed.zero()) text += term(joint.speed.to<double>()) + " m/s t";
+  text += equation_of(joint.swings, joint.rotates);
+  if (!joint.speed.zero() || !joint.swings.empty()) text += " along " + axis_name(joint.axis);
   return text;
 }
 
@@ -187,7 +186,7 @@ std::vector<Swing<Quantity>> with_phases(std::vector<Swing<Quantity>> swings, co
 
 Joints<Quantity> with_phases(Joints<Quantity> joints) {
   for (auto& joint : joints.list) {
-    joint.per_period = fraction_of(joint.frequency * joints.period);
+    if (joint.rotates) joint.per_period = fraction_of(joint.speed * joints.period);
     joint.swings = with_phases(std::move(joint.swings), joints.period);
   }
   return joints;
@@ -208,6 +207,12 @@ Joints<Quantity> read_joints(Section& mill) {
   }
   joints.period = period_of_fastest(joints);
   return joints;
+}
+
+void require_end(Section& mill) {
+  for (Section& entry : mill.sections("joint"))
+    if (entry.has("translate") && entry.has("speed"))
+      entry.problem("speed", "a translation that goes on and on", "a run.end_time");
 }
 
 std::string equation_of(const Joints<Quantity>& joints) {

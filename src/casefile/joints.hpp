@@ -12,6 +12,8 @@ namespace edmill::casefile {
 class Section;
 /// [[mill.joint]]; what is wrong is reported.
 model::Joints<Quantity> read_joints(Section& mill);
+/// Reports translations at constant speed, which only the end of a run bounds.
+void require_end(Section& mill);
 
 /// [[...swing]] of a joint or a piston; what is wrong is reported.
 std::vector<model::Swing<Quantity>> read_swings(Section& section, bool rotates);

@@ -55,6 +55,7 @@ void read_wall_materials(Section& vessel, CaseSpec& spec) {
   const auto partners = known_partners(spec);
   if (!partners) return;
   spec.wall_materials.assign(static_cast<std::size_t>(partners->walls()), common);
+  std::vector<bool> named(spec.wall_materials.size());
   for (const auto& key : walls.keys()) {
     std::string labels;
     bool known = false;
@@ -62,7 +63,11 @@ void read_wall_materials(Section& vessel, CaseSpec& spec) {
       const auto& info = (*partners)[wall];
       labels += (wall > 0 ? ", \"" : "\"") + info.label + "\"";
       if (key != info.label && key != info.key) continue;
-      spec.wall_materials[static_cast<std::size_t>(wall)] = read_material_of(walls, key, spec);
+      const auto own = static_cast<std::size_t>(wall);
+      if (named[own])
+        walls.problem(key, "a second material of a wall, by its key and by its label", "one of them");
+      spec.wall_materials[own] = read_material_of(walls, key, spec);
+      named[own] = true;
       known = true;
     }
     if (!known) walls.problem(key, "a wall that the vessel does not have", "one of " + labels);

@@ -22,7 +22,7 @@ void put_chain(Assumptions& a, Joints joints) {
 /// Joints that turn the other way in time: t becomes -t in every motion.
 Joints reversed(Joints joints) {
   for (auto& joint : joints) {
-    joint.frequency.value = -joint.frequency.value;
+    joint.speed.value = -joint.speed.value;
     for (auto& swing : joint.swings) {  // sin(2 pi (-f t + p)) = -sin(2 pi (f t - p))
       swing.amplitude.value = -swing.amplitude.value;
       swing.phase.value = -swing.phase.value;
@@ -57,7 +57,7 @@ void add_motions(const Assumptions& nominal, std::vector<Mistake>& list) {
     return;
   }
   bool moves = false;
-  for (const auto& joint : joints) moves = moves || !joint.frequency.zero() || !joint.swings.empty();
+  for (const auto& joint : joints) moves = moves || !joint.speed.zero() || !joint.swings.empty();
   if (moves)
     list.push_back({"mill, direction of rotation", "all joints move the other way in time",
                     [joints](Assumptions& a) { put_chain(a, reversed(joints)); }, false, true});

@@ -91,9 +91,9 @@ void add_joints(const Assumptions& nominal, std::vector<Parameter>& list) {
         key + ".angle", Dimension::angle, 2 * pi,
         joints[j].angle, [=](auto& l) -> auto& { return l[j].angle; });
     add(
-        key + ".speed", Dimension::angular_speed, 2 * pi,
-        joints[j].frequency, [=](auto& l) -> auto& { return l[j].frequency; });
-    if (!joints[j].frequency.zero()) list.back().is_speed = true;
+        key + ".speed", joints[j].rotates ? Dimension::angular_speed : Dimension::speed,
+        joints[j].rotates ? 2 * pi : 1, joints[j].speed, [=](auto& l) -> auto& { return l[j].speed; });
+    if (joints[j].rotates && !joints[j].speed.zero()) list.back().is_speed = true;
     for (std::size_t s = 0; s < joints[j].swings.size(); ++s) {
       const std::string swing = fmt::format("{}.swing.{}", key, s);
       const auto& own = joints[j].swings[s];

@@ -19,10 +19,10 @@ Json texts(const Vector& v) { return {text_of(v[0]), text_of(v[1]), text_of(v[2]
 Json line_of(const model::Joint<Quantity>& joint) {
   Json line;
   if (joint.rotates)
-    line = {
-        {"rotate", texts(joint.axis)}, {"angle", joint.angle.text()}, {"frequency", joint.frequency.text()}};
+    line = {{"rotate", texts(joint.axis)}, {"angle", joint.angle.text()}, {"frequency", joint.speed.text()}};
   else
     line = {{"shift", texts(joint.shift)}, {"along", texts(joint.axis)}};
+  if (!joint.rotates && !joint.speed.zero()) line["speed"] = joint.speed.text();
   line["swings"] = Json::array();
   for (const auto& s : joint.swings)
     line["swings"].push_back(

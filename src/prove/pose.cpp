@@ -49,7 +49,7 @@ Motion::Motion(const ExactCase& exact) : start_(enclosure_of(exact.start)) {
                 enclosure_of(given.axis),
                 enclosure_of(given.shift),
                 enclosure_of(given.angle),
-                enclosure_of(given.frequency),
+                enclosure_of(given.speed),
                 {}};
     joint.axis = joint.axis / norm<Enclosure>(joint.axis);
     for (const auto& s : given.swings)
@@ -59,7 +59,7 @@ Motion::Motion(const ExactCase& exact) : start_(enclosure_of(exact.start)) {
 }
 
 auto Motion::moved(const Joint& joint, const Enclosure& clock) const -> Moved {
-  Moved result{joint.angle + joint.frequency * clock, joint.frequency, Enclosure()};
+  Moved result{joint.angle + joint.speed * clock, joint.speed, Enclosure()};
   for (const auto& swing : joint.swings) {
     const auto phase = sin_cos_turns(swing.frequency * clock + swing.phase);
     const Enclosure speed = turn_ * swing.frequency, rate = swing.amplitude * speed;

@@ -43,7 +43,7 @@ class Motion {
   struct Joint {
     bool rotates;
     Vector axis, shift;
-    Enclosure angle, frequency;
+    Enclosure angle, speed;
     std::vector<Swing> swings;
   };
   /// Value and rates of a joint: [turns] or [m].

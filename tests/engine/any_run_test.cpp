@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <tuple>
 
 #include "any_mills.hpp"
 #include "event_recorder.hpp"
+#include "mill_parts.hpp"
 #include "run/run_statistics.hpp"
 
 namespace edmill::engine {
@@ -53,14 +55,17 @@ long wanted_collisions() {
   return text ? std::atol(text) : 40000;
 }
 
+/// [s]; some mills are slow
+double longest() { return 1e-4 * static_cast<double>(wanted_collisions()); }
+
 class AnyRun : public ::testing::TestWithParam<testing::MillText> {
  protected:
   template <class Real>
-  casefile::InitialCase<Real> built(const char* start = "0 s",
-                                    const std::string& restitution = "0.53") const {
-    const auto spec =
-        testing::spec_of(GetParam(), "max_collisions = 1000\ninitial_time = \"" + std::string(start) + "\"",
-                         "[[balls]]\ncount = 28\ndiameter = \"4.76 mm\"\n", restitution);
+  casefile::InitialCase<Real> built(double start = 0, const std::string& restitution = "0.53") const {
+    const auto spec = testing::spec_of(GetParam(),
+                                       "initial_time = \"" + std::to_string(start) + " s\"\nend_time = \"" +
+                                           std::to_string(start + longest() + 1) + " s\"",
+                                       "[[balls]]\ncount = 28\ndiameter = \"4.76 mm\"\n", restitution);
     auto mill = testing::mill_of(GetParam(), spec);
     return casefile::build_case_in<Real>(model::mill_cast<Real>(mill), spec);
   }
@@ -71,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(All, AnyRun, ::testing::ValuesIn(testing::all_mills),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(AnyRun, NoBallLeavesAndTheEnergyCloses) {
-  for (const char* start : {"0 s", "123456 s"}) {
+  for (const double start : {0.0, testing::slides(testing::mill_of(GetParam())) ? 10.0 : 123456.0}) {
     const auto the_case = built<double>(start, still() ? "1" : "0.53");
     Simulation<double> simulation(the_case.the_case, the_case.states, the_case.start);
     WallCheck check(the_case.the_case.mill);
@@ -80,9 +85,8 @@ TEST_P(AnyRun, NoBallLeavesAndTheEnergyCloses) {
     simulation.attach(statistics);
     const auto before = simulation.energy_at(simulation.now());
     const double begin = simulation.seconds();
-    const double longest = 1e-4 * static_cast<double>(wanted_collisions());  // [s]; some mills are slow
     for (double step = 0;
-         statistics.collisions() < static_cast<std::uint64_t>(wanted_collisions()) && step < longest;
+         statistics.collisions() < static_cast<std::uint64_t>(wanted_collisions()) && step < longest();
          step += 0.1)
       ASSERT_EQ(simulation.run_until(simulation.clock().at(begin + step)), EndReason::end_time);
     const auto after = simulation.energy_at(simulation.now());
@@ -90,7 +94,7 @@ TEST_P(AnyRun, NoBallLeavesAndTheEnergyCloses) {
     const double left =
         statistics.wall_work() - statistics.milling_dose() + statistics.supplied_energy() - change;
     const double closure = std::abs(left) / (statistics.milling_dose() + before.kinetic + after.kinetic);
-    std::cout << statistics.collisions() << " collisions from " << start << ": deepest overlap with a wall "
+    std::cout << statistics.collisions() << " collisions from " << start << " s: deepest overlap with a wall "
               << static_cast<double>(check.deepest) << " m, closure " << closure << "\n";
     EXPECT_GT(statistics.collisions(), 1000u);
     EXPECT_LT(check.deepest, 1e-14);
@@ -135,6 +139,37 @@ TEST_P(AnyRun, ACheckpointGoesOnWithTheSameBits) {
   for (int ball = 0; ball < whole.ball_count(); ++ball) {
     EXPECT_EQ(whole.flight(ball).position, resumed.flight(ball).position);
     EXPECT_EQ(whole.flight(ball).velocity, resumed.flight(ball).velocity);
+  }
+}
+
+/// Galilei: in a vessel that moves at constant speed balls that have that speed more make the same impacts.
+TEST(SlidingBox, SeesTheImpactsOfABoxAtRest) {
+  const auto impacts = [](const std::string& mill, const Vec3<float128>& speed) {
+    const testing::MillText text{"box", mill.c_str(),
+                                 "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
+                                 "gravity = \"9.8 m/s2\""};
+    const auto spec = testing::spec_of(
+        text, "end_time = \"1 s\"", "[[balls]]\ncount = 5\ndiameter = \"8 mm\"\nrandom_speed = \"2 m/s\"\n");
+    auto built = casefile::build_case_in<float128>(casefile::build_mill<float128>(spec), spec);
+    for (auto& state : built.states) state.velocity += speed;
+    Simulation<float128> simulation(built.the_case, built.states, built.start);
+    testing::EventRecorder<float128> log;
+    simulation.attach(log);
+    simulation.run_until(simulation.clock().at(float128(1) / 16));
+    std::vector<std::tuple<int, int, float128>> list;
+    for (const auto& impact : log.impacts)
+      list.emplace_back(impact.ball, impact.partner, simulation.clock().seconds(impact.time));
+    return list;
+  };
+  const auto at_rest = impacts("type = \"still\"", Vec3<float128>::Zero());
+  const auto sliding = impacts(
+      "type = \"chain\"\n[[mill.joint]]\ntranslate = [2, -1, 2]\nspeed = \"-1.5 m/s\"", {-1, 0.5, -1});
+  ASSERT_GT(at_rest.size(), 20u);
+  for (std::size_t k = 0; k < 20; ++k) {
+    const auto& [ball, partner, time] = at_rest[k];
+    EXPECT_EQ(std::get<0>(sliding[k]), ball);
+    EXPECT_EQ(std::get<1>(sliding[k]), partner);
+    EXPECT_LT(std::abs(static_cast<double>(std::get<2>(sliding[k]) - time)), 1e-20);
   }
 }
 

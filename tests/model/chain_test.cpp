@@ -7,6 +7,7 @@
 #include <random>
 
 #include "any_mills.hpp"
+#include "mill_parts.hpp"
 #include "random_physics.hpp"
 
 namespace edmill::model {
@@ -58,6 +59,25 @@ TEST(TurnFraction, IsExactForAnyNumberOfPeriods) {
     ASSERT_LE(off(mpfr200(fraction.times<double>(count))), 0x1p-53);
     ASSERT_LE(off(mpfr200(fraction.times<float128>(count))), 0x1p-113);
     ASSERT_LE(off(mpfr200(fraction.times<mpfr50>(count))), 1e-49);
+  }
+}
+
+/// A slide on an arm that turns about z: the centre is on a spiral, r = a + v t.
+TEST(Chain, ASlideOnAnArmMakesASpiral) {
+  const auto motion = motion_of<mpfr50>(
+      "type = \"chain\"\n[[mill.joint]]\nrotate = \"z\"\nspeed = \"90 rpm\"\n[[mill.joint]]\n"
+      "translate = \"x\"\ndistance = \"20 mm\"\nspeed = \"-0.07 m/s\"");
+  const mpfr50 w = 3 * numerics::pi<mpfr50>(), v("-0.07");
+  for (const int k : {0, 1, 2}) {
+    const mpfr50 offset = motion.period() * k / 3, t = offset + k * motion.period(),
+                 r = mpfr50("0.02") + v * t;
+    const auto pose = motion.pose({k, offset});
+    const Vec3<mpfr50> out{cos(w * t), sin(w * t), mpfr50(0)}, along{-sin(w * t), cos(w * t), mpfr50(0)};
+    EXPECT_LT(static_cast<double>(distance<mpfr50>(pose.centre, out * r)), 1e-47);
+    EXPECT_LT(static_cast<double>(distance<mpfr50>(pose.velocity, out * v + along * mpfr50(r * w))), 1e-46);
+    EXPECT_LT(static_cast<double>(
+                  distance<mpfr50>(pose.acceleration, along * mpfr50(2 * v * w) - out * mpfr50(r * w * w))),
+              1e-45);
   }
 }
 
@@ -183,7 +203,8 @@ TEST_P(AnyChain, NothingLeavesTheSweptBoxNorIsFasterThanItsBounds) {
       const double x = part(random), y = part(random), z = part(random);
       p = mill.vessel.place({x, y, z});
     }
-    const auto pose = motion.pose({*rc::gen::inRange<std::int64_t>(0, 1000), draw(0.0, motion.period())});
+    const auto pose = motion.pose(
+        {*rc::gen::inRange<std::int64_t>(0, testing::slides(mill) ? 20 : 1000), draw(0.0, motion.period())});
     const Vec3<double> place = motion.to_inertial(pose, *p);
     for (int axis = 0; axis < 3; ++axis)
       RC_ASSERT(place[axis] >= box.low[axis] && place[axis] <= box.high[axis]);

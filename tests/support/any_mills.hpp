@@ -30,7 +30,14 @@ inline constexpr const char* oblique_chain =
     "translate = [2, 1, -2]\nswing = [{amplitude = \"4 mm\", speed = \"600 rpm\", phase = \"30 deg\"}]\n"
     "[[mill.joint]]\nrotate = \"x\"\nspeed = \"-90 rpm\"";
 
-inline constexpr std::array<MillText, 24> all_mills = {{
+/// Translations at constant speed, before and behind a rotation.
+inline constexpr const char* sliding_chain =
+    "type = \"chain\"\n[[mill.joint]]\ntranslate = [1, -2, 2]\nspeed = \"30 mm/s\"\n[[mill.joint]]\n"
+    "rotate = [0, 1, 2]\nspeed = \"7 rad/s\"\n[[mill.joint]]\ntranslate = \"x\"\ndistance = \"10 mm\"\n"
+    "speed = \"6 mm/s\"\nswing = [{amplitude = \"2 mm\", speed = \"600 rpm\"}]\n[[mill.joint]]\n"
+    "rotate = \"z\"\nspeed = \"-90 rpm\"";
+
+inline constexpr std::array<MillText, 25> all_mills = {{
     {"spex_cylinder", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = \"9.8 m/s2\""},
     {"spex_2d_cylinder", "type = \"spex_2d\"",
@@ -105,6 +112,8 @@ inline constexpr std::array<MillText, 24> all_mills = {{
      "swing = [{amplitude = \"3 mm\", speed = \"1500 rpm\"}]\n[[vessel.piston]]\nwall = \"wall_1\"\n"
      "distance = \"2 mm\"\nswing = [{amplitude = \"1 mm\", speed = \"40 rad/s\", phase = \"1 rad\"}]",
      "gravity = \"9.8 m/s2\""},
+    {"sliding_box", sliding_chain, "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
+     "gravity = \"9.8 m/s2\""},
 }};
 
 inline const MillText& mill_named(std::string_view name) {
@@ -141,7 +150,7 @@ inline model::Mill<double> mill_of(const MillText& text, const casefile::CaseSpe
   return mill;
 }
 inline model::Mill<double> mill_of(const MillText& text) {
-  return mill_of(text, spec_of(text, "end_time = \"1 s\""));
+  return mill_of(text, spec_of(text, "end_time = \"20 s\""));
 }
 
 }  // namespace edmill::testing

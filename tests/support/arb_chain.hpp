@@ -75,6 +75,17 @@ inline Series swing_series(const std::vector<OracleSwing>& swings, const OracleC
   return sum;
 }
 
+/// speed times the clock [m].
+inline void add_constant_speed(Series& sum, double speed, const OracleClock& clock, const Ball& t,
+                               const Ball& h, slong prec) {
+  const Ball rate(speed);
+  Ball seconds;
+  arb_mul_si(seconds.v, clock.length.v, clock.count, exact);
+  arb_add(seconds.v, seconds.v, t.v, exact);
+  arb_addmul(sum[0], rate.v, seconds.v, prec);
+  if (sum.size() > 1) arb_addmul(sum[1], rate.v, h.v, prec);
+}
+
 inline std::array<Ball, 3> unit_vector(const std::array<double, 3>& v, slong prec) {
   Ball size;
   std::array<Ball, 3> unit;
@@ -124,8 +135,9 @@ inline std::array<Series, 3> through_chain(const std::vector<OracleJoint>& chain
   const slong n = p[0].size();
   for (const auto& joint : chain) {
     const auto axis = unit_vector(joint.axis, prec);
-    const Series swing = swing_series(joint.swings, clock, t, h, n, prec);
+    Series swing = swing_series(joint.swings, clock, t, h, n, prec);
     if (!joint.rotates) {
+      add_constant_speed(swing, joint.speed, clock, t, h, prec);
       for (std::size_t i = 0; i < 3; ++i) {
         const Ball shift(joint.shift[i]);
         arb_sub(p[i][0], p[i][0], shift.v, prec);

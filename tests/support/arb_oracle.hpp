@@ -26,6 +26,7 @@ struct OracleJoint {
   double angle;  ///< [turns]
   OracleTurns per_period;
   std::vector<OracleSwing> swings;
+  double speed;  ///< of a translation [m/s]
 };
 
 /// A wall that stands inward of its place by distance + speed t + swings [m].

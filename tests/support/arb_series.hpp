@@ -36,15 +36,11 @@ class Problem {
     for (const auto& piston : q_.pistons) {
       if (piston.wall != wall) continue;
       const OracleClock clock{q_.begin_period, Ball(q_.period)};
-      const Series swung = swing_series(piston.swings, clock, t, h, count, prec);
-      for (slong k = 0; k < count; ++k) arb_sub(result[k], result[k], swung[k], prec);
-      const Ball distance(piston.distance), speed(piston.speed);
-      Ball seconds;
-      arb_mul_si(seconds.v, clock.length.v, clock.count, exact);
-      arb_add(seconds.v, seconds.v, t.v, exact);
-      arb_sub(result[0], result[0], distance.v, prec);
-      arb_submul(result[0], speed.v, seconds.v, prec);
-      if (count > 1) arb_submul(result[1], speed.v, h.v, prec);
+      Series moved = swing_series(piston.swings, clock, t, h, count, prec);
+      add_constant_speed(moved, piston.speed, clock, t, h, prec);
+      const Ball distance(piston.distance);
+      arb_add(moved[0], moved[0], distance.v, prec);
+      for (slong k = 0; k < count; ++k) arb_sub(result[k], result[k], moved[k], prec);
     }
     return result;
   }

@@ -32,6 +32,16 @@ Real gap_per_metre(const model::Mill<Real>& mill, int wall, const Real& ball_rad
   return Real(1);
 }
 
+/// Whether a joint translates at constant speed: the bounds then hold until the end of the case only.
+inline bool slides(const auto& mill) {
+  bool found = false;
+  mill.motion.visit([&](const auto& motion) {
+    if constexpr (requires { motion.joints(); })
+      for (const auto& j : motion.joints().list) found = found || (!j.rotates && j.speed != 0);
+  });
+  return found;
+}
+
 /// Every digit of the motion and of the vessel.
 inline std::string text_of(const model::Mill<double>& mill) {
   std::ostringstream out;
@@ -39,7 +49,7 @@ inline std::string text_of(const model::Mill<double>& mill) {
   if (const auto* chain = mill.motion.get_if<model::ChainMotion<double>>())
     for (const auto& j : chain->joints().list)
       out << (j.rotates ? "turn " : "shift ") << j.axis[0] << " " << j.axis[1] << " " << j.axis[2] << " "
-          << j.shift[0] << " " << j.shift[1] << " " << j.shift[2] << " " << j.angle << " " << j.frequency
+          << j.shift[0] << " " << j.shift[1] << " " << j.shift[2] << " " << j.angle << " " << j.speed
           << " swings " << j.swings.size() << "; ";
   else
     out << "arm " << spex(mill).arm() << " theta_max " << spex(mill).theta_max() << " gamma_max "

@@ -16,7 +16,13 @@ inline OracleQuestion question_of(const model::Mill<double>& mill, const dynamic
   if (const auto* chain = mill.motion.get_if<model::ChainMotion<double>>()) {
     question.chain.emplace();
     for (const auto& j : chain->joints().list) {
-      OracleJoint joint{j.rotates, j.axis, j.shift, j.angle, {j.per_period.whole, j.per_period.bits}, {}};
+      OracleJoint joint{j.rotates,
+                        j.axis,
+                        j.shift,
+                        j.angle,
+                        {j.per_period.whole, j.per_period.bits},
+                        {},
+                        j.rotates ? 0 : j.speed};
       for (const auto& s : j.swings)
         joint.swings.push_back({s.amplitude, s.phase, {s.per_period.whole, s.per_period.bits}});
       question.chain->push_back(joint);

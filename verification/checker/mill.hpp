@@ -13,7 +13,7 @@ using Index = std::size_t;
 struct Joint {
   bool rotates;
   Vec axis, shift;
-  Real angle, frequency;
+  Real angle, speed;
   std::vector<std::array<Real, 3>> swings;  ///< amplitude, frequency, phase
 };
 struct Wall {
@@ -75,7 +75,7 @@ struct Mill {
   Pose pose(const Real& time) const {
     Pose p;
     for (const auto& j : joints) {
-      Real value = j.angle + j.frequency * (start + time), rate = j.frequency, s, c;
+      Real value = j.angle + j.speed * (start + time), rate = j.speed, s, c;
       for (const auto& [amplitude, frequency, phase] : j.swings) {
         const Real half_turns = 2 * (frequency * (start + time) + phase);
         arb_sin_cos_pi(s.x, c.x, half_turns.x, precision);
@@ -126,7 +126,8 @@ struct Mill {
     const bool rotates = j.contains("rotate");
     const Vec axis = vector(j.at(rotates ? "rotate" : "along")), shift = rotates ? Vec{} : vector(j.at("shift"));
     Joint result{rotates, axis / root(dot(axis, axis)), shift, {}, {}, {}};
-    if (rotates) result.angle = number(j, "angle"), result.frequency = number(j, "frequency");
+    if (rotates) result.angle = number(j, "angle");
+    if (rotates || j.contains("speed")) result.speed = number(j, rotates ? "frequency" : "speed");
     for (const auto& s : list(j.at("swings"), 64))
       result.swings.push_back({number(s, "amplitude"), number(s, "frequency"), number(s, "phase")});
     return result;

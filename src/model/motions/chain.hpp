@@ -36,15 +36,16 @@ class ChainMotion {
         bounds_(joints_, ChainBounds<Real>::Speeds::summed),
         terms_(joints_, ChainBounds<Real>::Speeds::apart) {
     for (const auto& joint : joints_.list) {
-      Step step{joint.rotates, ChainBounds<Real>::direction(joint), -1, {}, joint.angle, {}, {}};
+      Step step{joint.rotates, ChainBounds<Real>::direction(joint), -1, {}, joint.angle, {}, {}, {}};
       step.shift = {joint.shift[0], joint.shift[1], joint.shift[2]};
       if (joint.rotates) step.aligned = aligned(joint.axis);
       const Real turn = 2 * numerics::pi<Real>();
-      if (joint.rotates && !(joint.frequency == 0))
-        step.drive = Drive<Real>{joint.frequency, turn * joint.frequency, joint.per_period};
+      if (joint.rotates && !(joint.speed == 0))
+        step.drive = Drive<Real>{joint.speed, turn * joint.speed, joint.per_period};
+      if (!joint.rotates) step.slide = {joint.speed, joints_.period};
       step.swings = Swings<Real>(joint.swings);
       step.fixed = numerics::sin_cos_turns<Real>(step.angle);
-      step.moves = joint.rotates && (step.drive.frequency != 0 || !step.swings.empty());
+      step.moves = joint.speed != 0 || !step.swings.empty();
       steps_.push_back(std::move(step));
     }
     note_what_vanishes();
@@ -173,7 +174,8 @@ class ChainMotion {
     int aligned;        ///< axis along +x, +y, +z: 0, 1, 2; else -1
     Vec3<Real> shift;   ///< [m]
     Real angle;         ///< [turns]
-    Drive<Real> drive;  ///< of constant speed; frequency 0 for none
+    Drive<Real> drive;  ///< of a rotation at constant speed; frequency 0 for none
+    Slide<Real> slide;  ///< of a translation
     Swings<Real> swings;
     numerics::SinCos<Real> fixed{};  ///< of the constant angle
     bool moves = false;
@@ -215,7 +217,7 @@ class ChainMotion {
   /// is that at the begin of the next in every scalar that the mill is passed to.
   static Joints<Real> with_frequencies(Joints<Real> joints) {
     for (auto& joint : joints.list) {
-      joint.frequency = joint.per_period.template value<Real>() / joints.period;
+      if (joint.rotates) joint.speed = joint.per_period.template value<Real>() / joints.period;
       for (auto& swing : joint.swings)
         swing.frequency = swing.per_period.template value<Real>() / joints.period;
     }
@@ -282,8 +284,9 @@ class ChainMotion {
   static void shift(Pose& p, const Step& step, const Instant<Real>& when) {
     const auto outside = [&](const Vec3<Real>& v) { return step.level ? v : direction_to_inertial(p, v); };
     Vec3<Real> d = outside(step.shift), acceleration = Vec3<Real>::Zero();
-    if (!step.swings.empty()) {
-      const auto moved = step.swings.at(when);
+    if (step.moves) {
+      auto moved = step.swings.at(when);
+      if (step.slide.speed != 0) moved.value += step.slide.distance(when), moved.rate += step.slide.speed;
       const Vec3<Real> axis = outside(step.axis);
       d += axis * moved.value;
       if constexpr (with_rates) {

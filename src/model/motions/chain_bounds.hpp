@@ -38,7 +38,7 @@ struct ChainBounds {
     bool parallel = true;
     Real sum(0), sizes(0);  // of the constant speeds about it
     for (const auto& joint : joints.list) {
-      const auto rates = rates_of(joint);
+      const auto rates = rates_of(joint, joints.times);
       errors += error_of(joint, joints.period);
       const Vec3<Real> axis = direction(joint);
       if (!joint.rotates) {
@@ -51,7 +51,7 @@ struct ChainBounds {
         common = axis;
         rotate(rates, parallel);
         if (!parallel || speeds == Speeds::apart) continue;
-        const Real own = 2 * numerics::pi<Real>() * joint.frequency,
+        const Real own = 2 * numerics::pi<Real>() * joint.speed,
                    sum_of_sizes = magnitude(sum) + magnitude(own);
         sum += own, sizes += magnitude(own);
         turning[0] += (magnitude(sum) - sum_of_sizes) + 8 * epsilon<Real>() * sizes;
@@ -71,12 +71,16 @@ struct ChainBounds {
 
  private:
   /// Of the joint's angle [rad] or shift [m] and its first four derivatives.
-  static std::array<Real, 5> rates_of(const Joint<Real>& joint) {
+  static std::array<Real, 5> rates_of(const Joint<Real>& joint, const std::array<Real, 2>& times) {
     const Real turn = 2 * numerics::pi<Real>();
     const Real unit = joint.rotates ? turn : Real(1);
     const Vec3<Real> fixed{joint.shift[0], joint.shift[1], joint.shift[2]};
-    std::array<Real, 5> rates{norm<Real>(fixed), magnitude<Real>(turn * joint.frequency), Real(0), Real(0),
+    std::array<Real, 5> rates{norm<Real>(fixed), magnitude<Real>(unit * joint.speed), Real(0), Real(0),
                               Real(0)};
+    if (!joint.rotates) {
+      const Real first = magnitude(times[0]), last = magnitude(times[1]);
+      rates[0] += rates[1] * (first > last ? first : last);
+    }
     for (const auto& swing : joint.swings) {
       Real size = magnitude<Real>(swing.amplitude * unit);
       for (auto& rate : rates) rate += size, size *= magnitude<Real>(turn * swing.frequency);
@@ -90,7 +94,7 @@ struct ChainBounds {
       return Real(7 * (4 + 3 * magnitude<Real>(frequency * period)));
     };
     Real most(0);
-    if (joint.rotates && !(joint.frequency == 0)) most += of_phase(joint.frequency);
+    if (!(joint.speed == 0)) most += joint.rotates ? of_phase(joint.speed) : Real(8);
     for (const auto& swing : joint.swings) {
       const Real size = joint.rotates ? Real(7 * magnitude<Real>(swing.amplitude)) : Real(1);
       most += (size > 1 ? size : Real(1)) * of_phase(swing.frequency);
@@ -168,7 +172,9 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
     if (!joint->rotates) {
       const Vec3<Real> shift{joint->shift[0], joint->shift[1], joint->shift[2]};
       const Vec3<Real> way = axis.cwiseAbs() * swing;
-      box = {box.low + shift - way, box.high + shift + way};
+      const Vec3<Real> first = axis * Real(joint->speed * joints.times[0]),
+                       last = axis * Real(joint->speed * joints.times[1]);
+      box = {box.low + shift - way + first.cwiseMin(last), box.high + shift + way + first.cwiseMax(last)};
       continue;
     }
     const Vec3<Real> middle = (box.low + box.high) / Real(2), half = (box.high - box.low) / Real(2);
@@ -179,8 +185,7 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
       return Vec3<Real>(v * angle.cos + cross<Real>(axis, v) * angle.sin +
                         axis * Real(dot<Real>(axis, v) * (1 - angle.cos)));
     };
-    const Real more =
-        joint->frequency == 0 ? Real(2 * numerics::pi<Real>() * swing * farthest) : 2 * farthest;
+    const Real more = joint->speed == 0 ? Real(2 * numerics::pi<Real>() * swing * farthest) : 2 * farthest;
     Vec3<Real> reach = Vec3<Real>::Constant(more);
     for (int k = 0; k < 3; ++k) {
       const Vec3<Real> unit = Vec3<Real>::Unit(k);

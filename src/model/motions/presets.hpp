@@ -28,7 +28,8 @@ struct Chain {
       visit(PartParameter{joint.rotates ? "rotate" : "translate", Dimension::none, ""}, joint.axis);
       visit(PartParameter{"shift", Dimension::length, ""}, joint.shift);
       visit(PartParameter{"angle", Dimension::angle, ""}, joint.angle);
-      visit(PartParameter{"speed", Dimension::angular_speed, ""}, joint.frequency);
+      visit(PartParameter{"speed", joint.rotates ? Dimension::angular_speed : Dimension::speed, ""},
+            joint.speed);
       for (auto& swing : joint.swings)
         for (auto* number : {&swing.amplitude, &swing.frequency, &swing.phase})
           visit(PartParameter{"swing", Dimension::none, ""}, *number);
@@ -58,9 +59,9 @@ struct Planetary {
   Joints<Number> joints() const {
     auto disc = axis_joint<Number>(true, 1), arm = axis_joint<Number>(false, 0),
          jar = axis_joint<Number>(true, 1);
-    disc.frequency = Number{1} / period;
+    disc.speed = Number{1} / period;
     arm.shift[0] = radius;
-    jar.frequency = ratio / period;
+    jar.speed = ratio / period;
     return {{disc, arm, jar}, period};
   }
 };
@@ -80,7 +81,7 @@ struct Drum {
   Joints<Number> joints() const {
     auto lying = axis_joint<Number>(true, 0), turning = axis_joint<Number>(true, 1);
     lying.angle = Number{1} / Number{4};
-    turning.frequency = Number{1} / period;
+    turning.speed = Number{1} / period;
     return {{lying, turning}, period};
   }
 };
