@@ -19,25 +19,52 @@ html_theme = "furo"
 html_title = f"edmill {release}"
 highlight_language = "none"
 
-# Links to files that are no pages become downloads; folders are named.
-def link_to_sources(app, docname, source):
-    page = pathlib.Path(app.srcdir) / f"{docname}.md"
+# Links to files that are no pages become downloads; folders are named; verification is a page.
+link = re.compile(r"(!?\[[^\]]*\])\(([^)\s]+)\)")
+verification = root / "verification"
+
+
+def slug_of(text):
+    """The anchor of the first heading."""
+    title = re.match(r"#+ (.*)", text).group(1)
+    return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+
+
+def linked(text, folder, docs):
+    """The text with its links as seen from `docs`, where it stood in `folder`."""
 
     def target(match):
-        text, path = match.groups()
-        place = (page.parent / path.split("#")[0]).resolve()
-        inside = place.is_relative_to(app.srcdir)
-        if text.startswith("!") or re.match(r"[a-z]+:|#", path) or (place.suffix == ".md" and inside):
+        words, path = match.groups()
+        place = (folder / path.split("#")[0]).resolve()
+        if re.match(r"[a-z]+:|#", path):
             return match.group(0)
         if not place.exists():
-            raise FileNotFoundError(f"{docname}.md: a link to {path}, which does not exist")
-        words = text[1:-1].replace("`", "")
+            raise FileNotFoundError(f"{folder}: a link to {path}, which does not exist")
+        seen = os.path.relpath(place, docs)
+        if words.startswith("!") or (place.suffix == ".md" and place.is_relative_to(docs)):
+            return f"{words}({seen}{path[len(path.split('#')[0]):]})"
+        if place.name == "README.md" and place.is_relative_to(verification):
+            anchor = "" if place.parent == verification else "#" + slug_of(place.read_text())
+            return f"{words}(verification.md{anchor})"
+        plain = words[1:-1].replace("`", "")
         if place.is_dir():
-            return f"{words} (`{place.relative_to(root)}`)"
-        return f"{{download}}`{words} <{path.split('#')[0]}>`"
+            return f"{plain} (`{place.relative_to(root)}`)"
+        return f"{{download}}`{plain} <{seen}>`"
 
-    source[0] = re.sub(r"(!?\[[^\]]*\])\(([^)\s]+)\)", target, source[0])
+    return link.sub(target, text)
+
+
+def source_of(app, docname, source):
+    docs = pathlib.Path(app.srcdir)
+    if docname != "verification":
+        source[0] = linked(source[0], (docs / docname).parent, docs)
+        return
+    parts = [linked((verification / "README.md").read_text(), verification, docs)]
+    for readme in sorted(verification.glob("*/README.md")):
+        below = re.sub(r"^(#+ )", r"#\1", readme.read_text(), flags=re.MULTILINE)
+        parts.append(linked(below, readme.parent, docs))
+    source[0] = "\n\n".join(parts)
 
 
 def setup(app):
-    app.connect("source-read", link_to_sources)
+    app.connect("source-read", source_of)

@@ -36,13 +36,14 @@ Part<Real> to_part(const Part<casefile::Quantity>& part) {
 template <class Real>
 model::AnyMotion<Real> to_motion(const auto& part, const casefile::CaseSpec& spec) {
   if constexpr (requires { part.joints(); }) {
-    auto joints = with_phases(part.joints());
+    const auto to = [](const casefile::Quantity& q) { return q.to<Real>(); };
+    auto joints = model::converted_joints<Real>(with_phases(part.joints()), to);
     // Events are predicted some time beyond the end.
-    if (spec.end_time) joints.times = {spec.initial_time, *spec.end_time + joints.period};
-    return model::ChainMotion<Real>(
-        model::converted_joints<Real>(joints, [](const casefile::Quantity& q) { return q.to<Real>(); }));
-  } else
+    if (spec.end_time) joints.times = {to(spec.initial_time), to(*spec.end_time) + joints.period};
+    return model::ChainMotion<Real>(joints);
+  } else {
     return to_part<Real>(part).motion();
+  }
 }
 
 template <class Real>
@@ -336,7 +337,7 @@ model::Mill<Real> build_mill(const casefile::CaseSpec& spec) {
   auto vessel = build_vessel<Real>(spec.vessel);
   if (!spec.pistons.empty()) vessel.set(detail::to_pistons<Real>(spec));
   const int walls = vessel.wall_count();
-  return {std::visit([](const auto& m) { return detail::to_motion<Real>(m, spec); }, spec.mill),
+  return {std::visit([&](const auto& m) { return detail::to_motion<Real>(m, spec); }, spec.mill),
           std::move(vessel),
           detail::to_vector<Real>(spec.gravity),
           detail::to_law<Real>(spec.ball_ball),

@@ -9,6 +9,7 @@
 #include "casefile/build_case.hpp"
 #include "casefile/case_of_run.hpp"
 #include "casefile/case_parts.hpp"
+#include "casefile/joints.hpp"
 #include "casefile/output_entry.hpp"
 #include "casefile/section.hpp"
 

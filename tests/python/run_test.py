@@ -283,3 +283,26 @@ def test_arguments_are_checked(small):
 
 def test_a_run_shows_its_report_in_notebooks(small):
     assert edmill.run(small, until="0.6 s")._repr_html_().startswith("<iframe srcdoc=")
+
+
+def test_the_types_of_callbacks_are_those_that_runs_hand_over(small):
+    def names(owner):
+        return {name for name in dir(owner) if not name.startswith("_")}
+
+    def promised(protocol):
+        return set(protocol.__annotations__) | names(protocol)
+
+    class Law:
+        def restitution(self, approach_speed):
+            return 0.5
+
+        def restitution_of_slip(self, normal_change, slip_speed, compliance):
+            return 0.5
+
+    for precision in ("double", "float128"):
+        seen = []
+        edmill.run(small, precision, "20 ms", observers=[lambda impact, run: (seen.append((impact, run)), run.stop())])
+        impact, run = seen[0]
+        assert names(impact) == promised(edmill.Impact)
+        assert names(run) == promised(edmill.Running)
+    assert names(Law) == promised(edmill.ContactLaw)

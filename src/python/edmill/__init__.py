@@ -8,10 +8,11 @@
 Quantities are strings with units; numbers without a unit are for counts and ratios. The manual explains cases, outputs and precisions.
 """
 from ._edmill import InputError, UndecidedError, __version__
+from .callbacks import ContactLaw, Impact, Running
 from .case import Case
 from .judges import Judgement, Proof, ProvenEvent, audit, compare, prove
 from .runs import Interrupted, Run, report, run
 from .studies import Study, optimize, sweep
 
-__all__ = ["Case", "InputError", "Interrupted", "Judgement", "Proof", "ProvenEvent", "Run", "Study", "UndecidedError",
-           "__version__", "audit", "compare", "optimize", "prove", "report", "run", "sweep"]
+__all__ = ["Case", "ContactLaw", "Impact", "InputError", "Interrupted", "Judgement", "Proof", "ProvenEvent", "Run", "Running", "Study",
+           "UndecidedError", "__version__", "audit", "compare", "optimize", "prove", "report", "run", "sweep"]

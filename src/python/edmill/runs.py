@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _edmill
+from .callbacks import ContactLaw, Impact, Running
 from .case import Case
 from .tables import Tables
 
@@ -143,7 +144,8 @@ def _check_law(name: str, law: Any) -> None:
 
 def run(case: Case | Mapping | str, precision: str | None = None, until: str | float | decimal.Decimal | None = None, *,
         folder: str | pathlib.Path | None = None, events: bool = True, report: bool = False,
-        observers: Iterable[Callable[[Any, Any], Any]] = (), ball_ball_law: Any = None, ball_wall_law: Any = None,
+        observers: Iterable[Callable[[Impact, Running], object]] = (), ball_ball_law: ContactLaw | None = None,
+        ball_wall_law: ContactLaw | None = None,
         progress: bool | Callable[[float, int], Any] = False) -> Run:
     """Simulates a case, without Python's lock.
 

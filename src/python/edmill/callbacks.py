@@ -1,0 +1,53 @@
+"""What callables of a run are called with, and what laws of Python answer, for type checkers."""
+from __future__ import annotations
+
+import decimal
+from typing import Protocol
+
+Number = float | decimal.Decimal  #: float in double, with all digits a Decimal in the wider precisions
+Vector = tuple[Number, Number, Number]
+
+
+class Impact(Protocol):
+    """What an observer gets of an impact, in SI units. The normal points from the partner to the ball."""
+    index: int  #: from 0
+    time: Number
+    ball: int
+    with_wall: bool
+    partner: int  #: number of a ball, or of a wall
+    normal: Vector
+    approach_speed: Number
+    slip_speed: Number  #: before the impact
+    separation_speed: Number
+    restitution_tangential: Number
+    normal_impulse: Number
+    tangential_impulse: Number
+    milling_dose: Number
+    supplied_energy: Number
+    wall_work: Number
+
+
+class Running(Protocol):
+    """The run that an observer is called with."""
+    time: Number  #: [s]
+    ball_count: int
+
+    def ball(self, k: int) -> tuple[Vector, Vector, Vector]:
+        """Position [m], velocity [m/s] and spin [rad/s] of a ball, inertial. Raises IndexError when there is no such ball."""
+
+    def stop(self) -> None:
+        """Ends the run after this impact."""
+
+
+class ContactLaw(Protocol):
+    """A contact law of Python. Each function is called for every impact that it is given for."""
+
+    def restitution(self, approach_speed: Number) -> Number:
+        """From 0 to 1; the approach speed is in m/s."""
+
+    def restitution_of_slip(self, normal_change: Number, slip_speed: Number, compliance: Number) -> Number:
+        """e_t, the part of the slip that is left, from -1 to 1. (2.24')
+
+        normal_change  |g_n| + g_n' [m/s]: the normal impulse over the effective mass
+        slip_speed     |g_t| [m/s]
+        compliance     1 + M/(m_i J_i) + M/(m_j J_j), of a wall 1 + 1/J_i"""
