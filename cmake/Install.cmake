@@ -35,4 +35,7 @@ endif()
 
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc)
+# The manual, once docs/sphinx/make.sh has made it.
+install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc OPTIONAL
+        PATTERN .doctrees EXCLUDE PATTERN _sources EXCLUDE)
 include(cmake/Packages.cmake)

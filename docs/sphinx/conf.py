@@ -1,4 +1,4 @@
-"""The manual as HTML: `cmake --build build/ci --target manual`, or `sphinx-build -c docs/sphinx docs DIR`."""
+"""The manual as HTML: `docs/sphinx/make.sh DIR`."""
 import os
 import pathlib
 import re

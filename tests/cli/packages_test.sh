@@ -11,6 +11,7 @@ if [ "$(id -u)" != 0 ] || ! command -v debootstrap >/dev/null; then
 fi
 rm -rf "$folder"
 mkdir -p "$folder/packages"
+"$(dirname "$0")/../../docs/sphinx/make.sh" "$build/manual" >"$folder/manual.log"
 (cd "$build" && cpack -B "$folder/packages" >"$folder/cpack.log")
 debootstrap --variant=minbase bookworm "$folder/root" "$mirror" >"$folder/debootstrap.log"
 mkdir "$folder/root/packages"
@@ -29,6 +30,7 @@ assert 5 < rate < 7"
 # The manual's tutorial, with nothing but the packages; the machine time that it takes is printed.
 cp "$(dirname "$0")/../manual/pages_test.py" "$folder/root/tmp"
 time inside python3 /tmp/pages_test.py /usr/bin/edmill /usr/lib/python3/dist-packages /usr/share/doc/edmill /tmp/tutorial docs/tutorial.md
+inside test -s /usr/share/doc/edmill/html/index.html
 inside test -s /usr/share/man/man1/edmill.1 -o -s /usr/share/man/man1/edmill.1.gz
 inside sh -c 'cp /usr/share/doc/edmill/docs/examples/own_observer.cpp /tmp &&
   cd /tmp && apt-get install -y -qq --no-install-recommends pkg-config >/dev/null 2>&1 &&
