@@ -70,7 +70,8 @@ Joint<Quantity> read_rotation(Section& section) {
   joint.speed = in_turns(section.quantity("speed", Dimension::angular_speed, Quantity{0}));
   joint.swings = read_swings(section, true);
   if (joint.angle.zero() && joint.speed.zero() && joint.swings.empty())
-    section.problem("rotate", "a joint that does not turn", "one with angle, speed or swing");
+    section.problem(first_of(section, {"speed", "angle", "rotate"}), "a joint that does not turn",
+                    "one with angle, speed or swing");
   return joint;
 }
 
@@ -100,7 +101,8 @@ Joint<Quantity> read_translation(Section& section) {
   for (std::size_t k = 0; k < 3; ++k) joint.shift[k] = joint.axis[k] * distance;
   joint.swings = read_swings(section, false);
   if (distance.zero() && joint.speed.zero() && joint.swings.empty())
-    section.problem("translate", "a joint that shifts nothing", "one with distance, speed or swing");
+    section.problem(first_of(section, {"speed", "distance", "translate"}), "a joint that shifts nothing",
+                    "one with distance, speed or swing");
   return joint;
 }
 

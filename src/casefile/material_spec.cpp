@@ -51,6 +51,7 @@ int read_material_of(Section& section, const std::string& key, const CaseSpec& s
 
 void read_wall_materials(Section& vessel, CaseSpec& spec) {
   const int common = read_material_of(vessel, "material", spec);
+  if (vessel.of_unknown_kind()) return;
   Section walls = vessel.section("materials");
   const auto partners = known_partners(spec);
   if (!partners) return;

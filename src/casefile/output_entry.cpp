@@ -82,7 +82,8 @@ void read_output(Section s, CaseSpec& spec) {
   std::vector<std::string> names;
   for (const auto& type : types) names.emplace_back(type.name);
   if (!s.has("type")) s.problem("type", "nothing", "a type of output, e.g. \"collisions\"");
-  output.type = s.choice("type", names);
+  output.type = s.kind("type", names);
+  if (!s.has("type") || s.of_unknown_kind()) return;
   const auto& type = *std::find_if(types.begin(), types.end(),
                                    [&](const OutputType& known) { return known.name == output.type; });
   read_place(s, spec, type, output);

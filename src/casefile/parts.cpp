@@ -89,10 +89,14 @@ void require_shape(Section& vessel, const model::RoundedCylinder<Quantity>& cyli
 }
 
 template <class Variant>
-Variant read_part(Section& section) {
+Variant read_part(Section& given) {
   Variant chosen;
   [&]<std::size_t... kind>(std::index_sequence<kind...>) {
-    const auto name = section.choice("type", {std::variant_alternative_t<kind, Variant>::name...});
+    const auto name = given.kind("type", {std::variant_alternative_t<kind, Variant>::name...});
+    // What else is in a part of an unknown type cannot be wrong.
+    Document ignored;
+    Section nothing(ignored, nullptr, "");
+    Section& section = given.of_unknown_kind() ? nothing : given;
     const auto read = [&]<class Part>(Part part) {
       if (name != Part::name) return;
       if constexpr (requires { part.given; })

@@ -64,7 +64,7 @@ void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std:
 
 std::vector<Section> read_pistons(Section& vessel, CaseSpec& spec) {
   auto entries = vessel.sections("piston");
-  if (entries.empty()) return entries;
+  if (entries.empty() || vessel.of_unknown_kind()) return entries;
   const auto known = known_partners(spec);
   if (!known) return {};
   const auto& partners = *known;
@@ -85,7 +85,8 @@ std::vector<Section> read_pistons(Section& vessel, CaseSpec& spec) {
     piston.speed = entry.quantity("speed", Dimension::speed, Quantity{0});
     piston.swings = read_swings(entry, false);
     if (piston.distance.zero() && piston.speed.zero() && piston.swings.empty())
-      entry.problem("wall", "a piston that does not move", "one with distance, speed or swing");
+      entry.problem(first_of(entry, {"speed", "distance", "wall"}), "a piston that does not move",
+                    "one with distance, speed or swing");
     entry.reject_unknown_keys();
     spec.pistons.push_back(std::move(piston));
   }

@@ -263,6 +263,12 @@ std::string Section::choice(const std::string& key, const std::vector<std::strin
   return choices.front();
 }
 
+std::string Section::kind(const std::string& key, const std::vector<std::string>& kinds) {
+  auto chosen = choice(key, kinds);
+  of_unknown_kind_ = has(key) && !(table_->get(key)->value<std::string>() == chosen);
+  return chosen;
+}
+
 void Section::problem(const std::string& key, const std::string& found, const std::string& expected) {
   const auto* node = table_ ? table_->get(key) : nullptr;
   document_->report(node ? node : place_, full(key), found, expected);
@@ -281,7 +287,7 @@ void Section::replaced(const std::string& key, const std::string& expected) {
 }
 
 void Section::reject_unknown_keys() {
-  if (!table_) return;
+  if (!table_ || of_unknown_kind_) return;
   for (const auto& [key, node] : *table_) {
     const std::string name(key.str());
     if (known_.count(name)) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -81,6 +82,9 @@ class Section {
   Colour colour(const std::string& key, const Colour& fallback);
   /// One of `choices`, or the first when absent.
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
+  /// The same for a choice on which it depends what other keys there are: of an unknown kind none is unknown.
+  std::string kind(const std::string& key, const std::vector<std::string>& kinds);
+  bool of_unknown_kind() const { return of_unknown_kind_; }
 
   /// true or false; false when absent.
   bool flag(const std::string& key);
@@ -115,6 +119,15 @@ class Section {
   std::string path_;
   const toml::node* place_;
   std::set<std::string> known_;
+  bool of_unknown_kind_ = false;
 };
+
+/// The first of the keys that the section has, else the last: where a value that is wrong has been reported,
+/// a problem of all of them is not told again.
+inline const char* first_of(const Section& section, std::initializer_list<const char*> keys) {
+  for (const char* key : keys)
+    if (section.has(key)) return key;
+  return *(keys.end() - 1);
+}
 
 }  // namespace edmill::casefile
