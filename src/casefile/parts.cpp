@@ -95,7 +95,7 @@ Variant read_part(Section& given) {
     const auto name = given.kind("type", {std::variant_alternative_t<kind, Variant>::name...});
     // What else is in a part of an unknown type cannot be wrong.
     Document ignored;
-    Section nothing(ignored, nullptr, "");
+    Section nothing(ignored, nullptr, given.path());
     Section& section = given.of_unknown_kind() ? nothing : given;
     const auto read = [&]<class Part>(Part part) {
       if (name != Part::name) return;

@@ -71,7 +71,7 @@ TEST(Chain, ASlideOnAnArmMakesASpiral) {
   for (const int k : {0, 1, 2}) {
     const mpfr50 offset = motion.period() * k / 3, t = offset + k * motion.period(),
                  r = mpfr50("0.02") + v * t;
-    const auto pose = motion.pose({k, offset});
+    const auto pose = std::get<ChainPose<mpfr50>>(motion.pose({k, offset}));
     const Vec3<mpfr50> out{cos(w * t), sin(w * t), mpfr50(0)}, along{-sin(w * t), cos(w * t), mpfr50(0)};
     EXPECT_LT(static_cast<double>(distance<mpfr50>(pose.centre, out * r)), 1e-47);
     EXPECT_LT(static_cast<double>(distance<mpfr50>(pose.velocity, out * v + along * mpfr50(r * w))), 1e-46);
