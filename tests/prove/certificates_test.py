@@ -179,6 +179,46 @@ def check_short(name, events):
     return rejected
 
 
+SLIDING = """[run]
+end_time = "1 s"
+gravity = "9.8 m/s2"
+[mill]
+type = "chain"
+[[mill.joint]]
+translate = [2, -1, 2]
+speed = "-1.5 m/s"
+[[mill.joint]]
+rotate = "z"
+speed = "60 rpm"
+[vessel]
+type = "box"
+size = ["33 mm", "57 mm", "36 mm"]
+[contact]
+friction = 0.4
+restitution = 0.53
+[[balls]]
+count = 2
+diameter = "9 mm"
+"""
+
+
+def check_sliding(events):
+    """A translation at constant speed, which no case of the reference files has."""
+    pathlib.Path("sliding.toml").write_text(SLIDING)
+    done = prove("sliding.toml", events, "sliding.cert", "--quiet")
+    if done.returncode:
+        fail(f"prove sliding: {done.stderr}")
+    text = pathlib.Path("sliding.cert").read_text()
+    code, said = verdict(text.splitlines())
+    if code != 0 or not said.startswith(f"accepted: {events} events"):
+        fail(f"sliding: the checker says {said}")
+    for speed in ("", '"speed":"-3/4",'):
+        code, said = verdict(text.replace('"speed":"-3/2",', speed).splitlines())
+        if code != 1:
+            fail(f"sliding with {speed or 'no speed'}: exit code {code}: {said}")
+    print(f"claim sliding: {events} events proven and accepted")
+
+
 def check_shipped(name, events, again):
     packed = (REFERENCE / f"{name}.certificate.xz").read_bytes()
     digest = hashlib.sha256(packed).hexdigest()
@@ -206,6 +246,7 @@ def main():
     import os
     os.chdir(FOLDER)
     if "--all" not in sys.argv:
+        check_sliding(40)
         kinds = max(check_short(name, events) for name, events in SHORT.items())
         if kinds < 20:
             fail(f"{kinds} kinds of tampering were tried")
