@@ -1,7 +1,9 @@
-// Checkpoints: the file around the state, with a digest that fits.
+// Checkpoints: the file around the state, with a digest that fits, and the case in it. What is in the state:
+// tests/engine/saved_state_test.cpp.
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
+#include "casefile/case_spec.hpp"
 #include "input.hpp"
 #include "io/checkpoint_file.hpp"
 
@@ -14,7 +16,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (const auto& body : {begin.bytes() + std::string(rest), std::string(rest)}) {
     const auto file = fuzz::file_of("edmill checkpoint 1\n" + sha256(body) + "\n" + body, "checkpoint");
     try {
-      io::read_checkpoint(file.parent_path());
+      const auto checkpoint = io::read_checkpoint(file.parent_path());
+      casefile::parse_case(checkpoint.case_text, checkpoint.case_file, checkpoint.overrides);
     } catch (const InputError&) {
     }
   }
