@@ -45,5 +45,8 @@ function(edmill_compile_fast)
   foreach(source ${ARGN})
     set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/${source} APPEND PROPERTY COMPILE_OPTIONS
                  $<$<CONFIG:Release>:${edmill_wide_optimisation}>)
+    if(EDMILL_QUICK)  # precompiled headers are for optimised code
+      set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/${source} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+    endif()
   endforeach()
 endfunction()
