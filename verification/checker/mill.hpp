@@ -125,9 +125,8 @@ struct Mill {
   static Joint joint(const Json& j) {
     const bool rotates = j.contains("rotate");
     const Vec axis = vector(j.at(rotates ? "rotate" : "along")), shift = rotates ? Vec{} : vector(j.at("shift"));
-    Joint result{rotates, axis / root(dot(axis, axis)), shift, {}, {}, {}};
-    if (rotates) result.angle = number(j, "angle");
-    if (rotates || j.contains("speed")) result.speed = number(j, rotates ? "frequency" : "speed");
+    Joint result{rotates, axis / root(dot(axis, axis)), shift, {}, j.contains("speed") ? number(j, "speed") : Real(), {}};
+    if (rotates) result.angle = number(j, "angle"), result.speed = number(j, "frequency");
     for (const auto& s : list(j.at("swings"), 64))
       result.swings.push_back({number(s, "amplitude"), number(s, "frequency"), number(s, "phase")});
     return result;
