@@ -87,9 +87,12 @@ class CellGrid {
   }
 
   /// The ball leaves `cell`, which becomes the adjacent one.
+  /// @throws ContractError where there is none, as only a saved state from elsewhere can ask for
   void move(int ball, CellOfBall& cell, int axis, int step) {
+    const int next = cell.at[axis] + step;
+    EDMILL_REQUIRE(next >= 0 && next < cells_[axis], "a crossing into a cell of the grid");
     unlink(ball, cell);
-    cell.at[axis] = static_cast<std::int16_t>(cell.at[axis] + step);
+    cell.at[axis] = static_cast<std::int16_t>(next);
     link(ball, cell);
   }
 
@@ -120,9 +123,11 @@ class CellGrid {
   }
   /// The same for what a move from `cell` by `step` along `axis` and `new_neighbours` after it read.
   void fetch_new_cells(const CellOfBall& cell, int axis, int step) const {
+    const int place = cell.at[axis] + 1 + 2 * step;
+    if (place < 0 || place >= cells_[axis] + 2) return;  // `move` will refuse it
     fetch(&content_[index(cell)]);
     const auto [one, other] = across(axis);
-    const int layer = at_[axis][cell.at[axis] + 1 + 2 * step];
+    const int layer = at_[axis][place];
     for (const int u : {0, 2})
       for (const int v : {0, 2})
         fetch(&content_[layer + at_[one][cell.at[one] + u] + at_[other][cell.at[other] + v]]);

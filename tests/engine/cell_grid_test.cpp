@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
+#include "base/errors.hpp"
 #include "casefile/random.hpp"
 
 namespace edmill::engine {
@@ -91,6 +93,20 @@ TEST(CellGrid, TheSameUnderGravity) {
 }
 
 TEST(CellGrid, TheSameWhereCellsAreCrowded) { fly_through_cells(4, {0, 1, 0}, 4000 / 4); }
+
+/// As a saved state that somebody has changed can ask for it.
+TEST(CellGrid, RefusesACrossingOutOfIt) {
+  CellGrid grid({0, 0, 0}, {1, 1, 1}, 0.3, 1);
+  auto cell = grid.insert(0, {0.1, 0.5, 0.9});
+  for (const auto [axis, step] : {std::array{0, -1}, std::array{2, 1}}) {
+    grid.fetch_new_cells(cell, axis, step);
+    EXPECT_THROW(grid.move(0, cell, axis, step), ContractError);
+  }
+  grid.move(0, cell, 0, 1);
+  FoundBalls found;
+  grid.neighbours(cell, found);
+  EXPECT_EQ(found_set(found), std::set<int>{0});
+}
 
 }  // namespace
 }  // namespace edmill::engine
