@@ -3,6 +3,8 @@ import os
 import pathlib
 import re
 
+from mdit_py_plugins.anchors.index import slugify
+
 root = pathlib.Path(__file__).resolve().parents[2]
 project = "edmill"
 author = copyright = "the edmill developers"
@@ -26,8 +28,7 @@ verification = root / "verification"
 
 def slug_of(text):
     """The anchor of the first heading."""
-    title = re.match(r"#+ (.*)", text).group(1)
-    return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+    return slugify(re.match(r"#+ (.*)", text).group(1))
 
 
 def linked(text, folder, docs):

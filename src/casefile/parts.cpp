@@ -93,7 +93,7 @@ Variant read_part(Section& given) {
   Variant chosen;
   [&]<std::size_t... kind>(std::index_sequence<kind...>) {
     const auto name = given.kind("type", {std::variant_alternative_t<kind, Variant>::name...});
-    // What else is in a part of an unknown type cannot be wrong.
+    // Of an unknown type nothing else can be judged.
     Document ignored;
     Section nothing(ignored, nullptr, given.path());
     Section& section = given.of_unknown_kind() ? nothing : given;

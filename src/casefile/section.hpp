@@ -82,7 +82,7 @@ class Section {
   Colour colour(const std::string& key, const Colour& fallback);
   /// One of `choices`, or the first when absent.
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
-  /// The same for a choice on which it depends what other keys there are: of an unknown kind none is unknown.
+  /// The same for a choice that decides which other keys there are: after an unknown one no key is rejected.
   std::string kind(const std::string& key, const std::vector<std::string>& kinds);
   bool of_unknown_kind() const { return of_unknown_kind_; }
 
@@ -122,8 +122,8 @@ class Section {
   bool of_unknown_kind_ = false;
 };
 
-/// The first of the keys that the section has, else the last: where a value that is wrong has been reported,
-/// a problem of all of them is not told again.
+/// The first of the keys that is present, else the last. A problem that is reported there is dropped where
+/// the key's own value is wrong and has been reported.
 inline const char* first_of(const Section& section, std::initializer_list<const char*> keys) {
   for (const char* key : keys)
     if (section.has(key)) return key;

@@ -301,7 +301,7 @@ def test_the_types_of_callbacks_are_those_that_runs_hand_over(small):
 
     for precision in ("double", "float128"):
         seen = []
-        edmill.run(small, precision, observers=[lambda impact, run: (seen.append((impact, run)), run.stop())])
+        edmill.run(small, precision, ball_ball_law=Law(), ball_wall_law=Law(), observers=[lambda impact, run: (seen.append((impact, run)), run.stop())])
         impact, run = seen[0]
         assert names(impact) == promised(edmill.Impact)
         assert names(run) == promised(edmill.Running)

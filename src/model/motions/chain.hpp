@@ -42,7 +42,7 @@ class ChainMotion {
       const Real turn = 2 * numerics::pi<Real>();
       if (joint.rotates && !(joint.speed == 0))
         step.drive = Drive<Real>{joint.speed, turn * joint.speed, joint.per_period};
-      if (!joint.rotates) step.slide = {joint.speed, joints_.period};
+      if (!joint.rotates) step.slide = joint.speed;
       step.swings = Swings<Real>(joint.swings);
       step.fixed = numerics::sin_cos_turns<Real>(step.angle);
       step.moves = joint.speed != 0 || !step.swings.empty();
@@ -175,7 +175,7 @@ class ChainMotion {
     Vec3<Real> shift;   ///< [m]
     Real angle;         ///< [turns]
     Drive<Real> drive;  ///< of a rotation at constant speed; frequency 0 for none
-    Slide<Real> slide;  ///< of a translation
+    Real slide;         ///< constant speed of a translation [m/s]
     Swings<Real> swings;
     numerics::SinCos<Real> fixed{};  ///< of the constant angle
     bool moves = false;
@@ -281,12 +281,15 @@ class ChainMotion {
     p.x = x, p.y = y, p.z = z;
   }
   template <bool with_rates>
-  static void shift(Pose& p, const Step& step, const Instant<Real>& when) {
+  void shift(Pose& p, const Step& step, const Instant<Real>& when) const {
     const auto outside = [&](const Vec3<Real>& v) { return step.level ? v : direction_to_inertial(p, v); };
     Vec3<Real> d = outside(step.shift), acceleration = Vec3<Real>::Zero();
     if (step.moves) {
       auto moved = step.swings.at(when);
-      if (step.slide.speed != 0) moved.value += step.slide.distance(when), moved.rate += step.slide.speed;
+      if (step.slide != 0) {
+        moved.value += step.slide * DriveClock<Real>(period()).seconds(when);
+        moved.rate += step.slide;
+      }
       const Vec3<Real> axis = outside(step.axis);
       d += axis * moved.value;
       if constexpr (with_rates) {

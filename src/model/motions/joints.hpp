@@ -25,8 +25,8 @@ template <class Number>
 struct Joints {
   std::vector<Joint<Number>> list;
   Number period{};  ///< [s]
-  std::array<Number, 2>
-      times{};  ///< between which a run is: only then are translations at constant speed bounded [s]
+  /// First and last of the run: translations at constant speed are bounded between them [s].
+  std::array<Number, 2> times{};
 };
 
 /// The same with each number converted.

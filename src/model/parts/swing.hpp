@@ -41,17 +41,6 @@ struct Drive {
   }
 };
 
-/// A translation at constant speed.
-template <class Real>
-struct Slide {
-  Real speed{0};   ///< [m/s]
-  Real period{0};  ///< of the clock [s]
-
-  Real distance(const Instant<Real>& when) const {
-    return speed * Real(Real(when.period) * period + when.offset);
-  }
-};
-
 /// Value and two derivatives.
 template <class Real>
 struct Moved {
