@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <map>
 #include <string>
 
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
+#include "casefile/filling.hpp"
 #include "casefile/joints.hpp"
 #include "casefile/quantity_value.hpp"
 #include "casefile/random.hpp"
@@ -17,11 +16,6 @@
 namespace edmill::casefile {
 
 namespace detail {
-
-template <class Real>
-Vec3<Real> to_vector(const casefile::QuantityVector& q) {
-  return {q[0].to<Real>(), q[1].to<Real>(), q[2].to<Real>()};
-}
 
 template <class Real>
 model::ContactLaw<Real> to_law(const casefile::ContactSpec& spec) {
@@ -57,13 +51,6 @@ model::Pistons<Real> to_pistons(const casefile::CaseSpec& spec) {
   return {std::move(pistons), to(period)};
 }
 
-template <class Real>
-model::BallProperties<Real> to_ball(const casefile::BallSpec& spec, const Real& diameter) {
-  const Real radius = diameter / 2;
-  const Real volume = 4 * numerics::pi<Real>() * (radius * radius * radius) / 3;
-  return {radius, spec.density.to<Real>() * volume, spec.reduced_inertia.to<Real>(), spec.material};
-}
-
 /// The laws of pairs, with a table of which applies where.
 template <class Real>
 model::PairLaws<Real> to_pairs(const casefile::CaseSpec& spec, int walls) {
@@ -84,170 +71,6 @@ model::PairLaws<Real> to_pairs(const casefile::CaseSpec& spec, int walls) {
   for (const auto& pair : spec.pairs) pairs.laws.push_back(to_law<Real>(pair.law));
   return pairs;
 }
-
-/// Placed balls by cells of at least the widest centre distance that matters, in the vessel frame.
-template <class Real>
-class PlacedBalls {
- public:
-  explicit PlacedBalls(double cell) : cell_(cell) {}
-
-  void add(int index, const Vec3<Real>& p) { cells_[key(p, 0, 0, 0)].push_back({index, p}); }
-
-  /// A ball closer to `p` than `least(index)`, or -1.
-  template <class Least>
-  int conflict(const Vec3<Real>& p, Least&& least) const {
-    for (int x = -1; x <= 1; ++x)
-      for (int y = -1; y <= 1; ++y)
-        for (int z = -1; z <= 1; ++z) {
-          const auto found = cells_.find(key(p, x, y, z));
-          if (found == cells_.end()) continue;
-          for (const auto& [index, position] : found->second) {
-            const Vec3<Real> between = p - position;
-            const Real distance = least(index);
-            if (dot<Real>(between, between) < distance * distance) return index;
-          }
-        }
-    return -1;
-  }
-
- private:
-  using Key = std::array<double, 3>;  // whole numbers of any size
-  Key key(const Vec3<Real>& p, int dx, int dy, int dz) const {
-    const auto cell = [&](const Real& c) { return std::floor(static_cast<double>(c) / cell_); };
-    return {cell(p[0]) + dx, cell(p[1]) + dy, cell(p[2]) + dz};
-  }
-  struct Entry {
-    int index;
-    Vec3<Real> position;
-  };
-  double cell_;
-  std::map<Key, std::vector<Entry>> cells_;
-};
-
-template <class Real>
-class Filling {
- public:
-  Filling(const casefile::CaseSpec& spec, InitialCase<Real>& result)
-      : spec_(spec),
-        result_(result),
-        mill_(result.the_case.mill),
-        pose_(mill_.motion.pose(result.start)),
-        random_(spec.seed),
-        placed_(widest_distance(spec)) {}
-
-  void add_explicit(const casefile::ExplicitBall& spec) {
-    const auto ball = to_ball<Real>(spec, spec.diameter.to<Real>());
-    const model::BallState<Real> state{to_vector<Real>(spec.position), to_vector<Real>(spec.velocity),
-                                       to_vector<Real>(spec.spin)};
-    add_checked(ball, state, spec.where);
-  }
-
-  /// A ball whose state is given: it must be inside and touch no other, up to rounding.
-  void add_checked(const model::BallProperties<Real>& ball, const model::BallState<Real>& state,
-                   const std::string& where) {
-    const auto local = mill_.motion.to_vessel_frame(pose_, state.position, state.velocity).position;
-    const std::string own = std::to_string(result_.states.size());
-    const Real tolerance = ball.radius / 1000000000;
-    if (!inside(local, ball.radius - tolerance))
-      problems_.push_back(where + ": found ball " + own + " outside the vessel, expected it inside");
-    const int other = placed_.conflict(
-        local, [&](int k) { return ball.radius + result_.the_case.balls[k].radius - tolerance; });
-    if (other >= 0)
-      problems_.push_back(where + ": found ball " + own + " overlapping ball " + std::to_string(other) +
-                          ", expected balls that do not overlap");
-    add(ball, local, state);
-  }
-
-  void add_batch(const casefile::BallBatch& batch) {
-    const Real diameter = batch.diameter.to<Real>(), spread = batch.diameter_spread.to<Real>();
-    const Real gap_ball = batch.gap_ball.to<Real>(), gap_wall = batch.gap_wall.to<Real>();
-    const Vec3<Real> velocity = to_vector<Real>(batch.velocity);
-    for (int k = 0; k < batch.count; ++k) {
-      const Real own = spread > 0 ? Real(diameter + spread * random_.symmetric<Real>()) : diameter;
-      const auto ball = to_ball<Real>(batch, own);
-      const auto local = place(batch, k, ball.radius, gap_ball, gap_wall);
-      if (!local) return;  // reported
-      model::BallState<Real> state{mill_.motion.to_inertial(pose_, *local), velocity,
-                                   Vec3<Real>(Real(0), Real(0), Real(0))};
-      if (batch.random_speed) state.velocity = random_velocity(batch.random_speed->to<Real>());
-      add(ball, *local, state);
-    }
-  }
-
-  const std::vector<std::string>& problems() const { return problems_; }
-
- private:
-  static double widest_distance(const casefile::CaseSpec& spec) {
-    double diameter = 0, gap = 0;
-    for (const auto& b : spec.balls) diameter = std::max(diameter, b.diameter.to<double>());
-    for (const auto& b : spec.batches) {
-      diameter = std::max(diameter, b.diameter.to<double>() + b.diameter_spread.to<double>());
-      gap = std::max(gap, b.gap_ball.to<double>());
-    }
-    return (diameter + gap) * 1.001;
-  }
-
-  bool inside(const Vec3<Real>& local, const Real& radius) const {
-    return mill_.vessel.inset(radius).contains(local) && clears_pistons(local, radius);
-  }
-  bool clears_pistons(const Vec3<Real>& local, const Real& radius) const {
-    const auto* pistons = mill_.vessel.pistons();
-    for (std::size_t k = 0; pistons && k < pistons->count(); ++k)
-      if (mill_.vessel.gap(pistons->wall(k), local) < radius + pistons->at(k, result_.start).value)
-        return false;
-    return true;
-  }
-
-  void add(const model::BallProperties<Real>& ball, const Vec3<Real>& local,
-           const model::BallState<Real>& state) {
-    placed_.add(static_cast<int>(result_.states.size()), local);
-    result_.the_case.balls.push_back(ball);
-    result_.states.push_back(state);
-  }
-
-  /// A free place in the vessel frame, uniform over those that keep the gaps.
-  std::optional<Vec3<Real>> place(const casefile::BallBatch& batch, int k, const Real& radius,
-                                  const Real& gap_ball, const Real& gap_wall) {
-    const auto room = mill_.vessel.inset(radius).inset(gap_wall);
-    if (room.is_empty()) {
-      problems_.push_back(
-          batch.where +
-          ": found balls too large for the vessel, expected a diameter that fits with gap_wall");
-      return std::nullopt;
-    }
-    for (std::uint64_t tries = 0; tries <= batch.max_relocations; ++tries) {
-      const Real x = random_.symmetric<Real>(), z = random_.symmetric<Real>(), y = random_.symmetric<Real>();
-      const auto local = room.place({x, y, z});
-      if (!local || !clears_pistons(*local, radius + gap_wall)) continue;
-      if (placed_.conflict(*local, [&](int other) {
-            return radius + result_.the_case.balls[other].radius + gap_ball;
-          }) < 0)
-        return local;
-    }
-    problems_.push_back(batch.where + ": found no room for ball " + std::to_string(k + 1) + " of " +
-                        std::to_string(batch.count) + " after " + std::to_string(batch.max_relocations) +
-                        " relocations, expected fewer balls, smaller gaps or a larger max_relocations");
-    return std::nullopt;
-  }
-
-  /// Uniform direction, and a size uniform up to `largest`.
-  Vec3<Real> random_velocity(const Real& largest) {
-    for (;;) {
-      const Vec3<Real> v{random_.symmetric<Real>(), random_.symmetric<Real>(), random_.symmetric<Real>()};
-      const Real size = norm<Real>(v);
-      if (size > 1 || !(size > 0)) continue;
-      return v * (largest * random_.uniform<Real>() / size);
-    }
-  }
-
-  const casefile::CaseSpec& spec_;
-  InitialCase<Real>& result_;
-  const model::Mill<Real>& mill_;
-  model::AnyPose<Real> pose_;
-  Random random_;
-  PlacedBalls<Real> placed_;
-  std::vector<std::string> problems_;
-};
 
 /// Diameters as the case says, states from a final_state.csv.
 template <class Real>
@@ -373,7 +196,7 @@ InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const casefile::C
   }
   detail::Filling<Real> filling(spec, result);
   for (const auto& ball : spec.balls) filling.add_explicit(ball);
-  for (const auto& batch : spec.batches) filling.add_batch(batch);
+  filling.add_batches();
   if (!filling.problems().empty()) throw InputError(filling.problems());
   if (resolved) detail::require_resolution(spec, result);
   return result;

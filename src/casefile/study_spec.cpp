@@ -30,6 +30,10 @@ void read_study(Section& s, StudySpec& spec) {
     s.choice("precision", precisions());
   spec.seed = s.count("seed").value_or(1);
   s.require(spec.seed < 1000000000000, "seed", "a number below 1e12");
+  if (const auto limit = s.quantity("max_cpu_time", Dimension::time)) {
+    s.require(limit->positive(), "max_cpu_time", "a time above 0");
+    spec.max_cpu_time = limit->to<double>();
+  }
 }
 
 std::uint64_t bounded(Section& s, const std::string& key, std::uint64_t fallback, std::uint64_t low,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,8 @@ struct StudySpec {
   std::string case_file;  ///< path of the case that is varied
   std::string precision;  ///< of all runs; empty for the case's own
   std::uint64_t seed = 1;
+  /// Of a run [s]; a longer one ends without a result.
+  double max_cpu_time = std::numeric_limits<double>::infinity();
 };
 
 struct SweepSpec : StudySpec {

@@ -14,6 +14,7 @@ enum ExitCode : int {
   some_runs_failed = 5,
   outputs_differ = 6,
   too_few_data = 7,
+  stalled = 8,
   interrupted = 128,  ///< plus the number of the signal, which the caller adds
 };
 
@@ -35,6 +36,9 @@ inline constexpr ExitCodeText exit_codes[] = {
      "compare: a quantity differs, or fewer events agree than --events requires. audit: the log violates "
      "the physics of the case"},
     {"7", "compare: too few data to decide. audit: no events, or no columns that could be checked"},
+    {"8",
+     "the run has stalled: bodies that no motion parts hit each other while the clock stands still; its "
+     "results are on disk"},
     {"130, 143",
      "interrupted by SIGINT or SIGTERM; the results so far are on disk, unless it came before the first "
      "event"}};

@@ -56,6 +56,10 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
     fmt::print(stderr, "edmill: {}\n", summary.error);
     return undecided;
   }
+  if (summary.stall) {
+    fmt::print(stderr, "edmill: {}\n", io::stall_message(summary));
+    return stalled;
+  }
   if (summary.end_reason == model::EndReason::interrupted) return interrupted;
   return summary.end_reason == model::EndReason::inelastic_collapse ? inelastic_collapse : ok;
 }

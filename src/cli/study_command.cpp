@@ -5,6 +5,7 @@
 #include "base/errors.hpp"
 #include "cli/run_case.hpp"
 #include "instances/instances.hpp"
+#include "run/cpu_limit.hpp"
 #include "study/optimizer.hpp"
 #include "study/study.hpp"
 
@@ -13,16 +14,17 @@ namespace edmill::cli {
 namespace {
 
 template <class Real>
-study::RunRecord record_in(const casefile::CaseSpec& spec, const std::atomic<bool>* interrupt) {
-  run::Guests<Real> guests;
-  guests.interrupt = interrupt;
+study::RunRecord record_in(const casefile::CaseSpec& spec, double max_cpu_time,
+                           const std::atomic<bool>* interrupt) {
+  run::CpuLimit<Real> limit(max_cpu_time);
+  run::Guests<Real> guests{{&limit}, interrupt};
   return study::record_of(run::simulate<Real>(spec, casefile::build_case<Real>(spec), guests).summary);
 }
 
 study::RunRecord do_job(const study::Job& job, const std::atomic<bool>* interrupt) {
   const auto spec = casefile::read_case(job.case_file, job.overrides);
 #define EDMILL_RECORD_IN(Real) \
-  if (spec.precision == ScalarName<Real>::value) return record_in<Real>(spec, interrupt);
+  if (spec.precision == ScalarName<Real>::value) return record_in<Real>(spec, job.max_cpu_time, interrupt);
   EDMILL_FOR_EACH_SCALAR(EDMILL_RECORD_IN)
 #undef EDMILL_RECORD_IN
   throw ContractError("no scalar named " + spec.precision);

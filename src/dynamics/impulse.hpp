@@ -18,6 +18,7 @@ struct ImpactOutcome {
   Real slip_speed{};              ///< |g_t| before the impact [m/s]
   Real restitution_tangential{};  ///< e_t
   bool least_separation{};        ///< the least separation speed, and not the restitution, decided g.n
+  bool in_stall{};                ///< friction rested
   Real normal_impulse{};          ///< [N s]
   Real tangential_impulse{};      ///< [N s]
   Real milling_dose{};            ///< [J], (2.30') or (2.36'); never negative
@@ -47,7 +48,7 @@ struct ImpulseParts {
 template <class Real, class Law>
 ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, const Vec3<Real>& normal,
                               const Vec3<Real>& contact_velocity, const model::ContactBodies<Real>& bodies,
-                              const Real& compliance) {
+                              const Real& compliance, bool in_stall) {
   const Real& effective_mass = bodies.effective_mass;
   const Real normal_speed = dot<Real>(contact_velocity, normal);  // negative while approaching
   const Vec3<Real> slip = contact_velocity - normal * normal_speed;
@@ -62,7 +63,9 @@ ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, cons
   // Bodies that separate by rounding, and faster than they would leave, go on as they are.
   out.separation_speed = separation > normal_speed ? separation : normal_speed;
   const Real change = out.separation_speed - normal_speed;
-  out.restitution_tangential = law.restitution_of_slip(change, out.slip_speed, compliance);
+  out.in_stall = in_stall;
+  out.restitution_tangential =
+      in_stall ? Real(1) : law.restitution_of_slip(change, out.slip_speed, compliance);
   const Real& e_t = out.restitution_tangential;
   const Real gain = (1 - e_t) / compliance;
   parts.per_mass = normal * change - slip * gain;
@@ -82,10 +85,11 @@ ImpulseParts<Real> impulse_by(const Law& law, const Real& least_separation, cons
 template <class Real>
 ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& contact_velocity,
                                  const model::ContactBodies<Real>& bodies, const Real& compliance,
-                                 const model::ContactLaw<Real>& law) {
+                                 const model::ContactLaw<Real>& law, bool in_stall) {
   return std::visit(
       [&](const auto& one) {
-        return impulse_by<Real>(one, law.least_separation, normal, contact_velocity, bodies, compliance);
+        return impulse_by<Real>(one, law.least_separation, normal, contact_velocity, bodies, compliance,
+                                in_stall);
       },
       law.law);
 }
@@ -93,12 +97,13 @@ ImpulseParts<Real> impulse_parts(const Vec3<Real>& normal, const Vec3<Real>& con
 }  // namespace detail
 
 /// Impact of two balls. (2.28'), (2.30')
-/// @param normal  contact normal, unit, from ball j to ball i
+/// @param normal    contact normal, unit, from ball j to ball i
+/// @param in_stall  friction rests (theory.md, section 6)
 template <class Real>
 ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallProperties<Real>& ball_i,
                                   const model::BallProperties<Real>& ball_j, Vec3<Real>& velocity_i,
                                   Vec3<Real>& spin_i, Vec3<Real>& velocity_j, Vec3<Real>& spin_j,
-                                  const model::ContactLaw<Real>& law) {
+                                  const model::ContactLaw<Real>& law, bool in_stall = false) {
   const Real total = ball_i.mass + ball_j.mass;
   const Real share_i = ball_j.mass / total;  // M / m_i
   const Real share_j = ball_i.mass / total;
@@ -107,7 +112,7 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
   const Vec3<Real> rolling = spin_i * ball_i.radius + spin_j * ball_j.radius;
   const Vec3<Real> contact_velocity = (velocity_i - velocity_j) - cross<Real>(rolling, normal);
   const model::ContactBodies<Real> bodies{effective_mass, ball_i.radius, ball_j.radius};
-  const auto parts = detail::impulse_parts<Real>(normal, contact_velocity, bodies, compliance, law);
+  const auto parts = detail::impulse_parts<Real>(normal, contact_velocity, bodies, compliance, law, in_stall);
   velocity_i += parts.per_mass * share_i;
   velocity_j -= parts.per_mass * share_j;
   spin_i += parts.spin_torque * (share_i / (ball_i.radius * ball_i.reduced_inertia));
@@ -117,16 +122,17 @@ ImpactOutcome<Real> collide_balls(const Vec3<Real>& normal, const model::BallPro
 
 /// Impact of a ball with a wall that moves with `wall_velocity` at the contact point. (2.34'), (2.35),
 /// (2.36')
-/// @param normal  contact normal, unit, from the wall to the ball
+/// @param normal    contact normal, unit, from the wall to the ball
+/// @param in_stall  friction rests (theory.md, section 6)
 template <class Real>
 ImpactOutcome<Real> collide_with_wall(const Vec3<Real>& normal, const model::BallProperties<Real>& ball,
                                       const Vec3<Real>& wall_velocity, Vec3<Real>& velocity, Vec3<Real>& spin,
-                                      const model::ContactLaw<Real>& law) {
+                                      const model::ContactLaw<Real>& law, bool in_stall = false) {
   const Real compliance = 1 + 1 / ball.reduced_inertia;
   const Vec3<Real> rolling = spin * ball.radius;
   const Vec3<Real> contact_velocity = (velocity - wall_velocity) - cross<Real>(rolling, normal);
-  auto parts =
-      detail::impulse_parts<Real>(normal, contact_velocity, {ball.mass, ball.radius}, compliance, law);
+  auto parts = detail::impulse_parts<Real>(normal, contact_velocity, {ball.mass, ball.radius}, compliance,
+                                           law, in_stall);
   velocity += parts.per_mass;
   spin += parts.spin_torque * (1 / (ball.radius * ball.reduced_inertia));
   parts.outcome.wall_work = ball.mass * dot<Real>(wall_velocity, parts.per_mass);

@@ -47,7 +47,7 @@ class PairSearch {
     widest_ = 2 * mill.vessel.reach();
     largest_sum_ = mill.vessel.widest_ball();
     gravity_size_ = norm<Real>(gravity_);
-    least_separation_ = mill.least_separation();
+    least_separation_ = mill.least_separations().first;
     filter_.gravity = gravity_;
     filter_.period = clock_.period();
     raise_top_speed(top_speed);

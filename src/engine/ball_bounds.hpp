@@ -29,6 +29,24 @@ Real largest_fall(const model::Mill<Real>& mill) {
   return 4 * sqrt(reach * norm<Real>(mill.gravity));
 }
 
+/// Of two bodies that the accelerations of walls and gravity bring together over a path [m/s].
+template <class Real>
+Real speed_over(const Real& path, const model::Mill<Real>& mill) {
+  using std::sqrt;
+  const Real reach = mill.motion.reach(mill.vessel.extent());
+  Real acceleration = mill.motion.acceleration_within(reach) + norm<Real>(mill.gravity);
+  if (const auto* pistons = mill.vessel.pistons()) acceleration += pistons->bound(2);
+  return sqrt(2 * acceleration * path);
+}
+
+/// A clock that advances by less hardly advances: no ball has time to move, or rounding is all that moves it
+/// [s].
+template <class Real>
+Real shortest_advance(const model::Mill<Real>& mill) {
+  const Real by_rule = mill.least_separations().second / mill.stall.acceleration;
+  return std::max(by_rule, Real(1000000 * epsilon<Real>() * mill.motion.period()));
+}
+
 /// Of any ball until impacts make one faster than twice the fastest ball or wall at the start [m/s].
 template <class Real>
 Real largest_speed(const std::vector<model::BallState<Real>>& states, const model::Mill<Real>& mill) {

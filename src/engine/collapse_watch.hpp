@@ -19,8 +19,11 @@ struct RecentImpacts {
   void archive(Archive& a) { a(last, accumulation, partner, burst); }
 };
 
-/// Follows the balls' recent impacts by laws without a least separation speed. A ball whose last `enough`
-/// impacts each came after a path shorter than `smallest_path`, a length well above rounding, is in collapse.
+/// Follows the balls' recent impacts by laws without a least separation speed. A ball is in collapse whose
+/// last `enough` impacts each came after a path shorter than `smallest_path`, a length well above rounding,
+/// and so slowly that the bodies' acceleration brought them together again, or that nothing but rounding is
+/// left of their approach. Faster impacts without a path are those of bodies that touch: a sequence of them
+/// comes to an end.
 /// The accumulation time extrapolates the first of these impacts, where rounding matters least: intervals
 /// with one partner shrink by the restitution e, so the rest of them sums to dt e / (1 - e).
 template <class Real>
@@ -29,10 +32,11 @@ class CollapseWatch {
   explicit CollapseWatch(const Real& smallest_path) : smallest_path_(smallest_path) {}
 
   /// Takes note of an impact. @param key identifies the partner, @return true when the ball is in collapse
+  /// @param slow  of approach speeds by acceleration over the smallest path, or by rounding [m/s]
   bool note(RecentImpacts<Real>& r, int key, const Instant<Real>& now, const Real& approach_speed,
-            const Real& restitution, const DriveClock<Real>& clock) const {
+            const Real& slow, const Real& restitution, const DriveClock<Real>& clock) const {
     const Real interval = clock.elapsed(r.last, now);
-    if (interval * approach_speed < smallest_path_) {
+    if (interval * approach_speed < smallest_path_ && approach_speed < slow) {
       if (r.burst == 0) {
         r.accumulation = -1;
         if (restitution < 1) r.accumulation = clock.seconds(now) + interval * restitution / (1 - restitution);
@@ -50,6 +54,8 @@ class CollapseWatch {
   static Real accumulation_time(const RecentImpacts<Real>& r, const DriveClock<Real>& clock) {
     return r.accumulation < 0 ? clock.seconds(r.last) : r.accumulation;
   }
+
+  const Real& smallest_path() const { return smallest_path_; }
 
   static constexpr std::int8_t enough = 8;
 

@@ -76,9 +76,10 @@ Impact<Real> Simulation<Real>::collide_with_wall(const Event<Real>& event) {
   impact.velocity_before[0] = flight.velocity;
   impact.spin_before[0] = bodies_[ball].spin;
   impact.flight_time[0] = flight_time;
+  const auto& law = mill_.law_with_wall(properties(ball), wall);
   impact.outcome = dynamics::collide_with_wall<Real>(impact.normal, properties(ball), impact.wall_velocity,
-                                                     flight.velocity, bodies_[ball].spin,
-                                                     mill_.law_with_wall(properties(ball), wall));
+                                                     flight.velocity, bodies_[ball].spin, law,
+                                                     friction_rests(ball, flight_time, law));
   agendas_.number_impact(ball, ball);
   candidates_.update(ball);
   return impact;
@@ -102,14 +103,31 @@ Impact<Real> Simulation<Real>::collide_pair(const Event<Real>& event) {
   impact.spin_before[0] = bodies_[ball].spin;
   impact.spin_before[1] = bodies_[partner].spin;
   impact.flight_time[0] = flight_times[0], impact.flight_time[1] = flight_times[1];
-  impact.outcome = dynamics::collide_balls<Real>(
-      impact.normal, properties(ball), properties(partner), one.velocity, bodies_[ball].spin, two.velocity,
-      bodies_[partner].spin, mill_.law_between(properties(ball), properties(partner)));
+  const auto& law = mill_.law_between(properties(ball), properties(partner));
+  const bool rests_for_one = friction_rests(ball, flight_times[0], law),
+             rests_for_two = friction_rests(partner, flight_times[1], law);
+  impact.outcome = dynamics::collide_balls<Real>(impact.normal, properties(ball), properties(partner),
+                                                 one.velocity, bodies_[ball].spin, two.velocity,
+                                                 bodies_[partner].spin, law, rests_for_one || rests_for_two);
   agendas_.number_impact(ball, partner);
   candidates_.update(ball);
   candidates_.update(partner);
   find_neighbours(partner, near_partner_);
   return impact;
+}
+
+/// Counts the ball's impacts that came without time to move. @return whether there were so many in a row
+/// before this one that friction rests
+template <class Real>
+bool Simulation<Real>::friction_rests(int ball, const Real& flight_time, const model::ContactLaw<Real>& law) {
+  auto& unmoved = bodies_[ball].unmoved;
+  if (mill_.stall.has_moved(flight_time, law.least_separation)) [[likely]] {
+    unmoved = 0;
+    return false;
+  }
+  if (unmoved >= mill_.stall.impacts) return true;
+  ++unmoved;
+  return false;
 }
 
 /// Bounds that grow with the speed of the fastest ball follow the ball's new velocity.
@@ -124,7 +142,8 @@ void Simulation<Real>::raise_top_speed(int ball) {
   candidates_.raise_top_speed(top_speed_);
 }
 
-/// Whether the impact is one of infinitely many in finite time; then everybody who watches is told of it.
+/// Whether the impact is one of infinitely many in finite time, or of many while the clock stands still; then
+/// everybody who watches is told of it.
 template <class Real>
 void Simulation<Real>::notify(const Impact<Real>& impact) {
   if (may_collapse_ && impact.with_wall) {
@@ -132,6 +151,10 @@ void Simulation<Real>::notify(const Impact<Real>& impact) {
   } else if (may_collapse_) {
     note_collapse(impact, impact.ball, impact.partner, false, impact.partner);
     note_collapse(impact, impact.partner, impact.ball, false, impact.ball);
+  }
+  if (stall_watch_.note(now_, clock_, impact.ball, impact.with_wall, impact.partner)) {
+    stall_ = stall_watch_.found();
+    stop_ = EndReason::stalled;
   }
   for (auto* observer : observers_) observer->on_impact(impact, *this);
 }
@@ -142,8 +165,9 @@ void Simulation<Real>::note_collapse(const Impact<Real>& impact, int ball, int k
   const auto& law = with_wall ? mill_.law_with_wall(properties(ball), partner)
                               : mill_.law_between(properties(ball), properties(partner));
   if (law.least_separation > 0) return;
+  const Real slow = std::max(slow_, Real(1000 * epsilon<Real>() * top_speed_));
   const bool collapsing = collapse_watch_.note(bodies_[ball].recent, key, now_, impact.outcome.approach_speed,
-                                               impact.outcome.restitution_normal(), clock_);
+                                               slow, impact.outcome.restitution_normal(), clock_);
   if (!collapsing) return;
   collapse_ = model::InelasticCollapse<Real>{ball, with_wall, partner,
                                              collapse_watch_.accumulation_time(bodies_[ball].recent, clock_)};

@@ -15,9 +15,10 @@ namespace edmill::engine {
 /// A calendar: each drive period is cut into days so short that few hold more than one event. Days up to the
 /// horizon, which is three to four weeks ahead, have a list each; what is later is put off: noted for its
 /// week, without order, and put into lists when the horizon gets there. So taking the first event and
-/// setting one cost the same for any number of balls, and the lists fit into the near caches. Equal times go
-/// to the lower ball, so the order of events does not depend on history. (Brown 1988; Tang, Goh and Thng
-/// 2005)
+/// setting one cost the same for any number of balls, and the lists fit into the near caches. A day that
+/// holds many events all the same, since balls share an instant, is put into a heap when it comes. Equal
+/// times go to the lower ball, so the order of events does not depend on history. (Brown 1988; Tang, Goh and
+/// Thng 2005)
 template <class Real>
 class EventQueue {
  public:
@@ -42,7 +43,7 @@ class EventQueue {
       else
         start_over(earliest_day());
     }
-    top_ = first_of(today_);
+    top_ = first_today();
     days_passed_ += std::min(today_ - begin, static_cast<std::int64_t>(heads_.size()));
     if (++taken_ >= review_) review();
     return top_;
@@ -56,7 +57,10 @@ class EventQueue {
     std::array<int, 3> balls{top_, top_, top_};
     std::int64_t day = today_;
     std::size_t found = 0;
-    if (const int same_day = entries_[top_].next; same_day >= 0) balls[found++] = same_day;
+    if (heap_.size() > 1)
+      balls[found++] = heap_[1];
+    else if (const int same_day = entries_[top_].next; same_day >= 0)
+      balls[found++] = same_day;
     while (found < balls.size() && (day = next_occupied(day + 1)) < horizon_) balls[found++] = head(day);
     return balls;
   }
@@ -78,6 +82,7 @@ class EventQueue {
       if (entries_[i].time <= limit) balls.push_back(i);
     };
     if (last < horizon_) {
+      add_from_heap(0, limit, balls);
       for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1))
         for (int i = head(day); i != none; i = entries_[i].next) add(i);
       std::sort(balls.begin(), balls.end());
@@ -89,7 +94,11 @@ class EventQueue {
   /// The ball whose event is next after that of the last `top`, if it is not later than `limit`; -1
   /// otherwise.
   int runner_up(const Instant<Real>& limit) const {
-    const bool alone = head(today_) == top_ && entries_[top_].next == none;
+    if (heap_.size() > 1) {
+      const int second = heap_.size() > 2 && before(heap_[2], heap_[1]) ? heap_[2] : heap_[1];
+      return entries_[second].time <= limit ? second : none;
+    }
+    const bool alone = !heap_.empty() || (head(today_) == top_ && entries_[top_].next == none);
     if (alone && day_of(limit) <= today_) return none;
     const std::int64_t last = std::max(day_of(limit), today_);
     for (auto day = next_occupied(today_); day <= last && day < horizon_; day = next_occupied(day + 1)) {
@@ -104,7 +113,8 @@ class EventQueue {
   }
 
  private:
-  static constexpr int none = -1, put_off = -2;                   ///< instead of a list's next ball
+  static constexpr int none = -1, put_off = -2, in_heap = -3;     ///< instead of a list's next ball
+  static constexpr int crowd = 32;                                ///< events of a day that are worth a heap
   static constexpr int weeks = 256;                               ///< for which notes are kept
   static constexpr std::int64_t far_off = std::int64_t{1} << 30;  ///< [periods], in no run
   static constexpr std::int64_t no_day = std::int64_t{1} << 62;
@@ -114,7 +124,9 @@ class EventQueue {
     Instant<Real> time = Instant<Real>::never();
     std::int64_t day = no_day;
     int next = put_off;
-    int previous = none;  ///< or, of one that is put off, whose notes have the latest one; others are void
+    /// Or, of one that is put off, whose notes have the latest one; others are void. Or the place in the
+    /// heap.
+    int previous = none;
   };
 
   /// Nearly all events of few balls lie before the horizon, and most of many within the weeks.
@@ -145,6 +157,17 @@ class EventQueue {
     return horizon_;
   }
 
+  /// @pre today holds an event
+  int first_today() {
+    if (!heap_.empty()) return heap_.front();
+    int best = none, count = 0;
+    for (int i = head(today_); i != none; i = entries_[i].next, ++count)
+      if (best == none || before(i, best)) best = i;
+    if (count > crowd) [[unlikely]]
+      fill_heap();
+    return best;
+  }
+
   int first_of(std::int64_t day, int except = none) const {
     int best = none;
     for (int i = head(day); i != none; i = entries_[i].next)
@@ -161,7 +184,9 @@ class EventQueue {
   void put(int ball) {
     Entry& e = entries_[ball];
     e.day = std::max(day_of(e.time), today_);
-    if (e.day < horizon_) [[likely]]
+    if (!heap_.empty() && e.day == today_) [[unlikely]]
+      push(ball);
+    else if (e.day < horizon_) [[likely]]
       link(ball);
     else
       note(ball);
@@ -188,7 +213,8 @@ class EventQueue {
   }
   void unlink(int ball) {
     const Entry& e = entries_[ball];
-    if (e.next == put_off) return;
+    if (e.next < none) [[unlikely]]
+      return e.next == in_heap ? pull(e.previous) : void();
     if (e.next != none) entries_[e.next].previous = e.previous;
     if (e.previous != none) {
       entries_[e.previous].next = e.next;
@@ -197,6 +223,55 @@ class EventQueue {
     const std::size_t list = list_of(e.day);
     heads_[list] = e.next;
     marks_[list / 64] &= ~(std::uint64_t{e.next == none} << (list % 64));
+  }
+
+  // The heap of today's events: the earliest first, each entry with its place. The day's mark stays while it
+  // holds any.
+
+  [[gnu::noinline]] void fill_heap() {
+    for (int i = head(today_), next; i != none; i = next) {
+      next = entries_[i].next;
+      push(i);
+    }
+    heads_[list_of(today_)] = none;
+  }
+  [[gnu::noinline]] void push(int ball) {
+    entries_[ball].next = in_heap;
+    heap_.push_back(ball);
+    rise(heap_.size() - 1, ball);
+  }
+  [[gnu::noinline]] void pull(int place) {
+    const int last = heap_.back();
+    heap_.pop_back();
+    const auto at = static_cast<std::size_t>(place);
+    if (at < heap_.size()) sink(rise(at, last), last);
+    if (!heap_.empty()) return;
+    const std::size_t list = list_of(today_);
+    marks_[list / 64] &= ~(std::uint64_t{1} << (list % 64));
+  }
+  void set_place(std::size_t at, int ball) {
+    heap_[at] = ball;
+    entries_[ball].previous = static_cast<int>(at);
+  }
+  /// @return where the ball is then
+  std::size_t rise(std::size_t at, int ball) {
+    for (; at > 0 && before(ball, heap_[(at - 1) / 2]); at = (at - 1) / 2) set_place(at, heap_[(at - 1) / 2]);
+    set_place(at, ball);
+    return at;
+  }
+  void sink(std::size_t at, int ball) {
+    for (std::size_t child; (child = 2 * at + 1) < heap_.size(); at = child) {
+      if (child + 1 < heap_.size() && before(heap_[child + 1], heap_[child])) ++child;
+      if (!before(heap_[child], ball)) break;
+      set_place(at, heap_[child]);
+    }
+    set_place(at, ball);
+  }
+  void add_from_heap(std::size_t at, const Instant<Real>& limit, std::vector<int>& balls) const {
+    if (at >= heap_.size() || limit < entries_[heap_[at]].time) return;
+    balls.push_back(heap_[at]);
+    add_from_heap(2 * at + 1, limit, balls);
+    add_from_heap(2 * at + 2, limit, balls);
   }
 
   /// Moves the horizon by a week.
@@ -221,6 +296,7 @@ class EventQueue {
     std::fill(heads_.begin(), heads_.end(), none);
     std::fill(marks_.begin(), marks_.end(), 0);
     for (auto& notes : notes_) notes.clear();
+    heap_.clear();
     today_ = day;
     horizon_ = (week_of(day) + 4) * days_per_week_;
     for (int i = 0; i < static_cast<int>(entries_.size()); ++i) put(i);
@@ -249,6 +325,7 @@ class EventQueue {
   LargeVector<Entry> entries_;
   std::vector<int> heads_;               ///< of the lists of days
   std::vector<std::uint64_t> marks_;     ///< one for each list that is not empty
+  std::vector<int> heap_;                ///< balls of today, in place of its list, when they are many
   std::vector<std::vector<int>> notes_;  ///< balls put off to each of the weeks from the horizon on
   std::int64_t days_per_week_;           ///< a power of two
   int week_shift_ = std::countr_zero(static_cast<std::uint64_t>(days_per_week_));

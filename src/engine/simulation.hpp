@@ -17,6 +17,7 @@
 #include "engine/event_queue.hpp"
 #include "engine/observer.hpp"
 #include "engine/prefetcher.hpp"
+#include "engine/stall_watch.hpp"
 #include "model/case.hpp"
 #include "model/end_reason.hpp"
 #include "model/outcome.hpp"
@@ -55,8 +56,8 @@ class Simulation {
   /// Observers are told of every impact, in the order of attachment; they must outlive the run.
   void attach(Observer<Real>& observer) { observers_.push_back(&observer); }
 
-  /// Processes every event up to `end`, inclusive; returns early when an observer asks for it, on collapse,
-  /// or when `interrupt` becomes true. Can be called again with a later end.
+  /// Processes every event up to `end`, inclusive; returns early when an observer asks for it, on collapse
+  /// and stalls, or when `interrupt` becomes true. Can be called again with a later end.
   EndReason run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt = nullptr);
 
   /// Whether what the next events need is prefetched; changes no result. By default with many
@@ -99,6 +100,7 @@ class Simulation {
   const EngineCounts<Real>& counts() const { return counts_; }
   std::vector<Escalations> escalations() const { return ladder_.escalations(); }
   const std::optional<model::InelasticCollapse<Real>>& collapse() const { return collapse_; }
+  const std::optional<model::Stall<Real>>& stall() const { return stall_; }
 
  private:
   using DoubleState = typename Candidates<Real>::DoubleState;
@@ -115,6 +117,8 @@ class Simulation {
   Event<Real> settle_ties(Event<Real> event);
   void finish_wall_searches(const Event<Real>& event, const Instant<Real>& limit);
   void find_rivals(const Event<Real>& event, const Instant<Real>& limit);
+  void find_due(const Event<Real>& event, const Instant<Real>& limit);
+  void add_near(int ball, std::vector<int>& balls);
   void add_rivals_of_full_agenda(int ball, const Event<Real>& event, const Instant<Real>& limit);
   dynamics::Contact<Real> contact_of(const Event<Real>& event) const;
 
@@ -124,6 +128,7 @@ class Simulation {
   void update_pose();
   void update_pose_at_wall_contact(int ball);
   void raise_top_speed(int ball);
+  bool friction_rests(int ball, const Real& flight_time, const model::ContactLaw<Real>& law);
   void notify(const Impact<Real>& impact);
   void note_collapse(const Impact<Real>& impact, int ball, int key, bool with_wall, int partner);
 
@@ -163,17 +168,21 @@ class Simulation {
   Prefetcher<Real> prefetcher_;
   CollapseWatch<Real> collapse_watch_;
   bool may_collapse_;  ///< a law lets bodies separate at any speed
+  Real slow_;          ///< approach of bodies that acceleration brings together over the smallest path [m/s]
+  StallWatch<Real> stall_watch_;
   std::vector<Observer<Real>*> observers_;
   EngineCounts<Real> counts_;
   std::optional<model::InelasticCollapse<Real>> collapse_;
+  std::optional<model::Stall<Real>> stall_;
   std::optional<EndReason> stop_;
   Instant<Real> now_;
   Real tolerated_overlap_;  ///< far above rounding and given states, far below a missed impact [m]
   Real fall_;               ///< that a flight adds to a ball's speed at most [m/s]
   Real top_speed_;          ///< of any ball at any time; it grows
   // Scratch, valid during one event.
-  FoundBalls near_, near_partner_;   ///< balls of the adjacent cells
-  model::AnyPose<Real> pose_;        ///< now
+  FoundBalls near_, near_partner_;  ///< balls of the adjacent cells
+  model::AnyPose<Real> pose_;       ///< now
+  FoundBalls near_due_;
   std::vector<int> due_;             ///< balls with an event at nearly the same time
   std::vector<Event<Real>> rivals_;  ///< contacts that may be first
 };

@@ -27,7 +27,9 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
       queue_(static_cast<int>(states.size()), the_case.mill.motion.period()),
       prefetcher_(queue_, agendas_, flights_, bodies_, candidates_),
       collapse_watch_(Real(1000000) * epsilon<Real>() / 2 * ladder_.walls().reach()),
-      may_collapse_(!(mill_.least_separation() > 0)),
+      may_collapse_(!(mill_.least_separations().first > 0)),
+      slow_(speed_over(collapse_watch_.smallest_path(), mill_)),
+      stall_watch_(states.size(), start, shortest_advance(mill_)),
       now_(start),
       tolerated_overlap_(2 * smallest_radius(the_case.balls) / 1000000),
       fall_(largest_fall(the_case.mill)),
@@ -35,7 +37,7 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
   EDMILL_REQUIRE(!balls_.empty() && balls_.size() == states.size(), "one state for each ball");
   for (const auto& s : states) {
     flights_.push_back({s.position, s.velocity, start});
-    bodies_.push_back({s.spin, {}, {}});
+    bodies_.push_back({s.spin, {}, 0, {}});
   }
   for (int i = 0; i < ball_count(); ++i) bodies_[i].cell = candidates_.insert(i);
   prefetch(ball_count() > Prefetcher<Real>::worthwhile);
@@ -51,7 +53,7 @@ template <class Real>
 void Simulation<Real>::archive(Archive& a) {
   const auto balls = flights_.size();
   if (!a.loading()) agendas_.renumber_impacts();  // often enough for tests to see that it changes nothing
-  a(flights_, bodies_, agendas_, ladder_, candidates_, counts_, now_, top_speed_);
+  a(flights_, bodies_, agendas_, ladder_, candidates_, counts_, stall_watch_, now_, top_speed_);
   if (!a.loading()) return;
   EDMILL_REQUIRE(flights_.size() == balls && agendas_.size() == balls, "a saved state of the same case");
   if (!is_sound()) throw InputError("found a saved state that no run of the case can have");
@@ -72,13 +74,15 @@ bool Simulation<Real>::is_sound() const {
     return t.period >= -most && t.period <= most && t.offset >= 0 && t.offset <= clock_.period();
   };
   const auto finite = [](const Vec3<Real>& v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); };
-  bool sound = timed(now_) && now_.period < most && isfinite(top_speed_) && top_speed_ >= 0 &&
+  bool sound = timed(now_) && stall_watch_.is_sound(ball_count(), mill_.vessel.wall_count()) &&
+               now_.period < most && isfinite(top_speed_) && top_speed_ >= 0 &&
                candidates_.holds_all([this](int ball) -> const CellOfBall& { return bodies_[ball].cell; });
   for (int i = 0; sound && i < ball_count(); ++i) {
     const auto& agenda = agendas_[i];
     sound = finite(flights_[i].position) && finite(flights_[i].velocity) && finite(bodies_[i].spin) &&
             timed(flights_[i].start) && !(now_ < flights_[i].start) && timed(bodies_[i].recent.last) &&
             bodies_[i].recent.burst >= 0 && bodies_[i].recent.burst <= CollapseWatch<Real>::enough &&
+            bodies_[i].unmoved >= 0 && bodies_[i].unmoved <= mill_.stall.impacts &&
             timed(agenda.forgotten_from) &&
             agenda.is_sound(ball_count(), mill_.vessel.wall_count(), agendas_.latest_impact()) &&
             !(top_speed_ * top_speed_ < squared_norm<Real>(flights_[i].velocity));

@@ -2,6 +2,9 @@
 // instantiation files only.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
+
 #include "engine/simulation.hpp"
 
 namespace edmill::engine {
@@ -60,7 +63,7 @@ void Simulation<Real>::finish_wall_searches(const Event<Real>& event, const Inst
 template <class Real>
 void Simulation<Real>::find_rivals(const Event<Real>& event, const Instant<Real>& limit) {
   rivals_.clear();
-  queue_.due_until(limit, due_);
+  find_due(event, limit);
   for (const int ball : due_) {
     const Agenda<Real>& a = agendas_[ball];
     const auto add = [&](const Event<Real>& rival) {
@@ -75,14 +78,48 @@ void Simulation<Real>::find_rivals(const Event<Real>& event, const Instant<Real>
   }
 }
 
+/// Fills `due_` with balls that have an event up to `limit`, all that may share one with a ball of `event`
+/// among them.
+template <class Real>
+void Simulation<Real>::find_due(const Event<Real>& event, const Instant<Real>& limit) {
+  if (!candidates_.uses_cells()) return queue_.due_until(limit, due_);
+  // However many others have events at the same time.
+  due_.clear();
+  add_near(event.ball, due_);
+  if (event.kind == EventKind::pair_contact) add_near(event.partner, due_);
+  std::sort(due_.begin(), due_.end());
+  due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
+  const auto is_late = [&](int ball) { return limit < queue_.time(ball); };
+  due_.erase(std::remove_if(due_.begin(), due_.end(), is_late), due_.end());
+}
+
+/// Adds the balls of the adjacent cells, with the ball itself, or all balls where cells are not used.
+template <class Real>
+void Simulation<Real>::add_near(int ball, std::vector<int>& balls) {
+  if (!candidates_.uses_cells()) {
+    for (int other = 0; other < ball_count(); ++other) balls.push_back(other);
+    return;
+  }
+  candidates_.neighbours(bodies_[ball].cell, near_due_);
+  balls.insert(balls.end(), near_due_.balls.begin(), near_due_.balls.begin() + near_due_.count);
+}
+
 /// Contacts that the ball's agenda had no room for are predicted anew.
 template <class Real>
 void Simulation<Real>::add_rivals_of_full_agenda(int ball, const Event<Real>& event,
                                                  const Instant<Real>& limit) {
-  for (int other = 0; other < ball_count(); ++other) {
+  std::vector<int> others;
+  if (event.involves(ball)) {
+    add_near(ball, others);
+    std::sort(others.begin(), others.end());
+  } else {
+    others.push_back(event.ball);
+    if (event.kind == EventKind::pair_contact) others.push_back(event.partner);
+  }
+  for (const int other : others) {
     if (other == ball) continue;
     Event<Real> rival{EventKind::pair_contact, limit, ball, other};
-    if (!rival.shares_ball(event) || rival.same_bodies(event)) continue;
+    if (rival.same_bodies(event)) continue;
     const auto contact = contact_of(rival);
     const auto& begin = contact.flight.start;
     const auto answer = ladder_.pair(contact.flight, contact.partner, begin, contact.radius);

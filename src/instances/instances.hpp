@@ -33,6 +33,7 @@
                                           const DriveClock<Real>&);                                  \
   prefix io::SavedState<Real> io::read_final_state<Real>(const std::string&);                        \
   prefix std::string io::summary_json<Real>(const io::Summary<Real>&);                               \
+  prefix std::string io::stall_message<Real>(const io::Summary<Real>&);                              \
   prefix run::Result<Real> run::simulate<Real>(const casefile::CaseSpec&,                            \
                                                const casefile::InitialCase<Real>&,                   \
                                                const run::Guests<Real>&);                            \

@@ -34,6 +34,12 @@ class JsonText {
     put_key(key);
     text_ += std::to_string(value);
   }
+  void integers(std::string_view key, const std::vector<int>& values) {
+    put_key(key);
+    text_ += "[";
+    for (std::size_t k = 0; k < values.size(); ++k) text_ += (k > 0 ? ", " : "") + std::to_string(values[k]);
+    text_ += "]";
+  }
   /// nan and infinity, which JSON does not have, become null.
   template <class Real>
   void number(std::string_view key, const Real& value) {

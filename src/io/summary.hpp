@@ -34,7 +34,10 @@ struct Summary {
   std::uint64_t touched_impacts = 0;  ///< by the least separation speed (theory.md, section 6)
   Real touched_dose{0};               ///< of these impacts [J]
   Real supplied_energy{0};            ///< by these impacts [J]
+  std::uint64_t stall_impacts = 0;    ///< without friction, since a ball was in a stall
+  Real stall_dose{0};                 ///< of these impacts [J]
   std::optional<model::InelasticCollapse<Real>> collapse;
+  std::optional<model::Stall<Real>> stall;
   std::vector<Escalations> escalations;
   std::optional<Real> powder_mass, ball_mass;
   std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could separate
@@ -58,6 +61,10 @@ struct Summary {
             (energy_at_start.kinetic + energy_at_start.potential));
   }
 };
+
+/// When a run stalled, which bodies, and what helps.
+template <class Real>
+std::string stall_message(const Summary<Real>& summary);
 
 template <class Real>
 std::string summary_json(const Summary<Real>& summary);

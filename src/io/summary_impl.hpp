@@ -1,6 +1,8 @@
 // Implementation of summary_json; included by the instantiation files only.
 #pragma once
 
+#include <algorithm>
+
 #include "io/json_text.hpp"
 #include "io/summary.hpp"
 
@@ -20,7 +22,9 @@ class SummaryWriter {
     add_doses();
     add_energy();
     add_least_separation();
+    add_stalls();
     if (s.collapse) add_collapse();
+    if (s.stall) add_stall();
     add_engine();
     return json.finish();
   }
@@ -89,18 +93,28 @@ class SummaryWriter {
   }
 
   void add_least_separation() {
-    const auto total = static_cast<double>(s.total_collisions());
-    const auto share_of_dose = [&](const Real& energy) {
-      return s.milling_dose > 0 ? Real(energy / s.milling_dose) : Real(0);
-    };
     json.begin("least_separation");
-    json.integer("impacts", s.touched_impacts);
-    json.number("impact_share", total > 0 ? static_cast<double>(s.touched_impacts) / total : 0.0);
-    json.number("milling_dose", s.touched_dose);
-    json.number("milling_dose_share", share_of_dose(s.touched_dose));
+    add_shares(s.touched_impacts, s.touched_dose);
     json.number("supplied_energy", s.supplied_energy);
     json.number("supplied_energy_share", share_of_dose(s.supplied_energy));
     json.end();
+  }
+
+  void add_stalls() {
+    json.begin("stalls");
+    add_shares(s.stall_impacts, s.stall_dose);
+    json.end();
+  }
+
+  void add_shares(std::uint64_t impacts, const Real& dose) {
+    const auto total = static_cast<double>(s.total_collisions());
+    json.integer("impacts", impacts);
+    json.number("impact_share", total > 0 ? static_cast<double>(impacts) / total : 0.0);
+    json.number("milling_dose", dose);
+    json.number("milling_dose_share", share_of_dose(dose));
+  }
+  Real share_of_dose(const Real& energy) const {
+    return s.milling_dose > 0 ? Real(energy / s.milling_dose) : Real(0);
   }
 
   void add_collapse() {
@@ -109,6 +123,15 @@ class SummaryWriter {
     json.text("partner_kind", s.collapse->with_wall ? "wall" : "ball");
     json.integer("partner", s.collapse->partner);
     json.number("accumulation_time", s.collapse->accumulation_time);
+    json.end();
+  }
+
+  void add_stall() {
+    json.begin("stalled");
+    json.number("time", s.stall->time);
+    json.integers("balls", s.stall->balls);
+    json.integers("walls", s.stall->walls);
+    json.integer("impacts", s.stall->impacts);
     json.end();
   }
 
@@ -143,6 +166,22 @@ class SummaryWriter {
 };
 
 }  // namespace detail
+
+template <class Real>
+std::string stall_message(const Summary<Real>& s) {
+  std::string bodies;
+  const auto add = [&](const std::string& body) { bodies += (bodies.empty() ? "" : ", ") + body; };
+  constexpr std::size_t most = 8;
+  for (std::size_t k = 0; k < std::min(most, s.stall->balls.size()); ++k)
+    add("ball " + std::to_string(s.stall->balls[k]));
+  if (s.stall->balls.size() > most) add(std::to_string(s.stall->balls.size() - most) + " more balls");
+  for (const int wall : s.stall->walls)
+    add("wall " + std::to_string(wall) + " (" + s.partners[wall].label + ")");
+  return "the run has stalled at " + to_text<Real>(s.stall->time) + " s: " + bodies + " hit each other " +
+         std::to_string(s.stall->impacts) +
+         " times while the clock stood still, and no motion parts them; give them room (fewer or smaller "
+         "balls, a piston that ends its way earlier), or let the run end before";
+}
 
 template <class Real>
 std::string summary_json(const Summary<Real>& s) {

@@ -12,16 +12,18 @@ enum class EndReason {
   max_collisions,
   max_milling_dose,
   max_ball_speed,
+  max_cpu_time,        ///< of a run in a study
   inelastic_collapse,  ///< a Zeno point of the exact model
+  stalled,             ///< the clock stands still: no motion parts bodies that are pressed together
   undecided,           ///< no scalar could make a decision
   interrupted,
   stopped,  ///< by an observer
   paused,   ///< an observer wants something done between two events; the run goes on
 };
 
-inline constexpr std::array<std::string_view, 9> end_reason_names = {
-    "end_time",  "max_collisions", "max_milling_dose", "max_ball_speed", "inelastic_collapse",
-    "undecided", "interrupted",    "stopped",          "paused"};
+inline constexpr std::array<std::string_view, 11> end_reason_names = {
+    "end_time", "max_collisions", "max_milling_dose", "max_ball_speed", "max_cpu_time", "inelastic_collapse",
+    "stalled",  "undecided",      "interrupted",      "stopped",        "paused"};
 
 /// As in `summary.json`.
 inline constexpr std::string_view name(EndReason reason) {

@@ -1,6 +1,7 @@
 // The physical model without the balls: a vessel on its motion, gravity and what contacts do.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "model/ball.hpp"
 #include "model/contact_law.hpp"
 #include "model/motion.hpp"
+#include "model/stall.hpp"
 #include "model/vessel.hpp"
 
 namespace edmill::model {
@@ -33,6 +35,7 @@ struct Mill {
   ContactLaw<Real> ball_ball;
   ContactLaw<Real> ball_wall;
   PairLaws<Real> pairs{};
+  StallRule stall{};
 
   const ContactLaw<Real>& law_between(const BallProperties<Real>& one,
                                       const BallProperties<Real>& other) const {
@@ -50,13 +53,15 @@ struct Mill {
         pairs.of_walls[static_cast<std::size_t>(ball.material) * walls + static_cast<std::size_t>(wall)];
     return law < 0 ? ball_wall : pairs.laws[static_cast<std::size_t>(law)];
   }
-  /// The smallest least separation speed of all laws [m/s].
-  Real least_separation() const {
-    Real least = ball_ball.least_separation < ball_wall.least_separation ? ball_ball.least_separation
-                                                                         : ball_wall.least_separation;
-    for (const auto& law : pairs.laws)
+  /// The smallest and the largest least separation speed of all laws [m/s].
+  std::pair<Real, Real> least_separations() const {
+    auto [low, high] = std::minmax(ball_ball.least_separation, ball_wall.least_separation);
+    Real least = low, most = high;
+    for (const auto& law : pairs.laws) {
       if (law.least_separation < least) least = law.least_separation;
-    return least;
+      if (law.least_separation > most) most = law.least_separation;
+    }
+    return {least, most};
   }
 };
 
@@ -73,7 +78,8 @@ Mill<To> mill_cast(const Mill<From>& m) {
           vector_cast<To>(m.gravity),
           law(m.ball_ball),
           law(m.ball_wall),
-          std::move(pairs)};
+          std::move(pairs),
+          m.stall};
 }
 
 /// Calls f(motion, vessel): in double with the SPEX and the cylinder as what they are, so that f is compiled

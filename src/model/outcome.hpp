@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "base/archive.hpp"
@@ -48,6 +49,16 @@ struct InelasticCollapse {
   bool with_wall = false;
   int partner = -1;
   Real accumulation_time{};  ///< when the impacts accumulate [s]
+};
+
+/// Where a run could not go on since its clock stood still. (docs/theory.md, section 6)
+template <class Real>
+struct Stall {
+  Real time{};                    ///< [s]
+  std::vector<int> balls, walls;  ///< that hit each other at this instant, by id
+  std::uint64_t impacts = 0;      ///< they had, at least
+
+  void archive(Archive& a) { a(time, balls, walls, impacts); }
 };
 
 }  // namespace edmill::model

@@ -77,6 +77,9 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   rows.push_back({"least separation speed", fmt::format("{} % of the impacts, {} % of the dose",
                                                         readable(100 * f.touched_impact_share, 3),
                                                         readable(100 * f.touched_dose_share, 2))});
+  rows.push_back({"stalls, without friction", fmt::format("{} % of the impacts, {} % of the dose",
+                                                          readable(100 * f.stall_impact_share, 3),
+                                                          readable(100 * f.stall_dose_share, 2))});
   rows.push_back({"deepest overlap", readable(f.deepest_overlap, 2) + " m"});
   rows.push_back({"program", fmt::format("edmill {} ({}), {}", f.version, f.commit, f.compiler)});
   rows.push_back({"CPU time", fmt::format("{} s for {} impacts", readable(f.cpu_seconds, 3),

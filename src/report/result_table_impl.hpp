@@ -45,11 +45,15 @@ std::string result_table(const io::Summary<Real>& s) {
   const auto of_dose = [&](const Real& energy) {
     return s.milling_dose > 0 ? 100 * real(energy) / real(s.milling_dose) : 0.0;
   };
+  const auto of_impacts = [&](std::uint64_t impacts) {
+    return total > 0 ? 100.0 * static_cast<double>(impacts) / static_cast<double>(total) : 0.0;
+  };
   row("least separation speed",
-      fmt::format(
-          "{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of the dose",
-          total > 0 ? 100.0 * static_cast<double>(s.touched_impacts) / static_cast<double>(total) : 0.0,
-          of_dose(s.touched_dose), of_dose(s.supplied_energy)));
+      fmt::format("{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of the dose",
+                  of_impacts(s.touched_impacts), of_dose(s.touched_dose), of_dose(s.supplied_energy)));
+  if (s.stall_impacts > 0)
+    row("stalls, without friction", fmt::format("{:.2g} % of impacts, {:.2g} % of the dose",
+                                                of_impacts(s.stall_impacts), of_dose(s.stall_dose)));
   if (s.collapse)
     row("inelastic collapse", fmt::format("ball {} with {} {} at {:.12g} s", s.collapse->ball,
                                           s.collapse->with_wall ? "wall" : "ball", s.collapse->partner,

@@ -103,6 +103,8 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
                                    {"/energy/closure", &f.closure},
                                    {"/least_separation/impact_share", &f.touched_impact_share},
                                    {"/least_separation/milling_dose_share", &f.touched_dose_share},
+                                   {"/stalls/impact_share", &f.stall_impact_share},
+                                   {"/stalls/milling_dose_share", &f.stall_dose_share},
                                    {"/least_separation/supplied_energy", &f.supplied_energy},
                                    {"/deepest_overlap", &f.deepest_overlap},
                                    {"/impacts_since_start", &f.impacts_since_start},

@@ -22,6 +22,7 @@ struct RunFacts {
   double kinetic_start = 0, potential_start = 0, kinetic_end = 0, potential_end = 0;  ///< [J]
   double closure = 0;                                                                 ///< [J]
   double touched_impact_share = 0, touched_dose_share = 0;  ///< by the least separation speed
+  double stall_impact_share = 0, stall_dose_share = 0;      ///< without friction, in stalls
   double supplied_energy = 0;                               ///< by it [J]
   double deepest_overlap = 0;                               ///< [m]
   double impacts_since_start = 0, cpu_seconds = 0;

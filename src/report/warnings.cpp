@@ -13,8 +13,8 @@ namespace {
 
 using plot::readable;
 
-constexpr double touched_share_limit = 0.05, supplied_share_limit = 0.01, closure_limit = 1e-9,
-                 interval_limit = 0.05;
+constexpr double touched_share_limit = 0.05, supplied_share_limit = 0.01, stall_share_limit = 0.01,
+                 closure_limit = 1e-9, interval_limit = 0.05;
 constexpr double fewest_collisions = 1000;
 
 void check_end(const RunFacts& f, std::vector<Warning>& list) {
@@ -24,6 +24,10 @@ void check_end(const RunFacts& f, std::vector<Warning>& list) {
     warn("The run was interrupted; the results cover the time up to then.");
   if (f.end_reason == EndReason::inelastic_collapse)
     warn("The run ended in inelastic collapse: a ball met another body infinitely often in a finite time.");
+  if (f.end_reason == EndReason::stalled)
+    warn(
+        "The run has stalled: bodies that no motion parts hit each other while the clock stood still. The "
+        "results cover the time up to then.");
   if (f.end_reason == EndReason::undecided)
     warn("The run ended at a decision that no scalar could make; the results cover the time up to then.");
 }
@@ -64,6 +68,12 @@ std::vector<Warning> warnings_of(const RunFacts& f, const Batches& dose_rate) {
          fmt::format("{} % of the dose comes from impacts that the least separation speed decides: "
                      "run also with half of contact.least_separation.",
                      readable(100 * f.touched_dose_share, 2))});
+  if (f.stall_dose_share > stall_share_limit)
+    list.push_back(
+        {"stall_share",
+         fmt::format("{} % of the dose comes from impacts without friction, in stalls of bodies that "
+                     "touch: friction acts less than the case says.",
+                     readable(100 * f.stall_dose_share, 2))});
   if (f.milling_dose > 0 && f.supplied_energy > supplied_share_limit * f.milling_dose)
     list.push_back({"supplied_energy",
                     fmt::format("The least separation speed supplies {} % of the dose as kinetic energy: run "

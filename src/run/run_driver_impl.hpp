@@ -1,20 +1,12 @@
 // A run in progress; included by the instantiation files only, through simulate_impl.hpp.
 #pragma once
 
-#include <ctime>
-
+#include "run/cpu_limit.hpp"
 #include "run/run_statistics.hpp"
 #include "run/simulate.hpp"
 #include "run/stop_rules.hpp"
 
 namespace edmill::run {
-
-/// Of this thread: several runs can share a process.
-inline double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 /// The stages of a run: up to the start of statistics, then with them to the end, with checkpoints in
 /// between.

@@ -15,14 +15,15 @@ class RunStatistics : public engine::Observer<Real> {
  public:
   struct Totals {
     std::uint64_t collisions = 0;
-    std::uint64_t touched = 0;  ///< by the least separation speed
+    std::uint64_t touched = 0;   ///< by the least separation speed
+    std::uint64_t in_stall = 0;  ///< friction rested
     numerics::CompensatedSum<Real> milling_dose;
-    numerics::CompensatedSum<Real> touched_dose;
+    numerics::CompensatedSum<Real> touched_dose, stall_dose;
     numerics::CompensatedSum<Real> supplied_energy;
     numerics::CompensatedSum<Real> wall_work;
 
     void archive(Archive& a) {
-      a(collisions, touched, milling_dose, touched_dose, supplied_energy, wall_work);
+      a(collisions, touched, in_stall, milling_dose, touched_dose, stall_dose, supplied_energy, wall_work);
     }
   };
 
@@ -39,6 +40,10 @@ class RunStatistics : public engine::Observer<Real> {
       t.touched_dose += outcome.milling_dose;
       t.supplied_energy += outcome.supplied_energy;
     }
+    if (outcome.in_stall) {
+      ++t.in_stall;
+      t.stall_dose += outcome.milling_dose;
+    }
   }
 
   void archive(Archive& a) override { a(totals_); }
@@ -52,6 +57,9 @@ class RunStatistics : public engine::Observer<Real> {
   Real milling_dose() const { return sum(&Totals::milling_dose); }
   /// Dose of those impacts [J].
   Real touched_dose() const { return sum(&Totals::touched_dose); }
+  /// Impacts without friction, since a ball was in a stall, and their dose [J].
+  std::uint64_t in_stall() const { return count(&Totals::in_stall); }
+  Real stall_dose() const { return sum(&Totals::stall_dose); }
   Real supplied_energy() const { return sum(&Totals::supplied_energy); }
   Real wall_work() const { return sum(&Totals::wall_work); }
 

@@ -23,7 +23,10 @@ void note_totals(const engine::Simulation<Real>& simulation, const run::RunStati
   summary.touched_impacts = statistics.touched();
   summary.touched_dose = statistics.touched_dose();
   summary.supplied_energy = statistics.supplied_energy();
+  summary.stall_impacts = statistics.in_stall();
+  summary.stall_dose = statistics.stall_dose();
   summary.collapse = simulation.collapse();
+  summary.stall = simulation.stall();
   summary.simultaneous_contacts = simulation.counts().simultaneous_contacts;
   summary.deepest_overlap = simulation.counts().deepest_overlap;
   summary.total_impacts = simulation.counts().impacts;

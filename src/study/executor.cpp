@@ -3,7 +3,13 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/scalar_list.hpp"
 #include "study/workers.hpp"
+
+namespace edmill {
+extern template std::string to_text<double>(const double&);
+extern template double from_text<double>(const std::string&);
+}  // namespace edmill
 
 namespace edmill::study {
 
@@ -15,7 +21,7 @@ using std::chrono::milliseconds;
 constexpr const char* stop_message = "stop";
 
 std::string to_message(const Job& job) {
-  std::string text = "job\n" + job.digest + "\n" + job.case_file;
+  std::string text = "job\n" + job.digest + "\n" + to_text(job.max_cpu_time) + "\n" + job.case_file;
   for (const auto& o : job.overrides) text += "\n" + o;
   return text;
 }
@@ -26,6 +32,8 @@ Job to_job(const std::string& message) {
   std::string line;
   std::getline(lines, line);
   std::getline(lines, job.digest);
+  std::getline(lines, line);
+  job.max_cpu_time = from_text<double>(line);
   std::getline(lines, job.case_file);
   while (std::getline(lines, line)) job.overrides.push_back(line);
   return job;

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct Job {
   std::vector<std::string> overrides;
   std::string digest;  ///< of the case that these give
   double cost = 0;     ///< estimated; only its order counts
+  /// Of processor time, after which the run ends without a result [s].
+  double max_cpu_time = std::numeric_limits<double>::infinity();
 };
 
 /// Does a run; called in several threads at once. An exception becomes the record of a failed run.

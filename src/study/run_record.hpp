@@ -13,7 +13,8 @@ namespace edmill::study {
 
 struct RunRecord {
   std::string digest;  ///< of the case
-  std::string status;  ///< done, inelastic_collapse, undecided, bad_case, error or interrupted
+  std::string status;  ///< done, inelastic_collapse, stalled, max_cpu_time, undecided, bad_case, error
+                       ///< or interrupted
   std::string end_reason, message;
   double start_time = 0, end_time = 0;     ///< of the statistics [s]
   std::vector<std::uint64_t> collisions;   ///< with each partner; none of a run that could not start
@@ -25,6 +26,7 @@ struct RunRecord {
   /// Whether repeating the run would give the same result.
   bool lasting() const {
     return done() || status == model::name(model::EndReason::inelastic_collapse) ||
+           status == model::name(model::EndReason::stalled) ||
            status == model::name(model::EndReason::undecided);
   }
 };
@@ -39,6 +41,8 @@ RunRecord record_of(const io::Summary<Real>& s) {
   r.end_reason = model::name(s.end_reason);
   switch (s.end_reason) {
     case model::EndReason::inelastic_collapse:
+    case model::EndReason::stalled:
+    case model::EndReason::max_cpu_time:
     case model::EndReason::undecided:
     case model::EndReason::interrupted:
       r.status = r.end_reason;
@@ -49,6 +53,7 @@ RunRecord record_of(const io::Summary<Real>& s) {
   r.message = s.error;
   if (s.collapse)
     r.message = "ball " + std::to_string(s.collapse->ball) + " came to rest in a series of impacts";
+  if (s.stall) r.message = io::stall_message(s);
   r.start_time = static_cast<double>(s.start_time);
   r.end_time = static_cast<double>(s.end_time);
   r.collisions = s.collisions;

@@ -1,0 +1,78 @@
+// Recognises a run whose clock stands still.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/instant.hpp"
+#include "model/outcome.hpp"
+
+namespace edmill::engine {
+
+/// Counts the impacts of all balls against the clock. A run is stalled when so many come while the clock
+/// hardly advances that the bodies can only be jammed: where any motion parts them all, impacts without
+/// friction find it sooner (theory.md, section 6).
+template <class Real>
+class StallWatch {
+ public:
+  /// @param balls  how many there are: each may have impacts of its own at one instant
+  /// @param brief  the clock has hardly advanced when by less than this [s]
+  StallWatch(std::size_t balls, const Instant<Real>& start, Real brief)
+      : most_(std::int64_t{1000000} + 100 * static_cast<std::int64_t>(balls)),
+        left_(most_),
+        begin_(start),
+        brief_(std::move(brief)) {}
+
+  /// Takes note of an impact of a ball with a wall or another ball. @return true when the run is stalled
+  bool note(const Instant<Real>& now, const DriveClock<Real>& clock, int ball, bool with_wall, int partner) {
+    if (--left_ > 0) [[likely]]
+      return false;
+    return look(now, clock, ball, with_wall, partner);
+  }
+
+  /// The bodies that hit each other then.
+  const model::Stall<Real>& found() const { return found_; }
+
+  /// Whether what was loaded can be of a run of so many balls and walls.
+  bool is_sound(int balls, int walls) const {
+    const auto are_below = [](const std::vector<int>& bodies, int count) {
+      return std::all_of(bodies.begin(), bodies.end(), [&](int b) { return b >= 0 && b < count; });
+    };
+    return left_ <= most_ && left_ > -sample && are_below(found_.balls, balls) &&
+           are_below(found_.walls, walls);
+  }
+
+  void archive(Archive& a) { a(left_, begin_, found_); }
+
+ private:
+  /// Enough further impacts that each of the bodies takes part.
+  static constexpr std::int64_t sample = 10000;
+
+  [[gnu::noinline]] bool look(const Instant<Real>& now, const DriveClock<Real>& clock, int ball,
+                              bool with_wall, int partner) {
+    if (!(clock.elapsed(begin_, now) < brief_)) {
+      begin_ = now;
+      left_ = most_;
+      found_ = {};
+      return false;
+    }
+    add(found_.balls, ball);
+    add(with_wall ? found_.walls : found_.balls, partner);
+    found_.time = clock.seconds(now);
+    found_.impacts = static_cast<std::uint64_t>(most_ - left_);
+    return left_ <= -sample;
+  }
+  static void add(std::vector<int>& bodies, int body) {
+    const auto place = std::lower_bound(bodies.begin(), bodies.end(), body);
+    if (place == bodies.end() || *place != body) bodies.insert(place, body);
+  }
+
+  std::int64_t most_, left_;  ///< impacts since `begin_`: how many are enough, and how many are left to that
+  Instant<Real> begin_;
+  Real brief_;
+  model::Stall<Real> found_;
+};
+
+}  // namespace edmill::engine
