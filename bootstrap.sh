@@ -45,7 +45,7 @@ install_missing() {
 }
 
 build() { # preset [option...]
-  say "configuring and building (preset $1); the first time takes a few minutes"
+  say "configuring and building (preset $1); the first time takes up to half an hour on two cores"
   cmake --preset "$@" >/dev/null
   cmake --build --preset "$1"
 }

@@ -23,8 +23,9 @@ configure_package_config_file(cmake/edmill-config.cmake.in ${CMAKE_BINARY_DIR}/e
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/edmill)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/edmill-config-version.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/edmill-config.cmake ${CMAKE_BINARY_DIR}/edmill-config-version.cmake cmake/FindGMP.cmake
-              cmake/FindMPFR.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/edmill COMPONENT dev)
-configure_file(cmake/edmill.pc.in ${CMAKE_BINARY_DIR}/edmill.pc @ONLY)
+              cmake/FindHDF5C.cmake cmake/FindMPFR.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/edmill COMPONENT dev)
+set(EDMILL_PC ${CMAKE_BINARY_DIR}/edmill.pc)
+include(cmake/PkgConfig.cmake)
 install(FILES ${CMAKE_BINARY_DIR}/edmill.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 
 if(EDMILL_PYTHON)

@@ -3,12 +3,15 @@
 #include <cmath>
 #include <cstdio>
 #include <edmill/run.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 int main(int argc, char** argv) {
   if (argc != 3) return std::fprintf(stderr, "usage: own_coupling CASE.toml FOLDER\n"), 2;
   try {
+    // A relative path in a case counts from the case's file.
+    const auto place = std::filesystem::absolute(argv[2]);
     double dose = 0;  // [J]
     std::vector<std::string> goes_on{"run.start_time=\"0 s\""};
     for (int second = 1; second <= 3; ++second) {
@@ -18,7 +21,7 @@ int main(int argc, char** argv) {
       settings.push_back("run.end_time=\"" + std::to_string(second) + " s\"");
 
       edmill::Run<double> run(edmill::Case::read(argv[1], settings));
-      const std::string folder = std::string(argv[2]) + "/" + std::to_string(second);
+      const std::string folder = (place / std::to_string(second)).string();
       run.write_to(folder);
       run.finish();
       run.commit();

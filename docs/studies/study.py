@@ -19,7 +19,7 @@ CRITICAL_RPM = math.sqrt(9.81 / 0.045) * 30 / math.pi  # of drum.toml
 # Of each study: the column with the abscissa, its factor, its label, and its ticks.
 STUDIES = {
     "ends": ("name", 1, "radius of the edges [mm]", range(0, 21, 5)),
-    "planetary": ("mill.ratio", -1, "speed of the jar against the disc, reversed, over that of the disc", (1, 2, 3, 4, 5)),
+    "planetary": ("mill.ratio", -1, "k = -ratio: speed of the jar seen from the disc, reversed, over the disc's", (1, 2, 3, 4, 5)),
     "drum": ("mill.speed", 100 / CRITICAL_RPM, "speed in % of the critical one", range(0, 121, 20)),
     "law": ("mill.speed", 1, "speed of the drive [rpm]", range(600, 1401, 200)),
 }

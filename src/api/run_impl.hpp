@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/errors.hpp"
@@ -84,8 +85,9 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
     if (end_reason_ != model::EndReason::paused) return false;
     advanced_ = true;
     const auto& simulation = driver_.simulation();
-    if (limit && !(*limit > simulation.seconds())) return true;
-    end_reason_ = limit ? driver_.go(simulation.clock().at(*limit)) : driver_.go();
+    if (limit && !(*limit > time())) return true;
+    if (limit) asked_ = {simulation.clock().at(*limit), *limit};
+    end_reason_ = limit ? driver_.go(asked_.first) : driver_.go();
     return end_reason_ == model::EndReason::paused;
   }
 
@@ -117,12 +119,20 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
     lock_.reset();
   }
 
-  void stop() { driver_.simulation().request_stop(model::EndReason::stopped); }
+  /// As it was asked for, where the run stands there: the sum of periods and a rest is rounded.
+  Real time() const {
+    const auto& now = driver_.simulation().now();
+    const auto &end = built_.the_case.stop.end_time, &given = case_.spec_->end_time;
+    if (end && now == *end) return given->template to<Real>();
+    return now == asked_.first ? asked_.second : driver_.simulation().seconds();
+  }
+  void stop(model::EndReason why) { driver_.simulation().request_stop(why); }
   const engine::Simulation<Real>& simulation() const { return driver_.simulation(); }
 
   Summary<Real> summary() const {
     auto s = run::summary_of(*case_.spec_, built_, driver_);
     s.end_reason = end_reason_;
+    s.end_time = time();
     Summary<Real> out;
     out.start_time = s.start_time, out.end_time = s.end_time;
     for (int k = 0; k < s.partners.count(); ++k) out.partners.push_back(s.partners[k].key);
@@ -161,6 +171,7 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
   std::filesystem::path folder_;
   std::optional<io::FolderLock> lock_;
   bool advanced_ = false;
+  std::pair<Instant<Real>, Real> asked_{Instant<Real>::long_ago(), Real(0)};  ///< of the last advance [s]
   model::EndReason end_reason_ = model::EndReason::paused;
 };
 
@@ -192,11 +203,15 @@ void Run<Real>::finish() {
 }
 template <class Real>
 void Run<Real>::stop() {
-  implementation_->stop();
+  implementation_->stop(model::EndReason::stopped);
+}
+template <class Real>
+void Run<Real>::interrupt() {
+  implementation_->stop(model::EndReason::interrupted);
 }
 template <class Real>
 Real Run<Real>::time() const {
-  return implementation_->simulation().seconds();
+  return implementation_->time();
 }
 template <class Real>
 int Run<Real>::ball_count() const {

@@ -1,5 +1,8 @@
 #include "casefile/case_spec.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -63,7 +66,8 @@ void check_times(Section run, const CaseSpec& spec) {
   };
   const std::string expected = "a time of less than 1e15 drive periods";
   run.require(within(spec.initial_time), "initial_time", expected);
-  run.require(within(spec.statistics_start), "start_time", expected);
+  // Unless given it is the initial time.
+  if (run.has("start_time")) run.require(within(spec.statistics_start), "start_time", expected);
   run.require(!spec.end_time || within(*spec.end_time), "end_time", expected);
 }
 
@@ -294,6 +298,12 @@ void add_outputs(const std::string& text, const std::string& name, CaseSpec& spe
   for (const auto& entry : top.sections("output")) read_output(entry, spec);
   top.reject_unknown_keys();
   if (!document.problems.empty()) throw InputError(document.problems);
+}
+
+std::string describe_gravity(const CaseSpec& spec) {
+  const auto& g = spec.gravity;
+  if (std::all_of(g.begin(), g.end(), [](const Quantity& q) { return q.zero(); })) return "none";
+  return fmt::format("({:g}, {:g}, {:g}) m/s^2", g[0].to<double>(), g[1].to<double>(), g[2].to<double>());
 }
 
 model::Partners partners_of(const CaseSpec& spec) {

@@ -113,6 +113,9 @@ struct CaseSpec {
 /// "0.01 m + 0.001 m sin(2 pi 5 t) inward", for readers.
 std::string describe(const model::Piston<Quantity>& piston);
 
+/// "(0, -9.8, 0) m/s^2" or "none", for readers.
+std::string describe_gravity(const CaseSpec& spec);
+
 /// What the balls of a case can collide with.
 model::Partners partners_of(const CaseSpec& spec);
 

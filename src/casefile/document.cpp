@@ -10,6 +10,20 @@
 
 namespace edmill::casefile {
 
+namespace {
+
+/// What is behind an error of TOML's grammar in a line, where that is known.
+std::string hint_of(const Document& document, std::size_t line) {
+  if (line == 0 || line > document.lines.size()) return "";
+  const std::string& text = document.lines[line - 1];
+  const auto value = text.find_first_not_of(" \t", text.find('=') + 1);
+  const bool comma =
+      text.find('=') != std::string::npos && value != std::string::npos && has_comma(text.substr(value));
+  return comma ? " and a comma in a number, where a decimal point is expected" : "";
+}
+
+}  // namespace
+
 std::string kind_of(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:
@@ -47,8 +61,9 @@ toml::table parse_toml(const std::string& text, const std::string& kind, Documen
   try {
     return toml::parse(text, document.name);
   } catch (const toml::parse_error& error) {
-    throw InputError(document.name + ":" + std::to_string(error.source().begin.line) +
-                     ": found no valid TOML (" + std::string(error.description()) + "), expected " + kind);
+    const auto line = error.source().begin.line;
+    throw InputError(document.name + ":" + std::to_string(line) + ": found no valid TOML (" +
+                     std::string(error.description()) + ")" + hint_of(document, line) + ", expected " + kind);
   }
 }
 

@@ -36,7 +36,10 @@ void read_material(Section entry, CaseSpec& spec) {
   entry.require(material.name.empty() || spec.material_named(material.name) == 0, "name",
                 "a name that no other material has");
   material.density = entry.quantity("density", Dimension::density);
-  if (material.density) entry.require(material.density->positive(), "density", "a positive density");
+  const bool good = material.density && material.density->positive();
+  if (material.density) entry.require(good, "density", "a positive density");
+  // A wrong one is reported here and not at the balls that have it.
+  if (entry.has("density") && !good) material.density = BallSpec{}.density;
   entry.reject_unknown_keys();
   spec.materials.push_back(std::move(material));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "casefile/nearest.hpp"
 #include "model/impact_variables.hpp"
 
 namespace edmill::casefile {
@@ -41,7 +42,10 @@ std::optional<int> read_variable(Section& s, bool flags, bool counts, bool numbe
   const bool allowed =
       found && ((kind == VariableKind::flag && flags) || (kind == VariableKind::count && counts) ||
                 (kind == VariableKind::number && numbers));
-  std::string expected;
+  std::vector<std::string> names;
+  for (const auto& variable : impact_variables) names.emplace_back(variable.name);
+  const auto near = found ? "" : nearest(*name, names);
+  std::string expected = near.empty() ? "" : "'" + near + "', or another of: ";
   if (flags) expected += "a flag, ";
   if (counts) expected += "a count, ";
   if (numbers) expected += "a number, ";

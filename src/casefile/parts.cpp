@@ -55,12 +55,15 @@ Quantity fallback_of(const PartParameter& p) {
 
 struct Reader {
   Section& section;
+  bool& complete;  ///< no value is missing or cannot be read
 
   void operator()(const PartParameter& p, Quantity& value) const {
     const Quantity found = !p.key       ? fallback_of(p)
                            : p.fallback ? section.quantity(p.key, p.dimension, fallback_of(p))
                                         : section.required(p.key, p.dimension);
     if (p.key) section.require(in_range(found, p.range), p.key, expected(p));
+    if (p.key && (!p.fallback || section.has(p.key)) && !section.quantity(p.key, p.dimension))
+      complete = false;
     value = kept(found, p.range);
   }
   void operator()(const PartParameter& p, std::array<Quantity, 3>& values) const {
@@ -99,13 +102,14 @@ Variant read_part(Section& given) {
     Section& section = given.of_unknown_kind() ? nothing : given;
     const auto read = [&]<class Part>(Part part) {
       if (name != Part::name) return;
+      bool complete = true;
       if constexpr (requires { part.given; })
         part.given = read_joints(section);
       else if constexpr (requires { part.faces; })
         part = read_polyhedron(section);
       else
-        Part::parameters(part, Reader{section});
-      require_shape(section, part);
+        Part::parameters(part, Reader{section, complete});
+      if (complete) require_shape(section, part);
       chosen = part;
     };
     (read(std::variant_alternative_t<kind, Variant>{}), ...);

@@ -57,7 +57,7 @@ const std::vector<Unit>& units() {
       {D::angular_speed, {"rad/s"}, 1},
       {D::angular_speed, {"deg/s"}, ratio(1, 180), 1},
       {D::angular_speed, {"Hz", "hertz"}, 2, 1},
-      {D::angular_speed, {"rpm", "r/min", "rev/min"}, ratio(1, 30), 1},
+      {D::angular_speed, {"rpm", "cpm", "r/min", "rev/min", "cycles/min"}, ratio(1, 30), 1},
       {D::acceleration, {"m/s2", "m/s/s"}, 1},
       {D::acceleration, {"cm/s2", "cm/s/s"}, ratio(1, 100)},
       {D::acceleration, {"in/s2", "in/s/s"}, ratio(254, 10000)},
@@ -152,6 +152,8 @@ std::size_t number_length(std::string_view text) {
   return at;
 }
 
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
 /// So that squares and cubes neither overflow nor vanish in double.
 bool of_physical_size(const cpp_rational& value) {
   static const cpp_rational largest(boost::multiprecision::pow(cpp_int(10), 30));
@@ -163,6 +165,9 @@ QuantityResult parse(std::string_view text, Dimension dimension, bool unit_neede
   const std::string quoted = "\"" + std::string(text) + "\"";
   const std::string beyond = " (its size is beyond 1e-30 to 1e30 in SI units)";
   const std::string_view body = trimmed(text);
+  if (has_comma(body))
+    return QuantityProblem{quoted +
+                           " (a comma in a number: a decimal point is expected, and no mark of thousands)"};
   const auto length = number_length(body);
   const auto number = parse_decimal(body.substr(0, length));
   if (length == 0 || !number) return QuantityProblem{quoted + " (not a finite decimal number)"};
@@ -194,8 +199,23 @@ std::string describe(Dimension dimension) {
   return text + " (" + list + ")";
 }
 
+std::vector<UnitText> unit_texts() {
+  std::vector<UnitText> texts;
+  for (const auto& unit : units()) {
+    const auto of = name(unit.dimension);  // "a length"
+    texts.push_back({of.substr(of.find(' ') + 1), {unit.spellings.begin(), unit.spellings.end()}});
+  }
+  return texts;
+}
+
 std::string Quantity::text() const {
   return value.str() + (pi_power == 0 ? "" : pi_power == 1 ? "*pi" : "*pi^" + std::to_string(pi_power));
+}
+
+bool has_comma(std::string_view text) {
+  const auto end = text.find_first_not_of("+-0123456789.");
+  return end != std::string_view::npos && text[end] == ',' && end + 1 < text.size() &&
+         is_digit(text[end + 1]);
 }
 
 std::optional<cpp_rational> parse_decimal(std::string_view text) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "base/dimension.hpp"
 
@@ -15,6 +16,13 @@ using edmill::Dimension;
 
 /// "a length (mm, cm, m, in, ft, ...)", for messages.
 std::string describe(Dimension dimension);
+
+/// A unit for readers: what it is of, "length", and its spellings.
+struct UnitText {
+  std::string dimension;
+  std::vector<std::string> spellings;
+};
+std::vector<UnitText> unit_texts();
 
 /// An exact SI value: `value` times pi^`pi_power`.
 struct Quantity {
@@ -54,6 +62,9 @@ QuantityResult parse_quantity(std::string_view text, Dimension dimension);
 
 /// The same where a plain number is taken as SI.
 QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension);
+
+/// Whether a text begins with a number that has a comma between its digits, where a point is expected.
+bool has_comma(std::string_view text);
 
 /// Exact value of a decimal number; nothing for anything else, nan and inf included.
 std::optional<boost::multiprecision::cpp_rational> parse_decimal(std::string_view text);

@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/keys.hpp"
+#include "casefile/nearest.hpp"
 
 namespace edmill::casefile {
 
@@ -19,22 +20,6 @@ std::size_t byte_of_column(const std::string& line, std::size_t column) {
     while (at < line.size() && (static_cast<unsigned char>(line[at]) & 0xC0) == 0x80) ++at;
   }
   return at;
-}
-
-/// Number of edits between two keys, for "did you mean".
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -291,15 +276,8 @@ void Section::reject_unknown_keys() {
   for (const auto& [key, node] : *table_) {
     const std::string name(key.str());
     if (known_.count(name)) continue;
-    std::string list, nearest;
-    std::size_t best = 3;
-    for (const auto& known : known_) {
-      list += (list.empty() ? "" : ", ") + known;
-      const auto distance = edit_distance(name, known);
-      if (distance < best) best = distance, nearest = known;
-    }
-    document_->report(&node, full(name), "an unknown key",
-                      nearest.empty() ? "one of: " + list : "'" + nearest + "', or another of: " + list);
+    const std::vector<std::string> known(known_.begin(), known_.end());
+    document_->report(&node, full(name), "an unknown key", nearest_of(name, known));
   }
 }
 

@@ -91,6 +91,7 @@ void check_size(Section& s, const SweepSpec& spec) {
 
 /// "2.36 mm" is 2.36 and " mm".
 bool split_value(const std::string& text, double& number, std::string& unit) {
+  if (has_comma(text)) return false;
   const auto end = std::min(text.find_first_not_of("0123456789+-."), text.size());
   const auto value = parse_decimal(text.substr(0, end));
   if (!value) return false;
@@ -107,7 +108,8 @@ void read_range(Section& s, OptimizeVariable& variable) {
   for (const auto& [key, place] : ends) {
     const auto text = s.setting(key);
     const bool fine = text && split_value(*text, *place.first, *place.second);
-    if (!fine) s.problem(key, text ? "\"" + *text + "\"" : "nothing", "a number with its unit");
+    if (!fine)
+      s.problem(key, text ? "\"" + *text + "\"" : "nothing", "a number with a decimal point, and its unit");
     good = good && fine;
   }
   if (!good) return;

@@ -21,12 +21,19 @@ std::string describe_law(const model::ContactLaw<double>& law) {
                                           : ", no least separation");
 }
 
+/// What a run does before its first event: places the balls and predicts their first contacts.
+template <class Real>
+void prepare(const casefile::CaseSpec& spec) {
+  const auto built = casefile::build_case<Real>(spec);
+  const engine::Simulation<Real> ready(built.the_case, built.states, built.start);
+}
+
 }  // namespace
 
 std::string describe_case(const casefile::CaseSpec& spec) {
   // The case must be valid in its own scalar; double is sufficient for the description.
 #define EDMILL_CHECK_IN(Real) \
-  if (spec.precision == ScalarName<Real>::value) casefile::build_case<Real>(spec);
+  if (spec.precision == ScalarName<Real>::value) prepare<Real>(spec);
   EDMILL_FOR_EACH_SCALAR(EDMILL_CHECK_IN)
 #undef EDMILL_CHECK_IN
   const auto built = casefile::build_case<double>(spec, false);
@@ -38,12 +45,12 @@ std::string describe_case(const casefile::CaseSpec& spec) {
   };
   row("digest", spec.digest);
   row("precision, seed", fmt::format("{}, {}", spec.precision, spec.seed));
-  row("statistics from", fmt::format("{:g} s", spec.statistics_start.to<double>()));
-  if (spec.end_time) row("stop at time", fmt::format("{:g} s", spec.end_time->to<double>()));
+  row("statistics from", fmt::format("{} s", spec.statistics_start.to<double>()));
+  if (spec.end_time) row("stop at time", fmt::format("{} s", spec.end_time->to<double>()));
   if (c.stop.max_collisions) row("stop after collisions", fmt::format("{}", *c.stop.max_collisions));
   if (c.stop.max_milling_dose) row("stop at milling dose", fmt::format("{:g} J", *c.stop.max_milling_dose));
   if (c.stop.max_ball_speed) row("stop at ball speed", fmt::format("{:g} m/s", *c.stop.max_ball_speed));
-  row("gravity", fmt::format("({:g}, {:g}, {:g}) m/s^2", m.gravity[0], m.gravity[1], m.gravity[2]));
+  row("gravity", casefile::describe_gravity(spec));
   row("mill", casefile::describe(spec.mill));
   if (const double peak = m.motion.wall_speed(0); peak > 0)
     row("peak wall speed", fmt::format("{:g} m/s at the vessel's centre", peak));

@@ -23,6 +23,7 @@
 #include "cli/run_folder_guard.hpp"
 #include "cli/signals.hpp"
 #include "cli/study_command.hpp"
+#include "cli/suggestions.hpp"
 #include "report/embedded.hpp"
 
 namespace {
@@ -144,7 +145,7 @@ class CommandLine {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
       if (error.get_exit_code() == 0) return app_.exit(error);  // --help, --version
-      print_problem(std::string(error.what()) + " (see edmill --help)");
+      print_problem(edmill::cli::problem_of(app_, {argv + 1, argv + argc}, error));
       return edmill::cli::bad_input;
     }
     for (const auto& [command, action] : actions_)

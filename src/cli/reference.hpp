@@ -9,6 +9,7 @@
 
 #include "casefile/keys.hpp"
 #include "casefile/output_entry.hpp"
+#include "casefile/quantity.hpp"
 #include "cli/exit_codes.hpp"
 
 namespace edmill::cli {
@@ -70,6 +71,20 @@ inline std::string sections() {
   return text;
 }
 
+/// A row for each dimension; units apart by semicolons, further spellings of one in brackets.
+inline std::string units() {
+  std::string text = "| quantity | units |\n|---|---|", last;
+  for (const auto& unit : casefile::unit_texts()) {
+    text +=
+        unit.dimension == last ? "; " : fmt::format("{}\n| {} | ", last.empty() ? "" : " |", unit.dimension);
+    last = unit.dimension;
+    const auto& names = unit.spellings;
+    text += fmt::format("`{}`", names[0]);
+    if (names.size() > 1) text += fmt::format(" ({})", fmt::join(names.begin() + 1, names.end(), ", "));
+  }
+  return text + " |\n\n";
+}
+
 inline std::string outputs() {
   std::string text = "| type | file | content |\n|---|---|---|\n";
   for (const auto& type : casefile::output_types())
@@ -90,8 +105,10 @@ inline std::string reference(const CLI::App& app) {
          "with a "
          "unit, `\"38 mm\"`; a number without\nunit may be plain. Components of vectors without a unit are "
          "SI. "
-         "Decimals are exact in every scalar.\n\n" +
-         sections();
+         "Decimals are exact in every scalar, and have a point. Powers can be written `m/s2`, `m/s^2` or "
+         "`m/s\u00b2`.\n\n"
+         "### Units\n\n" +
+         units() + sections();
 }
 
 }  // namespace edmill::cli

@@ -32,7 +32,9 @@ struct RunOptions {
 template <class Real>
 int run_case(const casefile::CaseSpec& spec, const RunOptions& options);
 
-/// The case in SI with its derived numbers, for `edmill check`.
+/// The case in SI with its derived numbers, for `edmill check`, which makes the checks of a run.
+/// @throws InputError when its balls do not fit
+/// @throws UndecidedError when no scalar can decide about a first contact
 std::string describe_case(const casefile::CaseSpec& spec);
 
 /// An SVG of how the vessel moves. @throws InputError when the file cannot be written

@@ -56,8 +56,9 @@ run::CheckpointInterval parse_checkpoint_interval(const std::string& text) {
                                                casefile::Dimension::time);
   const auto* time = std::get_if<casefile::Quantity>(&parsed);
   if (!time || !time->positive())
-    throw InputError("--checkpoint: found '" + text +
-                     "', expected a time above 0 by the clock, such as '10 min', or in the run, such as '2 s "
+    throw InputError("--checkpoint: found " +
+                     (time ? "\"" + text + "\"" : std::get<casefile::QuantityProblem>(parsed).found) +
+                     ", expected a time above 0 by the clock, such as '10 min', or in the run, such as '2 s "
                      "simulated'");
   return {time->to<double>(), simulated};
 }

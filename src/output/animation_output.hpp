@@ -121,6 +121,9 @@ class AnimationOutput : public FramesOutput<Real> {
         ++piston;
       });
     }
+    std::vector<Frame<double>> frames;
+    for (const auto& [key, frame] : paths_.vessel) frames.push_back(frame);
+    look_at(this->walls(), frames, *first_);
     paths_.duration = length / speed_;
     file_.stream() << x3d_text(*first_, &paths_);
   }

@@ -145,7 +145,8 @@ class CoverageOutput : public TableOutput<Real> {
     }
     const Real area = wall.surface.area() / (Real(wall.columns) * Real(wall.rows));
     const auto& cell = cells_[wall.cell(column, row)];
-    this->put(area, cell.impacts, cell.dose, Real(cell.dose / area));
+    // Walls of no area are those of a vessel that is just round.
+    this->put(area, cell.impacts, cell.dose, io::value_if(area > 0, [&] { return Real(cell.dose / area); }));
   }
 
   std::vector<Wall> walls_;                     ///< by id

@@ -54,6 +54,10 @@ struct SceneMotion {
   void archive(Archive& a) { a(duration, vessel, pistons, balls, contact); }
 };
 
+/// Puts the viewer where the walls are in the picture in all of these frames.
+/// @param walls  in the vessel frame, those that move where they reach farthest
+void look_at(const std::vector<model::Mesh>& walls, const std::vector<Frame<double>>& frames, Scene& scene);
+
 /// A page of X3D 3.3, still or, with `motion`, moving and repeated for ever.
 std::string x3d_text(const Scene& scene, const SceneMotion* motion = nullptr);
 

@@ -32,6 +32,9 @@ class SceneOutput : public Output<Real> {
     return {contact_->radius.template to<double>(), contact_->colour, vector_cast<double>(point)};
   }
 
+  /// The walls at their places, from which pistons stand inward.
+  const std::vector<model::Mesh>& walls() const { return walls_; }
+
   /// Calls f(wall, moved) with how far each piston stands from its wall's place [m].
   template <class F>
   static void for_each_piston(const model::AnyVessel<Real>& vessel, const Real& time, F&& f) {
@@ -44,17 +47,15 @@ class SceneOutput : public Output<Real> {
     }
   }
 
+  /// Nobody looks at it yet: look_at.
   /// @param state_of  state of a ball by its id at `time`
   template <class StateOf>
   Scene scene(const engine::Simulation<Real>& simulation, const Real& time, StateOf&& state_of) const {
     const auto& mill = simulation.mill();
     const auto now = static_cast<double>(time);
-    const Vec3<double> target = vector_cast<double>(mill.motion.middle());
-    // From above and in front, so that the arm points up in the picture.
-    const Vec3<double> eye = target + Vec3<double>(0, 0, 4 * static_cast<double>(mill.vessel.extent()));
     Scene s{{walls_at(mill.vessel, time), run_.vessel_colour, vessel_frame(mill.motion, now)},
-            eye,
-            target,
+            Vec3<double>::Zero(),
+            Vec3<double>::Zero(),
             {},
             {},
             now};

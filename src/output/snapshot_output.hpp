@@ -1,6 +1,8 @@
 // The mill at each impact of the record, a file each: NAME_<index>.x3d. (thesis D.4.1)
 #pragma once
 
+#include <cmath>
+
 #include "casefile/output_columns.hpp"
 #include "io/output_folder.hpp"
 #include "output/scene_output.hpp"
@@ -38,10 +40,21 @@ class SnapshotOutput : public SceneOutput<Real> {
     const Real& time = seen.facts.time;
     Scene s = this->scene(seen.simulation, time, [&](int i) { return balls.state(i, time); });
     if (this->shows_contact()) s.contact = this->contact_at(seen.facts.contact_point);
+    look_at(this->walls(), frames_around(seen.simulation.mill().motion, static_cast<double>(time)), s);
     pages_.emplace_back(seen.facts.index, x3d_text(s));
   }
 
  private:
+  /// Of a drive period, so that the pictures of a periodic motion have one viewer, and of a time in it.
+  static std::vector<Frame<double>> frames_around(const model::AnyMotion<Real>& motion, double time) {
+    constexpr int parts = 64;
+    const auto period = static_cast<double>(motion.period());
+    const double begin = std::floor(time / period) * period;
+    std::vector<Frame<double>> frames{vessel_frame(motion, time)};
+    for (int k = 0; k < parts; ++k) frames.push_back(vessel_frame(motion, begin + period * k / parts));
+    return frames;
+  }
+
   std::vector<std::pair<std::uint64_t, std::string>> pages_;
 };
 

@@ -9,10 +9,19 @@ namespace edmill::plot {
 
 namespace {
 
+std::vector<Tick> x_ticks(const Axis& axis) {
+  const Frame frame;
+  return axis.logarithmic ? log_ticks(axis.low, axis.high)
+                          : fitting_ticks(axis.low, axis.high, 6, frame.right - frame.left);
+}
+std::vector<Tick> y_ticks(const Axis& axis) {
+  return axis.logarithmic ? log_ticks(axis.low, axis.high) : linear_ticks(axis.low, axis.high);
+}
+
 /// Places of values in the frame; what lies outside stops a little beyond it and is clipped.
 class Places {
  public:
-  explicit Places(const Chart& chart) : chart_(chart) {}
+  explicit Places(const Chart& chart) : chart_(chart) { frame.make_room(x_ticks(chart.x), y_ticks(chart.y)); }
   double x(double value) const {
     return frame.left + bounded(fraction(chart_.x, value)) * (frame.right - frame.left);
   }
@@ -62,20 +71,16 @@ void add_line(pugi::xml_node parent, const char* style, double x1, double y1, do
       {{"class", style}, {"x1", pixel(x1)}, {"y1", pixel(y1)}, {"x2", pixel(x2)}, {"y2", pixel(y2)}});
 }
 
-std::vector<Tick> ticks_of(const Axis& axis) {
-  return axis.logarithmic ? log_ticks(axis.low, axis.high) : linear_ticks(axis.low, axis.high);
-}
-
 void add_axes(pugi::xml_node svg, const Chart& chart, const Places& places) {
   const Frame& f = places.frame;
   auto x_axis = add(svg, "g", {{"class", "axis x-axis"}}), y_axis = add(svg, "g", {{"class", "axis y-axis"}});
-  for (const auto& tick : ticks_of(chart.x)) {
+  for (const auto& tick : x_ticks(chart.x)) {
     const double x = places.x(tick.place);
     add_line(x_axis, "tick", x, f.bottom, x, f.bottom + (tick.label.empty() ? 3 : 5));
     if (!tick.label.empty())
       add(x_axis, "text", {{"class", "label"}, {"x", pixel(x)}, {"y", pixel(f.bottom + 18)}}, tick.label);
   }
-  for (const auto& tick : ticks_of(chart.y)) {
+  for (const auto& tick : y_ticks(chart.y)) {
     const double y = places.y(tick.place);
     if (!tick.label.empty()) add_line(y_axis, "grid", f.left, y, f.right, y);
     add_line(y_axis, "tick", f.left - (tick.label.empty() ? 3 : 5), y, f.left, y);
@@ -110,6 +115,12 @@ void add_legend(pugi::xml_node figure, const Chart& chart) {
 }
 
 }  // namespace
+
+void Frame::make_room(const std::vector<Tick>& x, const std::vector<Tick>& y) {
+  constexpr double title = 20, gap = 8;
+  left = std::max(left, title + gap + width_of(y));
+  if (!x.empty()) right = std::min(right, width - width_of(x.back().label) / 2);
+}
 
 std::string pixel(double place) {
   std::string text = fmt::format("{:.2f}", place);

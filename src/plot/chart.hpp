@@ -49,10 +49,13 @@ struct Chart {
   std::vector<Mark> marks;
 };
 
-/// The inside of the frame in the chart's own units. [px]
+/// The inside of the frame in the chart's own units, as far in as the labels need. [px]
 struct Frame {
   double left = 70, right = 448, top = 14, bottom = 232;
   double width = 460, height = 280;
+
+  /// Room for the labels of the y axis and its title, and for half of the last one of the x axis.
+  void make_room(const std::vector<Tick>& x, const std::vector<Tick>& y);
 };
 
 /// Where a value stands along an axis, 0 at its low end and 1 at its high end.

@@ -30,6 +30,13 @@ std::string sector(const HeatCell& c, double scale, double cx, double cy) {
                      place(c.y_low, c.x_low));
 }
 
+constexpr double bar = 12, bar_gap = 5;
+
+/// From the left edge of the scale to the end of its labels.
+double scale_width(const HeatMap& map) {
+  return bar + bar_gap + width_of(linear_ticks(0, map.highest, 6)) + 2;
+}
+
 void add_scale(pugi::xml_node svg, const HeatMap& map, double x, double top, double bottom) {
   auto scale = add(svg, "g", {{"class", "axis y-axis"}});
   constexpr int parts = 48;
@@ -38,20 +45,22 @@ void add_scale(pugi::xml_node svg, const HeatMap& map, double x, double top, dou
     add(scale, "rect",
         {{"x", pixel(x)},
          {"y", pixel(bottom - (k + 1) * height)},
-         {"width", "12"},
+         {"width", pixel(bar)},
          {"height", pixel(height + 0.5)},
          {"fill", heat_colour((k + 0.5) / parts)}});
   for (const auto& tick : linear_ticks(0, map.highest, 6))
     add(scale, "text",
         {{"class", "label after"},
-         {"x", pixel(x + 17)},
+         {"x", pixel(x + bar + bar_gap)},
          {"y", pixel(bottom - (bottom - top) * tick.place / map.highest + 4)}},
         tick.label);
-  add(scale, "text", {{"class", "axis-title end"}, {"x", pixel(x + 52)}, {"y", pixel(top - 8)}}, map.value);
+  add(scale, "text",
+      {{"class", "axis-title end"}, {"x", pixel(x + scale_width(map))}, {"y", pixel(top - 12)}}, map.value);
 }
 
 void draw_disc(pugi::xml_node figure, const HeatMap& map) {
-  constexpr double width = 300, height = 270, cx = 122, cy = 138, radius = 86;
+  constexpr double height = 270, cx = 122, cy = 138, radius = 86, scale_left = 246;
+  const double width = std::max(300.0, scale_left + scale_width(map));
   auto svg = add_drawing(figure, map.id, map.title, map.description, width, height);
   const double scale = radius / map.y.high;
   auto cells = add(svg, "g", {{"class", "cells"}});
@@ -60,15 +69,15 @@ void draw_disc(pugi::xml_node figure, const HeatMap& map) {
   for (int k = 0; k < 4; ++k) {
     const double c = std::cos(k * pi / 2), s = std::sin(k * pi / 2);
     add(axis, "text",
-        {{"class", "label"}, {"x", pixel(cx + (radius + 16) * c)}, {"y", pixel(cy - (radius + 12) * s + 4)}},
+        {{"class", "label"}, {"x", pixel(cx + (radius + 20) * c)}, {"y", pixel(cy - (radius + 12) * s + 4)}},
         fmt::format("{}\u00b0", 90 * k));
   }
   add(axis, "text", {{"class", "axis-title"}, {"x", pixel(cx)}, {"y", pixel(height - 6)}}, map.x.title);
-  add_scale(svg, map, 246, 50, 226);
+  add_scale(svg, map, scale_left, 50, 226);
 }
 
-std::vector<Tick> x_ticks(const HeatMap& map) {
-  if (!(map.x_step > 0)) return linear_ticks(map.x.low, map.x.high, 7);
+std::vector<Tick> x_ticks(const HeatMap& map, double room) {
+  if (!(map.x_step > 0)) return fitting_ticks(map.x.low, map.x.high, 7, room);
   std::vector<Tick> ticks;
   for (double x = std::ceil(map.x.low / map.x_step) * map.x_step; x <= map.x.high; x += map.x_step)
     ticks.push_back({x, pixel(x)});
@@ -76,7 +85,10 @@ std::vector<Tick> x_ticks(const HeatMap& map) {
 }
 
 void draw_sheet(pugi::xml_node figure, const HeatMap& map) {
-  constexpr double width = 460, height = 270, left = 56, right = 376, top = 30, bottom = 222;
+  constexpr double width = 460, height = 270, top = 30, bottom = 222;
+  const auto rows = linear_ticks(map.y.low, map.y.high, 7);
+  const double left = std::max(56.0, 26 + width_of(rows)),
+               scale_left = width - std::max(64.0, scale_width(map)), right = scale_left - 20;
   auto svg = add_drawing(figure, map.id, map.title, map.description, width, height);
   const auto x = [&](double value) { return left + fraction(map.x, value) * (right - left); };
   const auto y = [&](double value) { return bottom - fraction(map.y, value) * (bottom - top); };
@@ -87,10 +99,10 @@ void draw_sheet(pugi::xml_node figure, const HeatMap& map) {
                          pixel(y(c.y_high))),
              map, c);
   auto x_axis = add(svg, "g", {{"class", "axis x-axis"}}), y_axis = add(svg, "g", {{"class", "axis y-axis"}});
-  for (const auto& tick : x_ticks(map))
+  for (const auto& tick : x_ticks(map, right - left))
     add(x_axis, "text", {{"class", "label"}, {"x", pixel(x(tick.place))}, {"y", pixel(bottom + 16)}},
         tick.label);
-  for (const auto& tick : linear_ticks(map.y.low, map.y.high, 7))
+  for (const auto& tick : rows)
     add(y_axis, "text", {{"class", "label"}, {"x", pixel(left - 6)}, {"y", pixel(y(tick.place) + 4)}},
         tick.label);
   add(x_axis, "text", {{"class", "axis-title"}, {"x", pixel((left + right) / 2)}, {"y", pixel(height - 8)}},
@@ -99,7 +111,7 @@ void draw_sheet(pugi::xml_node figure, const HeatMap& map) {
   add(y_axis, "text",
       {{"class", "axis-title"}, {"x", "14"}, {"y", middle}, {"transform", "rotate(-90 14 " + middle + ")"}},
       map.y.title);
-  add_scale(svg, map, 396, top, bottom);
+  add_scale(svg, map, scale_left, top, bottom);
 }
 
 }  // namespace

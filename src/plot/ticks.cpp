@@ -75,13 +75,22 @@ std::vector<Tick> linear_ticks(double low, double high, int most) {
       if (last - first + 1 > most) continue;
       std::vector<Tick> ticks;
       const double largest = std::max(std::abs(low), std::abs(high));
+      // Beyond plain decimals, unless so many digits would be alike that only all of them tell ticks apart.
+      const bool scientific = (largest >= 1e5 || largest < 1e-3) && step > 1e-3 * largest;
       for (double k = first; k <= last; ++k) {
         const double value = place(k);
-        ticks.push_back({value, largest >= 1e5 || largest < 1e-3 ? tick_label(value)
-                                                                 : fixed(value, std::max(0, -exponent))});
+        ticks.push_back({value, scientific ? tick_label(value) : fixed(value, std::max(0, -exponent))});
       }
       return ticks;
     }
+}
+
+std::vector<Tick> fitting_ticks(double low, double high, int most, double room) {
+  constexpr double apart = 8;
+  for (;; --most) {
+    auto ticks = linear_ticks(low, high, most);
+    if (most <= 2 || static_cast<double>(ticks.size()) * (width_of(ticks) + apart) <= room) return ticks;
+  }
 }
 
 std::vector<Tick> log_ticks(double low, double high, int most) {
@@ -97,6 +106,19 @@ std::vector<Tick> log_ticks(double low, double high, int most) {
       ticks.push_back({place, m == 1 && e % every == 0 ? power_of_ten(e) : ""});
     }
   return ticks;
+}
+
+double width_of(const std::string& label) {
+  constexpr double letter = 7.8;
+  // Characters of more than one byte have continuations.
+  return letter * static_cast<double>(
+                      std::count_if(label.begin(), label.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+double width_of(const std::vector<Tick>& ticks) {
+  double width = 0;
+  for (const auto& tick : ticks) width = std::max(width, width_of(tick.label));
+  return width;
 }
 
 std::string readable(double value, int digits) {

@@ -16,9 +16,16 @@ struct Tick {
 /// when `most` > 3). @pre low < high
 std::vector<Tick> linear_ticks(double low, double high, int most = 6);
 
+/// Fewer of them where their labels, side by side, would not fit. @param room  [px]
+std::vector<Tick> fitting_ticks(double low, double high, int most, double room);
+
 /// Powers of ten inside [low, high], labelled so that about `most` labels stand; between them the multiples
 /// 2 to 9 when there are few decades. @pre 0 < low < high
 std::vector<Tick> log_ticks(double low, double high, int most = 7);
+
+/// Room that a label takes in the largest type that pages use, and the widest of several [px].
+double width_of(const std::string& label);
+double width_of(const std::vector<Tick>& ticks);
 
 /// "0.1803", "1.2 x 10^-5" with a real minus and superscripts, thousands apart: for reading only.
 /// @param digits  significant ones

@@ -130,7 +130,7 @@ class Pulse : public Observer<Real> {
   Pulse(py::object progress, bool& interrupted) : interrupted_(interrupted), progress_(std::move(progress)) {}
 
   void on_impact(const Impact<Real>& impact, Run<Real>& run) override {
-    if (interrupted_) return run.stop();
+    if (interrupted_) return run.interrupt();
     if (++since_look_ < look_every_) return;
     since_look_ = 0;
     const auto now = Clock::now();
@@ -140,14 +140,14 @@ class Pulse : public Observer<Real> {
     if (PyErr_CheckSignals() != 0) {
       PyErr_Clear();
       interrupted_ = true;
-      run.stop();
+      run.interrupt();
     } else if (!progress_.is_none()) {
       try {
         progress_(static_cast<double>(impact.time), impact.index + 1);
       } catch (const py::error_already_set& error) {
         if (!is_control_c(error)) throw;
         interrupted_ = true;
-        run.stop();
+        run.interrupt();
       }
     }
   }
@@ -174,7 +174,7 @@ class CallingObserver : public Observer<Real> {
     } catch (const py::error_already_set& error) {
       if (!is_control_c(error)) throw;
       interrupted_ = true;
-      run.stop();
+      run.interrupt();
     }
   }
 
@@ -270,6 +270,10 @@ py::dict run_in(Case the_case, const Wishes& wishes) {
       report::write_case(wishes.folder, CaseAccess::spec(the_case), true);
       report::write_report(wishes.folder);
     }
+  }
+  if (PyErr_CheckSignals() != 0) {  // Ctrl-C when the run was already over
+    PyErr_Clear();
+    interrupted = true;
   }
   py::dict result;
   result["summary"] = run->summary().json;

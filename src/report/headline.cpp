@@ -51,7 +51,7 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
   auto section = add_section(main, "results", "Results");
   add(section, "p", {},
       fmt::format("{} collisions between {} s and {} s of simulated time.", brief(f.all_collisions(), 12),
-                  brief(f.start_time), brief(f.end_time)));
+                  brief(f.start_time, 12), brief(f.end_time, 12)));
   auto list = add(section, "dl", {{"class", "cards"}});
   bool any = false;
   for (const auto& card : cards_of(run)) {

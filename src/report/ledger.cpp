@@ -65,14 +65,15 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   for (const auto& piston : spec.pistons)
     rows.push_back({"piston " + run.partners[piston.wall].label, casefile::describe(piston)});
   rows.push_back({"mill", casefile::describe(spec.mill)});
+  rows.push_back({"gravity", casefile::describe_gravity(spec)});
   if (!spec.pairs_only) {
     rows.push_back({"contact of balls", law_text(spec.ball_ball)});
     rows.push_back({"contact with walls", law_text(spec.ball_wall)});
   }
   for (const auto& pair : spec.pairs)
     rows.push_back({"contact of " + spec.names_of(pair), law_text(pair.law)});
-  rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time),
-                                            brief(f.end_time), model::name(f.end_reason))});
+  rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time, 12),
+                                            brief(f.end_time, 12), model::name(f.end_reason))});
   rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.seed, f.precision)});
   rows.push_back({"least separation speed", fmt::format("{} % of the impacts, {} % of the dose",
                                                         readable(100 * f.touched_impact_share, 3),

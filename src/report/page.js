@@ -75,7 +75,7 @@ function addVessel(scene, vessel) {
 
 /** Who looks, with a lamp over the shoulder. */
 function addCamera(scene, eye, target) {
-  const camera = new THREE.PerspectiveCamera(0.6 * 180 / Math.PI); // the swing just fills it
+  const camera = new THREE.PerspectiveCamera(0.6 * 180 / Math.PI); // what the vessel sweeps just fills it
   camera.position.fromArray(eye);
   const distance = camera.position.distanceTo(new THREE.Vector3().fromArray(target));
   camera.near = distance / 50;
@@ -119,6 +119,7 @@ function play(renderer) {
   const button = document.getElementById("play"), slider = document.getElementById("time");
   const clock = document.getElementById("clock");
   const end = Number(slider.max), { camera, draw } = makePicture(renderer, mill);
+  const decimals = Math.max(0, 3 - Math.floor(Math.log10(end))); // thousandths of the whole, or finer
 
   let time = 0, playing = false, last = null, asked = false;
   const update = (now) => {
@@ -130,7 +131,7 @@ function play(renderer) {
       ask();
     }
     draw(time / end);
-    clock.textContent = time.toFixed(1) + " ms";
+    clock.textContent = time.toFixed(decimals) + " ms";
     slider.setAttribute("aria-valuetext", clock.textContent);
   };
   /** Draws once before the next repaint. */

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "io/output_folder.hpp"
@@ -48,6 +49,13 @@ std::string subtitle_of(const RunFolder& run) {
                             plot::brief(60 / casefile::period_of(spec.mill).to<double>()));
 }
 
+/// Of playback, where 1 is real time.
+std::string pace(double speed) {
+  const double factor = std::max(speed, 1 / speed);
+  if (factor < 1.05) return "In real time";
+  return fmt::format("{} {} times", speed > 1 ? "Sped up" : "Slowed down", plot::readable(factor, 2));
+}
+
 /// The controls, hidden until page.js plays. The slider counts milliseconds in the mill.
 void add_player(pugi::xml_node section, const Animation& animation, double speed) {
   auto player = add(section, "div", {{"id", "player"}, {"hidden", "hidden"}});
@@ -62,8 +70,7 @@ void add_player(pugi::xml_node section, const Animation& animation, double speed
        {"value", "0"},
        {"aria-label", "Time from the beginning of the animation"}});
   add(controls, "span", {{"id", "clock"}, {"aria-hidden", "true"}}, "0.0 ms");
-  add(player, "p", {{"class", "note"}},
-      fmt::format("Slowed down {} times. Drag to rotate, scroll to zoom.", plot::readable(1 / speed, 2)));
+  add(player, "p", {{"class", "note"}}, pace(speed) + ". Drag to rotate, scroll to zoom.");
 }
 
 /// The scripts that play the animation.

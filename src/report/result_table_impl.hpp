@@ -17,7 +17,7 @@ std::string result_table(const io::Summary<Real>& s) {
   };
   out += fmt::format("{} in {}, ended by {}\n", s.provenance.case_file, s.provenance.precision,
                      model::name(s.end_reason));
-  row("statistics", fmt::format("{:g} s to {:g} s", real(s.start_time), real(s.end_time)));
+  row("statistics", fmt::format("{} s to {} s", real(s.start_time), real(s.end_time)));
   out += fmt::format("  {:<28}{:>12}{:>14}{:>16}\n", "collisions", "number", "per second", "dose [J]");
   const auto collisions = [&](const std::string& name, std::uint64_t number, const Real& dose) {
     const std::string rate =

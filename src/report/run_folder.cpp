@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -37,9 +39,37 @@ columns = [{{ variable = "milling_dose", statistics = ["rate"] }}, {{ variable =
                      key, only);
 }
 
+/// Order of magnitude of what an impact can dissipate: that of the heaviest ball at three times the peak
+/// speed of the vessel's centre, at that of its walls, or fallen through it [log10 J]
+double largest_energy(const casefile::CaseSpec& spec) {
+  const auto mill = casefile::build_mill<double>(spec);
+  const double extent = mill.vessel.extent(), centre = 3 * mill.motion.wall_speed(0),
+               walls = mill.motion.wall_speed(extent);
+  const double square = centre * centre + walls * walls + 4 * norm<double>(mill.gravity) * extent;
+  double heaviest = 0;
+  const auto weigh = [&](const casefile::BallSpec& ball) {
+    heaviest = std::max(heaviest, ball.density.to<double>() * std::pow(ball.diameter.to<double>(), 3) / 2);
+  };
+  for (const auto& ball : spec.balls) weigh(ball);
+  for (const auto& batch : spec.batches) weigh(batch);
+  return std::log10(heaviest * square);
+}
+
+/// Spectra of energy: from 1e-9 to 1 J, or nine decades below what the impacts of very small or large mills
+/// dissipate.
+std::string energy_spectra(const casefile::CaseSpec& spec) {
+  const double most = largest_energy(spec);
+  const int top = std::isfinite(most) && (most < -6 || most > 0) ? static_cast<int>(std::ceil(most)) : 0;
+  return fmt::format(
+      "\n[[output]]\ntype = \"spectra\"\nfolder = \"report\"\nfile = \"spectra_energy.csv\"\n"
+      "low = \"1e{} J\"\nhigh = \"1e{} J\"\n",
+      top - 9, top);
+}
+
 /// The entries [[output]] of the report.
-std::string outputs_for(const model::Partners& partners) {
-  std::string text(outputs_toml);
+std::string outputs_for(const casefile::CaseSpec& spec) {
+  const auto partners = casefile::partners_of(spec);
+  std::string text = std::string(outputs_toml) + energy_spectra(spec);
   for (int wall = 0; wall < partners.walls(); ++wall)
     text += partner_trends(partners[wall].key, fmt::format("ball_ball = false, partner = {}", wall));
   return text + partner_trends(partners[partners.ball_ball()].key, "ball_ball = true");
@@ -91,7 +121,7 @@ const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits&
 void add_report_outputs(casefile::CaseSpec& spec) {
   using casefile::Quantity;
   const auto before = spec.outputs.size();
-  casefile::add_outputs(outputs_for(casefile::partners_of(spec)), "the outputs of the report", spec);
+  casefile::add_outputs(outputs_for(spec), "the outputs of the report", spec);
   const bool moving = casefile::name_of(spec.mill) != "still";
   // Powers of pi in the drive's period may be rounded: these are only sampling times.
   const auto period =

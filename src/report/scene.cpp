@@ -20,15 +20,21 @@ using Json = nlohmann::json;
 /// Places of spheres in all frames together: about 20 bytes each.
 constexpr std::size_t most_places = 100000;
 
-/// Adds numbers to a JSON array, rounded: 0.01 mm is less than a pixel.
+/// Adds numbers to a JSON array, rounded to multiples of 1 / steps.
 template <class Vector>
 void append(Json& array, const Vector& numbers, double steps) {
   for (const double x : numbers) array.push_back(std::round(x * steps) / steps);
 }
 
-Json millimetres(const Vec3<double>& place) {
+/// Steps in a millimetre that are less than a pixel from where the viewer stands: 100 from 100 mm to 1 m.
+double steps_of(const Animation& animation) {
+  const double distance = 1000 * norm<double>(Vec3<double>(animation.eye - animation.target));
+  return std::pow(10, 4 - std::floor(std::log10(distance)));
+}
+
+Json millimetres(const Vec3<double>& place, double steps) {
   Json array = Json::array();
-  append(array, 1000 * place, 100);
+  append(array, 1000 * place, steps);
   return array;
 }
 
@@ -55,7 +61,7 @@ Json triangles_of(const std::vector<model::Mesh>& walls) {
 }
 
 /// Of each wall that moves in the vessel: its part of the list of all points, and its shift in each frame.
-Json pistons_of(const MovingVessel& vessel, std::size_t frames) {
+Json pistons_of(const MovingVessel& vessel, std::size_t frames, double steps) {
   Json pistons = Json::array();
   std::size_t first = 0;
   for (std::size_t wall = 0; wall < vessel.walls.size(); ++wall) {
@@ -63,7 +69,7 @@ Json pistons_of(const MovingVessel& vessel, std::size_t frames) {
     if (const auto& shift = vessel.shifts[wall]; shift.keys.size() > 1) {
       Json shifts = Json::array();
       for (std::size_t frame = 0; frame < frames; ++frame)
-        append(shifts, 1000 * shift.at(fraction_of(frame, frames)), 1000);
+        append(shifts, 1000 * shift.at(fraction_of(frame, frames)), 10 * steps);
       pistons.push_back({{"first", first}, {"count", count}, {"shifts", std::move(shifts)}});
     }
     first += count;
@@ -100,10 +106,11 @@ Outline hull_of(Outline points) {
 void add_frames(pugi::xml_node parent, const Animation& animation) {
   const auto& vessel = animation.vessel;
   const std::size_t frames = frame_count(animation);
+  const double steps = steps_of(animation);
   Json points = Json::array(), poses = Json::array(), places = Json::array(), radii = Json::array(),
        colours = Json::array();
   for (const auto& wall : vessel.walls)
-    for (const auto& point : wall.points) append(points, 1000 * point, 1000);
+    for (const auto& point : wall.points) append(points, 1000 * point, 10 * steps);
   for (const auto& sphere : animation.spheres) {
     radii.push_back(1000 * sphere.radius);
     colours.push_back(sphere.colour);
@@ -111,19 +118,19 @@ void add_frames(pugi::xml_node parent, const Animation& animation) {
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const double fraction = fraction_of(frame, frames);
     const auto pose = vessel.pose(fraction);
-    append(poses, 1000 * pose.translation(), 100);
+    append(poses, 1000 * pose.translation(), steps);
     append(poses, Eigen::Quaterniond(pose.rotation()).coeffs(), 1e6);
-    for (const auto& sphere : animation.spheres) append(places, 1000 * sphere.place.at(fraction), 100);
+    for (const auto& sphere : animation.spheres) append(places, 1000 * sphere.place.at(fraction), steps);
   }
   const Json scene = {{"duration", animation.duration},
-                      {"eye", millimetres(animation.eye)},
-                      {"target", millimetres(animation.target)},
+                      {"eye", millimetres(animation.eye, steps)},
+                      {"target", millimetres(animation.target, steps)},
                       {"vessel",
                        {{"points", points},
                         {"triangles", triangles_of(vessel.walls)},
                         {"colour", vessel.colour},
                         {"opacity", vessel.opacity},
-                        {"pistons", pistons_of(vessel, frames)},
+                        {"pistons", pistons_of(vessel, frames, steps)},
                         {"poses", poses}}},
                       {"spheres", {{"radii", radii}, {"colours", colours}, {"places", places}}}};
   add(parent, "script", {{"type", "application/json"}, {"id", "frames"}}, scene.dump());
@@ -133,13 +140,13 @@ void add_still(pugi::xml_node parent, const Animation& animation) {
   const auto& vessel = animation.vessel;
   const auto pose = vessel.pose(0);
   const Vec3<double> centre = pose.translation();
-  const double reach = 1.25 * vessel.reach();
-  // In millimetres, y upwards.
-  const auto x = [&](const Vec3<double>& place) { return 1000 * (place[0] - centre[0] + reach); };
-  const auto y = [&](const Vec3<double>& place) { return 1000 * (centre[1] + reach - place[1]); };
+  // In percent of the picture, whose strokes have one width for vessels of any size; y upwards.
+  const double reach = 1.25 * vessel.reach(), percent = 50 / reach;
+  const auto x = [&](const Vec3<double>& place) { return percent * (place[0] - centre[0] + reach); };
+  const auto y = [&](const Vec3<double>& place) { return percent * (centre[1] + reach - place[1]); };
   auto svg = add(parent, "svg",
                  {{"class", "still"},
-                  {"viewBox", fmt::format("0 0 {0:.1f} {0:.1f}", 2000 * reach)},
+                  {"viewBox", "0 0 100 100"},
                   {"role", "img"},
                   {"aria-label", "The vessel and its balls at the beginning of the animation"}});
   const auto outline = [&](const Outline& points) {
@@ -166,7 +173,7 @@ void add_still(pugi::xml_node parent, const Animation& animation) {
         {{"class", "ball"},
          {"cx", fmt::format("{:.2f}", x(place))},
          {"cy", fmt::format("{:.2f}", y(place))},
-         {"r", fmt::format("{:.2f}", 1000 * sphere->radius)},
+         {"r", fmt::format("{:.2f}", percent * sphere->radius)},
          {"fill", sphere->colour}});
 }
 

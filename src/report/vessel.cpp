@@ -23,6 +23,7 @@ using model::Coordinate;
 
 /// A wall and the map of the dose rate on it [kW/m2].
 struct WallMap {
+  std::size_t id;
   Surface surface;
   model::WallInfo info;
   plot::HeatMap map{};
@@ -31,8 +32,10 @@ struct WallMap {
     const auto own = surface.coordinates();
     return std::find(own.begin(), own.end(), c) != own.end();
   }
-  double lowest(int axis) const { return scale(axis) * surface.edge(axis, 0, 1); }
-  double highest(int axis) const { return scale(axis) * surface.edge(axis, 1, 1); }
+  /// Where the wall begins and ends along an axis of the map; its own coordinate may run the other way.
+  std::pair<double, double> ends(int axis) const {
+    return std::minmax(scale(axis) * surface.edge(axis, 0, 1), scale(axis) * surface.edge(axis, 1, 1));
+  }
   /// From a coordinate of the table to the map's: degrees and millimetres; a disc is drawn as it is.
   double scale(int axis) const {
     if (map.disc) return 1;
@@ -58,43 +61,44 @@ std::string axis_title(const Surface& surface, int axis) {
     for (int k = 0; k < 3; ++k)
       if (half[k] == norm<double>(half)) return fmt::format("along {} [mm]", "xyz"[k]);
   }
-  return fmt::format("{} [mm]", model::info_of(coordinate).meaning);
+  return axis == 0 ? "along the first edge [mm]" : "along the second edge [mm]";
 }
 
-void label(WallMap& wall, std::size_t id) {
+void label(WallMap& wall) {
   auto& map = wall.map;
   const std::string name = heading(wall.info.label);
   map.value = "dose rate [kW/m\u00b2]";
   map.highest = 0;
   map.disc = wall.has(Coordinate::radius);
-  map.x = {axis_title(wall.surface, 0), wall.lowest(0), wall.highest(0), false};
-  map.y = {axis_title(wall.surface, 1), wall.lowest(1), wall.highest(1), false};
+  const auto [left, right] = wall.ends(0);
+  const auto [bottom, top] = wall.ends(1);
+  map.x = {axis_title(wall.surface, 0), left, right, false};
+  map.y = {axis_title(wall.surface, 1), bottom, top, false};
   if (map.disc) {
-    map.id = fmt::format("cap-{}", id);
-    map.title = fmt::format("{}, {} mm across", name, plot::brief(2000 * wall.highest(1)));
+    map.id = fmt::format("cap-{}", wall.id);
+    map.title = fmt::format("{}, {} mm across", name, plot::brief(2000 * top));
     map.x.title = "angle about the vessel\u2019s axis";
   } else if (wall.has(Coordinate::angle)) {
-    map.id = "cylinder";
+    map.id = wall.info.label == "cylinder" ? wall.info.label : fmt::format("wall-{}", wall.id);
     map.title = name + ", unrolled";
     map.x_step = 90;
   } else {
-    map.id = fmt::format("wall-{}", id);
-    map.title = fmt::format("{}, {} mm \u00d7 {} mm", name, plot::brief(2 * wall.highest(0)),
-                            plot::brief(2 * wall.highest(1)));
+    map.id = fmt::format("wall-{}", wall.id);
+    map.title =
+        fmt::format("{}, {} mm \u00d7 {} mm", name, plot::brief(right - left), plot::brief(top - bottom));
   }
 }
 
 void read_cells(std::vector<WallMap>& walls, const OutputTable& table) {
   const auto wall_id = table.column("wall"), density = table.column("dose_per_area");
-  for (std::size_t id = 0; id < walls.size(); ++id) {
-    auto& wall = walls[id];
+  for (auto& wall : walls) {
     std::array<std::size_t, 4> columns;
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const std::string name = model::info_of(wall.surface.coordinates()[axis]).name;
       columns[2 * axis] = table.column(name + "_low"), columns[2 * axis + 1] = table.column(name + "_high");
     }
     for (const auto& row : table.numbers) {
-      if (row[wall_id] != static_cast<double>(id)) continue;
+      if (row[wall_id] != static_cast<double>(wall.id)) continue;
       const double value = row[density] / table.duration() / 1000;  // kW/m2
       const double x = wall.scale(0), y = wall.scale(1);
       wall.map.cells.push_back(
@@ -129,24 +133,33 @@ void add_vessel(pugi::xml_node main, const RunFolder& run) {
     return add_missing(section, "time in the coverage of the vessel", "type = \"coverage\"");
   const auto vessel = casefile::build_mill<double>(run.spec).vessel;
   const auto surfaces = vessel.surfaces();
+  const double extent = vessel.extent();
   std::vector<WallMap> walls;
   for (std::size_t id = 0; id < surfaces.size(); ++id) {
-    walls.push_back({surfaces[id], vessel.walls()[id]});
-    label(walls.back(), id);
+    // Of a capsule as high as it is wide nothing is left of the cylinder.
+    if (surfaces[id].area() < 1e-9 * extent * extent) continue;
+    walls.push_back({id, surfaces[id], vessel.walls()[id]});
+    label(walls.back());
   }
   read_cells(walls, table);
   const std::string shared = share_scales(walls);
   std::stable_partition(walls.begin(), walls.end(), [](const WallMap& wall) { return !wall.map.disc; });
-  auto grid = add(section, "div", {{"class", "charts maps"}});
+  const auto discs =
+      std::count_if(walls.begin(), walls.end(), [](const WallMap& wall) { return wall.map.disc; });
+  const bool can = discs == 2 && walls.size() == 3;  // a cylinder's two caps stand beside it
+  auto grid = add(section, "div", {{"class", can ? "charts maps" : "charts"}});
   bool angles = false;
-  for (auto& [surface, info, map] : walls) {
+  for (auto& [id, surface, info, map] : walls) {
     map.description = fmt::format("Map of the dose rate per area on {}, up to {} kW per square metre.",
                                   info.meaning, readable(map.highest, 3));
     draw(grid, map);
     angles = angles || surface.coordinates()[0] == Coordinate::angle;
   }
   add(section, "p", {{"class", "note"}},
-      (angles ? "Angles are measured from the direction along the arm, away from the fulcrum. " : "") +
+      (!angles ? ""
+       : casefile::name_of(run.spec.mill).starts_with("spex")
+           ? "Angles are measured from the direction along the arm, away from the fulcrum. "
+           : "Angles are measured about the vessel\u2019s y axis, from x to z. ") +
           ("Cells of one wall have equal areas." + shared));
 }
 

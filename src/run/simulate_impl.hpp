@@ -51,10 +51,17 @@ template <class Real>
 io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
                              const RunDriver<Real>& driver) {
   auto summary = blank_summary(spec, built);
+  const auto& simulation = driver.simulation();
   summary.cpu_seconds = driver.cpu_spent();
   summary.start_time = driver.counted_from();
   summary.energy_at_start = driver.energy_at_start();
-  note_totals(driver.simulation(), driver.statistics(), summary);
+  note_totals(simulation, driver.statistics(), summary);
+  // An instant is whole periods and a rest, whose sum is rounded: where the case names the time, it is that.
+  const auto name = [&](Real& seconds, const Instant<Real>& when, const casefile::Quantity& given) {
+    if (seconds == simulation.clock().seconds(when)) seconds = given.template to<Real>();
+  };
+  name(summary.start_time, built.the_case.statistics_start, spec.statistics_start);
+  if (spec.end_time) name(summary.end_time, *built.the_case.stop.end_time, *spec.end_time);
   return summary;
 }
 

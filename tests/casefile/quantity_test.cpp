@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,7 @@ TEST(Quantity, CompanionUnitsAreExact) {
       {"9 mm/s", D::speed, ratio(9, 1000)},
       {"10 in/s", D::speed, ratio(254, 1000)},
       {"360 deg/s", D::angular_speed, ratio(2), 1},
+      {"1060 cpm", D::angular_speed, ratio(106, 3), 1},
       {"981 cm/s2", D::acceleration, ratio(981, 100)},
   });
 }
@@ -125,7 +127,7 @@ TEST(Quantity, UsualSpellingsAreOneUnit) {
       {D::length, {"2 ft", "2 foot", "2 feet"}},
       {D::mass, {"2 lb", "2 lbs", "2 pounds", "2 pound"}},
       {D::time, {"2 h", "2 hr", "2 hours", "120 min", "120 minutes", "7200 s", "7200 seconds"}},
-      {D::angular_speed, {"60 rpm", "60 r/min", "60 rev/min", "1 Hz", "1 hertz"}},
+      {D::angular_speed, {"60 rpm", "60 cpm", "60 r/min", "60 rev/min", "60 cycles/min", "1 Hz", "1 hertz"}},
   };
   for (const auto& [dimension, texts] : families)
     for (const auto& text : texts)
@@ -141,6 +143,31 @@ TEST(Quantity, EveryUnitOfAMessageIsUnderstood) {
     for (std::size_t at = 0, comma; (comma = list.find(", ", at)) != std::string::npos; at = comma + 2)
       EXPECT_TRUE(parsed("1 " + list.substr(at, comma - at), d).positive());
   }
+}
+
+TEST(Quantity, EveryUnitOfTheReferenceIsUnderstood) {
+  std::set<std::string> dimensions;
+  for (const auto& unit : unit_texts()) {
+    dimensions.insert(unit.dimension);
+    for (const auto& spelling : unit.spellings) {
+      int understood = 0;
+      for (int d = 0; d <= static_cast<int>(D::pressure); ++d)
+        if (std::holds_alternative<Quantity>(parse_quantity("1 " + spelling, static_cast<D>(d))))
+          understood += describe(static_cast<D>(d)).find(" " + unit.dimension) != std::string::npos;
+      EXPECT_EQ(understood, 1) << spelling;
+    }
+  }
+  EXPECT_EQ(dimensions.size(), 10u);
+}
+
+TEST(Quantity, ACommaInANumberIsNamed) {
+  for (const auto* text :
+       {"12,7 mm", "-0,5 m", ",5 mm", "+,5 mm", "1,000.5 mm", "1.000,5 mm", "3,0", "0,1mm"})
+    EXPECT_EQ(problem(text, D::length),
+              "\"" + std::string(text) +
+                  "\" (a comma in a number: a decimal point is expected, and no mark of thousands)");
+  for (const auto* text : {"5 mm,", ", 5 mm", "5, mm", "mm,5"})
+    EXPECT_EQ(problem(text, D::length).find("comma"), std::string::npos) << text;
 }
 
 TEST(Quantity, WhatIsNoQuantityIsNamed) {

@@ -252,9 +252,40 @@ TEST_F(BadInput, CommandLineErrorsAreOneLineAndCodeTwo) {
   expect_failure(run(demo, {"--set"}), "--set");
   expect_failure(run(demo, {"another.toml"}), "another.toml");
   expect_failure({"run"}, "case is required");
-  expect_failure({"grind", demo}, "");
+  expect_failure({"grind", demo}, "grind: found an unknown command, expected one of: run, demo, ");
   expect_failure({"check", demo, "--out", out}, "--out");
   expect_failure({}, "subcommand is required");
+}
+
+TEST_F(BadInput, MistypedCommandsAndOptionsAreNamedWithTheNearest) {
+  const std::string demo = valid_case.string(), of = "', or another of: run, demo, ";
+  for (const auto& [word, meant] : std::vector<std::pair<std::string, std::string>>{{"simulate", "run"},
+                                                                                    {"help", "--help"},
+                                                                                    {"validate", "check"},
+                                                                                    {"restart", "resume"},
+                                                                                    {"diff", "compare"}})
+    expect_failure({word, demo},
+                   word + ": found an unknown command, expected '" + meant + "' (see edmill --help)");
+  for (const auto& [word, meant] : std::vector<std::pair<std::string, std::string>>{{"rnu", "run"},
+                                                                                    {"Run", "run"},
+                                                                                    {"chekc", "check"},
+                                                                                    {"swep", "sweep"},
+                                                                                    {"optimise", "optimize"},
+                                                                                    {"res", "resume"}})
+    expect_failure({word, demo}, word + ": found an unknown command, expected '" + meant + of);
+  for (const auto& [option, meant] :
+       std::vector<std::pair<std::string, std::string>>{{"--quite", "--quiet"},
+                                                        {"--Report", "--report"},
+                                                        {"--prec=double", "--precision"},
+                                                        {"--check-point", "--checkpoint"}}) {
+    const auto name = option.substr(0, option.find('='));
+    expect_failure(run(demo, {option}),
+                   name + ": found an unknown option, expected '" + meant + "', or another of: ");
+    expect_failure({"run", option}, "(see edmill run --help)");  // without the case too
+  }
+  expect_failure({"--versoin"}, "--versoin: found an unknown option, expected '--version'");
+  expect_failure({"compare", "a", "b", "--tolerance", "1,5"},
+                 "a decimal point is expected (see edmill compare --help)");
 }
 
 TEST_F(BadInput, BadSettingsAreNamedWithTheirKey) {

@@ -34,6 +34,9 @@ TEST_F(LimitsTest, ATangentFirstFlightIsUndecidedAndLeavesASummary) {
   EXPECT_NE(summary.find("\"end_reason\": \"undecided\""), std::string::npos) << summary;
   EXPECT_NE(summary.find("\"error\": \"ball-wall contact undecided"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/final_state.csv"));
+  const auto checked = edmill("check still.toml");
+  EXPECT_EQ(checked.code, 4);
+  EXPECT_EQ(checked.err, outcome.err);
   const auto certified = edmill("certify still.toml --collisions 10 --out events.csv");
   EXPECT_EQ(certified.code, 4) << certified.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "events.csv"));

@@ -8,6 +8,7 @@
 namespace {
 
 using edmill::plot::brief;
+using edmill::plot::fitting_ticks;
 using edmill::plot::linear_ticks;
 using edmill::plot::log_ticks;
 using edmill::plot::readable;
@@ -29,6 +30,12 @@ TEST(Ticks, StandAtRoundNumbersWithAsManyDecimalsAsTheyNeed) {
   EXPECT_EQ(labels(linear_ticks(-1, 1)), (Texts{"\u22121.0", "\u22120.5", "0.0", "0.5", "1.0"}));
   EXPECT_EQ(labels(linear_ticks(0, 12400)), (Texts{"0", "5000", "10\u202f000"}));
   EXPECT_EQ(labels(linear_ticks(0, 1.2e6)), (Texts{"0", "5 \u00d7 10\u2075", "1 \u00d7 10\u2076"}));
+  EXPECT_EQ(labels(linear_ticks(1000000, 1000000.5)),
+            (Texts{"1\u202f000\u202f000.0", "1\u202f000\u202f000.1", "1\u202f000\u202f000.2",
+                   "1\u202f000\u202f000.3", "1\u202f000\u202f000.4", "1\u202f000\u202f000.5"}));
+  EXPECT_EQ(labels(fitting_ticks(1000000, 1000000.5, 6, 380)),
+            (Texts{"1\u202f000\u202f000.0", "1\u202f000\u202f000.2", "1\u202f000\u202f000.4"}));
+  EXPECT_EQ(labels(fitting_ticks(0, 10, 6, 380)), labels(linear_ticks(0, 10)));
   EXPECT_EQ(linear_ticks(0, 0.31)[3].place, 0.3);  // not 3 * 0.1
 }
 

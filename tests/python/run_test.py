@@ -37,7 +37,7 @@ def test_a_run_is_that_of_the_program(program, demo, tmp_path):
 
 def test_the_numbers_of_a_run_are_attributes(small):
     run = edmill.run(small)
-    assert run.time == pytest.approx(1, rel=1e-15)
+    assert run.time == 1
     assert run.milling_dose_rate == run.summary["milling_dose_rate"] > 0
     assert run.events["time"][-1] <= 1
     counted = run.events[run.events["time"] >= 0.5]
@@ -153,7 +153,7 @@ def test_control_c_ends_a_run_with_its_results(small):
     with pytest.raises(edmill.Interrupted) as interrupted:
         edmill.run(small, until="100000 s", events=False)
     assert isinstance(interrupted.value, KeyboardInterrupt)
-    assert 0 < interrupted.value.run.time < 100000
+    assert 0 < interrupted.value.run.time < 100000 and interrupted.value.run.end_reason == "interrupted"
 
 
 def test_other_threads_go_on(small):
@@ -262,23 +262,6 @@ def test_laws_that_are_none_are_refused(small, answer, expected, precision):
 
     with pytest.raises(edmill.InputError, match=expected):
         edmill.run(small, precision, ball_ball_law=Law(), ball_wall_law=Law())
-
-
-def test_arguments_are_checked(small):
-    with pytest.raises(edmill.InputError, match="ball_ball_law: found"):
-        edmill.run(small, ball_ball_law=lambda speed: 0.5)
-    with pytest.raises(edmill.InputError, match="progress: found 5"):
-        edmill.run(small, progress=5)
-    with pytest.raises(edmill.InputError, match="settings: found 'run.seed=2'"):
-        edmill.Case({"run": {}}, "run.seed=2")
-    with pytest.raises(edmill.InputError, match="collisions: found 0"):
-        edmill.prove(small, 0)
-    with pytest.raises(edmill.InputError, match="tolerance: found -1"):
-        edmill.audit(small, "log.csv", tolerance=-1)
-    with pytest.raises(edmill.InputError, match="start: found '0.5 s'"):
-        edmill.compare("a", "b", start="0.5 s")
-    with pytest.raises(edmill.InputError, match="jobs: found -1"):
-        edmill.sweep({}, "nowhere", jobs=-1)
 
 
 def test_a_run_shows_its_report_in_notebooks(small):

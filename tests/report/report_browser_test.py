@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """A report in headless Chromium: no message on the console, no request, axes with units, a scene that moves, a phone's width,
-dark colours; and how fast a report of 908 balls opens. Debian: chromium, chromium-driver, python3-selenium.
+dark colours; reports of every motion and vessel; and how fast a report of 908 balls opens. Debian: chromium, chromium-driver,
+python3-selenium.
 
-usage: report_browser_test.py EDMILL [FOLDER]    FOLDER keeps the run and the screenshots
+usage: report_browser_test.py EDMILL [FOLDER] [--long]
+FOLDER keeps the runs and the screenshots; with --long only the reports of all mills and of docs/examples
 """
 import base64
 import bisect
@@ -17,6 +19,8 @@ import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
+from mills import MILLS, SOME, WITHOUT_DOSE
+from page_checks import BAD_LABELS, FARTHEST
 from selenium import webdriver
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
@@ -148,11 +152,38 @@ class Report(unittest.TestCase):
             };
             image.src = 'data:image/png;base64,' + png;""", base64.b64encode(self.scene_picture()).decode(), circles)
 
-    def test_1_the_console_is_silent(self):
+    def assert_silent(self):
         # The driver warns about rendering without a graphics card.
         ours = [entry for entry in self.browser.get_log("browser")
                 if entry["level"] in ("WARNING", "SEVERE") and "GL Driver Message" not in entry["message"]]
         self.assertEqual(ours, [])
+
+    def assert_good(self, name):
+        """The report of a run: the console, its numbers, its labels at two widths, and where its scene is."""
+        self.browser.get_log("browser")  # of the page before
+        # Paused: to draw without a graphics card takes most of the time.
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]})
+        self.browser.get((self.folder / name / "report.html").as_uri())
+        self.assert_silent()
+        text = self.script("return document.querySelector('main').outerHTML")
+        self.assertEqual(re.findall(r"[^\w](?:nan|inf|infinity|undefined|null)[^\w]", text, re.IGNORECASE), [])
+        for width in (1200, 390):
+            self.size(width, 900)
+            time.sleep(0.2)
+            if FOLDER:
+                self.keep(f"{name}-{width}.png")
+            self.assertEqual(self.script(BAD_LABELS), [], f"at {width} px")
+            self.assertEqual(self.script("return document.documentElement.scrollWidth"), width)
+        farthest = self.script(FARTHEST)
+        self.assertLess(farthest, 1, "all balls are in the picture at all times")
+        self.assertGreater(farthest, 0.9, "and what they are in fills it")
+        if name not in WITHOUT_DOSE:
+            high = "return Math.max(...[...document.querySelectorAll('#energy-spectrum .curve')].map(c => c.getBBox().height))"
+            self.assertGreater(self.script(high), 100, "the spectrum shows the energies of this mill")
+        self.assertIn("gravity", self.script("return document.getElementById('case').textContent"))
+
+    def test_1_the_console_is_silent(self):
+        self.assert_silent()
 
     def test_1_nothing_is_fetched(self):
         requests = []  # the browser's own pages have the scheme chrome:
@@ -321,6 +352,28 @@ class Report(unittest.TestCase):
         self.assertGreater(both, 0.9 * inside)
         self.assertGreater(both, 0.9 * balls)
 
+    def assert_good_runs(self, cases):
+        for case in cases:
+            with self.subTest(case.name):
+                subprocess.run([EDMILL, "run", case, "--report", "--quiet", "--out", self.folder / case.stem], check=True)
+                self.assert_good(case.stem)
+
+    def mills(self, names):
+        for name in names:
+            case = self.folder / f"{name}.toml"
+            case.write_text(MILLS[name])
+            yield case
+
+    def test_9_reports_of_other_mills_are_good(self):
+        self.assert_good_runs(self.mills(SOME))
+
+    def test_9_reports_of_all_mills_are_good_long(self):
+        self.assert_good_runs(self.mills(MILLS))
+
+    def test_9_reports_of_the_examples_are_good_long(self):
+        self.assert_good_runs(case for case in sorted((ROOT / "docs/examples").glob("*.toml"))
+                              if ".sweep" not in case.name and ".optimize" not in case.name)
+
     def test_8_without_webgl_the_still_picture_stays(self):
         script = self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument",
                                               {"source": "HTMLCanvasElement.prototype.getContext = () => null;"})
@@ -331,6 +384,8 @@ class Report(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 2:
+    long = "--long" in sys.argv
+    if len(sys.argv) > 2 + long:
         FOLDER = sys.argv[2]
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    names = [name for name in unittest.TestLoader().getTestCaseNames(Report) if name.endswith("_long") == long]
+    unittest.main(argv=[sys.argv[0], *(f"Report.{name}" for name in names)], verbosity=2)

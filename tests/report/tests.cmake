@@ -5,5 +5,8 @@ add_dependencies(report_page_test edmill_cli)
 # The page in Debian's chromium: chromium-driver, python3-selenium.
 add_test(NAME report_browser_test COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/report/report_browser_test.py
                                           $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/report-in-browser)
+add_test(NAME report_browser_long COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/report/report_browser_test.py
+                                          $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/report-of-mills --long)
+set_tests_properties(report_browser_long PROPERTIES LABELS long TIMEOUT 1800 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 set_tests_properties(report_browser_test PROPERTIES TIMEOUT 300 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 target_compile_definitions(report_page_test PRIVATE EDMILL_THREE_JS="${THREE_JS}" EDMILL_THREE_ORBIT_JS="${THREE_ORBIT_JS}")

@@ -38,8 +38,8 @@ struct Chain {
   Joints<Number> joints() const { return given; }
 };
 
-/// [mill] type = "planetary": a jar on a disc, both about vertical axes. `ratio` is the jar's speed against
-/// the disc over that of the disc: -1 keeps the jar's direction in space.
+/// [mill] type = "planetary": a jar on a disc, both about vertical axes. `ratio` is the jar's speed as seen
+/// from the disc over that of the disc: negative where the jar turns the other way, as in most mills.
 /// Source: Burgio et al., Il Nuovo Cimento D 13 (1991) 459, whose jar turns against the disc.
 template <class Number>
 struct Planetary {
@@ -53,8 +53,11 @@ struct Planetary {
         part.radius);
     visit(PartParameter{"speed", Dimension::angular_speed, "of the disc, about Y", Range::drive},
           part.period);
-    visit(PartParameter{"ratio", Dimension::none, "speed of the jar against the disc over that of the disc"},
-          part.ratio);
+    visit(
+        PartParameter{"ratio", Dimension::none,
+                      "speed of the jar as seen from the disc, over that of the disc: negative where the jar "
+                      "turns the other way, -1 where it keeps its direction in space"},
+        part.ratio);
   }
   Joints<Number> joints() const {
     auto disc = axis_joint<Number>(true, 1), arm = axis_joint<Number>(false, 0),

@@ -10,33 +10,35 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import _edmill
+from .checks import place, require, text as checked_text, texts
 
 
-def _text_of(value: Any) -> str:
-    """A value as TOML."""
+def _text_of(value: Any, name: str = "") -> str:
+    """A value as TOML. `name` is its key, for messages."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_key(k)} = {_text_of(v)}" for k, v in value.items()) + "}"
+        return "{" + ", ".join(f"{_key(k)} = {_text_of(v, name)}" for k, v in value.items()) + "}"
     if isinstance(value, Sequence):
-        return "[" + ", ".join(map(_text_of, value)) + "]"
+        return "[" + ", ".join(_text_of(v, name) for v in value) + "]"
     if isinstance(value, os.PathLike):
-        return _text_of(os.fspath(value))
+        return _text_of(os.fspath(value), name)
     if hasattr(value, "tolist"):  # of NumPy
-        return _text_of(value.tolist())
+        return _text_of(value.tolist(), name)
     if isinstance(value, int):
         return str(value)
     if isinstance(value, float):
         if not math.isfinite(value):
-            raise _edmill.InputError(f"found {value}, expected a finite number")
+            raise _edmill.InputError(f"{name}: found {value}, expected a finite number")
         return repr(value)
     return _text_of(str(value))  # a Decimal, a Fraction's text, ...
 
 
 def _key(key: str) -> str:
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _text_of(str(key))
+    require("key", key, isinstance(key, str), "a text")
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _text_of(key)
 
 
 def _toml(tree: Mapping[str, Any], path: str = "") -> str:
@@ -49,7 +51,7 @@ def _toml(tree: Mapping[str, Any], path: str = "") -> str:
         elif isinstance(value, (list, tuple)) and value and all(isinstance(v, Mapping) for v in value):
             sections += [f"\n[[{name}]]\n{_toml(v, name)}" for v in value]
         else:
-            lines.append(f"{_key(key)} = {_text_of(value)}\n")
+            lines.append(f"{_key(key)} = {_text_of(value, name)}\n")
     return "".join(lines + sections)
 
 
@@ -67,7 +69,7 @@ class Case:
         if isinstance(source, Mapping):
             text, name = _toml(source), "case"
         else:
-            path = pathlib.Path(source)
+            path = pathlib.Path(place("case", source, "a file, a dictionary of sections or a Case"))
             try:
                 text, name = path.read_text(encoding="utf-8"), str(path)
             except (OSError, UnicodeDecodeError) as error:
@@ -78,7 +80,7 @@ class Case:
     def parse(cls, text: str, name: str = "case.toml", settings: Sequence[str] = ()) -> Case:
         """A case of the text of a case file; `name` stands for the file in messages."""
         made = cls.__new__(cls)
-        made._set(text, name, settings)
+        made._set(checked_text("text", text), checked_text("name", name), settings)
         return made
 
     @classmethod
@@ -97,10 +99,8 @@ class Case:
         })
 
     def _set(self, text: str, name: str, settings: Sequence[str]) -> None:
-        if isinstance(settings, str):
-            raise _edmill.InputError(f"settings: found {settings!r}, expected a list of \"section.key=value\"")
-        self._text, self._name, self._settings = text, name, tuple(settings)
-        self._case = _edmill.Case.parse(text, name, list(settings))
+        self._text, self._name, self._settings = text, name, tuple(texts("settings", settings, '"section.key=value"'))
+        self._case = _edmill.Case.parse(text, name, list(self._settings))
 
     def with_settings(self, *settings: str) -> Case:
         """The same with "section.key=value" over it."""
@@ -145,3 +145,8 @@ class Case:
 
     def __reduce__(self):
         return Case.parse, (self._text, self._name, self._settings)
+
+
+def case_of(given: Case | Mapping[str, Any] | str | os.PathLike) -> Case:
+    """A case as it is, or of a file or dictionary."""
+    return given if isinstance(given, Case) else Case(given)

@@ -12,7 +12,10 @@ from decimal import Decimal
 from typing import Any
 
 from . import _edmill
-from .case import Case
+from .case import Case, case_of
+from .checks import flag, number, place, require, text, whole
+
+LARGEST = 2**63 - 1  #: of counts
 
 
 class Judgement(dict):
@@ -27,14 +30,8 @@ class Judgement(dict):
         return self.code == 0
 
 
-def _require(name: str, value: Any, good: bool, expected: str) -> None:
-    if not good:
-        raise _edmill.InputError(f"{name}: found {value!r}, expected {expected}")
-
-
-def _require_numbers(**values: Any) -> None:
-    for name, value in values.items():
-        _require(name, value, value is None or isinstance(value, (int, float)) and value >= 0, "a number, 0 or above")
+def _optional(check, name: str, value: Any, *bounds: Any) -> Any:
+    return None if value is None else check(name, value, *bounds)
 
 
 def _judge(call) -> Judgement:
@@ -47,9 +44,11 @@ def _judge(call) -> Judgement:
 def compare(a: str | os.PathLike, b: str | os.PathLike, *, tolerance: float = 1e-9, events: int | None = None,
             start: float | None = None, end: float | None = None, batch: float | None = None) -> Judgement:
     """As `edmill compare`: two folders of runs, or logs; `a` is the reference. Times in s."""
-    _require_numbers(tolerance=tolerance, start=start, end=end, batch=batch)
-    _require("events", events, events is None or isinstance(events, int) and events > 0, "a whole number above 0")
-    return _judge(lambda file: _edmill.compare(os.fspath(a), os.fspath(b), file, tolerance, events, start, end, batch))
+    a, b = place("a", a), place("b", b)
+    tolerance = number("tolerance", tolerance)
+    events = _optional(whole, "events", events, 1, LARGEST)
+    start, end, batch = (_optional(number, n, v) for n, v in (("start", start), ("end", end), ("batch", batch)))
+    return _judge(lambda file: _edmill.compare(a, b, file, tolerance, events, start, end, batch))
 
 
 def audit(case: Case | Mapping | str | os.PathLike, log: str | os.PathLike, *, columns: Mapping[str, str] | None = None,
@@ -58,10 +57,15 @@ def audit(case: Case | Mapping | str | os.PathLike, log: str | os.PathLike, *, c
     """As `edmill audit`: the log of any code, against the physics of the case. `columns` has our name of each of its
     columns and theirs, with a unit: {"time": "t [ms]"}. With `identify` the result's entry "identified" has the values or
     mistakes that explain the violations."""
-    _require_numbers(tolerance=tolerance, gap_tolerance=gap_tolerance)
-    given = [f"{ours}={theirs}" for ours, theirs in (columns or {}).items()]
-    case = case if isinstance(case, Case) else Case(case)
-    return _judge(lambda file: _edmill.audit(case._case, os.fspath(log), file, given, tolerance, gap_tolerance, first_ball,
+    case, log = case_of(case), place("log", log)
+    tolerance = _optional(number, "tolerance", tolerance)
+    gap_tolerance = _optional(number, "gap_tolerance", gap_tolerance)
+    first_ball = _optional(whole, "first_ball", first_ball, 0, 1000000000)
+    walls, from_start, identify = text("walls", walls), flag("from_start", from_start), flag("identify", identify)
+    columns = {} if columns is None else columns
+    require("columns", columns, isinstance(columns, Mapping), 'a dictionary {"time": "t [ms]"}')
+    given = [f"{text('columns', ours)}={text('columns', theirs)}" for ours, theirs in columns.items()]
+    return _judge(lambda file: _edmill.audit(case._case, log, file, given, tolerance, gap_tolerance, first_ball,
                                              walls, from_start, identify))
 
 
@@ -92,12 +96,12 @@ def prove(case: Case | Mapping | str | os.PathLike, collisions: int, *, certific
           most_bits: int = 16384) -> Proof:
     """As `edmill prove`: the first events of a case as a theorem, with a certificate that others can check.
     Raises UndecidedError where the equations do not say what comes next."""
-    _require("collisions", collisions, isinstance(collisions, int) and collisions > 0, "a whole number above 0")
-    _require("most_bits", most_bits, isinstance(most_bits, int) and 128 <= most_bits <= 1048576, "128 to 1048576")
-    case = case if isinstance(case, Case) else Case(case)
-    text, bits, left = _edmill.prove(case._case, collisions, most_bits, os.fspath(certificate) if certificate else "")
-    whole = {"index", "ball", "partner"}
-    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
-    events = [ProvenEvent(**{k: int(v) if k in whole else v if k == "partner_kind" else Decimal(v) for k, v in row.items()})
+    case = case_of(case)
+    collisions, most_bits = whole("collisions", collisions, 1, LARGEST), whole("most_bits", most_bits, 128, 1048576)
+    file = "" if certificate is None else place("certificate", certificate)
+    rows, bits, left = _edmill.prove(case._case, collisions, most_bits, file)
+    counts = {"index", "ball", "partner"}
+    rows = csv.DictReader(line for line in rows.splitlines() if not line.startswith("#"))
+    events = [ProvenEvent(**{k: int(v) if k in counts else v if k == "partner_kind" else Decimal(v) for k, v in row.items()})
               for row in rows]
     return Proof(events, bits, left)

@@ -2,18 +2,21 @@
 from __future__ import annotations
 
 import decimal
+import importlib
 import json
 import pathlib
-import shutil
+import sys
 import tempfile
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
-from . import _edmill
+from . import _edmill, checks
 from .callbacks import ContactLaw, Impact, Running
-from .case import Case
+from .case import Case, case_of
+from .checks import require
 from .tables import Tables
 
 
@@ -119,27 +122,64 @@ def _array(rows: Any, dtype: np.dtype) -> np.ndarray:
     return np.array(rows, dtype=fields)
 
 
-def _progress(until: float | None) -> Callable[[float, int], None] | None:
-    """A bar of tqdm, where that is installed. @param until  the end [s]"""
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        return None
-    bar = tqdm(total=until, unit="s", unit_scale=True, desc="simulated")
+class _Line:
+    """A line of text on standard error, a call ten times a second."""
 
-    def show(time: float, collisions: int) -> None:
-        bar.n = time
-        bar.set_postfix(collisions=collisions)
+    def __init__(self, until: float | None):
+        self._of = "" if until is None else f" of {until:g} s"
 
-    show.close = bar.close  # type: ignore[attr-defined]
-    return show
+    def __call__(self, time: float, collisions: int) -> None:
+        print(f"\rsimulated {time:.3f} s{self._of}, {collisions} collisions", end="", file=sys.stderr, flush=True)
+
+    def close(self) -> None:
+        print(file=sys.stderr)
+
+
+class _Bar:
+    """A bar of tqdm: of widgets in a notebook from tqdm.auto, of text from tqdm."""
+
+    def __init__(self, module: str, until: float | None):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of notebooks without widgets
+            self._bar = importlib.import_module(module).tqdm(total=until, unit="s", unit_scale=True, desc="simulated")
+
+    def __call__(self, time: float, collisions: int) -> None:
+        self._bar.n = time
+        self._bar.set_postfix(collisions=collisions)
+
+    def close(self) -> None:
+        self._bar.close()
+
+
+class _Progress:
+    """Shows how far a run is, in the best way that works: one that fails gives way to the next, and none ends the run."""
+
+    def __init__(self, until: float | None):
+        self._ways = [lambda: _Bar("tqdm.auto", until), lambda: _Bar("tqdm", until), lambda: _Line(until)]
+        self._shown: Any = None
+        self._do(lambda shown: None)
+
+    def _do(self, action: Callable[[Any], object]) -> None:
+        while self._shown or self._ways:
+            try:
+                self._shown = self._shown or self._ways.pop(0)()
+                action(self._shown)
+                return
+            except Exception:  # of any kind: widgets, terminals and files have many
+                self._shown = None
+
+    def __call__(self, time: float, collisions: int) -> None:
+        self._do(lambda shown: shown(time, collisions))
+
+    def close(self) -> None:
+        self._ways = []
+        self._do(lambda shown: shown.close())
 
 
 def _check_law(name: str, law: Any) -> None:
     for method in ("restitution", "restitution_of_slip"):
-        if law is not None and not callable(getattr(law, method, None)):
-            raise _edmill.InputError(f"{name}: found {law!r}, expected an object with restitution(approach_speed) and "
-                                     "restitution_of_slip(normal_change, slip_speed, compliance)")
+        require(name, law, law is None or callable(getattr(law, method, None)),
+                "an object with restitution(approach_speed) and restitution_of_slip(normal_change, slip_speed, compliance)")
 
 
 def run(case: Case | Mapping | str, precision: str | None = None, until: str | float | decimal.Decimal | None = None, *,
@@ -159,25 +199,30 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     ball_ball_law, ball_wall_law
                    objects with `restitution(approach_speed)` and `restitution_of_slip(normal_change, slip_speed,
                    compliance)`, in place of the case's laws; slow, unlike the laws that a case names
-    progress       True for a bar of tqdm, or a callable of time [s] and number of collisions, ten times a second
+    progress       True for a bar of tqdm, or a line of text without it; or a callable of time [s] and number of collisions,
+                   ten times a second
 
     Raises `InputError`, `UndecidedError` when no precision decides, and `Interrupted` on Ctrl-C."""
-    case = case if isinstance(case, Case) else Case(case)
+    case = case_of(case)
     if until is not None:
+        require("until", until, isinstance(until, str) or checks.is_number(until), 'a time such as "2 s", or a number of seconds')
         case = case.with_settings(f"run.end_time={json.dumps(until if isinstance(until, str) else f'{until} s')}")
-    precision = precision or case.precision
-    if report and folder is None:
-        raise _edmill.InputError("report: found no folder, expected one to write the report into")
+    precision = case.precision if precision is None else checks.text("precision", precision)
+    folder = None if folder is None else checks.place("folder", folder)
+    events, report = checks.flag("events", events), checks.flag("report", report)
+    require("folder", folder, folder is not None or not report, "one to write the report into")
+    require("observers", observers, isinstance(observers, Iterable), "a list of callables")
+    observers = list(observers)
+    for observer in observers:
+        require("observers", observer, callable(observer), "callables of an impact and the run")
     _check_law("ball_ball_law", ball_ball_law)
     _check_law("ball_wall_law", ball_wall_law)
-    if not (isinstance(progress, bool) or callable(progress)):
-        raise _edmill.InputError(f"progress: found {progress!r}, expected True, False or a callable")
-    show = _progress(case.end_time) if progress is True else progress or None
+    require("progress", progress, isinstance(progress, bool) or callable(progress), "True, False or a callable")
+    show = _Progress(case.end_time) if progress is True else progress or None
     try:
-        result = _edmill.run(case._case, precision, "" if folder is None else str(folder), events, report,
-                             list(observers), ball_ball_law, ball_wall_law, show)
+        result = _edmill.run(case._case, precision, folder or "", events, report, observers, ball_ball_law, ball_wall_law, show)
     finally:
-        if hasattr(show, "close"):
+        if isinstance(show, _Progress):
             show.close()
     done = Run(case, precision, None if folder is None else pathlib.Path(folder), result)
     laws = {"ball_ball_law": ball_ball_law, "ball_wall_law": ball_wall_law}
@@ -189,4 +234,4 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
 
 def report(folder: str | pathlib.Path) -> pathlib.Path:
     """Makes the report of a run's folder, as `edmill report`. Returns the page's path."""
-    return pathlib.Path(_edmill.report(str(folder)))
+    return pathlib.Path(_edmill.report(checks.place("folder", folder)))

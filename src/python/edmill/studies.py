@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _edmill
 from .case import _toml
+from .checks import place, whole
 from .tables import Tables
 
 
@@ -27,17 +28,18 @@ class Study:
 
 
 def _study(work, name: str, source: Any, folder: Any, jobs: int) -> Study:
-    if not isinstance(jobs, int) or jobs < 0:
-        raise _edmill.InputError(f"jobs: found {jobs!r}, expected a whole number, 0 or above")
+    folder, jobs = place("folder", folder), whole("jobs", jobs, 0, 4096)
+
     def on(file: str) -> Study:
-        code = work(file, str(folder), jobs)
+        code = work(file, folder, jobs)
         return Study(pathlib.Path(folder), name, code != 0)
 
     if not isinstance(source, Mapping):
-        return on(os.fspath(source))
+        return on(place("source", source, "a file or a dictionary of its sections"))
+    document = _toml(source)
     # Paths in a study are those from its file on: they are meant from here on.
     with tempfile.NamedTemporaryFile("w", suffix=f".{name}.toml", dir=".", encoding="utf-8") as file:
-        file.write(_toml(source))
+        file.write(document)
         file.flush()
         return on(file.name)
 
