@@ -12,7 +12,7 @@ namespace edmill::model {
 /// pressed together by less than that acceleration part for longer, by 2 v_s / a.
 struct StallRule {
   int impacts = 32;
-  int acceleration = 1000000;  ///< far above that of any mill [m/s^2]
+  int acceleration = 30000;  ///< far above that of any mill [m/s^2]
 
   /// @param least_separation  v_s of the law of the impact [m/s]; without one no flight is too short
   template <class Real>
