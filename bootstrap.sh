@@ -12,7 +12,7 @@ cd "$(dirname "$0")"
 program_packages=(
   g++ cmake ninja-build git ca-certificates
   libboost1.81-dev libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
-  libmpfr-dev libgmp-dev libflint-arb-dev libgsl-dev libssl-dev libtbb-dev libhdf5-dev libpugixml-dev libopenmpi-dev openmpi-bin
+  libmpfr-dev libgmp-dev libflint-arb-dev libgsl-dev libssl-dev libtbb-dev libhdf5-dev libpugixml-dev zlib1g-dev libzstd-dev libopenmpi-dev openmpi-bin
   nlohmann-json3-dev libjs-three
 )
 

@@ -1,8 +1,10 @@
 // The mill at each impact of the record, a file each: NAME_<index>.x3d. (thesis D.4.1)
 #pragma once
 
+#include <memory>
+
 #include "casefile/output_columns.hpp"
-#include "io/output_folder.hpp"
+#include "io/atomic_file.hpp"
 #include "output/scene_output.hpp"
 
 namespace edmill::output {
@@ -20,15 +22,21 @@ class SnapshotOutput : public SceneOutput<Real> {
  public:
   using SceneOutput<Real>::SceneOutput;
 
-  void commit() override {
+  void complete() override {
     for (const auto& [index, text] : pages_) {
-      auto place = this->place();
-      place.replace_filename(place.stem().string() + "_" + std::to_string(index) +
-                             place.extension().string());
-      io::AtomicFile file(place);
-      file.stream() << text;
-      file.commit();
+      files_.push_back(std::make_unique<io::AtomicFile>(place_of(index)));
+      files_.back()->stream() << text;
+      files_.back()->complete();
     }
+  }
+  void commit() override {
+    for (auto& file : files_) file->commit();
+  }
+  std::vector<std::filesystem::path> places() const override {
+    std::vector<std::filesystem::path> places;
+    for (const auto& file : files_)
+      for (auto& place : file->places()) places.push_back(std::move(place));
+    return places;
   }
 
  protected:
@@ -42,6 +50,13 @@ class SnapshotOutput : public SceneOutput<Real> {
   }
 
  private:
+  std::filesystem::path place_of(std::uint64_t index) const {
+    const auto place = this->place();
+    return place.parent_path() /
+           (place.stem().string() + "_" + std::to_string(index) + place.extension().string());
+  }
+
+  std::vector<std::unique_ptr<io::AtomicFile>> files_;
   std::vector<std::pair<std::uint64_t, std::string>> pages_;
 };
 
