@@ -1,6 +1,7 @@
 // A run of a case.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -12,6 +13,8 @@
 #include "edmill/vessel.hpp"
 
 namespace edmill {
+
+struct RunAccess;
 
 /// Laws of the user's own; empty ones leave the case's.
 template <class Real>
@@ -34,9 +37,11 @@ class Run {
 
   /// Has the outputs of the case, case.toml, final_state.csv and summary.json written into a folder, as
   /// `edmill run --out`. To be called before the run advances; without it nothing is written.
-  /// @throws InputError when a file cannot be written
+  /// @throws InputError when a file cannot be written, another process or run writes into the folder, or an
+  /// unfinished run has left its checkpoint there
   void write_to(const std::string& folder);
-  /// Puts these files in place; to be called once, behind the run's last advance.
+  /// Puts these files in place, and removes those that an earlier run has left there and this one has not; to
+  /// be called once, behind the run's last advance.
   void commit();
 
   /// Observers receive every impact, in the order of attachment; they must outlive the run.
@@ -60,6 +65,11 @@ class Run {
   Summary<Real> summary() const;
 
  private:
+  friend struct RunAccess;
+  /// @param case_text     for case.toml
+  /// @param when_written  called while no other run can write into the folder
+  void commit(const std::string& case_text, const std::function<void()>& when_written);
+
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

@@ -1,6 +1,7 @@
 // Implementation of Run; included by the instantiation files only.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,9 +11,8 @@
 #include "casefile/build_case.hpp"
 #include "edmill/run.hpp"
 #include "io/final_state.hpp"
-#include "io/output_folder.hpp"
 #include "io/summary_impl.hpp"
-#include "output/outputs.hpp"
+#include "output/write_results.hpp"
 #include "run/simulate_impl.hpp"
 
 namespace edmill {
@@ -93,30 +93,26 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
 
   void write_to(const std::string& folder) {
     EDMILL_REQUIRE(!advanced_ && !outputs_, "write_to is called once, before the run advances");
-    folder_ = folder;
-    io::prepare_folder(folder_);
-    lock_.emplace(folder_, false);
-    outputs_.emplace(*case_.spec_, folder_, driver_.simulation().clock().seconds(built_.start));
+    folder_.emplace(folder, *case_.spec_);
+    try {
+      outputs_.emplace(*case_.spec_, folder_->place(), driver_.simulation().clock().seconds(built_.start));
+    } catch (...) {
+      folder_.reset();  // free for others
+      throw;
+    }
   }
-  void commit() {
+  void commit(const std::string* case_text, const std::function<void()>& when_written) {
     EDMILL_REQUIRE(outputs_, "write_to was called");
     const auto& simulation = driver_.simulation();
     outputs_->on_end(simulation);
-    outputs_->commit(false);
     io::SavedState<Real> saved{simulation.now(), {}};
     for (int k = 0; k < simulation.ball_count(); ++k)
       saved.states.push_back(simulation.state_at(k, simulation.now()));
-    const auto write = [&](const char* name, const auto& put) {
-      io::AtomicFile file(folder_ / name);
-      put(file.stream());
-      file.commit();
-    };
-    write("final_state.csv",
-          [&](std::ostream& out) { io::write_final_state<Real>(out, saved, simulation.clock()); });
-    write("summary.json", [&](std::ostream& out) { out << summary().json; });
-    write("case.toml", [&](std::ostream& out) { out << case_.spec_->text; });
+    output::write_results<Real>(*folder_, *outputs_, saved, simulation.clock(), summary().json,
+                                case_text ? *case_text : case_.spec_->text, false);
+    when_written();
     outputs_.reset();
-    lock_.reset();
+    folder_.reset();
   }
 
   /// As it was asked for, where the run stands there: the sum of periods and a rest is rounded.
@@ -167,9 +163,8 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
   run::Guests<Real> guests_;
   bool own_laws_;
   run::RunDriver<Real> driver_;
+  std::optional<run::RunFolder> folder_;
   std::optional<output::Outputs<Real>> outputs_;
-  std::filesystem::path folder_;
-  std::optional<io::FolderLock> lock_;
   bool advanced_ = false;
   std::pair<Instant<Real>, Real> asked_{Instant<Real>::long_ago(), Real(0)};  ///< of the last advance [s]
   model::EndReason end_reason_ = model::EndReason::paused;
@@ -191,7 +186,11 @@ void Run<Real>::write_to(const std::string& folder) {
 }
 template <class Real>
 void Run<Real>::commit() {
-  implementation_->commit();
+  implementation_->commit(nullptr, [] {});
+}
+template <class Real>
+void Run<Real>::commit(const std::string& case_text, const std::function<void()>& when_written) {
+  implementation_->commit(&case_text, when_written);
 }
 template <class Real>
 bool Run<Real>::advance_to(const Real& time) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "base/digest.hpp"
@@ -15,6 +14,7 @@
 #include "casefile/joints.hpp"
 #include "casefile/output_entry.hpp"
 #include "casefile/section.hpp"
+#include "io/input_file.hpp"
 
 namespace edmill::casefile {
 
@@ -134,10 +134,7 @@ std::string canonical_text(const CaseSpec& c) {
         << optional(b.random_speed) << " " << b.gap_ball.text() << " " << b.gap_wall.text() << " "
         << b.max_relocations << "\n";
   if (!c.initial_state.empty()) {
-    std::ifstream in(c.initial_state, std::ios::binary);
-    std::ostringstream state;
-    state << in.rdbuf();
-    out << "initial_state " << sha256(state.str()) << "\n";
+    out << "initial_state " << sha256(io::read_whole(c.initial_state, "a final_state.csv")) << "\n";
   }
   return out.str();
 }
@@ -248,10 +245,10 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   if (document.problems.empty()) require_travel(pistons, spec);
   if (!spec.initial_state.empty() && !finished) {
     const std::filesystem::path given(spec.initial_state);
-    if (given.is_relative())
-      spec.initial_state = (std::filesystem::path(name).parent_path() / given).string();
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(spec.initial_state, ignored))
+    const bool stream = io::is_stream(spec.initial_state);
+    if (given.is_relative() && !stream) spec.initial_state = (io::folder_of(name) / given).string();
+    // It is read more than once.
+    if (!io::is_readable(spec.initial_state) || (stream && !io::Spool::is_active()))
       top.section("run").problem("initial_state", "no file '" + spec.initial_state + "'",
                                  "a final_state.csv");
   }

@@ -1,12 +1,11 @@
 // Files as they are read, and values that are passed on as they were written.
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "casefile/section.hpp"
+#include "io/input_file.hpp"
 
 namespace edmill::casefile {
 
@@ -44,13 +43,7 @@ std::string kind_of(const toml::node& node) {
 }
 
 std::string read_file(const std::string& path, const std::string& kind) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || !std::filesystem::is_regular_file(path))
-    throw InputError(path + ": found no readable file, expected " + kind + " (TOML)");
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (in.bad()) throw InputError(path + ": found a file that cannot be read, expected " + kind + " (TOML)");
-  return text.str();
+  return io::read_whole(path, kind + " (TOML)");
 }
 
 toml::table parse_toml(const std::string& text, const std::string& kind, Document& document) {

@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/section.hpp"
+#include "io/input_file.hpp"
 
 namespace edmill::casefile {
 
@@ -16,8 +17,7 @@ constexpr std::uint64_t most_runs = 1000000;
 void read_study(Section& s, StudySpec& spec) {
   if (const auto name = s.text("case")) {
     const std::filesystem::path given(*name);
-    spec.case_file =
-        given.is_relative() ? (std::filesystem::path(spec.file).parent_path() / given).string() : *name;
+    spec.case_file = given.is_relative() ? (io::folder_of(spec.file) / given).string() : *name;
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(spec.case_file, ignored))
       s.problem("case", "no file '" + spec.case_file + "'", "a case file");

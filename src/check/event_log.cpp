@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
+#include "check/log_reader.hpp"
 
 namespace edmill::casefile {
 extern template double Quantity::to<double>() const;
@@ -58,11 +59,6 @@ bool later(const LoggedEvent& a, const LoggedEvent& b) {
   return a.time != b.time ? a.time > b.time : a.line > b.line;
 }
 
-std::filesystem::path log_in(const std::filesystem::path& place) {
-  std::error_code ignored;
-  return std::filesystem::is_directory(place, ignored) ? place / "collisions.csv" : place;
-}
-
 }  // namespace
 
 const std::vector<std::string>& column_names() {
@@ -99,7 +95,7 @@ std::vector<int> parse_walls(const std::string& text, const model::Partners& par
 
 EventLog::EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls,
                    int walls)
-    : csv_(log_in(place), "a collision log"),
+    : csv_(compare::log_in(place), "a collision log"),
       columns_(name_count),
       first_ball_(conventions.first_ball),
       balls_(balls),

@@ -52,10 +52,17 @@ bool is_folder(const fs::path& place) {
 
 }  // namespace
 
+fs::path log_in(const fs::path& place) {
+  if (!is_folder(place)) return place;
+  const auto log = place / "collisions.csv";
+  for (const auto* ending : {"", ".gz", ".zst"})
+    if (const fs::path file = log.string() + ending; io::is_readable(file.string())) return file;
+  return log;
+}
+
 LogReader::LogReader(const fs::path& place)
-    : csv_(is_folder(place) ? place / "collisions.csv" : place,
-           is_folder(place) ? "a collision log ([[output]] of type \"collisions\" in the case)"
-                            : "a collision log"),
+    : csv_(log_in(place), is_folder(place) ? "a collision log ([[output]] of type \"collisions\" in the case)"
+                                           : "a collision log"),
       last_time_(-std::numeric_limits<double>::infinity()) {
   read_header();
 }

@@ -26,6 +26,9 @@ struct Event {
   std::uint64_t line = 0;  ///< of the file, from 1
 };
 
+/// The log that a path names: that file, or in the folder of a run collisions.csv, which may be compressed.
+std::filesystem::path log_in(const std::filesystem::path& place);
+
 /// Columns may be in any order; unknown ones are skipped. Bounded memory.
 class LogReader {
  public:

@@ -9,7 +9,9 @@
 #include "cli/run_case.hpp"
 #include "identify/identify.hpp"
 #include "instances/instances.hpp"
-#include "io/output_folder.hpp"
+#include "io/input_file.hpp"
+#include "io/named_file.hpp"
+#include "io/terminal.hpp"
 #include "run/progress.hpp"
 
 namespace edmill::cli {
@@ -50,6 +52,9 @@ audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given)
 
 int run_audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   auto options = merged(spec, given);
+  std::optional<io::NamedFile> file;
+  if (!given.json.empty()) file.emplace(given.json);
+  const io::Spool pipes;
   const auto built = casefile::build_case<double>(spec);
   std::optional<run::ProgressLine> line;
   if (!given.quiet && ::isatty(STDERR_FILENO)) {
@@ -63,16 +68,14 @@ int run_audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   result.case_name = spec.file;
   std::optional<identify::Identification> found;
   if (given.identify && !result.interrupted) found = identify::identify(spec, options);
-  if (!given.json.empty()) {
+  if (file) {
     io::JsonText json;
     audit::put_json(json, result);
     if (found) identify::put_json(json, *found);
-    io::AtomicFile file(given.json);
-    file.stream() << json.finish();
-    file.commit();
+    file->write([&](std::ostream& out) { out << json.finish(); });
   }
-  if (!given.quiet) fmt::print("{}", audit::table(result));
-  if (!given.quiet && found) fmt::print("{}", identify::table(*found));
+  if (!given.quiet) io::print("{}", audit::table(result));
+  if (!given.quiet && found) io::print("{}", identify::table(*found));
   switch (result.verdict) {
     case audit::Verdict::clean:
       return ok;

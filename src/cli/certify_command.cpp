@@ -11,7 +11,8 @@
 #include "base/version.hpp"
 #include "cli/run_case.hpp"
 #include "instances/instances.hpp"
-#include "io/output_folder.hpp"
+#include "io/named_file.hpp"
+#include "io/terminal.hpp"
 #include "run/agreement.hpp"
 #include "run/collision_log.hpp"
 
@@ -45,10 +46,9 @@ Sequence first_events(const std::string& precision, const casefile::CaseSpec& sp
     const auto more = source->next(std::min<std::size_t>(64, options.collisions - sequence.events.size()));
     if (more.empty()) break;
     sequence.events.insert(sequence.events.end(), more.begin(), more.end());
-    if (show)
-      fmt::print(stderr, "\r{}: {} of {} events ", precision, sequence.events.size(), options.collisions);
+    if (show) io::tell("\r{}: {} of {} events ", precision, sequence.events.size(), options.collisions);
   }
-  if (show) fmt::print(stderr, "\r\x1b[K");
+  if (show) io::tell("\r\x1b[K");
   sequence.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return sequence;
 }
@@ -75,12 +75,8 @@ std::string evidence_line(const Sequence& one, const Sequence& two, const Agreem
   return line;
 }
 
-void write_reference(const casefile::CaseSpec& spec, const CertifyOptions& options, const Sequence& sequence,
-                     const std::vector<std::string>& evidence) {
-  const std::filesystem::path place(options.file);
-  if (place.has_parent_path()) io::prepare_folder(place.parent_path());
-  io::AtomicFile file(place);
-  auto& out = file.stream();
+void write_reference(std::ostream& out, const casefile::CaseSpec& spec, const CertifyOptions& options,
+                     const Sequence& sequence, const std::vector<std::string>& evidence) {
   out << "# edmill certified events 1\n"
       << fmt::format("# case {}, digest {}\n", std::filesystem::path(spec.file).filename().string(),
                      spec.digest)
@@ -97,7 +93,6 @@ void write_reference(const casefile::CaseSpec& spec, const CertifyOptions& optio
     for (int q = run::approach_speed; q < run::quantity_count; ++q) out << ',' << text(q);
     out << '\n';
   }
-  file.commit();
 }
 
 std::string describe(const Event& e) {
@@ -118,6 +113,7 @@ std::unique_ptr<run::EventSource> source_in(const std::string& precision, const 
 
 int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options) {
   const auto& precisions = casefile::precisions();
+  io::NamedFile file(options.file);
   std::vector<std::string> evidence;
   Sequence narrow = first_events(precisions.front(), spec, options);
   for (std::size_t k = 1; k < precisions.size(); ++k) {
@@ -125,30 +121,28 @@ int run_certify(const casefile::CaseSpec& spec, const CertifyOptions& options) {
     if (stop_asked(options.interrupt)) return ok;
     const Agreement agreement = compare(narrow, wide);
     evidence.push_back(evidence_line(narrow, wide, agreement));
-    if (!options.quiet) fmt::print("{} ({:.1f} s)\n", evidence.back(), narrow.seconds + wide.seconds);
+    if (!options.quiet) io::print("{} ({:.1f} s)\n", evidence.back(), narrow.seconds + wide.seconds);
     if (wide.events.size() < options.collisions)
       throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec.file,
                                    wide.events.size(), options.collisions));
     const auto by_rule = std::find_if(wide.events.begin(), wide.events.end(),
                                       [](const Event& event) { return event.by_rule; });
     if (by_rule != wide.events.end()) {
-      fmt::print(
-          stderr,
+      io::tell(
           "edmill: event {}, {}, has another contact of its ball at the same time in every scalar: a rule "
           "and not the equations orders them; nothing is written\n",
           by_rule - wide.events.begin(), describe(*by_rule));
       return undecided;
     }
     if (agreement.events() == options.collisions && agreement.least_digits() >= options.digits) {
-      write_reference(spec, options, wide, evidence);
-      if (!options.quiet) fmt::print("certified: {}\n", options.file);
+      file.write([&](std::ostream& out) { write_reference(out, spec, options, wide, evidence); });
+      if (!options.quiet) io::print("certified: {}\n", options.file);
       return ok;
     }
     narrow = std::move(wide);
   }
-  fmt::print(stderr,
-             "edmill: the widest two scalars do not agree on {} events in {} digits; nothing is written\n",
-             options.collisions, options.digits);
+  io::tell("edmill: the widest two scalars do not agree on {} events in {} digits; nothing is written\n",
+           options.collisions, options.digits);
   return undecided;
 }
 
@@ -176,20 +170,20 @@ int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, con
       if (!agreement.take(one[k], two[k])) diverged = {one[k], two[k]};
     uneven = !diverged && one.size() != two.size();
   }
-  fmt::print("Shadow run: {} and {}, {} events in common\n", shadow, precision, agreement.events());
+  io::print("Shadow run: {} and {}, {} events in common\n", shadow, precision, agreement.events());
   if (diverged)
-    fmt::print("  they diverge at event {}: {} has {},\n  {} has {}\n", agreement.events(), precision,
-               describe(diverged->first), shadow, describe(diverged->second));
+    io::print("  they diverge at event {}: {} has {},\n  {} has {}\n", agreement.events(), precision,
+              describe(diverged->first), shadow, describe(diverged->second));
   else
-    fmt::print("  {}\n",
-               uneven ? "one has one event more before the end" : "they do not diverge before the end");
+    io::print("  {}\n",
+              uneven ? "one has one event more before the end" : "they do not diverge before the end");
   for (int k = 0; k < run::quantity_count; ++k)
-    fmt::print("  {:<16} agrees to {} digits\n", name_of(static_cast<Quantity>(k)),
-               digits_text(agreement.digits(static_cast<Quantity>(k))));
+    io::print("  {:<16} agrees to {} digits\n", name_of(static_cast<Quantity>(k)),
+              digits_text(agreement.digits(static_cast<Quantity>(k))));
   if (const auto lost = agreement.digits_lost_per_event()) {
     const double each = static_cast<double>(agreement.bodies()) / static_cast<double>(spec.ball_count());
-    fmt::print("  digits lost: {:.4f} per event, {:.2f} per collision of a ball\n", *lost,
-               *lost * static_cast<double>(agreement.events()) / each);
+    io::print("  digits lost: {:.4f} per event, {:.2f} per collision of a ball\n", *lost,
+              *lost * static_cast<double>(agreement.events()) / each);
   }
   return ok;
 }

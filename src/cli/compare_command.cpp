@@ -1,20 +1,21 @@
 #include "cli/compare_command.hpp"
 
-#include <fmt/format.h>
+#include <optional>
 
 #include "cli/run_case.hpp"
-#include "io/output_folder.hpp"
+#include "io/input_file.hpp"
+#include "io/named_file.hpp"
+#include "io/terminal.hpp"
 
 namespace edmill::cli {
 
 int run_compare(const CompareOptions& options) {
+  std::optional<io::NamedFile> json;
+  if (!options.json.empty()) json.emplace(options.json);
+  const io::Spool pipes;
   const auto comparison = compare::compare(options);
-  if (!options.json.empty()) {
-    io::AtomicFile file(options.json);
-    file.stream() << compare::to_json(comparison);
-    file.commit();
-  }
-  if (!options.quiet) fmt::print("{}", compare::table(comparison));
+  if (json) json->write([&](std::ostream& out) { out << compare::to_json(comparison); });
+  if (!options.quiet) io::print("{}", compare::table(comparison));
   switch (comparison.verdict) {
     case compare::Verdict::agree:
       return ok;

@@ -4,7 +4,7 @@
 
 #include "cli/run_case.hpp"
 #include "instances/instances.hpp"
-#include "io/output_folder.hpp"
+#include "io/named_file.hpp"
 #include "report/mill_drawing.hpp"
 
 namespace edmill::cli {
@@ -88,10 +88,7 @@ std::string describe_case(const casefile::CaseSpec& spec) {
 
 void draw_mill(const casefile::CaseSpec& spec, const std::filesystem::path& file) {
   const auto built = casefile::build_case<double>(spec, false);
-  if (file.has_parent_path()) io::prepare_folder(file.parent_path());
-  io::AtomicFile out(file);
-  out.stream() << report::mill_drawing(built.the_case.mill);
-  out.commit();
+  io::NamedFile(file).write([&](std::ostream& out) { out << report::mill_drawing(built.the_case.mill); });
 }
 
 }  // namespace edmill::cli

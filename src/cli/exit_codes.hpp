@@ -24,7 +24,7 @@ struct ExitCodeText {
 
 inline constexpr ExitCodeText exit_codes[] = {
     {"0", "done"},
-    {"1", "any other error, e.g. a full disk"},
+    {"1", "any other error, e.g. a full disk, also where standard output goes"},
     {"2", "bad input: each problem is one line with file, line, key, what was found and what was expected"},
     {"3", "the run ended in inelastic collapse; its results are on disk"},
     {"4",
@@ -39,8 +39,8 @@ inline constexpr ExitCodeText exit_codes[] = {
     {"8",
      "the run has stalled: bodies that no motion parts hit each other while the clock stands still; its "
      "results are on disk"},
-    {"130, 143",
-     "interrupted by SIGINT or SIGTERM; the results so far are on disk, unless it came before the first "
-     "event"}};
+    {"129, 130, 138, 143, 152",
+     "interrupted by SIGHUP, SIGINT, SIGUSR1, SIGTERM or SIGXCPU: 128 and its number; the results so far are "
+     "on disk, unless it came before the first event"}};
 
 }  // namespace edmill::cli

@@ -5,11 +5,13 @@
 #include <cctype>
 #include <filesystem>
 #include <functional>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
+#include "casefile/memory_for.hpp"
 #include "cli/audit_command.hpp"
 #include "cli/certify_command.hpp"
 #include "cli/command_texts.hpp"
@@ -20,11 +22,15 @@
 #include "cli/report_command.hpp"
 #include "cli/resume_command.hpp"
 #include "cli/run_command.hpp"
-#include "cli/run_folder_guard.hpp"
 #include "cli/signals.hpp"
+#include "cli/standard_streams.hpp"
 #include "cli/study_command.hpp"
 #include "cli/suggestions.hpp"
+#include "io/file_buffer.hpp"
+#include "io/input_file.hpp"
+#include "io/terminal.hpp"
 #include "report/embedded.hpp"
+#include "run/run_folder.hpp"
 
 namespace {
 
@@ -46,9 +52,14 @@ int interruptible(const Work& work, Options& options) {
   return after_signals(work());
 }
 
+/// Of a case, for its outputs.
+std::string name_of(const std::string& case_file) {
+  return edmill::io::is_stream(case_file) ? "stdin" : std::filesystem::path(case_file).stem().string();
+}
+
 int resume(const std::string& folder, const std::string& checkpoint, bool quiet) {
   using namespace edmill;
-  if (!checkpoint.empty()) cli::parse_checkpoint_interval(checkpoint);
+  if (!checkpoint.empty()) run::parse_checkpoint_interval(checkpoint);
   return cli::with_signal(cli::run_resume(checkpoint, run_options(folder, quiet)));
 }
 
@@ -59,11 +70,10 @@ int run(const std::string& case_file, const std::string& folder, const std::stri
   const auto spec = casefile::read_case(case_file, overrides);
   const auto& scalar = precision.empty() ? spec.precision : precision;
   if (!shadow.empty()) cli::check_shadow(scalar, shadow);
-  auto options =
-      run_options(folder.empty() ? "out/" + std::filesystem::path(case_file).stem().string() : folder, quiet);
+  auto options = run_options(folder.empty() ? "out/" + name_of(case_file) : folder, quiet);
   options.report = report;
   if (!checkpoint.empty()) {
-    cli::parse_checkpoint_interval(checkpoint);
+    run::parse_checkpoint_interval(checkpoint);
     options.checkpoint = cli::first_checkpoint(spec, overrides, scalar, report, checkpoint);
   }
   int code = cli::run_and_report(scalar, spec, options);
@@ -78,23 +88,28 @@ int certify(const std::string& case_file, const std::vector<std::string>& overri
             edmill::cli::CertifyOptions& options) {
   using namespace edmill;
   const auto spec = casefile::read_case(case_file, overrides);
-  if (options.file.empty())
-    options.file = "out/" + std::filesystem::path(case_file).stem().string() + ".reference.csv";
-  return interruptible([&] { return cli::run_certify(spec, options); }, options);
+  if (options.file.empty()) options.file = "out/" + name_of(case_file) + ".reference.csv";
+  return interruptible(
+      [&] { return casefile::with_memory_for(spec, [&] { return cli::run_certify(spec, options); }); },
+      options);
 }
 
 int prove(const std::string& case_file, const std::vector<std::string>& overrides,
           edmill::cli::ProveOptions& options) {
   using namespace edmill;
   const auto spec = casefile::read_case(case_file, overrides);
-  return interruptible([&] { return cli::run_prove(spec, options); }, options);
+  return interruptible(
+      [&] { return casefile::with_memory_for(spec, [&] { return cli::run_prove(spec, options); }); },
+      options);
 }
 
 int audit(const std::string& case_file, const std::vector<std::string>& overrides,
           edmill::cli::AuditOptions& options) {
   using namespace edmill;
   const auto spec = casefile::read_case(case_file, overrides);
-  return interruptible([&] { return cli::run_audit(spec, options); }, options);
+  return interruptible(
+      [&] { return casefile::with_memory_for(spec, [&] { return cli::run_audit(spec, options); }); },
+      options);
 }
 
 /// One line per problem; control characters are escaped.
@@ -104,7 +119,7 @@ void print_problem(const std::string& problem) {
     line += std::iscntrl(static_cast<unsigned char>(c))
                 ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
                 : std::string(1, c);
-  fmt::print(stderr, "edmill: {}\n", line);
+  edmill::io::tell("edmill: {}\n", line);
 }
 
 std::string version_text() {
@@ -144,7 +159,12 @@ class CommandLine {
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-      if (error.get_exit_code() == 0) return app_.exit(error);  // --help, --version
+      if (error.get_exit_code() == 0) {  // --help, --version
+        std::ostringstream text;
+        app_.exit(error, text, text);
+        edmill::io::print("{}", text.str());
+        return edmill::cli::ok;
+      }
       print_problem(edmill::cli::problem_of(app_, {argv + 1, argv + argc}, error));
       return edmill::cli::bad_input;
     }
@@ -242,9 +262,11 @@ class CommandLine {
   void add_check() {
     auto* command = add("check", "read and check a case; print it in SI with derived numbers", [this] {
       const auto spec = edmill::casefile::read_case(case_file_, overrides_);
-      fmt::print("{}", edmill::cli::describe_case(spec));
-      if (!drawing_.empty()) edmill::cli::draw_mill(spec, drawing_);
-      return edmill::cli::ok;
+      return edmill::casefile::with_memory_for(spec, [&] {
+        edmill::io::print("{}", edmill::cli::describe_case(spec));
+        if (!drawing_.empty()) edmill::cli::draw_mill(spec, drawing_);
+        return edmill::cli::ok;
+      });
     });
     take_case(command);
     command->add_option("--draw", drawing_, "also draw how the vessel moves into this SVG file");
@@ -252,7 +274,7 @@ class CommandLine {
 
   void add_variables() {
     add("variables", "list the variables that outputs can show, as Markdown tables", [] {
-      fmt::print("{}", edmill::cli::list_variables());
+      edmill::io::print("{}", edmill::cli::list_variables());
       return edmill::cli::ok;
     });
   }
@@ -270,16 +292,16 @@ class CommandLine {
 
   void add_texts() {
     add("manual", "print the manual page, edmill(1), for man", [this] {
-      fmt::print("{}", edmill::cli::man_page(app_, edmill::version()));
+      edmill::io::print("{}", edmill::cli::man_page(app_, edmill::version()));
       return edmill::cli::ok;
     });
     add("reference", "print the reference of commands, exit codes, keys of files and outputs, as Markdown",
         [this] {
-          fmt::print("{}", edmill::cli::reference(app_));
+          edmill::io::print("{}", edmill::cli::reference(app_));
           return edmill::cli::ok;
         });
     add("completion", "print the completion of these commands for bash", [this] {
-      fmt::print("{}", edmill::cli::bash_completion(app_));
+      edmill::io::print("{}", edmill::cli::bash_completion(app_));
       return edmill::cli::ok;
     });
   }
@@ -343,20 +365,41 @@ class CommandLine {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+namespace {
+
+/// @return the exit code
+int run_command_line(int argc, char** argv) {
+  using namespace edmill;
   try {
     return CommandLine().run(argc, argv);
-  } catch (const edmill::InputError& error) {
+  } catch (const InputError& error) {
     for (const auto& problem : error.problems()) print_problem(problem);
-    return edmill::cli::bad_input;
-  } catch (const edmill::InterruptedError& error) {
+    return cli::bad_input;
+  } catch (const InterruptedError& error) {
     print_problem(error.what());
-    return edmill::cli::after_signals(edmill::cli::interrupted);
-  } catch (const edmill::UndecidedError& error) {
+    return cli::after_signals(cli::interrupted);
+  } catch (const UndecidedError& error) {
     print_problem(error.what());
-    return edmill::cli::undecided;
+    return cli::undecided;
+  } catch (const io::PipeClosed& error) {
+    return cli::after_closed_pipe(error.what());
+  } catch (const casefile::OutOfMemory& error) {
+    print_problem(error.what());
+  } catch (const std::bad_alloc&) {
+    print_problem("found too little memory, expected more");
+  } catch (const std::length_error&) {
+    print_problem("found too little memory, expected more");
   } catch (const std::exception& error) {
     print_problem(error.what());
-    return edmill::cli::internal_error;
   }
+  return cli::internal_error;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  edmill::cli::open_standard_descriptors();
+  edmill::cli::ignore_write_signals();
+  const edmill::io::Spool pipes;
+  return edmill::cli::after_output(run_command_line(argc, argv));
 }

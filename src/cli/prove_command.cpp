@@ -4,30 +4,22 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
+#include <optional>
 
 #include "cli/certify_command.hpp"
 #include "cli/exit_codes.hpp"
-#include "io/output_folder.hpp"
+#include "io/named_file.hpp"
+#include "io/terminal.hpp"
 #include "prove/certificate.hpp"
 
 namespace edmill::cli {
 
 namespace {
 
-template <class Write>
-void write_whole(const std::string& path, const Write& write) {
-  const std::filesystem::path place(path);
-  if (place.has_parent_path()) io::prepare_folder(place.parent_path());
-  io::AtomicFile file(place);
-  write(file.stream());
-  file.commit();
-}
-
 void print_attempts(const prove::Proof& proof) {
   for (const auto& attempt : proof.attempts)
-    fmt::print("{} bits: {} events{}\n", attempt.bits, attempt.events,
-               attempt.undecided.empty() ? "" : "; undecided: " + attempt.undecided);
+    io::print("{} bits: {} events{}\n", attempt.bits, attempt.events,
+              attempt.undecided.empty() ? "" : "; undecided: " + attempt.undecided);
 }
 
 /// Events of a run in the order of the proof, from the first on.
@@ -51,35 +43,35 @@ std::size_t right_events(const std::string& precision, const casefile::CaseSpec&
 }  // namespace
 
 int run_prove(const casefile::CaseSpec& spec, const ProveOptions& options) {
+  std::optional<io::NamedFile> events, certificate;
+  if (!options.file.empty()) events.emplace(options.file);
+  if (!options.certificate.empty()) certificate.emplace(options.certificate);
   const auto begin = std::chrono::steady_clock::now();
   const bool show = !options.quiet && ::isatty(STDERR_FILENO);
   prove::ProofOptions proving{options.collisions, options.most_bits, options.interrupt, {}};
   if (show)
     proving.progress = [&](long bits, std::size_t events) {
-      if (events % 16 == 0)
-        fmt::print(stderr, "\r{} bits: {} of {} events ", bits, events, options.collisions);
+      if (events % 16 == 0) io::tell("\r{} bits: {} of {} events ", bits, events, options.collisions);
     };
   const auto proof = prove::prove(spec, proving);
-  if (show) fmt::print(stderr, "\r\x1b[K");
+  if (show) io::tell("\r\x1b[K");
   if (!options.quiet) print_attempts(proof);
   if (proof.interrupted) return ok;
   if (!proof.impossible.empty()) {
-    fmt::print(stderr, "edmill: {}; nothing is written\n", proof.impossible);
+    io::tell("edmill: {}; nothing is written\n", proof.impossible);
     return undecided;
   }
-  if (!options.file.empty())
-    write_whole(options.file, [&](auto& out) { prove::write_events(out, proof, 27); });
-  if (!options.certificate.empty())
-    write_whole(options.certificate, [&](auto& out) { prove::write_certificate(out, proof); });
+  if (events) events->write([&](auto& out) { prove::write_events(out, proof, 27); });
+  if (certificate) certificate->write([&](auto& out) { prove::write_certificate(out, proof); });
   if (options.quiet) return ok;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  fmt::print("proven: {} events in {} bits, {:.2f} bits lost per event ({:.1f} s)\n", proof.events.size(),
-             proof.bits,
-             static_cast<double>(proof.bits - proof.accuracy) / static_cast<double>(proof.events.size()),
-             seconds);
+  io::print("proven: {} events in {} bits, {:.2f} bits lost per event ({:.1f} s)\n", proof.events.size(),
+            proof.bits,
+            static_cast<double>(proof.bits - proof.accuracy) / static_cast<double>(proof.events.size()),
+            seconds);
   if (options.compare)
     for (const auto& precision : casefile::precisions())
-      fmt::print("{:<9} {} events right\n", precision, right_events(precision, spec, proof));
+      io::print("{:<9} {} events right\n", precision, right_events(precision, spec, proof));
   return ok;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "cli/run_command.hpp"
+#include "io/input_file.hpp"
 
 namespace edmill::cli {
 
@@ -11,6 +12,9 @@ io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vecto
                                 const std::string& precision, bool report, const std::string& interval) {
   io::Checkpoint c;
   c.case_file = spec.file, c.case_text = spec.text, c.case_digest = spec.digest;
+  if (io::is_stream(spec.initial_state))
+    throw InputError(
+        "key 'run.initial_state': found a pipe, expected a file, since a resumed run reads it again");
   if (!spec.initial_state.empty()) c.initial_state = std::filesystem::absolute(spec.initial_state).string();
   c.overrides = overrides;
   c.precision = precision;

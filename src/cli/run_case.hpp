@@ -22,6 +22,7 @@ struct RunOptions {
   std::function<void()> listen = [] {};
   /// Called when the results are in place, while a killed run could still continue from its checkpoint.
   std::function<void()> when_written = [] {};
+  std::string case_text;  ///< for case.toml
   /// Content of the checkpoints besides the state, if the run makes any; with a state, it continues from
   /// there.
   std::optional<io::Checkpoint> checkpoint;
@@ -31,6 +32,9 @@ struct RunOptions {
 /// @throws InterruptedError when the interrupt comes before the first event
 template <class Real>
 int run_case(const casefile::CaseSpec& spec, const RunOptions& options);
+
+/// Where a file system has no locks, nothing keeps a second run out of the folder: the user has to.
+void tell_of_missing_locks(const std::filesystem::path& folder);
 
 /// The case in SI with its derived numbers, for `edmill check`, which makes the checks of a run.
 /// @throws InputError when its balls do not fit

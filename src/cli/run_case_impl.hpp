@@ -1,14 +1,13 @@
 // Implementation of run_case; included by the instantiation files only.
 #pragma once
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <memory>
 
 #include "cli/run_case.hpp"
-#include "cli/run_folder_guard.hpp"
-#include "output/outputs.hpp"
+#include "io/terminal.hpp"
+#include "output/write_results.hpp"
 #include "report/result_table.hpp"
 #include "run/progress.hpp"
 #include "run/simulate.hpp"
@@ -18,7 +17,8 @@ namespace edmill::cli {
 template <class Real>
 int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   const auto built = casefile::build_case<Real>(spec);
-  RunFolderGuard folder(spec, options);
+  run::RunFolder folder(options.folder, spec, options.checkpoint);
+  if (!folder.locked()) tell_of_missing_locks(folder.place());
   const DriveClock<Real> clock(built.the_case.mill.motion.period());
   options.listen();
   output::Outputs<Real> outputs(spec, folder.place(), clock.seconds(built.start));
@@ -38,30 +38,28 @@ int run_case(const casefile::CaseSpec& spec, const RunOptions& options) {
   progress.reset();
 
   const bool goes_on = options.checkpoint && summary.end_reason == model::EndReason::interrupted;
-  outputs.commit(goes_on);
-  io::AtomicFile state_file(folder.place() / "final_state.csv");
-  io::write_final_state<Real>(state_file.stream(), saved, clock);
-  state_file.commit();
-  io::AtomicFile summary_file(folder.place() / "summary.json");
-  summary_file.stream() << io::summary_json(summary);
-  summary_file.commit();
+  output::write_results<Real>(folder, outputs, saved, clock, io::summary_json(summary), options.case_text,
+                              goes_on);
   options.when_written();
   if (!goes_on) folder.remove_checkpoint();
 
   if (!options.quiet) {
-    fmt::print("{}\nResults are in {}\n", report::result_table(summary), options.folder);
-    if (goes_on) fmt::print("Continue with: edmill resume {}\n", options.folder);
+    io::print("{}\nResults are in {}\n", report::result_table(summary), options.folder);
+    if (goes_on) io::print("Continue with: edmill resume {}\n", options.folder);
   }
-  if (!summary.error.empty()) {
-    fmt::print(stderr, "edmill: {}\n", summary.error);
-    return undecided;
+  if (!summary.error.empty()) io::tell("edmill: {}\n", summary.error);
+  switch (summary.end_reason) {
+    case model::EndReason::undecided:
+      return undecided;
+    case model::EndReason::stalled:
+      return stalled;
+    case model::EndReason::interrupted:
+      return interrupted;
+    case model::EndReason::inelastic_collapse:
+      return inelastic_collapse;
+    default:
+      return ok;
   }
-  if (summary.stall) {
-    fmt::print(stderr, "edmill: {}\n", io::stall_message(summary));
-    return stalled;
-  }
-  if (summary.end_reason == model::EndReason::interrupted) return interrupted;
-  return summary.end_reason == model::EndReason::inelastic_collapse ? inelastic_collapse : ok;
 }
 
 }  // namespace edmill::cli

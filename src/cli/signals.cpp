@@ -3,28 +3,51 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "cli/run_case.hpp"
+#include "cli/exit_codes.hpp"
 
 namespace edmill::cli {
 
 namespace {
 
 std::atomic<bool> flag{false};
-volatile std::sig_atomic_t received = 0;
+volatile std::sig_atomic_t received = 0, asked = 0;
+bool pipes_end_us = true;
 
+/// A batch system repeats SIGXCPU, or follows with SIGTERM, while results are being written; only who asks
+/// twice does not want them.
 extern "C" void on_signal(int signal) {
-  if (received) std::_Exit(128 + signal);
-  received = signal;
+  if (signal == SIGINT || signal == SIGTERM) {
+    if (asked) std::_Exit(128 + signal);
+    asked = 1;
+  }
+  if (!received) received = signal;
   flag.store(true, std::memory_order_relaxed);
+}
+
+bool is_ignored(int signal) {
+  struct sigaction now {};
+  return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
+void ignore_write_signals() {
+  pipes_end_us = !is_ignored(SIGPIPE);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void end_by_pipe_signal() {
+  if (!pipes_end_us) return;
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+}
+
 std::atomic<bool>& interrupt_flag() { return flag; }
 
 void listen_for_signals() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGXCPU, SIGUSR1}) std::signal(signal, on_signal);
+  if (!is_ignored(SIGHUP)) std::signal(SIGHUP, on_signal);
 }
 
 int with_signal(int exit_code) { return exit_code == interrupted ? exit_code + received : exit_code; }

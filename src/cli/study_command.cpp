@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "casefile/memory_for.hpp"
 #include "cli/run_case.hpp"
 #include "instances/instances.hpp"
+#include "io/terminal.hpp"
 #include "run/cpu_limit.hpp"
 #include "study/optimizer.hpp"
 #include "study/study.hpp"
@@ -23,8 +25,10 @@ study::RunRecord record_in(const casefile::CaseSpec& spec, double max_cpu_time,
 
 study::RunRecord do_job(const study::Job& job, const std::atomic<bool>* interrupt) {
   const auto spec = casefile::read_case(job.case_file, job.overrides);
-#define EDMILL_RECORD_IN(Real) \
-  if (spec.precision == ScalarName<Real>::value) return record_in<Real>(spec, job.max_cpu_time, interrupt);
+#define EDMILL_RECORD_IN(Real)                   \
+  if (spec.precision == ScalarName<Real>::value) \
+    return casefile::with_memory_for(spec,       \
+                                     [&] { return record_in<Real>(spec, job.max_cpu_time, interrupt); });
   EDMILL_FOR_EACH_SCALAR(EDMILL_RECORD_IN)
 #undef EDMILL_RECORD_IN
   throw ContractError("no scalar named " + spec.precision);
@@ -53,8 +57,8 @@ int on_all_ranks(const StudyOptions& options, const Command& command) {
 int end_of(const study::Study& study, const StudyOptions& options) {
   const auto c = study.counts();
   if (!options.quiet)
-    fmt::print("{} runs: {} reused, {} run now, {} failed{}\nTables are in {}\n", c.total, c.kept, c.ran,
-               c.failed, study.interrupted() ? ", interrupted" : "", folder_of(options));
+    io::print("{} runs: {} reused, {} run now, {} failed{}\nTables are in {}\n", c.total, c.kept, c.ran,
+              c.failed, study.interrupted() ? ", interrupted" : "", folder_of(options));
   return c.failed > 0 ? some_runs_failed : ok;
 }
 
@@ -76,7 +80,7 @@ int run_optimize(const StudyOptions& options) {
     const auto spec = casefile::read_optimize(options.file);
     study::Study study(spec, folder_of(options), "optimize", executor, !options.quiet);
     const auto result = study::optimize(spec, study);
-    if (!options.quiet) fmt::print("{}", study::describe(spec, study, result));
+    if (!options.quiet) io::print("{}", study::describe(spec, study, result));
     return end_of(study, options);
   });
 }

@@ -1,10 +1,12 @@
 #include "io/checkpoint_file.hpp"
 
+#include <fstream>
 #include <sstream>
 
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
+#include "io/atomic_file.hpp"
 #include "io/output_folder.hpp"
 
 namespace edmill::io {
@@ -14,12 +16,19 @@ namespace fs = std::filesystem;
 namespace {
 
 // The first line; its number changes with the format. Then a line with the SHA-256 of all bytes after it.
-const std::string magic = "edmill checkpoint 1\n";
+const std::string magic = "edmill checkpoint 2\n";
 constexpr std::size_t digest_size = 64;
 
 }  // namespace
 
 fs::path checkpoint_place(const fs::path& folder) { return folder / "checkpoint"; }
+
+void require_no_checkpoint(const fs::path& folder) {
+  if (const auto found = checkpoint_place(folder); fs::exists(found))
+    throw InputError(found.string() +
+                     ": found the checkpoint of an unfinished run, expected none: continue with " +
+                     "`edmill resume " + folder.string() + "`, or remove it");
+}
 
 void write_checkpoint(const fs::path& folder, Checkpoint checkpoint) {
   std::string program = version(), program_commit = commit();

@@ -32,6 +32,9 @@ void write_checkpoint(const std::filesystem::path& folder, Checkpoint checkpoint
 /// @throws InputError when there is none, when it is damaged, or when another version or commit wrote it
 Checkpoint read_checkpoint(const std::filesystem::path& folder);
 
+/// @throws InputError when an unfinished run has left one, from which it could continue
+void require_no_checkpoint(const std::filesystem::path& folder);
+
 /// Path of a folder's checkpoint.
 std::filesystem::path checkpoint_place(const std::filesystem::path& folder);
 

@@ -37,17 +37,38 @@ std::string in_quotes(std::string_view text) {
   return text.size() <= longest ? fmt::format("'{}'", text) : fmt::format("'{}...'", text.substr(0, longest));
 }
 
-CsvReader::CsvReader(const std::filesystem::path& file, const std::string& expected) : file_(file.string()) {
-  std::error_code ignored;
-  in_.open(file_, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file_, ignored) || !in_)
-    throw InputError(file_ + ": found no readable file, expected " + expected);
+char separator_of(std::string_view header) {
+  char best = ',';
+  std::size_t most = 0;
+  for (const char candidate : {',', ';', '\t'}) {
+    bool quoted = false;
+    std::size_t count = 0;
+    for (const char c : header) {
+      quoted = quoted != (c == '"');
+      count += !quoted && c == candidate;
+    }
+    if (count > most) most = count, best = candidate;
+  }
+  return best;
+}
+
+bool has_decimal_comma(std::string_view text, char separator) {
+  std::string with_point(text);
+  const auto comma = with_point.find(',');
+  if (separator == ',' || comma == std::string::npos) return false;
+  with_point[comma] = '.';
+  return number_in(with_point).has_value();
+}
+
+CsvReader::CsvReader(const std::filesystem::path& file, const std::string& expected)
+    : file_(file.string()), in_(file_, expected) {
   do {
     if (!std::getline(in_, line_))
       throw InputError(
           fmt::format("{}:{}: found the end of the file, expected a header", file_, line_number_ + 1));
     if (++line_number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // a byte order mark
   } while (line_.starts_with('#'));
+  separator_ = separator_of(line_);
   split();
   header_.assign(fields_.begin(), fields_.end());
 }
@@ -105,16 +126,16 @@ std::optional<int> CsvReader::whole(std::size_t column, const std::string& expec
 void CsvReader::split() {
   fields_.clear();
   std::string_view rest = line_;
-  // A field in quotes can hold commas; two quotes in it mean one (RFC 4180).
-  const auto end_of_field = [&rest] {
+  // A field in quotes can hold separators; two quotes in it mean one (RFC 4180).
+  const auto end_of_field = [this, &rest] {
     auto from = rest.starts_with('"') ? rest.find('"', 1) : 0;
     while (from != std::string_view::npos && rest.substr(from).starts_with("\"\""))
       from = rest.find('"', from + 2);
-    return rest.find(',', from == std::string_view::npos ? 0 : from);
+    return rest.find(separator_, from == std::string_view::npos ? 0 : from);
   };
-  for (auto comma = end_of_field(); comma != std::string_view::npos; comma = end_of_field()) {
-    fields_.push_back(trimmed(rest.substr(0, comma)));
-    rest.remove_prefix(comma + 1);
+  for (auto end = end_of_field(); end != std::string_view::npos; end = end_of_field()) {
+    fields_.push_back(trimmed(rest.substr(0, end)));
+    rest.remove_prefix(end + 1);
   }
   fields_.push_back(trimmed(rest));
 }
@@ -124,8 +145,10 @@ void CsvReader::bad_line(const std::string& problem) {
 }
 
 void CsvReader::bad_field(std::size_t column, const std::string& expected) {
+  const bool comma = has_decimal_comma(fields_[column], separator_);
   bad_line(fmt::format("column {} ({}): found {}, expected {}", column + 1, header_[column],
-                       in_quotes(fields_[column]), expected));
+                       in_quotes(fields_[column]),
+                       comma ? "a decimal point in place of the comma" : expected));
 }
 
 void CsvReader::throw_problems() const {

@@ -4,18 +4,26 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/input_file.hpp"
 
 namespace edmill::io {
 
 /// Text between quotes for a message, cut when long.
 std::string in_quotes(std::string_view text);
 
-/// Comments (#) may precede the header; blank lines are skipped. Problems are collected; reading ends
+/// The character that separates the fields of a header: a comma, unless there are more semicolons or tabs.
+char separator_of(std::string_view header);
+
+/// Whether a text is a number with a comma where the point should be, which is no separator there.
+bool has_decimal_comma(std::string_view text, char separator);
+
+/// Fields are separated by commas, or by semicolons or tabs where the header is. Numbers have a decimal
+/// point. Comments (#) may precede the header; blank lines are skipped. Problems are collected; reading ends
 /// when there are ten of them.
 class CsvReader {
  public:
@@ -53,7 +61,8 @@ class CsvReader {
   void split();
 
   std::string file_;
-  std::ifstream in_;
+  InputFile in_;
+  char separator_ = ',';
   std::string line_;
   std::vector<std::string_view> fields_;  ///< of line_
   std::vector<std::string> header_;

@@ -1,11 +1,12 @@
 // Implementation of final_state.hpp; included by the instantiation files only.
 #pragma once
 
-#include <fstream>
+#include <algorithm>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "base/scalar.hpp"
+#include "io/csv_reader.hpp"
 #include "io/final_state.hpp"
 
 namespace edmill::io {
@@ -31,14 +32,17 @@ void write_final_state(std::ostream& out, const SavedState<Real>& saved, const D
 
 template <class Real>
 SavedState<Real> read_final_state(const std::string& path) {
-  std::ifstream in(path);
+  InputFile in(path, "a final_state.csv");
   const auto fail = [&](std::size_t line, const std::string& found, const std::string& expected) {
     throw InputError(path + ":" + std::to_string(line) + ": found " + found + ", expected " + expected);
   };
   std::string line;
-  if (!in || !std::getline(in, line)) fail(1, "no readable text", "the header of a final_state.csv");
+  if (!std::getline(in, line)) fail(1, "no readable text", "the header of a final_state.csv");
   if (!line.empty() && line.back() == '\r') line.pop_back();
-  if (line != final_state_header)
+  const char separator = separator_of(line);
+  std::string header = line;
+  std::replace(header.begin(), header.end(), separator, ',');
+  if (header != final_state_header)
     fail(1, "'" + line.substr(0, 120) + "'", std::string("'") + final_state_header + "'");
   SavedState<Real> saved;
   for (std::size_t number = 2; std::getline(in, line); ++number) {
@@ -46,7 +50,7 @@ SavedState<Real> read_final_state(const std::string& path) {
     if (line.empty()) continue;
     std::vector<std::string> fields;
     std::istringstream parts(line);
-    for (std::string field; std::getline(parts, field, ',');) fields.push_back(field);
+    for (std::string field; std::getline(parts, field, separator);) fields.push_back(field);
     if (fields.size() != 13) fail(number, std::to_string(fields.size()) + " fields", "13");
     if (fields[0] != std::to_string(saved.states.size()))
       fail(number, "ball '" + fields[0] + "'", "ball " + std::to_string(saved.states.size()));
@@ -57,7 +61,9 @@ SavedState<Real> read_final_state(const std::string& path) {
         if (isfinite(value)) return value;
       } catch (const std::invalid_argument&) {
       }
-      fail(number, "'" + fields[k] + "' in field " + std::to_string(k + 1), "a finite number");
+      fail(number, "'" + fields[k] + "' in field " + std::to_string(k + 1),
+           has_decimal_comma(fields[k], separator) ? "a decimal point in place of the comma"
+                                                   : "a finite number");
       return Real(0);
     };
     const auto vector = [&](std::size_t k) { return Vec3<Real>(real(k), real(k + 1), real(k + 2)); };

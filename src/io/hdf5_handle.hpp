@@ -9,12 +9,21 @@
 
 namespace edmill::io {
 
+class Hdf5Error : public std::runtime_error {
+ public:
+  explicit Hdf5Error(int error);
+  const int system_error;  ///< errno; 0 when it is not known
+};
+
+/// @throws Hdf5Error with what HDF5 knows of its last failure
+[[noreturn]] void throw_hdf5_error();
+
 /// An HDF5 object, closed at the end of its scope.
 class Hdf5Handle {
  public:
   /// @throws std::runtime_error when `id` indicates a failure
   Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id < 0) throw std::runtime_error("HDF5 could not create an object; the disk may be full");
+    if (id < 0) throw_hdf5_error();
   }
   Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Hdf5Handle& operator=(Hdf5Handle&&) = delete;
@@ -38,7 +47,7 @@ inline void hdf5_begin() {
 
 /// @throws std::runtime_error when a call has failed
 inline void hdf5_check(herr_t status) {
-  if (status < 0) throw std::runtime_error("HDF5 could not write; the disk may be full");
+  if (status < 0) throw_hdf5_error();
 }
 
 /// Bytes of a file that `fill(file)` writes: in memory, so that they go to disk as one atomic file.

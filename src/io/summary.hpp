@@ -23,7 +23,7 @@ template <class Real>
 struct Summary {
   Provenance provenance;
   model::EndReason end_reason{};
-  std::string error;                ///< of a decision that no scalar could make
+  std::string error;                ///< of a decision that no scalar could make, or of a stall
   Real start_time{0}, end_time{0};  ///< of the statistics [s]
   Real period{0};                   ///< of the drive [s]
   model::Partners partners;

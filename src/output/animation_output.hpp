@@ -6,7 +6,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/output_columns.hpp"
-#include "io/output_folder.hpp"
+#include "io/atomic_file.hpp"
 #include "output/frames_output.hpp"
 
 namespace edmill::output {
@@ -39,7 +39,9 @@ class AnimationOutput : public FramesOutput<Real> {
         speed_(spec.animation.speed.to<double>()),
         min_frames_(spec.animation.min_frames) {}
 
+  void complete() override { file_.complete(); }
   void commit() override { file_.commit(); }
+  std::vector<std::filesystem::path> places() const override { return file_.places(); }
 
  protected:
   void before(const Seen<Real>& seen) override {

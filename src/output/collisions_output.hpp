@@ -2,7 +2,7 @@
 #pragma once
 
 #include "casefile/section.hpp"
-#include "io/output_folder.hpp"
+#include "io/atomic_file.hpp"
 #include "output/output.hpp"
 #include "run/collision_log.hpp"
 
@@ -38,7 +38,9 @@ class CollisionsOutput : public Output<Real> {
     file_.stream() << run::collision_log_header << (states_ ? run::collision_log_states : "") << '\n';
   }
 
+  void complete() override { file_.complete(); }
   void commit() override { file_.commit(); }
+  std::vector<std::filesystem::path> places() const override { return file_.places(); }
 
  protected:
   void archive_record(Archive& a) override { a(file_); }

@@ -3,7 +3,10 @@
 #include <fstream>
 #include <optional>
 
+#include "base/digest.hpp"
 #include "base/errors.hpp"
+#include "io/destination.hpp"
+#include "io/file_buffer.hpp"
 #include "io/hdf5_parts.hpp"
 #include "io/output_folder.hpp"
 
@@ -32,6 +35,14 @@ ChunkPlace place_of_chunk(hid_t set, hsize_t row) {
   return {at, size};
 }
 
+std::string bytes_of_chunk(hid_t set, hsize_t row, std::uint64_t size) {
+  const hsize_t offset[2] = {row, 0};
+  unsigned filters = 0;
+  std::string bytes(size, '\0');
+  hdf5_check(H5Dread_chunk(set, H5P_DEFAULT, offset, &filters, bytes.data()));
+  return bytes;
+}
+
 /// Appends a chunk that another file holds, as it is.
 void append_chunk(hid_t set, std::size_t width, hsize_t before, hsize_t rows, const std::string& bytes) {
   const hsize_t size[2] = {before + rows, width}, offset[2] = {before, 0};
@@ -51,12 +62,43 @@ struct EventFile::Data {
     std::size_t width() const { return what.type == EventColumn::Type::vector ? 3 : 1; }
   };
 
+  explicit Data(const std::filesystem::path& place)
+      : destination(place), place(destination.named), temporary(destination.temporary()) {}
+
+  io::Destination destination;
   std::filesystem::path place, temporary;
   std::optional<Handle> file, group;
   std::vector<Column> columns;
   hsize_t written = 0, waiting = 0;
+  Sha256 digest;  ///< of the blocks as they stand in the file
   bool kept = false;
 
+  /// Does what HDF5 does to the file; a failure is told with the file's name.
+  template <class Work>
+  void with_name(const Work& work) const {
+    try {
+      work();
+    } catch (const io::Hdf5Error& error) {
+      throw io::not_written(place, error.system_error);
+    }
+  }
+
+  void begin(std::vector<EventColumn> given, const std::vector<io::FileNote>& notes) {
+    file.emplace(io::make_file(temporary), H5Fclose);
+    io::add_notes(*file, notes);
+    group.emplace(io::make_group(*file, "events"), H5Gclose);
+    for (auto& column : given) {
+      Column c{std::move(column), nullptr, {}, {}, {}};
+      const bool integer = c.what.type == EventColumn::Type::integer;
+      c.set =
+          std::make_unique<Handle>(io::make_set(*group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE,
+                                                c.width(), block, integer),
+                                   H5Dclose);
+      io::note(*c.set, "unit", c.what.unit);
+      io::note(*c.set, "description", c.what.description);
+      columns.push_back(std::move(c));
+    }
+  }
   void write_block() {
     for (auto& c : columns) {
       const bool integer = c.what.type == EventColumn::Type::integer;
@@ -65,6 +107,7 @@ struct EventFile::Data {
       c.integers.clear();
       c.numbers.clear();
       c.chunks.push_back(place_of_chunk(*c.set, written));
+      digest.add(bytes_of_chunk(*c.set, written, c.chunks.back().size));
     }
     written += waiting;
     waiting = 0;
@@ -72,17 +115,23 @@ struct EventFile::Data {
   /// Takes over the full blocks of a file of the same columns.
   void take_blocks(const std::filesystem::path& from, hsize_t rows) {
     std::ifstream in(from, std::ios::binary);
-    const auto size = std::filesystem::file_size(from);
+    std::error_code none;
+    const auto size = std::filesystem::file_size(from, none);
+    if (none && rows > 0)
+      throw InputError(place.string() + ": found no file, expected the one that the run left");
     std::string bytes;
     for (written = 0; written < rows; written += block)
       for (auto& c : columns) {
         const ChunkPlace& chunk = c.chunks.at(written / block);
         if (chunk.at > size || chunk.size > size - chunk.at)
-          throw InputError(place.string() + ": found a checkpoint with a block beyond the end of the file");
+          throw InputError(place.string() +
+                           ": found a file that ends before a block of the checkpoint, "
+                           "expected the files as the run left them");
         bytes.resize(chunk.size);
         in.seekg(static_cast<std::streamoff>(chunk.at));
         if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
           throw std::runtime_error(from.string() + ": could not be read");
+        digest.add(bytes);
         append_chunk(*c.set, c.width(), written, block, bytes);
         EDMILL_REQUIRE(place_of_chunk(*c.set, written) == chunk, "a block has the place that it had");
       }
@@ -94,29 +143,11 @@ struct EventFile::Data {
   }
 };
 
-EventFile::EventFile(std::filesystem::path place, std::vector<EventColumn> columns,
+EventFile::EventFile(const std::filesystem::path& place, std::vector<EventColumn> columns,
                      const std::vector<io::FileNote>& notes)
-    : data_(new Data) {
+    : data_(new Data(place)) {
   io::hdf5_begin();
-  data_->place = std::move(place);
-  data_->temporary = io::temporary_name(data_->place);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(data_->place, ignored))
-    throw InputError(data_->place.string() + ": found a folder, expected a place for a file");
-  data_->file.emplace(io::make_file(data_->temporary), H5Fclose);
-  io::add_notes(*data_->file, notes);
-  data_->group.emplace(io::make_group(*data_->file, "events"), H5Gclose);
-  for (auto& column : columns) {
-    Data::Column c{std::move(column), nullptr, {}, {}, {}};
-    const bool integer = c.what.type == EventColumn::Type::integer;
-    c.set = std::make_unique<Handle>(
-        io::make_set(*data_->group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, c.width(), block,
-                     integer),
-        H5Dclose);
-    io::note(*c.set, "unit", c.what.unit);
-    io::note(*c.set, "description", c.what.description);
-    data_->columns.push_back(std::move(c));
-  }
+  data_->with_name([&] { data_->begin(std::move(columns), notes); });
 }
 
 EventFile::~EventFile() {
@@ -131,24 +162,34 @@ void EventFile::add(std::size_t column, std::int64_t value) {
 void EventFile::add(std::size_t column, double value) { data_->columns[column].numbers.push_back(value); }
 
 void EventFile::end_row() {
-  if (++data_->waiting == block) data_->write_block();
+  if (++data_->waiting == block) data_->with_name([&] { data_->write_block(); });
 }
 
 void EventFile::add_table(const std::string& name, const std::string& unit, const std::string& description,
                           const std::vector<double>& values, std::size_t width) {
-  const hsize_t rows = values.size() / width;
-  const Handle set(io::make_set(*data_->file, name, H5T_IEEE_F64LE, width, rows > 0 ? rows : 1, false),
-                   H5Dclose);
-  io::note(set, "unit", unit);
-  io::note(set, "description", description);
-  io::append(set, H5T_NATIVE_DOUBLE, width, 0, rows, values.data());
+  data_->with_name([&] {
+    const hsize_t rows = values.size() / width;
+    const Handle set(io::make_set(*data_->file, name, H5T_IEEE_F64LE, width, rows > 0 ? rows : 1, false),
+                     H5Dclose);
+    io::note(set, "unit", unit);
+    io::note(set, "description", description);
+    io::append(set, H5T_NATIVE_DOUBLE, width, 0, rows, values.data());
+  });
 }
 
-void EventFile::commit() {
-  if (data_->waiting > 0) data_->write_block();
-  hdf5_check(H5Fflush(*data_->file, H5F_SCOPE_GLOBAL));
+void EventFile::complete() {
+  data_->with_name([&] {
+    if (data_->waiting > 0) data_->write_block();
+    hdf5_check(H5Fflush(*data_->file, H5F_SCOPE_GLOBAL));
+  });
   data_->close();
-  std::filesystem::rename(data_->temporary, data_->place);
+}
+
+void EventFile::commit() { data_->destination.take(data_->temporary); }
+
+std::vector<std::filesystem::path> EventFile::places() const {
+  if (data_->destination.through) return {};
+  return {data_->place};
 }
 
 void EventFile::archive(Archive& a) {
@@ -161,25 +202,19 @@ void EventFile::archive(Archive& a) {
   for (const auto& c : d.columns)
     if (a.loading() && (rows % block != 0 || c.chunks.size() != rows / block))
       throw InputError(d.place.string() + ": found a checkpoint with blocks for another number of rows");
-  const std::uint64_t end = rows > 0 ? d.columns.back().chunks.back().end() : 0;
-  std::optional<std::string> before;
-  if (!a.loading()) before = io::bytes_before(d.temporary, end);
-  a(before);
+  std::string digest = d.digest.hex();
+  a(digest);
   if (!a.loading()) {
     d.kept = true;
     return;
   }
 
   const auto left =
-      std::filesystem::path(d.temporary).replace_filename(io::temporary_name_from(name, d.place));
-  const auto& from = std::filesystem::exists(left) ? left : d.place;
-  if (rows > 0) {
-    if (!before || io::bytes_before(from, end) != before)
-      throw InputError(d.place.string() +
-                       ": found another file than the checkpoint was made with, expected " +
-                       "the files as the run left them");
-    d.take_blocks(from, rows);
-  }
+      std::filesystem::path(d.temporary).replace_filename(io::temporary_name_from(name, d.destination.place));
+  d.take_blocks(std::filesystem::exists(left) ? left : d.destination.place, rows);
+  if (d.digest.hex() != digest)
+    throw InputError(d.place.string() + ": found another file than the checkpoint was made with, expected " +
+                     "the files as the run left them");
   // The blocks have the same places in both, so that the checkpoint holds for either.
   std::filesystem::rename(d.temporary, left);
   d.temporary = left;

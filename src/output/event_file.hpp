@@ -23,7 +23,7 @@ struct EventColumn {
 /// time stamps. Integers are compressed; the digits of measured numbers are noise that hardly shrinks.
 class EventFile {
  public:
-  EventFile(std::filesystem::path place, std::vector<EventColumn> columns,
+  EventFile(const std::filesystem::path& place, std::vector<EventColumn> columns,
             const std::vector<io::FileNote>& notes);
   EventFile(const EventFile&) = delete;
   EventFile& operator=(const EventFile&) = delete;
@@ -38,13 +38,17 @@ class EventFile {
   void add_table(const std::string& name, const std::string& unit, const std::string& description,
                  const std::vector<double>& values, std::size_t width);
 
-  /// @throws std::runtime_error when anything was not written; the old file is then still there
+  /// Writes what is left. @throws std::runtime_error when anything was not written
+  void complete();
+  /// Puts it in place. @pre it is complete
   void commit();
+  /// Its place, when that is no device.
+  std::vector<std::filesystem::path> places() const;
 
   /// How far it is written, for a checkpoint; the temporary file is then no longer removed without `commit`.
   /// HDF5 cannot open a file whose writer was killed. But a block never changes once it is written, so
   /// loading makes the file anew from the blocks, which stand where the checkpoint says.
-  /// @throws InputError when they are not there
+  /// @throws InputError when they are not there, byte for byte
   void archive(Archive& a);
 
  private:

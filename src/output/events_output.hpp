@@ -55,7 +55,9 @@ class EventsOutput : public Output<Real> {
         file_(folder / spec.folder / spec.file,
               detail::event_columns(run.partners, spec.own_keys<StatesKey>().states), run.notes) {}
 
+  void complete() override { file_.complete(); }
   void commit() override { file_.commit(); }
+  std::vector<std::filesystem::path> places() const override { return file_.places(); }
 
  protected:
   void archive_record(Archive& a) override { a(file_); }

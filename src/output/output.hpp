@@ -1,6 +1,7 @@
 // One entry [[output]] at work.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -69,8 +70,12 @@ class Output {
     const Real end = simulation.seconds();
     if (timer_.recorded(end)) end_of_record(simulation, timer_.until(end));
   }
-  /// Puts what was written in place.
+  /// Writes what is left: nothing can fail for lack of space after it.
+  virtual void complete() = 0;
+  /// Puts what was written in place. @pre it is complete
   virtual void commit() = 0;
+  /// Where that is. Files that hold rows of other runs are not among these places.
+  virtual std::vector<std::filesystem::path> places() const = 0;
   /// Its state and how far its files are written, for a checkpoint.
   virtual void archive(Archive& a) {
     a(timer_);

@@ -23,8 +23,13 @@ class Outputs : public engine::Observer<Real> {
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override;
   void on_end(const engine::Simulation<Real>& simulation) override;
   void archive(Archive& a) override;
-  /// Puts all files in place. A run that goes on later adds its rows to files of other runs only then.
+  /// Writes what is left of all files. @param goes_on  a run that goes on later adds its rows to files of
+  /// other runs only then
+  void complete(bool goes_on);
+  /// Puts them in place. @pre they are complete
   void commit(bool goes_on);
+  /// Where that is; without files that hold rows of other runs.
+  std::vector<std::filesystem::path> places() const;
 
  private:
   std::vector<std::unique_ptr<Output<Real>>> outputs_;

@@ -68,10 +68,7 @@ Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const std::filesystem::pa
                        detail::notes_of<Real>(spec)};
   walls_ = run.partners.walls();
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();
-  for (const auto& output : spec.outputs) {
-    if (!output.folder.empty()) io::prepare_folder(folder / output.folder);
-    outputs_.push_back(make_output<Real>(output, folder, run));
-  }
+  for (const auto& output : spec.outputs) outputs_.push_back(make_output<Real>(output, folder, run));
 }
 
 template <class Real>
@@ -94,6 +91,20 @@ template <class Real>
 void Outputs<Real>::archive(Archive& a) {
   a(previous_);
   for (auto& output : outputs_) a(*output);
+}
+
+template <class Real>
+void Outputs<Real>::complete(bool goes_on) {
+  for (auto& output : outputs_)
+    if (!goes_on || !output->appends()) output->complete();
+}
+
+template <class Real>
+std::vector<std::filesystem::path> Outputs<Real>::places() const {
+  std::vector<std::filesystem::path> all;
+  for (const auto& output : outputs_)
+    for (auto& place : output->places()) all.push_back(std::move(place));
+  return all;
 }
 
 template <class Real>

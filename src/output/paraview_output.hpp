@@ -2,8 +2,8 @@
 #pragma once
 
 #include "casefile/output_columns.hpp"
+#include "io/atomic_file.hpp"
 #include "io/atomic_folder.hpp"
-#include "io/output_folder.hpp"
 #include "output/frames_output.hpp"
 
 namespace edmill::output {
@@ -23,10 +23,18 @@ class ParaviewOutput : public FramesOutput<Real> {
         index_(this->place()),
         frames_(std::filesystem::path(this->place()).replace_extension()) {}
 
+  void complete() override {
+    index_.stream() << pvd_text(list_);
+    index_.complete();
+  }
   void commit() override {
     frames_.commit();
-    index_.stream() << pvd_text(list_);
     index_.commit();
+  }
+  std::vector<std::filesystem::path> places() const override {
+    auto places = frames_.places();
+    for (auto& place : index_.places()) places.push_back(std::move(place));
+    return places;
   }
 
  protected:

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 
 #include "casefile/output_columns.hpp"
-#include "io/output_folder.hpp"
+#include "io/atomic_file.hpp"
 #include "output/scene_output.hpp"
 
 namespace edmill::output {
@@ -22,15 +23,21 @@ class SnapshotOutput : public SceneOutput<Real> {
  public:
   using SceneOutput<Real>::SceneOutput;
 
-  void commit() override {
+  void complete() override {
     for (const auto& [index, text] : pages_) {
-      auto place = this->place();
-      place.replace_filename(place.stem().string() + "_" + std::to_string(index) +
-                             place.extension().string());
-      io::AtomicFile file(place);
-      file.stream() << text;
-      file.commit();
+      files_.push_back(std::make_unique<io::AtomicFile>(place_of(index)));
+      files_.back()->stream() << text;
+      files_.back()->complete();
     }
+  }
+  void commit() override {
+    for (auto& file : files_) file->commit();
+  }
+  std::vector<std::filesystem::path> places() const override {
+    std::vector<std::filesystem::path> places;
+    for (const auto& file : files_)
+      for (auto& place : file->places()) places.push_back(std::move(place));
+    return places;
   }
 
  protected:
@@ -55,6 +62,13 @@ class SnapshotOutput : public SceneOutput<Real> {
     return frames;
   }
 
+  std::filesystem::path place_of(std::uint64_t index) const {
+    const auto place = this->place();
+    return place.parent_path() /
+           (place.stem().string() + "_" + std::to_string(index) + place.extension().string());
+  }
+
+  std::vector<std::unique_ptr<io::AtomicFile>> files_;
   std::vector<std::pair<std::uint64_t, std::string>> pages_;
 };
 

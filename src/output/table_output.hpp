@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/output_folder.hpp"
+#include "io/atomic_file.hpp"
 #include "io/table_hdf5.hpp"
 #include "output/output.hpp"
 #include "output/titles.hpp"
@@ -21,10 +21,12 @@ class TableOutput : public Output<Real> {
       : Output<Real>(spec, run), hdf5_(spec.hdf5()), file_(folder / spec.folder / spec.file, spec.append) {
     if (hdf5_) notes_ = run.notes;
   }
-  void commit() override {
+  void complete() override {
     if (hdf5_) file_.stream() << io::hdf5_columns(table_, notes_);
-    file_.commit();
+    file_.complete();
   }
+  void commit() override { file_.commit(); }
+  std::vector<std::filesystem::path> places() const override { return file_.places(); }
   void archive(Archive& a) override {
     Output<Real>::archive(a);
     a(file_, table_);

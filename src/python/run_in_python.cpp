@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "api/case_access.hpp"
+#include "api/run_access.hpp"
+#include "casefile/memory_for.hpp"
 #include "edmill/run.hpp"
 #include "instances/instances.hpp"
 #include "report/report_page.hpp"
@@ -265,11 +267,10 @@ py::dict run_in(Case the_case, const Wishes& wishes) {
     for (auto& callable : callables) run->attach(*callable);
     run->attach(pulse);
     run->finish();
-    if (!wishes.folder.empty()) run->commit();
-    if (wishes.report) {
-      report::write_case(wishes.folder, CaseAccess::spec(the_case), true);
-      report::write_report(wishes.folder);
-    }
+    if (!wishes.folder.empty())
+      RunAccess::commit<Real>(*run, report::case_text(CaseAccess::spec(the_case), wishes.report), [&] {
+        if (wishes.report) report::put_report(wishes.folder);
+      });
   }
   if (PyErr_CheckSignals() != 0) {  // Ctrl-C when the run was already over
     PyErr_Clear();
@@ -307,8 +308,10 @@ py::dict run(const Case& the_case, const std::string& precision, const std::stri
              bool report, const std::vector<py::object>& observers, const py::object& ball_ball,
              const py::object& ball_wall, const py::object& progress) {
   const Wishes wishes{folder, events, report, observers, ball_ball, ball_wall, progress};
-#define EDMILL_RUN_IN(Real) \
-  if (precision == ScalarName<Real>::value) return run_in<Real>(the_case, wishes);
+#define EDMILL_RUN_IN(Real)                                      \
+  if (precision == ScalarName<Real>::value)                      \
+    return casefile::with_memory_for(CaseAccess::spec(the_case), \
+                                     [&] { return run_in<Real>(the_case, wishes); });
   EDMILL_FOR_EACH_SCALAR(EDMILL_RUN_IN)
 #undef EDMILL_RUN_IN
   throw InputError("precision: found '" + precision +

@@ -16,7 +16,7 @@
 #include "cli/compare_command.hpp"
 #include "cli/run_case.hpp"
 #include "cli/study_command.hpp"
-#include "io/output_folder.hpp"
+#include "io/named_file.hpp"
 #include "prove/certificate.hpp"
 #include "report/report_page.hpp"
 
@@ -93,9 +93,7 @@ py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
   std::ostringstream events;
   prove::write_events(events, proof, 40);
   if (!certificate.empty()) {
-    io::AtomicFile file(certificate);
-    prove::write_certificate(file.stream(), proof);
-    file.commit();
+    io::NamedFile(certificate).write([&](std::ostream& out) { prove::write_certificate(out, proof); });
   }
   return py::make_tuple(events.str(), proof.bits, proof.accuracy);
 }

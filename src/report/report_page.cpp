@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <map>
 
+#include "io/atomic_file.hpp"
+#include "io/checkpoint_file.hpp"
+#include "io/file_record.hpp"
 #include "io/output_folder.hpp"
 #include "report/embedded.hpp"
 #include "report/scene.hpp"
@@ -126,10 +129,20 @@ std::string report_page(const RunFolder& run) {
 }
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) read_run_folder(folder);  // says what is missing
+  const io::FolderLock alone(folder);
+  // Of killed processes; those of an unfinished run are left for it to go on with.
+  if (!std::filesystem::exists(io::checkpoint_place(folder))) io::remove_temporaries(folder, "");
+  return put_report(folder);
+}
+
+std::filesystem::path put_report(const std::filesystem::path& folder) {
   const auto page = report_page(read_run_folder(folder));
   auto place = folder / "report.html";
   io::AtomicFile file(place);
   file.stream() << page;
+  file.complete();
+  io::record_files(folder, file.places());
   file.commit();
   return place;
 }

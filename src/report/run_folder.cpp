@@ -10,7 +10,6 @@
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/case_of_run.hpp"
-#include "io/output_folder.hpp"
 #include "report/embedded.hpp"
 
 namespace edmill::report {
@@ -77,12 +76,10 @@ std::string outputs_for(const casefile::CaseSpec& spec) {
 
 }  // namespace
 
-void write_case(const std::filesystem::path& place, const casefile::CaseSpec& spec, bool reported) {
-  io::AtomicFile file(place / "case.toml");
+std::string case_text(const casefile::CaseSpec& spec, bool reported) {
   const bool marked = spec.text.starts_with(reported_mark);
-  if (reported && !marked) file.stream() << reported_mark;
-  file.stream() << (marked && !reported ? spec.text.substr(reported_mark.size()) : spec.text);
-  file.commit();
+  if (marked && !reported) return spec.text.substr(reported_mark.size());
+  return reported && !marked ? reported_mark + spec.text : spec.text;
 }
 
 RunFolder read_run_folder(const std::filesystem::path& place) {

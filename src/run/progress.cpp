@@ -1,4 +1,5 @@
 #include "run/progress.hpp"
+#include "io/terminal.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@ namespace edmill::run {
 ProgressLine::ProgressLine(std::optional<double> end) : end_(end), shown_(Clock::now()) {}
 
 ProgressLine::~ProgressLine() {
-  if (visible_) fmt::print(stderr, "\r\033[K");
+  if (visible_) io::tell("\r\033[K");
 }
 
 void ProgressLine::show(double now, std::uint64_t collisions, std::optional<double> milling_dose) {
@@ -29,7 +30,7 @@ void ProgressLine::show(double now, std::uint64_t collisions, std::optional<doub
     const double left = spent * (*end_ - now) / simulated;
     line += fmt::format(", {}:{:02} left", static_cast<long>(left) / 60, static_cast<long>(left) % 60);
   }
-  fmt::print(stderr, "\r\033[K{}", line);
+  io::tell("\r\033[K{}", line);
   std::fflush(stderr);
   visible_ = true;
 }

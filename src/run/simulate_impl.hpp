@@ -101,7 +101,7 @@ Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCas
     result.saved = {built.start, built.states};
   }
   result.summary.end_reason = end_reason;
-  result.summary.error = error;
+  result.summary.error = result.summary.stall ? io::stall_message(result.summary) : error;
   return result;
 }
 

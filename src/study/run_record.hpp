@@ -53,7 +53,6 @@ RunRecord record_of(const io::Summary<Real>& s) {
   r.message = s.error;
   if (s.collapse)
     r.message = "ball " + std::to_string(s.collapse->ball) + " came to rest in a series of impacts";
-  if (s.stall) r.message = io::stall_message(s);
   r.start_time = static_cast<double>(s.start_time);
   r.end_time = static_cast<double>(s.end_time);
   r.collisions = s.collisions;

@@ -9,8 +9,11 @@
 
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
-#include "io/output_folder.hpp"
+#include "io/atomic_file.hpp"
+#include "io/checkpoint_file.hpp"
+#include "io/file_record.hpp"
 #include "io/table_hdf5.hpp"
+#include "io/terminal.hpp"
 
 namespace edmill::study {
 
@@ -41,7 +44,7 @@ Study::Study(casefile::StudySpec spec, std::filesystem::path folder, std::string
       show_(show && ::isatty(STDERR_FILENO)) {}
 
 Study::~Study() {
-  if (show_) fmt::print(stderr, "\r\033[K");
+  if (show_) io::tell("\r\033[K");
 }
 
 std::size_t Study::add_point(Point point) {
@@ -108,25 +111,40 @@ void Study::tick() {
   next_write_ = after + std::max<std::chrono::nanoseconds>(std::chrono::seconds(1), 20 * (after - now));
   if (!show_) return;
   const auto c = counts();
-  fmt::print(stderr, "\r\033[K{} of {} runs, {} failed", c.kept + c.ran, c.total, c.failed);
+  io::tell("\r\033[K{} of {} runs, {} failed", c.kept + c.ran, c.total, c.failed);
+}
+
+void Study::take_folder() {
+  if (lock_) return;
+  io::prepare_folder(folder_);
+  lock_.emplace(folder_);
+  io::require_no_checkpoint(folder_);
+  io::prepare_folder(folder_ / "runs");
+  for (const auto& folder : {folder_, folder_ / "runs"}) io::remove_temporaries(folder, "");
+  io::record_files(folder_, table_places());
+}
+
+std::vector<std::filesystem::path> Study::table_places() const {
+  return {folder_ / (name_ + ".csv"), folder_ / "runs.csv", folder_ / (name_ + ".h5"),
+          folder_ / (name_ + "_log.csv")};
 }
 
 void Study::run() {
-  io::prepare_folder(folder_);
-  io::prepare_folder(folder_ / "runs");
+  take_folder();
   const auto jobs = collect_jobs();
   write_tables();
   executor_.run(
       jobs, [this](const RunRecord& r) { put(r); }, [this] { tick(); });
   write_tables();
+  if (kept_ + ran_ > 0) io::remove_other_files(folder_, table_places());
 }
 
 void Study::write_tables() const {
   const auto points = point_table(), runs = run_table();
-  write_file(folder_ / (name_ + ".csv"), points.csv());
-  write_file(folder_ / "runs.csv", runs.csv());
-  write_file(folder_ / (name_ + ".h5"), io::hdf5_compounds({{"points", points}, {"runs", runs}}));
-  write_file(folder_ / (name_ + "_log.csv"), log_table().csv());
+  const auto places = table_places();
+  const std::string tables[] = {points.csv(), runs.csv(),
+                                io::hdf5_compounds({{"points", points}, {"runs", runs}}), log_table().csv()};
+  for (std::size_t k = 0; k < places.size(); ++k) write_file(places[k], tables[k]);
 }
 
 StudyCounts Study::counts() const {

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <optional>
 
+#include "io/output_folder.hpp"
 #include "io/table.hpp"
 #include "study/point.hpp"
 
@@ -42,6 +44,9 @@ class Study {
   io::Table<double> run_table() const;
 
  private:
+  /// At the first run of a study: no other process may write into its folder from then on.
+  void take_folder();
+  std::vector<std::filesystem::path> table_places() const;
   std::vector<Job> collect_jobs();
   void put(const RunRecord& record);
   void tick();
@@ -53,6 +58,7 @@ class Study {
 
   casefile::StudySpec spec_;
   std::filesystem::path folder_;
+  std::optional<io::FolderLock> lock_;
   std::string name_;
   Executor& executor_;
   bool show_;

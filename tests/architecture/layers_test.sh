@@ -26,7 +26,7 @@ declare -A allowed=(
   [cli]="base model model/parts dynamics engine io casefile run output study check identify prove report instances instances/tools"
   [instances]="base model model/parts dynamics engine io casefile run output api" # the core in every scalar
   [instances/tools]="base io casefile report cli instances" # and what is around it
-  [python]="base api check cli io prove report instances" # a program like those of users, and the commands
+  [python]="base api casefile check cli io prove report instances" # a program like those of users, and the commands
   [python/edmill]=""
 )
 

@@ -1,0 +1,35 @@
+// Memory that is not there, in a sentence with what asked for it.
+#pragma once
+
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include "casefile/case_spec.hpp"
+
+namespace edmill::casefile {
+
+class OutOfMemory : public std::bad_alloc {
+ public:
+  explicit OutOfMemory(const CaseSpec& spec)
+      : text_(spec.file + ": found too little memory for " + std::to_string(spec.ball_count()) +
+              " balls, expected more memory or a case of fewer balls") {}
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::string text_;
+};
+
+/// Does work on a case. @throws OutOfMemory when it takes more memory than there is
+template <class Work>
+auto with_memory_for(const CaseSpec& spec, const Work& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw OutOfMemory(spec);
+  } catch (const std::length_error&) {
+    throw OutOfMemory(spec);
+  }
+}
+
+}  // namespace edmill::casefile

@@ -1,0 +1,215 @@
+#include "io/input_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "io/decoder.hpp"
+#include "io/destination.hpp"
+
+namespace edmill::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::optional<int> descriptor_of(const std::string& path) {
+  return path == "-" ? std::optional(STDIN_FILENO) : descriptor_named(path);
+}
+
+ssize_t read_some(int descriptor, char* bytes, std::size_t size, std::optional<std::uint64_t> from) {
+  for (;;) {
+    const auto count =
+        from ? ::pread(descriptor, bytes, size, static_cast<off_t>(*from)) : ::read(descriptor, bytes, size);
+    if (count >= 0 || errno != EINTR) return count;
+  }
+}
+
+/// @return -1 with errno
+int open_for_reading(const std::string& path) {
+  // A descriptor that is open goes on where it stands; a socket could not be opened by its name.
+  if (const auto number = descriptor_of(path)) return ::fcntl(*number, F_DUPFD_CLOEXEC, 3);
+  return ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+}
+
+/// What streams held, by their paths.
+class Spooled {
+ public:
+  static Spooled& all() {
+    static Spooled spooled;
+    return spooled;
+  }
+  void begin() {
+    const std::lock_guard lock(mutex_);
+    ++users_;
+  }
+  void end() {
+    const std::lock_guard lock(mutex_);
+    if (--users_ == 0) files_.clear();
+  }
+  bool is_active() {
+    const std::lock_guard lock(mutex_);
+    return users_ > 0;
+  }
+  /// A descriptor of the temporary file, which stays its own; -1 with errno when the stream cannot be read.
+  int file_of(const std::string& path) {
+    const std::lock_guard lock(mutex_);
+    const auto number = descriptor_of(path);
+    auto& file = files_[number ? "/dev/fd/" + std::to_string(*number) : path];
+    if (!file) file = copied(path);
+    return file ? ::fileno(file.get()) : -1;
+  }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  using File = std::unique_ptr<std::FILE, Close>;
+
+  static File copied(const std::string& path) {
+    const int in = open_for_reading(path);
+    if (in < 0) return nullptr;
+    File file(std::tmpfile());
+    std::vector<char> bytes(1 << 16);
+    ssize_t count = file ? 1 : -1;
+    while (file && (count = read_some(in, bytes.data(), bytes.size(), {})) > 0)
+      if (std::fwrite(bytes.data(), 1, static_cast<std::size_t>(count), file.get()) !=
+          static_cast<std::size_t>(count))
+        break;
+    const int error = errno;
+    ::close(in);
+    if (count > 0 || !file || std::fflush(file.get()) != 0)
+      throw std::runtime_error(path + ": found no place for a temporary copy of it in " +
+                               fs::temp_directory_path().string());
+    errno = error;
+    return count == 0 ? std::move(file) : nullptr;
+  }
+
+  std::mutex mutex_;
+  int users_ = 0;
+  std::map<std::string, File> files_;
+};
+
+}  // namespace
+
+bool is_stream(const std::string& path) {
+  if (descriptor_of(path)) return true;
+  std::error_code ignored;
+  const auto status = fs::status(path, ignored);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+bool is_readable(const std::string& path) {
+  std::error_code ignored;
+  return is_stream(path) || fs::is_regular_file(path, ignored);
+}
+
+fs::path folder_of(const std::string& path) {
+  return is_stream(path) ? fs::path() : fs::path(path).parent_path();
+}
+
+Spool::Spool() { Spooled::all().begin(); }
+Spool::~Spool() { Spooled::all().end(); }
+bool Spool::is_active() { return Spooled::all().is_active(); }
+
+class InputFile::Buffer : public std::streambuf {
+ public:
+  Buffer(const std::string& path, const std::string& expected) : path_(path), raw_(1 << 16), text_(1 << 16) {
+    if (is_stream(path) && Spool::is_active()) {
+      descriptor_ = Spooled::all().file_of(path);
+      from_ = 0;
+    } else if (is_readable(path)) {
+      descriptor_ = open_for_reading(path);
+    }
+    if (descriptor_ < 0 || !fill())
+      throw InputError(path_ + ": found no readable file, expected " + expected);
+    decoder_ = decoder_for(waiting_);
+  }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+  ~Buffer() override {
+    if (descriptor_ >= 0 && !from_) ::close(descriptor_);
+  }
+
+ protected:
+  int_type underflow() override {
+    if (gptr() != egptr()) return traits_type::to_int_type(*gptr());
+    const std::size_t count = decoder_ ? decoded() : plain();
+    setg(text_.data(), text_.data(), text_.data() + count);
+    return count == 0 ? traits_type::eof() : traits_type::to_int_type(*gptr());
+  }
+
+ private:
+  /// Reads on as long as there are fewer bytes than the beginning that tells the format.
+  /// @return false when the system cannot
+  bool fill() {
+    constexpr std::size_t beginning = 4;
+    std::size_t size = 0;
+    ssize_t count = 1;
+    while (size < beginning &&
+           (count = read_some(descriptor_, raw_.data() + size, raw_.size() - size, from_)) > 0) {
+      size += static_cast<std::size_t>(count);
+      if (from_) *from_ += static_cast<std::uint64_t>(count);
+    }
+    waiting_ = {raw_.data(), size};
+    return count >= 0;
+  }
+  void need() {
+    if (waiting_.empty() && !fill()) throw std::runtime_error(path_ + ": could not be read to its end");
+  }
+  std::size_t plain() {
+    need();
+    const std::size_t count = waiting_.size();
+    std::memcpy(text_.data(), waiting_.data(), count);
+    waiting_ = {};
+    return count;
+  }
+  std::size_t decoded() {
+    try {
+      for (bool more = true;;) {
+        if (const std::size_t count = decoder_->decode(waiting_, text_); count > 0) return count;
+        if (!waiting_.empty()) continue;
+        if (!more) return 0;
+        need();
+        more = !waiting_.empty();
+        if (!more && !decoder_->at_end()) throw std::runtime_error("they end early");
+      }
+    } catch (const std::runtime_error& error) {
+      throw InputError(path_ + ": found damaged " + decoder_->name() + " data (" + error.what() +
+                       "), expected a whole file");
+    }
+  }
+
+  std::string path_;
+  int descriptor_ = -1;
+  std::optional<std::uint64_t> from_;  ///< place in a spooled file, which others read too
+  std::vector<char> raw_, text_;
+  std::string_view waiting_;  ///< of raw_, not yet decoded
+  std::unique_ptr<Decoder> decoder_;
+};
+
+InputFile::InputFile(const std::string& path, const std::string& expected)
+    : std::istream(nullptr), buffer_(std::make_unique<Buffer>(path, expected)) {
+  rdbuf(buffer_.get());
+  exceptions(std::ios::badbit);  // what the buffer throws reaches the reader
+}
+InputFile::~InputFile() = default;
+
+std::string read_whole(const std::string& path, const std::string& expected) {
+  InputFile in(path, expected);
+  std::string text;
+  for (std::vector<char> part(1 << 16); in.read(part.data(), 1 << 16) || in.gcount() > 0;)
+    text.append(part.data(), static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+}  // namespace edmill::io

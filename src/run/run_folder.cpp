@@ -1,0 +1,102 @@
+#include "run/run_folder.hpp"
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "casefile/quantity.hpp"
+#include "io/atomic_file.hpp"
+#include "io/file_record.hpp"
+
+namespace edmill::run {
+
+namespace fs = std::filesystem;
+
+RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::optional<io::Checkpoint> checkpoint)
+    : place_(std::move(place)), checkpoint_(std::move(checkpoint)) {
+  take(place_);
+  const bool begins = !checkpoint_ || checkpoint_->state.empty();
+  if (begins)
+    io::require_no_checkpoint(place_);
+  else if (io::read_checkpoint(place_).state != checkpoint_->state)
+    throw InputError(io::checkpoint_place(place_).string() +
+                     ": found another checkpoint than a moment ago, expected one process at a time");
+  for (const auto& output : spec.outputs) {
+    const auto file = place_ / output.folder / output.file;
+    if (checkpoint_ && io::Destination(file).through)
+      throw InputError(file.string() +
+                       ": found a device or a pipe, expected a file, since a resumed run continues it");
+    take(place_ / output.folder);
+  }
+  if (checkpoint_ && begins) checkpoint_->temporary_mark = io::temporary_mark();
+  remove_leftovers(checkpoint_ ? checkpoint_->temporary_mark : "");
+}
+
+/// Makes a folder when it is absent, and keeps other processes out.
+void RunFolder::take(const fs::path& folder) {
+  io::prepare_folder(folder);
+  const auto one_of_paths = fs::canonical(folder);
+  if (std::find(folders_.begin(), folders_.end(), one_of_paths) != folders_.end()) return;
+  folders_.push_back(one_of_paths);
+  locks_.emplace_back(folder);
+}
+
+RunFolder::~RunFolder() {
+  own_files_.clear();
+  std::error_code error;
+  if (!fs::exists(io::checkpoint_place(place_), error) && !error) remove_leftovers("");
+}
+
+void RunFolder::remove_leftovers(const std::string& kept) const {
+  for (const auto& folder : folders_) io::remove_temporaries(folder, kept);
+  for (const auto& folder : io::recorded_folders(place_)) io::remove_temporaries(folder, kept);
+}
+
+Checkpoints RunFolder::checkpoints() {
+  if (!checkpoint_) return {};
+  const auto save = [this](const std::string& state) {
+    checkpoint_->state = state;
+    io::write_checkpoint(place_, *checkpoint_);
+  };
+  return {parse_checkpoint_interval(checkpoint_->interval), save, checkpoint_->state};
+}
+
+void RunFolder::write(const std::string& name, const std::function<void(std::ostream&)>& put) {
+  auto file = std::make_unique<io::AtomicFile>(place_ / name);
+  put(file->stream());
+  file->complete();
+  own_files_.push_back(std::move(file));
+}
+
+void RunFolder::commit(std::vector<fs::path> outputs, const std::function<void()>& commit_outputs) {
+  auto& all = outputs;
+  for (const auto& file : own_files_)
+    for (const auto& own : file->places()) all.push_back(own);
+  io::record_files(place_, all);
+  commit_outputs();
+  for (auto& file : own_files_) file->commit();
+  own_files_.clear();
+  io::remove_other_files(place_, all);
+}
+
+void RunFolder::remove_checkpoint() {
+  if (!checkpoint_) return;
+  // First: without the checkpoint, files left by killed processes of this run are no longer found.
+  remove_leftovers("");
+  fs::remove(io::checkpoint_place(place_));
+}
+
+CheckpointInterval parse_checkpoint_interval(const std::string& text) {
+  const std::string mark = " simulated";
+  const bool simulated = text.ends_with(mark);
+  const auto parsed = casefile::parse_quantity(text.substr(0, text.size() - (simulated ? mark.size() : 0)),
+                                               casefile::Dimension::time);
+  const auto* time = std::get_if<casefile::Quantity>(&parsed);
+  if (!time || !time->positive())
+    throw InputError("--checkpoint: found " +
+                     (time ? "\"" + text + "\"" : std::get<casefile::QuantityProblem>(parsed).found) +
+                     ", expected a time above 0 by the clock, such as '10 min', or in the run, such as '2 s "
+                     "simulated'");
+  return {time->to<double>(), simulated};
+}
+
+}  // namespace edmill::run

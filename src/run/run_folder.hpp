@@ -1,0 +1,64 @@
+// The folder of a run: who may write there, what stands there, and how results come into place. docs/files.md
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "casefile/case_spec.hpp"
+#include "io/checkpoint_file.hpp"
+#include "io/output_folder.hpp"
+#include "run/simulate.hpp"
+
+namespace edmill::io {
+class AtomicFile;
+}
+
+namespace edmill::run {
+
+/// Every run that writes files has one, and keeps other processes out of the folder while it lives.
+class RunFolder {
+ public:
+  /// @param checkpoint  of a run that makes checkpoints; with a state, of one that continues
+  /// @throws InputError when the folder cannot be used, another process writes there, or it holds the
+  /// checkpoint of another run
+  RunFolder(std::filesystem::path place, const casefile::CaseSpec& spec,
+            std::optional<io::Checkpoint> checkpoint = std::nullopt);
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+  /// Without a checkpoint temporary files are of no further use.
+  ~RunFolder();
+
+  const std::filesystem::path& place() const { return place_; }
+  /// Whether the file system keeps other processes out.
+  bool locked() const { return locks_.front().held(); }
+  /// Instructions to the driver about checkpoints. They must not outlive this folder.
+  Checkpoints checkpoints();
+
+  /// Writes a file of the run itself, which `commit` puts in place. @throws std::runtime_error
+  void write(const std::string& name, const std::function<void(std::ostream&)>& put);
+  /// Puts results in place, which are complete, and removes what an earlier run has left of its own.
+  /// @param outputs  places of the files that `commit_outputs` puts in place
+  void commit(std::vector<std::filesystem::path> outputs, const std::function<void()>& commit_outputs);
+  /// For a run that has ended: nothing can continue it.
+  void remove_checkpoint();
+
+ private:
+  void take(const std::filesystem::path& folder);
+  void remove_leftovers(const std::string& kept) const;
+
+  std::filesystem::path place_;
+  std::vector<std::filesystem::path> folders_;  ///< with those of the outputs
+  std::vector<io::FolderLock> locks_;           ///< in the same order
+  std::optional<io::Checkpoint> checkpoint_;
+  std::vector<std::unique_ptr<io::AtomicFile>> own_files_;
+};
+
+/// "10 min" of wall-clock time, "0.5 s simulated". @throws InputError
+CheckpointInterval parse_checkpoint_interval(const std::string& text);
+
+}  // namespace edmill::run
