@@ -17,7 +17,7 @@ program_packages=(
 )
 
 test_packages=(
-  libgtest-dev librapidcheck-dev libudunits2-dev zstd
+  libgtest-dev librapidcheck-dev libudunits2-dev libglpk-dev zstd
   libbenchmark-dev clang libclang-rt-14-dev clang-format patch valgrind
   python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-h5py python3-vtk9 view3dscene libxml2-utils
   chromium chromium-driver python3-selenium

@@ -1,5 +1,7 @@
 #include "prove/impact.hpp"
 
+#include "model/stall.hpp"
+
 #include "prove/exact_text.hpp"
 
 namespace edmill::prove {
@@ -35,13 +37,21 @@ Enclosure slip_gain(const Law& law, const Enclosure& change, const Enclosure& sl
 
 }  // namespace
 
-Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, const Enclosure& compliance) {
+bool has_moved(const Law& law, const Enclosure& flight_time) {
+  const Enclosure reached = flight_time * Enclosure(model::StallRule().acceleration);
+  if (law.least_separation.is_zero() || less(law.least_separation, reached)) return true;
+  if (less(reached, law.least_separation)) return false;
+  throw Undecided{"whether a ball has had time to move"};
+}
+
+Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, const Enclosure& compliance,
+                bool in_stall) {
   const Enclosure approach = -dot<Enclosure>(contact, normal);
   if (!approach.is_positive()) throw Undecided{"whether the bodies approach each other"};
   const Enclosure change = approach + separation_speed(law, approach);
   const Vector slip = contact + normal * approach;
   const Enclosure slip_speed = norm<Enclosure>(slip);
-  const Enclosure gain = slip_gain(law, change, slip_speed, compliance);
+  const Enclosure gain = in_stall ? Enclosure() : slip_gain(law, change, slip_speed, compliance);
   return {normal * change - slip * gain, cross<Enclosure>(normal, slip) * gain, approach, slip_speed};
 }
 

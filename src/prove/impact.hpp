@@ -24,7 +24,11 @@ struct Impulse {
 /// @param normal      n, unit, from the partner to ball i
 /// @param contact     G, velocity of the surfaces at the contact against each other [m/s]
 /// @param compliance  c = 1 + M/(m_i J_i) + M/(m_j J_j)
+/// @param in_stall    friction rests
 /// @throws Undecided
-Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, const Enclosure& compliance);
+Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, const Enclosure& compliance,
+                bool in_stall);
+/// Whether a flight was long enough for its ball to move, by the rule on stalls. @throws Undecided
+bool has_moved(const Law& law, const Enclosure& flight_time);
 
 }  // namespace edmill::prove

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/stall.hpp"
 #include "prove/exact_text.hpp"
 
 namespace edmill::prove {
@@ -173,7 +174,17 @@ void Prover::exclude_balls(int ball, int partner, const Enclosure& end, long thr
   }
 }
 
-ProvenEvent Prover::impact_on_wall(const Candidate& next, const Enclosure& time) const {
+/// Counts the ball's impacts that came without time to move, for the rule on stalls.
+bool Prover::friction_rests(std::size_t ball, const Law& law, const Enclosure& time) {
+  Track& track = tracks_[ball];
+  if (has_moved(law, time - track.since)) {
+    track.unmoved = 0;
+    return false;
+  }
+  return ++track.unmoved > model::StallRule().impacts;
+}
+
+ProvenEvent Prover::impact_on_wall(const Candidate& next, const Enclosure& time) {
   const auto own = static_cast<std::size_t>(next.ball), wall = static_cast<std::size_t>(next.partner);
   const Flight& flight = tracks_[own].flight;
   const Enclosure middle = time.middle(), d = time - middle;
@@ -189,13 +200,14 @@ ProvenEvent Prover::impact_on_wall(const Candidate& next, const Enclosure& time)
   const Vector wall_velocity = pose.velocity + cross<Enclosure>(pose.omega, arm);
   const Vector contact = fast - wall_velocity - cross<Enclosure>(flight.spin * fine_.radius[own], normal);
   const Enclosure& inertia = fine_.inertia[own];
-  const auto hit = impulse(fine_.laws[exact_.law_of_walls[own][wall]], normal, contact, 1 + 1 / inertia);
+  const Law& law = fine_.laws[exact_.law_of_walls[own][wall]];
+  const auto hit = impulse(law, normal, contact, 1 + 1 / inertia, friction_rests(own, law, time));
   const Flight after{middle, position - hit.push * d, velocity + hit.push,
                      flight.spin + hit.turn * Enclosure(1 / (fine_.radius[own] * inertia))};
   return {next.ball, true, next.partner, time, hit.approach_speed, hit.slip_speed, {after}, {}};
 }
 
-ProvenEvent Prover::impact_of_balls(const Candidate& next, const Enclosure& time) const {
+ProvenEvent Prover::impact_of_balls(const Candidate& next, const Enclosure& time) {
   const auto i = static_cast<std::size_t>(next.ball), j = static_cast<std::size_t>(next.partner);
   const Flight &one = tracks_[i].flight, &two = tracks_[j].flight;
   const Enclosure middle = time.middle(), d = time - middle;
@@ -210,7 +222,9 @@ ProvenEvent Prover::impact_of_balls(const Candidate& next, const Enclosure& time
   const Enclosure share_i = m_j / (m_i + m_j), share_j = m_i / (m_i + m_j);
   const Enclosure compliance = 1 + share_i / fine_.inertia[i] + share_j / fine_.inertia[j];
   const Vector contact = relative - cross<Enclosure>(one.spin * R_i + two.spin * R_j, normal);
-  const auto hit = impulse(fine_.laws[exact_.law_of_balls[i][j]], normal, contact, compliance);
+  const Law& law = fine_.laws[exact_.law_of_balls[i][j]];
+  const bool rests_for_i = friction_rests(i, law, time), rests_for_j = friction_rests(j, law, time);
+  const auto hit = impulse(law, normal, contact, compliance, rests_for_i || rests_for_j);
   const Vector push_i = hit.push * share_i, push_j = hit.push * share_j;
   const Flight after_i{middle, position[0] - push_i * d, velocity[0] + push_i,
                        one.spin + hit.turn * Enclosure(share_i / (R_i * fine_.inertia[i]))};
@@ -226,6 +240,7 @@ void Prover::follow(const ProvenEvent& event) {
     track.flight = event.after[k];
     track.coarse = rounded(track.flight, coarse_bits);
     track.begin = begin;
+    track.since = event.time;
     track.event = events_;
     track.wall = event.with_wall ? event.partner : -1;
     track.with = event.with_wall ? -1 : k == 0 ? event.partner : event.ball;

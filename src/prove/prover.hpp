@@ -60,6 +60,8 @@ class Prover {
     Enclosure begin;           ///< lower end of the bracket of its first event
     long event = -1;           ///< its number; -1 for the start
     int wall = -1, with = -1;  ///< that it was an impact with
+    Enclosure since;           ///< when the flight began
+    int unmoved = 0;           ///< impacts in a row before which the ball had no time to move
   };
 
   static Tools tools(const ExactCase& exact, slong bits);
@@ -69,9 +71,10 @@ class Prover {
   std::vector<std::string> exclude_walls(int ball, const Enclosure& end, int end_wall) const;
   /// @param through  the number of the event at `end`
   void exclude_balls(int ball, int partner, const Enclosure& end, long through) const;
-  ProvenEvent impact_on_wall(const Candidate& next, const Enclosure& time) const;
-  ProvenEvent impact_of_balls(const Candidate& next, const Enclosure& time) const;
+  ProvenEvent impact_on_wall(const Candidate& next, const Enclosure& time);
+  ProvenEvent impact_of_balls(const Candidate& next, const Enclosure& time);
   void follow(const ProvenEvent& event);
+  bool friction_rests(std::size_t ball, const Law& law, const Enclosure& time);
 
   const ExactCase& exact_;
   slong bits_;

@@ -31,6 +31,11 @@ TEST(EventQueue, TopAndRunnerUpAreTheTwoEarliest) {
       ASSERT_EQ(queue.top(), order[0]);
       const int second = balls > 1 && !(times[order[1]] > limit) ? order[1] : -1;
       ASSERT_EQ(queue.runner_up(limit), second);
+      std::vector<int> due, expected;
+      queue.due_until(limit, due);
+      for (int k = 0; k < balls; ++k)
+        if (times[k] <= limit) expected.push_back(k);
+      ASSERT_EQ(due, expected);
     }
   }
 }

@@ -1,4 +1,6 @@
 edmill_test(cell_grid_test engine/cell_grid_test.cpp)
+edmill_test(stalls_test engine/stalls_test.cpp TIMEOUT 300)
+edmill_test(clusters_test engine/clusters_test.cpp LONG TIMEOUT 300 LIBRARIES glpk)
 edmill_test(collapse_watch_test engine/collapse_watch_test.cpp)
 edmill_test(event_queue_test engine/event_queue_test.cpp)
 edmill_test(flight_columns_test engine/flight_columns_test.cpp)

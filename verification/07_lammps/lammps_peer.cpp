@@ -226,6 +226,8 @@ void agree_in_the_limit(const WardCase& ward, int lammps_batches, int edmill_bat
 }
 
 TEST_F(LammpsPeer, Long7Balls) { agree_in_the_limit({7, 9.52, 0.52}, 60, 300); }
+/// Wedges of large balls, where edmill's friction rests in stalls and LAMMPS has no such rule.
+TEST_F(LammpsPeer, Long10LargeBalls) { agree_in_the_limit({10, 12.7, 0.5}, 120, 400); }
 TEST_F(LammpsPeer, Long28Balls) { agree_in_the_limit({28, 4.76, 0.53}, 24, 100); }
 TEST_F(LammpsPeer, Long95Balls) { agree_in_the_limit({95, 3.16, 0.54}, 10, 40); }
 TEST_F(LammpsPeer, Long227Balls) { agree_in_the_limit({227, 2.36, 0.56}, 6, 20); }
