@@ -24,7 +24,7 @@ int after_output(int code) {
   const int error = io::output_error();
   // These have said what is wrong.
   if (error == 0 || code == internal_error || code == bad_input || code == undecided) return code;
-  if (error == EPIPE) return end_by_pipe_signal(), internal_error;
+  if (error == EPIPE) end_by_pipe_signal();
   io::tell("edmill: standard output could not be written: {}\n", error == EBADF ? "it is closed"
                                                                  : error == EFBIG
                                                                      ? "file size limit (ulimit -f)"

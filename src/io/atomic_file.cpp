@@ -126,8 +126,10 @@ void AtomicFile::archive(Archive& a) {
     digest = buffer_.digest();
   }
   a(size, name, digest);
-  kept_ = true;
-  if (a.loading()) go_on_from(name, size, digest);
+  if (a.loading())
+    go_on_from(name, size, digest);
+  else
+    kept_ = true;
 }
 
 /// What a run left of the file, under the temporary name: with the first `size` bytes, if they are those that
@@ -158,6 +160,7 @@ void AtomicFile::go_on_from(const std::string& name, std::uint64_t size, const s
   const fs::path fresh = temporary_;
   temporary_.replace_filename(temporary_name_from(name, destination_.place));
   std::error_code ignored;
+  kept_ = fs::exists(temporary_, ignored);  // a copy of a committed file can be made again
   if (append_ && fs::equivalent(temporary_, destination_.place, ignored)) {
     // Killed behind the commit: the rows are in place, and those of this process are dropped.
     temporary_ = fresh;

@@ -66,15 +66,18 @@ void AtomicFolder::archive(Archive& a) {
     sync_to_disk(temporary_);
   }
   a(name, files, digest);
-  kept_ = true;
-  if (a.loading()) go_on_from(name, files, digest);
+  if (a.loading())
+    go_on_from(name, files, digest);
+  else
+    kept_ = true;
 }
 
 void AtomicFolder::go_on_from(const std::string& name, const std::vector<std::string>& files,
                               const std::string& digest) {
   const fs::path fresh = temporary_;
   temporary_.replace_filename(temporary_name_from(name, place_));
-  if (fs::is_directory(temporary_))
+  kept_ = fs::is_directory(temporary_);  // copies of committed files can be made again
+  if (kept_)
     fs::remove(fresh);
   else
     fs::rename(fresh, temporary_);

@@ -14,14 +14,12 @@ struct Checkpoint {
   std::string case_file, case_text, initial_state;  ///< of the case: name, text, path of its initial state
   std::vector<std::string> overrides;               ///< "section.key=value"
   std::string case_digest, precision;
-  bool report = false;         ///< whether the page was requested
-  std::string interval;        ///< between checkpoints, as given
-  std::string temporary_mark;  ///< of the files with which the run continues
-  std::string state;           ///< of the run
+  bool report = false;   ///< whether the page was requested
+  std::string interval;  ///< between checkpoints, as given
+  std::string state;     ///< of the run
 
   void archive(Archive& a) {
-    a(case_file, case_text, initial_state, overrides, case_digest, precision, report, interval,
-      temporary_mark, state);
+    a(case_file, case_text, initial_state, overrides, case_digest, precision, report, interval, state);
   }
 };
 

@@ -70,6 +70,13 @@ namespace {
 
 const std::string partial = ".partial-";
 
+/// A mark in the names of this process's temporary files that no other process uses.
+const std::string& temporary_mark() {
+  // Not the process id: runs in containers may share it.
+  static const std::string mark = partial + std::to_string(std::random_device()());
+  return mark;
+}
+
 /// Whether a name ends as those of temporary files do.
 bool is_temporary(const std::string& name) {
   const auto mark = name.rfind(partial);
@@ -79,12 +86,6 @@ bool is_temporary(const std::string& name) {
 }
 
 }  // namespace
-
-const std::string& temporary_mark() {
-  // Not the process id: runs in containers may share it.
-  static const std::string mark = partial + std::to_string(std::random_device()());
-  return mark;
-}
 
 fs::path temporary_name(const fs::path& place) {
   static std::atomic<int> count = 0;  // two files of one run can have the same path
@@ -99,14 +100,11 @@ std::string temporary_name_from(const std::string& found, const fs::path& place)
   return found;
 }
 
-void remove_temporaries(const fs::path& folder, const std::string& kept) {
+void remove_temporaries(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (is_temporary(name) && (kept.empty() || name.find(kept + "-") == std::string::npos))
-      found.push_back(entry.path());
-  }
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (is_temporary(entry.path().filename().string())) found.push_back(entry.path());
   for (const auto& file : found) fs::remove_all(file, error);
 }
 

@@ -33,16 +33,12 @@ class FolderLock {
   int descriptor_;
 };
 
-/// A mark in the names of this process's temporary files that no other process uses.
-const std::string& temporary_mark();
-
 /// The temporary name of the file for `place`, in the same folder.
 std::filesystem::path temporary_name(const std::filesystem::path& place);
 
 /// Removes temporary files of killed processes from a folder.
-/// @param kept  the mark of the files to keep; none when empty
 /// @pre the caller holds the folder's lock
-void remove_temporaries(const std::filesystem::path& folder, const std::string& kept);
+void remove_temporaries(const std::filesystem::path& folder);
 
 /// Asks the system to write the contents of a file or a folder to disk. @throws std::runtime_error
 void sync_to_disk(const std::filesystem::path& place);

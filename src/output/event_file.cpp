@@ -211,14 +211,15 @@ void EventFile::archive(Archive& a) {
 
   const auto left =
       std::filesystem::path(d.temporary).replace_filename(io::temporary_name_from(name, d.destination.place));
-  d.take_blocks(std::filesystem::exists(left) ? left : d.destination.place, rows);
+  const bool is_left = std::filesystem::exists(left);
+  d.take_blocks(is_left ? left : d.destination.place, rows);
   if (d.digest.hex() != digest)
     throw InputError(d.place.string() + ": found another file than the checkpoint was made with, expected " +
                      "the files as the run left them");
   // The blocks have the same places in both, so that the checkpoint holds for either.
   std::filesystem::rename(d.temporary, left);
   d.temporary = left;
-  d.kept = true;
+  d.kept = is_left;  // one that was committed can be read again
 }
 
 }  // namespace edmill::output

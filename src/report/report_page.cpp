@@ -132,7 +132,7 @@ std::filesystem::path write_report(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) read_run_folder(folder);  // says what is missing
   const io::FolderLock alone(folder);
   // Of killed processes; those of an unfinished run are left for it to go on with.
-  if (!std::filesystem::exists(io::checkpoint_place(folder))) io::remove_temporaries(folder, "");
+  if (!std::filesystem::exists(io::checkpoint_place(folder))) io::remove_temporaries(folder);
   return put_report(folder);
 }
 

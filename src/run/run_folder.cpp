@@ -27,8 +27,8 @@ RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::option
                        ": found a device or a pipe, expected a file, since a resumed run continues it");
     take(place_ / output.folder);
   }
-  if (checkpoint_ && begins) checkpoint_->temporary_mark = io::temporary_mark();
-  remove_leftovers(checkpoint_ ? checkpoint_->temporary_mark : "");
+  // A run that continues may yet be refused, and leaves everything as it is then.
+  if (begins) remove_leftovers();
 }
 
 /// Makes a folder when it is absent, and keeps other processes out.
@@ -43,12 +43,12 @@ void RunFolder::take(const fs::path& folder) {
 RunFolder::~RunFolder() {
   own_files_.clear();
   std::error_code error;
-  if (!fs::exists(io::checkpoint_place(place_), error) && !error) remove_leftovers("");
+  if (!fs::exists(io::checkpoint_place(place_), error) && !error) remove_leftovers();
 }
 
-void RunFolder::remove_leftovers(const std::string& kept) const {
-  for (const auto& folder : folders_) io::remove_temporaries(folder, kept);
-  for (const auto& folder : io::recorded_folders(place_)) io::remove_temporaries(folder, kept);
+void RunFolder::remove_leftovers() const {
+  for (const auto& folder : folders_) io::remove_temporaries(folder);
+  for (const auto& folder : io::recorded_folders(place_)) io::remove_temporaries(folder);
 }
 
 Checkpoints RunFolder::checkpoints() {
@@ -81,7 +81,7 @@ void RunFolder::commit(std::vector<fs::path> outputs, const std::function<void()
 void RunFolder::remove_checkpoint() {
   if (!checkpoint_) return;
   // First: without the checkpoint, files left by killed processes of this run are no longer found.
-  remove_leftovers("");
+  remove_leftovers();
   fs::remove(io::checkpoint_place(place_));
 }
 

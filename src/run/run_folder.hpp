@@ -49,7 +49,7 @@ class RunFolder {
 
  private:
   void take(const std::filesystem::path& folder);
-  void remove_leftovers(const std::string& kept) const;
+  void remove_leftovers() const;
 
   std::filesystem::path place_;
   std::vector<std::filesystem::path> folders_;  ///< with those of the outputs

@@ -120,7 +120,7 @@ void Study::take_folder() {
   lock_.emplace(folder_);
   io::require_no_checkpoint(folder_);
   io::prepare_folder(folder_ / "runs");
-  for (const auto& folder : {folder_, folder_ / "runs"}) io::remove_temporaries(folder, "");
+  for (const auto& folder : {folder_, folder_ / "runs"}) io::remove_temporaries(folder);
   io::record_files(folder_, table_places());
 }
 

@@ -94,7 +94,7 @@ with Trials() as t:
     pathlib.Path("case.toml").write_text(case("collisions"))
     pathlib.Path("my.sweep.toml").write_text(STUDY.format(kind="sweep", rest="replicas = 2"))
     pathlib.Path("my.optimize.toml").write_text(STUDY.format(
-        kind="optimize", rest='objective = "milling_dose_rate"\nruns_max = 4\nreplicas_first = 1\nreplicas_max = 1\npoints = 2\n'
+        kind="optimize", rest='objective = "milling_dose_rate"\nruns_max = 4\nreplicas_first = 2\nreplicas_max = 2\npoints = 2\n'
         'refinements = 0\n[[optimize.variable]]\nkey = "contact.restitution"\nlow = 0.4\nhigh = 0.6'))
     t.check(edmill("run", "case.toml", "--quiet", "--out", "done").returncode == 0, "the case runs")
     # A file size limit ends it behind its first checkpoints.

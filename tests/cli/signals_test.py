@@ -41,6 +41,7 @@ def saves(t, number, expected):
         if number not in (signal.SIGINT, signal.SIGTERM):  # batch systems repeat them, and lose patience
             for _ in range(20):
                 process.send_signal(number)
+            time.sleep(0.05)  # of two that wait, the later one would be handled first
             process.send_signal(signal.SIGTERM)
         code, error = ended(process)
         t.check(code == 128 + number and error == "", f"{number.name} {options}: exit code {code} {error}")
@@ -89,6 +90,7 @@ with Trials() as t:
     process.send_signal(signal.SIGINT)
     os.kill(process.pid, signal.SIGCONT)
     t.check(ended(process)[0] in (128 + signal.SIGTERM, 128 + signal.SIGINT), "two requests")
+    shutil.rmtree("twice")
     # A file that is too large is a message, and no signal.
     for ignored in (False, True):
         def limit():

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Memory that is not there is told in one sentence with the number of balls.
 
-usage: memory_test.py EDMILL
+usage: missing_memory_test.py EDMILL
 """
 import pathlib
 import resource
