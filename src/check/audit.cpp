@@ -134,7 +134,7 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
 
 EventLog open_log(const model::Case<double>& the_case, const Options& options) {
   return {options.log, options.conventions, static_cast<int>(the_case.balls.size()),
-          static_cast<int>(the_case.mill.vessel.walls().size())};
+          static_cast<int>(the_case.mill.vessel.walls().size()), 1e15 * the_case.mill.motion.period()};
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.hpp"
+
 namespace edmill::audit {
 
 namespace {
@@ -55,6 +57,10 @@ void Auditor::take(LoggedEvent& event) {
     if (!event.with_wall) forget(event.partner);
     return;
   }
+  EDMILL_REQUIRE(
+      event.ball >= 0 && event.ball < flights_.balls() && event.partner >= 0 &&
+          event.partner < (event.with_wall ? static_cast<int>(with_wall_.size()) : flights_.balls()),
+      "bodies that the case has");
   if (is_repeated(event)) return tell(Kind::duplicate, event, 0, unknown, unknown);
 
   Scene scene;

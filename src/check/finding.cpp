@@ -10,7 +10,7 @@ constexpr std::array<KindInfo, kind_count> kinds = {{
     {"out_of_order", "s", "a line earlier than one above it", Check::order},
     {"duplicate", "s", "an impact that is logged twice", Check::order},
     {"unknown_body", "1", "a ball or wall that the case does not have", Check::bodies},
-    {"not_finite", "1", "a value that is not finite", Check::bodies},
+    {"not_finite", "1", "a value that is not finite, or a time of 1e15 drive periods", Check::bodies},
     {"late_event", "m", "the bodies overlap", Check::touch},
     {"early_event", "m", "the bodies do not touch yet", Check::touch},
     {"wrong_partner", "m", "another body is touched", Check::touch},

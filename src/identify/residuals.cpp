@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.hpp"
 #include "base/instant.hpp"
 
 namespace edmill::identify {
@@ -108,11 +109,16 @@ void Residuals::choose(const std::vector<std::size_t>& events) {
   }
 }
 
-std::vector<double> Residuals::rows(const model::Case<double>& model, const LogChange& change) const {
+std::vector<double> Residuals::rows(const Assumptions& assumed) const {
+  const auto model = assumed.built();
+  if (!model) return std::vector<double>(count(), out_of_range);
+  EDMILL_REQUIRE(model->balls.size() == nominal_.balls.size() &&
+                     model->mill.vessel.wall_count() == nominal_.mill.vessel.wall_count(),
+                 "the bodies that the log is of");
   std::vector<double> values;
   values.reserve(count());
   Writer out{&values, &allowed_, nullptr, nullptr};
-  for (const std::size_t k : chosen_) event_rows(k, model, change, out);
+  for (const std::size_t k : chosen_) event_rows(k, *model, assumed.log, out);
   return values;
 }
 
