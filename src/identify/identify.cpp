@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "check/naming.hpp"
 #include "identify/causes.hpp"
 #include "identify/fit.hpp"
 #include "identify/replay.hpp"
@@ -24,7 +25,6 @@ namespace edmill::identify {
 namespace {
 
 constexpr std::size_t most_events = 20000;
-constexpr double enough = 0.9;          ///< of the violations
 constexpr double strong_evidence = 10;  ///< least gain of Schwarz's criterion (Kass and Raftery 1995)
 constexpr double same_evidence = 2;
 
@@ -72,8 +72,9 @@ class Search {
       follow(result);
       return result;
     }
-    violations_ = violations(nominal_);
-    result.violations = violations_;
+    const auto audited = audit::audit(the_case_, log_, options_);
+    violations_ = result.violations = audited.findings.total();
+    result.noted = audited.findings.explained();
     if (violations_ == 0) return result;
     result.too_few = std::ranges::count_if(log_.events, [](const auto& e) { return e.problem.empty(); }) < 12;
     if (result.too_few) return result;
@@ -199,8 +200,24 @@ class Search {
     }
     for (std::size_t k = 0; k < c.values.size(); ++k)
       if (!(std::abs(c.values[k] - c.model.free[k]->value) > c.half_widths[k])) return false;
-    c.left = violations(c.model.with(c.values));
-    return static_cast<double>(c.left) <= (1 - enough) * static_cast<double>(violations_);
+    const auto assumed = c.model.with(c.values);
+    c.left = violations(assumed);
+    return c.left <= violations_ && audit::accounts_for(violations_ - c.left, violations_) &&
+           rows_vanish(assumed);
+  }
+
+  /// Whether the rows that are off vanish when a cause is assumed.
+  bool rows_vanish(const Assumptions& assumed) {
+    take(samples_.many());
+    const auto before = rows_of(nominal_), with = rows_of(assumed);
+    std::uint64_t off = 0, vanished = 0;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      if (!(std::abs(before[k]) > 1)) continue;
+      ++off;
+      if (audit::vanishes(std::abs(before[k]), std::abs(with[k]), 1)) ++vanished;
+    }
+    take(samples_.whole());
+    return audit::accounts_for(vanished, off);
   }
 
   static void sort(std::vector<Candidate>& list) {
