@@ -9,7 +9,6 @@ namespace {
 void read_ball_spec(Section& s, BallSpec& ball, const CaseSpec& spec) {
   ball.where = s.where();
   ball.diameter = s.required("diameter", Dimension::length);
-  s.require(ball.diameter.positive(), "diameter", "a positive length");
   ball.material = read_material_of(s, "material", spec);
   if (ball.material > 0) {
     const auto& material = spec.materials[static_cast<std::size_t>(ball.material) - 1];
@@ -22,15 +21,20 @@ void read_ball_spec(Section& s, BallSpec& ball, const CaseSpec& spec) {
       s.problem("density", "a density beside that of material \"" + material.name + "\"", "one of them");
   }
   ball.density = s.quantity("density", Dimension::density, ball.density);
-  s.require(ball.density.positive(), "density", "a positive density");
   ball.reduced_inertia = s.quantity("reduced_inertia", Dimension::none, ball.reduced_inertia);
-  s.require(ball.reduced_inertia.positive() && ball.reduced_inertia.value <= 1, "reduced_inertia",
-            "a number above 0, up to 1");
+  check(s, ball);
   if (const auto velocity = s.vector("velocity", Dimension::speed)) ball.velocity = *velocity;
   ball.colour = s.colour("colour", ball.colour);
 }
 
 }  // namespace
+
+void check(Section& entry, const BallSpec& ball) {
+  entry.require(ball.diameter.positive(), "diameter", "a positive length");
+  entry.require(ball.density.positive(), "density", "a positive density");
+  entry.require(ball.reduced_inertia.positive() && ball.reduced_inertia.value <= 1, "reduced_inertia",
+                "a number above 0, up to 1");
+}
 
 void read_batch(Section s, CaseSpec& spec) {
   BallBatch batch;

@@ -11,6 +11,7 @@
 #include "casefile/build_case.hpp"
 #include "casefile/case_of_run.hpp"
 #include "casefile/case_parts.hpp"
+#include "casefile/check_case.hpp"
 #include "casefile/joints.hpp"
 #include "casefile/output_entry.hpp"
 #include "casefile/section.hpp"
@@ -269,6 +270,24 @@ std::vector<std::string> settings_of(std::string text) {
 }
 
 }  // namespace
+
+std::vector<std::string> problems_of(const CaseSpec& spec) {
+  Document document;
+  document.name = spec.file;
+  Section top(document, nullptr, "");
+  const Section vessel = top.section("vessel"), contact = top.section("contact");
+  check(top.section("mill"), spec.mill);
+  check(vessel, spec.vessel);
+  for (auto& ball : spec.balls) check(top, ball);
+  for (auto& batch : spec.batches) check(top, batch);
+  check(contact, spec.ball_ball, spec);
+  check(contact, spec.ball_wall, spec);
+  for (const auto& pair : spec.pairs) check(contact, pair.law, spec);
+  check_times(top.section("run"), spec);
+  std::vector<Section> pistons(spec.pistons.size(), vessel);
+  if (document.problems.empty()) require_travel(pistons, spec);
+  return document.problems;
+}
 
 CaseSpec parse_case(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides) {

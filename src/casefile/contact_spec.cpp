@@ -46,6 +46,10 @@ bool in_range(const Quantity& q, const model::LawParameter& p) {
   return q.value >= cpp_rational(p.low) && q.value <= cpp_rational(p.high);
 }
 
+void require_least(Section& s, const Quantity& speed) {
+  s.require(!speed.negative(), "least_separation", "a speed of 0 or more");
+}
+
 void read_points(Section& s, GivenLaw& given) {
   constexpr const char* key = "restitution_by_speed";
   auto points = s.pairs(key, Dimension::speed, Dimension::none);
@@ -86,7 +90,7 @@ void read_law(Section& s, GivenLaw& given) {
   read_points(s, given);
   if (const auto speed = s.quantity("least_separation", Dimension::speed)) {
     given.least_separation = *speed;
-    s.require(!speed->negative(), "least_separation", "a speed of 0 or more");
+    require_least(s, *speed);
   }
   s.replaced("collapse_time", "'least_separation', the least speed at which bodies leave an impact");
 }
@@ -211,6 +215,14 @@ void require_all_pairs(Section& contact, const CaseSpec& spec) {
 }
 
 }  // namespace
+
+void check(Section contact, const ContactSpec& law, const CaseSpec& spec) {
+  law.parameters([&](const model::LawParameter& p, const Quantity& value) {
+    contact.require(in_range(value, p), p.key, expected(p));
+  });
+  if (std::holds_alternative<model::PowderLoad<Quantity>>(law.law)) require_diameters(contact, spec);
+  require_least(contact, law.least_separation);
+}
 
 void read_contact(Section contact, CaseSpec& spec) {
   GivenLaw shared;

@@ -154,15 +154,24 @@ std::string text_of_joint(const Joint<Quantity>& joint) {
   return text;
 }
 
+void require_speed(Section& swing, const Quantity& speed) {
+  swing.require(speed.positive() && speed.to<double>() < 1e6, "speed",
+                "a positive angular speed below 1e6 rad/s");
+}
+
 }  // namespace
+
+void check_swings(Section& section, const std::vector<Swing<Quantity>>& swings) {
+  for (const auto& swing : swings)
+    require_speed(section, {2 * swing.frequency.value, 1 + swing.frequency.pi_power});
+}
 
 std::vector<Swing<Quantity>> read_swings(Section& joint, bool rotates) {
   std::vector<Swing<Quantity>> swings;
   for (Section& entry : joint.sections("swing")) {
     const auto amplitude = entry.required("amplitude", rotates ? Dimension::angle : Dimension::length);
     const auto speed = entry.required("speed", Dimension::angular_speed);
-    entry.require(speed.positive() && speed.to<double>() < 1e6, "speed",
-                  "a positive angular speed below 1e6 rad/s");
+    require_speed(entry, speed);
     const auto phase = entry.quantity("phase", Dimension::angle, Quantity{0});
     swings.push_back({rotates ? in_turns(amplitude) : amplitude, in_turns(speed), in_turns(phase)});
     entry.reject_unknown_keys();

@@ -17,6 +17,8 @@ void require_end(Section& mill);
 
 /// [[...swing]] of a joint or a piston; what is wrong is reported.
 std::vector<model::Swing<Quantity>> read_swings(Section& section, bool rotates);
+/// Reports speeds that a file could not give.
+void check_swings(Section& section, const std::vector<model::Swing<Quantity>>& swings);
 /// " + 0.01 m sin(2 pi 5 t)" for each.
 std::string equation_of(const std::vector<model::Swing<Quantity>>& swings, bool rotate);
 /// The swings with what each turns in a drive period, exactly.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "casefile/case_parts.hpp"
 #include "casefile/joints.hpp"
 #include "casefile/polyhedron.hpp"
 #include "casefile/section.hpp"
@@ -91,6 +92,18 @@ void require_shape(Section& vessel, const model::RoundedCylinder<Quantity>& cyli
                  "at most half of the diameter and of the height");
 }
 
+/// The same of values that were not read.
+struct Checker {
+  Section& section;
+
+  void operator()(const PartParameter& p, const Quantity& value) const {
+    if (p.key) section.require(in_range(value, p.range), p.key, expected(p));
+  }
+  void operator()(const PartParameter& p, const std::array<Quantity, 3>& values) const {
+    for (const auto& value : values) (*this)(p, value);
+  }
+};
+
 template <class Variant>
 Variant read_part(Section& given) {
   Variant chosen;
@@ -146,6 +159,25 @@ std::string describe(const VesselSpec& vessel) {
   if (const auto* polyhedron = std::get_if<model::Polyhedron<Quantity>>(&vessel))
     return fmt::format("{} of {} walls", polyhedron->name, polyhedron->faces.size());
   return described(vessel);
+}
+
+void check(Section mill, const MotionSpec& motion) {
+  std::visit(
+      [&](const auto& m) {
+        if constexpr (requires { m.given; })
+          for (const auto& joint : m.given.list) check_swings(mill, joint.swings);
+        else
+          m.parameters(m, Checker{mill});
+      },
+      motion);
+}
+void check(Section vessel, const VesselSpec& shape) {
+  std::visit(
+      [&](const auto& v) {
+        if constexpr (!requires { v.faces; }) v.parameters(v, Checker{vessel});
+        require_shape(vessel, v);
+      },
+      shape);
 }
 
 MotionSpec read_motion(Section& mill) { return read_part<MotionSpec>(mill); }

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/instant.hpp"
 #include "check/auditor.hpp"
+#include "check/naming.hpp"
 
 namespace edmill::audit {
 
@@ -19,7 +19,8 @@ std::vector<Check> checks_not_made(const Findings& findings, bool any_pairs) {
   for (std::size_t k = 0; k < check_count; ++k) {
     const auto check = static_cast<Check>(k);
     const bool only_pairs = check == Check::momentum && !any_pairs;
-    if (findings.judged_number(check) == 0 && !only_pairs) missing.push_back(check);
+    const bool tried = findings.judged_number(check) + findings.unresolved_number(check) > 0;
+    if (!tried && !only_pairs) missing.push_back(check);
   }
   return missing;
 }
@@ -31,17 +32,16 @@ std::uint64_t noted(const Tally& tally, std::string_view beginning) {
   return sum;
 }
 
-/// Which of the thesis's printed errors explain the findings, and whether a finite time step does.
+/// What a log looks like: printed errors of the thesis, or finite steps.
 std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings,
                                 const model::Partners& partners) {
   std::vector<Diagnosis> found;
-  const auto add = [&](const std::string& name, std::uint64_t events, std::uint64_t of,
-                       const std::string& text) {
-    if (events > 0 && 2 * events >= of) found.push_back({name, text, events, of});
+  const auto add = [&](const char* name, std::uint64_t events, std::uint64_t of, const std::string& text) {
+    if (accounts_for(events, of)) found.push_back({name, text, events, of});
   };
   const auto count = [&](Kind kind) { return findings.of(kind).count; };
-  const auto walls_off = count(Kind::rotation_order) + count(Kind::late_event) + count(Kind::early_event);
-  add("rotation_order", count(Kind::rotation_order), walls_off,
+  const auto late = count(Kind::late_event), early = count(Kind::early_event);
+  add("rotation_order", count(Kind::rotation_order), count(Kind::rotation_order) + late + early,
       "printed error (2.14): the vessel is rotated by R_x(gamma) R_z(theta); with that matrix the bodies "
       "touch. The rotations are nested: R_z(theta) R_x(gamma)");
   const auto& sign = findings.of(Kind::tangential_sign);
@@ -52,34 +52,20 @@ std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings
   add("unequal_mass_factor", noted(unequal, "(2.24)"), unequal.count,
       "printed error (2.24): 1 + 1/J instead of 1 + M/(m_i J_i) + M/(m_j J_j); with it the outcome is "
       "exactly that of the log");
-  const auto& missed = auditor.flights().missed_by_wall();
-  const auto &logged = auditor.with_wall(), &early = auditor.early_by_wall();
-  const auto sum = [](const auto& list) {
-    return std::accumulate(list.begin(), list.end(), std::uint64_t{0});
-  };
-  const auto all_missed = sum(missed);
-  const bool never = logged[0] == 0 && missed[0] > 0 && 2 * missed[0] > all_missed;
-  const bool at_once = early[0] > 0 && 2 * early[0] > logged[0] && sum(early) == early[0];
-  const bool a_cap = partners[0].label == "cap -y";  // other vessels have no such equation
-  if (a_cap && (never || at_once))
-    add("gap_sign", never ? missed[0] : early[0], never ? all_missed : logged[0],
-        std::string("printed error (2.19), (2.20): ") +
-            (never ? "no impact with the cap at -y is logged, and balls fly through it"
-                   : "only impacts with the cap at -y come before the ball reaches the wall") +
-            "; y - R - h/2 is negative everywhere in the vessel, the gap is h/2 + y - R");
+  // Other vessels have no such equation.
+  if (partners[0].label == "cap -y" && auditor.with_wall()[0] == 0 && late + early == 0)
+    add("gap_sign", auditor.flights().flown_through()[0], count(Kind::missed_event),
+        "printed error (2.19), (2.20): no impact with the cap at -y is logged, and balls fly through it; y - "
+        "R "
+        "- h/2 is negative everywhere in the vessel, the gap is h/2 + y - R");
+  if (const double step = auditor.delays().step(); step > 0 && early == 0)
+    add("time_step", late, late,
+        fmt::format(
+            "finite steps: contacts are seen late by times that are spread evenly from 0 to {:.2g} s, "
+            "alike with all walls and balls; a gap tolerance of {:.2g} m (--gap-tolerance) accepts them "
+            "and leaves any other violation",
+            step, 1.1 * findings.of(Kind::late_event).worst));
   return found;
-}
-
-/// Late events as a finite time step causes them: never early, and hardly deeper than the path of one step.
-void diagnose_step(const Findings& findings, double reach, double latest, std::vector<Diagnosis>& found) {
-  const auto late = findings.of(Kind::late_event).count, early = findings.of(Kind::early_event).count;
-  if (late < 3 || early > 0 || findings.of(Kind::late_event).worst > reach / 100) return;
-  found.push_back(
-      {"time_step",
-       fmt::format("finite steps: events are late and never early, by at most {:.2g} s; a gap tolerance of "
-                   "{:.2g} m (--gap-tolerance) accepts them and leaves any other violation",
-                   latest, 1.1 * findings.of(Kind::late_event).worst),
-       late, late});
 }
 
 }  // namespace
@@ -123,9 +109,10 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
   result.undecided = auditor.flights().undecided();
   result.not_made = checks_not_made(result.findings, any_pairs);
   result.diagnoses = diagnose(auditor, result.findings, partners);
-  diagnose_step(result.findings, result.tolerances.reach, auditor.latest(), result.diagnoses);
-  const bool judged =
-      result.findings.judged_number(Check::touch) + result.findings.judged_number(Check::milling_dose) > 0;
+  const auto& checked = result.findings;
+  // A log most of whose contacts cannot be judged is not called clean.
+  const bool judged = checked.judged_number(Check::touch) + checked.judged_number(Check::milling_dose) > 0 &&
+                      checked.judged_number(Check::touch) >= checked.unresolved_number(Check::touch);
   result.verdict = result.findings.total() > 0 ? Verdict::violations
                    : judged                    ? Verdict::clean
                                                : Verdict::too_few;
@@ -134,7 +121,7 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
 
 EventLog open_log(const model::Case<double>& the_case, const Options& options) {
   return {options.log, options.conventions, static_cast<int>(the_case.balls.size()),
-          static_cast<int>(the_case.mill.vessel.walls().size())};
+          static_cast<int>(the_case.mill.vessel.walls().size()), 1e15 * the_case.mill.motion.period()};
 }
 
 }  // namespace
@@ -143,6 +130,8 @@ Tolerances tolerances_of(const model::Case<double>& the_case, const Options& opt
   Tolerances tolerances;
   tolerances.relative = options.tolerance;
   tolerances.reach = reach_of(the_case.mill);
+  tolerances.gravity = norm<double>(the_case.mill.gravity);
+  tolerances.walls = WallRates::of(the_case.mill);
   tolerances.gap = options.gap_tolerance.value_or(options.tolerance * tolerances.reach);
   return tolerances;
 }

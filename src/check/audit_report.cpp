@@ -40,6 +40,27 @@ void put_finding(io::JsonText& json, std::string_view key, const Finding& f) {
   json.end();
 }
 
+/// What the rounding of times does, where it is more than the relative tolerance, and what cannot be checked.
+std::string unresolved_checks(const Audit& a) {
+  std::string out;
+  const double latest = std::max(std::abs(a.first), std::abs(a.last));
+  const double places = a.tolerances.wall_places(latest);
+  if (places > a.tolerances.relative * a.tolerances.reach)
+    out += fmt::format(
+        "\n  times are known to {:.2g} s by their rounding, places of walls to {:.2g} m: the tolerances "
+        "allow for "
+        "it\n",
+        Tolerances::time(latest), places);
+  std::string list;
+  for (std::size_t k = 0; k < check_count; ++k)
+    if (const auto n = a.findings.unresolved_number(static_cast<Check>(k)); n > 0)
+      list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", info(static_cast<Check>(k)).name, n);
+  if (!list.empty())
+    out += fmt::format("\n  could not be checked, since what is allowed is as large as what is checked: {}\n",
+                       list);
+  return out;
+}
+
 }  // namespace
 
 std::string table(const Audit& a) {
@@ -76,6 +97,7 @@ std::string table(const Audit& a) {
     for (const Check check : a.not_made)
       out += fmt::format("    {:<24}needs {}\n", info(check).name, info(check).columns);
   if (a.undecided > 0) out += fmt::format("\n  {} searches for missed impacts are undecided\n", a.undecided);
+  out += unresolved_checks(a);
   out += fmt::format("\n  checked");
   bool first = true;
   for (std::size_t k = 0; k < check_count; ++k)
@@ -145,6 +167,11 @@ void put_checks(io::JsonText& json, const Audit& a) {
   for (std::size_t k = 0; k < check_count; ++k)
     json.integer(info(static_cast<Check>(k)).name, a.findings.judged_number(static_cast<Check>(k)));
   json.end();
+  json.begin("unresolved");
+  for (std::size_t k = 0; k < check_count; ++k)
+    if (const auto n = a.findings.unresolved_number(static_cast<Check>(k)); n > 0)
+      json.integer(info(static_cast<Check>(k)).name, n);
+  json.end();
   json.begin("not_checked");
   for (const Check check : a.not_made) json.text(info(check).name, info(check).columns);
   json.end();
@@ -165,6 +192,7 @@ void put_json(io::JsonText& json, const Audit& a) {
   json.text("interrupted", a.interrupted ? "yes" : "no");
   json.number("tolerance", a.tolerances.relative);
   json.number("gap_tolerance", a.tolerances.gap);
+  json.number("time_rounding", Tolerances::time(std::max(std::abs(a.first), std::abs(a.last))));
   put_violations(json, a);
   put_diagnoses(json, a);
   put_energies(json, a);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.hpp"
+
 namespace edmill::audit {
 
 namespace {
@@ -28,17 +30,11 @@ Auditor::Auditor(const model::Case<double>& the_case, const Available& available
       flights_(the_case, available, tolerances, findings),
       last_(the_case.balls.size()),
       with_wall_(the_case.mill.vessel.walls().size()),
-      early_by_wall_(with_wall_.size()) {}
+      rotations_(findings.examples()) {}
 
 void Auditor::begin(const std::vector<model::BallState<double>>& states, double time) {
   for (std::size_t k = 0; k < states.size(); ++k)
     flights_.begin_at_start(static_cast<int>(k), states[k], time);
-}
-
-void Auditor::tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-                   const char* note) {
-  findings_.add({kind, size, event.line, event.time, event.ball, event.with_wall, event.partner, found,
-                 expected, note});
 }
 
 void Auditor::take(LoggedEvent& event) {
@@ -55,6 +51,10 @@ void Auditor::take(LoggedEvent& event) {
     if (!event.with_wall) forget(event.partner);
     return;
   }
+  EDMILL_REQUIRE(
+      event.ball >= 0 && event.ball < flights_.balls() && event.partner >= 0 &&
+          event.partner < (event.with_wall ? static_cast<int>(with_wall_.size()) : flights_.balls()),
+      "bodies that the case has");
   if (is_repeated(event)) return tell(Kind::duplicate, event, 0, unknown, unknown);
 
   Scene scene;
@@ -103,7 +103,8 @@ void Auditor::find_wrong_balls(LoggedEvent& event) {
     for (int k = 0; k < flights_.balls(); ++k) {
       const double theirs = off(k);
       if (k == named || theirs < 0 || k == ball_of(event, 1 - body) ||
-          theirs > tolerances_.position(event.time, speed * (event.time - flights_.of(k).start), speed))
+          !vanishes(own, theirs,
+                    tolerances_.position(event.time, speed * (event.time - flights_.of(k).start), speed)))
         continue;
       tell(Kind::wrong_partner, event, own, named, k, "the states are another ball's");
       (body == 0 ? event.ball : event.partner) = k;
@@ -124,8 +125,10 @@ void Auditor::complete_scene(const LoggedEvent& event, Scene& scene) const {
   impact.normal = {1, 0, 0};
   if (!available_.positions(event.with_wall)) return;
   if (event.with_wall) {
-    impact.normal = wall_normal(scene.nested, case_.mill.vessel, event.partner, impact.ball[0].radius,
-                                event.body[0].position);
+    const double radius = impact.ball[0].radius;
+    const Vec& position = event.body[0].position;
+    impact.normal = wall_normal(scene.nested, case_.mill.vessel, event.partner, radius, position);
+    impact.bend = wall_bend(scene.nested, case_.mill.vessel, event.partner, radius, position);
     impact.wall_velocity = wall_velocity(WallVelocity::nested, scene.nested, scene.printed,
                                          event.body[0].position - impact.normal * impact.ball[0].radius,
                                          event.body[0].position) +
@@ -137,38 +140,62 @@ void Auditor::complete_scene(const LoggedEvent& event, Scene& scene) const {
   }
 }
 
-void Auditor::tell_late(const LoggedEvent& event, const Scene& scene, double depth) {
-  tell(Kind::late_event, event, depth, -depth, 0);
+/// Of an event that does not come before its bodies touch.
+void Auditor::note_delay(const LoggedEvent& event, const Scene& scene, double depth) {
   if (!available_.velocities_before(event.with_wall)) return;
   const double closing = -dot(scene.impact.before(event), scene.impact.normal);
-  if (closing > velocity_scale(scene.impact, event, false) / 10) latest_ = std::max(latest_, depth / closing);
+  if (closing > velocity_scale(scene.impact, event, false) / 10)
+    delays_.add(event.with_wall ? event.partner : -1, std::max(depth, 0.0) / closing);
 }
 
 auto Auditor::judge_touch(LoggedEvent& event, Scene& scene) -> Touch {
   complete_scene(event, scene);
   if (!available_.positions(event.with_wall)) return {};
+  if (event.with_wall) return judge_wall_touch(event, scene);
   findings_.judged(Check::touch);
-  const double speed = velocity_scale(scene.impact, event, false);
-  const double allowed = tolerances_.touch(event.time, speed);
-  if (event.with_wall) return judge_wall_touch(event, scene, allowed);
   const double gap = size(Vec(event.body[0].position - event.body[1].position)) - ball(event.ball).radius -
                      ball(event.partner).radius;
-  if (gap < -allowed) tell_late(event, scene, -gap);
-  if (gap > allowed) tell(Kind::early_event, event, gap, gap, 0);
-  return {gap < -allowed, false, true};
+  const bool late = gap < -tolerances_.gap;
+  if (late) tell(Kind::late_event, event, -gap, gap, 0);
+  if (gap > tolerances_.gap)
+    tell(Kind::early_event, event, gap, gap, 0);
+  else
+    note_delay(event, scene, late ? -gap : 0);
+  return {late, false, true};
 }
 
-auto Auditor::judge_wall_touch(LoggedEvent& event, Scene& scene, double allowed) -> Touch {
+auto Auditor::judge_wall_touch(LoggedEvent& event, Scene& scene) -> Touch {
+  const double radius = ball(event.ball).radius, allowed = tolerances_.touch(event.time, true);
+  ++with_wall_[static_cast<std::size_t>(event.partner)];
+  // A wall that may be half a radius away is not told from what is beside it.
+  if (tolerances_.wall_places(event.time) > radius / 2) {
+    findings_.unresolved(Check::touch);
+    return {};
+  }
+  findings_.judged(Check::touch);
+  const Vec& position = event.body[0].position;
+  const double gap = wall_gap(scene.nested, case_.mill.vessel, event.partner, radius, position);
+  if (std::abs(gap) > allowed) return judge_off_the_wall(event, scene, gap, allowed);
+  note_delay(event, scene, 0);
+  if (rotations_.is_suspected() &&
+      std::abs(wall_gap(scene.printed, case_.mill.vessel, event.partner, radius, position)) > allowed)
+    rotations_.contradicted();
+  return {};
+}
+
+auto Auditor::judge_off_the_wall(LoggedEvent& event, Scene& scene, double gap, double allowed) -> Touch {
   const auto& vessel = case_.mill.vessel;
   const double radius = ball(event.ball).radius;
   const Vec& position = event.body[0].position;
-  const auto wall = static_cast<std::size_t>(event.partner);
-  ++with_wall_[wall];
-  const double gap = wall_gap(scene.nested, vessel, event.partner, radius, position);
-  if (std::abs(gap) <= allowed) return {};
-  const double printed_gap = wall_gap(scene.printed, vessel, event.partner, radius, position);
-  if (std::abs(printed_gap) <= allowed) {
-    tell(Kind::rotation_order, event, std::abs(gap), gap, 0, "touches with the printed matrix (2.14)");
+  const double printed_gap = std::abs(wall_gap(scene.printed, vessel, event.partner, radius, position));
+  const auto off_the_wall =
+      finding(gap < 0 ? Kind::late_event : Kind::early_event, event, std::abs(gap), gap, 0);
+  if (vanishes(std::abs(gap), printed_gap, allowed)) {
+    rotations_.explains(std::abs(gap), printed_gap)
+        .add(finding(Kind::rotation_order, event, std::abs(gap), gap, 0,
+                     "touches with the printed matrix (2.14)", true));
+    rotations_.plain().add(off_the_wall);
+    flights_.set_printed_walls(rotations_.is_named());
     // The other checks use the wall as that code has it.
     scene.displaced = true;
     scene.impact.normal = wall_normal(scene.printed, vessel, event.partner, radius, position);
@@ -178,18 +205,15 @@ auto Auditor::judge_wall_touch(LoggedEvent& event, Scene& scene, double allowed)
         piston_velocity(scene.nested, event.partner, scene.impact.normal);
     return {gap < 0, true, true};
   }
+  if (rotations_.is_suspected()) rotations_.contradicted();
   if (another_body_is_there(event, allowed, gap)) {
     if (!event.with_wall) return {false, false, false};  // the partner's state is not in the log
     complete_scene(event, scene);
     return {};
   }
-  if (gap < 0) {
-    tell_late(event, scene, -gap);
-    return {true, false, true};
-  }
-  ++early_by_wall_[wall];
-  tell(Kind::early_event, event, gap, gap, 0);
-  return {};
+  findings_.add(off_the_wall);
+  if (gap < 0) note_delay(event, scene, -gap);
+  return {gap < 0, false, true};
 }
 
 /// Finds the body that is actually touched; the other checks of the event use it.
@@ -199,15 +223,17 @@ bool Auditor::another_body_is_there(LoggedEvent& event, double allowed, double g
   const Vec& position = event.body[0].position;
   for (int wall = 0; wall < static_cast<int>(with_wall_.size()); ++wall)
     if (wall != event.partner && std::abs(gap) > radius / 100 &&
-        std::abs(wall_gap(frame, case_.mill.vessel, wall, radius, position)) <= allowed) {
+        vanishes(std::abs(gap), std::abs(wall_gap(frame, case_.mill.vessel, wall, radius, position)),
+                 allowed)) {
       tell(Kind::wrong_partner, event, std::abs(gap), event.partner, wall, "another wall is touched");
       event.partner = wall;
       return true;
     }
   for (int k = 0; k < flights_.balls(); ++k) {
     if (k == event.ball || !flights_.of(k).state_known || event.time < flights_.of(k).start) continue;
-    const double apart = size(Vec(flights_.position_at(k, event.time) - position)) - radius - ball(k).radius;
-    if (std::abs(apart) <= allowed && std::abs(gap) > radius / 100) {
+    const Vec between = flights_.position_at(k, event.time) - position;
+    const double apart = std::abs(size(between) - radius - ball(k).radius);
+    if (vanishes(std::abs(gap), apart, allowed) && std::abs(gap) > radius / 100) {
       tell(Kind::wrong_partner, event, std::abs(gap), event.partner, k, "a ball is touched, and no wall");
       flights_.of(k) = Track{};
       event.with_wall = false;

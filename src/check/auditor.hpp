@@ -2,6 +2,7 @@
 #pragma once
 
 #include "check/audit.hpp"
+#include "check/delays.hpp"
 #include "check/flights.hpp"
 
 namespace edmill::audit {
@@ -18,15 +19,15 @@ class Auditor {
   void finish() {
     flights_.finish();
     impacts_.finish();
+    findings_.take(rotations_.findings());
   }
 
   const Energies& energies() const { return impacts_.energies(); }
   const Flights& flights() const { return flights_; }
-  /// Logged impacts with each wall, and the number of early ones, for the diagnosis.
+  /// Logged impacts with each wall, for the diagnosis.
   const std::vector<std::uint64_t>& with_wall() const { return with_wall_; }
-  const std::vector<std::uint64_t>& early_by_wall() const { return early_by_wall_; }
-  /// Largest delay of the events that are not grazes [s].
-  double latest() const { return latest_; }
+  /// Of the events that are not grazes, how late each is.
+  const DelaysByPartner& delays() const { return delays_; }
 
  private:
   /// The last event of a ball, to recognise a duplicate.
@@ -43,13 +44,21 @@ class Auditor {
   bool is_repeated(const LoggedEvent& event) const;
   void find_wrong_balls(LoggedEvent& event);
   Touch judge_touch(LoggedEvent& event, Scene& scene);
-  Touch judge_wall_touch(LoggedEvent& event, Scene& scene, double allowed);
+  Touch judge_wall_touch(LoggedEvent& event, Scene& scene);
+  Touch judge_off_the_wall(LoggedEvent& event, Scene& scene, double gap, double allowed);
   bool another_body_is_there(LoggedEvent& event, double allowed, double gap);
-  void tell_late(const LoggedEvent& event, const Scene& scene, double depth);
+  void note_delay(const LoggedEvent& event, const Scene& scene, double depth);
   void complete_scene(const LoggedEvent& event, Scene& scene) const;
   const model::BallProperties<double>& ball(int k) const { return case_.balls[static_cast<std::size_t>(k)]; }
   void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-            const char* note = "");
+            const char* note = "") {
+    findings_.add(finding(kind, event, size, found, expected, note));
+  }
+  static Finding finding(Kind kind, const LoggedEvent& event, double size, double found, double expected,
+                         const char* note = "", bool explained = false) {
+    return {kind,          size,  event.line, event.time, event.ball, event.with_wall,
+            event.partner, found, expected,   note,       explained};
+  }
 
   const model::Case<double>& case_;
   const Available& available_;
@@ -58,8 +67,9 @@ class Auditor {
   ImpactJudge impacts_;
   Flights flights_;
   std::vector<LastEvent> last_;
-  std::vector<std::uint64_t> with_wall_, early_by_wall_;
-  double latest_ = 0;
+  std::vector<std::uint64_t> with_wall_;
+  DelaysByPartner delays_;
+  Suspicion rotations_;  ///< the walls are those of the printed matrix
 };
 
 }  // namespace edmill::audit

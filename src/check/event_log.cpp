@@ -94,12 +94,13 @@ std::vector<int> parse_walls(const std::string& text, const model::Partners& par
 }
 
 EventLog::EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls,
-                   int walls)
+                   int walls, double beyond)
     : csv_(compare::log_in(place), "a collision log"),
       columns_(name_count),
       first_ball_(conventions.first_ball),
       balls_(balls),
-      walls_(conventions.walls.value_or(std::vector<int>(walls))) {
+      walls_(conventions.walls.value_or(std::vector<int>(walls))),
+      beyond_(beyond) {
   read_header(conventions);
 }
 
@@ -207,8 +208,9 @@ std::optional<LoggedEvent> EventLog::read() {
     const auto time = csv_.number(*columns_[time_name].place);
     if (!time || !read_bodies(event)) continue;
     event.time = *time * columns_[time_name].unit;
-    if (!std::isfinite(event.time)) {
-      event.problem = "found a time that is not finite";
+    if (!(std::abs(event.time) < beyond_)) {
+      event.problem = std::isfinite(event.time) ? fmt::format("found a time beyond {:g} s", beyond_)
+                                                : "found a time that is not finite";
       event.unknown_body = false;
       event.time = latest_;  // it has no time of its own
     }

@@ -81,8 +81,10 @@ class EventLog {
 
   /// @param place  a CSV file, or a folder that holds collisions.csv
   /// @param balls, walls  in the case
+  /// @param beyond        times that far from 0 or farther are no times of a run [s]
   /// @throws InputError with every problem of the mapping and the header
-  EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls, int walls);
+  EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls, int walls,
+           double beyond);
 
   /// The next event; nothing at the end.
   /// @throws InputError with the lines that cannot be read
@@ -106,6 +108,7 @@ class EventLog {
   Available available_;
   int first_ball_, balls_;
   std::vector<int> walls_;  ///< their numbers in the log, by id
+  double beyond_;
   double latest_ = -std::numeric_limits<double>::infinity();
   std::vector<LoggedEvent> ahead_;  ///< a heap, the earliest on top
   bool at_end_ = false;

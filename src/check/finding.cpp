@@ -10,7 +10,7 @@ constexpr std::array<KindInfo, kind_count> kinds = {{
     {"out_of_order", "s", "a line earlier than one above it", Check::order},
     {"duplicate", "s", "an impact that is logged twice", Check::order},
     {"unknown_body", "1", "a ball or wall that the case does not have", Check::bodies},
-    {"not_finite", "1", "a value that is not finite", Check::bodies},
+    {"not_finite", "1", "a value that is not finite, or a time of 1e15 drive periods", Check::bodies},
     {"late_event", "m", "the bodies overlap", Check::touch},
     {"early_event", "m", "the bodies do not touch yet", Check::touch},
     {"wrong_partner", "m", "another body is touched", Check::touch},
@@ -62,7 +62,12 @@ const CheckInfo& info(Check check) { return checks[static_cast<std::size_t>(chec
 void Findings::add(const Finding& finding) {
   Tally& tally = tallies_[static_cast<std::size_t>(finding.kind)];
   ++tally.count;
+  if (finding.explained) ++tally.explained;
   if (*finding.note != '\0') ++tally.notes[finding.note];
+  keep(tally, finding);
+}
+
+void Findings::keep(Tally& tally, const Finding& finding) const {
   if (finding.size > tally.worst) tally.worst = finding.size;
   auto& worst = tally.examples;
   if (worst.size() == examples_ && !(examples_ > 0 && finding.size > worst.back().size)) return;
@@ -72,9 +77,26 @@ void Findings::add(const Finding& finding) {
   if (worst.size() > examples_) worst.pop_back();
 }
 
+void Findings::take(const Findings& others) {
+  for (std::size_t k = 0; k < kind_count; ++k) {
+    const Tally& from = others.tallies_[k];
+    Tally& tally = tallies_[k];
+    tally.count += from.count, tally.explained += from.explained;
+    tally.worst = std::max(tally.worst, from.worst);
+    for (const auto& [note, count] : from.notes) tally.notes[note] += count;
+    for (const auto& finding : from.examples) keep(tally, finding);
+  }
+}
+
 std::uint64_t Findings::total() const {
   std::uint64_t sum = 0;
   for (const auto& tally : tallies_) sum += tally.count;
+  return sum;
+}
+
+std::uint64_t Findings::explained() const {
+  std::uint64_t sum = 0;
+  for (const auto& tally : tallies_) sum += tally.explained;
   return sum;
 }
 

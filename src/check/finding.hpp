@@ -81,11 +81,12 @@ struct Finding {
   int partner;
   double found, expected;  ///< nan where they do not apply
   const char* note = "";   ///< a literal: what the finding looks like
+  bool explained = false;  ///< the note is a mistake that makes the violation vanish
 };
 
 /// All findings of one kind. Bounded memory: notes are literals of the program.
 struct Tally {
-  std::uint64_t count = 0;
+  std::uint64_t count = 0, explained = 0;
   double worst = 0;
   std::vector<Finding> examples;  ///< the worst, largest first
   std::map<std::string_view, std::uint64_t> notes;
@@ -98,17 +99,28 @@ class Findings {
 
   void add(const Finding& finding);
   void judged(Check check) { ++judged_[static_cast<std::size_t>(check)]; }
+  /// The tolerance of what would be checked is as large as itself.
+  void unresolved(Check check) { ++unresolved_[static_cast<std::size_t>(check)]; }
+  /// Takes what others have found.
+  void take(const Findings& others);
 
   const Tally& of(Kind kind) const { return tallies_[static_cast<std::size_t>(kind)]; }
   std::uint64_t judged_number(Check check) const { return judged_[static_cast<std::size_t>(check)]; }
+  std::uint64_t unresolved_number(Check check) const { return unresolved_[static_cast<std::size_t>(check)]; }
   std::uint64_t total() const;
+  /// Of all, those whose notes explain them.
+  std::uint64_t explained() const;
   /// Kinds that were found, the most frequent first.
   std::vector<Kind> ranked() const;
 
+  std::size_t examples() const { return examples_; }
+
  private:
+  void keep(Tally& tally, const Finding& finding) const;
+
   std::size_t examples_;
   std::array<Tally, kind_count> tallies_;
-  std::array<std::uint64_t, check_count> judged_{};
+  std::array<std::uint64_t, check_count> judged_{}, unresolved_{};
 };
 
 }  // namespace edmill::audit

@@ -1,6 +1,7 @@
 #include "check/flights.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace edmill::dynamics {
@@ -13,6 +14,12 @@ namespace {
 
 constexpr std::size_t pending_kept = 8;
 constexpr double fastest_judged = 1e4;  // [m/s]
+
+/// Mistakes of a flight. The last two are of steps of one length, unknown before.
+constexpr std::array<const char*, 4> look_notes = {
+    "flight without gravity", "flight with the opposite gravity",
+    "falls too far at the right velocity: first-order steps, velocity before position",
+    "falls too little at the right velocity: first-order steps, position before velocity"};
 
 double smallest_sum(const model::Case<double>& c) {
   double smallest = c.balls.front().radius;
@@ -32,7 +39,8 @@ Flights::Flights(const model::Case<double>& the_case, const Available& available
       ladder_(the_case.mill, smallest_sum(the_case), 32.0),
       top_speed_(32),
       tracks_(the_case.balls.size()),
-      missed_by_wall_(the_case.mill.vessel.walls().size()) {}
+      flown_through_(the_case.mill.vessel.walls().size()),
+      looks_(look_notes.size(), Suspicion(findings.examples())) {}
 
 VesselFrame Flights::frame_at(double time, bool as_printed) const {
   const auto when = clock_.at(time);
@@ -78,11 +86,17 @@ void Flights::judge(int ball, const FlightEnd& end) {
   if (!track.state_known || time < track.start) return;
   double off = 0;  // distance of the logged position from the end of the flight [m]
   judge_state(ball, track, end, off, false);
-  findings_.judged(Check::missed);
-
   const double until = track.broken ? std::min(time, track.broken_from) : time;
-  const double slack = tolerances_.touch(time, size(track.flight.velocity)) +
-                       tolerances_.position(time, size(track.flight.velocity) * (time - track.start), 0);
+  // Balls are searched with radii that are smaller by the tolerance, if that leaves half of them.
+  const double speed = size(track.flight.velocity) + tolerances_.gravity * (time - track.start);
+  const double slack =
+      tolerances_.touch(time, true) + tolerances_.position(time, speed * (time - track.start), speed);
+  if (slack > case_.balls[static_cast<std::size_t>(ball)].radius / 2) {
+    findings_.unresolved(Check::missed);
+    track.pending.clear();
+    return judge_state(ball, track, end, off, true);
+  }
+  findings_.judged(Check::missed);
   std::optional<Contact> missed;
   if (!end.displaced) missed = first_wall(ball, track, until, slack);
   // The impact that ends the flight is late, not missed.
@@ -105,11 +119,13 @@ void Flights::judge(int ball, const FlightEnd& end) {
 bool Flights::report_missed_wall(int ball, Track& track, const Contact& missed, const FlightEnd& end,
                                  double off, double& missed_at) {
   const bool explained = off > 0 && explained_by_walls(ball, track, end);
+  if (off == 0) ++flown_through_[static_cast<std::size_t>(missed.partner)];
   if (!explained && off > 0 && missed.depth <= 2 * off) return false;
   track.held = missed_finding(ball, missed, end,
                               explained  ? "the state changes as in this impact, which is not logged"
                               : off == 0 ? "the ball flew through the wall"
                                          : "");
+  track.held->explained = explained;
   missed_at = missed.time;
   return true;
 }
@@ -119,8 +135,9 @@ bool Flights::report_missed_ball(int ball, const Contact& pair, const FlightEnd&
                                  double& missed_at) {
   Track& other = of(pair.partner);
   if (off > 0 && explained_by_ball(ball, pair, end)) {
-    findings_.add(
-        missed_finding(ball, pair, end, "the state changes as in this impact, which is not logged"));
+    auto missed = missed_finding(ball, pair, end, "the state changes as in this impact, which is not logged");
+    missed.explained = true;
+    findings_.add(missed);
     if (!other.broken || pair.time < other.broken_from) other.broken_from = pair.time;
     other.broken = true;
     missed_at = pair.time;
@@ -158,15 +175,13 @@ void Flights::settle_held(Track& track, const LoggedEvent* next) {
   if (!track.held) return;
   const bool told =
       next && next->time == track.start && next->with_wall && next->partner == track.held->partner;
-  if (!told) {
-    findings_.add(*track.held);
-    ++missed_by_wall_[static_cast<std::size_t>(track.held->partner)];
-  }
+  if (!told) findings_.add(*track.held);
   track.held.reset();
 }
 
 void Flights::finish() {
   for (auto& track : tracks_) settle_held(track, nullptr);
+  for (const auto& look : looks_) findings_.take(look.findings());
 }
 
 Finding Flights::missed_finding(int ball, const Contact& contact, const FlightEnd& end,
@@ -183,24 +198,25 @@ void Flights::judge_state(int ball, const Track& track, const FlightEnd& end, do
   const auto& has = available_.body[end.body];
   const double time = event.time, dt = time - track.start;
   const double speed = std::max(size(track.flight.velocity), size(state.velocity_before));
-  const auto tell = [&](Kind kind, double amount, double found, const char* note) {
-    findings_.add({kind, amount, event.line, time, ball, event.with_wall,
-                   end.body == 0 ? event.partner : event.ball, found, 0, note});
+  const auto finding = [&](Kind kind, double amount, double found, const char* note) {
+    return Finding{
+        kind,  amount, event.line, time, ball, event.with_wall, end.body == 0 ? event.partner : event.ball,
+        found, 0,      note};
   };
   off = 0;
   if (has.position && has.velocity_before) {
     const double dp = size(Vec(state.position - position_at(ball, time)));
     const double dv =
         size(Vec(state.velocity_before - dynamics::velocity_after(track.flight, case_.mill.gravity, dt)));
-    const double gravity = size(case_.mill.gravity);
-    const bool good = dp <= tolerances_.position(time, speed * dt, speed) &&
-                      dv <= tolerances_.relative * (speed + gravity * dt) + tolerances_.time(time) * gravity;
+    const double fastest = speed + tolerances_.gravity * dt;
+    const bool good =
+        dp <= tolerances_.position(time, speed * dt, fastest) && dv <= tolerances_.velocity(time, fastest);
     if (!good) off = std::max(dp, dv * dt);
     if (!good && off == 0) off = std::numeric_limits<double>::min();
-    if (tell_it) {
-      findings_.judged(Check::flight);
-      if (!good) tell(Kind::non_ballistic, std::max(dp, dv * dt), dv, look_of(track, state, dt, dv));
-    }
+    if (tell_it && tolerances_.position(time, 0, fastest) > tolerances_.reach)
+      findings_.unresolved(Check::flight);
+    else if (tell_it)
+      tell_flight(track, state, finding(Kind::non_ballistic, std::max(dp, dv * dt), dv, ""), good);
   }
   if (tell_it && has.spin_before && track.spin_known) {
     findings_.judged(Check::spin_kept);
@@ -208,31 +224,53 @@ void Flights::judge_state(int ball, const Track& track, const FlightEnd& end, do
     const double change = radius * size(Vec(state.spin_before - track.spin));
     if (change >
         tolerances_.relative * std::max({speed, radius * size(track.spin), radius * size(state.spin_before)}))
-      tell(Kind::lost_spin, change, change,
-           size(state.spin_before) == 0 ? "the spin is 0 before the impact" : "");
+      findings_.add(finding(Kind::lost_spin, change, change,
+                            size(state.spin_before) == 0 ? "the spin is 0 before the impact" : ""));
   }
 }
 
-/// The known mistake that explains a wrong flight.
-const char* Flights::look_of(const Track& track, const BodyState& state, double dt, double dv) const {
-  const Vec &p = track.flight.position, &v = track.flight.velocity, &g = case_.mill.gravity;
-  const double speed = std::max(size(v), size(state.velocity_before));
-  const double close_v = tolerances_.relative * (speed + size(g) * dt);
-  const double close_p = tolerances_.position(track.start + dt, speed * dt, speed);
-  if (!(size(g) > 0) || !(dt > 0)) return "";
-  const auto at = [&](double share) { return Vec(p + v * dt + g * (share * dt * dt / 2)); };
-  const auto moving = [&](double share) {
-    return size(Vec(state.velocity_before - v - g * (share * dt))) <= close_v;
-  };
-  if (moving(0) && size(Vec(state.position - at(0))) <= close_p) return "flight without gravity";
-  if (moving(-1) && size(Vec(state.position - at(-1))) <= close_p) return "flight with the opposite gravity";
-  const Vec rest = state.position - at(1);
-  const Vec across = rest - g * (dot(rest, g) / dot(g, g));
-  if (dv <= close_v && size(across) <= close_p)
-    return dot(rest, g) > 0
-               ? "falls too far at the right velocity: first-order steps, velocity before position"
-               : "falls too little at the right velocity: first-order steps, position before velocity";
-  return "";
+/// How far the end of a flight is from where a mistake leads. @param shows  how far the mistake leads [m]
+double Flights::look(std::size_t k, const Track& track, const BodyState& state, double dt, double& shows) {
+  const Vec& g = case_.mill.gravity;
+  const Vec fallen = state.position - (track.flight.position + track.flight.velocity * dt);
+  const Vec gained = state.velocity_before - track.flight.velocity;
+  // Shares of the fall and of the velocity that gravity gives in the time.
+  double fall = k == 0 ? 0 : -1, gain = fall;
+  if (k >= 2) {
+    const double excess = dot(fallen, g) / dot(g, g) - dt * dt / 2, sign = k == 2 ? 1 : -1;
+    if (!(step_ > 0) && sign * excess > 0) step_ = 2 * sign * excess / dt;
+    fall = 1 + sign * step_ / dt, gain = 1;
+  }
+  shows = std::abs(fall - 1) * tolerances_.gravity * dt * dt / 2;
+  return std::max(size(Vec(fallen - g * (fall * dt * dt / 2))), size(Vec(gained - g * (gain * dt))) * dt);
+}
+
+/// Reports a flight unless it is good, by the mistake that explains it.
+void Flights::tell_flight(const Track& track, const BodyState& state, const Finding& finding, bool good) {
+  findings_.judged(Check::flight);
+  const double dt = finding.time - track.start,
+               speed = std::max(size(track.flight.velocity), size(state.velocity_before));
+  const double allowed = tolerances_.position(finding.time, speed * dt, speed);
+  bool told = good;
+  for (std::size_t k = 0; k < looks_.size() && tolerances_.gravity > 0 && dt > 0; ++k) {
+    if (good && !looks_[k].is_suspected()) continue;
+    const bool first = k >= 2 && !(step_ > 0);
+    double shows = 0;
+    const double left = look(k, track, state, dt, shows);
+    if (!told && vanishes(finding.size, left, allowed)) {
+      told = true;
+      Finding named = finding;
+      named.note = look_notes[k], named.explained = true;
+      looks_[k]
+          .explains(finding.size, first ? finding.size : left)
+          .add(named);  // the first one gives the step
+      looks_[k].plain().add(finding);
+    } else if (looks_[k].is_suspected() && shows > allowed && !(left <= allowed)) {
+      looks_[k].contradicted();
+    }
+    if (first && !looks_[k].is_suspected()) step_ = 0;
+  }
+  if (!told) findings_.add(finding);
 }
 
 }  // namespace edmill::audit

@@ -59,8 +59,10 @@ class Flights {
   void begin(int ball, double time, const BodyState& state, const Available::Body& has);
   void begin_at_start(int ball, const model::BallState<double>& state, double time);
 
-  /// Missed impacts with each wall, for the diagnosis.
-  const std::vector<std::uint64_t>& missed_by_wall() const { return missed_by_wall_; }
+  /// Flights through each wall, for the diagnosis.
+  const std::vector<std::uint64_t>& flown_through() const { return flown_through_; }
+  /// The walls of the log are those of the printed matrix.
+  void set_printed_walls(bool printed) { printed_walls_ = printed; }
   std::uint64_t undecided() const { return undecided_; }
 
  private:
@@ -84,14 +86,15 @@ class Flights {
   bool explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const;
   bool arrives(const State& state, const FlightEnd& end) const;
   void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it);
-  const char* look_of(const Track& track, const BodyState& state, double dt, double dv) const;
+  void tell_flight(const Track& track, const BodyState& state, const Finding& finding, bool good);
+  double look(std::size_t k, const Track& track, const BodyState& state, double dt, double& shows);
   Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note) const;
   bool report_missed_wall(int ball, Track& track, const Contact& missed, const FlightEnd& end, double off,
                           double& missed_at);
   bool report_missed_ball(int ball, const Contact& pair, const FlightEnd& end, double off, double& missed_at);
   void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at);
   void settle_held(Track& track, const LoggedEvent* next);
-  int walls() const { return static_cast<int>(missed_by_wall_.size()); }
+  int walls() const { return static_cast<int>(flown_through_.size()); }
   bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const;
   double deepest(int ball, const Track& track, int wall, double from, double until) const;
   Scene scene_at(int ball, int wall, double time, const Vec& position) const;
@@ -104,7 +107,10 @@ class Flights {
   dynamics::DecisionLadder<double> ladder_;
   double top_speed_;
   std::vector<Track> tracks_;
-  std::vector<std::uint64_t> missed_by_wall_;
+  std::vector<std::uint64_t> flown_through_;
+  std::vector<Suspicion> looks_;  ///< by known mistake of flights
+  double step_ = 0;               ///< of an integrator of first order, from the first flight that has one [s]
+  bool printed_walls_ = false;
   std::uint64_t undecided_ = 0;
 };
 

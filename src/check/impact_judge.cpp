@@ -7,12 +7,6 @@ namespace edmill::audit {
 
 double ImpactJudge::Residuals::largest() const { return std::max({normal, tangential, momentum, spin}); }
 
-void ImpactJudge::tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-                       const char* note) {
-  findings_.add({kind, size, event.line, event.time, event.ball, event.with_wall, event.partner, found,
-                 expected, note});
-}
-
 /// The equations themselves: momentum, torque, and the separation of the contact points.
 /// @param parting  the bodies do not approach, which is reported: a code may then reflect g_n as usual
 auto ImpactJudge::residuals(const LoggedEvent& event, const LoggedImpact& impact, const Known& known,
@@ -44,35 +38,62 @@ auto ImpactJudge::residuals(const LoggedEvent& event, const LoggedImpact& impact
   return off;
 }
 
-/// Names the violation by the equation that does not hold.
-void ImpactJudge::tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
-                                        const Known& known, double allowed_off) {
+/// Names the violation by the equation that does not hold, or by the wall's velocity that the logged speeds
+/// imply. @return whether by the latter
+bool ImpactJudge::tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
+                                        double allowed, Findings& plain) {
   const LoggedImpact& impact = scene.impact;
-  const Vec g = impact.before(event), g_after = impact.after(event);
-  const double g_n = dot(g, impact.normal), g_n_after = dot(g_after, impact.normal);
-  const bool normal = off.normal > allowed_off, tangential = off.tangential > allowed_off;
-  const bool spin = off.spin > allowed_off;
-  if (off.momentum > allowed_off) tell(Kind::momentum, event, off.momentum, off.momentum, 0);
-  if (spin) tell(Kind::spin_change, event, off.spin, off.spin, 0);
-  if (event.with_wall && !spin &&
-      ((normal && tangential) || speeds_tell_another_wall_velocity(event, scene, known, allowed_off))) {
-    // The wall's speed along n with which the law would hold.
-    const double v_n = dot(event.body[0].velocity_before, impact.normal);
-    const double v_n_after = dot(event.body[0].velocity_after, impact.normal);
-    const auto& l = law(impact);
-    const double e_n = l.restitution(-dot(impact.before(event), impact.normal), impact.bodies());
-    double implied = v_n + (v_n_after - v_n) / (1 + e_n);
-    if (v_n_after - implied < l.least_separation) implied = v_n_after - l.least_separation;
-    return tell(Kind::wall_velocity, event, std::max(off.normal, off.tangential), implied,
-                dot(impact.wall_velocity, impact.normal));
-  }
-  if (normal) tell_normal(event, impact, off.normal, allowed_off);
+  const bool spin = off.spin > allowed;
+  const auto tell_plainly = [&](Kind kind, double size, double found, double expected) {
+    plain.add(finding(kind, event, size, found, expected));
+  };
+  if (off.momentum > allowed) tell_plainly(Kind::momentum, off.momentum, off.momentum, 0);
+  if (spin) tell_plainly(Kind::spin_change, off.spin, off.spin, 0);
+  if (!spin)
+    if (const auto wall = other_wall_speed(event, impact, off, allowed)) {
+      tell_plainly(Kind::wall_velocity, std::max(off.normal, off.tangential), *wall,
+                   dot(impact.wall_velocity, impact.normal));
+      return true;
+    }
+  if (off.normal > allowed) tell_normal(event, impact, off.normal, allowed, plain);
   // With a wrong torque the slip after the impact carries no further information.
-  if (tangential && !spin) {
-    const Vec slip = g - impact.normal * g_n, slip_after = g_after - impact.normal * g_n_after;
-    tell(Kind::tangential_restitution, event, off.tangential,
-         dot(slip, slip) > 0 ? dot(slip, slip_after) / dot(slip, slip) : unknown, off.restitution_tangential);
+  if (off.tangential > allowed && !spin) {
+    const Vec g = impact.before(event), g_after = impact.after(event);
+    const Vec slip = g - impact.normal * dot(g, impact.normal),
+              slip_after = g_after - impact.normal * dot(g_after, impact.normal);
+    tell_plainly(Kind::tangential_restitution, off.tangential,
+                 dot(slip, slip) > 0 ? dot(slip, slip_after) / dot(slip, slip) : unknown,
+                 off.restitution_tangential);
   }
+  return false;
+}
+
+/// @param theirs  becomes the impact as the log's code saw it
+/// @return whether another velocity of the wall is told
+bool ImpactJudge::judge_outcome(const LoggedEvent& event, const Scene& scene, const Known& known,
+                                const Allowed& allowed, LoggedImpact& theirs) {
+  const LoggedImpact& impact = scene.impact;
+  findings_.judged(Check::normal_law);
+  if (!event.with_wall) findings_.judged(Check::momentum);
+  if (known.spins) findings_.judged(Check::tangential_law), findings_.judged(Check::spin_change);
+  const bool parting = dot(impact.before(event), impact.normal) > allowed.speed;
+  const auto off = residuals(event, impact, known, parting);
+  const bool violated = off.largest() > allowed.slack;
+  if (!violated) see_separation(event, impact, allowed.slack);
+  // First: a vanishing impulse also results from a wall from which the ball moves away.
+  const bool separation_alone = violated &&
+                                std::max({off.tangential, off.momentum, off.spin}) <= allowed.slack &&
+                                leaves_by_the_other_branch(event, impact, off.normal, allowed.slack);
+  const auto found = known.spins && !separation_alone ? explaining(event, scene, allowed.slack, violated)
+                                                      : std::optional<Explanation>{};
+  if (!violated) return false;
+  if (!found) return tell_broken_equations(event, scene, off, allowed.slack, findings_);
+  Suspicion& suspicion = suspicions_[found->mistake];
+  tell_broken_equations(event, scene, off, allowed.slack, suspicion.plain());
+  suspicion.explains(found->off, found->left)
+      .add(finding(found->kind, event, off.largest(), off.largest(), 0, found->note, true));
+  theirs = found->impact;
+  return found->kind == Kind::wall_velocity;
 }
 
 void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
@@ -94,43 +115,38 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
   }
   const LoggedImpact& impact = scene.impact;
   const double scale = velocity_scale(impact, event, known.spins);
-  const double allowed_off = tolerances_.relative * scale;
+  const double by_wall =
+      event.with_wall ? tolerances_.of_wall(event.time, scale, impact.bend, impact.ball[0].radius) : 0;
+  if (by_wall > 0 && by_wall >= scale) return leave_unresolved(known);
+  Allowed allowed{tolerances_.relative * scale + by_wall, 0, 0};
+  const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law(impact).law);
+  const double friction = coulomb ? std::min(coulomb->friction, 10.0) : 0;
+  allowed.slack = allowed.speed * (1 + friction * impact.compliance);
+  allowed.energy = 4 * allowed.speed * impact.effective_mass * scale;
   const double g_n = dot(impact.before(event), impact.normal);
   findings_.judged(Check::approach);
-  if (g_n > allowed_off) tell(Kind::not_approaching, event, g_n, -g_n, 0);
+  if (g_n > allowed.speed) tell(Kind::not_approaching, event, g_n, -g_n, 0);
   LoggedImpact theirs = impact;
-  bool wall_velocity_told = false;
-  if (known.velocities) {
-    findings_.judged(Check::normal_law);
-    if (!event.with_wall) findings_.judged(Check::momentum);
-    if (known.spins) findings_.judged(Check::tangential_law), findings_.judged(Check::spin_change);
-    const auto off = residuals(event, impact, known, g_n > allowed_off);
-    const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law(impact).law);
-    const double friction = coulomb ? std::min(coulomb->friction, 10.0) : 0;
-    const double slack = allowed_off * (1 + friction * impact.compliance);
-    if (off.largest() > slack) {
-      Explanation explanation;
-      // First: a vanishing impulse also results from a wall from which the ball moves away.
-      const bool separation_alone = std::max({off.tangential, off.momentum, off.spin}) <= slack &&
-                                    leaves_by_the_other_branch(event, impact, slack);
-      if (known.spins && !separation_alone && explain(event, scene, slack, explanation)) {
-        tell(explanation.kind, event, off.largest(), off.largest(), 0, explanation.note);
-        theirs = explanation.impact;
-        wall_velocity_told = explanation.kind == Kind::wall_velocity;
-      } else {
-        const auto before = findings_.of(Kind::wall_velocity).count;
-        tell_broken_equations(event, scene, off, known, slack);
-        wall_velocity_told = findings_.of(Kind::wall_velocity).count > before;
-      }
-    }
-  }
-  judge_logged_speeds(event, theirs, known, scale, wall_velocity_told);
-  if (known.velocities && known.spins) judge_energies(event, impact, theirs, scale);
+  const bool wall_velocity_told = known.velocities && judge_outcome(event, scene, known, allowed, theirs);
+  judge_logged_speeds(event, theirs, known, allowed.speed, wall_velocity_told);
+  if (known.velocities && known.spins) judge_energies(event, impact, theirs, allowed.energy);
+}
+
+/// Of an impact with a wall that the rounding of its time leaves anywhere.
+void ImpactJudge::leave_unresolved(const Known& known) {
+  findings_.unresolved(Check::approach);
+  if (available_.approach_speed) findings_.unresolved(Check::approach_speed);
+  if (!known.velocities) return;
+  findings_.unresolved(Check::normal_law);
+  if (!known.spins) return;
+  for (const Check check : {Check::tangential_law, Check::spin_change}) findings_.unresolved(check);
+  if (available_.slip_speed) findings_.unresolved(Check::slip_speed);
+  if (available_.milling_dose) findings_.unresolved(Check::milling_dose);
+  if (available_.wall_work) findings_.unresolved(Check::wall_work);
 }
 
 void ImpactJudge::judge_logged_speeds(const LoggedEvent& event, const LoggedImpact& impact,
-                                      const Known& known, double scale, bool wall_velocity_told) {
-  const double allowed_off = tolerances_.relative * scale;
+                                      const Known& known, double allowed_off, bool wall_velocity_told) {
   const Vec g = impact.before(event);
   const double g_n = dot(g, impact.normal);
   const auto compare = [&](Check check, Kind kind, double logged, double expected) {
@@ -147,8 +163,7 @@ void ImpactJudge::judge_logged_speeds(const LoggedEvent& event, const LoggedImpa
 /// The dose is the wall work plus the energy that the least separation speed supplies, minus what the balls
 /// have gained.
 void ImpactJudge::judge_energies(const LoggedEvent& event, const LoggedImpact& right,
-                                 const LoggedImpact& theirs, double scale) {
-  const double allowed_off = 4 * tolerances_.relative * right.effective_mass * scale * scale;
+                                 const LoggedImpact& theirs, double allowed_off) {
   const double work = work_of_wall(event, right), gained = kinetic_change(event, right);
   const Speeds speeds = speeds_before(event, right);
   const double due = supplied(right, speeds.g_n, separation_speed(law(right), right, speeds.g_n));
@@ -190,9 +205,25 @@ void ImpactJudge::judge_dose(const LoggedEvent& event, const LoggedImpact& right
                          away(dose_by_law(theirs, law(theirs), speeds))});
   const bool none_is_due = supplied(right, speeds.g_n, separation_speed(law(right), right, speeds.g_n)) == 0;
   if (none_is_due) off = std::min({off, away(balance(right)), away(balance(theirs))});
-  if (off > allowed_off)
-    tell(Kind::milling_dose, event, off, event.milling_dose, expected,
-         away(balance(right)) <= allowed_off ? "the energy that v_s supplies is subtracted" : "");
+  const double without = away(balance(right));
+  tell_dose(event, off, expected, allowed_off, without, std::abs(expected - balance(right)), net_dose_,
+            "the energy that v_s supplies is subtracted");
+}
+
+/// A wrong dose.
+/// @param left, changes  how far off it is with a mistake, and what the mistake changes [J]
+void ImpactJudge::tell_dose(const LoggedEvent& event, double off, double expected, double allowed,
+                            double left, double changes, Suspicion& mistake, const char* note) {
+  const auto found = [&](const char* name, bool explained) {
+    return finding(Kind::milling_dose, event, off, event.milling_dose, expected, name, explained);
+  };
+  if (off > allowed && vanishes(off, left, allowed)) {
+    mistake.explains(off, left).add(found(note, true));
+    mistake.plain().add(found("", false));
+    return;
+  }
+  if (mistake.is_suspected() && changes > allowed) mistake.contradicted();
+  if (off > allowed) findings_.add(found("", false));
 }
 
 void ImpactJudge::judge_speeds(const LoggedEvent& event, const LoggedImpact& impact) {
@@ -211,10 +242,10 @@ void ImpactJudge::judge_speeds(const LoggedEvent& event, const LoggedImpact& imp
       const double off = std::abs(event.milling_dose - expected);
       auto without = law(impact);
       without.least_separation = 0;
-      const bool no_rule = std::abs(event.milling_dose - dose_by_law(impact, without, speeds)) <= allowed_off;
-      if (off > allowed_off)
-        tell(Kind::milling_dose, event, off, event.milling_dose, expected,
-             no_rule ? "the dose of the law without a least separation speed" : "");
+      const double other = dose_by_law(impact, without, speeds);
+      tell_dose(event, off, expected, allowed_off, std::abs(event.milling_dose - other),
+                std::abs(expected - other), dose_without_rule_,
+                "the dose of the law without a least separation speed");
     }
   }
   if (available_.wall_work && !event.with_wall) {

@@ -8,6 +8,7 @@
 #include "base/compensated_sum.hpp"
 #include "check/finding.hpp"
 #include "check/mechanics.hpp"
+#include "check/naming.hpp"
 #include "check/tolerances.hpp"
 
 namespace edmill::audit {
@@ -41,7 +42,13 @@ class ImpactJudge {
  public:
   ImpactJudge(const model::Mill<double>& mill, const Available& available, const Tolerances& tolerances,
               Findings& findings)
-      : mill_(mill), available_(available), tolerances_(tolerances), findings_(findings) {}
+      : mill_(mill),
+        available_(available),
+        tolerances_(tolerances),
+        findings_(findings),
+        suspicions_(known_mistake_count(), Suspicion(findings.examples())),
+        net_dose_(findings.examples()),
+        dose_without_rule_(findings.examples()) {}
 
   /// With the states of the bodies.
   void judge(const LoggedEvent& event, Scene scene);
@@ -59,14 +66,22 @@ class ImpactJudge {
     double restitution_tangential = 1;  ///< that applies
     double largest() const;
   };
-  /// The explanation of a violating impact.
+  /// A mistake that reproduces a violating impact.
   struct Explanation {
+    std::size_t mistake;
     Kind kind;
     const char* note;
-    LoggedImpact impact;
+    LoggedImpact impact;  ///< as that code saw it
+    double off, left;     ///< without the mistake and with it [m/s]
   };
   struct Known {
     bool velocities, spins;  ///< before and after, of all bodies
+  };
+  /// What an impact may be off by.
+  struct Allowed {
+    double speed;   ///< [m/s]
+    double slack;   ///< the same with what friction makes of it [m/s]
+    double energy;  ///< [J]
   };
 
   const model::ContactLaw<double>& law(const LoggedImpact& impact) const {
@@ -80,39 +95,56 @@ class ImpactJudge {
   }
   Residuals residuals(const LoggedEvent& event, const LoggedImpact& impact, const Known& known,
                       bool parting) const;
-  bool explain(const LoggedEvent& event, const Scene& scene, double allowed_off,
-               Explanation& explanation) const;
-  bool explain_by_formula(const LoggedEvent& event, const Scene& scene, double allowed_off,
-                          Explanation& explanation) const;
-  void tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
-                             const Known& known, double allowed_off);
-  bool leaves_by_the_other_branch(const LoggedEvent& event, const LoggedImpact& impact,
-                                  double allowed_off) const;
-  void tell_normal(const LoggedEvent& event, const LoggedImpact& impact, double off, double allowed_off);
-  bool speeds_tell_another_wall_velocity(const LoggedEvent& event, const Scene& scene, const Known& known,
-                                         double allowed_off) const;
+  static std::size_t known_mistake_count();
+  /// The known mistake that reproduces the logged outcome, if one does. What does not is noted, also of an
+  /// impact that is not violated.
+  std::optional<Explanation> explaining(const LoggedEvent& event, const Scene& scene, double allowed,
+                                        bool violated);
+  bool tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
+                             double allowed, Findings& plain);
+  void tell_normal(const LoggedEvent& event, const LoggedImpact& impact, double off, double allowed,
+                   Findings& plain);
+  void see_separation(const LoggedEvent& event, const LoggedImpact& impact, double allowed);
+  std::optional<double> other_wall_speed(const LoggedEvent& event, const LoggedImpact& impact,
+                                         const Residuals& off, double allowed) const;
+  bool judge_outcome(const LoggedEvent& event, const Scene& scene, const Known& known, const Allowed& allowed,
+                     LoggedImpact& theirs);
   void judge_logged_speeds(const LoggedEvent& event, const LoggedImpact& impact, const Known& known,
-                           double scale, bool wall_velocity_told);
+                           double allowed, bool wall_velocity_told);
   void judge_energies(const LoggedEvent& event, const LoggedImpact& right, const LoggedImpact& theirs,
-                      double scale);
+                      double allowed);
   void judge_dose(const LoggedEvent& event, const LoggedImpact& right, const LoggedImpact& theirs,
-                  double allowed_off);
-  void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-            const char* note = "");
+                  double allowed);
+  void tell_dose(const LoggedEvent& event, double off, double expected, double allowed, double left,
+                 double changes, Suspicion& mistake, const char* note);
+  void leave_unresolved(const Known& known);
+  bool leaves_by_the_other_branch(const LoggedEvent& event, const LoggedImpact& impact, double off,
+                                  double allowed) const;
+  static Finding finding(Kind kind, const LoggedEvent& event, double size, double found, double expected,
+                         const char* note = "", bool explained = false) {
+    return {kind,          size,  event.line, event.time, event.ball, event.with_wall,
+            event.partner, found, expected,   note,       explained};
+  }
+  void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected) {
+    findings_.add(finding(kind, event, size, found, expected));
+  }
 
   const model::Mill<double>& mill_;
   const Available& available_;
   Tolerances tolerances_;
   Findings& findings_;
   Energies energies_;
-  /// A least separation speed in the log other than the case's: two impacts of different approach speed
-  /// separate at the same speed. The first of them is kept until the second one is found.
-  struct OtherLeast {
-    double speed = std::numeric_limits<double>::infinity(), g_n = 0, due = 0;
-    bool confirmed = false;
-    std::optional<Finding> held;
+  std::vector<Suspicion> suspicions_;  ///< by known mistake
+  std::uint64_t explained_impacts_ = 0;
+  /// Other laws of the speed at which bodies separate.
+  struct SeparationSuspicions {
+    explicit SeparationSuspicions(std::size_t examples) : least(examples), always(examples) {}
+    Suspicion least;   ///< another least speed than the case's: the one of the first impact that has one
+    Suspicion always;  ///< the case's least speed after every impact
+    double speed = std::numeric_limits<double>::infinity(), g_n = 0;
   };
-  std::map<std::ptrdiff_t, OtherLeast> other_least_;  ///< by law of the impacts
+  std::map<std::ptrdiff_t, SeparationSuspicions> separations_;  ///< by law of the impacts
+  Suspicion net_dose_, dose_without_rule_;
 };
 
 }  // namespace edmill::audit

@@ -61,6 +61,22 @@ Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel
   return size(normal) > 0 ? normal : frame.x;  // on the axis of a cylinder there is none
 }
 
+double wall_bend(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
+                 const Vec& position) {
+  if (vessel.is_flat(wall)) return 0;
+  const auto room = vessel.inset(radius);
+  const Vec place = inside(frame, position), normal = room.normal(wall, place);
+  const double step = 1e-6 * vessel.reach();
+  double square = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec moved = place;
+    moved[axis] += step;
+    const Vec turned = room.normal(wall, moved) - normal;
+    square += dot(turned, turned);
+  }
+  return std::sqrt(square) / step;
+}
+
 const char* name_of(WallVelocity formula) {
   static constexpr std::array<const char*, wall_velocity_count> names = {
       "",
@@ -183,13 +199,12 @@ std::array<BodyState, 2> outcome(const LoggedImpact& impact, const model::Contac
   return result;
 }
 
-double distance(const LoggedImpact& impact, const LoggedEvent& event,
-                const std::array<BodyState, 2>& outcome) {
+double distance(const LoggedImpact& impact, const std::array<BodyState, 2>& one,
+                const std::array<BodyState, 2>& other) {
   double worst = 0;
   for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
-    worst = std::max(worst, size(Vec(event.body[k].velocity_after - outcome[k].velocity_after)));
-    worst =
-        std::max(worst, impact.ball[k].radius * size(Vec(event.body[k].spin_after - outcome[k].spin_after)));
+    worst = std::max(worst, size(Vec(one[k].velocity_after - other[k].velocity_after)));
+    worst = std::max(worst, impact.ball[k].radius * size(Vec(one[k].spin_after - other[k].spin_after)));
   }
   return worst;
 }

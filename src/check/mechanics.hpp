@@ -47,6 +47,10 @@ double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel
 Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
                 const Vec& position);
 
+/// How much the normal turns where the ball is moved [1/m]: 0 on a flat wall.
+double wall_bend(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
+                 const Vec& position);
+
 /// Velocities of the wall in different codes; the first is right: V = W_Z x P + (R_z W_x') x (P - C).
 enum class WallVelocity {
   nested,
@@ -77,6 +81,7 @@ struct LoggedImpact {
   int wall = -1;                                      ///< id, of an impact with one
   std::array<model::BallProperties<double>, 2> ball;  ///< the partner only for balls
   Vec normal;                                         ///< unit, from the partner to the ball
+  double bend = 0;                                    ///< of a wall's normal with the ball's place [1/m]
   Vec wall_velocity{0, 0, 0};
   /// M, and c = 1 + M/(m_i J_i) + M/(m_j J_j), for a wall 1 + 1/J_i
   double effective_mass = 0, compliance = 0;
@@ -115,9 +120,9 @@ struct Formula {
 std::array<BodyState, 2> outcome(const LoggedImpact& impact, const model::ContactLaw<double>& law,
                                  const LoggedEvent& event, const Formula& formula);
 
-/// Largest difference of velocities, with spins times the radius [m/s].
-double distance(const LoggedImpact& impact, const LoggedEvent& event,
-                const std::array<BodyState, 2>& outcome);
+/// Largest difference of velocities after an impact, with spins times the radius [m/s].
+double distance(const LoggedImpact& impact, const std::array<BodyState, 2>& one,
+                const std::array<BodyState, 2>& other);
 
 /// Magnitude of the velocities involved [m/s], to which tolerances are relative.
 double velocity_scale(const LoggedImpact& impact, const LoggedEvent& event, bool with_spins);

@@ -64,7 +64,7 @@ double Flights::deepest(int ball, const Track& track, int wall, double from, dou
 /// Whether the log's walls are those of the printed matrix, which was reported, and the flight ends inside
 /// of them.
 bool Flights::stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const {
-  if (findings_.of(Kind::rotation_order).count < 3) return false;
+  if (!printed_walls_) return false;
   const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
   constexpr int samples = 32;
   for (int k = 0; k <= samples; ++k) {
@@ -93,17 +93,20 @@ auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, dou
     if (from >= to) continue;
     const auto& now = later ? theirs.flight.start : track.flight.start;
     const double sum = radius + case_.balls[static_cast<std::size_t>(other)].radius;
+    // The other ball's place has an uncertain time of its own.
+    const double off = slack + 2 * tolerances_.time(until) * size(theirs.flight.velocity);
+    if (off > sum / 2) continue;
     const auto seen = later ? pairs.state(track.flight, now) : seen_at_start;
     dynamics::PairAnswer<double> answer;
     try {
-      answer = ladder_.pair(seen, track.flight, theirs.flight, now, sum - slack);
+      answer = ladder_.pair(seen, track.flight, theirs.flight, now, sum - off);
     } catch (const UndecidedError&) {
       ++undecided_;
     }
     if (answer.verdict != dynamics::Verdict::contact || from + answer.delay > to) continue;
     if (first && first->time <= from + answer.delay) continue;
     const Vec apart = position_at(ball, from) - position_at(other, from);
-    if (size(apart) < sum - slack) continue;  // they overlapped already, which was reported before
+    if (size(apart) < sum - off) continue;  // they overlapped already, which was reported before
     const bool the_end =
         !end.event->with_wall && (end.body == 0 ? end.event->partner : end.event->ball) == other;
     if (the_end && end.late) continue;

@@ -1,21 +1,63 @@
 // Tolerances of an audit. docs/audit.md, "Tolerances"
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "model/mill.hpp"
+
 namespace edmill::audit {
+
+/// How fast walls, and what an impact takes from them, change with time: bounds of the mill.
+struct WallRates {
+  double speed = 0;         ///< of any point of the walls [m/s]
+  double acceleration = 0;  ///< of any [m/s^2]
+  double turning = 0;       ///< of the vessel [rad/s]
+
+  static WallRates of(const model::Mill<double>& mill) {
+    const auto& motion = mill.motion;
+    const double vessel = mill.vessel.reach();
+    // Of the points within r of the centre some move with r times the angular speed or faster.
+    constexpr double far = 1e6;
+    WallRates rates{motion.wall_speed(vessel), motion.acceleration_within(motion.reach(vessel)),
+                    motion.wall_speed(far) / far};
+    if (const auto* pistons = mill.vessel.pistons()) {
+      rates.speed += pistons->bound(1);
+      rates.acceleration += pistons->bound(2) + 2 * rates.turning * pistons->bound(1);
+    }
+    return rates;
+  }
+};
 
 struct Tolerances {
   double relative = 1e-9;
-  double gap = 0;    ///< between bodies in contact [m]
-  double reach = 0;  ///< largest distance of a ball from the fulcrum [m]
+  double gap = 0;      ///< between bodies in contact [m]
+  double reach = 0;    ///< largest distance of a ball from the fulcrum [m]
+  double gravity = 0;  ///< [m/s^2]
+  WallRates walls;
 
-  /// Uncertainty of a logged time by rounding [s].
-  static double time(double t) { return 4 * std::numeric_limits<double>::epsilon() * std::abs(t); }
-  double touch(double t, double speed) const { return gap + time(t) * speed; }
+  /// Uncertainty of a logged time by rounding [s]: half a unit in the last place for each of whole drive
+  /// periods and what exceeds them, their sum, a change of unit, and the way back to periods.
+  static double time(double t) { return 2 * std::numeric_limits<double>::epsilon() * std::abs(t); }
+
+  /// How far walls may be from where they are at the logged time [m].
+  double wall_places(double t) const { return std::min(time(t) * walls.speed, 2 * reach); }
+  double touch(double t, bool with_wall) const { return gap + (with_wall ? wall_places(t) : 0); }
+  /// Of the end of a flight from an impact at an earlier time.
   double position(double t, double path, double speed) const {
-    return relative * (reach + path) + time(t) * speed;
+    return relative * (reach + path) + 2 * time(t) * speed;
+  }
+  double velocity(double t, double speed) const { return relative * speed + 2 * time(t) * gravity; }
+
+  /// What the uncertain wall adds to the difference of two relative velocities of an impact with it, each
+  /// seen along its normal or across [m/s].
+  /// @param scale  no velocity of the impact is larger; a relative one is at most three of them
+  /// @param bend   angle by which the normal turns where the ball is moved in the vessel [1/m]
+  double of_wall(double t, double scale, double bend, double radius) const {
+    const double turned = walls.turning + walls.speed * bend;  // of the normal [rad/s]
+    const double moved = walls.acceleration + walls.turning * (walls.speed + radius * turned);
+    return 2 * (3 * scale * std::min(time(t) * turned, 2.0) + std::min(time(t) * moved, 2 * walls.speed));
   }
 };
 

@@ -1,6 +1,9 @@
 #include "identify/assumptions.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "casefile/check_case.hpp"
 
 namespace edmill::casefile {
 extern template model::Mill<double> build_mill<double>(const CaseSpec&);
@@ -35,15 +38,21 @@ void LogChange::apply(audit::LoggedEvent& event) const {
   if (!event.with_wall) renamed(event.partner);
 }
 
-model::Case<double> Assumptions::built() const {
+std::optional<model::Case<double>> Assumptions::built() const {
+  if (!casefile::problems_of(spec).empty()) return std::nullopt;
   model::Case<double> result;
   result.mill = casefile::build_mill<double>(spec);
   result.balls = balls;
+  const auto& vessel = result.mill.vessel;
+  const bool room =
+      std::ranges::none_of(balls, [&](const auto& ball) { return vessel.inset(ball.radius).is_empty(); });
+  if (!room || vessel.wall_count() != walls) return std::nullopt;
   return result;
 }
 
 Assumptions assumptions_of(const casefile::CaseSpec& spec) {
-  return {spec, casefile::build_case<double>(spec).the_case.balls, {}};
+  const auto built = casefile::build_case<double>(spec).the_case;
+  return {spec, built.balls, {}, built.mill.vessel.wall_count()};
 }
 
 casefile::Quantity exactly(double value) { return {boost::multiprecision::cpp_rational(value)}; }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "casefile/build_case.hpp"
@@ -28,8 +29,11 @@ struct Assumptions {
   casefile::CaseSpec spec;
   std::vector<model::BallProperties<double>> balls;
   LogChange log;
+  int walls;  ///< of the case, which the log's walls are
 
-  model::Case<double> built() const;
+  /// The case of these values; none where its file would be refused, a ball has no room in the vessel, or the
+  /// vessel has other walls: a log cannot be of such a mill.
+  std::optional<model::Case<double>> built() const;
 };
 
 /// @pre the spec can be built

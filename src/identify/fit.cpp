@@ -39,6 +39,12 @@ std::vector<double> scales_for(const std::vector<double>& rows) {
   return scales;
 }
 
+/// A step of a parameter, in its unit: backwards where a case cannot have a larger value.
+double possible_step(Assumptions assumed, const Parameter& p, double value, double step) {
+  p.set(assumed, value + step * p.change);
+  return assumed.built() ? step : -step;
+}
+
 /// What GSL asks for the rows through.
 struct Problem {
   const Residuals& residuals;
@@ -52,23 +58,21 @@ struct Problem {
   }
   static int rows(const gsl_vector* x, void* self, gsl_vector* out) {
     const auto& problem = *static_cast<const Problem*>(self);
-    const auto assumed = problem.model.with(problem.values_at(x));
-    const auto rows = problem.residuals.rows(assumed.built(), assumed.log);
+    const auto rows = problem.residuals.rows(problem.model.with(problem.values_at(x)));
     for (std::size_t k = 0; k < rows.size(); ++k) gsl_vector_set(out, k, rows[k]);
     return GSL_SUCCESS;
   }
-  /// Forward differences of a step that neither rounding nor curvature spoils.
+  /// Differences of a step that neither rounding nor curvature spoils.
   static int derivatives(const gsl_vector* x, void* self, gsl_matrix* out) {
     const auto& problem = *static_cast<const Problem*>(self);
     auto values = problem.values_at(x);
-    const auto assumed = problem.model.with(values);
-    const auto here = problem.residuals.rows(assumed.built(), assumed.log);
+    const auto here = problem.residuals.rows(problem.model.with(values));
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const double step = 1e-7;
+      const Parameter& free = *problem.model.free[k];
+      const double step = possible_step(problem.model.with(values), free, values[k], 1e-7);
       auto moved = values;
-      moved[k] += step * problem.model.free[k]->change;
-      const auto there_with = problem.model.with(moved);
-      const auto there = problem.residuals.rows(there_with.built(), there_with.log);
+      moved[k] += step * free.change;
+      const auto there = problem.residuals.rows(problem.model.with(moved));
       for (std::size_t i = 0; i < here.size(); ++i) gsl_matrix_set(out, i, k, (there[i] - here[i]) / step);
     }
     return GSL_SUCCESS;
@@ -160,10 +164,7 @@ Fit fit(const Residuals& residuals, const Model& model, std::vector<double> star
 
   std::vector<double> x;
   for (std::size_t k = 0; k < p; ++k) x.push_back(start[k] / model.free[k]->change);
-  const auto rows_at = [&](const std::vector<double>& at) {
-    const auto assumed = model.with(at);
-    return residuals.rows(assumed.built(), assumed.log);
-  };
+  const auto rows_at = [&](const std::vector<double>& at) { return residuals.rows(model.with(at)); };
   const auto in_units = [&] {
     auto values = x;
     for (std::size_t k = 0; k < p; ++k) values[k] *= model.free[k]->change;
@@ -201,20 +202,22 @@ Fit fit(const Residuals& residuals, const Model& model, std::vector<double> star
 
 std::vector<std::vector<double>> slopes_of(const Residuals& residuals, const Assumptions& base,
                                            const std::vector<Parameter>& parameters) {
-  constexpr double step = 1e-6;
-  const auto rows = residuals.rows(base.built(), base.log);
-  std::vector<std::vector<double>> list;
-  for (const auto& p : parameters) {
+  const auto rows = residuals.rows(base);
+  const auto slopes = [&](const Parameter& p, double length) {
+    const double step = possible_step(base, p, p.value, length);
     Assumptions moved = base;
     p.set(moved, p.value + step * p.change);
-    auto column = residuals.rows(moved.built(), moved.log);
-    bool any = false;
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      column[i] = (column[i] - rows[i]) / step;
-      any = any || column[i] != 0;
-    }
-    if (!any) column.clear();
-    list.push_back(std::move(column));
+    auto column = residuals.rows(moved);
+    for (std::size_t i = 0; i < column.size(); ++i) column[i] = (column[i] - rows[i]) / step;
+    const bool any = std::ranges::any_of(column, [](double slope) { return slope != 0; });
+    return any ? column : std::vector<double>{};
+  };
+  std::vector<std::vector<double>> list;
+  for (const auto& p : parameters) {
+    list.push_back(slopes(p, 1e-6));
+    // A restitution of 0, or no least separation speed, shows nothing until it is large enough for some
+    // impact.
+    if (list.back().empty() && p.value == 0) list.back() = slopes(p, 1);
   }
   return list;
 }

@@ -5,20 +5,26 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
+#include <set>
 #include <utility>
 
+#include "check/naming.hpp"
 #include "identify/causes.hpp"
 #include "identify/fit.hpp"
 #include "identify/replay.hpp"
 #include "identify/samples.hpp"
+
+namespace edmill::casefile {
+extern template InitialCase<double> build_case<double>(const CaseSpec&, bool);
+}
 
 namespace edmill::identify {
 
 namespace {
 
 constexpr std::size_t most_events = 20000;
-constexpr double enough = 0.9;          ///< of the violations
 constexpr double strong_evidence = 10;  ///< least gain of Schwarz's criterion (Kass and Raftery 1995)
 constexpr double same_evidence = 2;
 
@@ -31,12 +37,19 @@ struct Candidate {
   std::uint64_t left = 0;  ///< violations
 
   std::size_t complexity() const { return model.free.size() + mistakes.size(); }
+  std::set<std::string> names() const {
+    std::set<std::string> all(mistakes.begin(), mistakes.end());
+    for (const auto* p : model.free) all.insert(p->key);
+    return all;
+  }
 };
 
 class Search {
  public:
   Search(const casefile::CaseSpec& spec, audit::Options options)
-      : nominal_(assumptions_of(spec)), the_case_(nominal_.built()), options_(std::move(options)) {
+      : nominal_(assumptions_of(spec)),
+        the_case_(casefile::build_case<double>(spec).the_case),
+        options_(std::move(options)) {
     from_start_ = options_.from_start;
     options_.from_start = false;
     options_.examples = 0;
@@ -59,8 +72,9 @@ class Search {
       follow(result);
       return result;
     }
-    violations_ = violations(nominal_);
-    result.violations = violations_;
+    const auto audited = audit::audit(the_case_, log_, options_);
+    violations_ = result.violations = audited.findings.total();
+    result.noted = audited.findings.explained();
     if (violations_ == 0) return result;
     result.too_few = std::ranges::count_if(log_.events, [](const auto& e) { return e.problem.empty(); }) < 12;
     if (result.too_few) return result;
@@ -102,10 +116,12 @@ class Search {
   }
 
   std::uint64_t violations(const Assumptions& assumed) const {
-    if (assumed.log.none()) return audit::audit(assumed.built(), log_, options_).findings.total();
+    const auto built = assumed.built();
+    if (!built) return std::numeric_limits<std::uint64_t>::max();
+    if (assumed.log.none()) return audit::audit(*built, log_, options_).findings.total();
     audit::EventsAtHand changed = log_;
     for (auto& event : changed.events) assumed.log.apply(event);
-    return audit::audit(assumed.built(), changed, options_).findings.total();
+    return audit::audit(*built, changed, options_).findings.total();
   }
 
   /// Notes the events that are off by more than the audit allows.
@@ -118,9 +134,7 @@ class Search {
   void take(const std::vector<std::size_t>& sample) { residuals_->choose(sample); }
 
   // ---- misfits of what is chosen
-  std::vector<double> rows_of(const Assumptions& assumed) const {
-    return residuals_->rows(assumed.built(), assumed.log);
-  }
+  std::vector<double> rows_of(const Assumptions& assumed) const { return residuals_->rows(assumed); }
   double misfit_of(const Assumptions& assumed) const { return misfit(rows_of(assumed), residuals_->kinds()); }
   double penalty(std::size_t parameters) const {
     return static_cast<double>(parameters) * std::log(static_cast<double>(residuals_->count()));
@@ -129,7 +143,10 @@ class Search {
   // ---- fits
   /// Values to begin with, from afar where the rows are periodic in the parameter.
   std::vector<double> starts(const Assumptions& base, const Parameter& p) {
-    if (!p.is_speed && !p.is_phase) return {p.value};
+    if (!p.is_speed && !p.is_phase) {
+      if (p.value != 0) return {p.value};
+      return {p.value, 0.1 * p.change, p.change, 10 * p.change};
+    }
     take(samples_.early());
     std::vector<std::pair<double, double>> tried;
     const auto add = [&](double value) {
@@ -183,8 +200,24 @@ class Search {
     }
     for (std::size_t k = 0; k < c.values.size(); ++k)
       if (!(std::abs(c.values[k] - c.model.free[k]->value) > c.half_widths[k])) return false;
-    c.left = violations(c.model.with(c.values));
-    return static_cast<double>(c.left) <= (1 - enough) * static_cast<double>(violations_);
+    const auto assumed = c.model.with(c.values);
+    c.left = violations(assumed);
+    return c.left <= violations_ && audit::accounts_for(violations_ - c.left, violations_) &&
+           rows_vanish(assumed);
+  }
+
+  /// Whether the rows that are off vanish when a cause is assumed.
+  bool rows_vanish(const Assumptions& assumed) {
+    take(samples_.many());
+    const auto before = rows_of(nominal_), with = rows_of(assumed);
+    std::uint64_t off = 0, vanished = 0;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      if (!(std::abs(before[k]) > 1)) continue;
+      ++off;
+      if (audit::vanishes(std::abs(before[k]), std::abs(with[k]), 1)) ++vanished;
+    }
+    take(samples_.whole());
+    return audit::accounts_for(vanished, off);
   }
 
   static void sort(std::vector<Candidate>& list) {
@@ -383,9 +416,10 @@ class Search {
     if (accepted.empty()) return;
     const auto& best = accepted.front();
     Cause cause = cause_of(best);
+    std::set<std::set<std::string>> told = {best.names()};  // two numbers may have been tried in either order
     for (std::size_t k = 1; k < accepted.size(); ++k)
       if (accepted[k].criterion - best.criterion < same_evidence &&
-          accepted[k].complexity() <= best.complexity())
+          accepted[k].complexity() <= best.complexity() && told.insert(accepted[k].names()).second)
         cause.alike.push_back(cause_of(accepted[k]).text());
     result.causes.push_back(std::move(cause));
   }

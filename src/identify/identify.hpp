@@ -35,6 +35,7 @@ struct Cause {
 
 struct Identification {
   std::uint64_t events = 0, violations = 0;  ///< that were searched
+  std::uint64_t noted = 0;                   ///< violations that the audit's notes explain
   std::vector<Cause> causes;                 ///< the best first; empty where nothing explains the log
   /// Of logs without places: how many impacts a run of the case follows, and whether rounding alone ends
   /// that.

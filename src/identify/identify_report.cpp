@@ -41,6 +41,9 @@ std::string table(const Identification& found) {
                      *found.follows)
                : fmt::format("  no cause found: a run of the case reproduces the first {} impacts\n",
                              *found.follows);
+  else if (found.noted > 0)
+    out += fmt::format("  no other cause: the notes explain {} of {} violations\n", found.noted,
+                       found.violations);
   else if (found.violations > 0 && !found.stepping.found())
     out += fmt::format("  no cause explains nine tenths of the {} violations of {} impacts\n",
                        found.violations, found.events);
@@ -82,6 +85,7 @@ void put_json(io::JsonText& json, const Identification& found) {
   json.begin("identified");
   json.integer("events", found.events);
   json.integer("violations", found.violations);
+  json.integer("noted", found.noted);
   if (found.too_few) json.text("ended", "too few impacts");
   if (found.interrupted) json.text("ended", "interrupted");
   if (found.follows) json.integer("follows", *found.follows);

@@ -223,21 +223,31 @@ class Laws {
 /// Of the balls [first, last), whose numbers are all scaled alike.
 void add_balls(const std::string& key, std::size_t first, std::size_t last, const casefile::BallSpec& spec,
                std::vector<Parameter>& list) {
-  const auto each = [first, last](Assumptions& a, auto&& change) {
+  using Spec = casefile::BallSpec;
+  // In the balls themselves, whose diameters may differ, and in the entries of the case.
+  const auto each = [first, last](Assumptions& a, Quantity Spec::*member, double x, auto&& change) {
     for (std::size_t k = first; k < last; ++k) change(a.balls[k]);
+    const std::size_t explicit_ones = a.spec.balls.size();
+    for (std::size_t k = first; k < std::min(last, explicit_ones); ++k) a.spec.balls[k].*member = exactly(x);
+    std::size_t next = explicit_ones;
+    for (auto& batch : a.spec.batches) {
+      if (next >= first && next < last) batch.*member = exactly(x);
+      next += static_cast<std::size_t>(batch.count);
+    }
   };
   const double diameter = spec.diameter.to<double>(), density = spec.density.to<double>();
   list.push_back(number(key + ".diameter", "", Dimension::length, diameter, [=](Assumptions& a, double x) {
     const double by = x / diameter;
-    each(a, [&](auto& ball) { ball.radius *= by, ball.mass *= by * by * by; });
+    each(a, &Spec::diameter, x, [&](auto& ball) { ball.radius *= by, ball.mass *= by * by * by; });
   }));
   list.back().is_diameter = true;
   list.push_back(number(key + ".density", "", Dimension::density, density, [=](Assumptions& a, double x) {
-    each(a, [&](auto& ball) { ball.mass *= x / density; });
+    each(a, &Spec::density, x, [&](auto& ball) { ball.mass *= x / density; });
   }));
-  list.push_back(
-      number(key + ".reduced_inertia", "J", Dimension::none, spec.reduced_inertia.to<double>(),
-             [=](Assumptions& a, double x) { each(a, [&](auto& ball) { ball.reduced_inertia = x; }); }));
+  list.push_back(number(key + ".reduced_inertia", "J", Dimension::none, spec.reduced_inertia.to<double>(),
+                        [=](Assumptions& a, double x) {
+                          each(a, &Spec::reduced_inertia, x, [&](auto& ball) { ball.reduced_inertia = x; });
+                        }));
 }
 
 void add_all_balls(const Assumptions& nominal, std::vector<Parameter>& list) {

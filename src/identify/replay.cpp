@@ -12,7 +12,6 @@ extern template std::unique_ptr<EventSource> make_source<double>(const casefile:
 }
 namespace edmill::casefile {
 extern template InitialCase<double> build_case<double>(const CaseSpec&, bool);
-extern template model::Mill<double> build_mill<double>(const CaseSpec&);
 extern template double Quantity::to<double>() const;
 }  // namespace edmill::casefile
 
@@ -62,7 +61,9 @@ class Replay {
       const double last = log_[std::min(count, log_.size()) - 1].time;
       spec.end_time = exactly(start_ + 1.5 * std::max(last - start_, 0.0) + period_);
     }
-    const auto mill = casefile::build_mill<double>(assumed.spec);
+    const auto built = assumed.built();
+    if (!built) return {};
+    const auto& mill = built->mill;
     const auto pose = mill.motion.pose(DriveClock<double>(mill.motion.period()).at(start_));
     const double volume = 4.0 / 3 * 3.14159265358979323846;
     for (std::size_t k = 0; k < states_.size(); ++k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.hpp"
 #include "base/instant.hpp"
 
 namespace edmill::identify {
@@ -34,8 +35,9 @@ LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& mode
   if (event.with_wall) {
     impact.wall = event.partner;
     if (with_positions) {
-      impact.normal =
-          audit::wall_normal(frame, model.mill.vessel, event.partner, impact.ball[0].radius, place);
+      const double radius = impact.ball[0].radius;
+      impact.normal = audit::wall_normal(frame, model.mill.vessel, event.partner, radius, place);
+      impact.bend = audit::wall_bend(frame, model.mill.vessel, event.partner, radius, place);
       const Vec point = place - impact.normal * impact.ball[0].radius;
       impact.wall_velocity = audit::wall_velocity(audit::WallVelocity::nested, frame, frame, point, place) +
                              audit::piston_velocity(frame, event.partner, impact.normal);
@@ -108,11 +110,16 @@ void Residuals::choose(const std::vector<std::size_t>& events) {
   }
 }
 
-std::vector<double> Residuals::rows(const model::Case<double>& model, const LogChange& change) const {
+std::vector<double> Residuals::rows(const Assumptions& assumed) const {
+  const auto model = assumed.built();
+  if (!model) return std::vector<double>(count(), out_of_range);
+  EDMILL_REQUIRE(model->balls.size() == nominal_.balls.size() &&
+                     model->mill.vessel.wall_count() == nominal_.mill.vessel.wall_count(),
+                 "the bodies that the log is of");
   std::vector<double> values;
   values.reserve(count());
   Writer out{&values, &allowed_, nullptr, nullptr};
-  for (const std::size_t k : chosen_) event_rows(k, model, change, out);
+  for (const std::size_t k : chosen_) event_rows(k, *model, assumed.log, out);
   return values;
 }
 
@@ -123,7 +130,6 @@ void Residuals::event_rows(std::size_t k, const model::Case<double>& model, cons
   const bool placed = log_.available.positions(event.with_wall);
   const auto frame = event.with_wall && placed ? frame_at(model.mill, event.time) : audit::VesselFrame{};
   const auto impact = impact_of(event, model, frame, placed);
-  const double speed = audit::size(event.body[0].velocity_before);
   if (placed) {
     double gap;
     if (event.with_wall)
@@ -132,7 +138,7 @@ void Residuals::event_rows(std::size_t k, const model::Case<double>& model, cons
     else
       gap = audit::size(Vec(event.body[0].position - event.body[1].position)) - impact.ball[0].radius -
             impact.ball[1].radius;
-    out.add(RowKind::touch, gap, tolerances_.touch(event.time, std::isfinite(speed) ? speed : 1));
+    out.add(RowKind::touch, gap, tolerances_.touch(event.time, event.with_wall));
   }
   const auto& law = law_of(model.mill, impact);
   if (placed && log_.available.velocities_before(event.with_wall))
@@ -146,7 +152,10 @@ void Residuals::impact_rows(const LoggedEvent& event, const LoggedImpact& impact
                             const model::ContactLaw<double>& law, Writer& out) const {
   const auto& has = log_.available;
   const bool after = has.velocities_after(event.with_wall), spins = has.spins(event.with_wall);
-  const double scale = audit::velocity_scale(impact, event, spins), allowed = tolerances_.relative * scale;
+  const double scale = audit::velocity_scale(impact, event, spins);
+  const double by_wall =
+      event.with_wall ? tolerances_.of_wall(event.time, scale, impact.bend, impact.ball[0].radius) : 0;
+  const double allowed = tolerances_.relative * scale + by_wall;
   const auto speeds = audit::speeds_before(event, impact);
   if (after && spins) {
     const auto expected = audit::outcome(impact, law, event, {});
@@ -170,7 +179,7 @@ void Residuals::impact_rows(const LoggedEvent& event, const LoggedImpact& impact
   if (has.approach_speed) out.add(RowKind::speed, event.approach_speed + speeds.g_n, allowed);
   if (has.slip_speed && spins) out.add(RowKind::speed, event.slip_speed - speeds.slip, allowed);
   if (!after || !spins) return;
-  const double energy = 4 * tolerances_.relative * impact.effective_mass * scale * scale;
+  const double energy = 4 * allowed * impact.effective_mass * scale;
   const double work = audit::work_of_wall(event, impact);
   if (has.milling_dose)
     out.add(RowKind::energy,
@@ -209,8 +218,7 @@ void Residuals::flight_rows(std::size_t k, std::size_t body, const LoggedEvent& 
           tolerances_.position(event.time, path, speed));
   if (has.velocity_before)
     out.add(RowKind::velocity, Vec(to.velocity_before - (from.velocity_after + g * dt)),
-            tolerances_.relative * std::max(speed, audit::size(to.velocity_before)) +
-                audit::Tolerances::time(event.time) * audit::size(g));
+            tolerances_.velocity(event.time, std::max(speed, audit::size(to.velocity_before))));
 }
 
 }  // namespace edmill::identify

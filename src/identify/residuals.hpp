@@ -29,8 +29,9 @@ class Residuals {
   const std::vector<RowKind>& kinds() const { return kinds_; }
   /// The event of each row, as its place among the chosen ones.
   const std::vector<std::size_t>& events() const { return row_events_; }
-  /// @return one number for each row; a large one where it is not finite
-  std::vector<double> rows(const model::Case<double>& model, const LogChange& change) const;
+  /// @return one number for each row; a large one where it is not finite, and all of them for a case that
+  /// cannot be
+  std::vector<double> rows(const Assumptions& assumed) const;
 
  private:
   struct Before {

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "base/instant.hpp"
+#include "check/delays.hpp"
 #include "check/mechanics.hpp"
+#include "check/naming.hpp"
 
 namespace edmill::identify {
 
@@ -75,6 +77,9 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   return best;
 }
 
+/// Of a contact whose flight is off otherwise than a contact that lasts puts it off.
+constexpr double no_duration = -1;
+
 /// An impact with its geometry, and what the flights on either side of it miss.
 struct Contact {
   double duration_from_begin = audit::unknown, duration_from_end = audit::unknown;
@@ -102,7 +107,8 @@ class Measured {
   }
 
   const std::vector<Contact>& contacts() const { return contacts_; }
-  std::vector<double> depth_over_speed, first_order;
+  audit::DelaysByPartner delays;
+  std::vector<double> first_order;  ///< the step that each flight implies [s]
 
  private:
   /// Geometry of an impact and its depth.
@@ -140,8 +146,10 @@ class Measured {
       contact.approach = -audit::dot(Vec(one.velocity_before - two.velocity_before), normal);
     }
     if (event.with_wall) contact.approach = -audit::dot(Vec(one.velocity_before - carrier), normal);
-    if (gap < -tolerances_.touch(event.time, audit::size(one.velocity_before)) && contact.approach > 0)
-      depth_over_speed.push_back(-gap / contact.approach);
+    const bool late = gap < -tolerances_.touch(event.time, event.with_wall);
+    // Grazes have no time at which they begin.
+    if (contact.approach > audit::size(one.velocity_before) / 10)
+      delays.add(event.with_wall ? event.partner : -1, late ? -gap / contact.approach : 0);
   }
 
   /// A ball's flight from the impact `from` to the impact `to`.
@@ -161,13 +169,23 @@ class Measured {
     const double leaving = audit::dot(Vec(left.velocity_after + g * dt - carrier_a), normal_a);
     const double coming = audit::dot(Vec(came.velocity_before - carrier_b), normal_b);
     const bool large = audit::size(off) > 3 * noise;
-    // The ball leaves later than its line says, or its line comes later than its arrival.
+    // The ball leaves later than its line says, or its line comes later than its arrival. While bodies are in
+    // contact the force between them moves the ball from its parabola, along the impulse.
+    const auto duration = [&](const audit::BodyState& body, const Vec& normal, double speed) {
+      const Vec impulse = body.velocity_after - body.velocity_before;
+      const Vec across = off - impulse * (audit::dot(off, impulse) / audit::dot(impulse, impulse));
+      return 3 * audit::size(across) < audit::size(off) ? -audit::dot(off, normal) / speed : no_duration;
+    };
     if (large && std::abs(leaving) > 0.05)
-      contacts_[from].duration_from_begin = -audit::dot(off, normal_a) / leaving;
-    if (large && std::abs(coming) > 0.05)
-      contacts_[to].duration_from_end = -audit::dot(off, normal_b) / coming;
-    if (const double size = audit::size(g); size > 0)
-      first_order.push_back(2 * audit::dot(off, g) / (size * size * dt));
+      contacts_[from].duration_from_begin = duration(left, normal_a, leaving);
+    if (large && std::abs(coming) > 0.05) contacts_[to].duration_from_end = duration(came, normal_b, coming);
+    // Steps of first order leave the velocity right, and off the parabola along gravity alone.
+    const double g_size = audit::size(g);
+    if (!(g_size > 0)) return;
+    const Vec gained = came.velocity_before - (left.velocity_after + g * dt);
+    const double fall = audit::dot(off, g) / g_size;
+    const double rest = std::max(audit::size(Vec(off - g * (fall / g_size))), audit::size(gained) * dt);
+    first_order.push_back(!large || 10 * rest <= std::abs(fall) ? 2 * fall / (g_size * dt) : audit::unknown);
   }
 
   const audit::EventsAtHand& log_;
@@ -233,13 +251,11 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
     result.soft = spread(*end) < 0.8 * spread(*begin) ? end : begin;
   else
     result.soft = begin ? begin : end;
-  if (auto& depths = measured.depth_over_speed;
-      depths.size() >= least_number && 2 * depths.size() > log.events.size()) {
-    const double most = quantile(depths, 0.98);
-    // Evenly from 0 to a step: the median is half of the largest.
-    if (std::abs(quantile(depths, 0.5) / most - 0.5) < 0.15) result.step_by_depth = most / 0.98;
-  }
+  if (const double step = measured.delays.step(); step > 0) result.step_by_depth = step;
   auto& orders = measured.first_order;
+  const auto flights = orders.size();
+  std::erase_if(orders, [](double order) { return !std::isfinite(order); });
+  if (!audit::accounts_for(orders.size(), flights)) return result;
   if (orders.size() < least_number || audit::size(the_case.mill.gravity) == 0) return result;
   const double middle = std::abs(quantile(orders, 0.5));
   const double step = result.step.value_or(result.step_by_depth.value_or(0));

@@ -17,7 +17,7 @@ class EventLogReading : public ProgramTest {
  protected:
   EventLog open(const std::string& text, const LogConventions& conventions = {}, int walls = 3) const {
     write("log.csv", text);
-    return EventLog(scratch / "log.csv", conventions, 5, walls);
+    return EventLog(scratch / "log.csv", conventions, 5, walls, 1e15);
   }
   std::vector<std::string> problems(const std::string& text, const LogConventions& conventions) const {
     try {

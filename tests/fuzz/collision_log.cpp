@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   } catch (const InputError&) {
   }
   try {
-    audit::EventLog log(file, {}, 5, 3);
+    audit::EventLog log(file, {}, 5, 3, 1e15);
     while (log.next()) {
     }
   } catch (const InputError&) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 #include "real.hpp"
@@ -10,6 +11,10 @@ namespace checker {
 using Json = nlohmann::json;
 using Index = std::size_t;
 
+/// A certificate that proves nothing. What is no certificate at all is a std::exception of another kind.
+struct Rejected : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 struct Joint {
   bool rotates;
   Vec axis, shift;
@@ -31,6 +36,13 @@ struct Ball {
   Vec position, velocity, spin;
 };
 
+/// An object with no other keys than these.
+using Keys = std::set<std::string>;
+inline const Json& known(const Json& j, const Keys& keys) {
+  for (const auto& [key, value] : j.items())
+    if (!keys.contains(key)) throw Rejected("rule 6: an unknown key " + Json(key).dump());
+  return j;
+}
 inline Real number(const Json& j, const char* key) { return exact_number(j.at(key).get<std::string>()); }
 inline const Json& list(const Json& j, Index most) {
   return j.is_array() && j.size() <= most ? j : throw std::invalid_argument("not a list of at most " + std::to_string(most));
@@ -64,9 +76,11 @@ struct Mill {
     for (const auto& j : list(h.at("joints"), 64)) joints.push_back(joint(j));
     for (const auto& j : list(h.at("walls"), 64)) walls.push_back(wall(j));
     for (const auto& j : list(h.at("laws"), 4096)) laws.push_back(law(j));
-    for (const auto& j : list(h.at("balls"), 4096))
+    for (const auto& j : list(h.at("balls"), 4096)) {
+      known(j, {"radius", "density", "reduced_inertia", "in_vessel", "position", "velocity", "spin"});
       balls.push_back({number(j, "radius"), number(j, "density"), number(j, "reduced_inertia"), j.at("in_vessel").get<bool>(),
                        vector(j.at("position")), vector(j.at("velocity")), vector(j.at("spin"))});
+    }
     for (const Ball& b : balls)
       if (!b.radius.positive() || !b.density.positive() || !b.inertia.positive()) throw std::invalid_argument("no ball");
     law_of_walls = table(h.at("law_of_walls"), walls.size());
@@ -124,21 +138,27 @@ struct Mill {
   }
   static Joint joint(const Json& j) {
     const bool rotates = j.contains("rotate");
+    known(j, rotates ? Keys{"rotate", "angle", "frequency", "swings"} : Keys{"shift", "along", "speed", "swings"});
     const Vec axis = vector(j.at(rotates ? "rotate" : "along")), shift = rotates ? Vec{} : vector(j.at("shift"));
     Joint result{rotates, axis / root(dot(axis, axis)), shift, {}, j.contains("speed") ? number(j, "speed") : Real(), {}};
     if (rotates) result.angle = number(j, "angle"), result.speed = number(j, "frequency");
     for (const auto& s : list(j.at("swings"), 64))
-      result.swings.push_back({number(s, "amplitude"), number(s, "frequency"), number(s, "phase")});
+      known(s, {"amplitude", "frequency", "phase"}),
+          result.swings.push_back({number(s, "amplitude"), number(s, "frequency"), number(s, "phase")});
     return result;
   }
   static Wall wall(const Json& j) {
-    if (j.contains("plane")) return {Wall::plane, vector(j.at("plane")), vector(j.at("point")), number(j, "distance")};
-    if (j.contains("sphere")) return {Wall::sphere, {}, {}, number(j, "sphere")};
+    const bool plane = j.contains("plane"), sphere = j.contains("sphere");
+    known(j, plane ? Keys{"plane", "point", "distance"} : sphere ? Keys{"sphere"} : Keys{"cylinder"});
+    if (plane) return {Wall::plane, vector(j.at("plane")), vector(j.at("point")), number(j, "distance")};
+    if (sphere) return {Wall::sphere, {}, {}, number(j, "sphere")};
     return {Wall::cylinder, {}, {}, number(j, "cylinder")};
   }
   static Law law(const Json& j) {
     const bool coulomb = j.at("law") == "walton-braun";
     if (!coulomb && j.at("law") != "constant") throw std::invalid_argument("an unknown law");
+    known(j, coulomb ? Keys{"law", "restitution", "friction", "min_tangential", "least_separation"}
+                     : Keys{"law", "restitution", "restitution_tangential", "least_separation"});
     const Law l{coulomb, number(j, "restitution"), coulomb ? number(j, "friction") : Real(),
                 number(j, coulomb ? "min_tangential" : "restitution_tangential"), number(j, "least_separation")};
     return l.restitution >= 0 && l.friction >= 0 && 1 >= l.tangential && l.least >= 0 ? l : throw std::invalid_argument("law");

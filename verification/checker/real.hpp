@@ -21,7 +21,8 @@ struct Real {
   arb_t x;
   Real(slong n = 0) { arb_init(x), arb_set_si(x, n); }  // NOLINT
   Real(const Real& o) { arb_init(x), arb_set(x, o.x); }
-  Real& operator=(const Real& o) { return arb_set(x, o.x), *this; }
+  Real(Real&& o) noexcept { arb_init(x), arb_swap(x, o.x); }
+  Real& operator=(Real o) noexcept { return arb_swap(x, o.x), *this; }
   ~Real() { arb_clear(x); }
   bool positive() const { return arb_is_positive(x); }
   bool negative() const { return arb_is_negative(x); }

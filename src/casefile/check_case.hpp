@@ -1,0 +1,14 @@
+// Whether a case could have come from a file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "casefile/case_spec.hpp"
+
+namespace edmill::casefile {
+
+/// Of a case whose numbers have been changed since it was read: what its file would be refused for.
+std::vector<std::string> problems_of(const CaseSpec& spec);
+
+}  // namespace edmill::casefile
