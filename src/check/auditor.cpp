@@ -28,6 +28,7 @@ Auditor::Auditor(const model::Case<double>& the_case, const Available& available
       findings_(findings),
       impacts_(the_case.mill, available, tolerances, findings),
       flights_(the_case, available, tolerances, findings),
+      stalls_(the_case.mill, the_case.balls.size()),
       last_(the_case.balls.size()),
       with_wall_(the_case.mill.vessel.walls().size()),
       rotations_(findings.examples()) {}
@@ -35,6 +36,7 @@ Auditor::Auditor(const model::Case<double>& the_case, const Available& available
 void Auditor::begin(const std::vector<model::BallState<double>>& states, double time) {
   for (std::size_t k = 0; k < states.size(); ++k)
     flights_.begin_at_start(static_cast<int>(k), states[k], time);
+  stalls_.begin(time);
 }
 
 void Auditor::take(LoggedEvent& event) {
@@ -45,7 +47,9 @@ void Auditor::take(LoggedEvent& event) {
   if (!event.problem.empty()) {
     tell(event.unknown_body ? Kind::unknown_body : Kind::not_finite, event, 1, unknown, unknown);
     const auto forget = [&](int k) {
-      if (k >= 0 && k < flights_.balls()) flights_.of(k) = Track{};
+      if (k < 0 || k >= flights_.balls()) return;
+      flights_.of(k) = Track{};
+      stalls_.forget(k);
     };
     forget(event.ball);
     if (!event.with_wall) forget(event.partner);
@@ -62,6 +66,7 @@ void Auditor::take(LoggedEvent& event) {
   scene.printed = flights_.printed_at(event.time);
   find_wrong_balls(event);
   const Touch touch = judge_touch(event, scene);
+  scene.friction = stalls_.take(event, impacts_.law(scene.impact), tolerances_.relative);
   for (std::size_t body = 0; body < bodies(event); ++body)
     flights_.judge(ball_of(event, body), {&event, body, touch.late, touch.displaced});
   if (touch.usable) impacts_.judge(event, scene);

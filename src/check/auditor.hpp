@@ -66,6 +66,7 @@ class Auditor {
   Findings& findings_;
   ImpactJudge impacts_;
   Flights flights_;
+  StallHistory stalls_;
   std::vector<LastEvent> last_;
   std::vector<std::uint64_t> with_wall_;
   DelaysByPartner delays_;

@@ -207,8 +207,8 @@ std::optional<double> ImpactJudge::other_wall_speed(const LoggedEvent& event, co
   const Vec g = impact.before(event), g_after = impact.after(event);
   const Vec changed =
       (g_after - impact.normal * dot(g_after, impact.normal)) - (g - impact.normal * dot(g, impact.normal));
-  const double e_t =
-      tangential_restitution(l, impact.compliance, separation + event.approach_speed, event.slip_speed);
+  const double e_t = tangential_restitution(l, impact, impact.compliance, separation + event.approach_speed,
+                                            event.slip_speed);
   const double slip_left = std::abs(size(changed) - std::abs(1 - e_t) * event.slip_speed);
   const double logged_off = std::abs(event.approach_speed + dot(g, impact.normal));
   const double all_off = std::max({off.normal, off.tangential, logged_off});

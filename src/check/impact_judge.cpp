@@ -33,7 +33,8 @@ auto ImpactJudge::residuals(const LoggedEvent& event, const LoggedImpact& impact
   if (parting)
     off.normal =
         std::min(off.normal, std::abs(g_n_after + law(impact).restitution(-g_n, impact.bodies()) * g_n));
-  off.restitution_tangential = tangential_restitution(law(impact), impact.compliance, bounce, size(slip));
+  off.restitution_tangential =
+      tangential_restitution(law(impact), impact, impact.compliance, bounce, size(slip));
   if (known.spins) off.tangential = size(Vec(slip_after - slip * off.restitution_tangential));
   return off;
 }
@@ -96,12 +97,34 @@ bool ImpactJudge::judge_outcome(const LoggedEvent& event, const Scene& scene, co
   return found->kind == Kind::wall_velocity;
 }
 
+/// Where the log does not tell whether friction rests in an impact: whether it is nearer to the law if it
+/// does.
+bool ImpactJudge::fits_without_friction(const LoggedEvent& event, const LoggedImpact& impact,
+                                        const Known& known) const {
+  LoggedImpact rested = impact;
+  rested.in_stall = true;
+  if (known.velocities && known.spins)
+    return residuals(event, rested, known, false).largest() <
+           residuals(event, impact, known, false).largest();
+  if (!available_.approach_speed || !available_.slip_speed || !available_.milling_dose) return false;
+  const auto off = [&](const LoggedImpact& one) {
+    return std::abs(event.milling_dose -
+                    dose_by_law(one, law(one), {-event.approach_speed, event.slip_speed}));
+  };
+  return off(rested) < off(impact);
+}
+
 void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
-  if (!available_.positions(event.with_wall) || !available_.velocities_before(event.with_wall)) {
+  const bool seen = available_.positions(event.with_wall) && available_.velocities_before(event.with_wall);
+  const Known known{seen && available_.velocities_after(event.with_wall),
+                    seen && available_.spins(event.with_wall)};
+  scene.impact.in_stall =
+      scene.friction == Friction::rests ||
+      (scene.friction == Friction::either && fits_without_friction(event, scene.impact, known));
+  if (!seen) {
     judge_speeds(event, scene.impact);
     return;
   }
-  const Known known{available_.velocities_after(event.with_wall), available_.spins(event.with_wall)};
   if (scene.displaced && known.velocities) {
     // The printed matrix is used either with its own derivative or with the printed velocity.
     LoggedImpact other = scene.impact;

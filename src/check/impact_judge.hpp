@@ -9,6 +9,7 @@
 #include "check/finding.hpp"
 #include "check/mechanics.hpp"
 #include "check/naming.hpp"
+#include "check/stall_history.hpp"
 #include "check/tolerances.hpp"
 
 namespace edmill::audit {
@@ -18,6 +19,7 @@ struct Scene {
   LoggedImpact impact;  ///< with the right velocity of the wall
   VesselFrame nested, printed;
   bool displaced = false;  ///< checked in the printed frame, where that code has its walls
+  Friction friction = Friction::acts;
 };
 
 /// Totals over the impacts of a log that have velocities and spins before and after.
@@ -54,6 +56,10 @@ class ImpactJudge {
   void judge(const LoggedEvent& event, Scene scene);
   /// Of a log, or for an impact, without them: the dose from the logged speeds.
   void judge_speeds(const LoggedEvent& event, const LoggedImpact& impact);
+  const model::ContactLaw<double>& law(const LoggedImpact& impact) const {
+    return impact.with_wall ? mill_.law_with_wall(impact.ball[0], impact.wall)
+                            : mill_.law_between(impact.ball[0], impact.ball[1]);
+  }
   /// At the end of the log.
   void finish();
 
@@ -84,10 +90,6 @@ class ImpactJudge {
     double energy;  ///< [J]
   };
 
-  const model::ContactLaw<double>& law(const LoggedImpact& impact) const {
-    return impact.with_wall ? mill_.law_with_wall(impact.ball[0], impact.wall)
-                            : mill_.law_between(impact.ball[0], impact.ball[1]);
-  }
   /// Number of a law of the mill: of balls, with walls, pairs of materials.
   std::ptrdiff_t number_of(const model::ContactLaw<double>& law) const {
     if (&law == &mill_.ball_ball) return 0;
@@ -100,6 +102,7 @@ class ImpactJudge {
   /// impact that is not violated.
   std::optional<Explanation> explaining(const LoggedEvent& event, const Scene& scene, double allowed,
                                         bool violated);
+  bool fits_without_friction(const LoggedEvent& event, const LoggedImpact& impact, const Known& known) const;
   bool tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
                              double allowed, Findings& plain);
   void tell_normal(const LoggedEvent& event, const LoggedImpact& impact, double off, double allowed,

@@ -160,8 +160,9 @@ double separation_speed(const model::ContactLaw<double>& law, const LoggedImpact
   return std::max({law.restitution(-g_n, impact.bodies()) * -g_n, law.least_separation, g_n});
 }
 
-double tangential_restitution(const model::ContactLaw<double>& law, double compliance, double bounce,
-                              double slip_speed) {
+double tangential_restitution(const model::ContactLaw<double>& law, const LoggedImpact& impact,
+                              double compliance, double bounce, double slip_speed) {
+  if (impact.in_stall) return 1;
   // A formula of its own where balls slide, so that a mistake in the law that runs use is seen.
   if (const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law.law)) {
     const double reversal = coulomb->friction * compliance * bounce;  // reduction of the slip by full sliding
@@ -182,7 +183,7 @@ std::array<BodyState, 2> outcome(const LoggedImpact& impact, const model::Contac
                                  : bounce;
   const double c_in_law = formula.compliance_in_e_t > 0 ? formula.compliance_in_e_t : impact.compliance;
   const double c = formula.compliance_in_impulse > 0 ? formula.compliance_in_impulse : impact.compliance;
-  const double e_t = tangential_restitution(law, c_in_law, in_friction, size(slip));
+  const double e_t = tangential_restitution(law, impact, c_in_law, in_friction, size(slip));
   const Vec normal_part = impact.normal * bounce, tangential_part = slip * (-(1 - e_t) / c);
   auto result = event.body;
   for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
@@ -254,7 +255,7 @@ double supplied(const LoggedImpact& impact, double g_n, double separation) {
 double dose_by_law(const LoggedImpact& impact, const model::ContactLaw<double>& law, const Speeds& speeds) {
   const double separation = separation_speed(law, impact, speeds.g_n);
   const double bounce = separation - speeds.g_n;
-  const double e_t = tangential_restitution(law, impact.compliance, bounce, speeds.slip);
+  const double e_t = tangential_restitution(law, impact, impact.compliance, bounce, speeds.slip);
   const double normal = std::max(0.0, (-speeds.g_n - separation) * bounce);
   return impact.effective_mass / 2 *
          (normal + (1 - e_t * e_t) / impact.compliance * speeds.slip * speeds.slip);

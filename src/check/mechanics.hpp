@@ -83,6 +83,7 @@ struct LoggedImpact {
   Vec normal;                                         ///< unit, from the partner to the ball
   double bend = 0;                                    ///< of a wall's normal with the ball's place [1/m]
   Vec wall_velocity{0, 0, 0};
+  bool in_stall = false;  ///< friction rests
   /// M, and c = 1 + M/(m_i J_i) + M/(m_j J_j), for a wall 1 + 1/J_i
   double effective_mass = 0, compliance = 0;
 
@@ -103,8 +104,8 @@ double separation_speed(const model::ContactLaw<double>& law, const LoggedImpact
 
 /// e_t of the law for an impact that gives the normal impulse `bounce` times the effective mass. (2.24')
 /// @param bounce  |g_n| + g_n' [m/s]
-double tangential_restitution(const model::ContactLaw<double>& law, double compliance, double bounce,
-                              double slip_speed);
+double tangential_restitution(const model::ContactLaw<double>& law, const LoggedImpact& impact,
+                              double compliance, double bounce, double slip_speed);
 
 /// A formula for the outcome of an impact: the right one, or one with a mistake.
 struct Formula {

@@ -82,12 +82,18 @@ struct Residuals::Writer {
 
 Residuals::Residuals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
                      const model::Case<double>& nominal)
-    : log_(log), tolerances_(tolerances), before_(log.events.size()), nominal_(nominal) {
+    : log_(log),
+      tolerances_(tolerances),
+      before_(log.events.size()),
+      in_stall_(log.events.size()),
+      nominal_(nominal) {
   std::vector<Before> last(nominal.balls.size());
+  audit::StallHistory stalls(nominal.mill, nominal.balls.size());
   for (std::size_t k = 0; k < log.events.size(); ++k) {
     const auto& event = log.events[k];
     if (!event.problem.empty()) {  // what follows has no known beginning
       std::fill(last.begin(), last.end(), Before{});
+      for (std::size_t ball = 0; ball < last.size(); ++ball) stalls.forget(static_cast<int>(ball));
       continue;
     }
     for (std::size_t body = 0; body < (event.with_wall ? 1u : 2u); ++body) {
@@ -95,6 +101,9 @@ Residuals::Residuals(const audit::EventsAtHand& log, const audit::Tolerances& to
       before_[k][body] = own;
       own = {static_cast<long>(k), body};
     }
+    const auto friction =
+        stalls.take(event, law_of(nominal.mill, impact_of(event, nominal, {}, false)), tolerances.relative);
+    in_stall_[k] = friction == audit::Friction::rests;
   }
 }
 
@@ -129,7 +138,8 @@ void Residuals::event_rows(std::size_t k, const model::Case<double>& model, cons
   change.apply(event);
   const bool placed = log_.available.positions(event.with_wall);
   const auto frame = event.with_wall && placed ? frame_at(model.mill, event.time) : audit::VesselFrame{};
-  const auto impact = impact_of(event, model, frame, placed);
+  auto impact = impact_of(event, model, frame, placed);
+  impact.in_stall = in_stall_[k];
   if (placed) {
     double gap;
     if (event.with_wall)

@@ -1,7 +1,6 @@
 #include "prove/impact.hpp"
 
 #include "model/stall.hpp"
-
 #include "prove/exact_text.hpp"
 
 namespace edmill::prove {

@@ -28,6 +28,7 @@ class Check {
           if (v == &f.r || !x.zero()) arb_add_error_2exp_si(x.x, -bits);
       flights_.push_back(at_zero(f));
     }
+    since_.resize(balls(), Real(0)), unmoved_.resize(balls());
   }
   Index balls() const { return flights_.size(); }
   void take(const Json& line) {
@@ -52,7 +53,7 @@ class Check {
       f.r = holding(states.at(k).at("r"), f.r), f.v = holding(states.at(k).at("v"), f.v);
       f.s = holding(states.at(k).at("s"), f.s), f.m = middle(T), f.begin = end(T, -1), f.event = events_;
       (on_wall ? f.wall : f.with) = static_cast<long>(k == 0 ? j : i);
-      flights_[k == 0 ? i : j] = at_zero(f);
+      flights_[k == 0 ? i : j] = at_zero(f), since_[k == 0 ? i : j] = T;
     }
     if (!on_wall && !dot(between(i, j, T), relative(i, j, T)).positive()) reject("rule 5: the balls do not part");
     end_ = until, ++events_;
@@ -170,8 +171,16 @@ class Check {
     if (f.positive() && (slope >= 0 || (f + 2 * slope * T).positive())) return true;
     return slope * slope < dot(u, u) * f || ((dot(to, to) - reach * reach).positive() && 0 >= dot(to, u));
   }
+  /// "Stalls": whether friction rests in the ball's impact.
+  bool rests(Index i, const Law& law, const Real& T) {
+    const Real reached = (T - since_[i]) * 30000;
+    const bool moved = law.least.zero() || reached >= law.least;
+    if (!moved && !(reached < law.least)) reject("rule 3: whether a ball has moved is not decided");
+    unmoved_[i] = moved ? 0 : unmoved_[i] + 1;
+    return unmoved_[i] > 32;
+  }
   /// P and Q of "Impulse".
-  std::array<Vec, 2> impulse(const Law& law, const Vec& n, const Vec& G, const Real& c) const {
+  std::array<Vec, 2> impulse(const Law& law, const Vec& n, const Vec& G, const Real& c, bool smooth) const {
     const Real a = 0 - dot(G, n), e = law.restitution * a;
     if (!a.positive()) reject("rule 3: the surfaces do not approach each other");
     const bool by_restitution = e >= law.least;
@@ -179,12 +188,13 @@ class Check {
     const Real k = a + (by_restitution ? e : law.least);
     const Vec S = G + n * a;
     const Real L = root(dot(S, S)), reversed = 1 - law.tangential, friction = law.friction * c * k;
-    const bool sticks = !law.coulomb || friction >= reversed * L, smooth = law.friction.zero();
+    smooth = smooth || (law.coulomb && law.friction.zero());
+    const bool sticks = !law.coulomb || friction >= reversed * L;
     if (!sticks && !smooth && !(friction < reversed * L)) reject("rule 3: sliding is not decided");
-    const Real gain = sticks ? reversed / c : smooth ? Real() : law.friction * k / L;
+    const Real gain = smooth ? Real() : sticks ? reversed / c : law.friction * k / L;
     return {n * k - S * gain, cross(n, S) * gain};
   }
-  std::vector<Flight> wall_impact(Index i, Index j, const Real& T) const {
+  std::vector<Flight> wall_impact(Index i, Index j, const Real& T) {
     const Ball& ball = mill_.balls[i];
     const Wall& wall = mill_.walls[j];
     const Real m = middle(T), d = T - m;
@@ -193,17 +203,20 @@ class Check {
     const Vec p = mill_.pose(m).place(r) + pose.velocity(r_T, v_T) * d, N = mill_.normal(wall, ball, p);
     const Vec n = pose.out(N), V_w = pose.V + cross(pose.w, pose.out(p - N * ball.radius)), s = flights_[i].s;
     const Vec G = (v_T - V_w) - cross(s * ball.radius, n);
-    const auto [P, Q] = impulse(mill_.laws[mill_.law_of_walls[i][j]], n, G, 1 + 1 / ball.inertia);
+    const Law& law = mill_.laws[mill_.law_of_walls[i][j]];
+    const auto [P, Q] = impulse(law, n, G, 1 + 1 / ball.inertia, rests(i, law, T));
     return {{m, r - P * d, v + P, s + Q * (1 / (ball.radius * ball.inertia)), 0}};
   }
-  std::vector<Flight> pair_impact(Index i, Index j, const Real& T) const {
+  std::vector<Flight> pair_impact(Index i, Index j, const Real& T) {
     const Ball &A = mill_.balls[i], &B = mill_.balls[j];
     const Real m = middle(T), d = T - m;
     const Vec n = between(i, j, T) / (A.radius + B.radius), &s_i = flights_[i].s, &s_j = flights_[j].s;
     const Real m_i = A.density * (A.radius * A.radius * A.radius), m_j = B.density * (B.radius * B.radius * B.radius);
     const Real share_i = m_j / (m_i + m_j), share_j = m_i / (m_i + m_j);
     const Vec G = relative(i, j, T) - cross(s_i * A.radius + s_j * B.radius, n);
-    const auto [P, Q] = impulse(mill_.laws[mill_.law_of_balls[i][j]], n, G, 1 + share_i / A.inertia + share_j / B.inertia);
+    const Law& law = mill_.laws[mill_.law_of_balls[i][j]];
+    const bool one = rests(i, law, T), other = rests(j, law, T);
+    const auto [P, Q] = impulse(law, n, G, 1 + share_i / A.inertia + share_j / B.inertia, one || other);
     return {
         {m, position(i, m) - P * share_i * d, velocity(i, m) + P * share_i, s_i + Q * (share_i / (A.radius * A.inertia)), 0},
         {m, position(j, m) + P * share_j * d, velocity(j, m) - P * share_j, s_j + Q * (share_j / (B.radius * B.inertia)), 0}};
@@ -212,6 +225,8 @@ class Check {
   AtPrecision at_;
   Mill mill_;
   std::vector<Flight> flights_;
+  std::vector<Real> since_;   ///< when flights began
+  std::vector<int> unmoved_;  ///< impacts in a row that came without time to move
   Real end_;
   long events_ = 0;
 };
