@@ -104,7 +104,9 @@ void Auditor::find_wrong_balls(LoggedEvent& event) {
     const int named = ball_of(event, body);
     const double own = off(named), speed = size(event.body[body].velocity_before);
     const double path = own >= 0 ? speed * (event.time - flights_.of(named).start) : 0;
-    if (own <= ball(named).radius / 100 + tolerances_.position(event.time, path, speed)) continue;
+    const double allowed = tolerances_.position(event.time, path, speed), radius = ball(named).radius;
+    // Balls that may be half a radius away are not told from each other.
+    if (own <= radius / 100 + allowed || allowed > radius / 2) continue;
     for (int k = 0; k < flights_.balls(); ++k) {
       const double theirs = off(k);
       if (k == named || theirs < 0 || k == ball_of(event, 1 - body) ||

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
 #include "check/log_reader.hpp"
+#include "check/tolerances.hpp"
 
 namespace edmill::casefile {
 extern template double Quantity::to<double>() const;
@@ -229,6 +231,8 @@ std::optional<LoggedEvent> EventLog::read() {
       }
     if (!good) continue;
     if (event.time < latest_) event.earlier_by = latest_ - event.time;
+    // Rounding alone does not change the order of two lines.
+    if (event.earlier_by <= Tolerances::time(latest_)) event.time += std::exchange(event.earlier_by, 0.0);
     latest_ = std::max(latest_, event.time);
     return event;
   }

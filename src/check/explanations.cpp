@@ -188,7 +188,12 @@ void ImpactJudge::see_separation(const LoggedEvent& event, const LoggedImpact& i
 void ImpactJudge::finish() {
   for (const auto& suspicion : suspicions_) findings_.take(suspicion.findings());
   for (const auto& [of_law, own] : separations_) {
-    findings_.take(own.least.findings());
+    // Few impacts of a law may leave no doubt where another law has the same speed.
+    const bool known = std::ranges::any_of(separations_, [&](const auto& other) {
+      const SeparationSuspicions& theirs = other.second;
+      return theirs.least.is_named() && std::abs(theirs.speed - own.speed) <= 1e-6 * own.speed;
+    });
+    findings_.take(own.least.findings(own.least.is_named() || (known && own.least.fits())));
     findings_.take(own.always.findings());
   }
   for (const auto* suspicion : {&net_dose_, &dose_without_rule_}) findings_.take(suspicion->findings());

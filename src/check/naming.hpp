@@ -39,8 +39,11 @@ class Suspicion {
   void contradicted() { ++shows_; }
 
   bool is_suspected() const { return explained_ > 0; }
-  bool is_named() const { return accounts_for(explained_, shows_) && decades_ >= least_decades; }
-  const Findings& findings() const { return is_named() ? named_ : plain_; }
+  bool is_named() const { return fits() && decades_ >= least_decades; }
+  /// Nothing speaks against it, be there evidence or not.
+  bool fits() const { return accounts_for(explained_, shows_); }
+  const Findings& findings() const { return findings(is_named()); }
+  const Findings& findings(bool named) const { return named ? named_ : plain_; }
   std::uint64_t explained() const { return explained_; }
 
  private:

@@ -46,7 +46,7 @@ struct Tolerances {
   double touch(double t, bool with_wall) const { return gap + (with_wall ? wall_places(t) : 0); }
   /// Of the end of a flight from an impact at an earlier time.
   double position(double t, double path, double speed) const {
-    return relative * (reach + path) + 2 * time(t) * speed;
+    return relative * (reach + path) + 2 * time(t) * (speed + 2 * time(t) * gravity);
   }
   double velocity(double t, double speed) const { return relative * speed + 2 * time(t) * gravity; }
 

@@ -1,7 +1,8 @@
-foreach(name event_log_test faults_test separation_test clean_logs_test)
+foreach(name event_log_test faults_test separation_test clean_logs_test late_logs_test)
   edmill_test(${name} check/${name}.cpp TIMEOUT 300)
 endforeach()
 add_dependencies(clean_logs_test edmill_cli)
+add_dependencies(late_logs_test edmill_cli)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME wrong_script_test COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/check/wrong_script_test.py
                                         $<TARGET_FILE:edmill_cli>)

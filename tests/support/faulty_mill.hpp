@@ -33,6 +33,7 @@ struct Faults {
   bool spin_lost = false;             ///< in flight
   bool no_gravity = false;            ///< in flight
   int late_every = 0;                 ///< one in this many impacts is handled 20 us late
+  double step = 0;                    ///< contacts are seen at the first multiple of it [s]
   int missed_pairs_every = 0;         ///< one in this many contacts of two balls is missed
   bool lower_cap_unseen = false;      ///< (2.19): y - R - h/2 never changes its sign
   double dose_factor = 1;
@@ -69,6 +70,7 @@ class FaultyMill {
           ++special_;
         }
       }
+      if (faults_.step > 0) see_at_a_step(next);
       out << written++ << collide(next) << '\n';
     }
     return special_;
@@ -95,6 +97,12 @@ class FaultyMill {
     } else {
       x = {c, s, 0}, y = {-s * cg, c * cg, sg}, z = {s * sg, -c * sg, cg};
     }
+  }
+
+  /// Only where nothing else happens in between and two balls do not separate before.
+  void see_at_a_step(const Contact& next) {
+    const double seen = std::ceil(time_ / faults_.step) * faults_.step;
+    if (first_contact(&next).time > seen && !parting_at(seen, next)) advance(seen);
   }
 
   Vec position(int k, double t) const {
