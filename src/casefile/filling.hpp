@@ -107,14 +107,13 @@ class Filling {
 
   /// Each ball of the batches at random where it finds room, or else all together.
   void add_batches() {
-    if (!fit_by_volume() || !problems_.empty()) return;
+    if (!fit_alone() || !fit_by_volume() || !problems_.empty()) return;
     const std::size_t given = result_.states.size();
     for (const auto& batch : spec_.batches) {
       if (add_batch(batch)) continue;
       result_.the_case.balls.resize(given);
       result_.states.resize(given);
-      if (problems_.empty()) add_together();
-      return;
+      return add_together();
     }
   }
 
@@ -174,11 +173,6 @@ class Filling {
   /// A free place in the vessel frame, uniform over those that keep the gaps; nothing when it is not found.
   std::optional<Vec3<Real>> place(const casefile::BallBatch& batch, const Real& radius) {
     const Real gap_ball = batch.gap_ball.to<Real>(), gap_wall = batch.gap_wall.to<Real>();
-    if (mill_.vessel.inset(radius).is_empty()) {
-      problems_.push_back(
-          batch.where + ": found balls too large for the vessel, expected a diameter that leaves them room");
-      return std::nullopt;
-    }
     const auto room = mill_.vessel.inset(radius).inset(gap_wall);
     if (room.is_empty()) return std::nullopt;
     for (std::uint64_t tries = 0; tries <= batch.max_relocations; ++tries) {
@@ -191,6 +185,18 @@ class Filling {
         return local;
     }
     return std::nullopt;
+  }
+
+  bool fit_alone() {
+    bool all = true;
+    for (const auto& batch : spec_.batches) {
+      const Real largest = (batch.diameter.to<Real>() + batch.diameter_spread.to<Real>()) / 2;
+      if (!mill_.vessel.inset(largest).is_empty()) continue;
+      all = false;
+      problems_.push_back(
+          batch.where + ": found balls too large for the vessel, expected a diameter that leaves them room");
+    }
+    return all;
   }
 
   double volume_of_balls() const {

@@ -65,7 +65,7 @@ void try_placements(int count, std::uint64_t seed) {
     const auto spec = with_balls(vessel,
                                  "[[balls]]\ncount = " + std::to_string(balls) + "\ndiameter = \"" +
                                      std::to_string(1000 * diameter) + " mm\"\n",
-                                 random.uniform<double>() * 1e6);
+                                 static_cast<std::uint64_t>(random.uniform<double>() * 1e6));
     const std::string what =
         fmt::format("{}: {} balls at a packing of {:.3f}, seed {}", vessel, balls, packing, spec.seed);
     const auto begin = std::chrono::steady_clock::now();

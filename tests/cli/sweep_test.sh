@@ -85,11 +85,49 @@ bad() { # expected-words, toml
   check "explained: $1" test $code = 2 -a "$(wc -l <err)" = 1 -a ! -e nowhere
   check "  in words: $1" grep -q -- "$1" err
 }
+# A run that stalls and one that takes too long are told, and the others go on.
+cat >piston.toml <<EOF
+[run]
+end_time = "0.9 s"
+[mill]
+type = "vibratory"
+amplitude = [0, 0, 0]
+speed = "900 rpm"
+[vessel]
+type = "box"
+size = ["12 mm", "40 mm", "12 mm"]
+[[vessel.piston]]
+wall = "wall_2"
+distance = "0 mm"
+speed = "30 mm/s"
+[contact]
+restitution = 0.5
+friction = 0.3
+[[ball]]
+diameter = "10 mm"
+position = [0, 0.01, 0]
+[[ball]]
+diameter = "10 mm"
+position = [0, -0.005, 0]
+EOF
+printf '[sweep]\ncase = "piston.toml"\n[sweep.grid]\n"run.end_time" = ["0.5 s", "0.9 s"]\n' >stalls.toml
+"$edmill" sweep stalls.toml --out stalls --quiet && code=0 || code=$?
+check "a stalled run is a failed one" test $code = 5
+check "... with its status" grep -q ",stalled," stalls/runs.csv
+check "... and the other is done" grep -q ",done," stalls/runs.csv
+printf '[sweep]\ncase = "%s/docs/examples/demo.toml"\nmax_cpu_time = "0.2 s"\n[sweep.grid]\n"run.end_time" = ["0.51 s", "1000 s"]\n' \
+  "$source" >limited.toml
+"$edmill" sweep limited.toml --out limited --quiet && code=0 || code=$?
+check "a run beyond max_cpu_time is a failed one" test $code = 5
+check "... with its status" grep -q ",max_cpu_time," limited/runs.csv
+check "... and the other is done" grep -q ",done," limited/runs.csv
+
 demo="case = \"$source/docs/examples/demo.toml\""
 bad "missing.toml" '[sweep]\ncase = "missing.toml"\nreplicas = 2\n'
 bad "sweep.case" '[sweep]\nreplicas = 2\n'
 bad "sweep.replicas" "[sweep]\n$demo\nreplicas = 0\n"
 bad "sweep.replicas" "[sweep]\n$demo\nreplicas = \"many\"\n"
+bad "sweep.max_cpu_time" "[sweep]\n$demo\nmax_cpu_time = \"0 s\"\n"
 bad "sweep.repetitions" "[sweep]\n$demo\nrepetitions = 2\n"
 bad "precision" "[sweep]\n$demo\nprecision = \"half\"\n"
 bad "sweep.grid" "[sweep]\n$demo\ngrid = 3\n"

@@ -278,7 +278,8 @@ struct Tally {
 void try_cluster(const Cluster& c, int number, Tally& tally) {
   const auto text = [](double x) { return fmt::format("{:.17g}", x); };
   const auto spec = casefile::parse_case(
-      "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = \"box\"\nsize = [\"" +
+      "[run]\nend_time = \"1 s\"\n[mill]\ntype = \"vibratory\"\namplitude = [0, 0, 0]\nspeed = \"900 "
+      "rpm\"\n[vessel]\ntype = \"box\"\nsize = [\"" +
           text(2 * c.half[0]) + " m\", \"" + text(2 * c.half[1]) + " m\", \"" + text(2 * c.half[2]) +
           " m\"]\n[contact]\nrestitution = " + text(c.restitution) + "\nfriction = " + text(c.friction) +
           "\nleast_separation = \"1 cm/s\"\n[[ball]]\ndiameter = \"1 mm\"\nposition = [0, 0, 0]\n",

@@ -110,7 +110,7 @@ TYPED_TEST(StallRules, FrictionRestsAfterSoManyImpactsWithoutTimeToMove) {
   Rested<TypeParam> seen;
   seen.least_separation = built.the_case.mill.ball_wall.least_separation;
   simulation.attach(seen);
-  simulation.run_until(simulation.clock().at(TypeParam(999999) / 1000000));
+  simulation.run_until(simulation.clock().at(TypeParam(99999999) / 100000000));
   EXPECT_GT(seen.count, 0u);
 }
 
@@ -119,9 +119,8 @@ TYPED_TEST(StallRules, FrictionRestsAfterSoManyImpactsWithoutTimeToMove) {
 /// many.
 EndReason end_of_row(int balls, const std::string& restitution, std::uint64_t& impacts) {
   std::string text =
-      "[run]\nend_time = \"1 ms\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = \"box\"\nsize = [\"10 m\", \"1 "
-      "m\", \"1 m\"]\n"
-      "[contact]\nrestitution = " +
+      "[run]\nend_time = \"1 ms\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = \"sphere\"\n"
+      "diameter = \"10 m\"\n[contact]\nrestitution = " +
       restitution + "\nfriction = 0\nleast_separation = \"0 m/s\"\n";
   for (int k = 0; k < balls; ++k)
     text += ball("62.5 mm", "[\"" + std::to_string(62.5 * k) + " mm\", \"0\", \"0\"]",
