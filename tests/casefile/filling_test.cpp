@@ -18,17 +18,18 @@ const char* const vessels[] = {
     "type = \"box\"\nsize = [\"30 mm\", \"57 mm\", \"40 mm\"]",
     "type = \"sphere\"\ndiameter = \"50 mm\"",
     "type = \"capsule\"\ndiameter = \"38 mm\"\nheight = \"70 mm\"",
-    "type = \"rounded_cylinder\"\ndiameter = \"40 mm\"\nheight = \"60 mm\"\nedge = \"8 mm\"",
+    "type = \"rounded_cylinder\"\ndiameter = \"40 mm\"\nheight = \"60 mm\"\nedge_radius = \"8 mm\"",
     "type = \"polyhedron\"\nvertex = [{at = [\"30 mm\", \"0 mm\", \"0 mm\"]}, {at = [\"-30 mm\", \"0 mm\", "
     "\"0 mm\"]}, {at = [\"0 mm\", \"35 mm\", \"0 mm\"]}, {at = [\"0 mm\", \"-35 mm\", \"0 mm\"]}, {at = [\"0 "
     "mm\", \"0 mm\", \"32 mm\"]}, {at = [\"0 mm\", \"0 mm\", \"-32 mm\"]}]",
 };
 
 CaseSpec with_balls(const std::string& vessel, const std::string& balls, std::uint64_t seed) {
-  return parse_case("[run]\nend_time = \"1 s\"\nseed = " + std::to_string(seed) +
-                        "\n[mill]\ntype = \"spex8000\"\nspeed = \"1060 rpm\"\n[vessel]\n" + vessel +
-                        "\n[contact]\nrestitution = 0.5\nfriction = 0.4\n" + balls,
-                    "filling.toml");
+  return parse_case(
+      "[run]\nend_time = \"1 s\"\nseed = " + std::to_string(seed) +
+          "\n[mill]\ntype = \"vibratory\"\namplitude = [0, 0, 0]\nspeed = \"900 rpm\"\n[vessel]\n" + vessel +
+          "\n[contact]\nrestitution = 0.5\nfriction = 0.4\n" + balls,
+      "filling.toml");
 }
 
 /// No two balls overlap, and all are inside.
@@ -119,7 +120,7 @@ TEST(Filling, WhatCannotFitByVolumeIsRefusedWithTheLargestCount) {
     // 64.65 cm3 and balls of 65.45 mm3: 0.7405 of the vessel are 731 balls.
     EXPECT_STREQ(
         error.what(),
-        "filling.toml:12: [balls.0]: found balls that fill 1.01 of the vessel's volume, expected at most "
+        "filling.toml:15: [balls.0]: found balls that fill 1.01 of the vessel's volume, expected at most "
         "0.741 of it, with at most 731 balls in this batch in place of 1000");
   }
 }

@@ -81,8 +81,10 @@ class Clusters {
       std::vector<int> touched;
       for (std::size_t k = 0; k < 1 + static_cast<std::size_t>(uniform() * 3); ++k)
         touched.push_back(static_cast<int>(uniform() * static_cast<double>(c.radii.size() + 3)) - 3);
-      if (settle(c, radius, touched, place) && is_free(c, radius, place))
-        c.radii.push_back(radius), c.places.push_back(place);
+      if (!settle(c, radius, touched, place) || !is_free(c, radius, place)) continue;
+      // Off the walls by rounding: which of two exact zeros comes first no scalar can tell.
+      place += Vec3<double>(uniform(), uniform(), uniform()) * 1e-15;
+      c.radii.push_back(radius), c.places.push_back(place);
     }
   }
 

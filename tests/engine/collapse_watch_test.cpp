@@ -17,8 +17,7 @@ struct Ball {
 
   bool hits(int partner, double interval, double speed, double restitution = 0.5) {
     time += interval;
-    return watch.note(recent, partner, drive_clock.at(time), speed, slow, restitution,
-                      drive_clock);
+    return watch.note(recent, partner, drive_clock.at(time), speed, slow, restitution, drive_clock);
   }
   double accumulation_time() const { return CollapseWatch<double>::accumulation_time(recent, drive_clock); }
 };
