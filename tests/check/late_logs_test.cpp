@@ -105,7 +105,9 @@ TEST_F(LateLogs, AViolationAboveTheToleranceIsFound) {
         << start;
     EXPECT_GT(changed(9, 1.01).of(Kind::non_ballistic).count, 0u) << start;
     // At 1e9 s five hundredths of a dose are within what the rounding of the time allows.
-    if (start < 1e9) EXPECT_GT(changed(7, 1.05).of(Kind::milling_dose).count, 0u) << start;
+    if (start < 1e9) {
+      EXPECT_GT(changed(7, 1.05).of(Kind::milling_dose).count, 0u) << start;
+    }
   }
 }
 
