@@ -97,21 +97,27 @@ bool ImpactJudge::judge_outcome(const LoggedEvent& event, const Scene& scene, co
   return found->kind == Kind::wall_velocity;
 }
 
-/// Where the log does not tell whether friction rests in an impact: whether it is nearer to the law if it
-/// does.
+/// Where the log does not tell whether friction rests in an impact: whether it obeys the law only if it does.
 bool ImpactJudge::fits_without_friction(const LoggedEvent& event, const LoggedImpact& impact,
                                         const Known& known) const {
   LoggedImpact rested = impact;
   rested.in_stall = true;
-  if (known.velocities && known.spins)
-    return residuals(event, rested, known, false).largest() <
-           residuals(event, impact, known, false).largest();
-  if (!available_.approach_speed || !available_.slip_speed || !available_.milling_dose) return false;
-  const auto off = [&](const LoggedImpact& one) {
-    return std::abs(event.milling_dose -
-                    dose_by_law(one, law(one), {-event.approach_speed, event.slip_speed}));
-  };
-  return off(rested) < off(impact);
+  double with = 0, without = 0, allowed = 0;
+  if (known.velocities && known.spins) {
+    const double scale = velocity_scale(impact, event, true);
+    with = residuals(event, impact, known, false).largest();
+    without = residuals(event, rested, known, false).largest();
+    allowed = tolerances_.relative * scale;
+    if (impact.with_wall)
+      allowed += tolerances_.of_wall(event.time, scale, impact.bend, impact.ball[0].radius);
+  } else if (available_.approach_speed && available_.slip_speed && available_.milling_dose) {
+    const Speeds speeds{-event.approach_speed, event.slip_speed};
+    const double speed = std::max({event.approach_speed, event.slip_speed, law(impact).least_separation});
+    with = std::abs(event.milling_dose - dose_by_law(impact, law(impact), speeds));
+    without = std::abs(event.milling_dose - dose_by_law(rested, law(impact), speeds));
+    allowed = 4 * tolerances_.relative * impact.effective_mass * speed * speed;
+  }
+  return with > allowed && without <= allowed;
 }
 
 void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {

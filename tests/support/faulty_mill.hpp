@@ -46,7 +46,7 @@ class FaultyMill {
 
   FaultyMill(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
              const Faults& faults)
-      : case_(the_case), states_(states), faults_(faults) {
+      : case_(the_case), states_(states), faults_(faults), stalls_(states.size()) {
     gravity_ = faults.no_gravity ? Vec(0, 0, 0) : the_case.mill.gravity;
   }
 
@@ -206,7 +206,7 @@ class FaultyMill {
     dynamics::ImpactOutcome<double> outcome;
   };
 
-  FaultyImpact collide_with_wall(const Contact& c, model::ContactLaw<double> law) {
+  FaultyImpact collide_with_wall(const Contact& c, model::ContactLaw<double> law, bool in_stall) {
     auto& one = states_[c.ball];
     FaultyImpact impact;
     Vec x, y, z, centre;
@@ -229,11 +229,11 @@ class FaultyMill {
       fix_friction(law, one.velocity - wall - Vec(one.spin * ball.radius).cross(impact.normal), impact.normal,
                    1 + 1 / ball.reduced_inertia);
     impact.outcome =
-        dynamics::collide_with_wall<double>(impact.normal, ball, wall, one.velocity, one.spin, law);
+        dynamics::collide_with_wall<double>(impact.normal, ball, wall, one.velocity, one.spin, law, in_stall);
     return impact;
   }
 
-  FaultyImpact collide_balls(const Contact& c, model::ContactLaw<double> law) {
+  FaultyImpact collide_balls(const Contact& c, model::ContactLaw<double> law, bool in_stall) {
     auto &one = states_[c.ball], &two = states_[c.partner];
     const auto before = std::pair(one, two);
     FaultyImpact impact;
@@ -254,8 +254,8 @@ class FaultyMill {
       fix_friction(law, g, normal,
                    1 + bj.mass / total / bi.reduced_inertia + bi.mass / total / bj.reduced_inertia);
     }
-    impact.outcome =
-        dynamics::collide_balls<double>(normal, bi, bj, one.velocity, one.spin, two.velocity, two.spin, law);
+    impact.outcome = dynamics::collide_balls<double>(normal, bi, bj, one.velocity, one.spin, two.velocity,
+                                                     two.spin, law, in_stall);
     if (faults_.equal_masses) {
       const double total = bi.mass + bj.mass;
       one.velocity = before.first.velocity + (one.velocity - before.first.velocity) * (0.5 * total / bj.mass);
@@ -267,15 +267,30 @@ class FaultyMill {
     return impact;
   }
 
+  /// Every fault leaves the rule on stalls as it is.
+  bool friction_rests(const Contact& c, double least_separation) {
+    bool rests = false;
+    for (const auto k : {c.ball, c.with_wall ? c.ball : c.partner}) {
+      auto& [time, unmoved] = stalls_[static_cast<std::size_t>(k)];
+      unmoved = case_.mill.stall.has_moved(time_ - time, least_separation) ? 0 : unmoved + 1;
+      rests = rests || unmoved > case_.mill.stall.impacts;
+      time = time_;
+      if (c.with_wall) break;
+    }
+    return rests;
+  }
+
   std::string collide(const Contact& c) {
     auto law = c.with_wall ? case_.mill.ball_wall : case_.mill.ball_ball;
+    const bool in_stall = friction_rests(c, law.least_separation);
     auto& one = states_[c.ball];
     auto& two = states_[c.with_wall ? c.ball : c.partner];
     if (faults_.spin_lost) one.spin = two.spin = Vec(0, 0, 0);
     const auto before = std::pair(one, two);
     if (faults_.restitution >= 0) std::get<model::WaltonBraun<double>>(law.law).normal = faults_.restitution;
     if (faults_.least_separation >= 0) law.least_separation = faults_.least_separation;
-    auto [normal, wall, o] = c.with_wall ? collide_with_wall(c, law) : collide_balls(c, law);
+    auto [normal, wall, o] =
+        c.with_wall ? collide_with_wall(c, law, in_stall) : collide_balls(c, law, in_stall);
     if (faults_.tangential_sign) {
       const auto turn = [&](auto& state, const auto& old) {
         const Vec change = state.velocity - old.velocity, along = normal * change.dot(normal);
@@ -306,6 +321,8 @@ class FaultyMill {
   Faults faults_;
   Vec gravity_;
   double time_ = 0;
+  std::vector<std::pair<double, int>>
+      stalls_;  ///< by ball: when its flight began, impacts without time to move
   std::pair<int, int> passing_{-1, -1};
   int special_ = 0, impacts_ = 0, pairs_ = 0;
 };
