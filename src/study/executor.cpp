@@ -1,6 +1,7 @@
 #include "study/executor.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "base/scalar_list.hpp"
@@ -19,9 +20,11 @@ using std::chrono::milliseconds;
 
 // Messages. From rank 0: "stop", or the lines of a job; to rank 0: a number of threads, or a record.
 constexpr const char* stop_message = "stop";
+constexpr const char* no_limit = "none";
 
 std::string to_message(const Job& job) {
-  std::string text = "job\n" + job.digest + "\n" + to_text(job.max_cpu_time) + "\n" + job.case_file;
+  const std::string limit = std::isfinite(job.max_cpu_time) ? to_text(job.max_cpu_time) : no_limit;
+  std::string text = "job\n" + job.digest + "\n" + limit + "\n" + job.case_file;
   for (const auto& o : job.overrides) text += "\n" + o;
   return text;
 }
@@ -33,7 +36,7 @@ Job to_job(const std::string& message) {
   std::getline(lines, line);
   std::getline(lines, job.digest);
   std::getline(lines, line);
-  job.max_cpu_time = from_text<double>(line);
+  if (line != no_limit) job.max_cpu_time = from_text<double>(line);
   std::getline(lines, job.case_file);
   while (std::getline(lines, line)) job.overrides.push_back(line);
   return job;
