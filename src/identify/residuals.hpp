@@ -51,7 +51,7 @@ class Residuals {
   const audit::EventsAtHand& log_;
   audit::Tolerances tolerances_;
   std::vector<std::array<Before, 2>> before_;  ///< the impact at which the flight of each body began
-  std::vector<bool> in_stall_;  ///< by event: friction rests
+  std::vector<bool> in_stall_;                 ///< by event: friction rests
   std::vector<std::size_t> chosen_;
   std::vector<double> allowed_;  ///< by row
   std::vector<RowKind> kinds_;

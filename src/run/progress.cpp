@@ -1,9 +1,10 @@
 #include "run/progress.hpp"
-#include "io/terminal.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
+
+#include "io/terminal.hpp"
 
 namespace edmill::run {
 
