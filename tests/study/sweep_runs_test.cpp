@@ -132,7 +132,7 @@ TEST_F(Sweep, AFailingPointIsToldAndTheOthersEnd) {
   for (std::string line; std::getline(lines, line);) {
     if (line.find(",done,") != std::string::npos) ++count["done"];
     if (line.find("key 'balls.0.count': found") != std::string::npos) ++count["negative"];
-    if (line.find("found no room for ball") != std::string::npos) ++count["crowded"];
+    if (line.find("found balls that fill") != std::string::npos) ++count["crowded"];
   }
   EXPECT_EQ(count, (std::map<std::string, int>{{"crowded", 4}, {"done", 4}, {"negative", 4}}));
 }
