@@ -50,7 +50,7 @@ build() { # name compiler flags...
   for source in tests/architecture/collision_bits.cpp src/engine/flight_columns.cpp; do
     "$@" "${common[@]}" -c "$source" -o "$builds/$name-$(basename "$source").o"
   done
-  "$@" "$builds/$name"-*.o "${libraries[@]}" -lpugixml -lfmt -lmpfr -lgmp -lquadmath -lcrypto -ltomlplusplus -o "$builds/$name"
+  "$@" "$builds/$name"-*.o "${libraries[@]}" -lpugixml -lfmt -lmpfr -lgmp -lquadmath -lcrypto -lz -lzstd -ltomlplusplus -o "$builds/$name"
 }
 
 hash_of_build() { # name balls collisions
