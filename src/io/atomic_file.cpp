@@ -170,11 +170,11 @@ void AtomicFile::go_on_from(const std::string& name, std::uint64_t size, const s
   }
   buffer_.drop();
   auto found = found_beginning(size, digest, fresh);
+  fs::remove(fresh, ignored);
   if (!found)
     throw InputError(destination_.named.string() +
                      ": found another file than the checkpoint was made with, expected the files as the run "
                      "left them");
-  fs::remove(fresh, ignored);
   fs::resize_file(temporary_, size);
   const int descriptor = open_for_writing(temporary_, O_APPEND);
   if (descriptor < 0) fail();

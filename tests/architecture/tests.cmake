@@ -20,9 +20,8 @@ foreach(room base engine io casefile output)
   list(APPEND collision_bits_sources ${of_room})
 endforeach()
 list(FILTER collision_bits_sources EXCLUDE REGEX "/checkpoint_file.cpp$")
-add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp ${collision_bits_sources}
-)
-target_link_libraries(collision_bits PRIVATE edmill_settings OpenSSL::Crypto tomlplusplus::tomlplusplus hdf5::hdf5 pugixml::pugixml)
+add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp ${collision_bits_sources})
+target_link_libraries(collision_bits PRIVATE edmill_settings OpenSSL::Crypto tomlplusplus::tomlplusplus hdf5::hdf5 pugixml::pugixml ZLIB::ZLIB ${EDMILL_ZSTD})
 
 get_target_property(bits_options edmill_settings INTERFACE_COMPILE_OPTIONS)
 list(FILTER bits_options INCLUDE REGEX "^-f")

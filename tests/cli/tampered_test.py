@@ -77,7 +77,11 @@ def unfinished(place, killed, run_seed):
     pathlib.Path(place, "all.csv").write_text(OTHERS)
     process = subprocess.Popen([EDMILL, "run", "case.toml", "--quiet", "--out", place, "--checkpoint", "0.1 s simulated",
                                 "--set", f"run.seed={run_seed}"])
-    while not os.path.exists(f"{place}/checkpoint"):
+    # Until a checkpoint covers some blocks of rows in events.h5, however slow the machine is.
+    while not any(p.stat().st_size > 200_000 for p in pathlib.Path(place).glob("events.h5*")):
+        time.sleep(0.002)
+    begun = time.time_ns()
+    while not os.path.exists(f"{place}/checkpoint") or os.stat(f"{place}/checkpoint").st_mtime_ns < begun:
         time.sleep(0.002)
     time.sleep(rng.uniform(0.05, 0.3))
     process.send_signal(signal.SIGKILL if killed else signal.SIGTERM)
