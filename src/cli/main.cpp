@@ -247,9 +247,12 @@ class CommandLine {
     auto* command = add("prove", "prove the first events of a case in ball arithmetic",
                         [this] { return prove(case_file_, overrides_, proof_); });
     take_case(command);
-    command->add_option("--collisions", proof_.collisions, "how many events")
-        ->required()
-        ->check(CLI::Range(1, 10000000));
+    auto* collisions = command->add_option("--collisions", proof_.collisions, "how many events")
+                           ->check(CLI::Range(1, 10000000));
+    command
+        ->add_option("--check", proof_.checked,
+                     "prove nothing, but tell whether the header of this certificate is that of the case")
+        ->excludes(collisions);
     command->add_option("--out", proof_.file, "file for the events, each number with its radius (CSV)");
     command->add_option("--certificate", proof_.certificate,
                         "file for a certificate that can be checked without edmill");

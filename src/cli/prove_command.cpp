@@ -6,8 +6,10 @@
 #include <chrono>
 #include <optional>
 
+#include "base/errors.hpp"
 #include "cli/certify_command.hpp"
 #include "cli/exit_codes.hpp"
+#include "io/input_file.hpp"
 #include "io/named_file.hpp"
 #include "io/terminal.hpp"
 #include "prove/certificate.hpp"
@@ -40,9 +42,28 @@ std::size_t right_events(const std::string& precision, const casefile::CaseSpec&
   return right;
 }
 
+/// Whether the certificate is one of this case.
+int check_header(const casefile::CaseSpec& spec, const ProveOptions& options) {
+  io::InputFile file(options.checked, "a certificate");
+  const auto differences = prove::other_case(file, options.checked, prove::exact_case(spec));
+  for (const auto& line : differences) io::print("{}\n", line);
+  if (!differences.empty()) {
+    if (!options.quiet) io::print("{} is of another case than {}\n", options.checked, spec.file);
+    return outputs_differ;
+  }
+  if (!options.quiet)
+    io::print("{} is of the case {}; check_certificate says whether its events are proven\n", options.checked,
+              spec.file);
+  return ok;
+}
+
 }  // namespace
 
 int run_prove(const casefile::CaseSpec& spec, const ProveOptions& options) {
+  if (!options.checked.empty()) return check_header(spec, options);
+  if (options.collisions == 0)
+    throw InputError(
+        "prove: found neither --collisions nor --check, expected how many events, or a certificate");
   std::optional<io::NamedFile> events, certificate;
   if (!options.file.empty()) events.emplace(options.file);
   if (!options.certificate.empty()) certificate.emplace(options.certificate);

@@ -11,6 +11,7 @@ namespace edmill::cli {
 struct ProveOptions {
   std::size_t collisions = 0;
   std::string file, certificate;  ///< of the events and of the certificate; empty for none
+  std::string checked;  ///< a certificate whose header is to be that of the case; else one is proven
   long most_bits = 16384;
   bool compare = false;  ///< how many events each scalar gets right
   bool quiet = false;

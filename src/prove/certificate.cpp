@@ -4,7 +4,9 @@
 #include <fmt/ostream.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "base/errors.hpp"
 #include "prove/exact_text.hpp"
 
 namespace edmill::prove {
@@ -63,14 +65,13 @@ Json lines_of(const std::vector<Part>& parts) {
   return lines;
 }
 
-Json header(const Proof& proof) {
-  const ExactCase& c = proof.exact;
+Json header_of(const ExactCase& c, std::size_t events, long bits) {
   return {{"format", "edmill certificate"},
           {"version", 1},
           {"case", c.name},
           {"digest", c.digest},
-          {"events", proof.events.size()},
-          {"bits", proof.bits},
+          {"events", events},
+          {"bits", bits},
           {"start", c.start.text()},
           {"gravity", texts(c.gravity)},
           {"joints", lines_of(c.joints)},
@@ -94,10 +95,56 @@ Json line_of(const ProvenEvent& event, std::size_t number) {
   return line;
 }
 
+/// The first line of a certificate. @throws std::exception for what is none
+Json read_header(std::istream& in) {
+  std::string line;
+  std::getline(in, line);
+  std::vector<std::set<Json>> keys;  // of the objects around
+  const auto header = Json::parse(line, [&](int, Json::parse_event_t event, Json& key) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(key).second)
+      throw std::runtime_error("twice the key " + key.dump());
+    return true;
+  });
+  if (header.at("format") != "edmill certificate" || header.at("version") != 1)
+    throw std::runtime_error("another format");
+  for (const auto* count : {"events", "bits"})
+    if (!header.at(count).is_number_unsigned())
+      throw std::runtime_error(std::string("no whole number of ") + count);
+  return header;
+}
+
+/// A row of a JSON patch that would turn the case's header into the one that was found.
+std::string text_of_difference(const Json& row, const Json& expected) {
+  const std::string path = row.at("path");
+  const Json::json_pointer at(path);
+  const auto text = [](const Json& value) { return value.is_primitive() ? value.dump() : value.type_name(); };
+  const auto found = row.at("op") == "remove" ? "nothing" : text(row.at("value"));
+  return fmt::format("{}: found {}, expected {}", path, found,
+                     row.at("op") == "add" ? "nothing" : text(expected.at(at)));
+}
+
 }  // namespace
 
+std::vector<std::string> other_case(std::istream& certificate, const std::string& name,
+                                    const ExactCase& exact) {
+  std::vector<std::string> differences;
+  try {
+    const auto found = read_header(certificate);
+    auto expected = header_of(exact, found.at("events"), found.at("bits"));
+    for (const auto* label : {"case", "digest"}) expected[label] = found.at(label);
+    for (const auto& row : Json::diff(expected, found))
+      differences.push_back(text_of_difference(row, expected));
+  } catch (const std::exception& error) {
+    throw InputError(name + ": found " + error.what() +
+                     " in the first line, expected the header of a certificate");
+  }
+  return differences;
+}
+
 void write_certificate(std::ostream& out, const Proof& proof) {
-  out << header(proof).dump() << '\n';
+  out << header_of(proof.exact, proof.events.size(), proof.bits).dump() << '\n';
   for (std::size_t k = 0; k < proof.events.size(); ++k) out << line_of(proof.events[k], k).dump() << '\n';
   Json open = Json::object();
   for (std::size_t ball = 0; ball < proof.open_windows.size(); ++ball)

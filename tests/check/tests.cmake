@@ -1,4 +1,4 @@
-foreach(name event_log_test faults_test separation_test clean_logs_test late_logs_test)
+foreach(name event_log_test faults_test separation_test clean_logs_test late_logs_test names_test)
   edmill_test(${name} check/${name}.cpp TIMEOUT 300)
 endforeach()
 add_dependencies(clean_logs_test edmill_cli)

@@ -144,8 +144,56 @@ def tamperings(lines):
     yield changed("numbers with what a reader does not see", put("start", "0\0/7"), 0)
     yield changed("fewer bits than the enclosures were computed with", lambda h: put("bits", h["bits"] - 32)(h), 0)
     yield changed("more events announced than there are", lambda h: put("events", h["events"] + 1)(h), 0)
+    yield changed("a key of the header that no page names", put("note", "1"), 0)
+    yield changed("a key of an event that no page names", put("note", "1"), wall)
     yield changed("last line left out", lambda new: new.pop())
     yield changed("a line behind the last one", lambda new: new.append(new[1]))
+
+
+def check_headers(name, case, text):
+    """Whether header and case agree: every number of the header counts, and nothing else does."""
+    def says(line, *more):
+        pathlib.Path("header").write_text(line + "\n")
+        done = subprocess.run([EDMILL, "prove", "--check", "header", case, *more], text=True, capture_output=True, check=False)
+        return done.returncode, (done.stdout + done.stderr).strip()
+    header = json.loads(text[0])
+    for what, line in ((f"as proven", text[0]), ("another name", json.dumps({**header, "case": "b.toml", "digest": "0"}))):
+        code, said = says(line)
+        if code != 0:
+            fail(f"{name}: prove --check, {what}: exit code {code}: {said}")
+    changed = 0
+    def places(value, path=()):
+        if isinstance(value, dict):
+            for key, part in value.items():
+                yield from places(part, (*path, key))
+        elif isinstance(value, list):
+            for key, part in enumerate(value):
+                yield from places(part, (*path, key))
+        else:
+            yield path
+    for path in places(header):
+        if path[0] in ("format", "version", "case", "digest", "events", "bits"):
+            continue
+        if path[0] in ("law_of_balls", "balls") and isinstance(path[1], int) and path[1] > 2:
+            continue  # the others are alike
+        tampered = copy.deepcopy(header)
+        at = tampered
+        for key in path[:-1]:
+            at = at[key]
+        old = at[path[-1]]
+        at[path[-1]] = not old if isinstance(old, bool) else old + 1 if isinstance(old, int) else "7/11" if old != "7/11" else "1"
+        code, said = says(json.dumps(tampered))
+        if code != 6 or "/" + "/".join(map(str, path)) not in said:
+            fail(f"{name}: prove --check with another {path}: exit code {code}: {said}")
+        changed += 1
+    code, said = says(text[0], "--set", "contact.restitution=0.51")
+    if code != 6:
+        fail(f"{name}: prove --check with another restitution in the case: exit code {code}: {said}")
+    for line in ("", "{}", "no json", text[1], text[0][:-1], json.dumps({**header, "version": 2}), text[0].replace('"bits"', '"bits":1,"bits"')):
+        code, said = says(line)
+        if code != 2 or said.count("\n") or "header: found" not in said:
+            fail(f"{name}: prove --check of {line[:40]!r}: exit code {code}: {said}")
+    print(f"claim {name}: prove --check names each of {changed} other numbers of the header")
 
 
 def check_short(name, events):
@@ -175,6 +223,14 @@ def check_short(name, events):
         if not no_mill and (code != 1 or not said.startswith("rejected: ")):
             fail(f"{name}: {what}: exit code {code}: {said}")
         rejected += 1
+    for what, key in (("the header", '"gravity"'), ("a ball of the header", '"radius"'), ("an event", '"time"'), ("a state", '"v"')):
+        k = next(k for k, line in enumerate(text) if key + ":" in line)
+        twice = re.sub(f"({key}:(\\[[^]]*\\]|[^,}}]*))", r"\1,\1", text[k], count=1)
+        code, said = verdict([*text[:k], twice, *text[k + 1:]])
+        if twice == text[k] or code != 1 or "twice the key" not in said:
+            fail(f"{name}: a key twice in {what}: exit code {code}: {said}")
+        rejected += 1
+    check_headers(name, case, text)
     print(f"claim {name}: {events} events proven and accepted, {rejected} of {rejected} kinds of tampering rejected")
     return rejected
 
