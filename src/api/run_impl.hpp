@@ -118,7 +118,8 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
   /// As it was asked for, where the run stands there: the sum of periods and a rest is rounded.
   Real time() const {
     const auto& now = driver_.simulation().now();
-    const auto &end = built_.the_case.stop.end_time, &given = case_.spec_->end_time;
+    const auto& end = built_.the_case.stop.end_time;
+    const auto& given = case_.spec_->end_time;
     if (end && now == *end) return given->template to<Real>();
     return now == asked_.first ? asked_.second : driver_.simulation().seconds();
   }

@@ -110,6 +110,8 @@ auto ImpactJudge::explaining(const LoggedEvent& event, const Scene& scene, doubl
       const double of_way = distance(way.impact, event.body, way.outcome);
       if (of_way < left) left = of_way, best = &way;
     }
+    // Of bodies that separate with the mistake nothing changes, which proves nothing.
+    if (best && dot(best->impact.before(event), best->impact.normal) > allowed) continue;
     const bool explains = violated && best && vanishes(off, left, allowed);
     if (explains && !found)
       found = Explanation{k, known_mistakes()[k].kind, known_mistakes()[k].note, best->impact, off, left};
@@ -187,7 +189,8 @@ void ImpactJudge::see_separation(const LoggedEvent& event, const LoggedImpact& i
 
 void ImpactJudge::finish() {
   for (const auto& suspicion : suspicions_) findings_.take(suspicion.findings());
-  for (const auto& [of_law, own] : separations_) {
+  for (const auto& of_law : separations_) {
+    const SeparationSuspicions& own = of_law.second;
     // Few impacts of a law may leave no doubt where another law has the same speed.
     const bool known = std::ranges::any_of(separations_, [&](const auto& other) {
       const SeparationSuspicions& theirs = other.second;

@@ -146,12 +146,9 @@ class WallSearch {
   WallAnswer<Real> first_contact(const Functions& functions, const Start& first, Walls reachable,
                                  const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
   void require_length(const WallQuery<Real>& query) const;
-  WallQuery<Real> smooth(WallQuery<Real> query, const Functions& functions, const Vec3<Real>& position,
-                         const Real& speed) const requires model::HasRegions<V>;
-  static const WallQuery<Real>& smooth(const WallQuery<Real>& query, const Functions&, const Vec3<Real>&,
-                                       const Real&) requires(!model::HasRegions<V>) {
-    return query;
-  }
+  /// The window cut to what all active gap functions are smooth for; the query itself where they always are.
+  decltype(auto) smooth(const WallQuery<Real>& query, const Functions& functions, const Vec3<Real>& position,
+                        const Real& speed) const;
   Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
     return norm<Real>(velocity) + mill_.gravity_size * length;
   }

@@ -40,6 +40,22 @@ auto WallSearch<M, V>::search(const WallQuery<Real>& query) const -> WallAnswer<
 }
 
 template <model::Motion M, model::Vessel V>
+decltype(auto) WallSearch<M, V>::smooth(const WallQuery<Real>& query,
+                                        [[maybe_unused]] const Functions& functions,
+                                        [[maybe_unused]] const Vec3<Real>& position,
+                                        [[maybe_unused]] const Real& speed) const {
+  if constexpr (model::HasRegions<V>) {
+    auto shorter = query;
+    const auto way = functions.room().smooth_way(position);
+    if (way && *way < (speed + mill_.wall_speed) * query.length)
+      shorter.length = *way / (speed + mill_.wall_speed);
+    return shorter;
+  } else {
+    return (query);
+  }
+}
+
+template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) const -> WallAnswer<Real> {
   require_length(query);
   const Functions functions(mill_, query.flight, query.radius, query.begin.period);
@@ -50,17 +66,6 @@ auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) co
   if (!any_from(reachable, 0)) return {Verdict::none, -1, {}, false, query.length, Real(0)};
   return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed,
                               smooth(query, functions, ball.state.position, speed), nullptr);
-}
-
-/// The window cut to what all active gap functions are smooth for.
-template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::smooth(WallQuery<Real> query, const Functions& functions, const Vec3<Real>& position,
-                              const Real& speed) const -> WallQuery<Real>
-requires model::HasRegions<V> {
-  const auto way = functions.room().smooth_way(position);
-  if (way && *way < (speed + mill_.wall_speed) * query.length)
-    query.length = *way / (speed + mill_.wall_speed);
-  return query;
 }
 
 template <model::Motion M, model::Vessel V>

@@ -20,7 +20,7 @@ class StallWatch {
   /// @param balls  how many there are: each may have impacts of its own at one instant
   /// @param brief  the clock has hardly advanced when by less than this [s]
   StallWatch(std::size_t balls, const Instant<Real>& start, Real brief)
-      : most_(std::int64_t{200000} + 100 * static_cast<std::int64_t>(balls)),
+      : most_(std::int64_t{100000} + 100 * static_cast<std::int64_t>(balls)),
         left_(most_),
         begin_(start),
         brief_(std::move(brief)) {}

@@ -18,7 +18,7 @@ namespace edmill::engine {
 namespace {
 
 constexpr double least_separation = 0.01, room = 0.2;  // [m/s], half the edge of the box [m]
-constexpr std::uint64_t patience = 200000;             // impacts at one instant that the engine allows
+constexpr std::uint64_t patience = 100000;             // impacts at one instant that the engine allows
 
 struct Contact {
   int ball;

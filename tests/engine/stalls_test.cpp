@@ -52,7 +52,7 @@ TEST(Stalls, JamsEndTheRunWithTheBodies) {
     EXPECT_NEAR(simulation.stall()->time, jam.time, 1e-6) << jam.name;
     EXPECT_EQ(simulation.stall()->balls, jam.balls) << jam.name;
     EXPECT_EQ(simulation.stall()->walls, jam.walls) << jam.name;
-    EXPECT_GE(simulation.stall()->impacts, 200000u);
+    EXPECT_GE(simulation.stall()->impacts, 100000u);
   }
 }
 

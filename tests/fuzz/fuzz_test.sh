@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets and searches for inputs that break them: SECONDS for each, 60 unless given, two at a time.
-# usage: fuzz_test.sh BUILD [SECONDS]
+# Builds the fuzz targets and searches for inputs that break them: SECONDS for each, two at a time.
+# usage: fuzz_test.sh BUILD SECONDS TARGET...
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=$1
-seconds=${2:-60}
+seconds=$2
+shift 2
 command -v clang++ >/dev/null || {
   echo "skipped: needs clang"
   exit 77
 }
 cmake --preset fuzz -B "$build" >/dev/null
-cmake --build "$build" >"$build.log" || {
+cmake --build "$build" --target "${@/#/fuzz_}" >"$build.log" || {
   tail -n 30 "$build.log" >&2
   exit 1
 }
@@ -28,5 +29,5 @@ search() { # target
 }
 export -f search
 export build seconds
-printf '%s\n' case_file study_file quantity collision_log checkpoint sweep_record certificate | xargs -P 2 -I {} bash -c 'search {}'
+printf '%s\n' "$@" | xargs -P 2 -I {} bash -c 'search {}'
 rm -rf "${TMPDIR:-/tmp}"/edmill-fuzz-*
