@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <boost/unordered/unordered_flat_map.hpp>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,7 +65,7 @@ class PlacedBalls {
     Vec3<Real> position;
   };
   double cell_;
-  std::map<Key, std::vector<Entry>> cells_;
+  boost::unordered_flat_map<Key, std::vector<Entry>> cells_;
 };
 
 template <class Real>

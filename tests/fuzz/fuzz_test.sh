@@ -17,8 +17,10 @@ cmake --build "$build" --target "${@/#/fuzz_}" >"$build.log" || {
 }
 search() { # target
   local found=$build/found/$1 log=$build/$1.log
+  local longest=10
+  [ "$1" != identify ] || longest=100 # it searches
   mkdir -p "$found/corpus"
-  if "$build/tests/fuzz/fuzz_$1" -seed=20110101 -max_total_time="$seconds" -max_len=8192 -timeout=10 -rss_limit_mb=2048 \
+  if "$build/tests/fuzz/fuzz_$1" -seed=20110101 -max_total_time="$seconds" -max_len=8192 -timeout=$longest -rss_limit_mb=2048 \
     -artifact_prefix="$found/" -print_final_stats=1 "$found/corpus" "tests/fuzz/corpus/$1" >"$log" 2>&1; then
     echo "$1: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, 0 findings"
   else

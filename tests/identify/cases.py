@@ -108,6 +108,42 @@ def saved_state(folder):
     assert "no cause: a run of the case reproduces the log" in said, said
 
 
+def other_vessels(folder):
+    """Each mill and vessel against a log of another speed, diameter or size: an assumption may have other walls than the log."""
+    vessels = {'type = "rounded_cylinder"\ndiameter = "40 mm"\nheight = "40 mm"\nedge_radius = "8 mm"': 'vessel.edge_radius="7 mm"',
+               'type = "capsule"\ndiameter = "38 mm"\nheight = "60 mm"': 'vessel.height="61 mm"',
+               'type = "box"\nsize = ["40 mm", "50 mm", "60 mm"]': 'vessel.size=["40 mm", "50.2 mm", "60 mm"]',
+               'type = "sphere"\ndiameter = "50 mm"': 'vessel.diameter="50.1 mm"',
+               'type = "cylinder"\ndiameter = "38 mm"\nheight = "57 mm"': 'vessel.diameter="38.1 mm"'}
+    mills = {'type = "planetary"\nradius = "75 mm"\nspeed = "300 rpm"\nratio = -2': 'mill.speed="360 rpm"',
+             'type = "spex8000"': 'mill.speed="1000 rpm"',
+             'type = "vibratory"\namplitude = ["5 mm", "0 mm", "1 mm"]\nspeed = "1500 rpm"': 'mill.speed="1600 rpm"'}
+    for mill, other_mill in mills.items():
+        for vessel, other_vessel in vessels.items():
+            case = f"""[run]
+end_time = "1 s"
+max_collisions = 300
+[mill]
+{mill}
+[vessel]
+{vessel}
+[contact]
+friction = 0.4
+restitution = 0.53
+[[balls]]
+count = 6
+diameter = "6 mm"
+"""
+            for setting in (other_mill, other_vessel):
+                run(folder, case, setting)
+                done = subprocess.run([EDMILL, "audit", "case.toml", "out", "--identify", "--examples", "0"], cwd=folder, text=True,
+                                      capture_output=True, check=False)
+                assert done.returncode == 6, (mill, vessel, setting, done.returncode, done.stdout, done.stderr)
+                named = [line for line in done.stdout.splitlines() if "looks like" in line]
+                key = setting.split("=")[0]
+                assert all(key in line or "alike" in line for line in named), (mill, vessel, setting, named)
+
+
 def interrupted(folder):
     rows = run(folder, DEMO, "run.max_collisions=20000", 'mill.arm="100.5 mm"', "contact.restitution=0.55")
     write(folder, rows)
@@ -119,7 +155,7 @@ def interrupted(folder):
     assert "interrupted before a cause was found" in said and "looks like" not in said, said
 
 
-for test in (few_lines, unreadable_lines, balls_at_rest, saved_state, interrupted):
+for test in (few_lines, unreadable_lines, balls_at_rest, saved_state, other_vessels, interrupted):
     with tempfile.TemporaryDirectory() as place:
         test(pathlib.Path(place))
     print(f"{test.__name__}: right")
