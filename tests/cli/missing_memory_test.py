@@ -8,11 +8,11 @@ import resource
 
 from trials import Trials, case, edmill
 
-BALLS = 3_000_000
+BALLS = 600_000
 
 
 def small_memory():
-    resource.setrlimit(resource.RLIMIT_AS, (700_000_000, 700_000_000))
+    resource.setrlimit(resource.RLIMIT_AS, (200_000_000, 200_000_000))
 
 
 with Trials() as t:
