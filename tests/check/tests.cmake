@@ -1,6 +1,7 @@
-foreach(name event_log_test faults_test separation_test clean_logs_test late_logs_test names_test)
+foreach(name event_log_test faults_test separation_test clean_logs_test late_logs_test)
   edmill_test(${name} check/${name}.cpp TIMEOUT 300)
 endforeach()
+edmill_test(names_test check/names_test.cpp LONG TIMEOUT 600)
 add_dependencies(clean_logs_test edmill_cli)
 add_dependencies(late_logs_test edmill_cli)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
