@@ -86,7 +86,12 @@ void AtomicFolder::go_on_from(const std::string& name, const std::vector<std::st
     if (file.empty() || file.find('/') != std::string::npos || file == "." || file == "..")
       throw InputError(named_.string() + ": found '" + file +
                        "' in the checkpoint, expected the name of a frame");
-    if (!fs::exists(temporary_ / file, ignored)) fs::copy_file(place_ / file, temporary_ / file, ignored);
+    if (!fs::exists(temporary_ / file, ignored)) {
+      // Whole or not at all: a resumed run may be killed here, too.
+      const fs::path copy = temporary_name(temporary_ / file);
+      fs::copy_file(place_ / file, copy, ignored);
+      fs::rename(copy, temporary_ / file, ignored);
+    }
     std::ifstream in(temporary_ / file, std::ios::binary);
     std::ostringstream text;
     if (in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
