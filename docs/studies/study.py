@@ -78,7 +78,7 @@ def main():
         panels.append(panel)
     for name, points in groups.items():
         for x, row in points:
-            cells = [f"{scale * values(row, q)[0]:.4g} +- {scale * values(row, q)[1]:.2g}" for q, scale, _ in QUANTITIES]
+            cells = [f"{scale * values(row, q)[0]:.4g} ± {scale * values(row, q)[1]:.2g}" for q, scale, _ in QUANTITIES]
             print(f"| {x:.4g} |" + (f" {name} |" if name else "") + "".join(f" {c} |" for c in cells))
     target = folder / f"{given.study}.svg"
     target.write_text(figure(panels), encoding="utf-8")
