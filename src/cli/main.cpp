@@ -52,7 +52,7 @@ int interruptible(const Work& work, Options& options) {
   return after_signals(work());
 }
 
-/// Of a case, for its outputs.
+/// The name of a case, which its outputs take.
 std::string name_of(const std::string& case_file) {
   return edmill::io::is_stream(case_file) ? "stdin" : std::filesystem::path(case_file).stem().string();
 }
