@@ -110,7 +110,7 @@ auto ImpactJudge::explaining(const LoggedEvent& event, const Scene& scene, doubl
       const double of_way = distance(way.impact, event.body, way.outcome);
       if (of_way < left) left = of_way, best = &way;
     }
-    // Of bodies that separate with the mistake nothing changes, which proves nothing.
+    // Bodies that separate when the mistake is assumed keep their velocities, which proves nothing.
     if (best && dot(best->impact.before(event), best->impact.normal) > allowed) continue;
     const bool explains = violated && best && vanishes(off, left, allowed);
     if (explains && !found)

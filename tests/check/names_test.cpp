@@ -127,7 +127,7 @@ std::vector<Planted> planted() {
       {"inertia", {"balls.1.reduced_inertia"}, {}, "balls.1.reduced_inertia=0.5"},
       {"gravity", {"run.gravity"}, {}, "run.gravity=\"9.7 m/s2\""},
   };
-  // The same where the tolerance is as coarse as for codes with soft contacts.
+  // All of them again, where the tolerance is as coarse as for codes with soft contacts.
   for (std::size_t k = 0, n = all.size(); k < n; ++k) {
     Planted coarse = all[k];
     coarse.name += "_coarse";
