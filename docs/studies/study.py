@@ -16,14 +16,14 @@ sys.path.insert(0, str(HERE.parent.parent / "regression" / "ward"))
 from svg import Panel, figure  # noqa: E402
 
 CRITICAL_RPM = math.sqrt(9.81 / 0.045) * 30 / math.pi  # of drum.toml
-# Of each study: the column with the abscissa, its factor, its label, and its ticks.
+# Each study has the column with the abscissa, its factor, its label, and its ticks.
 STUDIES = {
     "ends": ("name", 1, "radius of the edges [mm]", range(0, 21, 5)),
     "planetary": ("mill.ratio", -1, "k = -ratio: speed of the jar seen from the disc, reversed, over the disc's", (1, 2, 3, 4, 5)),
     "drum": ("mill.speed", 100 / CRITICAL_RPM, "speed in % of the critical one", range(0, 121, 20)),
     "law": ("mill.speed", 1, "speed of the drive [rpm]", range(600, 1401, 200)),
 }
-# Of studies with several curves: the column that tells them apart, and its label.
+# Studies with several curves have a column that tells them apart, and its label.
 CURVES = {"law": ("name", "law"), "planetary": ("contact.friction", "friction")}
 QUANTITIES = (("milling_dose_rate", 1, "milling dose rate [W]"),
               ("collision_rate_total", 1e-3, "impacts [1/ms]"),
@@ -78,7 +78,7 @@ def main():
         panels.append(panel)
     for name, points in groups.items():
         for x, row in points:
-            cells = [f"{scale * values(row, q)[0]:.4g} +- {scale * values(row, q)[1]:.2g}" for q, scale, _ in QUANTITIES]
+            cells = [f"{scale * values(row, q)[0]:.4g} ± {scale * values(row, q)[1]:.2g}" for q, scale, _ in QUANTITIES]
             print(f"| {x:.4g} |" + (f" {name} |" if name else "") + "".join(f" {c} |" for c in cells))
     target = folder / f"{given.study}.svg"
     target.write_text(figure(panels), encoding="utf-8")

@@ -25,13 +25,13 @@ class Case {
   /// @param settings  "section.key=value" over the file, as `edmill run --set`
   /// @throws InputError with every problem of the file
   static Case read(const std::string& path, const std::vector<std::string>& settings = {});
-  /// The same for a text; `name` stands for the file in messages.
+  /// Reads and checks the text of a case; `name` stands for the file in messages.
   static Case parse(const std::string& text, const std::string& name = "case.toml",
                     const std::vector<std::string>& settings = {});
 
   /// SHA-256 of the canonical text: in one scalar, cases with the same digest give the same bits.
   const std::string& digest() const;
-  /// Of the run, unless the program chooses another: "double", "float128", ...
+  /// Scalar of the run, unless the program chooses another: "double", "float128", ...
   const std::string& precision() const;
   int ball_count() const;
 

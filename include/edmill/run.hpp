@@ -55,7 +55,7 @@ class Run {
   void finish();
   /// Ends the run after the present impact; for observers.
   void stop();
-  /// The same for a signal: its end reason is `interrupted`.
+  /// Ends the run after the present impact, for a signal: its end reason is `interrupted`.
   void interrupt();
 
   Real time() const;  ///< [s]

@@ -36,12 +36,12 @@ def student95(freedom):
 
 
 def fisher_probability(ratio, freedom_1, freedom_2):
-    """Of a ratio of variances at least as large."""
+    """Probability of a ratio of variances at least as large."""
     return incomplete_beta(freedom_2 / 2, freedom_1 / 2, freedom_2 / (freedom_2 + freedom_1 * ratio))
 
 
 def half_width(values):
-    """Of the 95 % interval of the mean of independent values."""
+    """Half-width of the 95 % interval of the mean of independent values."""
     return student95(len(values) - 1) * statistics.stdev(values) / math.sqrt(len(values))
 
 

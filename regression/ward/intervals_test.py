@@ -13,7 +13,7 @@ for (one, two), ratio in FISHER.items():
     found = intervals.fisher_probability(ratio, one, two)
     assert abs(found - 0.05) < 1e-3, (one, two, found)
 
-# Of batches without correlation the interval holds the mean in about 95 % of trials (a little more: the wider of two is
+# When batches are not correlated, the interval holds the mean in about 95 % of trials (a little more: the wider of two is
 # taken), and replicas look alike in 95 %. Replicas of different means do not.
 random.seed(20110101)
 print("seed 20110101")

@@ -68,7 +68,7 @@ def inverse_table(data):
         lossy = data.inverse(case, "t_c_5e-4")[0]
         rows.append(row + [f"{mean:.4f}", f"{100 * half / mean:.2f} %", case.thesis_inverse,
                            f"{case.thesis_inverse / mean:.3f}", f"{case.thesis_inverse / lossy:.3f}"])
-    return table(["powder [g]", "charge ratio", "diameter [mm]", "balls", "e", "edmill [s/J]", "+- 95 %", "thesis [s/J]",
+    return table(["powder [g]", "charge ratio", "diameter [mm]", "balls", "e", "edmill [s/J]", "± 95 %", "thesis [s/J]",
                   "thesis / edmill", "thesis / second program, t_c 0.5 ms"], rows)
 
 
@@ -88,7 +88,7 @@ def method_table(data):
     cases = [case for name in DETAILED for case in data.cases if case.name == name]
     rows = [["**thesis, table 5.5**", *(f"**{case.thesis_inverse}**" for case in cases), f"**{cases[1].thesis_rate}**"]]
     for method, words in METHODS:
-        cells = ["{:.4f} +- {:.4f}".format(*data.inverse(case, method)) if not method or (case.name, method) in data.emulation
+        cells = ["{:.4f} ± {:.4f}".format(*data.inverse(case, method)) if not method or (case.name, method) in data.emulation
                  else "not run"
                  for case in cases]
         rows.append([words, *cells,

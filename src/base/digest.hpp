@@ -17,7 +17,7 @@ class Sha256 {
   ~Sha256();
 
   void add(std::string_view bytes);
-  /// Of the bytes so far; more can follow.
+  /// Digest of the bytes so far; more can follow.
   std::string hex() const;
 
  private:

@@ -30,7 +30,7 @@ model::Mill<Real> build_mill(const casefile::CaseSpec& spec);
 /// @param resolved  whether the last of these is asked for
 template <class Real>
 InitialCase<Real> build_case(const casefile::CaseSpec& spec, bool resolved = true);
-/// The same in another mill than the file's.
+/// Builds the case in another mill than the file's.
 template <class Real>
 InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const casefile::CaseSpec& spec,
                                 bool resolved = true);

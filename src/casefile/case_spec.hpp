@@ -127,7 +127,7 @@ const std::vector<std::string>& precisions();
 /// @throws InputError with every problem of the file: file, line, key, found, expected
 CaseSpec read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
-/// The same for a text that is at hand; `name` stands for the file in messages.
+/// Reads and checks the text of a case; `name` stands for the file in messages.
 CaseSpec parse_case(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides = {});
 

@@ -8,7 +8,7 @@
 
 namespace edmill::casefile {
 
-/// Of a case whose numbers have been changed since it was read: what its file would be refused for.
+/// What the file of a case would be refused for, whose numbers have been changed since it was read.
 std::vector<std::string> problems_of(const CaseSpec& spec);
 
 }  // namespace edmill::casefile

@@ -25,7 +25,7 @@ struct FixedKey {
 constexpr FixedKey fixed_keys[] = {
     {"run", "end_time", "time", "none", "the run ends here; at least one of the stop rules `end_time`, `max_collisions`, `max_milling_dose`, `max_ball_speed` is required, the first that is met ends the run"},
     {"run", "max_collisions", "count", "none", "the run ends after so many impacts"},
-    {"run", "max_milling_dose", "energy", "none", "the run ends when so much has been dissipated since `start_time`"},
+    {"run", "max_milling_dose", "energy", "none", "the run ends when so much has been dissipated since it began"},
     {"run", "max_ball_speed", "speed", "none", "the run ends when a ball is faster after an impact"},
     {"run", "start_time", "time", "`initial_time`", "statistics begin here"},
     {"run", "initial_time", "time", "`\"0 s\"`", "instant of the initial state"},

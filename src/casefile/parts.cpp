@@ -92,7 +92,7 @@ void require_shape(Section& vessel, const model::RoundedCylinder<Quantity>& cyli
                  "at most half of the diameter and of the height");
 }
 
-/// The same of values that were not read.
+/// Checks values that were not read in the same way.
 struct Checker {
   Section& section;
 
@@ -109,7 +109,7 @@ Variant read_part(Section& given) {
   Variant chosen;
   [&]<std::size_t... kind>(std::index_sequence<kind...>) {
     const auto name = given.kind("type", {std::variant_alternative_t<kind, Variant>::name...});
-    // Of an unknown type nothing else can be judged.
+    // Where the type is unknown, nothing else can be judged.
     Document ignored;
     Section nothing(ignored, nullptr, given.path());
     Section& section = given.of_unknown_kind() ? nothing : given;

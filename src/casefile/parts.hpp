@@ -21,7 +21,7 @@ std::string name_of(const std::variant<Part...>& part) {
   return std::visit([](const auto& p) { return std::string(p.name); }, part);
 }
 
-/// Of the drive, or the clock unit of a still vessel [s].
+/// Period of the drive, or the clock unit of a still vessel [s].
 inline const Quantity& period_of(const MotionSpec& motion) {
   return std::visit(
       [](const auto& m) -> const Quantity& {

@@ -60,7 +60,7 @@ using QuantityResult = std::variant<Quantity, QuantityProblem>;
 /// `none`.
 QuantityResult parse_quantity(std::string_view text, Dimension dimension);
 
-/// The same where a plain number is taken as SI.
+/// Reads a quantity where a plain number is taken as SI.
 QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension);
 
 /// Whether a text begins with a number that has a comma between its digits, where a point is expected.

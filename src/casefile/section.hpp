@@ -82,7 +82,7 @@ class Section {
   Colour colour(const std::string& key, const Colour& fallback);
   /// One of `choices`, or the first when absent.
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
-  /// The same for a choice that decides which other keys there are: after an unknown one no key is rejected.
+  /// A choice that decides which other keys there are: after an unknown one no key is rejected.
   std::string kind(const std::string& key, const std::vector<std::string>& kinds);
   bool of_unknown_kind() const { return of_unknown_kind_; }
 

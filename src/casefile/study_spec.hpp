@@ -21,7 +21,7 @@ struct StudySpec {
   std::string case_file;  ///< path of the case that is varied
   std::string precision;  ///< of all runs; empty for the case's own
   std::uint64_t seed = 1;
-  /// Of a run [s]; a longer one ends without a result.
+  /// Largest processor time of a run [s]; a longer run ends without a result.
   double max_cpu_time = std::numeric_limits<double>::infinity();
 };
 

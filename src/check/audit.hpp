@@ -68,7 +68,7 @@ struct EventsAtHand {
 };
 /// The first events of a log. @throws InputError
 EventsAtHand read_events(const model::Case<double>& the_case, const Options& options, std::size_t most);
-/// The same audit of events at hand. The options' log is not read, nor is it asked to begin at the start.
+/// Audits events at hand. The options' log is not read, nor is it asked to begin at the start.
 Audit audit(const model::Case<double>& the_case, const EventsAtHand& log, const Options& options);
 /// What gaps and speeds may be off by.
 Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options);

@@ -147,7 +147,7 @@ void Auditor::complete_scene(const LoggedEvent& event, Scene& scene) const {
   }
 }
 
-/// Of an event that does not come before its bodies touch.
+/// Notes how late an event is that does not come before its bodies touch.
 void Auditor::note_delay(const LoggedEvent& event, const Scene& scene, double depth) {
   if (!available_.velocities_before(event.with_wall)) return;
   const double closing = -dot(scene.impact.before(event), scene.impact.normal);

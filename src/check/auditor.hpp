@@ -26,7 +26,7 @@ class Auditor {
   const Flights& flights() const { return flights_; }
   /// Logged impacts with each wall, for the diagnosis.
   const std::vector<std::uint64_t>& with_wall() const { return with_wall_; }
-  /// Of the events that are not grazes, how late each is.
+  /// How late each event is that is not a graze.
   const DelaysByPartner& delays() const { return delays_; }
 
  private:

@@ -48,7 +48,7 @@ struct Available {
   std::array<Body, 2> body;
   bool approach_speed = false, slip_speed = false, milling_dose = false, wall_work = false;
 
-  /// Of the bodies that an event has.
+  /// Whether the log has these columns for all bodies of an event.
   bool positions(bool with_wall) const { return both(with_wall, &Body::position); }
   bool velocities_before(bool with_wall) const { return both(with_wall, &Body::velocity_before); }
   bool velocities_after(bool with_wall) const { return both(with_wall, &Body::velocity_after); }

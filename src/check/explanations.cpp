@@ -110,7 +110,8 @@ auto ImpactJudge::explaining(const LoggedEvent& event, const Scene& scene, doubl
       const double of_way = distance(way.impact, event.body, way.outcome);
       if (of_way < left) left = of_way, best = &way;
     }
-    // Of bodies that separate faster than v_s with the mistake nothing changes, which proves nothing.
+    // Bodies that separate faster than v_s when the mistake is assumed keep their velocities, which proves
+    // nothing.
     if (best && dot(best->impact.before(event), best->impact.normal) > l.least_separation + allowed) continue;
     const bool explains = violated && best && vanishes(off, left, allowed);
     if (explains && !found)

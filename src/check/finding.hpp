@@ -108,7 +108,7 @@ class Findings {
   std::uint64_t judged_number(Check check) const { return judged_[static_cast<std::size_t>(check)]; }
   std::uint64_t unresolved_number(Check check) const { return unresolved_[static_cast<std::size_t>(check)]; }
   std::uint64_t total() const;
-  /// Of all, those whose notes explain them.
+  /// Number of violations that their notes explain.
   std::uint64_t explained() const;
   /// Kinds that were found, the most frequent first.
   std::vector<Kind> ranked() const;

@@ -130,7 +130,7 @@ bool Flights::report_missed_wall(int ball, Track& track, const Contact& missed, 
   return true;
 }
 
-/// The same for two balls; what only the partner's flight can confirm is left pending with the partner.
+/// Reports a missed impact of two balls; what only the partner's flight can confirm waits for that flight.
 bool Flights::report_missed_ball(int ball, const Contact& pair, const FlightEnd& end, double off,
                                  double& missed_at) {
   Track& other = of(pair.partner);

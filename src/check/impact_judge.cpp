@@ -161,7 +161,7 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
   if (known.velocities && known.spins) judge_energies(event, impact, theirs, allowed.energy);
 }
 
-/// Of an impact with a wall that the rounding of its time leaves anywhere.
+/// Counts as unresolved the checks of an impact with a wall whose place the rounding of its time leaves open.
 void ImpactJudge::leave_unresolved(const Known& known) {
   findings_.unresolved(Check::approach);
   if (available_.approach_speed) findings_.unresolved(Check::approach_speed);

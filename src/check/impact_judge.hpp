@@ -52,9 +52,9 @@ class ImpactJudge {
         net_dose_(findings.examples()),
         dose_without_rule_(findings.examples()) {}
 
-  /// With the states of the bodies.
+  /// Judges an impact by the states of the bodies.
   void judge(const LoggedEvent& event, Scene scene);
-  /// Of a log, or for an impact, without them: the dose from the logged speeds.
+  /// Judges the dose by the logged speeds, where the log or this impact has no states.
   void judge_speeds(const LoggedEvent& event, const LoggedImpact& impact);
   const model::ContactLaw<double>& law(const LoggedImpact& impact) const {
     return impact.with_wall ? mill_.law_with_wall(impact.ball[0], impact.wall)

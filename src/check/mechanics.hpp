@@ -20,7 +20,7 @@ inline double size(const Vec& a) { return edmill::norm<double>(a); }
 struct VesselFrame {
   Vec x, y, z, centre;
   Vec centre_velocity{0, 0, 0}, angular_velocity{0, 0, 0};
-  // Of the nested motion only, whose two rotations codes take for each other:
+  // For the nested motion only, whose two rotations codes take for each other:
   Vec swing{0, 0, 0};    ///< theta' about Z [rad/s]
   double roll_rate = 0;  ///< gamma' about x' [rad/s]
   /// Where the walls stand that move in the vessel, by wall; empty where none does.
@@ -31,7 +31,7 @@ struct VesselFrame {
   }
 };
 
-/// Of the walls of a vessel at an instant.
+/// Where the walls of a vessel are at an instant, and how they move.
 std::vector<model::Moved<double>> moved_walls(const model::AnyVessel<double>& vessel,
                                               const Instant<double>& when);
 
@@ -133,7 +133,7 @@ double kinetic_change(const LoggedEvent& event, const LoggedImpact& impact);
 /// Work of the wall on the ball of a logged impact [J]. (A.82)
 double work_of_wall(const LoggedEvent& event, const LoggedImpact& impact);
 
-/// Of the contact points before an impact [m/s].
+/// Speeds of the contact points before an impact [m/s].
 struct Speeds {
   double g_n, slip;
 };

@@ -18,7 +18,7 @@ struct WallRates {
   static WallRates of(const model::Mill<double>& mill) {
     const auto& motion = mill.motion;
     const double vessel = mill.vessel.reach();
-    // Of the points within r of the centre some move with r times the angular speed or faster.
+    // Some of the points within r of the centre move with r times the angular speed or faster.
     constexpr double far = 1e6;
     WallRates rates{motion.wall_speed(vessel), motion.acceleration_within(motion.reach(vessel)),
                     motion.wall_speed(far) / far};
@@ -44,7 +44,7 @@ struct Tolerances {
   /// How far walls may be from where they are at the logged time [m].
   double wall_places(double t) const { return std::min(time(t) * walls.speed, 2 * reach); }
   double touch(double t, bool with_wall) const { return gap + (with_wall ? wall_places(t) : 0); }
-  /// Of the end of a flight from an impact at an earlier time.
+  /// Tolerance of the end of a flight from an impact at an earlier time.
   double position(double t, double path, double speed) const {
     return relative * (reach + path) + 2 * time(t) * (speed + 2 * time(t) * gravity);
   }

@@ -1,28 +1,104 @@
 #include "cli/run_command.hpp"
 
-#include "casefile/memory_for.hpp"
-#include "cli/dispatch.hpp"
+#include <filesystem>
+#include <optional>
+
+#include "app/certify.hpp"
+#include "app/run.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/precision_commands.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/signals.hpp"
+#include "io/input_file.hpp"
 #include "io/terminal.hpp"
-#include "report/report_page.hpp"
+#include "run/run_folder.hpp"
 
 namespace edmill::cli {
 
-int run_and_report(const std::string& precision, casefile::CaseSpec spec, RunOptions options) {
-  if (options.report) report::add_report_outputs(spec);
-  options.case_text = report::case_text(spec, options.report);
-  std::string place;
-  options.when_written = [&] {
-    if (options.report) place = report::put_report(options.folder).string();
+namespace {
+
+app::RunOptions options_of(const RunCommand& command) {
+  app::RunOptions options;
+  options.folder = command.folder;
+  options.report = command.report;
+  options.interrupt = &interrupt_flag();
+  options.begun = listen_for_signals;
+  options.without_locks = [](const std::filesystem::path& place) {
+    io::tell(
+        "edmill: {}: this file system has no locks; nothing but you keeps another process out of the "
+        "folder\n",
+        place.string());
   };
-  const int code = casefile::with_memory_for(spec, [&] { return run_case(precision, spec, options); });
-  if (options.report && !options.quiet) io::print("The report is {}\n", place);
+  return options;
+}
+
+int code_of(model::EndReason reason) {
+  switch (reason) {
+    case model::EndReason::undecided:
+      return undecided;
+    case model::EndReason::stalled:
+      return stalled;
+    case model::EndReason::interrupted:
+      return interrupted;
+    case model::EndReason::inelastic_collapse:
+      return inelastic_collapse;
+    default:
+      return ok;
+  }
+}
+
+int tell(const app::RunResult& result, const RunCommand& command) {
+  if (!command.quiet) {
+    io::print("{}\nResults are in {}\n", result.table, command.folder);
+    if (result.goes_on) io::print("Continue with: edmill resume {}\n", command.folder);
+  }
+  if (!result.error.empty()) io::tell("edmill: {}\n", result.error);
+  if (!result.report.empty() && !command.quiet) io::print("The report is {}\n", result.report.string());
+  return code_of(result.end_reason);
+}
+
+/// Does `work` with a progress line on a terminal.
+template <class Work>
+int with_progress(app::RunOptions& options, const RunCommand& command, const Work& work) {
+  std::optional<ProgressLine> line;
+  if (shows_progress(command.quiet)) {
+    line.emplace();
+    options.progress = [&](const app::RunProgress& p) {
+      line->show(p.now, p.end, p.collisions, p.milling_dose);
+    };
+  }
+  const auto result = work();
+  line.reset();
+  return with_signal(tell(result, command));
+}
+
+}  // namespace
+
+std::string name_of(const std::string& case_file) {
+  return io::is_stream(case_file) ? "stdin" : std::filesystem::path(case_file).stem().string();
+}
+
+int run_case(const casefile::CaseSpec& spec, const RunCommand& given) {
+  auto command = given;
+  if (command.folder.empty()) command.folder = "out/" + name_of(spec.file);
+  const auto& scalar = command.precision.empty() ? spec.precision : command.precision;
+  if (!command.shadow.empty()) app::require_wider(scalar, command.shadow);
+  auto options = options_of(command);
+  if (!command.checkpoint.empty()) {
+    run::parse_checkpoint_interval(command.checkpoint);
+    options.checkpoint =
+        app::first_checkpoint(spec, command.overrides, scalar, command.report, command.checkpoint);
+  }
+  int code = with_progress(options, command, [&] { return app::run(scalar, spec, options); });
+  if (code == ok && !command.shadow.empty())
+    code = with_signal(run_shadow(spec, scalar, command.shadow, options.interrupt));
   return code;
 }
 
-void tell_of_missing_locks(const std::filesystem::path& folder) {
-  io::tell(
-      "edmill: {}: this file system has no locks; nothing but you keeps another process out of the folder\n",
-      folder.string());
+int run_resume(const RunCommand& command) {
+  if (!command.checkpoint.empty()) run::parse_checkpoint_interval(command.checkpoint);
+  auto options = options_of(command);
+  return with_progress(options, command, [&] { return app::resume(command.checkpoint, options); });
 }
 
 }  // namespace edmill::cli

@@ -1,12 +1,27 @@
-// A run with the files beside its results: the case, and the page on request.
+// The commands `edmill run`, `edmill demo` and `edmill resume`.
 #pragma once
 
-#include "cli/run_case.hpp"
+#include <string>
+#include <vector>
+
+#include "casefile/case_spec.hpp"
 
 namespace edmill::cli {
 
-/// @pre `precision` is one of casefile::precisions()
-/// @return an exit code, as of run_case
-int run_and_report(const std::string& precision, casefile::CaseSpec spec, RunOptions options);
+struct RunCommand {
+  std::string folder;      ///< of the results; out/<name of the case> when empty
+  std::string precision;   ///< scalar of the run; that of the case when empty
+  std::string shadow;      ///< a wider scalar to compare with; none when empty
+  std::string checkpoint;  ///< how often to save the state; when empty, never, or as before
+  std::vector<std::string> overrides;
+  bool report = false, quiet = false;
+};
+
+/// @return an exit code
+int run_case(const casefile::CaseSpec& spec, const RunCommand& command);
+int run_resume(const RunCommand& command);
+
+/// Of a case, for its outputs: the stem of its file.
+std::string name_of(const std::string& case_file);
 
 }  // namespace edmill::cli

@@ -32,10 +32,4 @@ int after_output(int code) {
   return internal_error;
 }
 
-int after_closed_pipe(const char* what) {
-  end_by_pipe_signal();
-  io::tell("edmill: {}\n", what);
-  return internal_error;
-}
-
 }  // namespace edmill::cli

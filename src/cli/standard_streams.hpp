@@ -13,7 +13,4 @@ void open_standard_descriptors();
 /// @return the exit code
 int after_output(int code);
 
-/// For a pipe that nobody reads any more. @return the exit code where SIGPIPE is ignored
-int after_closed_pipe(const char* what);
-
 }  // namespace edmill::cli

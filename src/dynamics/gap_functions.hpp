@@ -114,7 +114,7 @@ class GapFunctions {
 
   Instant<Real> instant(const Real& offset) const { return {period_, offset}; }
   Pose pose(const Real& offset) const { return mill_.motion.pose(instant(offset)); }
-  /// The same within a moment of an offset where it is known.
+  /// The pose within a moment of an offset at which it is known.
   Pose pose_nearby(const Real& offset, const Pose& pose, const Real& known) const {
     return mill_.motion.pose_nearby(instant(offset), pose, instant(known));
   }
@@ -124,7 +124,7 @@ class GapFunctions {
 
   Sample operator()(const Real& offset) const { return (*this)(offset, pose(offset)); }
 
-  /// The same where the vessel is known to stand at `pose`.
+  /// The gaps and their rates where the vessel is known to stand at `pose`.
   Sample operator()(const Real& offset, const Pose& pose) const {
     const Real dt = elapsed(offset);
     return sample(offset, mill_.motion.to_vessel_frame(pose, position_after(flight_, mill_.gravity, dt),

@@ -176,7 +176,7 @@ class PairSearch {
            4 * epsilon<Real>() * (delay + clock_.period());
   }
 
-  /// The same decision with bounds made for this pair: touching, grazing or slow ones.
+  /// Decides with bounds made for this pair: touching, grazing or slow ones.
   PairAnswer<Real> close(const Relative& s, const Real& age, const Real& radius_sum) const {
     using std::sqrt;
     const Real u = epsilon<Real>() / 2;

@@ -100,7 +100,7 @@ class WallSearch {
     return search(query);
   }
 
-  /// Of each wall, whether a ball at `position` in the vessel can reach it in a window of `length` [s] at any
+  /// Whether a ball at `position` in the vessel can reach each wall in a window of `length` [s] at any
   /// velocity below `speed` [m/s], whatever its direction. No is a proof, without rates or curvatures.
   /// theory.md, section 3
   Walls within_reach(const Functions& functions, const Vec3<Real>& position, const Real& speed,
@@ -108,7 +108,7 @@ class WallSearch {
 
   /// The search in this scalar alone.
   WallAnswer<Real> search(const WallQuery<Real>& query) const;
-  /// The same where the caller knows the vessel's pose at the window's begin.
+  /// The search in this scalar where the caller knows the vessel's pose at the window's begin.
   WallAnswer<Real> search(const Pose& pose, const WallQuery<Real>& query) const;
 
   /// The search in double, with only the root found in this scalar; undecided is what double cannot prove.

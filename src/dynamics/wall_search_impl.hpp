@@ -84,7 +84,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
         functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]}};
   };
 
-  // Of most walls the state at the start alone shows that they are not hit.
+  // For most walls the state at the start alone shows that they are not hit.
   const auto whole = bounds_.at(speed, query.length);
   Real length = query.length;
   bool any = false;

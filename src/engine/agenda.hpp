@@ -121,7 +121,7 @@ class Agendas {
     if (latest_impact_ == 1 << 20) renumber_impacts();
     agendas_[ball].last_impact = agendas_[partner].last_impact = ++latest_impact_;
   }
-  /// Of the latest impact of all.
+  /// Number of the latest impact of all.
   std::uint32_t latest_impact() const { return latest_impact_; }
 
   /// Makes the numbers of impacts small again. Pair contacts that hold go on holding, and no others do.

@@ -29,7 +29,7 @@ Real largest_fall(const model::Mill<Real>& mill) {
   return 4 * sqrt(reach * norm<Real>(mill.gravity));
 }
 
-/// Of two bodies that the accelerations of walls and gravity bring together over a path [m/s].
+/// Speed of two bodies that the accelerations of walls and gravity bring together over a path [m/s].
 template <class Real>
 Real speed_over(const Real& path, const model::Mill<Real>& mill) {
   using std::sqrt;
@@ -47,7 +47,8 @@ Real shortest_advance(const model::Mill<Real>& mill) {
   return std::max(by_rule, Real(1000000 * epsilon<Real>() * mill.motion.period()));
 }
 
-/// Of any ball until impacts make one faster than twice the fastest ball or wall at the start [m/s].
+/// Largest speed of a ball until impacts make one faster than twice the fastest ball or wall at the start
+/// [m/s].
 template <class Real>
 Real largest_speed(const std::vector<model::BallState<Real>>& states, const model::Mill<Real>& mill) {
   Real largest{1};

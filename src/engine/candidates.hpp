@@ -58,7 +58,7 @@ class Candidates {
     if (columns_) return columns_->filter(query(ball, state, now), result_);
     return find_among(ball, state, now, near);
   }
-  /// The same among the balls of `near` alone.
+  /// Finds candidates among the balls of `near` alone.
   int find_among(int ball, const DoubleState& state, const Instant<Real>& now, FoundBalls& near) {
     result_.make_room(near.count);
     return filter_pairs(flights(), radii_.data(), stride_, query(ball, state, now), ball, near.balls.data(),

@@ -121,7 +121,7 @@ class CellGrid {
       for (const int v : {0, 2})
         for (const int u : {0, 2}) fetch(&content_[at_[0][x + u] + at_[1][y + v] + at_[2][z + w]]);
   }
-  /// The same for what a move from `cell` by `step` along `axis` and `new_neighbours` after it read.
+  /// Fetches what a move from `cell` by `step` along `axis` and `new_neighbours` after it read.
   void fetch_new_cells(const CellOfBall& cell, int axis, int step) const {
     const int place = cell.at[axis] + 1 + 2 * step;
     if (place < 0 || place >= cells_[axis] + 2) return;  // `move` will refuse it
@@ -139,8 +139,8 @@ class CellGrid {
     collect<3>(&at_[0][x], &at_[1][y], &at_[2][z], found);
   }
 
-  /// The same for the cells that became adjacent when a ball moved to `cell` by `step` along `axis`: one
-  /// layer, whose two other axes may be in any order.
+  /// Finds the balls of the cells that became adjacent when a ball moved to `cell` by `step` along `axis`:
+  /// one layer, whose two other axes may be in any order.
   void new_neighbours(const CellOfBall& cell, int axis, int step, FoundBalls& found) const {
     const auto [one, other] = across(axis);
     const int layer = at_[axis][cell.at[axis] + 1 + step];

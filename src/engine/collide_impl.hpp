@@ -36,7 +36,7 @@ void Simulation<Real>::update_pose() {
   });
 }
 
-/// The same when the ball's predicted wall contact is due, whose pose a wide scalar has kept.
+/// Updates the pose when the ball's predicted wall contact is due, whose pose a wide scalar has kept.
 template <class Real>
 void Simulation<Real>::update_pose_at_wall_contact(int ball) {
   if constexpr (!std::is_same_v<Real, double>) {

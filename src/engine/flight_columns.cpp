@@ -11,7 +11,7 @@ namespace edmill::engine {
 #else
 #define EDMILL_FOR_SEVERAL_CPUS
 #endif
-// Of what the clones call: compiled by itself it would be for the oldest CPU. The clones themselves must not
+// For what the clones call: compiled by itself it would be for the oldest CPU. The clones themselves must not
 // end in a call: GCC 12 then leaves out vzeroupper, and all SSE code after it is slow.
 #define EDMILL_INTO_CLONES [[gnu::always_inline]] static inline
 

@@ -54,8 +54,8 @@ class PairFilterResult {
   std::vector<double> approach_, gap_, discriminant_;
 };
 
-/// PairFilterResult at a list of balls and finds the candidates among them. Compiled for several instruction
-/// sets, all with the same bits since nothing is contracted.
+/// Looks at a list of balls and finds the candidates among them. Compiled for several instruction sets, all
+/// with the same bits since nothing is contracted.
 /// @param flights, radii  of all balls; ball i has radius radii[i * stride]
 /// @param self            the ball of the query, which is never a candidate
 /// @param balls, result    with room for three more than `count`
@@ -63,12 +63,12 @@ class PairFilterResult {
 int filter_pairs(const dynamics::Flight<double>* flights, const double* radii, int stride,
                  const PairFilterQuery& query, int self, int* balls, int count, PairFilterResult& result);
 
-/// The same for the first `balls` of `batches`, which have room for a multiple of four: those beyond the last
-/// are filtered, too.
+/// Filters the first `balls` of `batches` in the same way. Batches have room for a multiple of four: those
+/// beyond the last are filtered, too.
 int filter_all_pairs(const FlightBatch* batches, int balls, bool alike, const PairFilterQuery& query,
                      PairFilterResult& result);
 
-/// Where cells are of no use this result at every ball.
+/// The flights of all balls. Where cells do not help, the filter looks at every ball here.
 class FlightColumns {
  public:
   /// @param alike  whether all balls have one radius

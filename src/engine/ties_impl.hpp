@@ -19,9 +19,9 @@ bool Simulation<Real>::has_rivals(const Event<Real>& event) const {
   return due > 1 || queue_.runner_up(limit) >= 0;  // one is the event itself
 }
 
-/// Of contacts that share a ball and are so close in time that rounding may have put them in the wrong order,
-/// the first: wider scalars time them anew. What no scalar can tell apart is put in order by a rule, and
-/// marked.
+/// Finds the first of the contacts that share a ball and are so close in time that rounding may have put them
+/// in the wrong order: wider scalars time them anew. What no scalar can tell apart is put in order by a rule,
+/// and marked.
 template <class Real>
 auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
   std::vector<Event<Real>> passed;  // that went behind another one

@@ -24,8 +24,8 @@ struct Cause {
   std::vector<std::string> mistakes;   ///< "mill, sign of gamma: ..."
   std::uint64_t explains = 0, of = 0;  ///< violations
   double gain = 0;                     ///< of Schwarz's criterion over no cause
-  /// Of logs without states: impacts that a run with the cause follows, of those that rounding lets it
-  /// follow, and those that the case itself follows.
+  /// For logs without states: how many impacts a run with the cause follows, how many rounding lets it
+  /// follow, and how many a run of the case itself follows.
   std::uint64_t follows = 0, could_follow = 0, follows_without = 0;
   std::vector<std::string> alike;  ///< other causes that this log cannot distinguish from it
 
@@ -37,7 +37,7 @@ struct Identification {
   std::uint64_t events = 0, violations = 0;  ///< that were searched
   std::uint64_t noted = 0;                   ///< violations that the audit's notes explain
   std::vector<Cause> causes;                 ///< the best first; empty where nothing explains the log
-  /// Of logs without places: how many impacts a run of the case follows, and whether rounding alone ends
+  /// For logs without places: how many impacts a run of the case follows, and whether rounding alone ends
   /// that.
   std::optional<std::uint64_t> follows;
   bool follows_all = false;

@@ -220,7 +220,7 @@ class Laws {
   std::vector<Parameter>& list_;
 };
 
-/// Of the balls [first, last), whose numbers are all scaled alike.
+/// Adds the parameters of the balls [first, last), whose numbers are all scaled alike.
 void add_balls(const std::string& key, std::size_t first, std::size_t last, const casefile::BallSpec& spec,
                std::vector<Parameter>& list) {
   using Spec = casefile::BallSpec;

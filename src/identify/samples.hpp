@@ -29,7 +29,7 @@ class Samples {
   const Places& whole() const { return windows_.back(); }  ///< the same, more
   const Places& many() const { return many_; }             ///< the same, for a last fit
   const Places& early() const { return windows_.front(); }
-  /// Of growing spans, the last of the whole log: a motion's speed is fitted from the first on.
+  /// Samples of growing spans, the last of the whole log: a motion's speed is fitted from the first on.
   const std::vector<Places>& windows() const { return windows_; }
 
  private:

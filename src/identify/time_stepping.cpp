@@ -77,7 +77,7 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   return best;
 }
 
-/// Of a contact whose flight is off otherwise than a contact that lasts puts it off.
+/// Stands for the duration where a flight is off, but not as a contact that lasts would put it off.
 constexpr double no_duration = -1;
 
 /// An impact with its geometry, and what the flights on either side of it miss.

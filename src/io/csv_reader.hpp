@@ -37,7 +37,7 @@ class CsvReader {
 
   /// Index of a column; nothing when it is absent. A repeated name is a problem.
   std::optional<std::size_t> column(std::string_view name);
-  /// The same for a required column.
+  /// Index of a required column; that it is absent is a problem.
   std::optional<std::size_t> needed_column(std::string_view name);
 
   /// Moves to the next row that has as many fields as the header.

@@ -45,7 +45,7 @@ class FileBuffer : public std::streambuf {
   void drop();
 
   int error() const { return error_; }  ///< errno of the first failure
-  /// Of all bytes that were flushed, those before it was opened among them.
+  /// Number of all bytes that were flushed, those before it was opened among them.
   std::uint64_t size() const { return size_; }
   std::string digest() const { return digest_.hex(); }
 

@@ -17,7 +17,7 @@ std::string temporary_name_from(const std::string& found, const std::filesystem:
 /// A lock on a folder; the system releases it when the process ends, however it ends.
 class FolderLock {
  public:
-  /// Of a run, which is alone in its folder, or of a file that somebody has named.
+  /// The lock of a run, which is alone in its folder, or of a file that somebody has named.
   enum class Kind { alone, shared };
 
   /// @throws InputError when another process holds a lock that excludes this one

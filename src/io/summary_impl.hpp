@@ -153,7 +153,7 @@ class SummaryWriter {
                 s.cpu_seconds > 0 ? static_cast<double>(s.total_impacts) / s.cpu_seconds : 0.0);
   }
 
-  /// Of the time simulated; null when that is none.
+  /// The amount over the time simulated; null when that is none.
   void rate(std::string_view key, const Real& amount) {
     if (s.duration() > 0)
       json.number(key, Real(amount / s.duration()));

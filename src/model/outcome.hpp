@@ -24,7 +24,7 @@ struct Energy {
   }
 };
 
-/// Of one ball.
+/// The energy of one ball.
 template <class Real>
 Energy<Real> energy_of(const BallProperties<Real>& ball, const BallState<Real>& state,
                        const Vec3<Real>& gravity) {
@@ -33,7 +33,7 @@ Energy<Real> energy_of(const BallProperties<Real>& ball, const BallState<Real>& 
           -(ball.mass * dot<Real>(gravity, state.position))};
 }
 
-/// Of all balls.
+/// The energy of all balls.
 template <class Real>
 Energy<Real> energy_of(const std::vector<BallProperties<Real>>& balls,
                        const std::vector<BallState<Real>>& states, const Vec3<Real>& gravity) {

@@ -12,7 +12,7 @@ namespace edmill::output {
 
 inline constexpr casefile::KeyText snapshot_keys[] = {casefile::contact_point_key};
 
-/// Of one impact unless told: there is a file for each.
+/// A snapshot shows one impact unless a key says otherwise: there is a file for each.
 inline void read_snapshot(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   casefile::read_contact_point(s, output);
   if (!output.timer.collisions) output.timer.collisions = 1;
@@ -52,7 +52,7 @@ class SnapshotOutput : public SceneOutput<Real> {
   }
 
  private:
-  /// Of a drive period, so that the pictures of a periodic motion have one viewer, and of a time in it.
+  /// Frames of a drive period, so that pictures of a periodic motion have one viewer, and of a time in it.
   static std::vector<Frame<double>> frames_around(const model::AnyMotion<Real>& motion, double time) {
     constexpr int parts = 64;
     const auto period = static_cast<double>(motion.period());

@@ -55,7 +55,7 @@ std::string without_zeros(const std::string& text) {
   return end == std::string::npos ? mantissa : mantissa + text.substr(end);
 }
 
-/// Of a tick that is too large or too small for plain decimals.
+/// Label of a tick that is too large or too small for plain decimals.
 std::string tick_label(double value) {
   return value == 0 ? "0" : without_zeros(scientific(value, exponent_of(value, 3), 3));
 }

@@ -31,7 +31,7 @@ double width_of(const std::vector<Tick>& ticks);
 /// @param digits  significant ones
 std::string readable(double value, int digits = 4);
 
-/// The same without zeros at the end: "38", "0.5".
+/// A value as `readable` writes it, without zeros at the end: "38", "0.5".
 std::string brief(double value, int digits = 6);
 
 /// A value and its half-width with the digits that the half-width allows: "5.542" and "0.031".

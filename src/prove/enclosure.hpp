@@ -119,7 +119,7 @@ inline Enclosure sqrt(const Enclosure& a) {
 struct SinCos {
   Enclosure sin, cos;
 };
-/// Of an angle in turns.
+/// Sine and cosine of an angle in turns.
 inline SinCos sin_cos_turns(const Enclosure& turns) {
   SinCos result;
   const Enclosure half_turns = turns + turns;

@@ -8,7 +8,7 @@
 
 namespace edmill::prove {
 
-/// Of an exact quantity, to the bits in force.
+/// Encloses an exact quantity, to the bits in force.
 Enclosure enclosure_of(const casefile::Quantity& quantity);
 
 /// "1a2b -8c 3ff -98": midpoint and radius, each a whole number times a power of two, all in hexadecimal, as

@@ -46,7 +46,7 @@ class WallExclusion {
 bool apart(const Flight& one, const Flight& two, const Enclosure& reach, const Vector& gravity,
            const Enclosure& begin, const Enclosure& end);
 
-/// Of two flights at a time. @param reach  R_i + R_j
+/// The gap of two flights at a time. @param reach  R_i + R_j
 PairGap pair_gap(const Flight& one, const Flight& two, const Enclosure& reach, const Vector& gravity,
                  const Enclosure& time);
 

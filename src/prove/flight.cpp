@@ -29,7 +29,7 @@ Walls::Walls(const ExactCase& exact, const ExactBall& ball) {
 
 namespace {
 
-/// Of what a round wall does not see: a cylinder's axis is y.
+/// Takes off what a round wall does not see: the component along a cylinder's axis, y.
 Vector across(ExactWall::Kind kind, Vector v) {
   if (kind == ExactWall::cylinder) v[1] = Enclosure();
   return v;

@@ -12,6 +12,7 @@
 
 #include "api/case_access.hpp"
 #include "api/run_access.hpp"
+#include "base/with_scalar.hpp"
 #include "casefile/memory_for.hpp"
 #include "edmill/run.hpp"
 #include "instances/instances.hpp"
@@ -308,14 +309,10 @@ py::dict run(const Case& the_case, const std::string& precision, const std::stri
              bool report, const std::vector<py::object>& observers, const py::object& ball_ball,
              const py::object& ball_wall, const py::object& progress) {
   const Wishes wishes{folder, events, report, observers, ball_ball, ball_wall, progress};
-#define EDMILL_RUN_IN(Real)                                      \
-  if (precision == ScalarName<Real>::value)                      \
-    return casefile::with_memory_for(CaseAccess::spec(the_case), \
+  return with_scalar(precision, [&]<class Real>() {
+    return casefile::with_memory_for(CaseAccess::spec(the_case),
                                      [&] { return run_in<Real>(the_case, wishes); });
-  EDMILL_FOR_EACH_SCALAR(EDMILL_RUN_IN)
-#undef EDMILL_RUN_IN
-  throw InputError("precision: found '" + precision +
-                   "', expected double, float128, mpfr50, mpfr100 or mpfr200");
+  });
 }
 
 }  // namespace
@@ -330,6 +327,7 @@ void add_runs(py::module_& m) {
 #undef EDMILL_ADD
   m.attr("event_dtype") = py::dtype::of<Impact<double>>();
   m.attr("state_dtype") = py::dtype::of<BallState<double>>();
+  m.attr("precisions") = py::tuple(py::cast(casefile::precisions()));
   m.def("run", &run);
 }
 

@@ -10,13 +10,14 @@
 #include <type_traits>
 
 #include "api/case_access.hpp"
+#include "app/audit.hpp"
+#include "app/certify.hpp"
+#include "app/check_case.hpp"
+#include "app/prove.hpp"
+#include "app/study.hpp"
 #include "base/errors.hpp"
 #include "check/comparison.hpp"
-#include "cli/audit_command.hpp"
-#include "cli/compare_command.hpp"
-#include "cli/run_case.hpp"
-#include "cli/study_command.hpp"
-#include "io/named_file.hpp"
+#include "io/input_file.hpp"
 #include "prove/certificate.hpp"
 #include "report/report_page.hpp"
 
@@ -50,35 +51,101 @@ std::invoke_result_t<Work> interruptible(std::atomic<bool>& interrupt, const Wor
   return result;
 }
 
+/// @return how many runs failed
 template <class Command>
-int study(const std::string& file, const std::string& folder, int jobs, const Command& command) {
+std::size_t study(const std::string& file, const std::string& folder, int jobs, const Command& command) {
   std::atomic<bool> interrupt{false};
-  cli::StudyOptions options{file, folder, jobs, true, &interrupt};
-  return interruptible(interrupt, [&] { return command(options); });
+  const app::StudyOptions options{file, folder, jobs, true, &interrupt};
+  const auto result = interruptible(interrupt, [&] { return command(options); });
+  return result ? result->counts.failed : 0;
 }
 
-int compare(const std::string& a, const std::string& b, const std::string& json, double tolerance,
-            std::optional<std::uint64_t> events, std::optional<double> from, std::optional<double> until,
-            std::optional<double> batch) {
-  cli::CompareOptions options;
-  options.a = a, options.b = b, options.json = json, options.tolerance = tolerance, options.events = events;
+/// @return the result in JSON
+std::string compare(const std::string& a, const std::string& b, double tolerance,
+                    std::optional<std::uint64_t> events, std::optional<double> from,
+                    std::optional<double> until, std::optional<double> batch) {
+  compare::Options options;
+  options.a = a, options.b = b, options.tolerance = tolerance, options.events = events;
   options.limits.from = from, options.limits.until = until, options.batch = batch;
-  options.quiet = true;
   const py::gil_scoped_release others;
-  return cli::run_compare(options);
+  const io::Spool pipes;
+  return compare::to_json(compare::compare(options));
 }
 
-int audit(const Case& the_case, const std::string& log, const std::string& json,
-          const std::vector<std::string>& columns, std::optional<double> tolerance,
-          std::optional<double> gap_tolerance, std::optional<int> first_ball, const std::string& walls,
-          bool from_start, bool identify) {
+/// @return the result in JSON
+std::string audit(const Case& the_case, const std::string& log, const std::vector<std::string>& columns,
+                  std::optional<double> tolerance, std::optional<double> gap_tolerance,
+                  std::optional<int> first_ball, const std::string& walls, bool from_start, bool identify) {
   std::atomic<bool> interrupt{false};
-  cli::AuditOptions options;
-  options.log = log, options.json = json, options.columns = columns, options.tolerance = tolerance;
+  app::AuditOptions options;
+  options.log = log, options.columns = columns, options.tolerance = tolerance;
   options.gap_tolerance = gap_tolerance, options.first_ball = first_ball, options.walls = walls;
   options.from_start = from_start, options.identify = identify;
-  options.quiet = true, options.interrupt = &interrupt;
-  return interruptible(interrupt, [&] { return cli::run_audit(CaseAccess::spec(the_case), options); });
+  options.interrupt = &interrupt;
+  return interruptible(interrupt, [&] { return app::audit(CaseAccess::spec(the_case), options).json(); });
+}
+
+py::dict digits_of(const run::Agreement& agreement) {
+  py::dict digits;
+  for (int k = 0; k < run::quantity_count; ++k) {
+    const auto quantity = static_cast<run::Quantity>(k);
+    const double found = agreement.digits(quantity);
+    // No difference at all was seen.
+    digits[name_of(quantity)] =
+        found < run::Agreement::most ? py::object(py::float_(found)) : py::object(py::none());
+  }
+  return digits;
+}
+
+py::list bodies_of(const std::vector<run::Event>& events) {
+  py::list rows;
+  for (const auto& e : events) {
+    py::dict row;
+    row["ball"] = e.ball, row["partner_kind"] = e.with_wall ? "wall" : "ball", row["partner"] = e.partner;
+    for (int k = 0; k < run::quantity_count; ++k)
+      row[name_of(static_cast<run::Quantity>(k))] = e.values[static_cast<std::size_t>(k)].str();
+    rows.append(row);
+  }
+  return rows;
+}
+
+/// @return what each pair of scalars agrees on, and the events, numbers as texts of all their digits
+/// @throws UndecidedError when no two scalars agree
+py::tuple certify(const Case& the_case, std::size_t collisions, int digits, const std::string& file) {
+  std::atomic<bool> interrupt{false};
+  app::CertifyOptions options;
+  options.file = file, options.collisions = collisions, options.digits = digits,
+  options.interrupt = &interrupt;
+  const auto found =
+      interruptible(interrupt, [&] { return app::certify(CaseAccess::spec(the_case), options); });
+  if (!found.undecided.empty()) throw UndecidedError(found.undecided);
+  py::list evidence;
+  for (const auto& pair : found.evidence)
+    evidence.append(
+        py::make_tuple(pair.narrow, pair.wide, pair.agreement.events(), digits_of(pair.agreement)));
+  return py::make_tuple(evidence, bodies_of(found.events));
+}
+
+py::dict shadow(const Case& the_case, const std::string& precision, const std::string& wider) {
+  std::atomic<bool> interrupt{false};
+  app::require_wider(precision, wider);
+  const auto found = interruptible(
+      interrupt, [&] { return app::shadow(CaseAccess::spec(the_case), precision, wider, &interrupt); });
+  py::dict result;
+  result["events"] = found.agreement.events();
+  result["digits"] = digits_of(found.agreement);
+  result["digits_lost_per_event"] = found.agreement.digits_lost_per_event();
+  result["diverged"] = py::none();
+  if (found.diverged) result["diverged"] = bodies_of({found.diverged->first, found.diverged->second});
+  result["text"] = found.text();
+  return result;
+}
+
+py::list check(const Case& the_case) {
+  const auto checked = app::check(CaseAccess::spec(the_case));
+  py::list facts;
+  for (const auto& fact : checked.facts) facts.append(fact);
+  return facts;
 }
 
 /// @return the events as CSV, the bits of the proof and those that are left
@@ -86,16 +153,19 @@ int audit(const Case& the_case, const std::string& log, const std::string& json,
 py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
                 const std::string& certificate) {
   std::atomic<bool> interrupt{false};
-  const auto proof = interruptible(interrupt, [&] {
-    return prove::prove(CaseAccess::spec(the_case), {collisions, most_bits, &interrupt, {}});
-  });
+  app::ProveOptions options;
+  options.collisions = collisions, options.most_bits = most_bits, options.interrupt = &interrupt;
+  options.certificate = certificate;
+  const auto proof =
+      interruptible(interrupt, [&] { return app::prove(CaseAccess::spec(the_case), options); }).proof;
   if (!proof.impossible.empty()) throw UndecidedError(proof.impossible);
   std::ostringstream events;
   prove::write_events(events, proof, 40);
-  if (!certificate.empty()) {
-    io::NamedFile(certificate).write([&](std::ostream& out) { prove::write_certificate(out, proof); });
-  }
   return py::make_tuple(events.str(), proof.bits, proof.accuracy);
+}
+
+std::vector<std::string> check_certificate(const Case& the_case, const std::string& certificate) {
+  return app::check_certificate(CaseAccess::spec(the_case), certificate);
 }
 
 std::string report(const std::string& folder) {
@@ -107,14 +177,18 @@ std::string report(const std::string& folder) {
 
 void add_tools(py::module_& m) {
   m.def("sweep", [](const std::string& file, const std::string& folder, int jobs) {
-    return study(file, folder, jobs, cli::run_sweep);
+    return study(file, folder, jobs, app::sweep);
   });
   m.def("optimize", [](const std::string& file, const std::string& folder, int jobs) {
-    return study(file, folder, jobs, cli::run_optimize);
+    return study(file, folder, jobs, app::optimize);
   });
   m.def("compare", &compare);
   m.def("audit", &audit);
   m.def("prove", &prove);
+  m.def("check_certificate", &check_certificate);
+  m.def("certify", &certify);
+  m.def("shadow", &shadow);
+  m.def("check", &check);
   m.def("report", &report);
 }
 

@@ -52,7 +52,7 @@ std::string subtitle_of(const RunFolder& run) {
                             plot::brief(60 / casefile::period_of(spec.mill).to<double>()));
 }
 
-/// Of playback, where 1 is real time.
+/// Says in words how fast the playback is; a speed of 1 is real time.
 std::string pace(double speed) {
   const double factor = std::max(speed, 1 / speed);
   if (factor < 1.05) return "In real time";
@@ -131,7 +131,7 @@ std::string report_page(const RunFolder& run) {
 std::filesystem::path write_report(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) read_run_folder(folder);  // says what is missing
   const io::FolderLock alone(folder);
-  // Of killed processes; those of an unfinished run are left for it to go on with.
+  // Removes what killed processes have left; an unfinished run goes on with its own files, which stay.
   if (!std::filesystem::exists(io::checkpoint_place(folder))) io::remove_temporaries(folder);
   return put_report(folder);
 }

@@ -60,7 +60,7 @@ Json triangles_of(const std::vector<model::Mesh>& walls) {
   return triangles;
 }
 
-/// Of each wall that moves in the vessel: its part of the list of all points, and its shift in each frame.
+/// Lists each wall that moves in the vessel: its part of the list of all points, and its shift in each frame.
 Json pistons_of(const MovingVessel& vessel, std::size_t frames, double steps) {
   Json pistons = Json::array();
   std::size_t first = 0;

@@ -136,7 +136,7 @@ void add_vessel(pugi::xml_node main, const RunFolder& run) {
   const double extent = vessel.extent();
   std::vector<WallMap> walls;
   for (std::size_t id = 0; id < surfaces.size(); ++id) {
-    // Of a capsule as high as it is wide nothing is left of the cylinder.
+    // A capsule as high as it is wide has nothing left of the cylinder.
     if (surfaces[id].area() < 1e-9 * extent * extent) continue;
     walls.push_back({id, surfaces[id], vessel.walls()[id]});
     label(walls.back());

@@ -8,7 +8,7 @@
 
 namespace edmill::run {
 
-/// Of this thread: several runs can share a process.
+/// Processor time of this thread: several runs can share a process.
 inline double cpu_seconds() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);

@@ -33,7 +33,7 @@ void note_totals(const engine::Simulation<Real>& simulation, const run::RunStati
   summary.escalations = simulation.escalations();
 }
 
-/// Of a case, with nothing counted yet.
+/// Summary of a case, with nothing counted yet.
 template <class Real>
 io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built) {
   io::Summary<Real> summary(model::partners_of(built.the_case.mill.vessel));
@@ -46,7 +46,7 @@ io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::
   return summary;
 }
 
-/// Of what has been simulated so far.
+/// Summary of what has been simulated so far.
 template <class Real>
 io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
                              const RunDriver<Real>& driver) {
@@ -65,7 +65,7 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   return summary;
 }
 
-/// Of a run whose balls' first contacts could not be decided.
+/// Summary of a run whose balls' first contacts could not be decided.
 template <class Real>
 io::Summary<Real> empty_summary(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built) {
   auto summary = blank_summary(spec, built);

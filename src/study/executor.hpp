@@ -18,7 +18,7 @@ struct Job {
   std::vector<std::string> overrides;
   std::string digest;  ///< of the case that these give
   double cost = 0;     ///< estimated; only its order counts
-  /// Of processor time, after which the run ends without a result [s].
+  /// Processor time after which the run ends without a result [s].
   double max_cpu_time = std::numeric_limits<double>::infinity();
 };
 

@@ -23,10 +23,11 @@ declare -A allowed=(
   [prove]="base model model/parts model/motions casefile run" # arithmetic of its own; the engine only tells where to look
   [plot]=""
   [report]="base model model/parts io casefile study plot"
-  [cli]="base model model/parts dynamics engine io casefile run output study check identify prove report instances instances/tools"
+  [app]="base model model/parts dynamics engine io casefile run output study check identify prove report instances instances/tools" # prints nothing, knows no exit code
+  [cli]="base model model/parts io casefile run check prove report app"
   [instances]="base model model/parts dynamics engine io casefile run output api" # the core in every scalar
-  [instances/tools]="base io casefile report cli instances" # and what is around it
-  [python]="base api casefile check cli io prove report instances" # a program like those of users, and the commands
+  [instances/tools]="base io casefile report app instances" # and what is around it
+  [python]="base api casefile check io prove report app instances" # a program like those of users, and the commands
   [python/edmill]=""
 )
 

@@ -19,7 +19,7 @@ using casefile::parse_case;
 using casefile::Quantity;
 using WaltonBraun = model::WaltonBraun<Quantity>;
 
-/// Of the law by its key.
+/// A parameter of the law, by its key.
 cpp_rational parameter(const casefile::ContactSpec& c, const std::string& key) {
   cpp_rational found = -2;
   c.parameters([&](const model::LawParameter& p, const Quantity& q) {

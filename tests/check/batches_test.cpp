@@ -12,7 +12,7 @@ namespace edmill::compare {
 namespace {
 
 TEST(Batches, ProbabilitiesAreStudents) {
-  // Of one degree of freedom: Cauchy's distribution; of two: t / sqrt(2 + t^2).
+  // With one degree of freedom it is Cauchy's distribution; with two, t / sqrt(2 + t^2).
   const double t1 = 3 / 1.0;  // mean 3, error 1
   EXPECT_NEAR(paired_t_probability({2, 4}), 1 - 2 / std::numbers::pi * std::atan(t1), 1e-12);
   const double t2 = 2 / (1 / std::sqrt(3.0));  // mean 2, deviation 1

@@ -130,7 +130,7 @@ std::vector<Planted> planted() {
   return all;
 }
 
-/// The same where the tolerance is as coarse as for codes with soft contacts.
+/// All of them again, where the tolerance is as coarse as for codes with soft contacts.
 std::vector<Planted> coarse() {
   auto all = planted();
   for (auto& p : all) p.tolerance = 1e-3;

@@ -120,7 +120,7 @@ TEST_F(AuditCommand, BadInputIsTold) {
 }
 
 TEST_F(AuditCommand, MemoryDoesNotGrowWithTheLog) {
-  // The same 2000 lines a hundred times: larger than what the program may use.
+  // A log of 2000 lines, a hundred times over, is larger than what the program may use.
   run("--set run.max_collisions=2000");
   std::istringstream in(contents(scratch / "out/collisions.csv"));
   std::string header, body, line;

@@ -241,7 +241,7 @@ class StateMaker {
             {out_across * cosine - around * sine, cap_side * out_along, out_across * sine + around * cosine}};
   }
 
-  /// The same by what every vessel tells of itself.
+  /// Places a ball by what every vessel says of itself.
   Placement place_in_any(Draw& draw, Kind kind, double radius) const {
     const auto room = mill_.vessel.inset(float128(radius));
     std::optional<Vec3<float128>> p;

@@ -56,7 +56,7 @@ class Clusters {
     return {size * random_.symmetric<double>(), size * random_.symmetric<double>(),
             size * random_.symmetric<double>()};
   }
-  /// Of masses in a ratio to 100.
+  /// Draws a radius; the masses of two balls differ by a factor of at most 100.
   double draw_radius() { return 0.005 * std::pow(100, uniform() / 3); }
 
   /// Balls in a row between opposite walls: no motion parts them all.

@@ -52,7 +52,7 @@ struct Swarm {
   }
 };
 
-/// Of candidates [s] by their balls; negative where only the search can decide.
+/// Delays of the contacts with candidates [s], by their balls; negative where only the search can decide.
 using Delays = std::map<int, double>;
 
 template <class Real>

@@ -1,5 +1,5 @@
-// The same explicit state in double, float128 and mpfr50: one sequence of events until rounding separates
-// them.
+// Runs from one explicit state in double, float128 and mpfr50 have one sequence of events until rounding
+// separates them.
 #include <gtest/gtest.h>
 
 #include <map>

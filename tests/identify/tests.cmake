@@ -1,4 +1,4 @@
-# Of the random trials CI makes a few; all of them take three hours of one core.
+# CI makes a few of the random trials; all of them take three hours of one core.
 set(trials Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/identify/trials.py $<TARGET_FILE:edmill_cli>)
 add_test(NAME identify_test COMMAND ${trials} ${CMAKE_BINARY_DIR}/identify --pairs 5 --clean 5 --every 7 --jobs 1)
 set_tests_properties(identify_test PROPERTIES TIMEOUT 600)

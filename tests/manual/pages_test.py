@@ -65,7 +65,7 @@ class Page:
         self.problems.append(f"{self.a.page}:{line + 1}: {text}")
 
     def blocks(self):
-        """Of each fenced block its language, its first line and the number of its lines."""
+        """Yields the language, the first line and the number of lines of each fenced block."""
         k = 0
         while k < len(self.lines):
             fence = re.fullmatch(r"(`{3,})(.*)", self.lines[k])

@@ -33,7 +33,7 @@ class Chapter4 : public Outputs {
     ASSERT_GT(recorded.size(), 100u);
   }
 
-  /// Of the collision log from 30 s on, with one wall or with any.
+  /// Sums a column of the collision log from 30 s on, with one wall or with any.
   double sum(const std::string& column, const std::string& wall = "") const {
     double total = 0;
     for (const auto& row : recorded)

@@ -136,7 +136,7 @@ print(json.dumps({"benchmarks": [{"name": n, "time_unit": "ns", "cpu_time": 5.0,
 
 class Run(unittest.TestCase):
     def run_bench(self, party, *more):
-        """The same program twice, and the resulting files."""
+        """Runs one program as both binaries, and reads the resulting files."""
         with tempfile.TemporaryDirectory() as folder:
             program = os.path.join(folder, "program")
             with open(program, "w", encoding="utf-8") as out:

@@ -35,7 +35,7 @@ counted_up_to() { # collisions
   }
   sed -n 's/^\(summary\|totals\): *\([0-9]*\).*/\2/p' "$folder/callgrind.out" | head -n 1
 }
-# Of 4000 collisions: what loads libraries and reads the case does not count.
+# The instructions of 4000 collisions: what loads libraries and reads the case does not count.
 start=$(counted_up_to 1000)
 whole=$(counted_up_to 5000)
 counted=$((whole - start))

@@ -132,7 +132,7 @@ class Report(unittest.TestCase):
         time.sleep(0.3)
 
     def ball_pixels(self, circles):
-        """Of the scene's picture: pixels of balls in the circles, in the circles, of balls anywhere. Balls are blue, the
+        """Counts pixels of the scene's picture: of balls in the circles, in the circles, of balls anywhere. Balls are blue, the
         vessel is yellow and the page white, so that balls alone have little red, behind the vessel's walls too."""
         return self.browser.execute_async_script("""
             const [png, circles, done] = arguments, image = new Image();

@@ -8,7 +8,7 @@
 namespace edmill::study {
 namespace {
 
-/// Of 2 s.
+/// A record of a run whose statistics cover 1 s to 3 s.
 RunRecord record_with(const std::vector<std::uint64_t>& collisions) {
   RunRecord record;
   record.status = "done";

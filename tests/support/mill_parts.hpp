@@ -18,7 +18,7 @@ const model::CylinderVessel<Real>& cylinder(const model::Mill<Real>& mill) {
   return *mill.vessel.template get_if<model::CylinderVessel<Real>>();
 }
 
-/// Of the gap function of a wall near contact.
+/// Slope of the gap function of a wall near contact, by distance.
 template <class Real>
 Real gap_per_metre(const model::Mill<Real>& mill, int wall, const Real& ball_radius) {
   if (const auto* tube = mill.vessel.template get_if<model::CylinderVessel<Real>>())

@@ -28,7 +28,7 @@ namespace carried {
 constexpr double w = 2 * pi * 2, theta_max = 0.0003;
 constexpr double wall_arm = arm - 1;  ///< of the place that the ball touches
 
-/// Of the ball's motion over the wall's: 2/7 of a plate that stays level; but the vial tilts by its angle,
+/// The ball's motion over the wall's: 2/7 for a plate that stays level; but the vial tilts by its angle,
 /// and gravity acts along it, on a rolling ball with 5/7. All else is of the order theta_max^2, if the ball
 /// begins where it is at the middle of the vial when the vial is at the middle of its swing.
 constexpr double share = 2.0 / 7 - 5.0 / 7 * g / (wall_arm * w * w);

@@ -1,99 +1,130 @@
-// Arb's balls with operators, vectors of them, and numbers as a certificate writes them.
+// Real numbers as Arb encloses them, a midpoint and a radius each, and vectors of them.
 #pragma once
 
 #include <arb.h>
-#include <flint/fmpq.h>
 
 #include <array>
-#include <sstream>
-#include <stdexcept>
-#include <string>
+#include <utility>
 
 namespace checker {
-inline slong precision = 128;  ///< bits of all arithmetic
-struct AtPrecision {
-  slong before = precision;
-  explicit AtPrecision(slong bits) { precision = bits; }
-  ~AtPrecision() { precision = before; }
+
+/// They suffice for most inequalities, and cost less than the bits of a certificate.
+constexpr slong few_bits = 128;
+
+/// Bits of all arithmetic.
+inline slong precision = few_bits;
+
+/// Sets the precision until the end of a block.
+class WithPrecision {
+ public:
+  explicit WithPrecision(slong bits) : before_(precision) { precision = bits; }
+  WithPrecision(const WithPrecision&) = delete;
+  WithPrecision& operator=(const WithPrecision&) = delete;
+  ~WithPrecision() { precision = before_; }
+
+ private:
+  slong before_;
 };
 
+/// An enclosure: all real numbers within a radius of a midpoint.
+/// The result of an operation holds the results for all numbers of its operands. A comparison is true if it
+/// is true for all of them; if it is false, it may be undecided.
 struct Real {
-  arb_t x;
-  Real(slong n = 0) { arb_init(x), arb_set_si(x, n); }  // NOLINT
-  Real(const Real& o) { arb_init(x), arb_set(x, o.x); }
-  Real(Real&& o) noexcept { arb_init(x), arb_swap(x, o.x); }
-  Real& operator=(Real o) noexcept { return arb_swap(x, o.x), *this; }
-  ~Real() { arb_clear(x); }
-  bool positive() const { return arb_is_positive(x); }
-  bool negative() const { return arb_is_negative(x); }
-  bool zero() const { return arb_is_zero(x); }
+  arb_t arb;
+
+  Real(slong n = 0) {  // implicit, for the integers in formulas
+    arb_init(arb);
+    arb_set_si(arb, n);
+  }
+  Real(const Real& other) {
+    arb_init(arb);
+    arb_set(arb, other.arb);
+  }
+  Real(Real&& other) noexcept {
+    arb_init(arb);
+    arb_swap(arb, other.arb);
+  }
+  Real& operator=(Real other) noexcept {
+    arb_swap(arb, other.arb);
+    return *this;
+  }
+  ~Real() { arb_clear(arb); }
+
+  bool positive() const { return arb_is_positive(arb); }
+  bool negative() const { return arb_is_negative(arb); }
+  bool zero() const { return arb_is_zero(arb); }
 };
+
 /// The result of one of Arb's functions.
-template <class Function, class... More>
-Real made(Function function, const More&... more) {
-  Real r;
-  return function(r.x, more...), r;
+template <class Function, class... Arguments>
+Real result_of(Function function, const Arguments&... arguments) {
+  Real result;
+  function(result.arb, arguments...);
+  return result;
 }
-inline Real operator+(const Real& a, const Real& b) { return made(arb_add, a.x, b.x, precision); }
-inline Real operator-(const Real& a, const Real& b) { return made(arb_sub, a.x, b.x, precision); }
-inline Real operator*(const Real& a, const Real& b) { return made(arb_mul, a.x, b.x, precision); }
-inline Real operator/(const Real& a, const Real& b) { return made(arb_div, a.x, b.x, precision); }
-inline bool operator<(const Real& a, const Real& b) { return arb_lt(a.x, b.x); }
-inline bool operator>=(const Real& a, const Real& b) { return arb_ge(a.x, b.x); }
-inline Real root(const Real& a) { return made(arb_sqrtpos, a.x, precision); }
-inline Real pi() { return made(arb_const_pi, precision); }
-inline Real middle(const Real& a) { return made(arb_get_mid_arb, a.x); }
-/// The ends of an interval, exact.
-inline Real end(const Real& a, int side) {
-  const Real radius = made(arb_get_rad_arb, a.x);
-  return made(side < 0 ? arb_sub : arb_add, middle(a).x, radius.x, ARF_PREC_EXACT);
+
+inline Real operator+(const Real& a, const Real& b) { return result_of(arb_add, a.arb, b.arb, precision); }
+inline Real operator-(const Real& a, const Real& b) { return result_of(arb_sub, a.arb, b.arb, precision); }
+inline Real operator*(const Real& a, const Real& b) { return result_of(arb_mul, a.arb, b.arb, precision); }
+inline Real operator/(const Real& a, const Real& b) { return result_of(arb_div, a.arb, b.arb, precision); }
+inline Real operator-(const Real& a) { return 0 - a; }
+
+inline bool operator<(const Real& a, const Real& b) { return arb_lt(a.arb, b.arb); }
+inline bool operator>=(const Real& a, const Real& b) { return arb_ge(a.arb, b.arb); }
+
+inline Real pi() { return result_of(arb_const_pi, precision); }
+
+/// The square root of what is not negative, though its enclosure may reach below zero.
+inline Real square_root(const Real& a) { return result_of(arb_sqrtpos, a.arb, precision); }
+
+/// Sine and cosine of pi a.
+inline std::pair<Real, Real> sine_and_cosine_of_pi(const Real& a) {
+  std::pair<Real, Real> result;
+  arb_sin_cos_pi(result.first.arb, result.second.arb, a.arb, precision);
+  return result;
 }
+
+/// The midpoint, exact.
+inline Real middle(const Real& a) { return result_of(arb_get_mid_arb, a.arb); }
+
+/// The radius, exact.
+inline Real radius(const Real& a) { return result_of(arb_get_rad_arb, a.arb); }
+
+/// The lower end of an enclosure, exact.
+inline Real lower_end(const Real& a) {
+  return result_of(arb_sub, middle(a).arb, radius(a).arb, ARF_PREC_EXACT);
+}
+
+/// The upper end of an enclosure, exact.
+inline Real upper_end(const Real& a) {
+  return result_of(arb_add, middle(a).arb, radius(a).arb, ARF_PREC_EXACT);
+}
+
+/// All numbers from one to another.
+inline Real interval(const Real& from, const Real& to) {
+  return result_of(arb_union, from.arb, to.arb, precision);
+}
+
+/// Whether one enclosure lies within another.
+inline bool contains(const Real& outer, const Real& inner) { return arb_contains(outer.arb, inner.arb); }
+
+/// Adds 2^-bits to the radius.
+inline void widen(Real& a, slong bits) { arb_add_error_2exp_si(a.arb, -bits); }
 
 using Vec = std::array<Real, 3>;
+
 inline Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 inline Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline Vec operator*(const Vec& a, const Real& s) { return {a[0] * s, a[1] * s, a[2] * s}; }
 inline Vec operator/(const Vec& a, const Real& s) { return {a[0] / s, a[1] / s, a[2] / s}; }
+inline Vec operator-(const Vec& a) { return Vec{} - a; }
+
 inline Real dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+inline Real length(const Vec& a) { return square_root(dot(a, a)); }
+
 inline Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-[[noreturn]] inline void no_number(const std::string& s) { throw std::invalid_argument("no number: " + s.substr(0, 60)); }
-inline slong small_number(const std::string& text) {
-  const bool digits = text.find_first_not_of("0123456789", text[0] == '-') == std::string::npos;
-  if (text.empty() || text == "-" || text.size() > 7 || !digits) no_number(text);
-  return std::stol(text);
-}
-/// "119/25000", "-2", "1/12*pi", "55*pi^-1"
-inline Real exact_number(const std::string& text) {
-  const auto star = text.find("*pi");
-  fmpq_t rational;
-  fmpq_init(rational);
-  const bool bad = text.size() > 100000 || text.find_first_not_of("-0123456789/*pi^") != text.npos ||
-                   fmpq_set_str(rational, text.substr(0, star).c_str(), 10) != 0 || fmpz_is_zero(fmpq_denref(rational));
-  Real value = bad ? Real() : made(arb_set_fmpq, rational, precision);
-  fmpq_clear(rational);
-  const auto power = star == std::string::npos ? "^0" : text.substr(star + 3);
-  if (bad || (!power.empty() && power[0] != '^')) no_number(text);
-  const slong k = power.empty() ? 1 : small_number(power.substr(1));
-  if (std::abs(k) > 16) no_number(text);
-  for (slong i = 0; i < std::abs(k); ++i) value = k > 0 ? value * pi() : value / pi();
-  return value;
-}
-/// "1a2b -8c 3ff -98": midpoint and radius, each a whole number times a power of two, all in hexadecimal.
-inline Real enclosure(const std::string& text) {
-  std::istringstream in(text);
-  std::string word[4], more;
-  bool good = in >> word[0] >> word[1] >> word[2] >> word[3] && !(in >> more);
-  for (std::size_t k = 0; k < 4 && good; ++k) {  // Arb aborts on a radius of more than 30 bits, and on zeros with exponents
-    const auto digits = word[k].substr(word[k][0] == '-' && k != 2);
-    good = !digits.empty() && digits.size() <= std::array<std::size_t, 4>{25000, 6, 7, 6}[k] &&
-           digits.find_first_not_of("0123456789abcdef") == digits.npos;
-    if (k % 2 == 0 && digits[0] == '0') good = good && word[k] == "0" && word[k + 1] == "0";
-  }
-  Real value;
-  if (!good || arb_load_str(value.x, text.c_str()) != 0) no_number(text);
-  return value;
 }
 
 }  // namespace checker

@@ -126,7 +126,7 @@ def run_together(binaries, results, options):
 def run(options):
     if len(options.binary) != len(options.out):
         raise ValueError("found %d --binary and %d --out, expected as many" % (len(options.binary), len(options.out)))
-    # The same for files whose values were taken at the same time, one by one.
+    # Files whose values were taken at the same time, one by one, share this name.
     together = uuid.uuid4().hex if options.core is not None else None
     results = [{"machine": machine(b), "together": together, "figures": {}} for b in options.binary]
     for turn in range(options.rounds):
@@ -167,7 +167,7 @@ def spread(values):
 
 
 def relative_error(values):
-    """Of their median: 1.25 times the standard error of a mean."""
+    """Relative error of the median of the values: 1.25 times the standard error of a mean."""
     return 1.25 * spread(values) / statistics.median(values) / len(values) ** 0.5
 
 
@@ -182,7 +182,7 @@ def bounds(statistic, samples):
 
 
 def ratios_of(a, b):
-    """Of values that were taken at the same time."""
+    """Ratios of values that were taken at the same time."""
     return [y / x for x, y in zip(a, b)]
 
 
@@ -203,7 +203,7 @@ def paired_range(a, b):
 
 
 def verdict(a, b, paired, least):
-    """Of figure b against a; differences below `least` count for none."""
+    """What figure b is beside a: faster, slower or no different; differences below `least` count for none."""
     if min(len(a["values"]), len(b["values"])) < FEWEST:
         return "too few values", None
     found = (paired_interval if paired else interval)(a["values"], b["values"])

@@ -45,7 +45,7 @@ class MinimalLoop {
   double time() const { return past_ + now_; }
   double box() const { return box_; }
   double kinetic_energy() const;
-  /// Of all balls now; a ball may be a little outside of the box.
+  /// The places of all balls now; a ball may be a little outside of the box.
   std::vector<std::array<double, 3>> positions() const;
 
  private:

@@ -50,7 +50,7 @@ class PeerLoop {
   double time() const { return years_ + now_; }
   double box() const { return box_; }
   double kinetic_energy() const;
-  /// Of all balls now; a ball may be a little outside of the box.
+  /// The places of all balls now; a ball may be a little outside of the box.
   std::vector<std::array<double, 3>> positions() const;
 
  private:

@@ -18,8 +18,8 @@ inline SpexSearch spex_search(const model::Mill<double>& mill) {
           *mill.vessel.get_if<model::CylinderVessel<double>>(), mill.gravity};
 }
 
-/// The same question as WallSearch's, answered by the signs of the gaps at sample points. A contact
-/// whose gap is negative between two points only is missed.
+/// Answers the question of WallSearch by the signs of the gaps at sample points. A contact whose gap is
+/// negative between two points only is missed.
 /// @param samples  points for each longest window
 inline dynamics::WallAnswer<double> uncertified_search(
     const SpexSearch& walls, const SpexFunctions& functions,

@@ -95,7 +95,7 @@ def oblique_impact():
 
 
 def slipping():
-    """Of slipping_particle: case, radius, the centre's height at the floor, v0, g, mu, and its normal speed there."""
+    """What slipping_particle has: case, radius, the centre's height at the floor, v0, g, mu, and its normal speed there."""
     c = case("slipping_particle")
     ball, g = c["ball"][0], number(c["run"]["gravity"])
     radius = number(ball["diameter"]) / 2

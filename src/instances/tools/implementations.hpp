@@ -3,5 +3,5 @@
 
 #include "instances/tools/instances.hpp"
 //
-#include "cli/run_case_impl.hpp"
+#include "app/run_impl.hpp"
 #include "report/result_table_impl.hpp"

@@ -3,14 +3,15 @@
 
 #include "instances/instances.hpp"
 //
-#include "cli/run_case.hpp"
+#include "app/run.hpp"
 #include "report/result_table.hpp"
 
 /// `prefix` is `extern template` to declare and `template` to define.
-#define EDMILL_TOOL_INSTANCES(prefix, Real)                                          \
-  namespace edmill {                                                                 \
-  prefix std::string report::result_table<Real>(const io::Summary<Real>&);           \
-  prefix int cli::run_case<Real>(const casefile::CaseSpec&, const cli::RunOptions&); \
+#define EDMILL_TOOL_INSTANCES(prefix, Real)                                                  \
+  namespace edmill {                                                                         \
+  prefix std::string report::result_table<Real>(const io::Summary<Real>&);                   \
+  prefix app::RunResult app::run_in<Real>(const casefile::CaseSpec&, const app::RunOptions&, \
+                                          const std::string&, const std::function<void()>&); \
   }
 
 #define EDMILL_DECLARE_INSTANCES(Real) EDMILL_TOOL_INSTANCES(extern template, Real)

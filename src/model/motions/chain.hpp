@@ -179,7 +179,7 @@ class ChainMotion {
     Swings<Real> swings;
     numerics::SinCos<Real> fixed{};  ///< of the constant angle
     bool moves = false;
-    // Of the joints before:
+    // What the joints before do:
     bool level = true;      ///< none rotates: the axes are those of the ground
     bool turned = false;    ///< there is an angular velocity
     bool parallel = false;  ///< which has the direction of this axis

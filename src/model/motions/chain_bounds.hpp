@@ -70,7 +70,7 @@ struct ChainBounds {
   }
 
  private:
-  /// Of the joint's angle [rad] or shift [m] and its first four derivatives.
+  /// Bounds on the joint's angle [rad] or shift [m] and its first four derivatives.
   static std::array<Real, 5> rates_of(const Joint<Real>& joint, const std::array<Real, 2>& times) {
     const Real turn = 2 * numerics::pi<Real>();
     const Real unit = joint.rotates ? turn : Real(1);

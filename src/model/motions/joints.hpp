@@ -29,7 +29,7 @@ struct Joints {
   std::array<Number, 2> times{};
 };
 
-/// The same with each number converted.
+/// The joints with each number converted.
 template <class To, class From, class Convert>
 Joints<To> converted_joints(const Joints<From>& from, const Convert& convert) {
   Joints<To> to{{}, convert(from.period), {convert(from.times[0]), convert(from.times[1])}};

@@ -58,7 +58,7 @@ struct WriteNumbers {
 
 }  // namespace detail
 
-/// The same part with each number converted. A part lists its parameters by
+/// The part with each number converted. A part lists its parameters by
 /// `parameters(part, visit)`, which calls visit(parameter, number) or visit(parameter, three numbers) for
 /// each. A part with lists takes their lengths by `take_shape(from)`.
 template <template <class> class Part, class To, class From, class Convert>

@@ -205,7 +205,7 @@ struct Edge {
   Rings<Real> rings() const { return circles<Real>(*this, 6); }
 
  private:
-  /// Of the area, from the cap to the tilt [turns] from y.
+  /// Share of the area from the cap to the tilt [turns] from y.
   Real share(const Real& tilt) const {
     const Real quarter = numerics::pi<Real>() / 2;
     const auto at = numerics::sin_cos_turns<Real>(tilt);
@@ -299,7 +299,7 @@ class WallSurface {
   const char* name() const {
     return visit([](const auto& s) { return s.name; });
   }
-  /// Of u and of v.
+  /// Names and units of u and v.
   std::array<Coordinate, 2> coordinates() const {
     return visit([](const auto& s) { return s.coordinates; });
   }
@@ -352,7 +352,7 @@ Mesh mesh_of(const WallSurface<Real>& surface) {
   return mesh;
 }
 
-/// Of a box about the origin, by wall id: x-, x+, y-, y+, z-, z+.
+/// Walls of a box about the origin, by wall id: x-, x+, y-, y+, z-, z+.
 /// @param half_sizes  half of its edges along the axes [m]
 template <class Real>
 std::vector<WallSurface<Real>> box_surfaces(const Vec3<Real>& half_sizes) {

@@ -18,7 +18,7 @@ struct Swing {
   TurnFraction per_period{};  ///< of frequency times the period of the clock
 };
 
-/// The same with each number converted.
+/// The swings with each number converted.
 template <class To, class From, class Convert>
 std::vector<Swing<To>> converted_swings(const std::vector<Swing<From>>& from, const Convert& convert) {
   std::vector<Swing<To>> to;

@@ -86,7 +86,7 @@ class RoundedVessel {
   }
   Real extent() const { return a_ + b_ + rounding_; }
   Vec3<Real> half_sizes() const { return {a_ + rounding_, b_ + rounding_, a_ + rounding_}; }
-  /// Of the core, what is above its caps and around it, and the quarter of a torus on each edge. (Steiner)
+  /// The core, what is above its caps and around it, and the quarter of a torus on each edge. (Steiner)
   Real volume() const {
     const Real pi = numerics::pi<Real>(), r = rounding_;
     return 2 * pi * (a_ + r) * (a_ + r) * b_ + 2 * pi * a_ * a_ * r + pi * pi * a_ * r * r +
@@ -280,7 +280,8 @@ class RoundedVessel {
     return smaller;
   }
   bool is_cap(int f) const { return a_ > 0 && (f == 3 || f == 4); }
-  /// Of a function of y alone its sign with y, else 0; of one of the distance from the axis that sign.
+  /// Sign with which a function of y alone grows with y, else 0; `across_y` is that of a function of the
+  /// distance from the axis.
   int along_y(int f) const {
     if (is_cap(f)) return f == 3 ? 1 : -1;
     constexpr std::array signs{-1, 1, 1, -1, 0, 0};

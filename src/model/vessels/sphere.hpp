@@ -70,7 +70,7 @@ struct SphereVessel {
             numerics::product_bound(c.z, 0, c.z, k)};
   }
   static constexpr bool is_flat(int) { return false; }
-  /// Of a sum of three squares; by Cauchy's inequality its terms are together at most sqrt(3) times R.
+  /// The gap is a sum of three squares; by Cauchy's inequality its terms are together at most sqrt(3) R.
   ErrorBounds<Real> curved_errors(int, const ErrorBounds<Real>& coordinate, const Real& u,
                                   const Real& frame_speed, const Real& acceleration,
                                   const Real& beyond) const {

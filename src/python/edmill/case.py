@@ -103,7 +103,7 @@ class Case:
         self._case = _edmill.Case.parse(text, name, list(self._settings))
 
     def with_settings(self, *settings: str) -> Case:
-        """The same with "section.key=value" over it."""
+        """The case with "section.key=value" over it."""
         return Case.parse(self._text, self._name, [*self._settings, *settings])
 
     @property
@@ -122,7 +122,7 @@ class Case:
 
     @property
     def precision(self) -> str:
-        """Of a run, unless that names another."""
+        """The scalar in which a run computes, unless it names another."""
         return self._case.precision
 
     @property
@@ -131,7 +131,7 @@ class Case:
 
     @property
     def end_time(self) -> float | None:
-        """Of a run [s]; None where other rules end it."""
+        """The time at which a run ends [s]; None where other rules end it."""
         return self._case.end_time
 
     def __repr__(self) -> str:

@@ -60,3 +60,9 @@ def number(name: str, value: Any) -> float:
 def is_number(value: Any) -> bool:
     return isinstance(value, (numbers.Real, decimal.Decimal)) and not isinstance(value, bool)
 
+
+
+def scalar(name: str, value: Any) -> str:
+    *all_but_last, last = _edmill.precisions
+    require(name, value, value in _edmill.precisions, f"{', '.join(all_but_last)} or {last}")
+    return value

@@ -5,15 +5,13 @@ import csv
 import dataclasses
 import json
 import os
-import pathlib
-import tempfile
 from collections.abc import Mapping
 from decimal import Decimal
 from typing import Any
 
 from . import _edmill
 from .case import Case, case_of
-from .checks import flag, number, place, require, text, whole
+from .checks import flag, number, place, require, scalar, text, whole
 
 LARGEST = 2**63 - 1  #: of counts
 
@@ -21,9 +19,12 @@ LARGEST = 2**63 - 1  #: of counts
 class Judgement(dict):
     """The result as in its JSON file; `good` when the logs agree, or break no law."""
 
-    def __init__(self, result: dict[str, Any], code: int):
-        super().__init__(result)
-        self.code = code  #: the exit code of the command
+    _codes = {"clean": 0, "agree": 0, "violations": 6, "differ": 6}
+
+    @property
+    def code(self) -> int:
+        """The exit code of the command: 6 for differences or violations, 7 for too few data."""
+        return self._codes.get(self["verdict"], 7)
 
     @property
     def good(self) -> bool:
@@ -34,13 +35,6 @@ def _optional(check, name: str, value: Any, *bounds: Any) -> Any:
     return None if value is None else check(name, value, *bounds)
 
 
-def _judge(call) -> Judgement:
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "result.json"
-        code = call(str(file))
-        return Judgement(json.loads(file.read_text(encoding="utf-8")), code)
-
-
 def compare(a: str | os.PathLike, b: str | os.PathLike, *, tolerance: float = 1e-9, events: int | None = None,
             start: float | None = None, end: float | None = None, batch: float | None = None) -> Judgement:
     """As `edmill compare`: two folders of runs, or logs; `a` is the reference. Times in s."""
@@ -48,7 +42,7 @@ def compare(a: str | os.PathLike, b: str | os.PathLike, *, tolerance: float = 1e
     tolerance = number("tolerance", tolerance)
     events = _optional(whole, "events", events, 1, LARGEST)
     start, end, batch = (_optional(number, n, v) for n, v in (("start", start), ("end", end), ("batch", batch)))
-    return _judge(lambda file: _edmill.compare(a, b, file, tolerance, events, start, end, batch))
+    return Judgement(json.loads(_edmill.compare(a, b, tolerance, events, start, end, batch)))
 
 
 def audit(case: Case | Mapping | str | os.PathLike, log: str | os.PathLike, *, columns: Mapping[str, str] | None = None,
@@ -65,8 +59,18 @@ def audit(case: Case | Mapping | str | os.PathLike, log: str | os.PathLike, *, c
     columns = {} if columns is None else columns
     require("columns", columns, isinstance(columns, Mapping), 'a dictionary {"time": "t [ms]"}')
     given = [f"{text('columns', ours)}={text('columns', theirs)}" for ours, theirs in columns.items()]
-    return _judge(lambda file: _edmill.audit(case._case, log, file, given, tolerance, gap_tolerance, first_ball,
-                                             walls, from_start, identify))
+    return Judgement(json.loads(_edmill.audit(case._case, log, given, tolerance, gap_tolerance, first_ball, walls, from_start,
+                                              identify)))
+
+
+def check(case: Case | Mapping | str | os.PathLike) -> dict[str, str]:
+    """As `edmill check`: the case in SI with its derived numbers, name by name, after all checks that a run makes."""
+    facts: dict[str, str] = {}
+    last = ""
+    for name, value in _edmill.check(case_of(case)._case):
+        last = name or last
+        facts[last] = f"{facts[last]}\n{value}" if last in facts else value
+    return facts
 
 
 @dataclasses.dataclass(frozen=True)
@@ -92,6 +96,70 @@ class Proof:
     bits_left: int  #: of the least known velocity behind the point
 
 
+@dataclasses.dataclass(frozen=True)
+class Agreement:
+    """How far two scalars give the same events."""
+    narrow: str
+    wide: str
+    events: int  #: in common, from the first on
+    digits: dict[str, float | None]  #: by quantity, of its largest size; None where no digit differs
+
+
+@dataclasses.dataclass(frozen=True)
+class CertifiedEvent:
+    """An impact on which two scalars agree. SI."""
+    ball: int
+    partner_kind: str  #: "wall" or "ball"
+    partner: int
+    time: Decimal
+    approach_speed: Decimal
+    slip_speed: Decimal
+    milling_dose: Decimal
+    wall_work: Decimal
+
+
+@dataclasses.dataclass(frozen=True)
+class Certification:
+    """The first events of a case, with the evidence that they are certain."""
+    events: list[CertifiedEvent]
+    evidence: list[Agreement]  #: the narrowest pair of scalars first; the last one certifies
+
+
+def _certified(row: Mapping[str, Any]) -> CertifiedEvent:
+    whole_or_text = {"ball", "partner", "partner_kind"}
+    return CertifiedEvent(**{k: v if k in whole_or_text else Decimal(v) for k, v in row.items()})
+
+
+def certify(case: Case | Mapping | str | os.PathLike, collisions: int, *, digits: int = 25,
+            file: str | os.PathLike | None = None) -> Certification:
+    """As `edmill certify`: raises the precision until two scalars agree on the first events, to so many digits. `file` gets
+    the sequence as the command writes it. Raises UndecidedError where no two scalars agree."""
+    case = case_of(case)
+    collisions, digits = whole("collisions", collisions, 1, LARGEST), whole("digits", digits, 1, 90)
+    evidence, events = _edmill.certify(case._case, collisions, digits, "" if file is None else place("file", file))
+    return Certification([_certified(row) for row in events], [Agreement(*row) for row in evidence])
+
+
+@dataclasses.dataclass(frozen=True)
+class Shadow:
+    """Two runs of a case, in two scalars side by side."""
+    events: int  #: in common
+    digits: dict[str, float | None]  #: to which these agree, by quantity
+    digits_lost_per_event: float | None  #: None where too few events differ
+    diverged: tuple[CertifiedEvent, CertifiedEvent] | None  #: the first events that differ
+    text: str  #: as the command prints it
+
+
+def shadow(case: Case | Mapping | str | os.PathLike, wider: str, precision: str | None = None) -> Shadow:
+    """As `edmill run --shadow`: the case in its scalar, or `precision`, beside a wider one, to where they diverge."""
+    case = case_of(case)
+    precision = case.precision if precision is None else scalar("precision", precision)
+    found = _edmill.shadow(case._case, precision, scalar("wider", wider))
+    if found["diverged"]:
+        found["diverged"] = tuple(_certified(row) for row in found["diverged"])
+    return Shadow(**found)
+
+
 def prove(case: Case | Mapping | str | os.PathLike, collisions: int, *, certificate: str | os.PathLike | None = None,
           most_bits: int = 16384) -> Proof:
     """As `edmill prove`: the first events of a case as a theorem, with a certificate that others can check.
@@ -105,3 +173,8 @@ def prove(case: Case | Mapping | str | os.PathLike, collisions: int, *, certific
     events = [ProvenEvent(**{k: int(v) if k in counts else v if k == "partner_kind" else Decimal(v) for k, v in row.items()})
               for row in rows]
     return Proof(events, bits, left)
+
+
+def check_certificate(case: Case | Mapping | str | os.PathLike, certificate: str | os.PathLike) -> list[str]:
+    """As `edmill prove --check`: what the header of a certificate tells otherwise than the case, a line each."""
+    return _edmill.check_certificate(case_of(case)._case, place("certificate", certificate))

@@ -207,7 +207,7 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     if until is not None:
         require("until", until, isinstance(until, str) or checks.is_number(until), 'a time such as "2 s", or a number of seconds')
         case = case.with_settings(f"run.end_time={json.dumps(until if isinstance(until, str) else f'{until} s')}")
-    precision = case.precision if precision is None else checks.text("precision", precision)
+    precision = case.precision if precision is None else checks.scalar("precision", precision)
     folder = None if folder is None else checks.place("folder", folder)
     events, report = checks.flag("events", events), checks.flag("report", report)
     require("folder", folder, folder is not None or not report, "one to write the report into")

@@ -1,13 +1,17 @@
+#include "app/check_case.hpp"
+
 #include <fmt/format.h>
 
+#include <functional>
 #include <utility>
 
-#include "cli/run_case.hpp"
+#include "base/with_scalar.hpp"
+#include "casefile/memory_for.hpp"
 #include "instances/instances.hpp"
 #include "io/named_file.hpp"
 #include "report/mill_drawing.hpp"
 
-namespace edmill::cli {
+namespace edmill::app {
 
 namespace {
 
@@ -28,21 +32,9 @@ void prepare(const casefile::CaseSpec& spec) {
   const engine::Simulation<Real> ready(built.the_case, built.states, built.start);
 }
 
-}  // namespace
+using Row = std::function<void(const std::string& name, const std::string& value)>;
 
-std::string describe_case(const casefile::CaseSpec& spec) {
-  // The case must be valid in its own scalar; double is sufficient for the description.
-#define EDMILL_CHECK_IN(Real) \
-  if (spec.precision == ScalarName<Real>::value) prepare<Real>(spec);
-  EDMILL_FOR_EACH_SCALAR(EDMILL_CHECK_IN)
-#undef EDMILL_CHECK_IN
-  const auto built = casefile::build_case<double>(spec, false);
-  const auto& c = built.the_case;
-  const auto& m = c.mill;
-  std::string out = fmt::format("{} is a valid case\n", spec.file);
-  const auto row = [&](const std::string& name, const std::string& value) {
-    out += fmt::format("  {:<24}{}\n", name, value);
-  };
+void add_run(const casefile::CaseSpec& spec, const model::Case<double>& c, const Row& row) {
   row("digest", spec.digest);
   row("precision, seed", fmt::format("{}, {}", spec.precision, spec.seed));
   row("statistics from", fmt::format("{} s", spec.statistics_start.to<double>()));
@@ -50,6 +42,9 @@ std::string describe_case(const casefile::CaseSpec& spec) {
   if (c.stop.max_collisions) row("stop after collisions", fmt::format("{}", *c.stop.max_collisions));
   if (c.stop.max_milling_dose) row("stop at milling dose", fmt::format("{:g} J", *c.stop.max_milling_dose));
   if (c.stop.max_ball_speed) row("stop at ball speed", fmt::format("{:g} m/s", *c.stop.max_ball_speed));
+}
+
+void add_mill(const casefile::CaseSpec& spec, const model::Mill<double>& m, const Row& row) {
   row("gravity", casefile::describe_gravity(spec));
   row("mill", casefile::describe(spec.mill));
   if (const double peak = m.motion.wall_speed(0); peak > 0)
@@ -64,6 +59,9 @@ std::string describe_case(const casefile::CaseSpec& spec) {
   }
   for (std::size_t k = 0; k < spec.pairs.size(); ++k)
     row("contact " + spec.names_of(spec.pairs[k]), describe_law(m.pairs.laws[k]));
+}
+
+void add_charge(const casefile::CaseSpec& spec, const model::Case<double>& c, const Row& row) {
   double mass = 0, volume = 0;
   for (const auto& ball : c.balls) {
     mass += ball.mass;
@@ -77,12 +75,36 @@ std::string describe_case(const casefile::CaseSpec& spec) {
   };
   for (const auto& b : spec.balls) kind(b, 1);
   for (const auto& b : spec.batches) kind(b, b.count);
-  row("packing fraction", fmt::format("{:.4g}{}", volume / m.vessel.volume(),
+  row("packing fraction", fmt::format("{:.4g}{}", volume / c.mill.vessel.volume(),
                                       spec.pistons.empty() ? "" : " of the vessel without its pistons"));
   if (spec.powder_mass)
     row("charge ratio", fmt::format("{:.4g} on {:g} kg of powder", mass / spec.powder_mass->to<double>(),
                                     spec.powder_mass->to<double>()));
+}
+
+}  // namespace
+
+CheckedCase check(const casefile::CaseSpec& spec) {
+  // The case must be valid in its own scalar; double is sufficient for the description.
+  casefile::with_memory_for(spec, [&] {
+    with_scalar(spec.precision, [&]<class Real>() { prepare<Real>(spec); });
+    return true;
+  });
+  const auto built = casefile::build_case<double>(spec, false);
+  CheckedCase result{spec.file, {}};
+  const auto row = [&](const std::string& name, const std::string& value) {
+    result.facts.emplace_back(name, value);
+  };
+  add_run(spec, built.the_case, row);
+  add_mill(spec, built.the_case.mill, row);
+  add_charge(spec, built.the_case, row);
   for (const auto& output : spec.outputs) row("output", output.type + " to " + output.file);
+  return result;
+}
+
+std::string CheckedCase::text() const {
+  std::string out = fmt::format("{} is a valid case\n", file);
+  for (const auto& [name, value] : facts) out += fmt::format("  {:<24}{}\n", name, value);
   return out;
 }
 
@@ -91,4 +113,4 @@ void draw_mill(const casefile::CaseSpec& spec, const std::filesystem::path& file
   io::NamedFile(file).write([&](std::ostream& out) { out << report::mill_drawing(built.the_case.mill); });
 }
 
-}  // namespace edmill::cli
+}  // namespace edmill::app

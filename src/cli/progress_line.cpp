@@ -1,20 +1,24 @@
-#include "run/progress.hpp"
+#include "cli/progress_line.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 
 #include "io/terminal.hpp"
 
-namespace edmill::run {
+namespace edmill::cli {
 
-ProgressLine::ProgressLine(std::optional<double> end) : end_(end), shown_(Clock::now()) {}
+bool shows_progress(bool quiet) { return !quiet && ::isatty(STDERR_FILENO); }
+
+ProgressLine::ProgressLine() : shown_(Clock::now()) {}
 
 ProgressLine::~ProgressLine() {
   if (visible_) io::tell("\r\033[K");
 }
 
-void ProgressLine::show(double now, std::uint64_t collisions, std::optional<double> milling_dose) {
+void ProgressLine::show(double now, const std::optional<double>& end, std::uint64_t collisions,
+                        const std::optional<double>& milling_dose) {
   const auto time = Clock::now();
   if (!first_) first_ = Look{time, now, collisions};
   if (time - shown_ < std::chrono::milliseconds(200)) return;
@@ -22,13 +26,13 @@ void ProgressLine::show(double now, std::uint64_t collisions, std::optional<doub
   const double spent = std::chrono::duration<double>(time - first_->time).count();
   const double simulated = now - first_->now;
   std::string line = fmt::format("{:.3f} s", now);
-  if (end_) line += fmt::format(" of {:g} s", *end_);
+  if (end) line += fmt::format(" of {:g} s", *end);
   line += fmt::format(" simulated, {} collisions", collisions);
   if (spent > 0)
     line += fmt::format(", {:.3g}/s", static_cast<double>(collisions - first_->collisions) / spent);
   if (milling_dose && simulated > 0) line += fmt::format(", {:.3g} W", *milling_dose / simulated);
-  if (end_ && simulated > 0) {
-    const double left = spent * (*end_ - now) / simulated;
+  if (end && simulated > 0) {
+    const double left = spent * (*end - now) / simulated;
     line += fmt::format(", {}:{:02} left", static_cast<long>(left) / 60, static_cast<long>(left) % 60);
   }
   io::tell("\r\033[K{}", line);
@@ -36,4 +40,4 @@ void ProgressLine::show(double now, std::uint64_t collisions, std::optional<doub
   visible_ = true;
 }
 
-}  // namespace edmill::run
+}  // namespace edmill::cli

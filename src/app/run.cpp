@@ -1,12 +1,28 @@
-#include "cli/resume_command.hpp"
-
-#include <filesystem>
+#include "app/run.hpp"
 
 #include "base/errors.hpp"
-#include "cli/run_command.hpp"
+#include "base/with_scalar.hpp"
+#include "casefile/memory_for.hpp"
+#include "instances/tools/instances.hpp"
 #include "io/input_file.hpp"
+#include "report/report_page.hpp"
 
-namespace edmill::cli {
+namespace edmill::app {
+
+RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options) {
+  if (options.report) report::add_report_outputs(spec);
+  const auto text = report::case_text(spec, options.report);
+  std::filesystem::path page;
+  const auto when_written = [&] {
+    if (options.report) page = report::put_report(options.folder);
+  };
+  auto result = casefile::with_memory_for(spec, [&] {
+    return with_scalar(precision,
+                       [&]<class Real>() { return run_in<Real>(spec, options, text, when_written); });
+  });
+  result.report = page;
+  return result;
+}
 
 io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vector<std::string>& overrides,
                                 const std::string& precision, bool report, const std::string& interval) {
@@ -23,7 +39,7 @@ io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vecto
   return c;
 }
 
-int run_resume(const std::string& interval, RunOptions options) {
+RunResult resume(const std::string& interval, RunOptions options) {
   auto checkpoint = io::read_checkpoint(options.folder);
   if (!interval.empty()) checkpoint.interval = interval;
   auto overrides = checkpoint.overrides;
@@ -37,7 +53,7 @@ int run_resume(const std::string& interval, RunOptions options) {
   const std::string precision = checkpoint.precision;
   options.report = checkpoint.report;
   options.checkpoint = std::move(checkpoint);
-  return run_and_report(precision, std::move(spec), options);
+  return run(precision, std::move(spec), options);
 }
 
-}  // namespace edmill::cli
+}  // namespace edmill::app

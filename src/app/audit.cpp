@@ -1,0 +1,69 @@
+#include "app/audit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "instances/instances.hpp"
+#include "io/input_file.hpp"
+
+namespace edmill::app {
+
+namespace {
+
+/// The case's section [audit], overridden by the command line's options.
+audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given) {
+  audit::Options options;
+  const auto& s = spec.audit;
+  options.log = given.log;
+  options.conventions.columns = s.columns;
+  for (const auto& text : given.columns) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(fmt::format("--column {}: found {}, expected ours=theirs, e.g. \"time=t [ms]\"", text,
+                                   equals == 0 ? "no name" : "no '='"));
+    const std::string ours = text.substr(0, equals);
+    std::erase_if(options.conventions.columns, [&](const auto& column) { return column.first == ours; });
+    options.conventions.columns.emplace_back(ours, text.substr(equals + 1));
+  }
+  options.conventions.first_ball = given.first_ball.value_or(static_cast<int>(s.first_ball.value_or(0)));
+  const auto partners = casefile::partners_of(spec);
+  if (!given.walls.empty())
+    options.conventions.walls = audit::parse_walls(given.walls, partners, "--walls");
+  else if (!s.walls.empty())
+    options.conventions.walls = audit::parse_walls(s.walls, partners, spec.file + ": key 'audit.walls'");
+  options.tolerance = given.tolerance.value_or(s.tolerance ? s.tolerance->to<double>() : 1e-9);
+  options.gap_tolerance = given.gap_tolerance;
+  if (!given.gap_tolerance && s.gap_tolerance) options.gap_tolerance = s.gap_tolerance->to<double>();
+  options.from_start = given.from_start || s.from_start;
+  options.examples = given.examples;
+  options.interrupt = given.interrupt;
+  options.progress = given.progress;
+  return options;
+}
+
+}  // namespace
+
+Audited audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
+  auto options = merged(spec, given);
+  const io::Spool pipes;
+  const auto built = casefile::build_case<double>(spec);
+  Audited audited{audit::audit(built.the_case, built.states, options), {}};
+  audited.result.case_name = spec.file;
+  if (given.identify && !audited.result.interrupted) audited.identified = identify::identify(spec, options);
+  return audited;
+}
+
+std::string Audited::table() const {
+  return audit::table(result) + (identified ? identify::table(*identified) : "");
+}
+
+std::string Audited::json() const {
+  io::JsonText text;
+  audit::put_json(text, result);
+  if (identified) identify::put_json(text, *identified);
+  return text.finish();
+}
+
+}  // namespace edmill::app

@@ -1,0 +1,57 @@
+#include "app/prove.hpp"
+
+#include <chrono>
+#include <optional>
+
+#include "app/certify.hpp"
+#include "io/input_file.hpp"
+#include "io/named_file.hpp"
+#include "prove/certificate.hpp"
+
+namespace edmill::app {
+
+namespace {
+
+/// Events of a run in the order of the proof, from the first on.
+std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
+                         const prove::Proof& proof) {
+  const auto source = source_in(precision, spec, false);
+  std::size_t right = 0;
+  while (right < proof.events.size()) {
+    const auto more = source->next(std::min<std::size_t>(256, proof.events.size() - right));
+    if (more.empty()) return right;
+    for (const auto& event : more) {
+      const auto& proven = proof.events[right];
+      if (event.ball != proven.ball || event.with_wall != proven.with_wall || event.partner != proven.partner)
+        return right;
+      ++right;
+    }
+  }
+  return right;
+}
+
+}  // namespace
+
+Proven prove(const casefile::CaseSpec& spec, const ProveOptions& options) {
+  std::optional<io::NamedFile> events, certificate;
+  if (!options.file.empty()) events.emplace(options.file);
+  if (!options.certificate.empty()) certificate.emplace(options.certificate);
+  const auto begin = std::chrono::steady_clock::now();
+  Proven result{prove::prove(spec, options), 0, {}};
+  const auto& proof = result.proof;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (proof.interrupted || !proof.impossible.empty()) return result;
+  if (events) events->write([&](auto& out) { prove::write_events(out, proof, 27); });
+  if (certificate) certificate->write([&](auto& out) { prove::write_certificate(out, proof); });
+  if (options.compare)
+    for (const auto& precision : casefile::precisions())
+      result.right.emplace_back(precision, right_events(precision, spec, proof));
+  return result;
+}
+
+std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate) {
+  io::InputFile file(certificate, "a certificate");
+  return prove::other_case(file, certificate, prove::exact_case(spec));
+}
+
+}  // namespace edmill::app

@@ -1,0 +1,67 @@
+// A run with what it leaves in its folder: results, the case, and the page on request.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casefile/case_spec.hpp"
+#include "io/checkpoint_file.hpp"
+#include "model/end_reason.hpp"
+
+namespace edmill::app {
+
+/// How far a run is.
+struct RunProgress {
+  double now;                 ///< simulated time [s]
+  std::optional<double> end;  ///< of it; nothing when only other rules stop the run
+  std::uint64_t collisions;   ///< since the start of the run
+  double milling_dose;        ///< since the program started it, or resumed it [J]
+};
+
+struct RunOptions {
+  std::string folder;   ///< of the outputs
+  bool report = false;  ///< write the page report.html, and the tables that it shows
+  const std::atomic<bool>* interrupt = nullptr;
+  /// Called when the run has results to keep: before that, an interrupted program may end at once.
+  std::function<void()> begun = [] {};
+  /// Called where the file system has no locks, so that nothing keeps a second run out of the folder.
+  std::function<void(const std::filesystem::path&)> without_locks = [](const auto&) {};
+  std::function<void(const RunProgress&)> progress;  ///< called now and then
+  /// What checkpoints hold besides the state, if the run makes any; with a state, it continues from there.
+  std::optional<io::Checkpoint> checkpoint;
+};
+
+struct RunResult {
+  model::EndReason end_reason{};
+  std::string error;             ///< why the run ended before its end; empty where it did not
+  std::string table;             ///< of the results, for a terminal
+  bool goes_on = false;          ///< it can be resumed
+  std::filesystem::path report;  ///< the page; empty without one
+};
+
+/// Runs the case in the scalar of this name and writes its folder.
+/// @pre `precision` is one of casefile::precisions()
+/// @throws InterruptedError when the interrupt comes before the first event
+RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options);
+
+/// What the checkpoints of a run tell of it, at its start.
+/// @throws InputError for a case that cannot be read again
+io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vector<std::string>& overrides,
+                                const std::string& precision, bool report, const std::string& interval);
+
+/// Continues the run of `options.folder` from its checkpoint. @param interval  empty to keep the previous one
+/// @throws InputError when the checkpoint is not valid for this program
+RunResult resume(const std::string& interval, RunOptions options);
+
+/// What `run` does in one scalar. @param case_text  for case.toml
+/// @param when_written  called when the results are in place, while a killed run could still continue
+template <class Real>
+RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options, const std::string& case_text,
+                 const std::function<void()>& when_written);
+
+}  // namespace edmill::app

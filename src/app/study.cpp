@@ -1,0 +1,74 @@
+#include "app/study.hpp"
+
+#include "base/errors.hpp"
+#include "base/with_scalar.hpp"
+#include "casefile/memory_for.hpp"
+#include "instances/instances.hpp"
+#include "run/cpu_limit.hpp"
+#include "study/optimizer.hpp"
+
+namespace edmill::app {
+
+namespace {
+
+template <class Real>
+study::RunRecord record_in(const casefile::CaseSpec& spec, double max_cpu_time,
+                           const std::atomic<bool>* interrupt) {
+  run::CpuLimit<Real> limit(max_cpu_time);
+  run::Guests<Real> guests{{&limit}, interrupt};
+  return study::record_of(run::simulate<Real>(spec, casefile::build_case<Real>(spec), guests).summary);
+}
+
+study::RunRecord do_job(const study::Job& job, const std::atomic<bool>* interrupt) {
+  const auto spec = casefile::read_case(job.case_file, job.overrides);
+  return with_scalar(spec.precision, [&]<class Real>() {
+    return casefile::with_memory_for(spec,
+                                     [&] { return record_in<Real>(spec, job.max_cpu_time, interrupt); });
+  });
+}
+
+std::string folder_of(const StudyOptions& options) {
+  if (!options.folder.empty()) return options.folder;
+  auto name = std::filesystem::path(options.file).stem();  // ward.sweep.toml: ward
+  return "out/" + name.stem().string();
+}
+
+/// Rank 0 executes `command`; the other ranks do its runs.
+template <class Command>
+std::optional<StudyResult> on_all_ranks(const StudyOptions& options, const Command& command) {
+  const auto* interrupt = options.interrupt;
+  const study::RunFunction run = [interrupt](const study::Job& job) { return do_job(job, interrupt); };
+  study::Ranks ranks;
+  if (ranks.rank() > 0) {
+    study::serve(ranks, options.jobs, run, *options.interrupt);
+    return std::nullopt;
+  }
+  study::Executor executor(ranks, options.jobs, run, *options.interrupt);
+  return command(executor);
+}
+
+}  // namespace
+
+std::optional<StudyResult> sweep(const StudyOptions& options) {
+  return on_all_ranks(options, [&](study::Executor& executor) {
+    const auto spec = casefile::read_sweep(options.file);
+    const auto folder = folder_of(options);
+    study::Study study(spec, folder, "sweep", executor, !options.quiet);
+    for (auto& point : study::points_of(spec)) study.add_runs(study.add_point(point), spec.replicas);
+    study.require_a_good_case();
+    study.run();
+    return StudyResult{study.counts(), study.interrupted(), folder, ""};
+  });
+}
+
+std::optional<StudyResult> optimize(const StudyOptions& options) {
+  return on_all_ranks(options, [&](study::Executor& executor) {
+    const auto spec = casefile::read_optimize(options.file);
+    const auto folder = folder_of(options);
+    study::Study study(spec, folder, "optimize", executor, !options.quiet);
+    const auto result = study::optimize(spec, study);
+    return StudyResult{study.counts(), study.interrupted(), folder, study::describe(spec, study, result)};
+  });
+}
+
+}  // namespace edmill::app

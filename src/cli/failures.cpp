@@ -1,0 +1,60 @@
+#include "cli/failures.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <new>
+
+#include "base/errors.hpp"
+#include "casefile/memory_for.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/signals.hpp"
+#include "io/file_buffer.hpp"
+#include "io/terminal.hpp"
+
+namespace edmill::cli {
+
+namespace {
+
+int failed(const std::string& problem, int code = internal_error) {
+  print_problem(problem);
+  return code;
+}
+
+}  // namespace
+
+void print_problem(const std::string& problem) {
+  std::string line;
+  for (const char c : problem)
+    line += std::iscntrl(static_cast<unsigned char>(c))
+                ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
+                : std::string(1, c);
+  io::tell("edmill: {}\n", line);
+}
+
+int exit_code_of(const std::function<int()>& command) {
+  const std::string no_memory = "found too little memory, expected more";
+  try {
+    return command();
+  } catch (const InputError& error) {
+    for (const auto& problem : error.problems()) print_problem(problem);
+    return bad_input;
+  } catch (const InterruptedError& error) {
+    return after_signals(failed(error.what(), interrupted));
+  } catch (const UndecidedError& error) {
+    return failed(error.what(), undecided);
+  } catch (const io::PipeClosed& error) {
+    end_by_pipe_signal();
+    return failed(error.what());
+  } catch (const casefile::OutOfMemory& error) {
+    return failed(error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(no_memory);
+  } catch (const std::length_error&) {
+    return failed(no_memory);
+  } catch (const std::exception& error) {
+    return failed(error.what());
+  }
+}
+
+}  // namespace edmill::cli

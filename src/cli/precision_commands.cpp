@@ -1,0 +1,88 @@
+#include "cli/precision_commands.hpp"
+
+#include "base/errors.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/progress_line.hpp"
+#include "io/terminal.hpp"
+
+namespace edmill::cli {
+
+namespace {
+
+constexpr const char* no_line = "\r\x1b[K";
+
+void print_attempts(const prove::Proof& proof) {
+  for (const auto& attempt : proof.attempts)
+    io::print("{} bits: {} events{}\n", attempt.bits, attempt.events,
+              attempt.undecided.empty() ? "" : "; undecided: " + attempt.undecided);
+}
+
+/// Whether the certificate is one of this case.
+int check_header(const casefile::CaseSpec& spec, const ProveOptions& options) {
+  const auto differences = app::check_certificate(spec, options.checked);
+  for (const auto& line : differences) io::print("{}\n", line);
+  if (!options.quiet)
+    io::print("{} is {} {}\n", options.checked,
+              differences.empty() ? "of the case; check_certificate says whether its events are proven:"
+                                  : "of another case than",
+              spec.file);
+  return differences.empty() ? ok : outputs_differ;
+}
+
+}  // namespace
+
+int run_certify(const casefile::CaseSpec& spec, CertifyOptions options) {
+  const bool show = shows_progress(options.quiet);
+  if (show)
+    options.progress = [&](const std::string& precision, std::size_t events) {
+      io::tell("\r{}: {} of {} events ", precision, events, options.collisions);
+    };
+  const auto result = app::certify(spec, options, [&](const app::Evidence& evidence) {
+    if (show) io::tell("{}", no_line);
+    if (!options.quiet) io::print("{} ({:.1f} s)\n", evidence.text(), evidence.seconds);
+  });
+  if (result.interrupted) return ok;
+  if (!result.undecided.empty()) {
+    io::tell("edmill: {}; nothing is written\n", result.undecided);
+    return undecided;
+  }
+  if (!options.quiet) io::print("certified: {}\n", options.file);
+  return ok;
+}
+
+int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& shadow,
+               const std::atomic<bool>* interrupt) {
+  const auto result = app::shadow(spec, precision, shadow, interrupt);
+  io::print("{}", result.text());
+  return result.interrupted ? interrupted : ok;
+}
+
+int run_prove(const casefile::CaseSpec& spec, ProveOptions options) {
+  if (!options.checked.empty()) return check_header(spec, options);
+  if (options.collisions == 0)
+    throw InputError(
+        "prove: found neither --collisions nor --check, expected how many events, or a certificate");
+  const bool show = shows_progress(options.quiet);
+  if (show)
+    options.progress = [&](long bits, std::size_t events) {
+      if (events % 16 == 0) io::tell("\r{} bits: {} of {} events ", bits, events, options.collisions);
+    };
+  const auto result = app::prove(spec, options);
+  const auto& proof = result.proof;
+  if (show) io::tell("{}", no_line);
+  if (!options.quiet) print_attempts(proof);
+  if (proof.interrupted) return ok;
+  if (!proof.impossible.empty()) {
+    io::tell("edmill: {}; nothing is written\n", proof.impossible);
+    return undecided;
+  }
+  if (options.quiet) return ok;
+  io::print("proven: {} events in {} bits, {:.2f} bits lost per event ({:.1f} s)\n", proof.events.size(),
+            proof.bits,
+            static_cast<double>(proof.bits - proof.accuracy) / static_cast<double>(proof.events.size()),
+            result.seconds);
+  for (const auto& [precision, right] : result.right) io::print("{:<9} {} events right\n", precision, right);
+  return ok;
+}
+
+}  // namespace edmill::cli
