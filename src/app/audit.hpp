@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "casefile/case_spec.hpp"
-#include "check/audit.hpp"
+#include "audit/audit.hpp"
 #include "identify/identify.hpp"
 
 namespace edmill::app {

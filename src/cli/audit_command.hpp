@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/audit.hpp"
-#include "check/comparison.hpp"
+#include "compare/comparison.hpp"
 
 namespace edmill::cli {
 

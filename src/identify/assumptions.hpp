@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "casefile/build_case.hpp"
-#include "check/event_log.hpp"
+#include "audit/event_log.hpp"
 
 namespace edmill::identify {
 

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "check/naming.hpp"
+#include "audit/naming.hpp"
 #include "identify/causes.hpp"
 #include "identify/fit.hpp"
 #include "identify/replay.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "check/audit.hpp"
+#include "audit/audit.hpp"
 #include "identify/parameters.hpp"
 #include "identify/time_stepping.hpp"
 

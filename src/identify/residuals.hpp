@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "check/audit.hpp"
-#include "check/mechanics.hpp"
+#include "audit/audit.hpp"
+#include "audit/mechanics.hpp"
 #include "identify/assumptions.hpp"
 
 namespace edmill::identify {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "check/event_log.hpp"
+#include "audit/event_log.hpp"
 
 namespace edmill::identify {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/instant.hpp"
-#include "check/delays.hpp"
-#include "check/mechanics.hpp"
-#include "check/naming.hpp"
+#include "audit/delays.hpp"
+#include "audit/mechanics.hpp"
+#include "audit/naming.hpp"
 
 namespace edmill::identify {
 

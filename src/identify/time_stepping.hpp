@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "check/audit.hpp"
+#include "audit/audit.hpp"
 
 namespace edmill::identify {
 

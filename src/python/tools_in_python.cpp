@@ -16,7 +16,7 @@
 #include "app/prove.hpp"
 #include "app/study.hpp"
 #include "base/errors.hpp"
-#include "check/comparison.hpp"
+#include "compare/comparison.hpp"
 #include "io/input_file.hpp"
 #include "prove/certificate.hpp"
 #include "report/report_page.hpp"

@@ -18,16 +18,17 @@ declare -A allowed=(
   [api]="base model model/parts engine io casefile run output"
   [output]="base model model/parts engine io casefile run"
   [study]="base model model/parts io casefile"
-  [check]="base model model/parts dynamics io casefile study" # never the engine: a judge that shares its code proves nothing
-  [identify]="base model model/parts model/motions io casefile check run" # fits what check measures; logs without states are run again
+  [compare]="base model model/parts io study"
+  [audit]="base model model/parts dynamics io casefile compare" # never the engine: a judge that shares its code proves nothing
+  [identify]="base model model/parts model/motions io casefile audit run" # fits what an audit measures; logs without states are run again
   [prove]="base model model/parts model/motions casefile run" # arithmetic of its own; the engine only tells where to look
   [plot]=""
   [report]="base model model/parts io casefile study plot"
-  [app]="base model model/parts dynamics engine io casefile run output study check identify prove report instances instances/tools" # prints nothing, knows no exit code
-  [cli]="base model model/parts io casefile run check prove report app"
+  [app]="base model model/parts dynamics engine io casefile run output study compare audit identify prove report instances instances/tools" # prints nothing, knows no exit code
+  [cli]="base model model/parts io casefile run compare audit prove report app"
   [instances]="base model model/parts dynamics engine io casefile run output api" # the core in every scalar
   [instances/tools]="base io casefile report app instances" # and what is around it
-  [python]="base api casefile check io prove report app instances" # a program like those of users, and the commands
+  [python]="base api casefile compare io prove report app run instances" # a program like those of users, and the commands
   [python/edmill]=""
 )
 

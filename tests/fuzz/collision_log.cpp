@@ -1,7 +1,7 @@
 // Collision logs of other codes, as `compare` and `audit` read them.
 #include "base/errors.hpp"
-#include "check/event_log.hpp"
-#include "check/log_reader.hpp"
+#include "audit/event_log.hpp"
+#include "compare/log_reader.hpp"
 #include "input.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

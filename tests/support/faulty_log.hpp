@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "check/audit.hpp"
+#include "audit/audit.hpp"
 #include "faulty_mill.hpp"
 #include "program.hpp"
 #include "spex_case.hpp"

@@ -1,0 +1,81 @@
+// Checks another code's collision log against the physics of a case. docs/audit.md
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit/event_log.hpp"
+#include "audit/finding.hpp"
+#include "audit/impact_judge.hpp"
+#include "io/json_text.hpp"
+#include "model/case.hpp"
+
+namespace edmill::audit {
+
+struct Options {
+  std::filesystem::path log;  ///< a CSV file, or a folder of `edmill run`
+  LogConventions conventions;
+  double tolerance = 1e-9;              ///< relative
+  std::optional<double> gap_tolerance;  ///< largest gap or overlap of bodies in contact [m]; from the
+                                        ///< relative tolerance unless given
+  bool from_start = false;              ///< the log begins at the case's initial state
+  std::size_t examples = 3;             ///< of each kind
+  const std::atomic<bool>* interrupt = nullptr;
+  std::function<void(double time, std::uint64_t events)> progress;  ///< called regularly
+};
+
+/// One of the thesis's printed errors, with its evidence.
+struct Diagnosis {
+  std::string name;      ///< "rotation_order"
+  std::string text;      ///< a sentence
+  std::uint64_t events;  ///< that it explains
+  std::uint64_t of;      ///< number of events that are wrong
+};
+
+enum class Verdict { clean, violations, too_few };
+std::string_view name_of(Verdict verdict);
+
+struct Audit {
+  Options options;
+  Tolerances tolerances;
+  std::string case_name, log_name;
+  std::uint64_t events = 0;
+  double first = 0, last = 0;  ///< times [s]
+  Available available;
+  Findings findings{3};
+  Energies energies;
+  std::vector<Check> not_made;  ///< since columns are missing
+  std::vector<Diagnosis> diagnoses;
+  std::uint64_t undecided = 0;  ///< questions about missed impacts that no scalar could answer
+  bool interrupted = false;
+  Verdict verdict = Verdict::too_few;
+};
+
+/// @param the_case, states  of the case; the states are its initial ones
+/// @throws InputError with the problems of the log and of the options for it
+Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
+            const Options& options);
+
+/// Events of a log that were read, in order of time.
+struct EventsAtHand {
+  std::string file;
+  Available available;
+  std::vector<LoggedEvent> events;
+};
+/// The first events of a log. @throws InputError
+EventsAtHand read_events(const model::Case<double>& the_case, const Options& options, std::size_t most);
+/// Audits events at hand. The options' log is not read, nor is it asked to begin at the start.
+Audit audit(const model::Case<double>& the_case, const EventsAtHand& log, const Options& options);
+/// What gaps and speeds may be off by.
+Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options);
+
+/// The result as text.
+std::string table(const Audit& audit);
+/// docs/files.md, "Audit": the document's entries.
+void put_json(io::JsonText& json, const Audit& audit);
+
+}  // namespace edmill::audit

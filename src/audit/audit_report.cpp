@@ -1,0 +1,203 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/version.hpp"
+#include "audit/audit.hpp"
+
+namespace edmill {
+extern template std::string to_text<double>(const double&);
+}
+
+namespace edmill::audit {
+
+namespace {
+
+std::string describe(const Finding& f) {
+  std::string text = fmt::format("line {}: t = {} s, ball {} with {} {}, off by {:.3g} {}", f.line, f.time,
+                                 f.ball, f.with_wall ? "wall" : "ball", f.partner, f.size, info(f.kind).unit);
+  if (std::isfinite(f.found)) text += fmt::format(": found {:.9g}", f.found);
+  if (std::isfinite(f.expected)) text += fmt::format(", expected {:.9g}", f.expected);
+  return text;
+}
+
+double share_of(const Audit& a, Kind kind) {
+  const auto judged = a.findings.judged_number(info(kind).check);
+  return judged > 0 ? static_cast<double>(a.findings.of(kind).count) / static_cast<double>(judged) : unknown;
+}
+
+void put_finding(io::JsonText& json, std::string_view key, const Finding& f) {
+  json.begin(key);
+  json.integer("line", f.line);
+  json.number("time", f.time);
+  json.integer("ball", f.ball);
+  json.text("partner_kind", f.with_wall ? "wall" : "ball");
+  json.integer("partner", f.partner);
+  json.number("size", f.size);
+  json.number("found", f.found);
+  json.number("expected", f.expected);
+  if (*f.note != '\0') json.text("note", f.note);
+  json.end();
+}
+
+/// What the rounding of times does, where it is more than the relative tolerance, and what cannot be checked.
+std::string unresolved_checks(const Audit& a) {
+  std::string out;
+  const double latest = std::max(std::abs(a.first), std::abs(a.last));
+  const double places = a.tolerances.wall_places(latest);
+  if (places > a.tolerances.relative * a.tolerances.reach)
+    out += fmt::format(
+        "\n  times are known to {:.2g} s by their rounding, places of walls to {:.2g} m: the tolerances "
+        "allow for "
+        "it\n",
+        Tolerances::time(latest), places);
+  std::string list;
+  for (std::size_t k = 0; k < check_count; ++k)
+    if (const auto n = a.findings.unresolved_number(static_cast<Check>(k)); n > 0)
+      list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", info(static_cast<Check>(k)).name, n);
+  if (!list.empty())
+    out += fmt::format("\n  could not be checked, since what is allowed is as large as what is checked: {}\n",
+                       list);
+  return out;
+}
+
+}  // namespace
+
+std::string table(const Audit& a) {
+  std::string out =
+      fmt::format("{}: {} impacts, {:g} s to {:g} s{}\nchecked with {}, tolerance {:g}, gaps {:.3g} m\n",
+                  a.log_name, a.events, a.first, a.last, a.interrupted ? " (interrupted)" : "", a.case_name,
+                  a.tolerances.relative, a.tolerances.gap);
+  if (a.findings.total() > 0)
+    out +=
+        fmt::format("\n  {:<24}{:>10}{:>9}  {:<14}{}\n", "violation", "count", "share", "worst", "meaning");
+  for (const Kind kind : a.findings.ranked()) {
+    const Tally& tally = a.findings.of(kind);
+    out += fmt::format("  {:<24}{:>10}{:>8.3g}%  {:<14}{}\n", info(kind).name, tally.count,
+                       100 * share_of(a, kind), fmt::format("{:.3g} {}", tally.worst, info(kind).unit),
+                       info(kind).meaning);
+    for (const auto& [note, count] : tally.notes) out += fmt::format("    {} of them: {}\n", count, note);
+    for (const auto& example : tally.examples) out += fmt::format("    {}\n", describe(example));
+  }
+  const auto& e = a.energies;
+  if (e.impacts > 0)
+    out += fmt::format(
+        "\n  energy of {} impacts: wall work {:.6g} J - dose {:.6g} J + supplied {:.4g} J - gained {:.6g} J "
+        "= {:.2g} J\n    supplied by the least separation speed in {} of them\n",
+        e.impacts, e.wall_work.value(), e.milling_dose.value(), e.supplied.value(), e.kinetic_change.value(),
+        e.closure(), e.supplying);
+  if (a.energies.creating > 0)
+    out += fmt::format("\n  {} impacts create energy, {:.4g} J together\n", a.energies.creating,
+                       a.energies.created);
+  if (!a.diagnoses.empty()) out += "\n  the log looks like\n";
+  for (const auto& d : a.diagnoses)
+    out += fmt::format("    {} ({} of {}): {}\n", d.name, d.events, d.of, d.text);
+  if (!a.not_made.empty() && a.events > 0) out += "\n  not checked, since columns are missing\n";
+  if (a.events > 0)
+    for (const Check check : a.not_made)
+      out += fmt::format("    {:<24}needs {}\n", info(check).name, info(check).columns);
+  if (a.undecided > 0) out += fmt::format("\n  {} searches for missed impacts are undecided\n", a.undecided);
+  out += unresolved_checks(a);
+  out += fmt::format("\n  checked");
+  bool first = true;
+  for (std::size_t k = 0; k < check_count; ++k)
+    if (const auto n = a.findings.judged_number(static_cast<Check>(k)); n > 0) {
+      out += fmt::format("{} {} ({})", first ? ":" : ",", info(static_cast<Check>(k)).name, n);
+      first = false;
+    }
+  return out + fmt::format("\n  verdict: {}\n", name_of(a.verdict));
+}
+
+namespace {
+
+void put_violations(io::JsonText& json, const Audit& a) {
+  json.begin("violations");
+  for (const Kind kind : a.findings.ranked()) {
+    const Tally& tally = a.findings.of(kind);
+    json.begin(info(kind).name);
+    json.integer("count", tally.count);
+    json.number("share", share_of(a, kind));
+    json.number("worst", tally.worst);
+    json.text("unit", info(kind).unit);
+    json.text("meaning", info(kind).meaning);
+    if (!tally.notes.empty()) {
+      json.begin("notes");
+      for (const auto& [note, count] : tally.notes) json.integer(note, count);
+      json.end();
+    }
+    json.begin("examples");
+    for (std::size_t k = 0; k < tally.examples.size(); ++k)
+      put_finding(json, std::to_string(k + 1), tally.examples[k]);
+    json.end();
+    json.end();
+  }
+  json.end();
+}
+
+void put_diagnoses(io::JsonText& json, const Audit& a) {
+  json.begin("looks_like");
+  for (const auto& d : a.diagnoses) {
+    json.begin(d.name);
+    json.integer("events", d.events);
+    json.integer("of", d.of);
+    json.text("text", d.text);
+    json.end();
+  }
+  json.end();
+}
+
+void put_energies(io::JsonText& json, const Audit& a) {
+  json.begin("energy");
+  json.integer("impacts", a.energies.impacts);
+  json.number("wall_work", a.energies.wall_work.value());
+  json.number("milling_dose", a.energies.milling_dose.value());
+  json.number("supplied", a.energies.supplied.value());
+  json.integer("supplying_impacts", a.energies.supplying);
+  json.number("kinetic_change", a.energies.kinetic_change.value());
+  json.number("closure", a.energies.closure());
+  json.end();
+  json.begin("energy_created");
+  json.integer("impacts", a.energies.creating);
+  json.number("energy", a.energies.created);
+  json.end();
+}
+
+void put_checks(io::JsonText& json, const Audit& a) {
+  json.begin("checked");
+  for (std::size_t k = 0; k < check_count; ++k)
+    json.integer(info(static_cast<Check>(k)).name, a.findings.judged_number(static_cast<Check>(k)));
+  json.end();
+  json.begin("unresolved");
+  for (std::size_t k = 0; k < check_count; ++k)
+    if (const auto n = a.findings.unresolved_number(static_cast<Check>(k)); n > 0)
+      json.integer(info(static_cast<Check>(k)).name, n);
+  json.end();
+  json.begin("not_checked");
+  for (const Check check : a.not_made) json.text(info(check).name, info(check).columns);
+  json.end();
+}
+
+}  // namespace
+
+void put_json(io::JsonText& json, const Audit& a) {
+  json.text("format", "edmill audit 1");
+  json.text("version", version());
+  json.text("commit", commit());
+  json.text("verdict", name_of(a.verdict));
+  json.text("case", a.case_name);
+  json.text("log", a.log_name);
+  json.integer("events", a.events);
+  json.number("first_time", a.first);
+  json.number("last_time", a.last);
+  json.text("interrupted", a.interrupted ? "yes" : "no");
+  json.number("tolerance", a.tolerances.relative);
+  json.number("gap_tolerance", a.tolerances.gap);
+  json.number("time_rounding", Tolerances::time(std::max(std::abs(a.first), std::abs(a.last))));
+  put_violations(json, a);
+  put_diagnoses(json, a);
+  put_energies(json, a);
+  put_checks(json, a);
+  json.integer("undecided", a.undecided);
+}
+
+}  // namespace edmill::audit

@@ -1,0 +1,260 @@
+#include "audit/event_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "casefile/quantity.hpp"
+#include "compare/log_reader.hpp"
+#include "audit/tolerances.hpp"
+
+namespace edmill::casefile {
+extern template double Quantity::to<double>() const;
+}
+
+namespace edmill::audit {
+
+namespace {
+
+using casefile::Dimension;
+
+/// Places of the names in column_names().
+enum Name : std::size_t {
+  time_name,
+  ball_name,
+  partner_kind_name,
+  partner_name,
+  first_value,
+  first_state = first_value + 4,
+  name_count = first_state + 30,
+};
+
+/// The vectors of a body's state, in the order of their columns.
+constexpr std::array<Vec3<double> BodyState::*, 5> state_vectors = {
+    &BodyState::position, &BodyState::velocity_before, &BodyState::spin_before, &BodyState::velocity_after,
+    &BodyState::spin_after};
+constexpr std::array<bool Available::Body::*, 5> state_flags = {
+    &Available::Body::position, &Available::Body::velocity_before, &Available::Body::spin_before,
+    &Available::Body::velocity_after, &Available::Body::spin_after};
+
+Dimension dimension_of(std::size_t name) {
+  if (name == time_name) return Dimension::time;
+  if (name < first_value) return Dimension::none;
+  if (name < first_state) return name < first_value + 2 ? Dimension::speed : Dimension::energy;
+  static constexpr std::array<Dimension, 5> of_vectors = {Dimension::length, Dimension::speed,
+                                                          Dimension::angular_speed, Dimension::speed,
+                                                          Dimension::angular_speed};
+  return of_vectors[(name - first_state) % 15 / 3];
+}
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+}
+
+bool later(const LoggedEvent& a, const LoggedEvent& b) {
+  return a.time != b.time ? a.time > b.time : a.line > b.line;
+}
+
+}  // namespace
+
+const std::vector<std::string>& column_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"time",           "ball",       "partner_kind", "partner",
+                                 "approach_speed", "slip_speed", "milling_dose", "wall_work"};
+    for (const std::string body : {"", "partner_"})
+      for (const auto& [vector, when] :
+           {std::pair("", ""), std::pair("v", "_before"), std::pair("w", "_before"), std::pair("v", "_after"),
+            std::pair("w", "_after")})
+        for (const char* axis : {"x", "y", "z"}) all.push_back(body + vector + axis + when);
+    return all;
+  }();
+  return names;
+}
+
+std::vector<int> parse_walls(const std::string& text, const model::Partners& partners,
+                             const std::string& where) {
+  std::vector<int> walls(partners.walls());
+  std::string labels;
+  std::istringstream in(text);
+  char comma = ',';
+  bool good = true;
+  for (int k = 0; k < partners.walls(); ++k) {
+    good = good && (k == 0 || (in >> comma && comma == ',')) && in >> walls[k];
+    good = good && std::find(walls.begin(), walls.begin() + k, walls[k]) == walls.begin() + k;
+    labels += (k == 0 ? "" : ", ") + partners[k].label;
+  }
+  if (!good || !(in >> std::ws).eof())
+    throw InputError(fmt::format("{}: found {}, expected {} different numbers: of {}", where,
+                                 io::in_quotes(text), partners.walls(), labels));
+  return walls;
+}
+
+EventLog::EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls,
+                   int walls, double beyond)
+    : csv_(compare::log_in(place), "a collision log"),
+      columns_(name_count),
+      first_ball_(conventions.first_ball),
+      balls_(balls),
+      walls_(conventions.walls.value_or(std::vector<int>(walls))),
+      beyond_(beyond) {
+  read_header(conventions);
+}
+
+void EventLog::read_header(const LogConventions& conventions) {
+  const auto& names = column_names();
+  std::vector<std::string> theirs(names.begin(), names.end());
+  std::vector<std::string> problems;
+  for (const auto& [ours, given] : conventions.columns) {
+    const auto name = std::find(names.begin(), names.end(), ours);
+    const auto complain = [&problems, &ours = ours, &given = given](const std::string& found,
+                                                                    const std::string& expected) {
+      problems.push_back(fmt::format("column '{}={}': found {}, expected {}", ours, given, found, expected));
+    };
+    if (name == names.end()) {
+      complain(io::in_quotes(ours), "one of the names in docs/audit.md");
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(name - names.begin());
+    std::string column = trimmed(given);
+    const auto bracket = column.rfind('[');
+    if (!column.empty() && column.back() == ']' && bracket != std::string::npos) {
+      const auto unit = column.substr(bracket + 1, column.size() - bracket - 2);
+      const auto quantity = casefile::parse_quantity("1 " + unit, dimension_of(k));
+      if (const auto* value = std::get_if<casefile::Quantity>(&quantity);
+          value && dimension_of(k) != Dimension::none)
+        columns_[k].unit = value->to<double>();
+      else
+        complain("unit " + io::in_quotes(unit),
+                 dimension_of(k) == Dimension::none ? "no unit" : casefile::describe(dimension_of(k)));
+      // A header may name the unit too.
+      const auto& header = csv_.header();
+      if (std::find(header.begin(), header.end(), column) == header.end())
+        column = trimmed(column.substr(0, bracket));
+    }
+    theirs[k] = column;
+    if (std::find(csv_.header().begin(), csv_.header().end(), column) == csv_.header().end())
+      complain("no such column in " + csv_.file(), "a name of its header");
+  }
+  if (!problems.empty()) throw InputError(problems);
+
+  for (std::size_t k = 0; k < name_count; ++k)
+    columns_[k].place = k == time_name || k == ball_name || k == partner_name ? csv_.needed_column(theirs[k])
+                                                                              : csv_.column(theirs[k]);
+  csv_.throw_problems();
+  const bool with_kind = columns_[partner_kind_name].place.has_value();
+  if (!conventions.walls)
+    for (int id = 0; id < static_cast<int>(walls_.size()); ++id) walls_[id] = with_kind ? id : -1 - id;
+  available_.approach_speed = columns_[first_value].place.has_value();
+  available_.slip_speed = columns_[first_value + 1].place.has_value();
+  available_.milling_dose = columns_[first_value + 2].place.has_value();
+  available_.wall_work = columns_[first_value + 3].place.has_value();
+  for (std::size_t body = 0; body < 2; ++body)
+    for (std::size_t vector = 0; vector < 5; ++vector) {
+      const auto* first = &columns_[first_state + 15 * body + 3 * vector];
+      available_.body[body].*state_flags[vector] = first[0].place && first[1].place && first[2].place;
+    }
+}
+
+/// @return false when the field is not a number, which is reported
+bool EventLog::read_value(std::size_t name, double& value, LoggedEvent& event) {
+  const Column& column = columns_[name];
+  if (!column.place) return true;
+  const auto number = csv_.number(*column.place);
+  if (!number) return false;
+  value = *number * column.unit;
+  if (!std::isfinite(value) && event.problem.empty())
+    event.problem = fmt::format("found {} in column {}", value, column_names()[name]);
+  return true;
+}
+
+bool EventLog::read_bodies(LoggedEvent& event) {
+  constexpr int most = std::numeric_limits<int>::max();
+  const auto ball = csv_.whole(*columns_[ball_name].place, "the number of a ball", -most, most);
+  const auto partner =
+      csv_.whole(*columns_[partner_name].place, "the number of a ball or a wall", -most, most);
+  if (!ball || !partner) return false;
+  const auto wall = std::find(walls_.begin(), walls_.end(), *partner);
+  event.with_wall = wall != walls_.end();
+  if (const auto place = columns_[partner_kind_name].place) {
+    const auto kind = csv_.field(*place);
+    event.with_wall = kind == "wall";
+    if (!event.with_wall && kind != "ball") {
+      csv_.bad_field(*place, "ball or wall");
+      return false;
+    }
+  }
+  event.ball = *ball - first_ball_;
+  event.partner = event.with_wall ? static_cast<int>(wall - walls_.begin()) : *partner - first_ball_;
+  const auto is_ball = [&](int k) { return k >= 0 && k < balls_; };
+  const bool known =
+      is_ball(event.ball) &&
+      (event.with_wall ? wall != walls_.end() : is_ball(event.partner) && event.partner != event.ball);
+  if (!known) {
+    event.unknown_body = true;
+    event.problem =
+        fmt::format("found ball {} with {} {}", *ball, event.with_wall ? "wall" : "ball", *partner);
+  }
+  return true;
+}
+
+std::optional<LoggedEvent> EventLog::read() {
+  while (csv_.next_row()) {
+    LoggedEvent event;
+    event.line = csv_.line();
+    const auto time = csv_.number(*columns_[time_name].place);
+    if (!time || !read_bodies(event)) continue;
+    event.time = *time * columns_[time_name].unit;
+    if (!(std::abs(event.time) < beyond_)) {
+      event.problem = std::isfinite(event.time) ? fmt::format("found a time beyond {:g} s", beyond_)
+                                                : "found a time that is not finite";
+      event.unknown_body = false;
+      event.time = latest_;  // it has no time of its own
+    }
+    bool good = true;
+    const std::array<double*, 4> values = {&event.approach_speed, &event.slip_speed, &event.milling_dose,
+                                           &event.wall_work};
+    for (std::size_t k = 0; k < values.size() && good; ++k)
+      good = read_value(first_value + k, *values[k], event);
+    for (std::size_t body = 0; body < (event.with_wall ? 1u : 2u) && good; ++body)
+      for (std::size_t vector = 0; vector < 5; ++vector) {
+        if (!(available_.body[body].*state_flags[vector])) continue;
+        auto& state = event.body[body].*state_vectors[vector];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          good = good && read_value(first_state + 15 * body + 3 * vector + axis,
+                                    state[static_cast<Eigen::Index>(axis)], event);
+      }
+    if (!good) continue;
+    if (event.time < latest_) event.earlier_by = latest_ - event.time;
+    // Rounding alone does not change the order of two lines.
+    if (event.earlier_by <= Tolerances::time(latest_)) event.time += std::exchange(event.earlier_by, 0.0);
+    latest_ = std::max(latest_, event.time);
+    return event;
+  }
+  csv_.throw_problems();
+  return std::nullopt;
+}
+
+std::optional<LoggedEvent> EventLog::next() {
+  while (!at_end_ && ahead_.size() < window) {
+    auto event = read();
+    if (!event) {
+      at_end_ = true;
+      break;
+    }
+    ahead_.push_back(std::move(*event));
+    std::push_heap(ahead_.begin(), ahead_.end(), later);
+  }
+  if (ahead_.empty()) return std::nullopt;
+  std::pop_heap(ahead_.begin(), ahead_.end(), later);
+  LoggedEvent event = std::move(ahead_.back());
+  ahead_.pop_back();
+  return event;
+}
+
+}  // namespace edmill::audit

@@ -1,0 +1,228 @@
+// ImpactJudge: the mistakes that may reproduce a logged outcome.
+#include <algorithm>
+#include <boost/container/static_vector.hpp>
+#include <cmath>
+
+#include "audit/impact_judge.hpp"
+
+namespace edmill::audit {
+
+namespace {
+
+enum class Where { balls_and_walls, balls, walls };
+
+/// A formula that codes take for the right one.
+struct KnownMistake {
+  Kind kind;
+  const char* note;
+  Where where;
+  Formula (*formula)(const LoggedImpact&, std::size_t ball);
+  WallVelocity wall = WallVelocity::nested;
+};
+
+Formula right(const LoggedImpact&, std::size_t) { return {}; }
+double alone(const LoggedImpact& impact, std::size_t ball) {
+  return 1 + 1 / impact.ball[ball].reduced_inertia;
+}
+KnownMistake velocity_of_wall(WallVelocity formula) {
+  return {Kind::wall_velocity, name_of(formula), Where::walls, right, formula};
+}
+
+const std::vector<KnownMistake>& known_mistakes() {
+  static const std::vector<KnownMistake> list = [] {
+    std::vector<KnownMistake> all = {
+        {Kind::tangential_sign, "(2.34), (A.72) as printed: only the velocity's sign is wrong",
+         Where::balls_and_walls, [](const auto&, auto) { return Formula{.velocity_sign = -1}; }},
+        {Kind::tangential_sign, "velocity and spin both have the wrong sign", Where::balls_and_walls,
+         [](const auto&, auto) { return Formula{.velocity_sign = -1, .spin_sign = -1}; }},
+        {Kind::spin_change, "the spin has the wrong sign", Where::balls_and_walls,
+         [](const auto&, auto) { return Formula{.spin_sign = -1}; }},
+        {Kind::spin_change, "the spin does not change", Where::balls_and_walls,
+         [](const auto&, auto) { return Formula{.spin_sign = 0}; }},
+        {Kind::tangential_restitution,
+         "friction is limited by mu (1 + e_n) |g_n|, not by the actual impulse at v_s",
+         Where::balls_and_walls, [](const auto&, auto) { return Formula{.friction_of_restitution = true}; }},
+        {Kind::unequal_balls, "(2.24) as printed: 1 + 1/J", Where::balls,
+         [](const auto& impact, auto ball) { return Formula{.compliance_in_e_t = alone(impact, ball)}; }},
+        {Kind::unequal_balls, "(2.24) as printed: 1 + 1/J, in the impulse too", Where::balls,
+         [](const auto& impact, auto ball) {
+           const double c = alone(impact, ball);
+           return Formula{.compliance_in_e_t = c, .compliance_in_impulse = c};
+         }},
+        {Kind::unequal_balls, "the formula for equal masses", Where::balls,
+         [](const auto&, auto) {
+           return Formula{.share = {0.5, 0.5}};
+         }},
+        {Kind::unequal_balls, "the masses are exchanged", Where::balls, [](const auto& impact, auto) {
+           return Formula{.share = {impact.effective_mass / impact.ball[1].mass,
+                                    impact.effective_mass / impact.ball[0].mass}};
+         }}};
+    for (int k = 1; k < wall_velocity_count; ++k)
+      all.push_back(velocity_of_wall(static_cast<WallVelocity>(k)));
+    return all;
+  }();
+  return list;
+}
+
+/// What comes of an impact with the mistake, as the code saw it. Of a number of two balls either one.
+struct Way {
+  LoggedImpact impact;
+  std::array<BodyState, 2> outcome;
+};
+using Ways = boost::container::static_vector<Way, 2>;
+
+Ways ways_of(const KnownMistake& mistake, const LoggedEvent& event, const Scene& scene,
+             const model::ContactLaw<double>& law) {
+  Ways ways;
+  const bool with_wall = scene.impact.with_wall;
+  if (mistake.where == (with_wall ? Where::balls : Where::walls)) return ways;
+  LoggedImpact impact = scene.impact;
+  if (mistake.wall != WallVelocity::nested) {
+    const Vec centre = event.body[0].position, point = centre - impact.normal * impact.ball[0].radius;
+    impact.wall_velocity = wall_velocity(mistake.wall, scene.nested, scene.printed, point, centre) +
+                           piston_velocity(scene.nested, impact.wall, impact.normal);
+  }
+  for (std::size_t ball = 0; ball < impact.count(); ++ball)
+    ways.push_back({impact, outcome(impact, law, event, mistake.formula(impact, ball))});
+  return ways;
+}
+
+}  // namespace
+
+std::size_t ImpactJudge::known_mistake_count() { return known_mistakes().size(); }
+
+auto ImpactJudge::explaining(const LoggedEvent& event, const Scene& scene, double allowed, bool violated)
+    -> std::optional<Explanation> {
+  const auto& l = law(scene.impact);
+  const auto due = outcome(scene.impact, l, event, {});
+  const double off = distance(scene.impact, event.body, due);
+  std::optional<Explanation> found;
+  ++explained_impacts_;
+  for (std::size_t k = 0; k < suspicions_.size(); ++k) {
+    // What nothing has pointed to is looked at in the first impacts only.
+    if (!violated && !suspicions_[k].is_suspected() && explained_impacts_ > 200) continue;
+    const Ways ways = ways_of(known_mistakes()[k], event, scene, l);
+    bool shows = !ways.empty();
+    const Way* best = nullptr;
+    double left = std::numeric_limits<double>::infinity();
+    for (const Way& way : ways) {
+      shows = shows && distance(scene.impact, due, way.outcome) > allowed;
+      const double of_way = distance(way.impact, event.body, way.outcome);
+      if (of_way < left) left = of_way, best = &way;
+    }
+    // Bodies that separate faster than v_s when the mistake is assumed keep their velocities, which proves
+    // nothing.
+    if (best && dot(best->impact.before(event), best->impact.normal) > l.least_separation + allowed) continue;
+    const bool explains = violated && best && vanishes(off, left, allowed);
+    if (explains && !found)
+      found = Explanation{k, known_mistakes()[k].kind, known_mistakes()[k].note, best->impact, off, left};
+    else if (shows && !explains)
+      suspicions_[k].contradicted();
+  }
+  return found;
+}
+
+/// The bodies separate at e_n |g_n| where v_s applies, or the reverse.
+bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const LoggedImpact& impact, double off,
+                                             double allowed) const {
+  const auto& l = law(impact);
+  const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
+  const double by_restitution = l.restitution(-g_n, impact.bodies()) * -g_n;
+  const double other =
+      separation_speed(l, impact, g_n) > by_restitution ? by_restitution : l.least_separation;
+  return l.least_separation > 0 && vanishes(off, std::abs(left - other), allowed);
+}
+
+/// Reports a wrong speed of separation. The law's other branch, or another least speed, is named if the log
+/// as a whole has it.
+void ImpactJudge::tell_normal(const LoggedEvent& event, const LoggedImpact& impact, double off,
+                              double allowed, Findings& plain) {
+  const auto& l = law(impact);
+  const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
+  const double due = separation_speed(l, impact, g_n);
+  const double by_restitution = l.restitution(-g_n, impact.bodies()) * -g_n;
+  const auto finding = [&](Kind kind, double found, double expected, const char* note) {
+    return Finding{kind,          off,   event.line, event.time, event.ball,   event.with_wall,
+                   event.partner, found, expected,   note,       *note != '\0'};
+  };
+  const auto as_found = g_n != 0 ? finding(Kind::normal_restitution, -left / g_n, -due / g_n, "")
+                                 : finding(Kind::normal_restitution, unknown, unknown, "");
+  if (&plain != &findings_) return plain.add(as_found);
+  const auto name = [&](Suspicion& suspicion, double left_off, const char* note) {
+    suspicion.explains(off, left_off).add(finding(Kind::separation_law, left, due, note));
+    suspicion.plain().add(as_found);
+  };
+  SeparationSuspicions& of_law = separations_.try_emplace(number_of(l), findings_.examples()).first->second;
+  const double to_branch = std::abs(left - by_restitution), to_least = std::abs(left - l.least_separation);
+  if (due > by_restitution && vanishes(off, to_branch, allowed)) {
+    if (of_law.speed < std::numeric_limits<double>::infinity() && by_restitution < of_law.speed - allowed)
+      of_law.least.contradicted();
+    return name(of_law.least, to_branch, "separates at e_n |g_n|, which is below v_s");
+  }
+  if (l.least_separation > 0 && due <= by_restitution && vanishes(off, to_least, allowed))
+    return name(of_law.always, to_least, "separates at v_s, which is below e_n |g_n|");
+  if (left <= by_restitution + allowed) return plain.add(as_found);
+  constexpr const char* another = "separates at another least separation speed than the case's";
+  if (!(of_law.speed < std::numeric_limits<double>::infinity())) of_law.speed = left, of_law.g_n = g_n;
+  if (!vanishes(off, std::abs(left - of_law.speed), allowed)) return plain.add(as_found);
+  // A constant restitution gives the same speed for the same approach only.
+  const bool other_approach = of_law.speed * std::abs(g_n - of_law.g_n) > 2 * allowed * std::abs(g_n);
+  name(of_law.least, other_approach ? std::abs(left - of_law.speed) : off, another);
+}
+
+/// Impacts at which a suspected law of separation would show and the log has another one.
+void ImpactJudge::see_separation(const LoggedEvent& event, const LoggedImpact& impact, double allowed) {
+  const auto& l = law(impact);
+  const auto place = separations_.find(number_of(l));
+  if (place == separations_.end()) return;
+  SeparationSuspicions& of_law = place->second;
+  const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
+  const double by_restitution = l.restitution(-g_n, impact.bodies()) * -g_n;
+  const double due = separation_speed(l, impact, g_n);
+  const auto see = [&](Suspicion& suspicion, double with_it) {
+    const bool fits = std::abs(left - with_it) <= allowed;
+    if (suspicion.is_suspected() && std::abs(due - with_it) > allowed && !fits) suspicion.contradicted();
+  };
+  const bool known = of_law.speed < std::numeric_limits<double>::infinity();
+  see(of_law.least, std::max({by_restitution, known ? of_law.speed : 0.0, g_n}));
+  see(of_law.always, std::max(l.least_separation, g_n));
+}
+
+void ImpactJudge::finish() {
+  for (const auto& suspicion : suspicions_) findings_.take(suspicion.findings());
+  for (const auto& of_law : separations_) {
+    const SeparationSuspicions& own = of_law.second;
+    // Few impacts of a law may leave no doubt where another law has the same speed.
+    const bool known = std::ranges::any_of(separations_, [&](const auto& other) {
+      const SeparationSuspicions& theirs = other.second;
+      return theirs.least.is_named() && std::abs(theirs.speed - own.speed) <= 1e-6 * own.speed;
+    });
+    findings_.take(own.least.findings(own.least.is_named() || (known && own.least.fits())));
+    findings_.take(own.always.findings());
+  }
+  for (const auto* suspicion : {&net_dose_, &dose_without_rule_}) findings_.take(suspicion->findings());
+}
+
+/// The wall's speed along n that the logged speeds imply, where the law of impacts holds with it.
+std::optional<double> ImpactJudge::other_wall_speed(const LoggedEvent& event, const LoggedImpact& impact,
+                                                    const Residuals& off, double allowed) const {
+  if (!event.with_wall || !available_.approach_speed || !available_.slip_speed) return std::nullopt;
+  const auto& l = law(impact);
+  const double v_n = dot(event.body[0].velocity_before, impact.normal);
+  const double v_n_after = dot(event.body[0].velocity_after, impact.normal);
+  const double wall = v_n + event.approach_speed, separation = v_n_after - wall;
+  const double normal_left = std::abs(separation - separation_speed(l, impact, -event.approach_speed));
+  // The slip before the impact follows from its change, with e_t of the logged speeds.
+  const Vec g = impact.before(event), g_after = impact.after(event);
+  const Vec changed =
+      (g_after - impact.normal * dot(g_after, impact.normal)) - (g - impact.normal * dot(g, impact.normal));
+  const double e_t = tangential_restitution(l, impact, impact.compliance, separation + event.approach_speed,
+                                            event.slip_speed);
+  const double slip_left = std::abs(size(changed) - std::abs(1 - e_t) * event.slip_speed);
+  const double logged_off = std::abs(event.approach_speed + dot(g, impact.normal));
+  const double all_off = std::max({off.normal, off.tangential, logged_off});
+  if (!vanishes(all_off, std::max(normal_left, slip_left), allowed)) return std::nullopt;
+  return wall;
+}
+
+}  // namespace edmill::audit

@@ -1,0 +1,203 @@
+// Flights: impacts that are missing in a flight, and whether an unlogged one explains its end.
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "audit/flights.hpp"
+
+namespace edmill::dynamics {
+extern template class DecisionLadder<double>;
+}
+
+namespace edmill::audit {
+
+/// First contact of a ball with the walls, in (start, until].
+std::optional<std::pair<double, int>> Flights::wall_contact(const dynamics::Flight<double>& flight,
+                                                            double start, double radius, double until) {
+  auto begin = flight.start;
+  double rest = until - start;
+  while (rest > 0) {
+    const double length = std::min(rest, ladder_.walls().longest_window());
+    try {
+      const auto answer = ladder_.wall({flight, radius, begin, length});
+      if (answer.verdict == dynamics::Verdict::contact) {
+        const double time = start + clock_.elapsed(flight.start, answer.time);
+        if (time > until) return std::nullopt;
+        return std::pair(time, answer.wall);
+      }
+      begin = clock_.after(begin, answer.searched);
+      rest -= answer.searched;
+    } catch (const UndecidedError&) {
+      ++undecided_;
+      return std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The ball is searched with its radius reduced by the tolerance, so that a contact is certainly an overlap.
+auto Flights::first_wall(int ball, const Track& track, double until, double slack) -> std::optional<Contact> {
+  const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
+  const auto frame = nested_at(track.start);
+  double overlap = 0;
+  for (int wall = 0; wall < walls(); ++wall)
+    overlap = std::max(overlap, -wall_gap(frame, case_.mill.vessel, wall, radius, track.flight.position));
+  const double smaller = radius - overlap - slack;
+  if (smaller < radius / 2) return std::nullopt;  // outside the vessel, which was reported before
+  const auto contact = wall_contact(track.flight, track.start, smaller, until);
+  if (!contact) return std::nullopt;
+  return Contact{contact->first, true, contact->second,
+                 deepest(ball, track, contact->second, contact->first, until)};
+}
+
+double Flights::deepest(int ball, const Track& track, int wall, double from, double until) const {
+  const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
+  constexpr int samples = 32;
+  double depth = 0;
+  for (int k = 0; k <= samples; ++k) {
+    const double time = from + (until - from) * k / samples;
+    const Vec position = dynamics::position_after(track.flight, case_.mill.gravity, time - track.start);
+    depth = std::max(depth, -wall_gap(nested_at(time), case_.mill.vessel, wall, radius, position));
+  }
+  return depth;
+}
+
+/// Whether the log's walls are those of the printed matrix, which was reported, and the flight ends inside
+/// of them.
+bool Flights::stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const {
+  if (!printed_walls_) return false;
+  const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
+  constexpr int samples = 32;
+  for (int k = 0; k <= samples; ++k) {
+    const double time = track.start + (until - track.start) * k / samples;
+    const auto frame = printed_at(time);
+    const Vec position = dynamics::position_after(track.flight, case_.mill.gravity, time - track.start);
+    for (int wall = 0; wall < walls(); ++wall)
+      if (wall_gap(frame, case_.mill.vessel, wall, radius, position) < -slack) return false;
+  }
+  return true;
+}
+
+auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, double slack)
+    -> std::optional<Contact> {
+  const double until = end.event->time;
+  const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
+  const auto& pairs = ladder_.pairs();
+  const auto seen_at_start = pairs.state(track.flight, track.flight.start);
+  std::optional<Contact> first;
+  for (int other = 0; other < balls(); ++other) {
+    const Track& theirs = of(other);
+    if (other == ball || !theirs.state_known) continue;
+    const bool later = theirs.start > track.start;
+    const double from = later ? theirs.start : track.start;
+    const double to = theirs.broken ? std::min(until, theirs.broken_from) : until;
+    if (from >= to) continue;
+    const auto& now = later ? theirs.flight.start : track.flight.start;
+    const double sum = radius + case_.balls[static_cast<std::size_t>(other)].radius;
+    // The other ball's place has an uncertain time of its own.
+    const double off = slack + 2 * tolerances_.time(until) * size(theirs.flight.velocity);
+    if (off > sum / 2) continue;
+    const auto seen = later ? pairs.state(track.flight, now) : seen_at_start;
+    dynamics::PairAnswer<double> answer;
+    try {
+      answer = ladder_.pair(seen, track.flight, theirs.flight, now, sum - off);
+    } catch (const UndecidedError&) {
+      ++undecided_;
+    }
+    if (answer.verdict != dynamics::Verdict::contact || from + answer.delay > to) continue;
+    if (first && first->time <= from + answer.delay) continue;
+    const Vec apart = position_at(ball, from) - position_at(other, from);
+    if (size(apart) < sum - off) continue;  // they overlapped already, which was reported before
+    const bool the_end =
+        !end.event->with_wall && (end.body == 0 ? end.event->partner : end.event->ball) == other;
+    if (the_end && end.late) continue;
+    const Vec relative = (track.flight.velocity + case_.mill.gravity * (from - track.start)) -
+                         (theirs.flight.velocity + case_.mill.gravity * (from - theirs.start));
+    const double nearest = std::clamp(-dot(apart, relative) / dot(relative, relative), 0.0, to - from);
+    first = Contact{from + answer.delay, false, other, sum - size(Vec(apart + relative * nearest))};
+  }
+  return first;
+}
+
+Scene Flights::scene_at(int ball, int wall, double time, const Vec& position) const {
+  Scene scene;
+  scene.nested = nested_at(time);
+  scene.printed = printed_at(time);
+  LoggedImpact& impact = scene.impact;
+  impact.with_wall = true;
+  impact.wall = wall;
+  impact.ball[0] = case_.balls[static_cast<std::size_t>(ball)];
+  impact.normal = wall_normal(scene.nested, case_.mill.vessel, wall, impact.ball[0].radius, position);
+  impact.wall_velocity = wall_velocity(WallVelocity::nested, scene.nested, scene.printed,
+                                       position - impact.normal * impact.ball[0].radius, position) +
+                         piston_velocity(scene.nested, wall, impact.normal);
+  impact.set_masses();
+  return scene;
+}
+
+/// Whether a ball in this state reaches the logged end of the flight.
+bool Flights::arrives(const State& state, const FlightEnd& end) const {
+  const double dt = end.event->time - state.start;
+  const auto& logged = end.event->body[end.body];
+  const double near = std::max(1e-6, 10 * tolerances_.relative);
+  const Vec velocity = dynamics::velocity_after(state.flight, case_.mill.gravity, dt);
+  return size(Vec(logged.position - dynamics::position_after(state.flight, case_.mill.gravity, dt))) <=
+             near * tolerances_.reach &&
+         size(Vec(logged.velocity_before - velocity)) <= 10 * near * std::max(size(velocity), 1.0);
+}
+
+/// Tries up to four impacts with walls that are not in the log.
+bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& end) {
+  if (!track.spin_known) return false;
+  State state{track.flight, track.spin, track.start};
+  for (int k = 0; k < 4; ++k) {
+    const auto contact = wall_contact(state.flight, state.start,
+                                      case_.balls[static_cast<std::size_t>(ball)].radius, end.event->time);
+    if (!contact) return false;
+    const double time = contact->first, dt = time - state.start;
+    LoggedEvent event;
+    event.with_wall = true;
+    event.body[0].position = dynamics::position_after(state.flight, case_.mill.gravity, dt);
+    event.body[0].velocity_before = dynamics::velocity_after(state.flight, case_.mill.gravity, dt);
+    event.body[0].spin_before = state.spin;
+    const auto scene = scene_at(ball, contact->second, time, event.body[0].position);
+    const auto after =
+        outcome(scene.impact, case_.mill.law_with_wall(scene.impact.ball[0], scene.impact.wall), event, {});
+    state = {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time};
+    if (arrives(state, end)) return true;
+  }
+  return false;
+}
+
+/// Tries the impact with a ball that is not in the log.
+bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const {
+  const Track &own = of(ball), &other = of(contact.partner);
+  if (!own.spin_known || !other.spin_known) return false;
+  LoggedEvent event;
+  LoggedImpact impact;
+  impact.ball = {case_.balls[static_cast<std::size_t>(ball)],
+                 case_.balls[static_cast<std::size_t>(contact.partner)]};
+  impact.set_masses();
+  // The contact of the actual balls, slightly before that of the reduced ones.
+  const double sum = impact.ball[0].radius + impact.ball[1].radius;
+  Vec apart = position_at(ball, contact.time) - position_at(contact.partner, contact.time);
+  const auto velocity = [&](const Track& track) {
+    return dynamics::velocity_after(track.flight, case_.mill.gravity, contact.time - track.start);
+  };
+  const Vec relative = velocity(own) - velocity(other);
+  const double closing = -dot(apart, relative) / size(apart);
+  const double time = closing > 0 ? contact.time - (sum - size(apart)) / closing : contact.time;
+  const std::array<const Track*, 2> tracks = {&own, &other};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double dt = time - tracks[k]->start;
+    event.body[k].position = dynamics::position_after(tracks[k]->flight, case_.mill.gravity, dt);
+    event.body[k].velocity_before = dynamics::velocity_after(tracks[k]->flight, case_.mill.gravity, dt);
+    event.body[k].spin_before = tracks[k]->spin;
+  }
+  apart = event.body[0].position - event.body[1].position;
+  impact.normal = apart * (1 / size(apart));
+  const auto after = outcome(impact, case_.mill.law_between(impact.ball[0], impact.ball[1]), event, {});
+  return arrives(
+      {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time}, end);
+}
+
+}  // namespace edmill::audit

@@ -1,0 +1,84 @@
+// A log divided into batches of equal duration, and tests on two series of batches.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "compare/log_reader.hpp"
+
+namespace edmill::compare {
+
+/// Batch k covers [from + k length, from + (k + 1) length). [s]
+struct BatchTimes {
+  double from = 0, length = 0;
+  std::size_t count = 0;
+
+  double until() const { return from + static_cast<double>(count) * length; }
+};
+
+/// Classes of a spectrum on a logarithmic scale, 16 an octave. Values up to `floor` share the first class:
+/// rounding noise around zero is not resolved.
+class SpectrumClasses {
+ public:
+  static constexpr std::size_t count = 1 + 16 * 48;
+  explicit SpectrumClasses(double floor) : floor_(floor) {}
+  std::size_t of(double value) const;
+
+ private:
+  double floor_;
+};
+
+/// Number of impacts by approach speed, on walls and between balls; milling dose by dose of the impact. The
+/// dose has a spectrum of its own because mills have many impacts of negligible dose, whose number varies
+/// much.
+enum Spectrum : std::size_t { wall_speeds, ball_speeds, doses };
+inline constexpr std::size_t spectrum_count = 3;
+
+/// Totals of one batch.
+struct Batch {
+  std::vector<double> events;              ///< with each wall, and last between balls
+  double approach_speed = 0;               ///< sum [m/s]
+  double milling_dose = 0, wall_work = 0;  ///< [J]
+  std::array<std::vector<double>, spectrum_count> spectra;
+
+  explicit Batch(int walls = 0) : events(walls + 1) {
+    spectra.fill(std::vector<double>(SpectrumClasses::count));
+  }
+
+  double all_events() const;
+};
+
+/// Second pass over a log. Memory does not depend on its length.
+/// @param walls  at least as many as the log names
+std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const BatchTimes& times, int walls,
+                                    const SpectrumClasses& speed_classes,
+                                    const SpectrumClasses& dose_classes);
+
+/// A quantity of a run in each batch.
+using BatchValues = std::vector<double>;
+
+/// Batch values whose plain mean is sum / number of the whole and whose scatter is that of this ratio, to
+/// first order (the linearised ratio estimator).
+/// @pre the numbers are not all 0
+BatchValues ratio_values(const BatchValues& sums, const BatchValues& numbers);
+
+/// Probability that the mean of `differences` is at least as far from 0 when 0 is expected: Student's t,
+/// two-sided. @pre at least two values
+double paired_t_probability(const BatchValues& differences);
+
+/// Largest distance between the distribution functions of two spectra, with a permutation test over batches.
+struct SpectrumTest {
+  double distance = 0;     ///< Kolmogorov's, over the bounds of the classes
+  double limit = 0;        ///< exceeded in 5 % of the permutations
+  double probability = 1;  ///< of at least this distance when A and B are alike
+};
+
+/// Each of 9999 permutations swaps batch k of A and B, or not, at random for every k; seeded, so that the
+/// same logs give the same result. @pre as many batches in A as in B, and both spectra are not empty
+SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>& b, Spectrum spectrum);
+
+/// Holm's adjusted probabilities: rejecting those up to 5 % has a familywise error rate of at most 5 %.
+std::vector<double> holm(const std::vector<double>& probabilities);
+
+}  // namespace edmill::compare

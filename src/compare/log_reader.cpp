@@ -1,0 +1,147 @@
+#include "compare/log_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/property_tree/json_parser.hpp>
+#include <boost/property_tree/ptree.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "base/errors.hpp"
+#include "model/parts/partners.hpp"
+
+namespace edmill::compare {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What counts from the summary of a run.
+struct RunSummary {
+  double statistics_start;  ///< [s]
+  int walls;                ///< that it names
+};
+
+std::optional<RunSummary> read_summary(const fs::path& summary) {
+  if (!fs::exists(summary)) return std::nullopt;
+  boost::property_tree::ptree tree;
+  try {
+    boost::property_tree::read_json(summary.string(), tree);
+  } catch (const boost::property_tree::json_parser_error& error) {
+    throw InputError(
+        fmt::format("{}:{}: found {}, expected JSON", summary.string(), error.line(), error.message()));
+  }
+  const auto text = tree.get<std::string>("start_time", "");
+  char* end = nullptr;
+  const double start = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(start))
+    throw InputError(
+        fmt::format("{}: start_time: found {}, expected a time in s", summary.string(), io::in_quotes(text)));
+  int walls = 0;
+  const auto named = [&] { return "collisions." + model::partner_key(walls, walls + 1); };
+  while (tree.get_child_optional(named())) ++walls;
+  return RunSummary{start, walls};
+}
+
+bool is_folder(const fs::path& place) {
+  std::error_code ignored;
+  return fs::is_directory(place, ignored);
+}
+
+}  // namespace
+
+fs::path log_in(const fs::path& place) {
+  if (!is_folder(place)) return place;
+  const auto log = place / "collisions.csv";
+  for (const auto* ending : {"", ".gz", ".zst"})
+    if (const fs::path file = log.string() + ending; io::is_readable(file.string())) return file;
+  return log;
+}
+
+LogReader::LogReader(const fs::path& place)
+    : csv_(log_in(place), is_folder(place) ? "a collision log ([[output]] of type \"collisions\" in the case)"
+                                           : "a collision log"),
+      last_time_(-std::numeric_limits<double>::infinity()) {
+  read_header();
+}
+
+void LogReader::read_header() {
+  value_columns_[time] = csv_.needed_column("time");
+  ball_column_ = csv_.needed_column("ball").value_or(0);
+  kind_column_ = csv_.needed_column("partner_kind").value_or(0);
+  partner_column_ = csv_.needed_column("partner").value_or(0);
+  value_columns_[approach_speed] = csv_.needed_column("approach_speed");
+  for (const Value v : {slip_speed, milling_dose, wall_work}) value_columns_[v] = csv_.column(value_names[v]);
+  csv_.throw_problems();
+}
+
+std::optional<Event> LogReader::next() {
+  while (csv_.next_row()) {
+    const auto problems_before = csv_.problem_count();
+    if (auto event = parse(); event && csv_.problem_count() == problems_before) return event;
+  }
+  csv_.throw_problems();
+  return std::nullopt;
+}
+
+std::optional<Event> LogReader::parse() {
+  Event event;
+  event.line = csv_.line();
+  for (std::size_t v = 0; v < value_count; ++v) {
+    event.values[v] = std::numeric_limits<double>::quiet_NaN();
+    if (!value_columns_[v]) continue;
+    const auto number = csv_.finite(*value_columns_[v]);
+    if (!number) return std::nullopt;
+    event.values[v] = *number;
+  }
+  if (event.values[time] < last_time_) {
+    csv_.bad_field(*value_columns_[time],
+                   fmt::format("no time before {} s, that of the line above", last_time_));
+    return std::nullopt;
+  }
+  const auto kind = csv_.field(kind_column_);
+  event.with_wall = kind == "wall";
+  if (!event.with_wall && kind != "ball") {
+    csv_.bad_field(kind_column_, "ball or wall");
+    return std::nullopt;
+  }
+  constexpr int most = std::numeric_limits<int>::max(), most_walls = 100;
+  const auto ball = csv_.whole(ball_column_, "the number of a ball", 0, most);
+  const auto partner = event.with_wall
+                           ? csv_.whole(partner_column_, "the number of a wall", 0, most_walls - 1)
+                           : csv_.whole(partner_column_, "the number of a ball", 0, most);
+  if (!ball || !partner) return std::nullopt;
+  event.ball = *ball;
+  event.partner = *partner;
+  if (!event.with_wall && event.ball == event.partner) {
+    csv_.bad_field(partner_column_, "another ball than the first");
+    return std::nullopt;
+  }
+  last_time_ = event.values[time];
+  return event;
+}
+
+LogScan scan_log(const fs::path& place) {
+  LogReader reader(place);
+  LogScan scan;
+  scan.file = reader.file();
+  for (std::size_t v = 0; v < value_count; ++v) scan.has[v] = reader.has(static_cast<Value>(v));
+  while (const auto event = reader.next()) {
+    if (scan.events++ == 0) scan.first = event->values[time];
+    scan.last = event->values[time];
+    if (event->with_wall) scan.walls = std::max(scan.walls, event->partner + 1);
+    for (std::size_t v = 0; v < value_count; ++v)
+      if (scan.has[v]) scan.mean_magnitude[v] += std::abs(event->values[v]);
+  }
+  if (scan.events > 0)
+    for (double& mean : scan.mean_magnitude) mean /= static_cast<double>(scan.events);
+  if (const auto summary = is_folder(place) ? read_summary(place / "summary.json") : std::nullopt) {
+    scan.statistics_start = summary->statistics_start;
+    scan.walls = std::max(scan.walls, summary->walls);
+  }
+  return scan;
+}
+
+}  // namespace edmill::compare
