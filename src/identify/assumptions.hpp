@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "casefile/build_case.hpp"
 #include "audit/event_log.hpp"
+#include "casefile/build_case.hpp"
 
 namespace edmill::identify {
 

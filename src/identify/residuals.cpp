@@ -60,7 +60,7 @@ const model::ContactLaw<double>& law_of(const model::Mill<double>& mill, const L
 }  // namespace
 
 /// Takes rows; when `allowed` is given they are divided by it, otherwise what they are allowed is noted.
-struct Residuals::Writer {
+struct LogResiduals::Writer {
   std::vector<double>* values = nullptr;
   const std::vector<double>* allowed = nullptr;
   std::vector<double>* note = nullptr;
@@ -80,8 +80,8 @@ struct Residuals::Writer {
   }
 };
 
-Residuals::Residuals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
-                     const model::Case<double>& nominal)
+LogResiduals::LogResiduals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
+                           const model::Case<double>& nominal)
     : log_(log),
       tolerances_(tolerances),
       before_(log.events.size()),
@@ -107,33 +107,34 @@ Residuals::Residuals(const audit::EventsAtHand& log, const audit::Tolerances& to
   }
 }
 
-void Residuals::choose(const std::vector<std::size_t>& events) {
-  chosen_.clear();
-  allowed_.clear(), kinds_.clear(), row_events_.clear();
-  Writer note{nullptr, nullptr, &allowed_, &kinds_};
+Residuals LogResiduals::on(const std::vector<std::size_t>& events) const {
+  Residuals sample(*this);
+  Writer note{nullptr, nullptr, &sample.allowed_, &sample.kinds_};
   for (const std::size_t k : events) {
     if (!log_.events[k].problem.empty()) continue;
     event_rows(k, nominal_, {}, note);
-    row_events_.resize(kinds_.size(), chosen_.size());
-    chosen_.push_back(k);
+    sample.row_events_.resize(sample.kinds_.size(), sample.chosen_.size());
+    sample.chosen_.push_back(k);
   }
+  return sample;
 }
 
 std::vector<double> Residuals::rows(const Assumptions& assumed) const {
   const auto model = assumed.built();
   if (!model) return std::vector<double>(count(), out_of_range);
-  EDMILL_REQUIRE(model->balls.size() == nominal_.balls.size() &&
-                     model->mill.vessel.wall_count() == nominal_.mill.vessel.wall_count(),
+  const auto& nominal = log_->nominal_;
+  EDMILL_REQUIRE(model->balls.size() == nominal.balls.size() &&
+                     model->mill.vessel.wall_count() == nominal.mill.vessel.wall_count(),
                  "the bodies that the log is of");
   std::vector<double> values;
   values.reserve(count());
-  Writer out{&values, &allowed_, nullptr, nullptr};
-  for (const std::size_t k : chosen_) event_rows(k, *model, assumed.log, out);
+  LogResiduals::Writer out{&values, &allowed_, nullptr, nullptr};
+  for (const std::size_t k : chosen_) log_->event_rows(k, *model, assumed.log, out);
   return values;
 }
 
-void Residuals::event_rows(std::size_t k, const model::Case<double>& model, const LogChange& change,
-                           Writer& out) const {
+void LogResiduals::event_rows(std::size_t k, const model::Case<double>& model, const LogChange& change,
+                              Writer& out) const {
   LoggedEvent event = log_.events[k];
   change.apply(event);
   const bool placed = log_.available.positions(event.with_wall);
@@ -158,8 +159,8 @@ void Residuals::event_rows(std::size_t k, const model::Case<double>& model, cons
   for (std::size_t body = 0; body < impact.count(); ++body) flight_rows(k, body, event, model, change, out);
 }
 
-void Residuals::impact_rows(const LoggedEvent& event, const LoggedImpact& impact,
-                            const model::ContactLaw<double>& law, Writer& out) const {
+void LogResiduals::impact_rows(const LoggedEvent& event, const LoggedImpact& impact,
+                               const model::ContactLaw<double>& law, Writer& out) const {
   const auto& has = log_.available;
   const bool after = has.velocities_after(event.with_wall), spins = has.spins(event.with_wall);
   const double scale = audit::velocity_scale(impact, event, spins);
@@ -201,8 +202,8 @@ void Residuals::impact_rows(const LoggedEvent& event, const LoggedImpact& impact
 }
 
 /// Without states the dose follows from the logged speeds.
-void Residuals::speed_rows(const LoggedEvent& event, const LoggedImpact& impact,
-                           const model::ContactLaw<double>& law, Writer& out) const {
+void LogResiduals::speed_rows(const LoggedEvent& event, const LoggedImpact& impact,
+                              const model::ContactLaw<double>& law, Writer& out) const {
   const auto& has = log_.available;
   if (!has.approach_speed || !has.slip_speed || !has.milling_dose) return;
   const double speed = std::max({std::abs(event.approach_speed), event.slip_speed, law.least_separation});
@@ -211,8 +212,8 @@ void Residuals::speed_rows(const LoggedEvent& event, const LoggedImpact& impact,
           4 * tolerances_.relative * impact.effective_mass * speed * speed);
 }
 
-void Residuals::flight_rows(std::size_t k, std::size_t body, const LoggedEvent& event,
-                            const model::Case<double>& model, const LogChange& change, Writer& out) const {
+void LogResiduals::flight_rows(std::size_t k, std::size_t body, const LoggedEvent& event,
+                               const model::Case<double>& model, const LogChange& change, Writer& out) const {
   const auto& has = log_.available.body[body];
   const Before& begin = before_[k][body];
   if (!has.position || begin.event < 0) return;

@@ -14,26 +14,22 @@ namespace edmill::identify {
 enum class RowKind : unsigned char { touch, law, energy, speed, place, velocity };
 inline constexpr std::size_t row_kinds = 6;
 
+class Residuals;
+
 /// The equations that an audit checks, as differences over what the audit allows: gaps of bodies in contact,
 /// states after an impact, energies and speeds in their columns, the ends of flights. Which rows there are
 /// depends on the columns of the log alone, so that a fit has the same rows for all values.
-class Residuals {
+class LogResiduals {
  public:
   /// @param nominal  what the audit's tolerances are taken from
-  Residuals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
-            const model::Case<double>& nominal);
+  LogResiduals(const audit::EventsAtHand& log, const audit::Tolerances& tolerances,
+               const model::Case<double>& nominal);
 
-  /// Sets which events are compared; each flight is that before its event.
-  void choose(const std::vector<std::size_t>& events);
-  std::size_t count() const { return kinds_.size(); }
-  const std::vector<RowKind>& kinds() const { return kinds_; }
-  /// The event of each row, as its place among the chosen ones.
-  const std::vector<std::size_t>& events() const { return row_events_; }
-  /// @return one number for each row; a large one where it is not finite, and all of them for a case that
-  /// cannot be
-  std::vector<double> rows(const Assumptions& assumed) const;
+  /// The rows of these events; each flight is that before its event.
+  Residuals on(const std::vector<std::size_t>& events) const;
 
  private:
+  friend class Residuals;
   struct Before {
     long event = -1;
     std::size_t body = 0;
@@ -52,11 +48,29 @@ class Residuals {
   audit::Tolerances tolerances_;
   std::vector<std::array<Before, 2>> before_;  ///< the impact at which the flight of each body began
   std::vector<bool> in_stall_;                 ///< by event: friction rests
+  const model::Case<double>& nominal_;
+};
+
+/// The rows of a sample of events. What it was made from must outlive it.
+class Residuals {
+ public:
+  std::size_t count() const { return kinds_.size(); }
+  const std::vector<RowKind>& kinds() const { return kinds_; }
+  /// The event of each row, as its place in the sample, without lines that could not be read.
+  const std::vector<std::size_t>& events() const { return row_events_; }
+  /// @return one number for each row; a large one where it is not finite, and all of them for a case that
+  /// cannot be
+  std::vector<double> rows(const Assumptions& assumed) const;
+
+ private:
+  friend class LogResiduals;
+  explicit Residuals(const LogResiduals& log) : log_(&log) {}
+
+  const LogResiduals* log_;
   std::vector<std::size_t> chosen_;
   std::vector<double> allowed_;  ///< by row
   std::vector<RowKind> kinds_;
   std::vector<std::size_t> row_events_;
-  const model::Case<double>& nominal_;
 };
 
 }  // namespace edmill::identify

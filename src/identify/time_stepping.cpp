@@ -9,10 +9,10 @@
 #include <numbers>
 #include <vector>
 
-#include "base/instant.hpp"
 #include "audit/delays.hpp"
 #include "audit/mechanics.hpp"
 #include "audit/naming.hpp"
+#include "base/instant.hpp"
 
 namespace edmill::identify {
 

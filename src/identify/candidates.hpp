@@ -1,0 +1,96 @@
+// Numbers and mistakes that may explain a log, each fitted and judged by itself.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "audit/audit.hpp"
+#include "identify/causes.hpp"
+#include "identify/fit.hpp"
+#include "identify/samples.hpp"
+
+namespace edmill::identify {
+
+inline constexpr double strong_evidence = 10;  ///< least gain of Schwarz's criterion (Kass and Raftery 1995)
+
+/// A combination of free numbers and mistakes, fitted.
+struct Candidate {
+  Model model;
+  std::vector<std::string> mistakes;
+  std::vector<double> values, half_widths;
+  double criterion = 0;    ///< misfit + parameters ln(rows)
+  std::uint64_t left = 0;  ///< violations
+
+  Assumptions assumed() const { return model.with(values); }
+  std::size_t complexity() const { return model.free.size() + mistakes.size(); }
+  std::set<std::string> names() const;
+};
+
+void sort(std::vector<Candidate>& list);
+
+/// A mistake and the misfit that it leaves.
+struct Tried {
+  double misfit;
+  Mistake mistake;
+};
+
+/// What all candidates are judged by: a log, samples of it, and the rows of these.
+class Candidates {
+ public:
+  /// The log and the rest must outlive it. @pre the log has events
+  /// @param violations  what an audit finds without any cause
+  Candidates(const audit::EventsAtHand& log, const audit::Options& options,
+             const model::Case<double>& the_case, const Assumptions& nominal, std::uint64_t violations);
+
+  /// Whether there are rows enough.
+  bool suffice() const { return residuals_.on(samples_.whole()).count() >= 12; }
+  /// Samples with the events that these assumptions leave off by more than the audit allows.
+  void draw_samples(const std::vector<Assumptions>& assumptions);
+  /// The criterion of no cause, and what an audit says of the log.
+  double without() const { return without_; }
+  std::uint64_t violations() const { return violations_; }
+
+  /// With the present samples: sets `criterion`.
+  void judge(Candidate& c) const;
+  Candidate with_mistakes(const Assumptions& base, const std::vector<std::string>& names) const;
+  /// Fits over growing spans where a motion's speed is free, and over the whole log.
+  Candidate fitted(const Model& model, const std::vector<std::string>& mistakes,
+                   const std::vector<double>& start) const;
+  /// Values to begin a fit with, from afar where the rows are periodic in the parameter.
+  std::vector<double> starts(const Assumptions& base, const Parameter& p) const;
+  /// The fit with the final sample, and what the audit says of it.
+  bool accept(Candidate& c) const;
+
+  /// Mistakes that make the rows fit better, the best first.
+  std::vector<Tried> promising(const Assumptions& base, const std::vector<Mistake>& mistakes,
+                               std::size_t most) const;
+  /// The parameters whose fit promises most on top of a base, by a linear fit of the rows that tell most.
+  std::vector<const Parameter*> ranked(const Assumptions& base, const std::vector<Parameter>& parameters,
+                                       std::size_t most) const;
+  /// Two parameters with the changes that a linear fit finds, in their units; the best first.
+  struct Pair {
+    double misfit;
+    std::size_t one, two;
+    std::vector<double> start;
+  };
+  std::vector<Pair> ranked_pairs(const std::vector<Parameter>& parameters) const;
+
+ private:
+  /// Of the first span, where a wrong speed has not gone far; of the whole log when that span shows nothing.
+  Residuals telling(const Assumptions& base) const;
+  bool rows_vanish(const Assumptions& assumed) const;
+  std::uint64_t violations_with(const Assumptions& assumed) const;
+
+  const audit::EventsAtHand& log_;
+  const audit::Options& options_;
+  const Assumptions& nominal_;
+  double period_;  ///< of the drive [s]
+  LogResiduals residuals_;
+  Samples samples_;
+  std::uint64_t violations_;
+  double without_ = 0;
+};
+
+}  // namespace edmill::identify
