@@ -41,6 +41,12 @@ To scalar_cast(const From& value) {
   return static_cast<To>(value);
 }
 
+/// Far above the rounding of a few operations in any scalar, far below what bounds leave to spare: 2^-20.
+template <class Real>
+Real rounding_margin() {
+  return Real(1) / 1048576;
+}
+
 /// Distance from 1 to the next scalar.
 template <class Real>
 Real epsilon() {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dynamics/flight.hpp"
-#include "dynamics/wall_search.hpp"
+#include "dynamics/wall_query.hpp"
 
 namespace edmill::dynamics {
 

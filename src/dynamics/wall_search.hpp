@@ -11,57 +11,12 @@
 #include "base/taylor.hpp"
 #include "dynamics/gap_functions.hpp"
 #include "dynamics/motion_bounds.hpp"
+#include "dynamics/wall_query.hpp"
 
 namespace edmill::dynamics {
 
-enum class Verdict { none, contact, undecided };
-
-struct NoPose {
-  void archive(Archive&) {}
-};
-
-/// The vessel's pose at a contact goes with the contact in wide scalars, where sines are expensive.
 template <class Real>
-using ContactPose =
-    std::conditional_t<std::is_same_v<Real, double>, NoPose, std::optional<model::AnyPose<Real>>>;
-
-/// The answer of a search over (begin, begin + length]; `none` may hold for a shorter window than was asked.
-template <class Real>
-struct WallAnswer {
-  Verdict verdict = Verdict::none;
-  int wall = -1;         ///< of a contact
-  Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
-  bool tie = false;      ///< two walls at one time at the top of the ladder; the lower id was taken
-  Real searched{0};      ///< of none: proven from begin for this long [s]
-  Real time_error{0};    ///< of a contact: how far off rounding may put its time [s]
-  [[no_unique_address]] ContactPose<Real> pose{};  ///< of a contact, where the search knows it
-};
-
-/// One search: a ball's flight and the window that is asked about.
-template <class Real>
-struct WallQuery {
-  Flight<Real> flight;
-  Real radius;          ///< [m]
-  Instant<Real> begin;  ///< not before the flight's start
-  Real length;          ///< [s], at most WallSearch::longest_window()
-};
-
-/// What a search in double proves for a wider flight and mill that were rounded to double. Times are offsets
-/// [s] of the drive period in which the window begins.
-struct RoughAnswer {
-  Verdict verdict = Verdict::undecided;
-  double until = 0;            ///< of none: no contact up to here
-  int wall = -1;               ///< of a contact: nothing is touched before `left`, and
-  double left = 0, right = 0;  ///< the wall's gap falls all the way from `left` to `right`, through zero
-  double root = 0;             ///< about where
-  double curvature = 0;        ///< second derivative of the gap there
-  double curvature_error = 0;  ///< bound on its error
-  double third = 0;            ///< bound on the third derivative
-  double error = 0;            ///< bound on the rounding of the gap in double, that of the state left aside
-};
-
-template <class Real>
-class AnyWallSearch;
+class AnyWallSearch;  // any_wall_search.hpp, which whoever searches in a wide scalar includes
 
 /// What a wide scalar asks first, and double does not need.
 struct NoSearch {
@@ -194,6 +149,3 @@ class WallSearch {
 };
 
 }  // namespace edmill::dynamics
-
-// Which a wide scalar's search has in double.
-#include "dynamics/any_wall_search.hpp"

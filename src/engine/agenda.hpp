@@ -6,7 +6,7 @@
 
 #include "base/instant.hpp"
 #include "base/memory.hpp"
-#include "dynamics/wall_search.hpp"
+#include "dynamics/wall_query.hpp"
 
 namespace edmill::engine {
 

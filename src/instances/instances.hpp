@@ -7,7 +7,7 @@
 #include "base/wide_trigonometry.hpp"
 #include "casefile/build_case.hpp"
 #include "dynamics/decision_ladder.hpp"
-#include "dynamics/wall_search.hpp"
+#include "dynamics/any_wall_search.hpp"
 #include "edmill/run.hpp"
 #include "engine/simulation.hpp"
 #include "io/final_state.hpp"

@@ -1,6 +1,8 @@
 # Tests of the source tree.
 set(architecture ${CMAKE_CURRENT_SOURCE_DIR}/architecture)
 add_test(NAME layers_test COMMAND ${architecture}/layers_test.sh)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_test(NAME cycles_test COMMAND Python3::Interpreter ${architecture}/cycles_test.py ${CMAKE_SOURCE_DIR})
 add_test(NAME headers_test COMMAND ${architecture}/headers_test.sh ${CMAKE_CXX_COMPILER})
 find_program(CLANG_FORMAT clang-format)
 if(CLANG_FORMAT)

@@ -1,5 +1,5 @@
 // The certified ball-wall search: plain situations with a closed form, and which scalar decides which case.
-#include "dynamics/wall_search.hpp"
+#include "dynamics/any_wall_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "dynamics/wall_search.hpp"
+#include "dynamics/any_wall_search.hpp"
 #include "instances/instances.hpp"
 #include "mill_parts.hpp"
 

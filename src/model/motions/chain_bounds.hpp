@@ -57,7 +57,7 @@ struct ChainBounds {
         turning[0] += (magnitude(sum) - sum_of_sizes) + 8 * epsilon<Real>() * sizes;
       }
     }
-    const Real up = 1 + Real(1) / 1048576;  // over the rounding of all this
+    const Real up = 1 + rounding_margin<Real>();  // over the rounding of all this
     speed *= up, distance *= up;
     for (auto& bound : turning) bound *= up;
     for (auto& bound : acceleration) bound *= up;
@@ -202,7 +202,7 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
       box.high[k] = high > around ? around : high;
     }
   }
-  const Real up = Real(1) / 1048576;
+  const Real up = rounding_margin<Real>();
   const Vec3<Real> margin = (box.high - box.low) * up;
   return {box.low - margin, box.high + margin};
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/scalar.hpp"
 #include "model/parts/swing.hpp"
 #include "model/parts/vessel_frame.hpp"
 
@@ -71,7 +72,7 @@ class Pistons {
       }
       most = sum > most ? sum : most;
     }
-    return most * (1 + Real(1) / 1048576);
+    return most * (1 + rounding_margin<Real>());
   }
   /// The derivative bounds serve windows of at most this length [s]: a quarter of a radian of each swing.
   Real longest_window() const {

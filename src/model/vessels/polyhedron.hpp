@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/scalar.hpp"
 #include "model/parts/parameter.hpp"
 #include "model/parts/partners.hpp"
 #include "model/parts/surface.hpp"
@@ -167,7 +168,7 @@ class PolyhedronVessel {
     }
     for (std::size_t i = 0; i < planes_.size(); ++i)
       for (std::size_t j = i + 1; j < planes_.size(); ++j)
-        if (norm<Real>(planes_[i].normal - planes_[j].normal) < Real(1) / 1048576)
+        if (norm<Real>(planes_[i].normal - planes_[j].normal) < rounding_margin<Real>())
           return Problem{
               "planes " + std::to_string(i) + " and " + std::to_string(j) + " with the same normal",
               "a plane for each wall"};
@@ -187,7 +188,7 @@ class PolyhedronVessel {
       }
       volume_ += planes_[wall].distance * area_of(faces[wall]) / 3;
     }
-    const Real up = 1 + Real(1) / 1048576;
+    const Real up = 1 + rounding_margin<Real>();
     reach_ = reach * up;
     half_sizes_ = half_sizes_ * up;
     return std::nullopt;

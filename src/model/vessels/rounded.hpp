@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/majorant.hpp"
+#include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
 #include "model/parts/parameter.hpp"
 #include "model/parts/partners.hpp"
@@ -82,7 +83,7 @@ class RoundedVessel {
 
   Real reach() const {
     using std::sqrt;
-    return (sqrt(a_ * a_ + b_ * b_) + rounding_) * (1 + Real(1) / 1048576);
+    return (sqrt(a_ * a_ + b_ * b_) + rounding_) * (1 + rounding_margin<Real>());
   }
   Real extent() const { return a_ + b_ + rounding_; }
   Vec3<Real> half_sizes() const { return {a_ + rounding_, b_ + rounding_, a_ + rounding_}; }

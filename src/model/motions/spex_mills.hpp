@@ -1,0 +1,73 @@
+// The mills of the case file that move as a SPEX does, or not at all.
+#pragma once
+
+#include "model/motions/spex.hpp"
+#include "model/parts/parameter.hpp"
+
+namespace edmill::model {
+
+/// [mill] type = "spex8000", with the machine's sizes of Barahona 2011, appendix B.
+template <class Number>
+struct Spex8000 {
+  static constexpr const char* name = "spex8000";
+  Number arm, theta_max, gamma_max, period;
+
+  template <class Part, class Visit>
+  static void parameters(Part& part, Visit&& visit) {
+    visit(PartParameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
+                        Range::not_negative, "100 mm"},
+          part.arm);
+    visit(PartParameter{"theta_max", Dimension::angle, "amplitude of the swing of the arm, thesis (2.9)",
+                        Range::quarter_turn, "15 deg"},
+          part.theta_max);
+    visit(
+        PartParameter{"gamma_max", Dimension::angle, "amplitude of the rotation about the arm, thesis (2.9)",
+                      Range::quarter_turn, "15 deg"},
+        part.gamma_max);
+    visit(PartParameter{"speed", Dimension::angular_speed, "of the drive", Range::drive, "1098 rpm"},
+          part.period);
+  }
+  SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
+};
+
+/// [mill] type = "spex_2d": the swing of the arm alone, in a plane. A planar model of this mill is that of
+/// Davis, McDermott and Koch, Metall. Trans. A 19 (1988) 2867; the lengths and angles are the thesis's.
+template <class Number>
+struct Spex2d {
+  static constexpr const char* name = "spex_2d";
+  Number arm, theta_max, gamma_max, period;
+
+  template <class Part, class Visit>
+  static void parameters(Part& part, Visit&& visit) {
+    visit(PartParameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
+                        Range::not_negative, "100 mm"},
+          part.arm);
+    visit(PartParameter{"theta_max", Dimension::angle, "amplitude of the swing of the arm, thesis (2.9)",
+                        Range::quarter_turn, "15 deg"},
+          part.theta_max);
+    visit(PartParameter{nullptr, Dimension::angle, "", Range::any, "0 rad"}, part.gamma_max);
+    visit(PartParameter{"speed", Dimension::angular_speed, "of the drive", Range::drive, "1098 rpm"},
+          part.period);
+  }
+  SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
+};
+
+/// [mill] type = "still".
+template <class Number>
+struct StillMill {
+  static constexpr const char* name = "still";
+  Number arm, theta_max, gamma_max, period;
+
+  template <class Part, class Visit>
+  static void parameters(Part& part, Visit&& visit) {
+    visit(PartParameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
+                        Range::not_negative, "0 m"},
+          part.arm);
+    visit(PartParameter{nullptr, Dimension::angle, "", Range::any, "0 rad"}, part.theta_max);
+    visit(PartParameter{nullptr, Dimension::angle, "", Range::any, "0 rad"}, part.gamma_max);
+    visit(PartParameter{nullptr, Dimension::time, "", Range::positive, "0.0625 s"}, part.period);
+  }
+  SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
+};
+
+}  // namespace edmill::model
