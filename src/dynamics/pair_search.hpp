@@ -3,6 +3,7 @@
 
 #include "dynamics/flight.hpp"
 #include "dynamics/wall_query.hpp"
+#include "model/mill.hpp"
 
 namespace edmill::dynamics {
 
