@@ -13,7 +13,7 @@ struct StudyOptions {
   std::string file;    ///< the sweep or the optimisation
   std::string folder;  ///< of the outputs; out/<name of the file> when empty
   int jobs = 0;        ///< threads; 0 for all cores
-  bool quiet = true;   ///< no progress line on standard error
+  bool quiet = false;  ///< no progress line on standard error
   std::atomic<bool>* interrupt = nullptr;
 };
 

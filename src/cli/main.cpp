@@ -33,10 +33,15 @@ using namespace edmill;
 
 /// For work that does not report interruptions itself.
 template <class Options, class Work>
-int interruptible(const casefile::CaseSpec& spec, Options& options, const Work& work) {
+int interruptible(Options& options, const Work& work) {
   options.interrupt = &cli::interrupt_flag();
   cli::listen_for_signals();
-  return cli::after_signals(casefile::with_memory_for(spec, [&] { return work(spec, options); }));
+  return cli::after_signals(work());
+}
+template <class Options, class Command>
+int interruptible(const casefile::CaseSpec& spec, Options& options, const Command& command) {
+  return interruptible(
+      options, [&] { return casefile::with_memory_for(spec, [&] { return command(spec, options); }); });
 }
 
 std::string version_text() {
@@ -204,9 +209,9 @@ class CommandLine {
     });
   }
 
-  void add_study(const std::string& name, const std::string& what, int (*work)(const cli::StudyOptions&)) {
+  void add_study(const std::string& name, const std::string& what, int (*work)(const app::StudyOptions&)) {
     auto* command =
-        add(name, what, [this, work] { return interruptible([&] { return work(study_); }, study_); });
+        add(name, what, [this, work] { return interruptible(study_, [&] { return work(study_); }); });
     command->add_option("file", study_.file, "sweep or optimisation file (TOML)")->required();
     command->add_option("--out", study_.folder, "folder for the tables; out/<name of the file> unless given");
     command->add_option("--jobs", study_.jobs, "runs at a time in each process; all cores unless given")
@@ -277,7 +282,7 @@ class CommandLine {
   const std::string every_ = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
   CLI::App app_{"edmill: event-driven simulation of ball mills, a validated reference solver"};
   std::vector<std::pair<CLI::App*, std::function<int()>>> actions_;
-  std::string case_file_, folder_, run_.precision, run_.shadow, checkpoint_, drawing_;
+  std::string case_file_, drawing_;
   std::vector<std::string> overrides_;
   cli::RunCommand run_;
   cli::CertifyOptions certification_;
