@@ -21,11 +21,11 @@ void print_attempts(const prove::Proof& proof) {
 int check_header(const casefile::CaseSpec& spec, const ProveOptions& options) {
   const auto differences = app::check_certificate(spec, options.checked);
   for (const auto& line : differences) io::print("{}\n", line);
-  if (!options.quiet)
-    io::print("{} is {} {}\n", options.checked,
-              differences.empty() ? "of the case; check_certificate says whether its events are proven:"
-                                  : "of another case than",
+  if (!options.quiet && differences.empty())
+    io::print("{} is of the case {}; check_certificate says whether its events are proven\n", options.checked,
               spec.file);
+  if (!options.quiet && !differences.empty())
+    io::print("{} is of another case than {}\n", options.checked, spec.file);
   return differences.empty() ? ok : outputs_differ;
 }
 
