@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "casefile/case_spec.hpp"
 #include "audit/audit.hpp"
+#include "casefile/case_spec.hpp"
 #include "identify/identify.hpp"
 
 namespace edmill::app {
@@ -25,6 +25,7 @@ struct AuditOptions {
   std::size_t examples = 3;
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double time, std::uint64_t events)> progress;
+  std::function<void()> searching = [] {};  ///< called when the log is read, before a search for the cause
 };
 
 struct Audited {

@@ -26,7 +26,7 @@ bool stop_asked(const std::atomic<bool>* interrupt) {
   return interrupt && interrupt->load(std::memory_order_relaxed);
 }
 
-/// The first events of a case in one scalar, and their CPU time.
+/// The first events of a case in one scalar, and how long they took.
 struct Sequence {
   std::string precision;
   std::vector<Event> events;
@@ -146,8 +146,7 @@ void require_wider(const std::string& precision, const std::string& shadow) {
     return std::find(all.begin(), all.end(), name) - all.begin();
   };
   if (rank(shadow) <= rank(precision))
-    throw InputError(
-        fmt::format("option '--shadow': found \"{}\", expected a scalar wider than {}", shadow, precision));
+    throw InputError(fmt::format("shadow: found \"{}\", expected a scalar wider than {}", shadow, precision));
 }
 
 Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,

@@ -85,21 +85,20 @@ void add_charge(const casefile::CaseSpec& spec, const model::Case<double>& c, co
 }  // namespace
 
 CheckedCase check(const casefile::CaseSpec& spec) {
-  // The case must be valid in its own scalar; double is sufficient for the description.
-  casefile::with_memory_for(spec, [&] {
+  return casefile::with_memory_for(spec, [&] {
+    // The case must be valid in its own scalar; double is sufficient for the description.
     with_scalar(spec.precision, [&]<class Real>() { prepare<Real>(spec); });
-    return true;
+    const auto built = casefile::build_case<double>(spec, false);
+    CheckedCase result{spec.file, {}};
+    const auto row = [&](const std::string& name, const std::string& value) {
+      result.facts.emplace_back(name, value);
+    };
+    add_run(spec, built.the_case, row);
+    add_mill(spec, built.the_case.mill, row);
+    add_charge(spec, built.the_case, row);
+    for (const auto& output : spec.outputs) row("output", output.type + " to " + output.file);
+    return result;
   });
-  const auto built = casefile::build_case<double>(spec, false);
-  CheckedCase result{spec.file, {}};
-  const auto row = [&](const std::string& name, const std::string& value) {
-    result.facts.emplace_back(name, value);
-  };
-  add_run(spec, built.the_case, row);
-  add_mill(spec, built.the_case.mill, row);
-  add_charge(spec, built.the_case, row);
-  for (const auto& output : spec.outputs) row("output", output.type + " to " + output.file);
-  return result;
 }
 
 std::string CheckedCase::text() const {

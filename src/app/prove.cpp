@@ -10,9 +10,6 @@
 
 namespace edmill::app {
 
-namespace {
-
-/// Events of a run in the order of the proof, from the first on.
 std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
                          const prove::Proof& proof) {
   const auto source = source_in(precision, spec, false);
@@ -30,22 +27,17 @@ std::size_t right_events(const std::string& precision, const casefile::CaseSpec&
   return right;
 }
 
-}  // namespace
-
 Proven prove(const casefile::CaseSpec& spec, const ProveOptions& options) {
   std::optional<io::NamedFile> events, certificate;
   if (!options.file.empty()) events.emplace(options.file);
   if (!options.certificate.empty()) certificate.emplace(options.certificate);
   const auto begin = std::chrono::steady_clock::now();
-  Proven result{prove::prove(spec, options), 0, {}};
+  Proven result{prove::prove(spec, options)};
   const auto& proof = result.proof;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (proof.interrupted || !proof.impossible.empty()) return result;
   if (events) events->write([&](auto& out) { prove::write_events(out, proof, 27); });
   if (certificate) certificate->write([&](auto& out) { prove::write_certificate(out, proof); });
-  if (options.compare)
-    for (const auto& precision : casefile::precisions())
-      result.right.emplace_back(precision, right_events(precision, spec, proof));
   return result;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "casefile/case_spec.hpp"
@@ -12,17 +11,19 @@ namespace edmill::app {
 
 struct ProveOptions : prove::ProofOptions {
   std::string file, certificate;  ///< of the events and of the certificate; none when empty
-  bool compare = false;           ///< how many events each scalar gets right
 };
 
 struct Proven {
   prove::Proof proof;
   double seconds = 0;
-  std::vector<std::pair<std::string, std::size_t>> right;  ///< by scalar: events before its first wrong one
 };
 
 /// Nothing is written where the events cannot be proven, or the proof is interrupted.
 Proven prove(const casefile::CaseSpec& spec, const ProveOptions& options);
+
+/// How many of the proven events a scalar gets right, from the first on.
+std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
+                         const prove::Proof& proof);
 
 /// Where the header of a certificate tells of another case, a line each. @throws InputError for what is none
 std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate);

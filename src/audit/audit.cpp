@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "base/instant.hpp"
 #include "audit/auditor.hpp"
 #include "audit/naming.hpp"
+#include "base/instant.hpp"
 
 namespace edmill::audit {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "base/version.hpp"
 #include "audit/audit.hpp"
+#include "base/version.hpp"
 
 namespace edmill {
 extern template std::string to_text<double>(const double&);

@@ -7,10 +7,10 @@
 #include <sstream>
 #include <utility>
 
+#include "audit/tolerances.hpp"
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
 #include "compare/log_reader.hpp"
-#include "audit/tolerances.hpp"
 
 namespace edmill::casefile {
 extern template double Quantity::to<double>() const;

@@ -5,12 +5,12 @@
 #include <map>
 #include <optional>
 
-#include "base/compensated_sum.hpp"
 #include "audit/finding.hpp"
 #include "audit/mechanics.hpp"
 #include "audit/naming.hpp"
 #include "audit/stall_history.hpp"
 #include "audit/tolerances.hpp"
+#include "base/compensated_sum.hpp"
 
 namespace edmill::audit {
 

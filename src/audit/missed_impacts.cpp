@@ -1,8 +1,8 @@
 // Flights: impacts that are missing in a flight, and whether an unlogged one explains its end.
 #include <algorithm>
 
-#include "base/errors.hpp"
 #include "audit/flights.hpp"
+#include "base/errors.hpp"
 
 namespace edmill::dynamics {
 extern template class DecisionLadder<double>;

@@ -29,7 +29,7 @@ constexpr FixedKey fixed_keys[] = {
     {"run", "max_ball_speed", "speed", "none", "the run ends when a ball is faster after an impact"},
     {"run", "start_time", "time", "`initial_time`", "statistics begin here"},
     {"run", "initial_time", "time", "`\"0 s\"`", "instant of the initial state"},
-    {"run", "precision", "name of a scalar", "`\"double\"`", "of the run; `edmill --version` lists them"},
+    {"run", "precision", "name of a scalar", "`\"double\"`", "scalar of the run; `edmill --version` lists all"},
     {"run", "seed", "count", "1", "of the random placement"},
     {"run", "gravity", "acceleration, or a vector", "none", "along -Y when it is one number"},
     {"run", "initial_state", "file", "none", "a `final_state.csv` to start from, relative to the case file; the properties of the balls stay those of the case"},

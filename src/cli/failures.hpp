@@ -9,7 +9,7 @@ namespace edmill::cli {
 /// In one line; control characters are escaped.
 void print_problem(const std::string& problem);
 
-/// Of a command. @return its exit code, or that of what it throws, which is told
+/// Does a command, and prints what it throws. @return the exit code
 int exit_code_of(const std::function<int()>& command);
 
 }  // namespace edmill::cli

@@ -176,18 +176,23 @@ class CommandLine {
     auto* command = add("prove", "prove the first events of a case in ball arithmetic",
                         [this] { return interruptible(read_case(), proof_, cli::run_prove); });
     take_case(command);
-    auto* collisions = command->add_option("--collisions", proof_.collisions, "how many events")
-                           ->check(CLI::Range(1, 10000000));
+    auto* check = command->add_option(
+        "--check", proof_.checked,
+        "prove nothing, but tell whether the header of this certificate is that of the case");
+    command->add_option("--collisions", proof_.collisions, "how many events")
+        ->check(CLI::Range(1, 10000000))
+        ->excludes(check);
+    command->add_option("--out", proof_.file, "file for the events, each number with its radius (CSV)")
+        ->excludes(check);
     command
-        ->add_option("--check", proof_.checked,
-                     "prove nothing, but tell whether the header of this certificate is that of the case")
-        ->excludes(collisions);
-    command->add_option("--out", proof_.file, "file for the events, each number with its radius (CSV)");
-    command->add_option("--certificate", proof_.certificate,
-                        "file for a certificate that can be checked without edmill");
+        ->add_option("--certificate", proof_.certificate,
+                     "file for a certificate that can be checked without edmill")
+        ->excludes(check);
     command->add_option("--most-bits", proof_.most_bits, "give up beyond so many; 16384 unless given")
-        ->check(CLI::Range(128, 1048576));
-    command->add_flag("--compare", proof_.compare, "also tell how many events each precision gets right");
+        ->check(CLI::Range(128, 1048576))
+        ->excludes(check);
+    command->add_flag("--compare", proof_.compare, "also tell how many events each precision gets right")
+        ->excludes(check);
     command->add_flag("--quiet", proof_.quiet, "no progress and no report");
   }
 

@@ -35,12 +35,13 @@ int run_certify(const casefile::CaseSpec& spec, CertifyOptions options) {
   const bool show = shows_progress(options.quiet);
   if (show)
     options.progress = [&](const std::string& precision, std::size_t events) {
-      io::tell("\r{}: {} of {} events ", precision, events, options.collisions);
+      io::tell("{}{}: {} of {} events ", no_line, precision, events, options.collisions);
     };
   const auto result = app::certify(spec, options, [&](const app::Evidence& evidence) {
     if (show) io::tell("{}", no_line);
     if (!options.quiet) io::print("{} ({:.1f} s)\n", evidence.text(), evidence.seconds);
   });
+  if (show) io::tell("{}", no_line);
   if (result.interrupted) return ok;
   if (!result.undecided.empty()) {
     io::tell("edmill: {}; nothing is written\n", result.undecided);
@@ -81,7 +82,9 @@ int run_prove(const casefile::CaseSpec& spec, ProveOptions options) {
             proof.bits,
             static_cast<double>(proof.bits - proof.accuracy) / static_cast<double>(proof.events.size()),
             result.seconds);
-  for (const auto& [precision, right] : result.right) io::print("{:<9} {} events right\n", precision, right);
+  if (options.compare)
+    for (const auto& precision : casefile::precisions())
+      io::print("{:<9} {} events right\n", precision, app::right_events(precision, spec, proof));
   return ok;
 }
 

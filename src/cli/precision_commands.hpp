@@ -20,7 +20,8 @@ int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, con
                const std::atomic<bool>* interrupt);
 
 struct ProveOptions : app::ProveOptions {
-  std::string checked;  ///< a certificate whose header is to be that of the case; else one is proven
+  bool compare = false;  ///< also print how many events each scalar gets right
+  std::string checked;   ///< a certificate whose header is to be that of the case; else one is proven
   bool quiet = false;
 };
 

@@ -21,7 +21,7 @@ struct RunCommand {
 int run_case(const casefile::CaseSpec& spec, const RunCommand& command);
 int run_resume(const RunCommand& command);
 
-/// Of a case, for its outputs: the stem of its file.
+/// Name for the outputs of a case: the stem of its file.
 std::string name_of(const std::string& case_file);
 
 }  // namespace edmill::cli

@@ -113,7 +113,7 @@ Residuals LogResiduals::on(const std::vector<std::size_t>& events) const {
   for (const std::size_t k : events) {
     if (!log_.events[k].problem.empty()) continue;
     event_rows(k, nominal_, {}, note);
-    sample.row_events_.resize(sample.kinds_.size(), sample.chosen_.size());
+    sample.row_events_.resize(sample.kinds_.size(), k);
     sample.chosen_.push_back(k);
   }
   return sample;

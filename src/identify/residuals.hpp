@@ -56,7 +56,7 @@ class Residuals {
  public:
   std::size_t count() const { return kinds_.size(); }
   const std::vector<RowKind>& kinds() const { return kinds_; }
-  /// The event of each row, as its place in the sample, without lines that could not be read.
+  /// The event of each row, as its place in the log.
   const std::vector<std::size_t>& events() const { return row_events_; }
   /// @return one number for each row; a large one where it is not finite, and all of them for a case that
   /// cannot be

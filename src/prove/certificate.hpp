@@ -1,4 +1,4 @@
-// The file that a stranger checks. docs/certificates.md
+// The file that anybody can check. docs/certificates.md
 #pragma once
 
 #include <istream>
@@ -14,10 +14,10 @@ namespace edmill::prove {
 void write_certificate(std::ostream& out, const Proof& proof);
 
 /// Where the header of a certificate tells of another case than this one, a line each: "/balls/0/radius:
-/// found "1/250", expected "119/25000"". The name of the case, its digest and the bits do not count: what is
-/// proven follows from the numbers.
+/// found "1/250", expected "119/25000"". The name of the case, its digest, the bits and the number of events
+/// do not count: what is proven follows from the other numbers.
 /// @param name  of the file, for messages
-/// @throws InputError for what is no certificate: a key of the header twice, missing or unknown, too
+/// @throws InputError for what is no certificate, or has a key of the header twice
 std::vector<std::string> other_case(std::istream& certificate, const std::string& name,
                                     const ExactCase& exact);
 

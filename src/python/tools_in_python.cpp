@@ -142,7 +142,10 @@ py::dict shadow(const Case& the_case, const std::string& precision, const std::s
 }
 
 py::list check(const Case& the_case) {
-  const auto checked = app::check(CaseAccess::spec(the_case));
+  const auto checked = [&] {
+    const py::gil_scoped_release others;
+    return app::check(CaseAccess::spec(the_case));
+  }();
   py::list facts;
   for (const auto& fact : checked.facts) facts.append(fact);
   return facts;
@@ -165,6 +168,7 @@ py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
 }
 
 std::vector<std::string> check_certificate(const Case& the_case, const std::string& certificate) {
+  const py::gil_scoped_release others;
   return app::check_certificate(CaseAccess::spec(the_case), certificate);
 }
 

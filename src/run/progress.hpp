@@ -14,8 +14,7 @@ template <class Real>
 class Progress : public engine::Observer<Real> {
  public:
   /// @param show  gets the simulated time [s], the impacts since the start of the run, and the milling dose
-  /// since this
-  ///              observer was made [J]
+  ///              since this observer was made [J]
   explicit Progress(std::function<void(double, std::uint64_t, double)> show) : show_(std::move(show)) {}
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {

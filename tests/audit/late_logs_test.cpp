@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "any_mills.hpp"
-#include "base/errors.hpp"
 #include "audit/audit.hpp"
+#include "base/errors.hpp"
 #include "program.hpp"
 
 namespace edmill::audit {

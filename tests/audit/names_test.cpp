@@ -78,7 +78,6 @@ const std::string order =
 const std::string another = "separates at another least separation speed than the case's",
                   no_rule = "separates at e_n |g_n|, which is below v_s",
                   always = "separates at v_s, which is below e_n |g_n|";
-const std::string unlogged = "the state changes as in this impact, which is not logged";
 
 std::vector<Planted> planted() {
   std::vector<Planted> all = {

@@ -79,9 +79,11 @@ def unfinished(place, killed, run_seed):
                                 "--set", f"run.seed={run_seed}"])
     # Until a checkpoint covers some blocks of rows in events.h5, however slow the machine is.
     while not any(p.stat().st_size > 200_000 for p in pathlib.Path(place).glob("events.h5*")):
+        assert process.poll() is None, "the run ended before"
         time.sleep(0.002)
     begun = time.time_ns()
     while not os.path.exists(f"{place}/checkpoint") or os.stat(f"{place}/checkpoint").st_mtime_ns < begun:
+        assert process.poll() is None, "the run ended before"
         time.sleep(0.002)
     time.sleep(rng.uniform(0.05, 0.3))
     process.send_signal(signal.SIGKILL if killed else signal.SIGTERM)

@@ -1,6 +1,6 @@
 // Collision logs of other codes, as `compare` and `audit` read them.
-#include "base/errors.hpp"
 #include "audit/event_log.hpp"
+#include "base/errors.hpp"
 #include "compare/log_reader.hpp"
 #include "input.hpp"
 

@@ -118,6 +118,7 @@ def other_vessels(folder):
     mills = {'type = "planetary"\nradius = "75 mm"\nspeed = "300 rpm"\nratio = -2': 'mill.speed="360 rpm"',
              'type = "spex8000"': 'mill.speed="1000 rpm"',
              'type = "vibratory"\namplitude = ["5 mm", "0 mm", "1 mm"]\nspeed = "1500 rpm"': 'mill.speed="1600 rpm"'}
+    right = tried = 0
     for mill, other_mill in mills.items():
         for vessel, other_vessel in vessels.items():
             case = f"""[run]
@@ -141,7 +142,10 @@ diameter = "6 mm"
                 assert done.returncode == 6, (mill, vessel, setting, done.returncode, done.stdout, done.stderr)
                 named = [line for line in done.stdout.splitlines() if "looks like" in line]
                 key = setting.split("=")[0]
-                assert all(key in line or "alike" in line for line in named), (mill, vessel, setting, named)
+                assert all(key in line for line in named), (mill, vessel, setting, named)
+                right += len(named) > 0
+                tried += 1
+    assert right > 0.8 * tried, (right, tried)
 
 
 def interrupted(folder):

@@ -157,7 +157,7 @@ def check_headers(name, case, text):
         done = subprocess.run([EDMILL, "prove", "--check", "header", case, *more], text=True, capture_output=True, check=False)
         return done.returncode, (done.stdout + done.stderr).strip()
     header = json.loads(text[0])
-    for what, line in ((f"as proven", text[0]), ("another name", json.dumps({**header, "case": "b.toml", "digest": "0"}))):
+    for what, line in (("as proven", text[0]), ("another name", json.dumps({**header, "case": "b.toml", "digest": "0"}))):
         code, said = says(line)
         if code != 0:
             fail(f"{name}: prove --check, {what}: exit code {code}: {said}")

@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "base/errors.hpp"
 #include "audit/audit.hpp"
+#include "base/errors.hpp"
 #include "faulty_mill.hpp"
 #include "program.hpp"
 #include "spex_case.hpp"

@@ -61,8 +61,8 @@ def is_number(value: Any) -> bool:
     return isinstance(value, (numbers.Real, decimal.Decimal)) and not isinstance(value, bool)
 
 
-
 def scalar(name: str, value: Any) -> str:
+    """The name of a scalar."""
     *all_but_last, last = _edmill.precisions
     require(name, value, value in _edmill.precisions, f"{', '.join(all_but_last)} or {last}")
     return value

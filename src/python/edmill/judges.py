@@ -107,7 +107,8 @@ class Agreement:
 
 @dataclasses.dataclass(frozen=True)
 class CertifiedEvent:
-    """An impact on which two scalars agree. SI."""
+    """An impact on which two scalars agree. SI. Numbers have all digits of the wider scalar; those that were asked for are
+    certain."""
     ball: int
     partner_kind: str  #: "wall" or "ball"
     partner: int
