@@ -140,13 +140,14 @@ Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& opti
   return result;
 }
 
-void require_wider(const std::string& precision, const std::string& shadow) {
+void require_wider(const std::string& precision, const std::string& wider, const std::string& what) {
   const auto& all = casefile::precisions();
   const auto rank = [&](const std::string& name) {
     return std::find(all.begin(), all.end(), name) - all.begin();
   };
-  if (rank(shadow) <= rank(precision))
-    throw InputError(fmt::format("shadow: found \"{}\", expected a scalar wider than {}", shadow, precision));
+  if (rank(wider) <= rank(precision))
+    throw InputError(
+        fmt::format("{}: found \"{}\", expected a scalar wider than {}", what, wider, precision));
 }
 
 Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,

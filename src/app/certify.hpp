@@ -64,10 +64,11 @@ struct Shadow {
   std::string text() const;
 };
 
-/// @throws InputError when `shadow` is not wider than `precision`
-void require_wider(const std::string& precision, const std::string& shadow);
+/// @param what  asks for the wider one, for the message: "option '--shadow'"
+/// @throws InputError when `wider` is not wider than `precision`
+void require_wider(const std::string& precision, const std::string& wider, const std::string& what);
 
-/// Runs the case in both scalars to its end. @pre require_wider(precision, wider)
+/// Runs the case in both scalars to its end. @pre `wider` is wider than `precision`
 Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,
               const std::atomic<bool>* interrupt);
 

@@ -82,7 +82,7 @@ int run_case(const casefile::CaseSpec& spec, const RunCommand& given) {
   auto command = given;
   if (command.folder.empty()) command.folder = "out/" + name_of(spec.file);
   const auto& scalar = command.precision.empty() ? spec.precision : command.precision;
-  if (!command.shadow.empty()) app::require_wider(scalar, command.shadow);
+  if (!command.shadow.empty()) app::require_wider(scalar, command.shadow, "option '--shadow'");
   auto options = options_of(command);
   if (!command.checkpoint.empty()) {
     run::parse_checkpoint_interval(command.checkpoint);

@@ -128,7 +128,7 @@ py::tuple certify(const Case& the_case, std::size_t collisions, int digits, cons
 
 py::dict shadow(const Case& the_case, const std::string& precision, const std::string& wider) {
   std::atomic<bool> interrupt{false};
-  app::require_wider(precision, wider);
+  app::require_wider(precision, wider, "wider");
   const auto found = interruptible(
       interrupt, [&] { return app::shadow(CaseAccess::spec(the_case), precision, wider, &interrupt); });
   py::dict result;
