@@ -8,7 +8,8 @@
 
 namespace edmill::casefile {
 
-/// What the file of a case would be refused for, whose numbers have been changed since it was read.
+/// For a case whose numbers have been changed since it was read: what a file with these numbers would be
+/// refused for.
 std::vector<std::string> problems_of(const CaseSpec& spec);
 
 }  // namespace edmill::casefile

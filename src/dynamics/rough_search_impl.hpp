@@ -7,22 +7,6 @@
 namespace edmill::dynamics {
 
 template <model::Motion M, model::Vessel V>
-decltype(auto) WallSearch<M, V>::smooth(const WallQuery<Real>& query,
-                                        [[maybe_unused]] const Functions& functions,
-                                        [[maybe_unused]] const Vec3<Real>& position,
-                                        [[maybe_unused]] const Real& speed) const {
-  if constexpr (model::HasRegions<V>) {
-    auto shorter = query;
-    const auto way = functions.room().smooth_way(position);
-    if (way && *way < (speed + mill_.wall_speed) * query.length)
-      shorter.length = *way / (speed + mill_.wall_speed);
-    return shorter;
-  } else {
-    return (query);
-  }
-}
-
-template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::rough(const WallQuery<Real>& query) const -> RoughAnswer {
   if constexpr (is_wide) {
     return {};

@@ -16,7 +16,7 @@
 namespace edmill::dynamics {
 
 template <class Real>
-class AnyWallSearch;  // any_wall_search.hpp, which whoever searches in a wide scalar includes
+class AnyWallSearch;  // complete in any_wall_search.hpp, which a search in a wide scalar needs
 
 /// What a wide scalar asks first, and double does not need.
 struct NoSearch {

@@ -42,6 +42,22 @@ auto WallSearch<M, V>::search(const WallQuery<Real>& query) const -> WallAnswer<
 }
 
 template <model::Motion M, model::Vessel V>
+decltype(auto) WallSearch<M, V>::smooth(const WallQuery<Real>& query,
+                                        [[maybe_unused]] const Functions& functions,
+                                        [[maybe_unused]] const Vec3<Real>& position,
+                                        [[maybe_unused]] const Real& speed) const {
+  if constexpr (model::HasRegions<V>) {
+    auto shorter = query;
+    const auto way = functions.room().smooth_way(position);
+    if (way && *way < (speed + mill_.wall_speed) * query.length)
+      shorter.length = *way / (speed + mill_.wall_speed);
+    return shorter;
+  } else {
+    return (query);
+  }
+}
+
+template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) const -> WallAnswer<Real> {
   require_length(query);
   const Functions functions(mill_, query.flight, query.radius, query.begin.period);
@@ -126,7 +142,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
       *rough = {Verdict::contact,    0, wall, found.left.t, found.right.t, root.t, 0, 0, 0,
                 own_errors.gap[wall]};
     if (!any_from(reachable, wall + 1)) break;
-    // Later walls are of interest up to a little behind this root.
+    // Later walls matter up to a little behind this root.
     const Real behind = root.t + root.time_error + longest_window() * rounding_margin<Real>();
     if (behind < end) {
       end = behind;

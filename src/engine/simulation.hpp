@@ -71,7 +71,7 @@ class Simulation {
 
   /// Asks the loop to return after the present impact.
   void request_stop(EndReason reason) { stop_ = reason; }
-  /// The same, for nothing more than a pause: any other reason goes before.
+  /// Asks it to return for a pause; any other reason goes before.
   void request_pause() {
     if (!stop_) stop_ = EndReason::paused;
   }

@@ -78,7 +78,8 @@ class Candidates {
   std::vector<Pair> ranked_pairs(const std::vector<Parameter>& parameters) const;
 
  private:
-  /// Of the first span, where a wrong speed has not gone far; of the whole log when that span shows nothing.
+  /// Rows of the first span, where a wrong speed has not gone far; of the whole log when that span shows
+  /// nothing.
   Residuals telling(const Assumptions& base) const;
   bool rows_vanish(const Assumptions& assumed) const;
   std::uint64_t violations_with(const Assumptions& assumed) const;

@@ -15,7 +15,7 @@ std::string report_page(const RunFolder& run);
 /// @return its place
 /// @throws InputError when the folder holds no complete run, or when another process writes there
 std::filesystem::path write_report(const std::filesystem::path& folder);
-/// The same. @pre the caller holds the folder's lock
+/// Writes the page as `write_report` does. @pre the caller holds the folder's lock
 std::filesystem::path put_report(const std::filesystem::path& folder);
 
 }  // namespace edmill::report

@@ -11,7 +11,7 @@ namespace {
 /// Places on a flight are counted in parts of 2^-24 of its length.
 constexpr slong finest_depth = 24, whole_flight = 1L << finest_depth;
 
-/// Of a window, in search of a proof.
+/// A window is bisected so often in search of a proof.
 constexpr int most_bisections = 10;
 
 /// A letter of rule 4 and its interval.

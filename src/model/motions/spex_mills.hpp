@@ -6,6 +6,22 @@
 
 namespace edmill::model {
 
+namespace detail {
+
+inline constexpr PartParameter spex_arm{
+    "arm", Dimension::length, "from the fulcrum to the centre of the vessel", Range::not_negative, "100 mm"};
+inline constexpr PartParameter spex_theta{"theta_max", Dimension::angle,
+                                          "amplitude of the swing of the arm, thesis (2.9)",
+                                          Range::quarter_turn, "15 deg"};
+inline constexpr PartParameter spex_gamma{"gamma_max", Dimension::angle,
+                                          "amplitude of the rotation about the arm, thesis (2.9)",
+                                          Range::quarter_turn, "15 deg"};
+inline constexpr PartParameter spex_speed{"speed", Dimension::angular_speed, "of the drive", Range::drive,
+                                          "1098 rpm"};
+inline constexpr PartParameter no_angle{nullptr, Dimension::angle, "", Range::any, "0 rad"};
+
+}  // namespace detail
+
 /// [mill] type = "spex8000", with the machine's sizes of Barahona 2011, appendix B.
 template <class Number>
 struct Spex8000 {
@@ -14,18 +30,10 @@ struct Spex8000 {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
-                        Range::not_negative, "100 mm"},
-          part.arm);
-    visit(PartParameter{"theta_max", Dimension::angle, "amplitude of the swing of the arm, thesis (2.9)",
-                        Range::quarter_turn, "15 deg"},
-          part.theta_max);
-    visit(
-        PartParameter{"gamma_max", Dimension::angle, "amplitude of the rotation about the arm, thesis (2.9)",
-                      Range::quarter_turn, "15 deg"},
-        part.gamma_max);
-    visit(PartParameter{"speed", Dimension::angular_speed, "of the drive", Range::drive, "1098 rpm"},
-          part.period);
+    visit(detail::spex_arm, part.arm);
+    visit(detail::spex_theta, part.theta_max);
+    visit(detail::spex_gamma, part.gamma_max);
+    visit(detail::spex_speed, part.period);
   }
   SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
 };
@@ -39,15 +47,10 @@ struct Spex2d {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
-                        Range::not_negative, "100 mm"},
-          part.arm);
-    visit(PartParameter{"theta_max", Dimension::angle, "amplitude of the swing of the arm, thesis (2.9)",
-                        Range::quarter_turn, "15 deg"},
-          part.theta_max);
-    visit(PartParameter{nullptr, Dimension::angle, "", Range::any, "0 rad"}, part.gamma_max);
-    visit(PartParameter{"speed", Dimension::angular_speed, "of the drive", Range::drive, "1098 rpm"},
-          part.period);
+    visit(detail::spex_arm, part.arm);
+    visit(detail::spex_theta, part.theta_max);
+    visit(detail::no_angle, part.gamma_max);
+    visit(detail::spex_speed, part.period);
   }
   SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
 };
@@ -63,8 +66,8 @@ struct StillMill {
     visit(PartParameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
                         Range::not_negative, "0 m"},
           part.arm);
-    visit(PartParameter{nullptr, Dimension::angle, "", Range::any, "0 rad"}, part.theta_max);
-    visit(PartParameter{nullptr, Dimension::angle, "", Range::any, "0 rad"}, part.gamma_max);
+    visit(detail::no_angle, part.theta_max);
+    visit(detail::no_angle, part.gamma_max);
     visit(PartParameter{nullptr, Dimension::time, "", Range::positive, "0.0625 s"}, part.period);
   }
   SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
