@@ -6,22 +6,19 @@
 #include "instances/tools/instances.hpp"
 #include "io/input_file.hpp"
 #include "report/report_page.hpp"
+#include "run/run_folder.hpp"
 
 namespace edmill::app {
 
 RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options) {
   if (options.report) report::add_report_outputs(spec);
   const auto text = report::case_text(spec, options.report);
-  std::filesystem::path page;
-  const auto when_written = [&] {
-    if (options.report) page = report::put_report(options.folder);
+  const auto put_page = [&] {
+    return options.report ? report::put_report(options.folder) : std::filesystem::path();
   };
-  auto result = casefile::with_memory_for(spec, [&] {
-    return with_scalar(precision,
-                       [&]<class Real>() { return run_in<Real>(spec, options, text, when_written); });
+  return casefile::with_memory_for(spec, [&] {
+    return with_scalar(precision, [&]<class Real>() { return run_in<Real>(spec, options, text, put_page); });
   });
-  result.report = page;
-  return result;
 }
 
 io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vector<std::string>& overrides,
@@ -39,6 +36,16 @@ io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vecto
   return c;
 }
 
+/// Removes what a killed run with results in place would have removed next.
+RunResult removed_leftovers(const casefile::CaseSpec& spec, const RunOptions& options) {
+  const auto& bytes = options.checkpoint->result;
+  run::RunFolder(options.folder, spec, options.checkpoint).remove_checkpoint(bytes);
+  Archive archive(bytes);
+  RunResult result;
+  archive(result);
+  return result;
+}
+
 RunResult resume(const std::string& interval, RunOptions options) {
   auto checkpoint = io::read_checkpoint(options.folder);
   if (!interval.empty()) checkpoint.interval = interval;
@@ -53,6 +60,7 @@ RunResult resume(const std::string& interval, RunOptions options) {
   const std::string precision = checkpoint.precision;
   options.report = checkpoint.report;
   options.checkpoint = std::move(checkpoint);
+  if (!options.checkpoint->result.empty()) return removed_leftovers(spec, options);
   return run(precision, std::move(spec), options);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "casefile/case_spec.hpp"
 #include "io/checkpoint_file.hpp"
 #include "model/end_reason.hpp"
@@ -42,6 +43,14 @@ struct RunResult {
   std::string table;             ///< of the results, for a terminal
   bool goes_on = false;          ///< it can be resumed
   std::filesystem::path report;  ///< the page; empty without one
+
+  void archive(Archive& a) {
+    auto reason = static_cast<int>(end_reason);
+    std::string page = report.string();
+    a(reason, error, table, goes_on, page);
+    end_reason = static_cast<model::EndReason>(reason);
+    report = page;
+  }
 };
 
 /// Runs the case in the scalar of this name and writes its folder.
@@ -59,9 +68,10 @@ io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vecto
 RunResult resume(const std::string& interval, RunOptions options);
 
 /// What `run` does in one scalar. @param case_text  for case.toml
-/// @param when_written  called when the results are in place, while a killed run could still continue
+/// @param put_page  called when the results are in place, while a killed run could still continue; gives the
+/// path of the page, empty without one
 template <class Real>
 RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options, const std::string& case_text,
-                 const std::function<void()>& when_written);
+                 const std::function<std::filesystem::path()>& put_page);
 
 }  // namespace edmill::app

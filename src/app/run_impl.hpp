@@ -11,7 +11,7 @@ namespace edmill::app {
 
 template <class Real>
 RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options, const std::string& case_text,
-                 const std::function<void()>& when_written) {
+                 const std::function<std::filesystem::path()>& put_page) {
   const auto built = casefile::build_case<Real>(spec);
   run::RunFolder folder(options.folder, spec, options.checkpoint);
   if (!folder.locked()) options.without_locks(folder.place());
@@ -33,9 +33,11 @@ RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options, cons
 
   const bool goes_on = options.checkpoint && summary.end_reason == model::EndReason::interrupted;
   output::write_results<Real>(folder, outputs, saved, clock, io::summary_json(summary), case_text, goes_on);
-  when_written();
-  if (!goes_on) folder.remove_checkpoint();
-  return {summary.end_reason, summary.error, report::result_table(summary), goes_on, {}};
+  RunResult result{summary.end_reason, summary.error, report::result_table(summary), goes_on, put_page()};
+  Archive archive;
+  archive(result);
+  if (!goes_on) folder.remove_checkpoint(archive.bytes());
+  return result;
 }
 
 }  // namespace edmill::app

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::optional<io::Checkpoint> checkpoint)
     : place_(std::move(place)), checkpoint_(std::move(checkpoint)) {
   take(place_);
-  const bool begins = !checkpoint_ || checkpoint_->state.empty();
+  const bool begins = !checkpoint_ || (checkpoint_->state.empty() && checkpoint_->result.empty());
   if (begins)
     io::require_no_checkpoint(place_);
   else if (io::read_checkpoint(place_).state != checkpoint_->state)
@@ -78,8 +78,14 @@ void RunFolder::commit(std::vector<fs::path> outputs, const std::function<void()
   io::remove_other_files(place_, all);
 }
 
-void RunFolder::remove_checkpoint() {
+void RunFolder::remove_checkpoint(const std::string& result) {
   if (!checkpoint_) return;
+  if (checkpoint_->result.empty()) {
+    // A run that is killed between the steps below must not continue: its temporary files are going.
+    checkpoint_->state.clear();
+    checkpoint_->result = result;
+    io::write_checkpoint(place_, *checkpoint_);
+  }
   // First: without the checkpoint, files left by killed processes of this run are no longer found.
   remove_leftovers();
   fs::remove(io::checkpoint_place(place_));

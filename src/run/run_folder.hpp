@@ -44,8 +44,8 @@ class RunFolder {
   /// Puts results in place, which are complete, and removes what an earlier run has left of its own.
   /// @param outputs  places of the files that `commit_outputs` puts in place
   void commit(std::vector<std::filesystem::path> outputs, const std::function<void()>& commit_outputs);
-  /// For a run that has ended: nothing can continue it.
-  void remove_checkpoint();
+  /// For a run that has ended: nothing can continue it. @param result  for the checkpoint, while it is there
+  void remove_checkpoint(const std::string& result);
 
  private:
   void take(const std::filesystem::path& folder);

@@ -61,7 +61,7 @@ TEST_F(CheckpointFile, IsRefusedWhenItEndsEarlyOrLate) {
 }
 
 TEST_F(CheckpointFile, OfAnotherCommitIsRefusedByName) {
-  const std::string begin = "edmill checkpoint 2\n";
+  const std::string begin = "edmill checkpoint 3\n";
   ASSERT_TRUE(bytes.starts_with(begin));
   Archive archive;
   std::string program = version(), another = "0123456";
