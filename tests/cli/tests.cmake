@@ -18,10 +18,13 @@ set_tests_properties(packages_test PROPERTIES LABELS long TIMEOUT 3600 SKIP_RETU
 
 # Files, streams and signals: a script for each promise of docs/files.md and docs/usage.md.
 add_library(no_locks MODULE cli/no_locks.c)
-foreach(name one_writer left_behind named_files tampered standard_streams signals inputs missing_memory)
+add_library(dies_at MODULE cli/dies_at.c)
+foreach(name one_writer kill_steps left_behind named_files tampered standard_streams signals inputs missing_memory)
   set(more)
   if(name STREQUAL one_writer)
     set(more $<TARGET_FILE:no_locks>)
+  elseif(name STREQUAL kill_steps)
+    set(more $<TARGET_FILE:dies_at>)
   endif()
   add_test(NAME ${name}_test COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/${name}_test.py $<TARGET_FILE:edmill_cli> ${more})
   set_tests_properties(${name}_test PROPERTIES TIMEOUT 600 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
