@@ -14,4 +14,5 @@ function(edmill_embed target file)
                      COMMAND ${CMAKE_COMMAND} -DNAME=${name} -DFILE=${file} -DTARGET=${source} -P ${edmill_embed_script}
                      VERBATIM)
   target_sources(${target} PRIVATE ${source})
+  set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

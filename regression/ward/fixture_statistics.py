@@ -41,7 +41,7 @@ def compare(case, row, estimates):
         wanted, wanted_half = float(row[name]), float(row[f"{name}_ci95"])
         limit = ALLOWED * math.hypot(half, wanted_half)
         if abs(mean - wanted) > limit:
-            problems.append(f"{case.name}: {name} {mean:.6g}, {STATISTICS} has {wanted:.6g}, allowed +-{limit:.2g}")
+            problems.append(f"{case.name}: {name} {mean:.6g}, {STATISTICS} has {wanted:.6g}, allowed ±{limit:.2g}")
     return problems
 
 

@@ -23,10 +23,10 @@ std::string describe(const Event& e) {
   return text;
 }
 
-/// "12.3 +- 0.4", without what is missing.
+/// "12.3 ± 0.4", without what is missing.
 std::string with_interval(const std::optional<double>& value, const std::optional<double>& half_width) {
   if (!value) return "-";
-  return half_width ? fmt::format("{:.6g} +- {:.2g}", *value, *half_width) : fmt::format("{:.6g}", *value);
+  return half_width ? fmt::format("{:.6g} ± {:.2g}", *value, *half_width) : fmt::format("{:.6g}", *value);
 }
 
 void put(io::JsonText& json, std::string_view key, const std::optional<double>& value) {

@@ -332,8 +332,8 @@ std::string value_text(Dimension dimension, double value, double half_width) {
   const double v = value / unit.size, h = half_width / unit.size;
   if (!(h > 0) || !std::isfinite(h)) return fmt::format("{:.9g}{}", v, unit.name);
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(h))) + 1, 0, 15);
-  if (h < 1e-6 * std::max(std::abs(v), 1e-3)) return fmt::format("{:.9g} +- {:.1e}{}", v, h, unit.name);
-  return fmt::format("{:.{}f} +- {:.{}f}{}", v, decimals, h, decimals, unit.name);
+  if (h < 1e-6 * std::max(std::abs(v), 1e-3)) return fmt::format("{:.9g} ± {:.1e}{}", v, h, unit.name);
+  return fmt::format("{:.{}f} ± {:.{}f}{}", v, decimals, h, decimals, unit.name);
 }
 
 }  // namespace edmill::identify

@@ -124,83 +124,43 @@ class AnyMotion {
     return at(pose,
               [&](const auto& m, const auto& own) { return m.position_nearby(when, own, known, position); });
   }
-  Vec3<Real> axis_x(const Pose& pose) const {
-    return at(pose, [](const auto& m, const auto& own) { return m.axis_x(own); });
-  }
-  Vec3<Real> axis_y(const Pose& pose) const {
-    return at(pose, [](const auto& m, const auto& own) { return m.axis_y(own); });
-  }
-  Vec3<Real> axis_z(const Pose& pose) const {
-    return at(pose, [](const auto& m, const auto& own) { return m.axis_z(own); });
-  }
-  Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) const {
-    return at(pose, [&](const auto& m, const auto& own) { return m.to_inertial(own, p); });
-  }
-  Vec3<Real> direction_to_inertial(const Pose& pose, const Vec3<Real>& n) const {
-    return at(pose, [&](const auto& m, const auto& own) { return m.direction_to_inertial(own, n); });
-  }
-  Vec3<Real> position_in_vessel(const Pose& pose, const Vec3<Real>& position) const {
-    return at(pose, [&](const auto& m, const auto& own) { return m.position_in_vessel(own, position); });
-  }
-  VesselFrameState<Real> to_vessel_frame(const Pose& pose, const Vec3<Real>& position,
-                                         const Vec3<Real>& velocity) const {
-    return at(pose,
-              [&](const auto& m, const auto& own) { return m.to_vessel_frame(own, position, velocity); });
-  }
-  Vec3<Real> vessel_frame_acceleration(const Pose& pose, const VesselFrameState<Real>& state,
-                                       const Vec3<Real>& velocity, const Vec3<Real>& gravity) const {
-    return at(pose, [&](const auto& m, const auto& own) {
-      return m.vessel_frame_acceleration(own, state, velocity, gravity);
-    });
-  }
-  Vec3<Real> angular_velocity(const Pose& pose) const {
-    return at(pose, [](const auto& m, const auto& own) { return m.angular_velocity(own); });
-  }
-  Vec3<Real> wall_velocity(const Pose& pose, const Vec3<Real>& point) const {
-    return at(pose, [&](const auto& m, const auto& own) { return m.wall_velocity(own, point); });
-  }
-  Vec3<Real> wall_acceleration(const Pose& pose, const Vec3<Real>& point) const {
-    return at(pose, [&](const auto& m, const auto& own) { return m.wall_acceleration(own, point); });
-  }
 
-  Vec3<Real> middle() const {
-    return visit([](const auto& m) { return m.middle(); });
+// The concept says what these take and give. First those of a pose, then those of the motion.
+#define EDMILL_BY_POSE(name)                                                            \
+  template <class... A>                                                                 \
+  auto name(const Pose& pose, const A&... a) const {                                    \
+    return at(pose, [&](const auto& m, const auto& own) { return m.name(own, a...); }); \
   }
-  Real reach(const Real& vessel_reach) const {
-    return visit([&](const auto& m) { return m.reach(vessel_reach); });
+#define EDMILL_OF_MOTION(name)                                 \
+  template <class... A>                                        \
+  auto name(const A&... a) const {                             \
+    return visit([&](const auto& m) { return m.name(a...); }); \
   }
-  Real wall_speed(const Real& vessel_reach) const {
-    return visit([&](const auto& m) { return m.wall_speed(vessel_reach); });
-  }
-  Real speed_within(const Real& distance) const {
-    return visit([&](const auto& m) { return m.speed_within(distance); });
-  }
-  Real acceleration_within(const Real& distance) const {
-    return visit([&](const auto& m) { return m.acceleration_within(distance); });
-  }
-  Real longest_window() const {
-    return visit([](const auto& m) { return m.longest_window(); });
-  }
-  SweptBox<Real> swept(const Vec3<Real>& sizes, const Real& vessel_reach) const {
-    return visit([&](const auto& m) { return m.swept(sizes, vessel_reach); });
-  }
-  CoordinateBounds<Real> coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach,
-                                           const Real& gravity, const Real& speed, const Real& length) const {
-    return visit(
-        [&](const auto& m) { return m.coordinate_bounds(sizes, vessel_reach, gravity, speed, length); });
-  }
-  Real speed_in_vessel(const FlightBounds<Real>& flight) const {
-    return visit([&](const auto& m) { return m.speed_in_vessel(flight); });
-  }
-  Real acceleration_in_vessel(const FlightBounds<Real>& flight) const {
-    return visit([&](const auto& m) { return m.acceleration_in_vessel(flight); });
-  }
-  ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& flight) const {
-    return visit([&](const auto& m) { return m.coordinate_errors(u, flight); });
-  }
-  ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& flight) const {
-    return visit([&](const auto& m) { return m.state_errors(u, flight); });
-  }
+  EDMILL_BY_POSE(axis_x)
+  EDMILL_BY_POSE(axis_y)
+  EDMILL_BY_POSE(axis_z)
+  EDMILL_BY_POSE(to_inertial)
+  EDMILL_BY_POSE(direction_to_inertial)
+  EDMILL_BY_POSE(position_in_vessel)
+  EDMILL_BY_POSE(to_vessel_frame)
+  EDMILL_BY_POSE(vessel_frame_acceleration)
+  EDMILL_BY_POSE(angular_velocity)
+  EDMILL_BY_POSE(wall_velocity)
+  EDMILL_BY_POSE(wall_acceleration)
+  EDMILL_OF_MOTION(middle)
+  EDMILL_OF_MOTION(reach)
+  EDMILL_OF_MOTION(wall_speed)
+  EDMILL_OF_MOTION(speed_within)
+  EDMILL_OF_MOTION(acceleration_within)
+  EDMILL_OF_MOTION(longest_window)
+  EDMILL_OF_MOTION(swept)
+  EDMILL_OF_MOTION(coordinate_bounds)
+  EDMILL_OF_MOTION(speed_in_vessel)
+  EDMILL_OF_MOTION(acceleration_in_vessel)
+  EDMILL_OF_MOTION(coordinate_errors)
+  EDMILL_OF_MOTION(state_errors)
+#undef EDMILL_BY_POSE
+#undef EDMILL_OF_MOTION
 
  private:
   /// Calls f with the motion and its pose.

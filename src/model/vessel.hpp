@@ -150,15 +150,6 @@ class AnyVessel {
     return std::visit(std::forward<F>(f), vessel_);
   }
 
-  int wall_count() const {
-    return visit([](const auto& v) { return v.wall_count(); });
-  }
-  std::vector<WallInfo> walls() const {
-    return visit([](const auto& v) { return v.walls(); });
-  }
-  std::vector<WallSurface<Real>> surfaces() const {
-    return visit([](const auto& v) { return v.surfaces(); });
-  }
   template <class Value>
   PerWall<Value> per_wall(const Value& value) const {
     return PerWall<Value>(static_cast<std::size_t>(function_count()), value);
@@ -185,70 +176,47 @@ class AnyVessel {
         return std::nullopt;
     });
   }
-  Real reach() const {
-    return visit([](const auto& v) { return v.reach(); });
-  }
-  Real extent() const {
-    return visit([](const auto& v) { return v.extent(); });
-  }
-  Vec3<Real> half_sizes() const {
-    return visit([](const auto& v) { return v.half_sizes(); });
-  }
-  Real volume() const {
-    return visit([](const auto& v) { return v.volume(); });
-  }
-  Real widest_ball() const {
-    return visit([](const auto& v) { return v.widest_ball(); });
+  std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
+    return visit([&](const auto& v) { return v.place(drawn); });
   }
   AnyVessel inset(const Real& by) const {
     return visit([&](const auto& v) { return AnyVessel(v.inset(by)); });
   }
-  bool is_empty() const {
-    return visit([](const auto& v) { return v.is_empty(); });
+
+// The concept says what these take and give. First single values, then one for each wall or kind of wall.
+#define EDMILL_OF_VESSEL(name)                                 \
+  template <class... A>                                        \
+  auto name(const A&... a) const {                             \
+    return visit([&](const auto& v) { return v.name(a...); }); \
   }
-  bool contains(const Vec3<Real>& p) const {
-    return visit([&](const auto& v) { return v.contains(p); });
+#define EDMILL_OF_WALLS(name)                                          \
+  template <class... A>                                                \
+  auto name(const A&... a) const {                                     \
+    return visit([&](const auto& v) { return listed(v.name(a...)); }); \
   }
-  std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    return visit([&](const auto& v) { return v.place(drawn); });
-  }
-  PerWall<Real> gaps(const Vec3<Real>& p) const {
-    return visit([&](const auto& v) { return listed(v.gaps(p)); });
-  }
-  Real gap(int wall, const Vec3<Real>& p) const {
-    return visit([&](const auto& v) { return v.gap(wall, p); });
-  }
-  PerWall<Real> rates(const Vec3<Real>& p, const Vec3<Real>& u) const {
-    return visit([&](const auto& v) { return listed(v.rates(p, u)); });
-  }
-  PerWall<Real> curvatures(const Vec3<Real>& p, const Vec3<Real>& u, const Vec3<Real>& a) const {
-    return visit([&](const auto& v) { return listed(v.curvatures(p, u, a)); });
-  }
-  PerWall<bool> within(const Vec3<Real>& p, const Real& way) const {
-    return visit([&](const auto& v) { return listed(v.within(p, way)); });
-  }
-  int kind_of(int wall) const {
-    return visit([&](const auto& v) { return v.kind_of(wall); });
-  }
-  PerKind<Real> derivative_bounds(const CoordinateBounds<Real>& coordinates, int k) const {
-    return visit([&](const auto& v) { return listed(v.derivative_bounds(coordinates, k)); });
-  }
-  bool is_flat(int wall) const {
-    return visit([&](const auto& v) { return v.is_flat(wall); });
-  }
-  ErrorBounds<Real> curved_errors(int wall, const ErrorBounds<Real>& coordinate, const Real& u,
-                                  const Real& frame_speed, const Real& acceleration,
-                                  const Real& beyond) const {
-    return visit([&](const auto& v) {
-      return v.curved_errors(wall, coordinate, u, frame_speed, acceleration, beyond);
-    });
-  }
-  Vec3<Real> normal(int wall, const Vec3<Real>& p) const {
-    return visit([&](const auto& v) { return v.normal(wall, p); });
-  }
-  Real overlap(int wall, const Vec3<Real>& p) const {
-    return visit([&](const auto& v) { return v.overlap(wall, p); });
-  }
+  EDMILL_OF_VESSEL(wall_count)
+  EDMILL_OF_VESSEL(walls)
+  EDMILL_OF_VESSEL(surfaces)
+  EDMILL_OF_VESSEL(reach)
+  EDMILL_OF_VESSEL(extent)
+  EDMILL_OF_VESSEL(half_sizes)
+  EDMILL_OF_VESSEL(volume)
+  EDMILL_OF_VESSEL(widest_ball)
+  EDMILL_OF_VESSEL(is_empty)
+  EDMILL_OF_VESSEL(contains)
+  EDMILL_OF_VESSEL(gap)
+  EDMILL_OF_VESSEL(kind_of)
+  EDMILL_OF_VESSEL(is_flat)
+  EDMILL_OF_VESSEL(curved_errors)
+  EDMILL_OF_VESSEL(normal)
+  EDMILL_OF_VESSEL(overlap)
+  EDMILL_OF_WALLS(gaps)
+  EDMILL_OF_WALLS(rates)
+  EDMILL_OF_WALLS(curvatures)
+  EDMILL_OF_WALLS(within)
+  EDMILL_OF_WALLS(derivative_bounds)
+#undef EDMILL_OF_VESSEL
+#undef EDMILL_OF_WALLS
 
  private:
   template <class Array>

@@ -3,7 +3,7 @@
 
 #include "casefile/section.hpp"
 #include "io/atomic_file.hpp"
-#include "output/output.hpp"
+#include "output/one_file_output.hpp"
 #include "run/collision_log.hpp"
 
 namespace edmill::output {
@@ -28,29 +28,22 @@ inline void read_collisions(casefile::Section& s, const casefile::CaseSpec& spec
 
 /// Text alone, line by line: the log as HDF5 is another type, `events`.
 template <class Real>
-class CollisionsOutput : public Output<Real> {
+class CollisionsOutput : public OneFileOutput<Real, io::AtomicFile> {
  public:
   CollisionsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                    const RunContext<Real>& run)
-      : Output<Real>(spec, run),
-        states_(spec.own_keys<StatesKey>().states),
-        file_(folder / spec.folder / spec.file, spec.append) {
-    file_.stream() << run::collision_log_header << (states_ ? run::collision_log_states : "") << '\n';
+      : OneFileOutput<Real, io::AtomicFile>(spec, folder, run, spec.append),
+        states_(spec.own_keys<StatesKey>().states) {
+    this->file_.stream() << run::collision_log_header << (states_ ? run::collision_log_states : "") << '\n';
   }
 
-  void complete() override { file_.complete(); }
-  void commit() override { file_.commit(); }
-  std::vector<std::filesystem::path> places() const override { return file_.places(); }
-
  protected:
-  void archive_record(Archive& a) override { a(file_); }
   void record(const Seen<Real>& seen) override {
-    file_.stream() << run::collision_line<Real>(seen.impact, seen.simulation, states_) << '\n';
+    this->file_.stream() << run::collision_line<Real>(seen.impact, seen.simulation, states_) << '\n';
   }
 
  private:
   bool states_;
-  io::AtomicFile file_;
 };
 
 }  // namespace edmill::output

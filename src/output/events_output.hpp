@@ -5,7 +5,7 @@
 
 #include "output/collisions_output.hpp"
 #include "output/event_file.hpp"
-#include "output/output.hpp"
+#include "output/one_file_output.hpp"
 
 namespace edmill::output {
 
@@ -46,21 +46,16 @@ inline void read_events(casefile::Section& s, const casefile::CaseSpec& spec, ca
 /// NAME.h5: /events with a dataset for each column, the balls and their final state beside it. Numbers
 /// are 64-bit whatever the scalar: the digits of a wide run are in the CSV.
 template <class Real>
-class EventsOutput : public Output<Real> {
+class EventsOutput : public OneFileOutput<Real, EventFile> {
  public:
   EventsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                const RunContext<Real>& run)
-      : Output<Real>(spec, run),
-        states_(spec.own_keys<StatesKey>().states),
-        file_(folder / spec.folder / spec.file,
-              detail::event_columns(run.partners, spec.own_keys<StatesKey>().states), run.notes) {}
-
-  void complete() override { file_.complete(); }
-  void commit() override { file_.commit(); }
-  std::vector<std::filesystem::path> places() const override { return file_.places(); }
+      : OneFileOutput<Real, EventFile>(spec, folder, run,
+                                       detail::event_columns(run.partners, spec.own_keys<StatesKey>().states),
+                                       run.notes),
+        states_(spec.own_keys<StatesKey>().states) {}
 
  protected:
-  void archive_record(Archive& a) override { a(file_); }
   void record(const Seen<Real>& seen) override {
     const auto& f = seen.facts;
     const auto& o = seen.impact.outcome;
@@ -111,8 +106,9 @@ class EventsOutput : public Output<Real> {
     }
   }
 
+  using OneFileOutput<Real, EventFile>::file_;
+
   bool states_;
-  EventFile file_;
 };
 
 }  // namespace edmill::output

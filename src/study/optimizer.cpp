@@ -182,7 +182,7 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
   for (const auto& [key, value] : point.settings) line += fmt::format(" {} = {},", key, value);
   const auto e = estimate(point.values(quantity_named(spec.objective)));
   const std::string unit = spec.objective == "milling_dose_rate" ? "W" : "W/kg";
-  return line + fmt::format(" {:.6g} +- {:.2g} {} ({} runs)\n", e.mean.value_or(0), e.half_width.value_or(0),
+  return line + fmt::format(" {:.6g} ± {:.2g} {} ({} runs)\n", e.mean.value_or(0), e.half_width.value_or(0),
                             unit, point.done());
 }
 

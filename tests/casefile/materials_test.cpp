@@ -165,7 +165,7 @@ TEST(Laws, TakeTheChargeRatioFromThePowder) {
   for (const auto& ball : built.balls) mass += ball.mass;
   const auto& law = std::get<model::PowderLoad<double>>(built.mill.ball_ball.law);
   EXPECT_NEAR(law.charge_ratio, mass / 0.001, 1e-12);
-  // The mean over uniform diameters d +- s, by Gauss's rule with two points, which is exact for a cube.
+  // The mean over uniform diameters d ± s, by Gauss's rule with two points, which is exact for a cube.
   const auto spread = casefile::build_case<double>(
                           parse_case(plain + "diameter_spread = \"1 mm\"\n[powder]\nmass = \"1 "
                                              "g\"\n[contact]\nmodel = \"powder-load\"\nfriction = 0.4\n",

@@ -9,7 +9,8 @@
 int flock(int descriptor, int how) {
   const char* without = getenv("NO_LOCKS");
   struct stat status;
-  if (without && fstat(descriptor, &status) == 0 && (strcmp(without, "all") == 0 || S_ISDIR(status.st_mode))) {
+  if (without && fstat(descriptor, &status) == 0 &&
+      (strcmp(without, "all") == 0 || S_ISDIR(status.st_mode))) {
     errno = strcmp(without, "all") == 0 ? ENOLCK : EBADF;
     return -1;
   }

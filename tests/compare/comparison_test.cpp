@@ -215,7 +215,7 @@ TEST_F(Comparing, ASpectrumOfTheSameMeanIsFound) {
 TEST_F(Comparing, MeansAndIntervalsAreThoseOfTheProcess) {
   const auto c = compare_texts(log_text(synthetic_events(1, 100)), log_text(synthetic_events(2, 100)));
   EXPECT_EQ(c.verdict, Verdict::agree);
-  // 400/s of which a tenth on a cap: 100 s give 40 +- 0.63, and an interval of 2.09 deviations.
+  // 400/s of which a tenth on a cap: 100 s give 40 ± 0.63, and an interval of 2.09 deviations.
   const auto& rate = quantity(c, "collision_rate_wall_0");
   EXPECT_NEAR(*rate.a, 40, 4 * 0.63);
   EXPECT_NEAR(*rate.a_half_width, 2.09 * 0.632, 0.6);

@@ -65,7 +65,7 @@ struct Ball {
   std::array<cpp_rational, 3> position, velocity;
 };
 
-/// A vessel at rest about the origin: caps at X = +-half_height, Z across.
+/// A vessel at rest about the origin: caps at X = ±half_height, Z across.
 struct Scene {
   cpp_rational radius, vessel_radius, half_height;
   std::vector<Ball> balls;

@@ -95,7 +95,7 @@ TEST(Chain, APlanetaryJarRunsOnItsEpicycle) {
                                 -radius * sin(disc * t) - r * sin(jar * t)};
     const Vec3<mpfr50> velocity{-radius * disc * sin(disc * t) - r * jar * sin(jar * t), mpfr50(0),
                                 -radius * disc * cos(disc * t) - r * jar * cos(jar * t)};
-    const Vec3<mpfr50> point = motion.to_inertial(pose, {r, h, mpfr50(0)});
+    const Vec3<mpfr50> point = motion.to_inertial(pose, Vec3<mpfr50>{r, h, mpfr50(0)});
     EXPECT_LT(static_cast<double>(distance<mpfr50>(point, expected)), 1e-47);
     EXPECT_LT(static_cast<double>(distance<mpfr50>(motion.wall_velocity(pose, point), velocity)), 1e-45);
   }

@@ -116,7 +116,7 @@ TEST_F(Optimizer, TellsALargeChargeFromASmallOneInARealMill) {
   EXPECT_EQ(one.code, 0) << one.err;
   EXPECT_NE(one.out.find("point 2: charge_ratio = 3"), std::string::npos) << one.out;
   EXPECT_NE(one.out.find("every other point is smaller"), std::string::npos) << one.out;
-  EXPECT_NE(one.out.find(" +- "), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find(" ± "), std::string::npos) << one.out;
   for (const auto* name : {"optimize.csv", "runs.csv", "optimize.h5"})
     EXPECT_TRUE(contents(scratch / "one" / name) == contents(scratch / "two" / name)) << name;
 }

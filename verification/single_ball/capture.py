@@ -87,7 +87,7 @@ def report(runs):
         print(f"  captured by {limit:3d} s: {count} of {len(runs)}, {100 * count / len(runs):.1f} % "
               f"({100 * low:.1f} to {100 * high:.1f} %)")
     mean, half = inverse_rate(runs)
-    print(f"inverse dose rate while free: {mean:.4f} +- {half:.4f} s/J, over {sum(run[2] for run in runs):.0f} s")
+    print(f"inverse dose rate while free: {mean:.4f} ± {half:.4f} s/J, over {sum(run[2] for run in runs):.0f} s")
     lasting = [run[2] / run[3] for run in runs if run[2] >= 5]
     if len(lasting) > 1:
         print(f"  of the {len(lasting)} seeds free for 5 s or more: median {statistics.median(lasting):.3f} s/J")

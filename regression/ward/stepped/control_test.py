@@ -24,6 +24,6 @@ for name in ("5g_5_9_52mm", "5g_2_5_4_76mm"):
         doses, _ = emulation.stepped(sys.argv[1], case, f"{options} --batch {batch} --end {1 + 8 * batch}")
         rates = [dose / batch for dose in doses]
         found, limit = sum(rates) / len(rates), fixture_statistics.ALLOWED * math.hypot(half, intervals.half_width(rates))
-        print(f"{name} {options}: dose rate {found:.3f} W, edmill {mean:.3f} W, allowed +-{limit:.3f}")
+        print(f"{name} {options}: dose rate {found:.3f} W, edmill {mean:.3f} W, allowed ±{limit:.3f}")
         failures += (abs(found - mean) <= limit) != agrees
 sys.exit(failures > 0)

@@ -15,19 +15,13 @@ template <class Number>
 struct ElasticPlastic {
   static constexpr const char* name = "elastic-plastic";
 
-  Number modulus{1};         ///< E* [Pa], 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j
+  Number modulus{1};         ///< E* [Pa]
   Number yield_pressure{1};  ///< p_y [Pa] at the centre of the contact
   CoulombSlip<Number> slip;
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
-    visit(LawParameter{"effective_modulus",
-                       "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j",
-                       0,
-                       0,
-                       {},
-                       Dimension::pressure},
-          law.modulus);
+    visit(effective_modulus, law.modulus);
     visit(
         LawParameter{
             "yield_pressure", "contact pressure at which yielding begins", 0, 0, {}, Dimension::pressure},

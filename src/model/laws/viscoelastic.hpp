@@ -16,19 +16,13 @@ template <class Number>
 struct Viscoelastic {
   static constexpr const char* name = "viscoelastic";
 
-  Number modulus{1};           ///< E* [Pa], 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j
+  Number modulus{1};           ///< E* [Pa]
   Number dissipative_time{1};  ///< A [s]
   CoulombSlip<Number> slip;
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
-    visit(LawParameter{"effective_modulus",
-                       "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j",
-                       0,
-                       0,
-                       {},
-                       Dimension::pressure},
-          law.modulus);
+    visit(effective_modulus, law.modulus);
     visit(LawParameter{"dissipative_time", "A of the dissipative force", 0, 0, {}, Dimension::time},
           law.dissipative_time);
     law.slip.parameters(law.slip, visit);

@@ -18,6 +18,10 @@ struct LawParameter {
   Dimension dimension = Dimension::none;
 };
 
+/// Of laws after Hertz.
+inline constexpr LawParameter effective_modulus{
+    "effective_modulus", "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j", 0, 0, {}, Dimension::pressure};
+
 enum class Range {
   any,
   not_negative,
