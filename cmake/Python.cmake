@@ -9,7 +9,6 @@ file(GLOB python_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/python/*.cpp)
 pybind11_add_module(edmill_python MODULE NO_EXTRAS ${python_sources})
 target_link_libraries(edmill_python PRIVATE edmill_tools)
 target_compile_options(edmill_python PRIVATE ${edmill_warnings} $<$<CONFIG:Release>:-O1>)
-edmill_reuse_precompiled(edmill_python edmill_tools_precompiled)
 set(python_package ${CMAKE_BINARY_DIR}/python/edmill)
 set_target_properties(edmill_python PROPERTIES OUTPUT_NAME _edmill LIBRARY_OUTPUT_DIRECTORY ${python_package})
 

@@ -38,10 +38,11 @@ void add_run(const casefile::CaseSpec& spec, const model::Case<double>& c, const
   row("digest", spec.digest);
   row("precision, seed", fmt::format("{}, {}", spec.precision, spec.seed));
   row("statistics from", fmt::format("{} s", spec.statistics_start.to<double>()));
-  if (spec.end_time) row("stop at time", fmt::format("{} s", spec.end_time->to<double>()));
-  if (c.stop.max_collisions) row("stop after collisions", fmt::format("{}", *c.stop.max_collisions));
-  if (c.stop.max_milling_dose) row("stop at milling dose", fmt::format("{:g} J", *c.stop.max_milling_dose));
-  if (c.stop.max_ball_speed) row("stop at ball speed", fmt::format("{:g} m/s", *c.stop.max_ball_speed));
+  if (spec.end_time) row("end_time", fmt::format("{} s", spec.end_time->to<double>()));
+  model::for_each_stop_rule([&](auto rule, std::size_t place) {
+    if (const auto& limit = c.stop.limits[place])
+      row(rule.key.key, fmt::format("{}{}", *limit, casefile::si_unit(rule.key.dimension)));
+  });
 }
 
 void add_mill(const casefile::CaseSpec& spec, const model::Mill<double>& m, const Row& row) {

@@ -185,9 +185,8 @@ InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const casefile::C
   c.initial_time = instant(spec.initial_time);
   c.statistics_start = instant(spec.statistics_start);
   if (spec.end_time) c.stop.end_time = instant(*spec.end_time);
-  if (spec.max_milling_dose) c.stop.max_milling_dose = spec.max_milling_dose->to<Real>();
-  if (spec.max_ball_speed) c.stop.max_ball_speed = spec.max_ball_speed->to<Real>();
-  c.stop.max_collisions = spec.max_collisions;
+  for (std::size_t place = 0; place < model::stop_rule_count; ++place)
+    if (const auto& limit = spec.stop_limits[place]) c.stop.limits[place] = limit->template to<Real>();
   result.start = c.initial_time;
   if (!spec.initial_state.empty()) {
     detail::fill_from_file(spec, result);

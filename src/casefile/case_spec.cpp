@@ -33,21 +33,17 @@ void read_run(Section run, CaseSpec& spec) {
   run.require(spec.statistics_start.value >= spec.initial_time.value, "start_time",
               "a time not before the initial time");
   spec.end_time = run.quantity("end_time", Dimension::time);
-  spec.max_collisions = run.count("max_collisions");
-  spec.max_milling_dose = run.quantity("max_milling_dose", Dimension::energy);
-  spec.max_ball_speed = run.quantity("max_ball_speed", Dimension::speed);
   if (spec.end_time)
     run.require(spec.end_time->value > spec.statistics_start.value, "end_time",
                 "a time after the start time");
-  if (spec.max_collisions) run.require(*spec.max_collisions > 0, "max_collisions", "at least 1");
-  if (spec.max_milling_dose)
-    run.require(spec.max_milling_dose->positive(), "max_milling_dose", "a positive energy");
-  if (spec.max_ball_speed) run.require(spec.max_ball_speed->positive(), "max_ball_speed", "a positive speed");
-  const bool stops = run.has("end_time") || run.has("max_collisions") || run.has("max_milling_dose") ||
-                     run.has("max_ball_speed");
-  if (!stops)
-    run.problem("end_time", "no stop rule",
-                "at least one of end_time, max_collisions, max_milling_dose, max_ball_speed");
+  bool stops = run.has("end_time");
+  std::string rules = "end_time";
+  model::for_each_stop_rule([&](auto rule, std::size_t place) {
+    spec.stop_limits[place] = read_if_given(run, rule.key);
+    stops = stops || run.has(rule.key.key);
+    rules += std::string(", ") + rule.key.key;
+  });
+  if (!stops) run.problem("end_time", "no stop rule", "at least one of " + rules);
   spec.initial_state = run.text("initial_state").value_or("");
   // Along -Y when one acceleration is given.
   if (run.has("gravity")) {
@@ -89,6 +85,22 @@ void read_audit(Section audit, AuditSpec& spec) {
   audit.reject_unknown_keys();
 }
 
+/// Digests of 1.0 name its stop rules in this order, and whether they are in force or not.
+std::string stop_rules_text(const model::StopLimits<Quantity>& limits) {
+  constexpr std::array<std::string_view, 3> of_1_0{"max_milling_dose", "max_ball_speed", "max_collisions"};
+  std::string first[of_1_0.size()], others;
+  model::for_each_stop_rule([&](auto rule, std::size_t place) {
+    const auto& limit = limits[place];
+    const std::string line = std::string("\n") + rule.key.key + " " + (limit ? limit->text() : "-");
+    const auto found = std::find(of_1_0.begin(), of_1_0.end(), rule.key.key);
+    if (found != of_1_0.end())
+      first[found - of_1_0.begin()] = line;
+    else if (limit)
+      others += line;
+  });
+  return first[0] + first[1] + first[2] + others;
+}
+
 /// Everything that a run depends on, in one order and exact.
 std::string canonical_text(const CaseSpec& c) {
   std::ostringstream out;
@@ -98,9 +110,7 @@ std::string canonical_text(const CaseSpec& c) {
   const auto optional = [](const auto& q) { return q ? q->text() : std::string("-"); };
   out << "edmill case 2\nprecision " << c.precision << "\nseed " << c.seed << "\ninitial_time "
       << c.initial_time.text() << "\nstart_time " << c.statistics_start.text() << "\nend_time "
-      << optional(c.end_time) << "\nmax_milling_dose " << optional(c.max_milling_dose) << "\nmax_ball_speed "
-      << optional(c.max_ball_speed) << "\nmax_collisions "
-      << (c.max_collisions ? std::to_string(*c.max_collisions) : "-") << "\ngravity " << vector(c.gravity)
+      << optional(c.end_time) << stop_rules_text(c.stop_limits) << "\ngravity " << vector(c.gravity)
       << "\nmill " << text_of(c.mill) << "\nvessel " << text_of(c.vessel) << "\n";
   for (const auto& piston : c.pistons) {
     out << "piston " << piston.wall << " " << piston.distance.text() << " " << piston.speed.text();

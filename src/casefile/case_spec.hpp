@@ -13,6 +13,7 @@
 #include "casefile/quantity.hpp"
 #include "model/contact_law.hpp"
 #include "model/parts/partners.hpp"
+#include "model/stop_rules.hpp"
 
 namespace edmill::casefile {
 
@@ -79,8 +80,8 @@ struct CaseSpec {
   std::string precision = "double";
   std::uint64_t seed = 1;
   Quantity initial_time, statistics_start;
-  std::optional<Quantity> end_time, max_milling_dose, max_ball_speed;
-  std::optional<std::uint64_t> max_collisions;
+  std::optional<Quantity> end_time;
+  model::StopLimits<Quantity> stop_limits;
   std::string initial_state;  ///< path of a final_state.csv, or empty
   QuantityVector gravity{};
   MotionSpec mill;

@@ -23,10 +23,7 @@ struct FixedKey {
 
 // clang-format off
 constexpr FixedKey fixed_keys[] = {
-    {"run", "end_time", "time", "none", "the run ends here; at least one of the stop rules `end_time`, `max_collisions`, `max_milling_dose`, `max_ball_speed` is required, the first that is met ends the run"},
-    {"run", "max_collisions", "count", "none", "the run ends after so many impacts"},
-    {"run", "max_milling_dose", "energy", "none", "the run ends when so much has been dissipated since it began"},
-    {"run", "max_ball_speed", "speed", "none", "the run ends when a ball is faster after an impact"},
+    {"run", "end_time", "time", "none", "the run ends here; this or another stop rule, a key `max_...`, is required, and the first that is met ends the run"},
     {"run", "start_time", "time", "`initial_time`", "statistics begin here"},
     {"run", "initial_time", "time", "`\"0 s\"`", "instant of the initial state"},
     {"run", "precision", "name of a scalar", "`\"double\"`", "scalar of the run; `edmill --version` lists all"},
@@ -192,13 +189,6 @@ constexpr SectionText texts[] = {
 };
 // clang-format on
 
-std::string kind_of(Dimension dimension) {
-  const auto text = describe(dimension);  // "a length with a unit (m, ...)"
-  if (dimension == Dimension::none) return "number";
-  const auto from = text.find(' ') + 1;
-  return text.substr(from, std::min(text.find(" with"), text.find(" (")) - from);
-}
-
 class Table {
  public:
   Table() {
@@ -206,6 +196,7 @@ class Table {
       const std::string name(section.name);
       // What chooses a type comes before the keys of the types.
       add_fixed(name, true);
+      if (name == "run") add_stop_rules();
       if (name == "mill") add_parts<MotionSpec>(name);
       if (name == "vessel") add_parts<VesselSpec>(name);
       if (name == "contact") add_laws();
@@ -277,11 +268,18 @@ class Table {
     const auto row = [&](const model::PartParameter& p, const auto& value) {
       if (!p.key) return;
       const bool vector = !std::is_same_v<std::decay_t<decltype(value)>, Quantity>;
-      const auto kind = kind_of(p.dimension);
+      const auto kind = noun(p.dimension);
       add({section, Part::name, p.key, vector ? "three " + kind + "s" : kind,
            p.fallback ? fmt::format("`\"{}\"`", p.fallback) : "required", p.meaning});
     };
     Part::parameters(part, row);
+  }
+
+  void add_stop_rules() {
+    model::for_each_stop_rule([&](auto rule, std::size_t) {
+      const bool count = rule.key.range == model::Range::count;
+      add({"run", "", rule.key.key, count ? "count" : noun(rule.key.dimension), "none", rule.key.meaning});
+    });
   }
 
   void add_laws() {
@@ -295,7 +293,7 @@ class Table {
     law.parameters(law, [&](const model::LawParameter& p, const Quantity&) { add_law_key(p, law.name); });
   }
   void add_law_key(const model::LawParameter& p, const char* law) {
-    add({"contact", law, p.key, kind_of(p.dimension),
+    add({"contact", law, p.key, noun(p.dimension),
          p.fallback                                  ? std::to_string(*p.fallback)
          : p.key == std::string_view("charge_ratio") ? "that of the case"
                                                      : "required",

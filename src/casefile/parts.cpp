@@ -25,6 +25,7 @@ bool in_range(const Quantity& q, Range range) {
     case Range::not_negative:
       return !q.negative();
     case Range::positive:
+    case Range::count:
     case Range::drive:
       return q.positive();
     case Range::quarter_turn:
@@ -35,11 +36,11 @@ bool in_range(const Quantity& q, Range range) {
 
 std::string expected(const PartParameter& p) {
   if (p.range == Range::quarter_turn) return "an angle from 0 to 90 deg";
-  if (p.dimension == Dimension::none) return "a number";
-  const std::string what = p.dimension == Dimension::length ? "length" : "angular speed";
-  return p.range == Range::not_negative     ? "a " + what + " of 0 or more"
-         : p.dimension == Dimension::length ? "a positive length"
-                                            : "a positive angular speed";
+  if (p.range == Range::count) return "at least 1";
+  const auto what = noun(p.dimension);
+  return p.range == Range::any            ? "a " + what
+         : p.range == Range::not_negative ? "a " + what + " of 0 or more"
+                                          : "a positive " + what;
 }
 
 /// What is kept of a value that was read.
@@ -131,10 +132,6 @@ Variant read_part(Section& given) {
   return chosen;
 }
 
-std::string unit_of(Dimension dimension) {
-  return dimension == Dimension::angle ? " rad" : dimension == Dimension::length ? " m" : "";
-}
-
 template <class Variant>
 std::string described(const Variant& part) {
   std::string text;
@@ -143,7 +140,7 @@ std::string described(const Variant& part) {
     const bool drive = p.range == Range::drive;
     text += fmt::format("{}{}", text.empty() ? ": " : ", ", drive ? "period" : p.key);
     for (const auto& value : values) text += fmt::format(" {:g}", value.to<double>());
-    text += drive ? " s" : unit_of(p.dimension);
+    text += drive ? " s" : si_unit(p.dimension);
   });
   return name_of(part) + text;
 }
@@ -178,6 +175,16 @@ void check(Section vessel, const VesselSpec& shape) {
         require_shape(vessel, v);
       },
       shape);
+}
+
+std::optional<Quantity> read_if_given(Section& section, const PartParameter& p) {
+  std::optional<Quantity> value;
+  if (p.range != Range::count)
+    value = section.quantity(p.key, p.dimension);
+  else if (const auto count = section.count(p.key))
+    value = Quantity{cpp_rational(*count)};
+  if (value) section.require(in_range(*value, p.range), p.key, expected(p));
+  return value;
 }
 
 MotionSpec read_motion(Section& mill) { return read_part<MotionSpec>(mill); }

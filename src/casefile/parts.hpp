@@ -68,6 +68,8 @@ std::string describe(const MotionSpec& motion);
 std::string describe(const VesselSpec& vessel);
 
 class Section;
+/// The value of a key that may be absent; what is wrong is reported.
+std::optional<Quantity> read_if_given(Section& section, const model::PartParameter& p);
 /// Type and parameters of [mill] and [vessel]; what is wrong is reported.
 MotionSpec read_motion(Section& mill);
 VesselSpec read_vessel(Section& vessel);

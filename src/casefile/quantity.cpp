@@ -199,12 +199,21 @@ std::string describe(Dimension dimension) {
   return text + " (" + list + ")";
 }
 
+std::string noun(Dimension dimension) {
+  const auto with_article = name(dimension);  // "a length"
+  return with_article.substr(with_article.find(' ') + 1);
+}
+
+std::string si_unit(Dimension dimension) {
+  for (const auto& unit : units())
+    if (unit.dimension == dimension) return " " + std::string(unit.spellings.front());
+  return "";
+}
+
 std::vector<UnitText> unit_texts() {
   std::vector<UnitText> texts;
-  for (const auto& unit : units()) {
-    const auto of = name(unit.dimension);  // "a length"
-    texts.push_back({of.substr(of.find(' ') + 1), {unit.spellings.begin(), unit.spellings.end()}});
-  }
+  for (const auto& unit : units())
+    texts.push_back({noun(unit.dimension), {unit.spellings.begin(), unit.spellings.end()}});
   return texts;
 }
 

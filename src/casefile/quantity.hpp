@@ -17,6 +17,12 @@ using edmill::Dimension;
 /// "a length (mm, cm, m, in, ft, ...)", for messages.
 std::string describe(Dimension dimension);
 
+/// "length", "number".
+std::string noun(Dimension dimension);
+
+/// " m/s"; empty for plain numbers.
+std::string si_unit(Dimension dimension);
+
 /// A unit for readers: what it is of, "length", and its spellings.
 struct UnitText {
   std::string dimension;

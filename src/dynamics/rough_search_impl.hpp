@@ -54,7 +54,7 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
     const Real& begin = query.begin.offset;
     if (rough.verdict == Verdict::none) {
       const Real searched = Real(rough.until) - begin;
-      if (searched > 0) return {Verdict::none, -1, {}, false, searched, Real(0)};
+      if (searched > 0) return WallAnswer<Real>::none(searched);
     }
     if (rough.verdict != Verdict::contact) return {Verdict::undecided};
 

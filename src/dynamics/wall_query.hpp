@@ -30,6 +30,11 @@ struct WallAnswer {
   Real searched{0};      ///< of none: proven from begin for this long [s]
   Real time_error{0};    ///< of a contact: how far off rounding may put its time [s]
   [[no_unique_address]] ContactPose<Real> pose{};  ///< of a contact, where the search knows it
+
+  static WallAnswer none(const Real& searched) { return {Verdict::none, -1, {}, false, searched}; }
+  static WallAnswer contact(int wall, const Instant<Real>& time, const Real& time_error) {
+    return {Verdict::contact, wall, time, false, Real(0), time_error};
+  }
 };
 
 /// One search: a ball's flight and the window that is asked about.
@@ -53,6 +58,10 @@ struct RoughAnswer {
   double curvature_error = 0;  ///< bound on its error
   double third = 0;            ///< bound on the third derivative
   double error = 0;            ///< bound on the rounding of the gap in double, that of the state left aside
+
+  static RoughAnswer contact(int wall, double left, double right, double root, double error) {
+    return {Verdict::contact, 0, wall, left, right, root, 0, 0, 0, error};
+  }
 };
 
 }  // namespace edmill::dynamics

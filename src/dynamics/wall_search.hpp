@@ -100,6 +100,9 @@ class WallSearch {
   template <bool rounded>
   WallAnswer<Real> first_contact(const Functions& functions, const Start& first, Walls reachable,
                                  const Real& speed, const WallQuery<Real>& query, RoughAnswer* rough) const;
+  template <class CurveOf>
+  bool drop_clear(const Start& first, const CurveOf& curve_of, Walls& reachable, Real& length,
+                  const DerivativeBounds<V>& derivatives) const;
   void require_length(const WallQuery<Real>& query) const;
   /// The window cut to what all active gap functions are smooth for; the query itself where they always are.
   decltype(auto) smooth(const WallQuery<Real>& query, const Functions& functions, const Vec3<Real>& position,

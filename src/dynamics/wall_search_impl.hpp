@@ -65,36 +65,25 @@ auto WallSearch<M, V>::search(const Pose& pose, const WallQuery<Real>& query) co
   const auto ball = functions.seen(begin, pose);
   const Real speed = top_speed(ball.velocity, query.length);
   const Walls reachable = within_reach(functions, ball.state.position, speed, query.length);
-  if (!any_from(reachable, 0)) return {Verdict::none, -1, {}, false, query.length, Real(0)};
+  if (!any_from(reachable, 0)) return WallAnswer<Real>::none(query.length);
   return first_contact<false>(functions, functions.start(begin, pose, ball), reachable, speed,
                               smooth(query, functions, ball.state.position, speed), nullptr);
 }
 
+/// For most walls the state at the start alone shows that they are not hit within `length`: these are
+/// dropped.
+/// @return whether any wall is left; `length` is then what there is to search
 template <model::Motion M, model::Vessel V>
-template <bool rounded>
-auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& first, Walls reachable,
-                                     const Real& speed, const WallQuery<Real>& query,
-                                     [[maybe_unused]] RoughAnswer* rough) const -> WallAnswer<Real> {
-  const Real begin = query.begin.offset;
-  const Real oldest = functions.elapsed(begin + query.length);
-  auto errors = functions.errors(oldest, speed, reachable);
-  [[maybe_unused]] const auto own_errors = errors;
-  if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
-  const auto curve_of = [&](int wall, const DerivativeBounds<V>& derivatives) {
-    const auto& d = derivatives[mill_.vessel.kind_of(wall)];
-    return Curve{
-        functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]}};
-  };
-
-  // For most walls the state at the start alone shows that they are not hit.
-  const auto whole = bounds_.at(speed, query.length);
-  Real length = query.length;
+template <class CurveOf>
+bool WallSearch<M, V>::drop_clear(const Start& first, const CurveOf& curve_of, Walls& reachable, Real& length,
+                                  const DerivativeBounds<V>& derivatives) const {
+  const Real whole = length;
   bool any = false;
   for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
     if (!reachable[wall]) continue;
-    const Curve curve = curve_of(wall, whole);
+    const Curve curve = curve_of(wall, derivatives);
     const Point start = curve.of(first);
-    reachable[wall] = !numerics::proven_clear(start, first.curvature[wall], query.length, curve.bounds);
+    reachable[wall] = !numerics::proven_clear(start, first.curvature[wall], whole, curve.bounds);
     if (!reachable[wall]) continue;
     any = true;
     // A little beyond the first possible contact there is nothing to look for; but so far beyond that
@@ -103,15 +92,34 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
     if (start.slope < 0 && start.value < 8 * curve.bounds.value_error)
       hinted.value += 4 * curve.bounds.value_error;
     const Real hint =
-        static_cast<Real>(numerics::first_root_hint(hinted, first.curvature[wall], query.length) * 9 / 8);
+        static_cast<Real>(numerics::first_root_hint(hinted, first.curvature[wall], whole) * 9 / 8);
     if (hint < length && hint > 64 * resolution()) length = hint;
   }
-  if (!any) return {Verdict::none, -1, {}, false, query.length, Real(0)};
+  return any;
+}
+
+template <model::Motion M, model::Vessel V>
+template <bool rounded>
+auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& first, Walls reachable,
+                                     const Real& speed, const WallQuery<Real>& query,
+                                     [[maybe_unused]] RoughAnswer* rough) const -> WallAnswer<Real> {
+  const Real begin = query.begin.offset, oldest = functions.elapsed(begin + query.length);
+  const auto own_errors = functions.errors(oldest, speed, reachable);
+  auto errors = own_errors;
+  if constexpr (rounded) errors = errors + functions.state_errors(oldest, speed);
+  const auto curve_of = [&](int wall, const DerivativeBounds<V>& derivatives) {
+    const auto& d = derivatives[mill_.vessel.kind_of(wall)];
+    return Curve{
+        functions, wall, {d[0], d[1], d[2], errors.gap[wall], errors.rate[wall], errors.curvature[wall]}};
+  };
+  Real length = query.length;
+  if (!drop_clear(first, curve_of, reachable, length, bounds_.at(speed, query.length)))
+    return WallAnswer<Real>::none(query.length);
 
   const auto derivatives = bounds_.at(speed, length);
   Real end = begin + length;
   Sample last = sample_of_end(functions, reachable, errors, begin, end);
-  WallAnswer<Real> answer{Verdict::none, -1, {}, false, end - begin, Real(0)};
+  auto answer = WallAnswer<Real>::none(end - begin);
   Root best{};
   for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
     if (!reachable[wall]) continue;
@@ -122,11 +130,10 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
     if (found.verdict == Verdict::undecided) return {Verdict::undecided};
     // Only a start that is outside for certain makes the bracket hold the wide root too.
     if (rounded && !(found.left.value > curve.bounds.value_error)) return {Verdict::undecided};
-    const auto polished = polish(curve, found);
-    if (!polished) return {Verdict::undecided};
-    const Root& root = *polished;
+    const auto root = polish(curve, found);
+    if (!root) return {Verdict::undecided};
     if (answer.verdict == Verdict::contact) {
-      const Real later = root.t - best.t, error = root.time_error + best.time_error;
+      const Real later = root->t - best.t, error = root->time_error + best.time_error;
       if (later > error) continue;
       if (later >= -error) {
         // Two walls at one time within rounding: a wider scalar decides; at the top the lower id comes first.
@@ -135,23 +142,22 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
         continue;
       }
     }
-    best = root;
-    answer = {Verdict::contact, wall,           mill_.clock.instant(query.begin.period, root.t), false,
-              Real(0),          root.time_error};
+    best = *root;
+    answer =
+        WallAnswer<Real>::contact(wall, mill_.clock.instant(query.begin.period, best.t), best.time_error);
     if constexpr (rounded)
-      *rough = {Verdict::contact,    0, wall, found.left.t, found.right.t, root.t, 0, 0, 0,
-                own_errors.gap[wall]};
+      *rough = RoughAnswer::contact(wall, found.left.t, found.right.t, root->t, own_errors.gap[wall]);
     if (!any_from(reachable, wall + 1)) break;
     // Later walls matter up to a little behind this root.
-    const Real behind = root.t + root.time_error + longest_window() * rounding_margin<Real>();
+    const Real behind = root->t + root->time_error + longest_window() * rounding_margin<Real>();
     if (behind < end) {
       end = behind;
-      last = sample_of_end(functions, reachable, errors, root.t, end);
+      last = sample_of_end(functions, reachable, errors, root->t, end);
     }
   }
   if constexpr (model::HasRegions<V>)
     if (answer.verdict == Verdict::contact && answer.wall >= mill_.vessel.wall_count())
-      return {Verdict::none, -1, {}, false, best.t - begin, Real(0)};  // another region: to be asked again
+      return WallAnswer<Real>::none(best.t - begin);  // another region: to be asked again
   return answer;
 }
 

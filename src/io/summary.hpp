@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/escalations.hpp"
@@ -43,7 +44,8 @@ struct Summary {
   std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could separate
   Real deepest_overlap{0};                  ///< by rounding, at any impact [m]
   double cpu_seconds = 0;
-  std::uint64_t total_impacts = 0;  ///< since the start of the run
+  std::uint64_t total_impacts = 0;                  ///< since the start of the run
+  std::vector<std::pair<std::string, Real>> notes;  ///< of observers (run/every_run.hpp)
 
   explicit Summary(const model::Partners& of = model::Partners())
       : partners(of), collisions(of.count()), dose_by_partner(of.count(), Real(0)) {}

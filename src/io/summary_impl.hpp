@@ -25,6 +25,7 @@ class SummaryWriter {
     add_stalls();
     if (s.collapse) add_collapse();
     if (s.stall) add_stall();
+    if (!s.notes.empty()) add_notes();
     add_engine();
     return json.finish();
   }
@@ -132,6 +133,12 @@ class SummaryWriter {
     json.integers("balls", s.stall->balls);
     json.integers("walls", s.stall->walls);
     json.integer("impacts", s.stall->impacts);
+    json.end();
+  }
+
+  void add_notes() {
+    json.begin("notes");
+    for (const auto& [name, value] : s.notes) json.number(name, value);
     json.end();
   }
 

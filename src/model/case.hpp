@@ -1,7 +1,6 @@
 // A case: everything that a run depends on, as plain SI values of one scalar.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "base/vector.hpp"
 #include "model/ball.hpp"
 #include "model/mill.hpp"
+#include "model/stop_rules.hpp"
 
 namespace edmill::model {
 
@@ -17,9 +17,7 @@ namespace edmill::model {
 template <class Real>
 struct StopRules {
   std::optional<Instant<Real>> end_time;
-  std::optional<std::uint64_t> max_collisions;
-  std::optional<Real> max_milling_dose;  ///< [J] since the start of the run
-  std::optional<Real> max_ball_speed;    ///< [m/s] of a ball just after an impact
+  StopLimits<Real> limits;
 };
 
 template <class Real>

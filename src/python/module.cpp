@@ -9,8 +9,7 @@
 #include "base/version.hpp"
 #include "edmill/case.hpp"
 #include "edmill/errors.hpp"
-#include "python/run_in_python.hpp"
-#include "python/tools_in_python.hpp"
+#include "python/binding.hpp"
 
 namespace py = pybind11;
 
@@ -34,6 +33,5 @@ PYBIND11_MODULE(_edmill, m) {
         return end ? std::optional<double>(end->to<double>()) : std::nullopt;
       });
 
-  python::add_runs(m);
-  python::add_tools(m);
+  python::Binding::add_all(m);
 }

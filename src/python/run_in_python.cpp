@@ -1,5 +1,3 @@
-#include "python/run_in_python.hpp"
-
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -16,6 +14,7 @@
 #include "casefile/memory_for.hpp"
 #include "edmill/run.hpp"
 #include "instances/instances.hpp"
+#include "python/binding.hpp"
 #include "report/report_page.hpp"
 #include "report/run_folder.hpp"
 
@@ -315,9 +314,7 @@ py::dict run(const Case& the_case, const std::string& precision, const std::stri
   });
 }
 
-}  // namespace
-
-void add_runs(py::module_& m) {
+const Binding runs([](py::module_& m) {
   PYBIND11_NUMPY_DTYPE(Impact<double>, index, time, ball, with_wall, partner, normal, approach_speed,
                        slip_speed, separation_speed, restitution_tangential, normal_impulse,
                        tangential_impulse, milling_dose, supplied_energy, wall_work);
@@ -329,6 +326,8 @@ void add_runs(py::module_& m) {
   m.attr("state_dtype") = py::dtype::of<BallState<double>>();
   m.attr("precisions") = py::tuple(py::cast(casefile::precisions()));
   m.def("run", &run);
-}
+});
+
+}  // namespace
 
 }  // namespace edmill::python

@@ -1,5 +1,3 @@
-#include "python/tools_in_python.hpp"
-
 #include <pybind11/stl.h>
 
 #include <atomic>
@@ -19,6 +17,7 @@
 #include "compare/comparison.hpp"
 #include "io/input_file.hpp"
 #include "prove/certificate.hpp"
+#include "python/binding.hpp"
 #include "report/report_page.hpp"
 
 namespace py = pybind11;
@@ -177,9 +176,7 @@ std::string report(const std::string& folder) {
   return report::write_report(folder).string();
 }
 
-}  // namespace
-
-void add_tools(py::module_& m) {
+const Binding tools([](py::module_& m) {
   m.def("sweep", [](const std::string& file, const std::string& folder, int jobs) {
     return study(file, folder, jobs, app::sweep);
   });
@@ -194,6 +191,8 @@ void add_tools(py::module_& m) {
   m.def("shadow", &shadow);
   m.def("check", &check);
   m.def("report", &report);
-}
+});
+
+}  // namespace
 
 }  // namespace edmill::python

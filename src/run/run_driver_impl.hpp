@@ -2,9 +2,9 @@
 #pragma once
 
 #include "run/cpu_limit.hpp"
+#include "run/every_run.hpp"
 #include "run/run_statistics.hpp"
 #include "run/simulate.hpp"
-#include "run/stop_rules.hpp"
 
 namespace edmill::run {
 
@@ -16,10 +16,10 @@ class RunDriver {
   RunDriver(const casefile::InitialCase<Real>& built, const Guests<Real>& guests)
       : guests_(guests),
         simulation_(built.the_case, built.states, built.start, guests.interrupt),
-        stop_rules_(built.the_case.stop),
+        every_run_(built.the_case),
         statistics_(model::partners_of(built.the_case.mill.vessel)),
         first_(built.start) {
-    simulation_.attach(stop_rules_);
+    every_run_.attach_to(simulation_);
     for (auto* observer : guests.observers) simulation_.attach(*observer);
     start_ = built.the_case.statistics_start;
     if (start_ < first_) start_ = first_;
@@ -61,6 +61,7 @@ class RunDriver {
   engine::Simulation<Real>& simulation() { return simulation_; }
   const engine::Simulation<Real>& simulation() const { return simulation_; }
   const run::RunStatistics<Real>& statistics() const { return statistics_; }
+  const run::EveryRun<Real>& every_run() const { return every_run_; }
   /// Start of statistics; the current time before they have begun [s].
   Real counted_from() const { return simulation_.clock().seconds(counting_ ? start_ : simulation_.now()); }
   model::Energy<Real> energy_at_start() const {
@@ -69,7 +70,7 @@ class RunDriver {
   double cpu_spent() const { return cpu_before_ + (cpu_seconds() - cpu_begun_); }
 
   void archive(Archive& a) {
-    a(simulation_, stop_rules_, statistics_, counting_, energy_at_start_);
+    a(simulation_, every_run_, statistics_, counting_, energy_at_start_);
     for (auto* observer : guests_.observers) a(*observer);
     double cpu = cpu_spent();
     a(cpu);
@@ -101,7 +102,7 @@ class RunDriver {
   double cpu_before_ = 0;  ///< of the run's earlier processes [s]
   const Guests<Real>& guests_;
   engine::Simulation<Real> simulation_;
-  run::StopRuleWatch<Real> stop_rules_;
+  run::EveryRun<Real> every_run_;
   run::RunStatistics<Real> statistics_;
   std::optional<run::CheckpointWatch<Real>> watch_;
   Instant<Real> first_, start_, end_;  ///< of the run, of statistics, of the run

@@ -56,6 +56,7 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   summary.start_time = driver.counted_from();
   summary.energy_at_start = driver.energy_at_start();
   note_totals(simulation, driver.statistics(), summary);
+  driver.every_run().note(summary);
   // An instant is whole periods and a rest, whose sum is rounded: where the case names the time, it is that.
   const auto name = [&](Real& seconds, const Instant<Real>& when, const casefile::Quantity& given) {
     if (seconds == simulation.clock().seconds(when)) seconds = given.template to<Real>();

@@ -1,38 +1,45 @@
-// Stop rules other than the end time. A new rule is a branch here and a key in casefile/case_spec.cpp.
+// Watches the stop rules of a case.
 #pragma once
 
-#include "base/compensated_sum.hpp"
+#include <tuple>
+
 #include "engine/simulation.hpp"
+#include "model/stop_rules.hpp"
 
 namespace edmill::run {
 
 template <class Real>
 class StopRuleWatch : public engine::Observer<Real> {
  public:
-  explicit StopRuleWatch(const model::StopRules<Real>& rules) : rules_(rules) {}
+  explicit StopRuleWatch(const model::Case<Real>& of) {
+    for_each([&](auto& watch, std::size_t place) {
+      if (const auto& limit = of.stop.limits[place]) watch.emplace(*limit);
+    });
+  }
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
-    using engine::EndReason;
-    if (rules_.max_collisions && impact.index + 1 >= *rules_.max_collisions)
-      simulation.request_stop(EndReason::max_collisions);
-    if (rules_.max_milling_dose) {
-      dose_ += impact.outcome.milling_dose;
-      if (dose_.value() >= *rules_.max_milling_dose) simulation.request_stop(EndReason::max_milling_dose);
-    }
-    if (rules_.max_ball_speed) {
-      const Real limit = *rules_.max_ball_speed * *rules_.max_ball_speed;
-      const auto too_fast = [&](int ball) {
-        return squared_norm<Real>(simulation.flight(ball).velocity) > limit;
-      };
-      if (too_fast(impact.ball) || (!impact.with_wall && too_fast(impact.partner)))
-        simulation.request_stop(EndReason::max_ball_speed);
-    }
+    for_each([&](auto& watch, std::size_t place) {
+      if (watch && watch->is_met(impact, simulation)) simulation.request_stop(model::reason_of_rule(place));
+    });
   }
-  void archive(Archive& a) override { a(dose_); }
+  void archive(Archive& a) override {
+    for_each([&](auto& watch, std::size_t) {
+      if (watch) a(*watch);
+    });
+  }
 
  private:
-  model::StopRules<Real> rules_;
-  numerics::CompensatedSum<Real> dose_;
+  template <class... Rule>
+  static std::tuple<std::optional<typename Rule::template Watch<Real>>...> watches_of(std::tuple<Rule...>);
+
+  /// Calls f(watch of the rule or none, place of the rule).
+  template <class F>
+  void for_each(F&& f) {
+    std::size_t place = 0;
+    std::apply([&](auto&... watch) { (f(watch, place++), ...); }, watches_);
+  }
+
+  decltype(watches_of(model::StopRuleList{})) watches_;
 };
 
 }  // namespace edmill::run

@@ -1,6 +1,6 @@
-// The collision log of a case in double, by the core alone: same_bits_test builds it with several compilers,
-// for which the whole program in all its scalars would take too long. usage: collision_bits CASE.toml
-// COLLISIONS [SETTING...]
+// The collision log of a case in double, and on standard error its summary, by the core alone: same_bits_test
+// builds it with several compilers, for which the whole program in all its scalars would take too long.
+// usage: collision_bits CASE.toml COLLISIONS [SETTING...]
 #include <cstdlib>
 #include <iostream>
 
@@ -13,7 +13,9 @@
 #include "dynamics/wall_search_impl.hpp"
 #include "engine/simulation_impl.hpp"
 #include "io/final_state_impl.hpp"
+#include "io/summary_impl.hpp"
 #include "run/collision_log.hpp"
+#include "run/simulate_impl.hpp"
 
 #ifdef EDMILL_WIDE_FROM_LIBRARY
 // Their arithmetic is the same whoever compiles it.
@@ -35,7 +37,7 @@ class Log : public edmill::engine::Observer<double> {
 
   void on_impact(const edmill::engine::Impact<double>& impact, Simulation<double>& simulation) override {
     std::cout << edmill::run::collision_line(impact, simulation, false) << '\n';
-    if (impact.index + 1 == collisions_) simulation.request_stop(edmill::engine::EndReason::max_collisions);
+    if (impact.index + 1 == collisions_) simulation.request_stop(edmill::engine::EndReason::stopped);
   }
 
  private:
@@ -47,9 +49,10 @@ class Log : public edmill::engine::Observer<double> {
 int main(int argc, char** argv) {
   const auto spec = edmill::casefile::read_case(argv[1], {argv + 3, argv + argc});
   const auto built = edmill::casefile::build_case<double>(spec);
-  Simulation<double> simulation(built.the_case, built.states, built.start);
   Log log(std::strtoull(argv[2], nullptr, 10));
-  simulation.attach(log);
+  edmill::run::Guests<double> guests;
+  guests.observers.push_back(&log);
   std::cout << edmill::run::collision_log_header << '\n';
-  simulation.run_until(*built.the_case.stop.end_time, nullptr);
+  const auto result = edmill::run::simulate<double>(spec, built, guests);
+  std::cerr << edmill::io::summary_json(result.summary);
 }

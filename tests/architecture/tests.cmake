@@ -2,7 +2,7 @@
 set(architecture ${CMAKE_CURRENT_SOURCE_DIR}/architecture)
 add_test(NAME layers_test COMMAND ${architecture}/layers_test.sh)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
-add_test(NAME cycles_test COMMAND Python3::Interpreter ${architecture}/cycles_test.py ${CMAKE_SOURCE_DIR})
+add_test(NAME source_test COMMAND Python3::Interpreter ${architecture}/source_test.py ${CMAKE_SOURCE_DIR})
 add_test(NAME headers_test COMMAND ${architecture}/headers_test.sh ${CMAKE_CXX_COMPILER})
 find_program(CLANG_FORMAT clang-format)
 if(CLANG_FORMAT)
@@ -12,7 +12,8 @@ add_test(NAME examples_test
          COMMAND ${architecture}/examples_test.sh ${CMAKE_BINARY_DIR} ${CMAKE_BINARY_DIR}/examples ${CMAKE_CXX_COMPILER})
 set_tests_properties(examples_test PROPERTIES TIMEOUT 600)
 add_test(NAME extending_test
-         COMMAND ${architecture}/extending_test.sh ${CMAKE_BINARY_DIR}/extending ${CMAKE_CXX_COMPILER})
+         COMMAND ${architecture}/extending_test.sh ${CMAKE_BINARY_DIR}/extending ${CMAKE_CXX_COMPILER} ${CMAKE_BINARY_DIR}
+                 ${DEBIAN_PYTHON3})
 set_tests_properties(extending_test PROPERTIES TIMEOUT 900)
 
 # A program of the core in double alone, for other trees and compilers.
@@ -25,7 +26,7 @@ foreach(room base engine io casefile output)
   endif()
 endforeach()
 list(FILTER collision_bits_sources EXCLUDE REGEX "/checkpoint_file.cpp$")
-add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp ${collision_bits_sources})
+add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp ${collision_bits_sources} ${EDMILL_VERSION_SOURCE})
 set_target_properties(collision_bits PROPERTIES UNITY_BUILD ${EDMILL_UNITY} UNITY_BUILD_MODE GROUP)
 target_link_libraries(collision_bits PRIVATE edmill_settings OpenSSL::Crypto tomlplusplus::tomlplusplus hdf5::hdf5 pugixml::pugixml ZLIB::ZLIB ${EDMILL_ZSTD})
 

@@ -133,9 +133,9 @@ TEST(CaseSpec, EveryValueOfAFullCaseIsReadExactly) {
   EXPECT_EQ(c.initial_time.value, ratio(1, 4));
   EXPECT_EQ(c.statistics_start.value, ratio(1, 2));
   EXPECT_EQ(c.end_time->value, 10);
-  EXPECT_EQ(*c.max_collisions, 1000000u);
-  EXPECT_EQ(c.max_milling_dose->value, ratio(5, 2));
-  EXPECT_EQ(c.max_ball_speed->value, 40);
+  EXPECT_EQ(c.stop_limits[model::place_of_rule<model::MaxCollisions>]->value, 1000000);
+  EXPECT_EQ(c.stop_limits[model::place_of_rule<model::MaxMillingDose>]->value, ratio(5, 2));
+  EXPECT_EQ(c.stop_limits[model::place_of_rule<model::MaxBallSpeed>]->value, 40);
   EXPECT_EQ(c.gravity[0].value, 0);
   EXPECT_EQ(c.gravity[1].value, ratio(-98, 10));
   EXPECT_EQ(c.gravity[2].value, ratio(1, 8));
@@ -200,7 +200,8 @@ TEST(CaseSpec, DefaultsAreThoseOfTheThesis) {
   EXPECT_EQ(c.seed, 1u);
   EXPECT_EQ(c.initial_time.value, 0);
   EXPECT_EQ(c.statistics_start.value, 0);
-  EXPECT_FALSE(c.max_collisions || c.max_milling_dose || c.max_ball_speed || c.powder_mass);
+  for (const auto& limit : c.stop_limits) EXPECT_FALSE(limit);
+  EXPECT_FALSE(c.powder_mass);
   for (const auto& g : c.gravity) EXPECT_TRUE(g.zero());
 }
 

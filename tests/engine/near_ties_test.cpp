@@ -104,7 +104,7 @@ First first_impact(const Scene& scene) {
       if (!first) first = First{impact.with_wall, impact.ball, impact.partner, impact.by_rule, 0};
       EXPECT_FALSE(impact.time < latest) << "the time goes back";
       latest = impact.time;
-      if (++impacts == 3) s.request_stop(EndReason::max_collisions);
+      if (++impacts == 3) s.request_stop(EndReason::stopped);
     }
   } watch;
   simulation.attach(watch);

@@ -16,7 +16,7 @@ namespace {
 struct Stop : Observer<double> {
   int left = 100;
   void on_impact(const Impact<double>&, Simulation<double>& simulation) override {
-    if (--left <= 0) simulation.request_stop(EndReason::max_collisions);
+    if (--left <= 0) simulation.request_stop(EndReason::stopped);
   }
 };
 

@@ -293,7 +293,7 @@ TEST(Variables, AreWhatOtherFormulasGive) {
   Follower follower(simulation);
   struct Stop : engine::Observer<double> {
     void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
-      if (impact.index + 1 == 2000) simulation.request_stop(engine::EndReason::max_collisions);
+      if (impact.index + 1 == 2000) simulation.request_stop(engine::EndReason::stopped);
     }
   } stop;
   simulation.attach(follower);

@@ -28,7 +28,7 @@ class Harvest : public engine::Observer<double> {
   void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
     take(impact.ball, simulation);
     if (!impact.with_wall) take(impact.partner, simulation);
-    if (queries.size() >= 6000) simulation.request_stop(engine::EndReason::max_collisions);
+    if (queries.size() >= 6000) simulation.request_stop(engine::EndReason::stopped);
   }
   std::vector<WallQuery<double>> queries;
 

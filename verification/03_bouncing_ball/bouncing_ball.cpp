@@ -52,7 +52,7 @@ struct Drop {
         const Real rise = flight.velocity[0] / Real(-s.mill().gravity[0]);
         const auto top = dynamics::position_after<Real>(flight, s.mill().gravity, rise);
         self.heights.push_back(top[0] - flight.position[0]);
-        if (self.times.size() == count) s.request_stop(engine::EndReason::max_collisions);
+        if (self.times.size() == count) s.request_stop(engine::EndReason::stopped);
       }
     } stop(*this, count);
     simulation.attach(stop);
@@ -199,7 +199,7 @@ std::vector<Real> simulated_times() {
     void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& s) override {
       on_cap &= impact.with_wall && impact.partner == 1;
       times.push_back(s.clock().seconds(impact.time));
-      if (times.size() == bounces) s.request_stop(engine::EndReason::max_collisions);
+      if (times.size() == bounces) s.request_stop(engine::EndReason::stopped);
     }
   } log;
   simulation.attach(log);

@@ -76,7 +76,7 @@ struct Throw {
       void on_impact(const engine::Impact<double>& i, engine::Simulation<double>& s) override {
         ++count;
         right = i.with_wall == with_wall && (!with_wall || i.partner == 1);
-        s.request_stop(engine::EndReason::max_collisions);
+        s.request_stop(engine::EndReason::stopped);
       }
     } once;
     once.with_wall = wall();

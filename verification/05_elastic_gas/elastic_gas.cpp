@@ -44,7 +44,7 @@ struct Gas {
     struct Stop : engine::Observer<double> {
       std::uint64_t left;
       void on_impact(const engine::Impact<double>&, engine::Simulation<double>& s) override {
-        if (left > 0 && --left == 0) s.request_stop(engine::EndReason::max_collisions);
+        if (left > 0 && --left == 0) s.request_stop(engine::EndReason::stopped);
       }
     };
     static Stop stop;  // attached for the whole life of every gas

@@ -26,6 +26,7 @@ enum class Range {
   any,
   not_negative,
   positive,
+  count,         ///< a whole number of 1 or more
   quarter_turn,  ///< an angle from 0 to 90 deg
   drive          ///< a positive angular speed w, kept as its period 2 pi / w, exact for rpm and Hz
 };

@@ -1,0 +1,40 @@
+// What commands that take a case share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "casefile/case_spec.hpp"
+#include "casefile/memory_for.hpp"
+#include "cli/signals.hpp"
+
+namespace edmill::cli {
+
+struct CaseArgument {
+  std::string file;
+  std::vector<std::string> overrides;
+
+  void add_to(CLI::App& command) {
+    command.add_option("case", file, "case file (TOML)")->required();
+    command.add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
+        ->take_all()
+        ->expected(1);
+  }
+  casefile::CaseSpec read() const { return casefile::read_case(file, overrides); }
+};
+
+/// For work that does not report interruptions itself. @return the exit code of work()
+template <class Options, class Work>
+int interruptible(Options& options, const Work& work) {
+  options.interrupt = &interrupt_flag();
+  listen_for_signals();
+  return after_signals(work());
+}
+template <class Options, class Command>
+int interruptible(const casefile::CaseSpec& spec, Options& options, const Command& command) {
+  return interruptible(
+      options, [&] { return casefile::with_memory_for(spec, [&] { return command(spec, options); }); });
+}
+
+}  // namespace edmill::cli

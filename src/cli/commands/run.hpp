@@ -1,0 +1,73 @@
+// The commands that run one case.
+#pragma once
+
+#include "cli/commands/case_argument.hpp"
+#include "cli/run_command.hpp"
+#include "report/embedded.hpp"
+
+namespace edmill::cli {
+
+inline const std::string every = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
+inline constexpr const char* quiet_run = "no progress line and no result table";
+
+struct Run {
+  static constexpr const char* name = "run";
+  static constexpr const char* what = "simulate a case and write its results";
+
+  void add_options(CLI::App& command) {
+    given_.add_to(command);
+    const auto precisions = CLI::IsMember(casefile::precisions());
+    command.add_option("--out", run_.folder, "folder for the results; out/<case name> unless given");
+    command.add_option("--precision", run_.precision, "scalar of the run, overrides that of the case")
+        ->check(precisions);
+    auto* shadow = command
+                       .add_option("--shadow", run_.shadow,
+                                   "also run in this wider scalar and report when the two diverge")
+                       ->check(precisions);
+    command.add_option("--checkpoint", run_.checkpoint, every + "; never unless given")->excludes(shadow);
+    command.add_flag("--report", run_.report, "write report.html, and the tables that it shows");
+    command.add_flag("--quiet", run_.quiet, quiet_run);
+  }
+  int run() {
+    run_.overrides = given_.overrides;
+    return run_case(given_.read(), run_);
+  }
+
+ private:
+  CaseArgument given_;
+  RunCommand run_;
+};
+
+struct Demo {
+  static constexpr const char* name = "demo";
+  static constexpr const char* what = "simulate the demo, 28 balls in a SPEX 8000, with its report";
+
+  void add_options(CLI::App& command) {
+    command.add_option("--out", run_.folder, "folder for the results; out/demo unless given");
+    command.add_flag("--quiet", run_.quiet, quiet_run);
+  }
+  int run() {
+    run_.report = true;
+    return run_case(casefile::parse_case(std::string(report::demo_toml), "demo.toml"), run_);
+  }
+
+ private:
+  RunCommand run_;
+};
+
+struct Resume {
+  static constexpr const char* name = "resume";
+  static constexpr const char* what = "continue an unfinished run from its checkpoint";
+
+  void add_options(CLI::App& command) {
+    command.add_option("folder", run_.folder, "folder of the run")->required();
+    command.add_option("--checkpoint", run_.checkpoint, every + "; as before unless given");
+    command.add_flag("--quiet", run_.quiet, quiet_run);
+  }
+  int run() { return run_resume(run_); }
+
+ private:
+  RunCommand run_;
+};
+
+}  // namespace edmill::cli

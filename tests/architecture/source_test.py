@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""What the sources of src/ have in common: no header includes itself by way of others; no file is longer than 400 lines, no function
+than 60; no two places share six lines; a room has its own namespace, and adds to others only what it declares of them.
+
+usage: source_test.py SOURCE"""
+import collections
+import pathlib
+import re
+import sys
+
+source = pathlib.Path(sys.argv[1]) / "src"
+files = {str(p.relative_to(source)): p.read_text(encoding="utf-8") for p in sorted(source.rglob("*.[ch]pp"))}
+problems = []
+
+
+def find_cycles():
+    includes = {name: [i for i in re.findall(r'^#include "([^"]+)"', text, re.M) if i in files] for name, text in files.items()}
+    done, path = set(), []
+
+    def visit(name):
+        if name in path:
+            problems.append("a cycle: " + " -> ".join(path[path.index(name):] + [name]))
+            return
+        if name in done:
+            return
+        path.append(name)
+        for other in includes[name]:
+            visit(other)
+        path.pop()
+        done.add(name)
+
+    for name in includes:
+        visit(name)
+
+
+def find_long(name, lines):
+    """Functions by their indent: from the line that opens the body to the brace below its first column."""
+    if len(lines) > 400:
+        problems.append(f"{name}: {len(lines)} lines, at most 400")
+    for k, line in enumerate(lines):
+        if not re.search(r"\)[\w &:<>,*-]*( :.*)? ?\{$", line) or re.match(r"\s*(if|for|while|switch|else|struct|class|\})", line):
+            continue
+        begin = k
+        while begin > 0 and re.match(r"\s{4,}\S|\s+:", lines[begin]) and not re.search(r"[;{}]$|:$", lines[begin - 1]):
+            begin -= 1
+        indent = re.match(r" *", lines[begin]).group()
+        end = next((n for n in range(k + 1, len(lines)) if re.match(indent + r"\}", lines[n])), k)
+        if end - begin >= 60:
+            problems.append(f"{name}:{begin + 1}: a function of {end - begin + 1} lines, at most 60")
+
+
+# The declarations of instances that two sources need, each by itself; and two lists of names that are alike by chance.
+SHARED = {"namespace edmill {", "spin_change,"}
+
+
+def find_twice():
+    places = collections.defaultdict(list)
+    for name, text in files.items():
+        lines = [(k + 1, re.sub(r"\s+", " ", line.strip())) for k, line in enumerate(text.splitlines())]
+        lines = [(k, line) for k, line in lines
+                 if line and not line.startswith(("//", "#include")) and line not in ("{", "}", "};", "public:", "private:")]
+        for k in range(len(lines) - 5):
+            places[tuple(line for _, line in lines[k:k + 6])].append(f"{name}:{lines[k][0]}")
+    for lines, where in places.items():
+        if len(where) > 1 and not SHARED & set(lines):
+            problems.append("six lines twice: " + ", ".join(where))
+
+
+def own_namespaces(room):
+    return {"edmill", "edmill::numerics"} if room in ("api", "base") else {f"edmill::{room}", f"edmill::{room}::detail"}
+
+
+def find_foreign_namespaces(name, text):
+    own = own_namespaces(name.split("/")[0])
+    for block in re.finditer(r"^namespace (edmill[\w:]*) \{\n(.*?)^\}  // namespace \1$", text, re.M | re.S):
+        if block.group(1) in own or name == "output/registry.cpp":  # defines what casefile declares: the types of outputs
+            continue
+        declared = re.sub(r"//.*|extern template [^;]*;|template <[^>]*>|(class|struct) \w+;|namespace \w+ \{|\}", "", block.group(2))
+        if declared.strip():
+            problems.append(f"{name}: namespace {block.group(1)}, expected {' or '.join(sorted(own))}: {declared.split()[:6]}")
+
+
+find_cycles()
+find_twice()
+for name, text in files.items():
+    find_long(name, text.splitlines())
+    find_foreign_namespaces(name, text)
+if len(files) < 100:
+    problems.append(f"{len(files)} files found in {source}, expected those of the project")
+print("\n".join(problems) or f"{len(files)} files: one way of includes, no place twice, short functions and files, a namespace for each room")
+sys.exit(1 if problems else 0)
