@@ -66,9 +66,8 @@ class Run {
 
  private:
   friend struct RunAccess;
-  /// @param case_text     for case.toml
   /// @param when_written  called while no other run can write into the folder
-  void commit(const std::string& case_text, const std::function<void()>& when_written);
+  void commit(const std::function<void()>& when_written);
 
   class Implementation;
   std::unique_ptr<Implementation> implementation_;

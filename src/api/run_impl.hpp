@@ -101,7 +101,7 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
       throw;
     }
   }
-  void commit(const std::string* case_text, const std::function<void()>& when_written) {
+  void commit(const std::function<void()>& when_written) {
     EDMILL_REQUIRE(outputs_, "write_to was called");
     const auto& simulation = driver_.simulation();
     outputs_->on_end(simulation);
@@ -109,7 +109,7 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
     for (int k = 0; k < simulation.ball_count(); ++k)
       saved.states.push_back(simulation.state_at(k, simulation.now()));
     output::write_results<Real>(*folder_, *outputs_, saved, simulation.clock(), summary().json,
-                                case_text ? *case_text : case_.spec_->text, false);
+                                case_.spec_->text, false);
     when_written();
     outputs_.reset();
     folder_.reset();
@@ -187,11 +187,11 @@ void Run<Real>::write_to(const std::string& folder) {
 }
 template <class Real>
 void Run<Real>::commit() {
-  implementation_->commit(nullptr, [] {});
+  implementation_->commit([] {});
 }
 template <class Real>
-void Run<Real>::commit(const std::string& case_text, const std::function<void()>& when_written) {
-  implementation_->commit(&case_text, when_written);
+void Run<Real>::commit(const std::function<void()>& when_written) {
+  implementation_->commit(when_written);
 }
 template <class Real>
 bool Run<Real>::advance_to(const Real& time) {

@@ -12,12 +12,11 @@ namespace edmill::app {
 
 RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options) {
   if (options.report) report::add_report_outputs(spec);
-  const auto text = report::case_text(spec, options.report);
   const auto put_page = [&] {
     return options.report ? report::put_report(options.folder) : std::filesystem::path();
   };
   return casefile::with_memory_for(spec, [&] {
-    return with_scalar(precision, [&]<class Real>() { return run_in<Real>(spec, options, text, put_page); });
+    return with_scalar(precision, [&]<class Real>() { return run_in<Real>(spec, options, put_page); });
   });
 }
 
@@ -53,7 +52,7 @@ RunResult resume(const std::string& interval, RunOptions options) {
   if (!checkpoint.initial_state.empty())
     overrides.push_back("run.initial_state='" + checkpoint.initial_state + "'");
   auto spec = casefile::parse_case(checkpoint.case_text, checkpoint.case_file, overrides);
-  spec.text = checkpoint.case_text;
+  spec.settings = checkpoint.overrides;
   if (spec.digest != checkpoint.case_digest)
     throw InputError(options.folder + ": found another initial state in " + spec.initial_state +
                      " than the run had, expected the unchanged file");

@@ -67,11 +67,11 @@ io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vecto
 /// @throws InputError when the checkpoint is not valid for this program
 RunResult resume(const std::string& interval, RunOptions options);
 
-/// What `run` does in one scalar. @param case_text  for case.toml
+/// What `run` does in one scalar.
 /// @param put_page  called when the results are in place, while a killed run could still continue; gives the
 /// path of the page, empty without one
 template <class Real>
-RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options, const std::string& case_text,
+RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options,
                  const std::function<std::filesystem::path()>& put_page);
 
 }  // namespace edmill::app

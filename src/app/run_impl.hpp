@@ -10,7 +10,7 @@
 namespace edmill::app {
 
 template <class Real>
-RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options, const std::string& case_text,
+RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options,
                  const std::function<std::filesystem::path()>& put_page) {
   const auto built = casefile::build_case<Real>(spec);
   run::RunFolder folder(options.folder, spec, options.checkpoint);
@@ -32,7 +32,7 @@ RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options, cons
   const auto [summary, saved] = run::simulate<Real>(spec, built, guests);
 
   const bool goes_on = options.checkpoint && summary.end_reason == model::EndReason::interrupted;
-  output::write_results<Real>(folder, outputs, saved, clock, io::summary_json(summary), case_text, goes_on);
+  output::write_results<Real>(folder, outputs, saved, clock, io::summary_json(summary), spec.text, goes_on);
   RunResult result{summary.end_reason, summary.error, report::result_table(summary), goes_on, put_page()};
   Archive archive;
   archive(result);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "casefile/case_spec.hpp"
 
@@ -9,8 +10,10 @@ namespace edmill::casefile {
 
 /// The case that a run left in its folder: `CaseSpec::text` as a file. The file that the run began from is
 /// not looked for; what cannot be known without it, the digest, is empty then.
-/// @throws InputError also when the text has not this digest with its settings nor without them
-CaseSpec read_case_of_run(const std::string& path, const std::string& digest);
+/// @param settings  over the file, as the run had them
+/// @throws InputError also when the case has another digest
+CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
+                          const std::string& digest);
 
 /// Adds the entries [[output]] of a text to a case.
 /// @throws InputError when one is wrong, or its file's name is taken

@@ -210,8 +210,6 @@ std::size_t CaseSpec::ball_count() const {
 
 namespace {
 
-const std::string setting_mark = "\n# --set ";  ///< before a setting, in the lines behind the text of a case
-
 /// @param finished  a run of it is over: the file that it began from is not looked for
 CaseSpec parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                bool finished) {
@@ -223,10 +221,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   CaseSpec spec;
   spec.file = name;
   spec.text = text;
-  for (const auto& setting : overrides) {
-    spec.text += setting_mark;
-    for (const char c : setting) spec.text += c == '\n' ? ' ' : c;  // a line of the text for each
-  }
+  spec.settings = overrides;
   Section top(document, &root, "");
   read_run(top.section("run"), spec);
   Section mill = top.section("mill"), vessel = top.section("vessel");
@@ -268,17 +263,6 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   return spec;
 }
 
-/// The settings in the last lines of a text, in their order.
-std::vector<std::string> settings_of(std::string text) {
-  std::vector<std::string> settings;
-  for (auto line = text.rfind('\n'); line != std::string::npos; line = text.rfind('\n')) {
-    if (text.compare(line, setting_mark.size(), setting_mark) != 0) break;
-    settings.insert(settings.begin(), text.substr(line + setting_mark.size()));
-    text.resize(line);
-  }
-  return settings;
-}
-
 }  // namespace
 
 std::vector<std::string> problems_of(const CaseSpec& spec) {
@@ -304,15 +288,12 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
   return parse(text, name, overrides, false);
 }
 
-CaseSpec read_case_of_run(const std::string& path, const std::string& digest) {
-  const std::string text = read_file(path, "the case of the run");
-  CaseSpec spec = parse(text, path, settings_of(text), true);
-  // A case that came with such lines was run without them.
-  if (!spec.digest.empty() && spec.digest != digest) spec = parse(text, path, {}, true);
+CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
+                          const std::string& digest) {
+  auto spec = parse(read_file(path, "the case of the run"), path, settings, true);
   if (!spec.digest.empty() && spec.digest != digest)
     throw InputError(path + ": found a case with digest " + spec.digest + ", expected that of the run, " +
                      digest);
-  spec.text = text;
   return spec;
 }
 

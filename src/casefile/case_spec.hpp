@@ -74,9 +74,11 @@ struct AuditSpec {
 };
 
 struct CaseSpec {
-  std::string file;    ///< path of the case file
-  std::string text;    ///< of the case file, and the settings over it as comments
-  std::string digest;  ///< SHA-256 of the case's canonical text
+  std::string file;                   ///< path of the case file
+  std::string text;                   ///< of the case file
+  std::vector<std::string> settings;  ///< over it, "section.key=value"
+  bool reported = false;              ///< the outputs of the report were added to those of the file
+  std::string digest;                 ///< SHA-256 of the case's canonical text
   std::string precision = "double";
   std::uint64_t seed = 1;
   Quantity initial_time, statistics_start;

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/scalar.hpp"
 
@@ -34,12 +35,14 @@ class JsonText {
     put_key(key);
     text_ += std::to_string(value);
   }
-  void integers(std::string_view key, const std::vector<int>& values) {
+  void flag(std::string_view key, bool value) {
     put_key(key);
-    text_ += "[";
-    for (std::size_t k = 0; k < values.size(); ++k) text_ += (k > 0 ? ", " : "") + std::to_string(values[k]);
-    text_ += "]";
+    text_ += value ? "true" : "false";
   }
+  void integers(std::string_view key, const std::vector<int>& values) {
+    put_list(key, values, [](int value) { return std::to_string(value); });
+  }
+  void texts(std::string_view key, const std::vector<std::string>& values) { put_list(key, values, quoted); }
   /// nan and infinity, which JSON does not have, become null.
   template <class Real>
   void number(std::string_view key, const Real& value) {
@@ -79,6 +82,14 @@ class JsonText {
     first_ = false;
     new_line();
     text_ += quoted(key) + ": ";
+  }
+
+  template <class Value, class Text>
+  void put_list(std::string_view key, const std::vector<Value>& values, const Text& text_of) {
+    put_key(key);
+    text_ += "[";
+    for (std::size_t k = 0; k < values.size(); ++k) text_ += (k > 0 ? ", " : "") + text_of(values[k]);
+    text_ += "]";
   }
 
   std::string text_;

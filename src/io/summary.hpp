@@ -14,9 +14,12 @@
 
 namespace edmill::io {
 
-/// Provenance of a run, as text.
+/// Where a run comes from.
 struct Provenance {
-  std::string case_file, case_digest, precision, version, commit, compiler;
+  std::string case_file, case_digest;
+  std::vector<std::string> settings;  ///< over the case file
+  bool reported = false;              ///< with the outputs of the report
+  std::string precision, version, commit, compiler;
   std::uint64_t seed = 0;
 };
 

@@ -39,6 +39,8 @@ class SummaryWriter {
     json.text("compiler", p.compiler);
     json.text("case_file", p.case_file);
     json.text("case_digest", p.case_digest);
+    json.texts("settings", p.settings);
+    json.flag("reported", p.reported);
     json.integer("seed", p.seed);
     json.text("precision", p.precision);
     json.text("end_reason", std::string(model::name(s.end_reason)));

@@ -1,6 +1,8 @@
 // Implementation of Outputs; included by the instantiation files only.
 #pragma once
 
+#include <fmt/format.h>
+
 #include "base/version.hpp"
 #include "casefile/build_case.hpp"
 #include "output/outputs.hpp"
@@ -12,13 +14,17 @@ namespace detail {
 
 template <class Real>
 std::vector<io::FileNote> notes_of(const casefile::CaseSpec& spec) {
-  return {{"program", "edmill " + std::string(version()) + " (" + std::string(commit()) + ")"},
-          {"compiler", std::string(compiler())},
-          {"precision", std::string(ScalarName<Real>::value)},
-          {"seed", std::to_string(spec.seed)},
-          {"case_file", spec.file},
-          {"case_digest", spec.digest},
-          {"case", spec.text, true}};
+  std::vector<io::FileNote> notes{
+      {"program", "edmill " + std::string(version()) + " (" + std::string(commit()) + ")"},
+      {"compiler", std::string(compiler())},
+      {"precision", std::string(ScalarName<Real>::value)},
+      {"seed", std::to_string(spec.seed)},
+      {"case_file", spec.file},
+      {"case_digest", spec.digest},
+      {"case", spec.text, true}};
+  if (!spec.settings.empty())
+    notes.push_back({"settings", fmt::format("{}", fmt::join(spec.settings, "\n")), true});
+  return notes;
 }
 
 template <class Real>

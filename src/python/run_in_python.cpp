@@ -268,7 +268,7 @@ py::dict run_in(Case the_case, const Wishes& wishes) {
     run->attach(pulse);
     run->finish();
     if (!wishes.folder.empty())
-      RunAccess::commit<Real>(*run, report::case_text(CaseAccess::spec(the_case), wishes.report), [&] {
+      RunAccess::commit<Real>(*run, [&] {
         if (wishes.report) report::put_report(wishes.folder);
       });
   }

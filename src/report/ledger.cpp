@@ -85,6 +85,7 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   rows.push_back({"program", fmt::format("edmill {} ({}), {}", f.version, f.commit, f.compiler)});
   rows.push_back({"CPU time", fmt::format("{} s for {} impacts", readable(f.cpu_seconds, 3),
                                           brief(f.impacts_since_start, 12))});
+  for (const auto& setting : spec.settings) rows.push_back({"set over the case file", setting});
   rows.push_back({"digest of the case", f.case_digest});
   add_table(section, "run", "Run", {"", ""}, rows);
   auto details = add(section, "details");

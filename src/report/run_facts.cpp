@@ -30,6 +30,17 @@ class Reader {
     if (const json* found = find(path, "a text", [](const json& j) { return j.is_string(); }))
       value = found->get<std::string>();
   }
+  void texts(const std::string& path, std::vector<std::string>& values) {
+    const auto all_texts = [](const json& j) {
+      return j.is_array() && std::all_of(j.begin(), j.end(), [](const json& one) { return one.is_string(); });
+    };
+    if (const json* found = find(path, "a list of texts", all_texts))
+      values = found->get<std::vector<std::string>>();
+  }
+  void flag(const std::string& path, bool& value) {
+    if (const json* found = find(path, "true or false", [](const json& j) { return j.is_boolean(); }))
+      value = found->get<bool>();
+  }
   void end_reason(const std::string& path, model::EndReason& value) {
     const auto known = [](const json& j) {
       return j.is_string() && model::end_reason_named(j.get<std::string>()).has_value();
@@ -89,6 +100,8 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
                                    {"/case_digest", &f.case_digest},
                                    {"/precision", &f.precision}})
     reader.text(key, *value);
+  reader.texts("/settings", f.settings);
+  reader.flag("/reported", f.reported);
   reader.end_reason("/end_reason", f.end_reason);
   if (reader.has("/error")) reader.text("/error", f.error);
   for (const auto& [key, value] : {std::pair{"/seed", &f.seed},

@@ -13,6 +13,8 @@ namespace edmill::report {
 /// Names and units as in docs/files.md.
 struct RunFacts {
   std::string version, commit, compiler, case_file, case_digest, precision, error;
+  std::vector<std::string> settings;  ///< over the case file
+  bool reported = false;              ///< with the outputs of the report
   model::EndReason end_reason{};
   double seed = 0;
   double start_time = 0, end_time = 0;     ///< of the statistics [s]

@@ -16,15 +16,6 @@ namespace edmill::report {
 
 namespace {
 
-/// First line of the case.toml of a run with --report.
-const std::string reported_mark = "# run with --report\n";
-
-bool starts_with_mark(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string line;
-  return std::getline(in, line) && line + "\n" == reported_mark;
-}
-
 /// Trends of the impacts with one partner.
 std::string partner_trends(const std::string& key, const std::string& only) {
   return fmt::format(R"(
@@ -76,23 +67,17 @@ std::string outputs_for(const casefile::CaseSpec& spec) {
 
 }  // namespace
 
-std::string case_text(const casefile::CaseSpec& spec, bool reported) {
-  const bool marked = spec.text.starts_with(reported_mark);
-  if (marked && !reported) return spec.text.substr(reported_mark.size());
-  return reported && !marked ? reported_mark + spec.text : spec.text;
-}
-
 RunFolder read_run_folder(const std::filesystem::path& place) {
   RunFolder folder{place, read_run_facts(place / "summary.json"), {}, {}};
-  const auto file = place / "case.toml";
-  folder.spec = casefile::read_case_of_run(file.string(), folder.facts.case_digest);
+  folder.spec = casefile::read_case_of_run((place / "case.toml").string(), folder.facts.settings,
+                                           folder.facts.case_digest);
   folder.partners = casefile::partners_of(folder.spec);
   if (const auto found = folder.facts.collisions.size() - 1,
       expected = static_cast<std::size_t>(folder.partners.walls());
       found != expected)
     throw InputError(fmt::format("{}: collisions: found {} walls, expected the {} of the case",
                                  (place / "summary.json").string(), found, expected));
-  if (starts_with_mark(file)) add_report_outputs(folder.spec);
+  if (folder.facts.reported) add_report_outputs(folder.spec);
   return folder;
 }
 
@@ -118,6 +103,7 @@ const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits&
 void add_report_outputs(casefile::CaseSpec& spec) {
   using casefile::Quantity;
   const auto before = spec.outputs.size();
+  spec.reported = true;
   casefile::add_outputs(outputs_for(spec), "the outputs of the report", spec);
   const bool moving = casefile::name_of(spec.mill) != "still";
   // Powers of pi in the drive's period may be rounded: these are only sampling times.

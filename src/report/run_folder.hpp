@@ -26,10 +26,6 @@ struct RunFolder {
   std::filesystem::path file_of(const casefile::OutputSpec& output) const;
 };
 
-/// The text of case.toml, which the report reads: the case as it was run.
-/// @param reported  the outputs of the report were added to it
-std::string case_text(const casefile::CaseSpec& spec, bool reported);
-
 /// @throws InputError when a file is missing or wrong
 RunFolder read_run_folder(const std::filesystem::path& place);
 

@@ -11,7 +11,6 @@
   namespace edmill {                                                                         \
   prefix std::string report::result_table<Real>(const io::Summary<Real>&);                   \
   prefix app::RunResult app::run_in<Real>(const casefile::CaseSpec&, const app::RunOptions&, \
-                                          const std::string&,                                \
                                           const std::function<std::filesystem::path()>&);    \
   }
 
