@@ -1,25 +1,31 @@
 # Several sources in one compilation: most of the compile time of a small one goes into the headers that it shares with others.
 option(EDMILL_UNITY "compile sources without loops over impacts several at a time" ON)
 
-# edmill_library(name ROOMS room... LIGHT room...): a static library of the sources of these folders of src/. Dependencies
-# between rooms go one way, which tests/architecture checks. No loop over impacts is in LIGHT ones: they are compiled with fewer
-# optimisations, several sources at a time.
+# edmill_library(name ROOMS room... LIGHT room... LOOPS room...): a static library of the sources of these folders of src/.
+# Dependencies between rooms go one way, which tests/architecture checks. Loops over impacts are in LOOPS alone, and where
+# edmill_optimise says so; the others are compiled with fewer optimisations, LIGHT ones several sources at a time.
 function(edmill_library name)
-  cmake_parse_arguments(ARG "" "" "ROOMS;LIGHT" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "ROOMS;LIGHT;LOOPS" ${ARGN})
   add_library(${name} STATIC)
-  foreach(room ${ARG_ROOMS} ${ARG_LIGHT})
+  foreach(room ${ARG_ROOMS} ${ARG_LIGHT} ${ARG_LOOPS})
     file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
     list(FILTER of_room EXCLUDE REGEX "/main.cpp$")
     target_sources(${name} PRIVATE ${of_room})
     if(room IN_LIST ARG_LIGHT)
       edmill_group(${room} ${of_room})
-    else()
-      set_property(SOURCE ${of_room} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+    elseif(room IN_LIST ARG_LOOPS)
+      edmill_optimise(${of_room})
     endif()
   endforeach()
   target_link_libraries(${name} PUBLIC edmill_settings)
   target_compile_options(${name} PRIVATE ${edmill_warnings} $<$<CONFIG:Release>:-O1>)
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${EDMILL_UNITY} UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# Sources with all optimisations. A precompiled header brings its own: GCC compiles everything behind it as it was compiled.
+function(edmill_optimise)
+  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+  set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # edmill_group(room source...): groups of six, so that a change does not compile too many others again.
