@@ -200,6 +200,7 @@ std::string describe(Dimension dimension) {
 }
 
 std::string noun(Dimension dimension) {
+  if (dimension == Dimension::none) return "number";
   const auto with_article = name(dimension);  // "a length"
   return with_article.substr(with_article.find(' ') + 1);
 }
