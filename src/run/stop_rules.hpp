@@ -12,8 +12,8 @@ template <class Real>
 class StopRuleWatch : public engine::Observer<Real> {
  public:
   explicit StopRuleWatch(const model::Case<Real>& of) {
-    for_each([&](auto& watch, std::size_t place) {
-      if (const auto& limit = of.stop.limits[place]) watch.emplace(*limit);
+    for_each([&]<class Watch>(std::optional<Watch>& watch, std::size_t place) {
+      if (const auto& limit = of.stop.limits[place]) watch = Watch{*limit};
     });
   }
 
