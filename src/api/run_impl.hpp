@@ -108,8 +108,8 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
     io::SavedState<Real> saved{simulation.now(), {}};
     for (int k = 0; k < simulation.ball_count(); ++k)
       saved.states.push_back(simulation.state_at(k, simulation.now()));
-    output::write_results<Real>(*folder_, *outputs_, saved, simulation.clock(), summary().json,
-                                case_.spec_->text, false);
+    output::write_results<Real>(*folder_, *outputs_, saved, simulation.clock(), summary().json, *case_.spec_,
+                                false);
     when_written();
     outputs_.reset();
     folder_.reset();

@@ -32,7 +32,7 @@ RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options,
   const auto [summary, saved] = run::simulate<Real>(spec, built, guests);
 
   const bool goes_on = options.checkpoint && summary.end_reason == model::EndReason::interrupted;
-  output::write_results<Real>(folder, outputs, saved, clock, io::summary_json(summary), spec.text, goes_on);
+  output::write_results<Real>(folder, outputs, saved, clock, io::summary_json(summary), spec, goes_on);
   RunResult result{summary.end_reason, summary.error, report::result_table(summary), goes_on, put_page()};
   Archive archive;
   archive(result);

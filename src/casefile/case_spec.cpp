@@ -288,6 +288,15 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
   return parse(text, name, overrides, false);
 }
 
+std::string text_with_settings(const CaseSpec& spec) {
+  std::string text = spec.text;
+  for (const auto& setting : spec.settings) {
+    text += "\n# --set ";
+    for (const char c : setting) text += c == '\n' ? ' ' : c;  // a line of the text for each
+  }
+  return text;
+}
+
 CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
                           const std::string& digest) {
   auto spec = parse(read_file(path, "the case of the run"), path, settings, true);

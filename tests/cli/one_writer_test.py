@@ -26,7 +26,7 @@ def seed_of(place):
     with h5py.File(place / "events.h5") as file:
         seeds = {summary["seed"], int(file.attrs["seed"])}
         rows = file["events/time"].shape[0]
-    seeds.add(int([line for line in open(place / "case.toml") if "seed" in line][-1].split("=")[-1]))
+    seeds.add(int(next(setting for setting in summary["settings"] if "seed" in setting).split("=")[-1]))
     logged = sum(1 for _ in open(place / "collisions.csv")) - 1
     return seeds.pop() if len(seeds) == 1 and rows == logged == summary["impacts_since_start"] else None
 

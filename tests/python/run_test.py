@@ -28,7 +28,7 @@ def test_a_run_is_that_of_the_program(program, demo, tmp_path):
         assert np.array_equal(run.events[name], theirs[name]), name
     summary = json.loads((tmp_path / "out/summary.json").read_text())
     for key, value in run.summary.items():
-        if not key.startswith(("cpu", "collisions_per_cpu", "case")):
+        if not key.startswith(("cpu", "collisions_per_cpu", "case", "settings")):
             assert value == summary[key], key
     states = edmill.tables.read_table(tmp_path / "out/final_state.csv")
     for k, axis in enumerate("xyz"):
