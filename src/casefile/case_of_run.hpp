@@ -11,8 +11,8 @@ namespace edmill::casefile {
 /// The text of a case file, and behind it the settings over it as comments, for readers.
 std::string text_with_settings(const CaseSpec& spec);
 
-/// The case that a run left in its folder: `text_with_settings` as a file. The file that the run began from is
-/// not looked for; what cannot be known without it, the digest, is empty then.
+/// The case that a run left in its folder: `text_with_settings` as a file. The file that the run began from
+/// is not looked for; what cannot be known without it, the digest, is empty then.
 /// @param settings  over the file, as the run had them
 /// @throws InputError also when the case has another digest
 CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
