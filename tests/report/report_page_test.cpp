@@ -1,6 +1,5 @@
 // `edmill run --report` and `edmill report` as a user calls them.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "program.hpp"
 #include "report/embedded.hpp"
 
 namespace {
@@ -18,45 +18,19 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path source = EDMILL_SOURCE_DIR;
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
-
-struct Outcome {
-  int code;
-  std::string messages;
-};
-
-class Report : public ::testing::Test {
+class Report : public edmill::ProgramTest {
  protected:
   void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    place = fs::temp_directory_path() / ("edmill_report_" + std::to_string(::getpid()) + "_" + test->name());
-    fs::remove_all(place);
-    fs::create_directories(place);
-    folder = place / "run";
-  }
-  void TearDown() override { fs::remove_all(place); }
-
-  Outcome edmill(const std::string& arguments) {
-    const auto log = place / "stderr";
-    const std::string command = std::string(EDMILL_BINARY) + " " + arguments + " > " +
-                                (place / "stdout").string() + " 2> " + log.string();
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), text_of(log)};
+    ProgramTest::SetUp();
+    folder = scratch / "run";
   }
   /// The demo for 1.5 s.
   void run(const std::string& options) {
     const auto done = edmill("run " + (source / "docs/examples/demo.toml").string() +
                              " --quiet --set 'run.end_time=1.5 s' --out " + folder.string() + " " + options);
-    ASSERT_EQ(done.code, 0) << done.messages;
+    ASSERT_EQ(done.code, 0) << done.err;
   }
-  std::string page() const { return text_of(folder / "report.html"); }
+  std::string page() const { return contents(folder / "report.html"); }
   /// <main> of the page, which is XML.
   pugi::xml_document body() const {
     const std::string all = page();
@@ -65,7 +39,7 @@ class Report : public ::testing::Test {
     EXPECT_TRUE(document.load_string(all.substr(begin, end + 7 - begin).c_str()));
     return document;
   }
-  fs::path place, folder;
+  fs::path folder;
 };
 
 std::vector<std::string> ids(const pugi::xml_document& body, const char* what) {
@@ -97,7 +71,7 @@ TEST_F(Report, WarningsHaveASectionOfTheirOwn) {
 TEST_F(Report, OfAnyRunSaysWhichOutputsItMisses) {
   run("");
   const auto done = edmill("report " + folder.string());
-  ASSERT_EQ(done.code, 0) << done.messages;
+  ASSERT_EQ(done.code, 0) << done.err;
   const auto main = body();
   EXPECT_TRUE(main.select_nodes("//figure").empty());
   std::string missing;
@@ -119,7 +93,7 @@ TEST_F(Report, IsTheSameWhenItIsMadeAgain) {
 
 TEST_F(Report, ShowsTheNumbersOfTheSummary) {
   run("--report");
-  const std::string summary = text_of(folder / "summary.json");
+  const std::string summary = contents(folder / "summary.json");
   const auto number = [&](const std::string& key) {
     return std::stod(summary.substr(summary.find("\"" + key + "\":") + key.size() + 3));
   };
@@ -148,7 +122,7 @@ double at_ticks(const pugi::xml_node& figure, const std::string& axis, const cha
 
 TEST_F(Report, TheLastPointOfTheDoseRateIsTheLastWholeIntervalOfItsTable) {
   run("--report");
-  std::istringstream rows(text_of(folder / "report/trends.csv"));
+  std::istringstream rows(contents(folder / "report/trends.csv"));
   std::vector<std::vector<double>> table;
   std::string line;
   std::getline(rows, line);
@@ -311,43 +285,43 @@ TEST_F(Report, ReadsTablesWhoseHeadersHoldCommasAndQuotes) {
   run("--set 'output=[{type=\"trends\",interval=\"50 ms\",columns=[{variable=\"milling_dose\",label=\"dose, "
       "\\\"real\\\"\","
       "statistics=[\"rate\"]}]}]'");
-  ASSERT_NE(text_of(folder / "trends.csv").find("\"dose, \"\"real\"\" [W]\""), std::string::npos);
+  ASSERT_NE(contents(folder / "trends.csv").find("\"dose, \"\"real\"\" [W]\""), std::string::npos);
   const auto done = edmill("report " + folder.string());
-  ASSERT_EQ(done.code, 0) << done.messages;
+  ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(ids(body(), "//figure"), Ids{"dose-rate"});
 }
 
 TEST_F(Report, TextsOfTheCaseAreNoMarkup) {
-  const auto file = place / "<b>&.toml";
-  write(file, "# </pre><script>alert(1)</script>\n" + text_of(source / "docs/examples/demo.toml"));
+  const auto file = scratch / "<b>&.toml";
+  write(file, "# </pre><script>alert(1)</script>\n" + contents(source / "docs/examples/demo.toml"));
   const auto done = edmill("run '" + file.string() + "' --quiet --set 'run.end_time=0.6 s' --out " +
                            folder.string() + " --report");
-  ASSERT_EQ(done.code, 0) << done.messages;
+  ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_NE(page().find("<h1>&lt;b&gt;&amp;.toml</h1>"), std::string::npos);
   EXPECT_EQ(page().find("<script>alert"), std::string::npos);
 }
 
 TEST_F(Report, AFolderWithoutARunIsBadInput) {
-  const auto done = edmill("report " + place.string());
+  const auto done = edmill("report " + scratch.string());
   EXPECT_EQ(done.code, 2);
-  EXPECT_NE(done.messages.find("summary.json: found no readable file"), std::string::npos) << done.messages;
+  EXPECT_NE(done.err.find("summary.json: found no readable file"), std::string::npos) << done.err;
 }
 
 TEST_F(Report, BrokenFilesAreToldByFileLineAndKey) {
   run("--report");
   const auto breaks = [&](const std::string& file, const std::string& from, const std::string& to,
                           const std::string& message) {
-    const auto good = text_of(folder / file);
+    const auto good = contents(folder / file);
     auto bad = good;
     ASSERT_NE(bad.find(from), std::string::npos) << file;
     bad.replace(bad.find(from), from.size(), to);
     write(folder / file, bad);
     const auto done = edmill("report " + folder.string());
     EXPECT_EQ(done.code, 2) << file;
-    EXPECT_NE(done.messages.find(message), std::string::npos) << done.messages;
+    EXPECT_NE(done.err.find(message), std::string::npos) << done.err;
     write(folder / file, good);
   };
-  const auto summary = text_of(folder / "summary.json");
+  const auto summary = contents(folder / "summary.json");
   const auto energy = summary.begin() + static_cast<std::ptrdiff_t>(summary.find("\"energy\""));
   const auto line = 1 + std::count(summary.begin(), energy, '\n');
   breaks("summary.json", "\"energy\": {", "\"energy\" {",
@@ -373,30 +347,32 @@ TEST_F(Report, BrokenFilesAreToldByFileLineAndKey) {
   fs::remove(folder / "case.toml");
   const auto done = edmill("report " + folder.string());
   EXPECT_EQ(done.code, 2);
-  EXPECT_NE(done.messages.find("case.toml: found no readable file"), std::string::npos) << done.messages;
+  EXPECT_NE(done.err.find("case.toml: found no readable file"), std::string::npos) << done.err;
 }
 
 TEST_F(Report, IsMadeOfARunThatBeganFromASavedState) {
   run("");
   const auto saved = folder / "final_state.csv";
-  const auto next = place / "next";
+  const auto next = scratch / "next";
   const auto done =
       edmill("run " + (source / "docs/examples/demo.toml").string() + " --quiet --report --out " +
              next.string() + " --set run.initial_state=" + saved.string() +
              " --set 'run.start_time=1.6 s' --set 'run.initial_time=1.5 s' --set 'run.end_time=1.7 s'");
-  ASSERT_EQ(done.code, 0) << done.messages;
+  ASSERT_EQ(done.code, 0) << done.err;
   fs::remove(saved);  // a report needs only its own folder
   EXPECT_EQ(edmill("report " + next.string()).code, 0);
 }
 
-TEST(Embedded, FilesAreThereByteForByte) {
+using Embedded = edmill::ProgramTest;
+
+TEST_F(Embedded, FilesAreThereByteForByte) {
   using namespace edmill::report;
-  EXPECT_EQ(page_css, text_of(source / "src/report/page.css"));
-  EXPECT_EQ(page_html, text_of(source / "src/report/page.html"));
-  EXPECT_EQ(thesis_csv, text_of(source / "regression/ward/thesis.csv"));
-  EXPECT_EQ(page_js, text_of(source / "src/report/page.js"));
-  EXPECT_EQ(three_js, text_of(EDMILL_THREE_JS));
-  EXPECT_EQ(three_orbit_js, text_of(EDMILL_THREE_ORBIT_JS));
+  EXPECT_EQ(page_css, contents(source / "src/report/page.css"));
+  EXPECT_EQ(page_html, contents(source / "src/report/page.html"));
+  EXPECT_EQ(thesis_csv, contents(source / "regression/ward/thesis.csv"));
+  EXPECT_EQ(page_js, contents(source / "src/report/page.js"));
+  EXPECT_EQ(three_js, contents(EDMILL_THREE_JS));
+  EXPECT_EQ(three_orbit_js, contents(EDMILL_THREE_ORBIT_JS));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// What a case file and a reader need to know of a parameter of a contact law, a motion or a vessel.
+// What a case file and a reader need to know of a parameter of a contact law, a motion, a vessel or a stop
+// rule.
 #pragma once
 
 #include <array>
@@ -31,7 +32,7 @@ enum class Range {
   drive          ///< a positive angular speed w, kept as its period 2 pi / w, exact for rpm and Hz
 };
 
-/// A quantity, or three along the axes, of a motion or a vessel.
+/// A quantity, or three along the axes, of a motion, a vessel or a stop rule.
 struct PartParameter {
   const char* key;  ///< null for a constant, which a file does not give
   Dimension dimension;
