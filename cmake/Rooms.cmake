@@ -22,7 +22,7 @@ function(edmill_library name)
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${EDMILL_UNITY} UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# Sources with all optimisations. A precompiled header brings its own: GCC compiles everything behind it as it was compiled.
+# Sources with all optimisations, without a precompiled header: GCC compiles what follows one with the optimisations of the header.
 function(edmill_optimise)
   set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
   set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
