@@ -125,40 +125,41 @@ class AnyMotion {
               [&](const auto& m, const auto& own) { return m.position_nearby(when, own, known, position); });
   }
 
-// The concept says what these take and give. First those of a pose, then those of the motion.
-#define EDMILL_BY_POSE(name)                                                            \
+// The concept says what these take. Results are named: to ask whether this is a Motion then needs no bodies,
+// which every source would instantiate again. First those of a pose, then those of the motion.
+#define EDMILL_BY_POSE(Result, name)                                                    \
   template <class... A>                                                                 \
-  auto name(const Pose& pose, const A&... a) const {                                    \
+  Result name(const Pose& pose, const A&... a) const {                                  \
     return at(pose, [&](const auto& m, const auto& own) { return m.name(own, a...); }); \
   }
-#define EDMILL_OF_MOTION(name)                                 \
+#define EDMILL_OF_MOTION(Result, name)                         \
   template <class... A>                                        \
-  auto name(const A&... a) const {                             \
+  Result name(const A&... a) const {                           \
     return visit([&](const auto& m) { return m.name(a...); }); \
   }
-  EDMILL_BY_POSE(axis_x)
-  EDMILL_BY_POSE(axis_y)
-  EDMILL_BY_POSE(axis_z)
-  EDMILL_BY_POSE(to_inertial)
-  EDMILL_BY_POSE(direction_to_inertial)
-  EDMILL_BY_POSE(position_in_vessel)
-  EDMILL_BY_POSE(to_vessel_frame)
-  EDMILL_BY_POSE(vessel_frame_acceleration)
-  EDMILL_BY_POSE(angular_velocity)
-  EDMILL_BY_POSE(wall_velocity)
-  EDMILL_BY_POSE(wall_acceleration)
-  EDMILL_OF_MOTION(middle)
-  EDMILL_OF_MOTION(reach)
-  EDMILL_OF_MOTION(wall_speed)
-  EDMILL_OF_MOTION(speed_within)
-  EDMILL_OF_MOTION(acceleration_within)
-  EDMILL_OF_MOTION(longest_window)
-  EDMILL_OF_MOTION(swept)
-  EDMILL_OF_MOTION(coordinate_bounds)
-  EDMILL_OF_MOTION(speed_in_vessel)
-  EDMILL_OF_MOTION(acceleration_in_vessel)
-  EDMILL_OF_MOTION(coordinate_errors)
-  EDMILL_OF_MOTION(state_errors)
+  EDMILL_BY_POSE(Vec3<Real>, axis_x)
+  EDMILL_BY_POSE(Vec3<Real>, axis_y)
+  EDMILL_BY_POSE(Vec3<Real>, axis_z)
+  EDMILL_BY_POSE(Vec3<Real>, to_inertial)
+  EDMILL_BY_POSE(Vec3<Real>, direction_to_inertial)
+  EDMILL_BY_POSE(Vec3<Real>, position_in_vessel)
+  EDMILL_BY_POSE(VesselFrameState<Real>, to_vessel_frame)
+  EDMILL_BY_POSE(Vec3<Real>, vessel_frame_acceleration)
+  EDMILL_BY_POSE(Vec3<Real>, angular_velocity)
+  EDMILL_BY_POSE(Vec3<Real>, wall_velocity)
+  EDMILL_BY_POSE(Vec3<Real>, wall_acceleration)
+  EDMILL_OF_MOTION(Vec3<Real>, middle)
+  EDMILL_OF_MOTION(Real, reach)
+  EDMILL_OF_MOTION(Real, wall_speed)
+  EDMILL_OF_MOTION(Real, speed_within)
+  EDMILL_OF_MOTION(Real, acceleration_within)
+  EDMILL_OF_MOTION(Real, longest_window)
+  EDMILL_OF_MOTION(SweptBox<Real>, swept)
+  EDMILL_OF_MOTION(CoordinateBounds<Real>, coordinate_bounds)
+  EDMILL_OF_MOTION(Real, speed_in_vessel)
+  EDMILL_OF_MOTION(Real, acceleration_in_vessel)
+  EDMILL_OF_MOTION(ErrorBounds<Real>, coordinate_errors)
+  EDMILL_OF_MOTION(ErrorBounds<Real>, state_errors)
 #undef EDMILL_BY_POSE
 #undef EDMILL_OF_MOTION
 

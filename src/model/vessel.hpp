@@ -183,38 +183,39 @@ class AnyVessel {
     return visit([&](const auto& v) { return AnyVessel(v.inset(by)); });
   }
 
-// The concept says what these take and give. First single values, then one for each wall or kind of wall.
-#define EDMILL_OF_VESSEL(name)                                 \
+// The concept says what these take. Results are named, as those of AnyMotion. First single values, then one
+// for each wall or kind of wall.
+#define EDMILL_OF_VESSEL(Result, name)                         \
   template <class... A>                                        \
-  auto name(const A&... a) const {                             \
+  Result name(const A&... a) const {                           \
     return visit([&](const auto& v) { return v.name(a...); }); \
   }
-#define EDMILL_OF_WALLS(name)                                          \
+#define EDMILL_OF_WALLS(Result, name)                                  \
   template <class... A>                                                \
-  auto name(const A&... a) const {                                     \
+  Result name(const A&... a) const {                                   \
     return visit([&](const auto& v) { return listed(v.name(a...)); }); \
   }
-  EDMILL_OF_VESSEL(wall_count)
-  EDMILL_OF_VESSEL(walls)
-  EDMILL_OF_VESSEL(surfaces)
-  EDMILL_OF_VESSEL(reach)
-  EDMILL_OF_VESSEL(extent)
-  EDMILL_OF_VESSEL(half_sizes)
-  EDMILL_OF_VESSEL(volume)
-  EDMILL_OF_VESSEL(widest_ball)
-  EDMILL_OF_VESSEL(is_empty)
-  EDMILL_OF_VESSEL(contains)
-  EDMILL_OF_VESSEL(gap)
-  EDMILL_OF_VESSEL(kind_of)
-  EDMILL_OF_VESSEL(is_flat)
-  EDMILL_OF_VESSEL(curved_errors)
-  EDMILL_OF_VESSEL(normal)
-  EDMILL_OF_VESSEL(overlap)
-  EDMILL_OF_WALLS(gaps)
-  EDMILL_OF_WALLS(rates)
-  EDMILL_OF_WALLS(curvatures)
-  EDMILL_OF_WALLS(within)
-  EDMILL_OF_WALLS(derivative_bounds)
+  EDMILL_OF_VESSEL(int, wall_count)
+  EDMILL_OF_VESSEL(std::vector<WallInfo>, walls)
+  EDMILL_OF_VESSEL(std::vector<WallSurface<Real>>, surfaces)
+  EDMILL_OF_VESSEL(Real, reach)
+  EDMILL_OF_VESSEL(Real, extent)
+  EDMILL_OF_VESSEL(Vec3<Real>, half_sizes)
+  EDMILL_OF_VESSEL(Real, volume)
+  EDMILL_OF_VESSEL(Real, widest_ball)
+  EDMILL_OF_VESSEL(bool, is_empty)
+  EDMILL_OF_VESSEL(bool, contains)
+  EDMILL_OF_VESSEL(Real, gap)
+  EDMILL_OF_VESSEL(int, kind_of)
+  EDMILL_OF_VESSEL(bool, is_flat)
+  EDMILL_OF_VESSEL(ErrorBounds<Real>, curved_errors)
+  EDMILL_OF_VESSEL(Vec3<Real>, normal)
+  EDMILL_OF_VESSEL(Real, overlap)
+  EDMILL_OF_WALLS(PerWall<Real>, gaps)
+  EDMILL_OF_WALLS(PerWall<Real>, rates)
+  EDMILL_OF_WALLS(PerWall<Real>, curvatures)
+  EDMILL_OF_WALLS(PerWall<bool>, within)
+  EDMILL_OF_WALLS(PerKind<Real>, derivative_bounds)
 #undef EDMILL_OF_VESSEL
 #undef EDMILL_OF_WALLS
 
