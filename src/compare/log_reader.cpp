@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "base/errors.hpp"
+#include "io/json_file.hpp"
 #include "model/parts/partners.hpp"
 
 namespace edmill::compare {
@@ -26,23 +24,15 @@ struct RunSummary {
 
 std::optional<RunSummary> read_summary(const fs::path& summary) {
   if (!fs::exists(summary)) return std::nullopt;
-  boost::property_tree::ptree tree;
-  try {
-    boost::property_tree::read_json(summary.string(), tree);
-  } catch (const boost::property_tree::json_parser_error& error) {
-    throw InputError(
-        fmt::format("{}:{}: found {}, expected JSON", summary.string(), error.line(), error.message()));
-  }
-  const auto text = tree.get<std::string>("start_time", "");
-  char* end = nullptr;
-  const double start = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(start))
-    throw InputError(
-        fmt::format("{}: start_time: found {}, expected a time in s", summary.string(), io::in_quotes(text)));
+  const auto root = io::read_json(summary, "the summary of a run");
+  const auto found = root.find("start_time");
+  if (found == root.end() || !found->is_number())
+    throw InputError(fmt::format("{}: start_time: found {}, expected a time in s", summary.string(),
+                                 found == root.end() ? "nothing" : io::in_quotes(found->dump())));
   int walls = 0;
-  const auto named = [&] { return "collisions." + model::partner_key(walls, walls + 1); };
-  while (tree.get_child_optional(named())) ++walls;
-  return RunSummary{start, walls};
+  const auto counts = root.value("collisions", nlohmann::json::object());
+  while (counts.contains(model::partner_key(walls, walls + 1))) ++walls;
+  return RunSummary{found->get<double>(), walls};
 }
 
 bool is_folder(const fs::path& place) {

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "base/errors.hpp"
+#include "io/json_file.hpp"
 #include "model/parts/partners.hpp"
 
 namespace edmill::report {
@@ -70,27 +67,10 @@ class Reader {
   std::vector<std::string> problems_;
 };
 
-json parsed(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::error_code ignored;
-  if (!in || !std::filesystem::is_regular_file(file, ignored))
-    throw InputError(file.string() + ": found no readable file, expected the summary of a run");
-  std::ostringstream text;
-  text << in.rdbuf();
-  const std::string all = text.str();
-  try {
-    return json::parse(all);
-  } catch (const json::parse_error& error) {
-    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, all.size()));
-    throw InputError(fmt::format("{}:{}: found no valid JSON, expected the summary of a run", file.string(),
-                                 1 + std::count(all.begin(), end, '\n')));
-  }
-}
-
 }  // namespace
 
 RunFacts read_run_facts(const std::filesystem::path& file) {
-  const json root = parsed(file);
+  const json root = io::read_json(file, "the summary of a run");
   Reader reader(file.string(), root);
   RunFacts f;
   for (const auto& [key, value] : {std::pair{"/version", &f.version},

@@ -1,10 +1,8 @@
 #include "study/run_record.hpp"
 
 #include <algorithm>
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
+#include <nlohmann/json.hpp>
 #include <numeric>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/scalar_list.hpp"
@@ -13,7 +11,6 @@
 
 namespace edmill {
 extern template std::string to_text<double>(const double&);
-extern template double from_text<double>(const std::string&);
 }  // namespace edmill
 
 namespace edmill::study {
@@ -58,13 +55,11 @@ std::string to_json(const RunRecord& r) {
 }
 
 std::optional<RunRecord> from_json(const std::string& text) try {
-  std::istringstream in(text);
-  boost::property_tree::ptree tree;
-  boost::property_tree::read_json(in, tree);
-  const auto word = [&](const char* key) { return tree.get<std::string>(key); };
-  const auto number = [&](const char* key) { return from_text<double>(word(key)); };
+  const auto root = nlohmann::ordered_json::parse(text);
+  const auto word = [&](const char* key) { return root.at(key).get<std::string>(); };
+  const auto number = [&](const char* key) { return root.at(key).get<double>(); };
   const auto number_if_there = [&](const char* key) {
-    return tree.get_child_optional(key) ? std::optional<double>(number(key)) : std::nullopt;
+    return root.contains(key) ? std::optional<double>(number(key)) : std::nullopt;
   };
   if (word("format") != format_name || word("version") != version() || word("commit") != commit())
     return std::nullopt;
@@ -75,8 +70,8 @@ std::optional<RunRecord> from_json(const std::string& text) try {
   r.message = word("message");
   r.start_time = number("start_time");
   r.end_time = number("end_time");
-  for (const auto& [key, number] : tree.get_child("collisions"))  // in the order of the partners
-    r.collisions.push_back(number.get_value<std::uint64_t>());
+  for (const auto& count : root.at("collisions"))  // in the order of the partners
+    r.collisions.push_back(count.get<std::uint64_t>());
   r.milling_dose = number("milling_dose");
   r.wall_work = number("wall_work");
   r.powder_mass = number_if_there("powder_mass");
