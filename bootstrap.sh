@@ -3,7 +3,7 @@
 #
 #   ./bootstrap.sh demo    install what is missing, build, run the demo case
 #   ./bootstrap.sh test    install what is missing, build with tests, run all but the long studies
-#   ./bootstrap.sh verify  the same set-up and LAMMPS, then the long studies
+#   ./bootstrap.sh verify  the same set-up, LAMMPS, LIGGGHTS and YADE, then the long studies
 #   ./bootstrap.sh analyse the same set-up, then clang-tidy, and the tests with the checks of the standard library
 #   ./bootstrap.sh build   install what is missing, build the program: build/release/edmill
 set -euo pipefail
@@ -24,7 +24,7 @@ test_packages=(
   doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-nbclient python3-ipykernel python3-matplotlib
 )
 
-long_packages=(lammps debootstrap dpkg-dev python3-venv python3-pip)
+long_packages=(lammps python3-lammps liggghts yade debootstrap dpkg-dev python3-venv python3-pip)
 
 say() { printf '\n== %s\n' "$*"; }
 

@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "instances/instances.hpp"
 #include "io/input_file.hpp"
+#include "io/junit_text.hpp"
 
 namespace edmill::app {
 
@@ -65,6 +66,28 @@ std::string Audited::json() const {
   audit::put_json(text, result);
   if (identified) identify::put_json(text, *identified);
   return text.finish();
+}
+
+std::string Audited::junit() const {
+  io::JunitText junit("edmill audit of " + result.log_name);
+  for (std::size_t k = 0; k < audit::check_count; ++k) {
+    const auto check = static_cast<audit::Check>(k);
+    if (result.findings.judged_number(check) == 0) continue;
+    std::string problem;
+    for (const auto kind : result.findings.ranked()) {
+      const auto& [name, unit, meaning, own] = audit::info(kind);
+      const auto& tally = result.findings.of(kind);
+      if (own == check)
+        problem += fmt::format("{}{}: {} times, at worst {:.3g} {}; {}", problem.empty() ? "" : "\n", name,
+                               tally.count, tally.worst, unit, meaning);
+    }
+    junit.add(audit::info(check).name, problem);
+  }
+  junit.add("enough impacts",
+            result.verdict == audit::Verdict::clean || result.verdict == audit::Verdict::violations
+                ? ""
+                : "too few impacts to judge");
+  return junit.finish();
 }
 
 }  // namespace edmill::app

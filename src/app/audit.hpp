@@ -34,6 +34,7 @@ struct Audited {
 
   std::string table() const;
   std::string json() const;
+  std::string junit() const;
 };
 
 /// @throws InputError

@@ -18,7 +18,7 @@ namespace {
 std::string describe_law(const model::ContactLaw<double>& law) {
   std::string text = law.name();
   const char* separator = ": ";
-  law.parameters([&](const model::LawParameter& p, double value) {
+  law.parameters([&](const model::Parameter& p, double value) {
     text += fmt::format("{}{} {}", std::exchange(separator, ", "), p.key, value);
   });
   return text + (law.least_separation > 0 ? fmt::format(", least separation {:g} m/s", law.least_separation)

@@ -6,8 +6,6 @@
 
 namespace edmill::casefile {
 
-inline constexpr std::uint64_t largest_count = 100000000;  ///< of balls
-
 /// What the balls can collide with, unless the vessel is none, which has been reported.
 std::optional<model::Partners> known_partners(const CaseSpec& spec);
 /// An entry [[material]].
@@ -28,7 +26,6 @@ void read_contact(Section contact, CaseSpec& spec);
 void check(Section mill, const MotionSpec& motion);
 void check(Section vessel, const VesselSpec& shape);
 void check(Section contact, const ContactSpec& law, const CaseSpec& spec);
-void check(Section& entry, const BallSpec& ball);
 /// An entry [[ball]].
 void read_ball(Section entry, CaseSpec& spec);
 /// An entry [[balls]].

@@ -13,6 +13,7 @@
 #include "casefile/case_parts.hpp"
 #include "casefile/check_case.hpp"
 #include "casefile/joints.hpp"
+#include "casefile/key_reader.hpp"
 #include "casefile/output_entry.hpp"
 #include "casefile/section.hpp"
 #include "io/input_file.hpp"
@@ -26,25 +27,21 @@ namespace {
 void read_run(Section run, CaseSpec& spec) {
   run.require(run.present(), "end_time", "a section [run] with at least one stop rule");
   spec.precision = run.choice("precision", precisions());
-  spec.seed = run.count("seed").value_or(1);
-  spec.initial_time = run.quantity("initial_time", Dimension::time, Quantity{0});
-  run.require(!spec.initial_time.negative(), "initial_time", "a time of 0 or more");
-  spec.statistics_start = run.quantity("start_time", Dimension::time, spec.initial_time);
+  read_keys(run, spec);
+  if (!run.has("start_time")) spec.statistics_start = spec.initial_time;
   run.require(spec.statistics_start.value >= spec.initial_time.value, "start_time",
               "a time not before the initial time");
-  spec.end_time = run.quantity("end_time", Dimension::time);
   if (spec.end_time)
     run.require(spec.end_time->value > spec.statistics_start.value, "end_time",
                 "a time after the start time");
   bool stops = run.has("end_time");
   std::string rules = "end_time";
   model::for_each_stop_rule([&](auto rule, std::size_t place) {
-    spec.stop_limits[place] = read_if_given(run, rule.key);
+    KeyReader{run}(rule.key, spec.stop_limits[place]);
     stops = stops || run.has(rule.key.key);
     rules += std::string(", ") + rule.key.key;
   });
   if (!stops) run.problem("end_time", "no stop rule", "at least one of " + rules);
-  spec.initial_state = run.text("initial_state").value_or("");
   // Along -Y when one acceleration is given.
   if (run.has("gravity")) {
     if (run.is_array("gravity")) {
@@ -72,16 +69,7 @@ void read_audit(Section audit, AuditSpec& spec) {
   Section columns = audit.section("columns");
   for (const auto& ours : columns.keys())
     if (const auto theirs = columns.text(ours)) spec.columns.emplace_back(ours, *theirs);
-  spec.tolerance = audit.quantity("tolerance", Dimension::none);
-  if (spec.tolerance)
-    audit.require(spec.tolerance->positive() && spec.tolerance->value < 1, "tolerance",
-                  "a number above 0, below 1");
-  spec.gap_tolerance = audit.quantity("gap_tolerance", Dimension::length);
-  if (spec.gap_tolerance) audit.require(spec.gap_tolerance->positive(), "gap_tolerance", "a positive length");
-  spec.first_ball = audit.count("first_ball");
-  if (spec.first_ball) audit.require(*spec.first_ball <= largest_count, "first_ball", "usually 0 or 1");
-  spec.walls = audit.text("walls").value_or("");
-  spec.from_start = audit.flag("from_start");
+  read_keys(audit, spec);
   audit.reject_unknown_keys();
 }
 
@@ -104,14 +92,9 @@ std::string stop_rules_text(const model::StopLimits<Quantity>& limits) {
 /// Everything that a run depends on, in one order and exact.
 std::string canonical_text(const CaseSpec& c) {
   std::ostringstream out;
-  const auto vector = [](const QuantityVector& v) {
-    return v[0].text() + "," + v[1].text() + "," + v[2].text();
-  };
-  const auto optional = [](const auto& q) { return q ? q->text() : std::string("-"); };
-  out << "edmill case 2\nprecision " << c.precision << "\nseed " << c.seed << "\ninitial_time "
-      << c.initial_time.text() << "\nstart_time " << c.statistics_start.text() << "\nend_time "
-      << optional(c.end_time) << stop_rules_text(c.stop_limits) << "\ngravity " << vector(c.gravity)
-      << "\nmill " << text_of(c.mill) << "\nvessel " << text_of(c.vessel) << "\n";
+  out << "edmill case 2\nprecision " << c.precision << digest_text(c, true) << stop_rules_text(c.stop_limits)
+      << "\ngravity " << digest_of(c.gravity) << "\nmill " << text_of(c.mill) << "\nvessel "
+      << text_of(c.vessel) << "\n";
   for (const auto& piston : c.pistons) {
     out << "piston " << piston.wall << " " << piston.distance.text() << " " << piston.speed.text();
     for (const auto& swing : piston.swings)
@@ -120,7 +103,7 @@ std::string canonical_text(const CaseSpec& c) {
   }
   const auto write_law = [&](const ContactSpec& law) {
     out << "contact " << law.name();
-    law.parameters([&](const model::LawParameter&, const Quantity& value) { out << " " << value.text(); });
+    law.parameters([&](const Parameter&, const Quantity& value) { out << " " << value.text(); });
     out << " " << law.least_separation.text() << "\n";
   };
   write_law(c.ball_ball);
@@ -136,14 +119,8 @@ std::string canonical_text(const CaseSpec& c) {
     for (const auto& b : c.batches) out << " " << b.material;
     out << "\n";
   }
-  for (const auto& b : c.balls)
-    out << "ball " << b.diameter.text() << " " << b.density.text() << " " << b.reduced_inertia.text() << " "
-        << vector(b.position) << " " << vector(b.velocity) << " " << vector(b.spin) << "\n";
-  for (const auto& b : c.batches)
-    out << "balls " << b.count << " " << b.diameter.text() << " " << b.diameter_spread.text() << " "
-        << b.density.text() << " " << b.reduced_inertia.text() << " " << vector(b.velocity) << " "
-        << optional(b.random_speed) << " " << b.gap_ball.text() << " " << b.gap_wall.text() << " "
-        << b.max_relocations << "\n";
+  for (const auto& b : c.balls) out << "ball" << digest_text(b) << "\n";
+  for (const auto& b : c.batches) out << "balls" << digest_text(b) << "\n";
   if (!c.initial_state.empty()) {
     out << "initial_state " << sha256(io::read_whole(c.initial_state, "a final_state.csv")) << "\n";
   }
@@ -272,8 +249,8 @@ std::vector<std::string> problems_of(const CaseSpec& spec) {
   const Section vessel = top.section("vessel"), contact = top.section("contact");
   check(top.section("mill"), spec.mill);
   check(vessel, spec.vessel);
-  for (auto& ball : spec.balls) check(top, ball);
-  for (auto& batch : spec.batches) check(top, batch);
+  for (const auto& ball : spec.balls) ball.keys(ball, KeyChecker{top});
+  for (const auto& batch : spec.batches) batch.keys(batch, KeyChecker{top});
   check(contact, spec.ball_ball, spec);
   check(contact, spec.ball_wall, spec);
   for (const auto& pair : spec.pairs) check(contact, pair.law, spec);

@@ -22,7 +22,13 @@ using QuantityVector = std::array<Quantity, 3>;
 /// An entry [[material]].
 struct MaterialSpec {
   std::string name;
-  std::optional<Quantity> density;  ///< balls need it, walls do not
+  std::optional<Quantity> density;
+
+  static void keys(auto& m, auto&& row) {
+    row(Parameter{"name", Dimension::none, "by which balls, walls and pairs name it"}, m.name);
+    row(Parameter{"density", Dimension::density, "required for a material of balls", Range::positive},
+        m.density);
+  }
 };
 
 /// What all ways of adding balls have in common.
@@ -32,9 +38,23 @@ struct BallSpec {
   int material = 0;  ///< of CaseSpec::materials, from 1; 0 for none
   Quantity reduced_inertia{boost::multiprecision::cpp_rational(2, 5)};
   QuantityVector velocity{};
-  Colour colour{0, 0, 1};  ///< in pictures
-  std::string where;       ///< "case.toml:12: [[balls]] 1", for messages
+  Colour colour{0, 0, 1};
+  std::string where;  ///< "case.toml:12: [[balls]] 1", for messages
+
+  static constexpr Parameter diameter_key{"diameter", Dimension::length, "of each ball", Range::positive};
+  static constexpr Parameter density_key{"density", Dimension::density, "this or a material that has one",
+                                         Range::positive, "8 g/cm3"};
+  static constexpr Parameter inertia_key{"reduced_inertia", Dimension::none,
+                                         "moment of inertia over m R^2; 0.4 of a solid sphere", Range::share,
+                                         "0.4"};
+  static constexpr Parameter colour_key{"colour", Dimension::none, "in pictures",          Range::any,
+                                        nullptr,  "blue",          Parameter::Digest::none};
+  static constexpr Parameter velocity_of(const char* meaning) {
+    return {"velocity", Dimension::speed, meaning, Range::any, nullptr, "at rest"};
+  }
 };
+
+inline constexpr int largest_count = 100000000;  ///< of balls
 
 /// A batch of balls placed at random. (thesis D.2.4)
 struct BallBatch : BallSpec {
@@ -44,12 +64,52 @@ struct BallBatch : BallSpec {
   Quantity gap_ball{boost::multiprecision::cpp_rational(1, 1000)};
   Quantity gap_wall{boost::multiprecision::cpp_rational(1, 1000)};
   std::uint64_t max_relocations = 100000;
+
+  static void keys(auto& b, auto&& row) {
+    row(Parameter{"count", Dimension::none, "of balls that are placed at random", {1, largest_count}, "1"},
+        b.count);
+    row(diameter_key, b.diameter);
+    row(Parameter{"diameter_spread", Dimension::length,
+                  "diameters are uniform within so much of `diameter`, on either side", Range::not_negative,
+                  "0 m"},
+        b.diameter_spread);
+    row(density_key, b.density);
+    row(inertia_key, b.reduced_inertia);
+    row(velocity_of("of each ball of the batch"), b.velocity);
+    row(
+        Parameter{
+            "random_speed", Dimension::speed,
+            "each ball gets a random direction and a random speed up to this one, in place of `velocity`",
+            Range::not_negative},
+        b.random_speed);
+    row(Parameter{"gap_ball", Dimension::length, "least distance to other balls", Range::not_negative,
+                  "1 mm"},
+        b.gap_ball);
+    row(Parameter{"gap_wall", Dimension::length, "least distance to walls", Range::not_negative, "1 mm"},
+        b.gap_wall);
+    row(Parameter{"max_relocations", Dimension::none, "attempts to place a ball", Range::any, "100000"},
+        b.max_relocations);
+    row(colour_key, b.colour);
+  }
 };
 
 /// A ball with its state at the initial time, in the inertial frame.
 struct ExplicitBall : BallSpec {
   QuantityVector position{};
   QuantityVector spin{};
+
+  static void keys(auto& b, auto&& row) {
+    row(diameter_key, b.diameter);
+    row(density_key, b.density);
+    row(inertia_key, b.reduced_inertia);
+    row(Parameter{"position", Dimension::length, "of the centre, in the inertial frame", Range::any, nullptr,
+                  "required without `run.initial_state`"},
+        b.position);
+    row(velocity_of("in the inertial frame"), b.velocity);
+    row(Parameter{"spin", Dimension::angular_speed, "in the inertial frame", Range::any, nullptr, "none"},
+        b.spin);
+    row(colour_key, b.colour);
+  }
 };
 
 using ContactSpec = model::ContactLaw<Quantity>;
@@ -71,6 +131,26 @@ struct AuditSpec {
   std::optional<std::uint64_t> first_ball;
   std::string walls;  ///< "-1, -2, -3": what stands for the walls, by id; empty when not given
   bool from_start = false;
+
+  static void keys(auto& a, auto&& row) {
+    row(Parameter{"tolerance", Dimension::none, "relative", Range::share, nullptr, "1e-9"}, a.tolerance);
+    row(Parameter{"gap_tolerance", Dimension::length, "largest gap or overlap of bodies in contact",
+                  Range::positive, nullptr, "by rounding"},
+        a.gap_tolerance);
+    row(Parameter{"first_ball",
+                  Dimension::none,
+                  "number of the log's first ball",
+                  {0, largest_count},
+                  nullptr,
+                  "0"},
+        a.first_ball);
+    row(Parameter{"walls", Dimension::none, "numbers of the walls by id: `\"1, 2, 3\"`", Range::any, nullptr,
+                  "those of edmill"},
+        a.walls);
+    row(Parameter{"from_start", Dimension::none, "the log begins at the initial state of the case",
+                  Range::any, "false"},
+        a.from_start);
+  }
 };
 
 struct CaseSpec {
@@ -100,6 +180,29 @@ struct CaseSpec {
   std::vector<BallBatch> batches;
   std::vector<OutputSpec> outputs;
   AuditSpec audit;  ///< no part of what is simulated, nor of the digest
+
+  /// Of [run], but for precision, gravity and the stop rules.
+  static void keys(auto& c, auto&& row) {
+    row(Parameter{"seed", Dimension::none, "of the random placement", Range::any, "1"}, c.seed);
+    row(Parameter{"initial_time", Dimension::time, "instant of the initial state", Range::not_negative,
+                  "0 s"},
+        c.initial_time);
+    row(Parameter{"start_time", Dimension::time, "statistics begin here", Range::any, nullptr,
+                  "`initial_time`"},
+        c.statistics_start);
+    row(Parameter{"end_time", Dimension::time,
+                  "the run ends here; this or another stop rule, a key `max_...`, is required, and the first "
+                  "that is "
+                  "met ends the run"},
+        c.end_time);
+    row(
+        Parameter{
+            "initial_state", Dimension::none,
+            "a `final_state.csv` to start from, relative to the case file; the properties of the balls stay "
+            "those of the case",
+            Range::any, nullptr, "none", Parameter::Digest::none},
+        c.initial_state);
+  }
 
   /// From 1; 0 when there is none.
   int material_named(const std::string& name) const;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "casefile/case_parts.hpp"
+#include "casefile/key_reader.hpp"
 
 namespace edmill::casefile {
 
@@ -16,7 +17,7 @@ namespace {
 struct GivenLaw {
   std::string name;
   std::map<std::string, Quantity> parameters;
-  std::vector<std::array<Quantity, 2>> points;  ///< of restitution_by_speed
+  std::map<std::string, std::vector<std::array<Quantity, 2>>> tables;  ///< by key
   Quantity least_separation{cpp_rational(1, 100)};
 };
 
@@ -35,35 +36,24 @@ std::vector<std::string> law_names() {
   return names;
 }
 
-std::string expected(const model::LawParameter& p) {
-  if (p.dimension != Dimension::none) return describe(p.dimension) + " above 0";
-  return fmt::format("a number from {} to {}", p.low, p.high);
-}
-
-bool in_range(const Quantity& q, const model::LawParameter& p) {
-  if (p.dimension != Dimension::none) return q.positive();
-  if (q.pi_power != 0) return q.to<double>() >= p.low && q.to<double>() <= p.high;
-  return q.value >= cpp_rational(p.low) && q.value <= cpp_rational(p.high);
-}
-
 void require_least(Section& s, const Quantity& speed) {
   s.require(!speed.negative(), "least_separation", "a speed of 0 or more");
 }
 
-void read_points(Section& s, GivenLaw& given) {
-  constexpr const char* key = "restitution_by_speed";
-  auto points = s.pairs(key, Dimension::speed, Dimension::none);
-  if (!s.has(key)) return;
-  given.points = std::move(points);
-  bool good = !given.points.empty() && !given.points.front()[0].negative();
-  for (std::size_t k = 0; k < given.points.size(); ++k) {
-    const auto& [speed, restitution] = given.points[k];
-    good = good && !restitution.negative() && restitution.value <= 1;
-    if (k > 0) good = good && given.points[k - 1][0].value < speed.value;
+/// The table of a law that has one.
+template <class Law>
+void read_table(Section& s, GivenLaw& given) {
+  constexpr const auto& rows = Law::table_rows;
+  auto points = s.pairs(Law::table, rows[0].dimension, rows[1].dimension);
+  if (!s.has(Law::table)) return;
+  bool good = !points.empty();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    for (std::size_t place = 0; place < 2; ++place)
+      good = good && in_range(points[k][place], rows[place].range);
+    if (k > 0) good = good && points[k - 1][0].value < points[k][0].value;
   }
-  if (!good)
-    s.problem(key, fmt::format("a table of {} points", given.points.size()),
-              "points [speed, restitution], speeds rising from 0 or more, restitutions from 0 to 1");
+  if (!good) s.problem(Law::table, fmt::format("a table of {} points", points.size()), Law::table_form);
+  given.tables[Law::table] = std::move(points);
 }
 
 /// Parameters of every law may be given, so that a sweep over laws has all that it needs in one section.
@@ -73,21 +63,23 @@ void read_law(Section& s, GivenLaw& given) {
   if (chosen || given.name.empty()) given.name = name;
   if (s.has("restitution") && s.has("restitution_normal"))
     s.problem("restitution_normal", "both 'restitution' and 'restitution_normal'", "one of them");
-  const auto take = [&](const std::string& key, const model::LawParameter& p) {
+  const auto take = [&](const std::string& key, const Parameter& p) {
     const bool here = s.has(key);
     const auto found = s.quantity(key, p.dimension);
-    if (found) s.require(in_range(*found, p), key, expected(p));
+    if (found) s.require(in_range(*found, p.range), key, expected(p));
     if (here) given.parameters[p.key] = found.value_or(Quantity{});  // what is wrong has been reported
   };
   std::map<std::string, bool> read;
   for_each_law([&](const auto& law) {
-    law.parameters(law, [&](const model::LawParameter& p, const Quantity&) {
+    law.parameters(law, [&](const Parameter& p, const Quantity&) {
       if (std::exchange(read[p.key], true)) return;
       take(p.key, p);
       if (p.key == std::string("restitution")) take("restitution_normal", p);
     });
   });
-  read_points(s, given);
+  for_each_law([&]<class Law>(const Law&) {
+    if constexpr (requires { Law::table; }) read_table<Law>(s, given);
+  });
   if (const auto speed = s.quantity("least_separation", Dimension::speed)) {
     given.least_separation = *speed;
     require_least(s, *speed);
@@ -127,15 +119,15 @@ ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spe
   result.least_separation = given.least_separation;
   for_each_law([&](auto law) {
     if (given.name != law.name) return;
-    law.parameters(law, [&](const model::LawParameter& p, Quantity& value) {
+    law.parameters(law, [&](const Parameter& p, Quantity& value) {
       const auto found = given.parameters.find(p.key);
       if (found != given.parameters.end()) {
         value = found->second;
       } else if (p.fallback) {
-        value = Quantity{cpp_rational(*p.fallback)};
+        value = fallback_of(p);
       } else if (const auto ratio = charge_ratio(spec); ratio && p.key == std::string("charge_ratio")) {
         value = *ratio;
-        if (!in_range(value, p))
+        if (!in_range(value, p.range))
           contact.problem(p.key, fmt::format("{:.4g} from [[balls]] and [powder]", value.to<double>()),
                           expected(p));
       } else {
@@ -143,9 +135,10 @@ ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spe
       }
     });
     if constexpr (requires { law.points; }) {
-      law.points = given.points;
-      if (law.points.empty() && !contact.has("restitution_by_speed"))
-        contact.problem("restitution_by_speed", "nothing", "points [speed, restitution]");
+      if (const auto found = given.tables.find(law.table); found != given.tables.end())
+        law.points = found->second;
+      else
+        contact.problem(law.table, "nothing", law.table_form);
     }
     if constexpr (std::is_same_v<decltype(law), model::PowderLoad<Quantity>>)
       require_diameters(contact, spec);
@@ -159,11 +152,11 @@ bool is_complete(const GivenLaw& given, const CaseSpec& spec) {
   bool complete = true;
   for_each_law([&](const auto& law) {
     if (given.name != law.name) return;
-    law.parameters(law, [&](const model::LawParameter& p, const Quantity&) {
+    law.parameters(law, [&](const Parameter& p, const Quantity&) {
       complete = complete && (given.parameters.contains(p.key) || p.fallback ||
                               (p.key == std::string("charge_ratio") && charge_ratio(spec)));
     });
-    if constexpr (requires { law.points; }) complete = complete && !given.points.empty();
+    if constexpr (requires { law.points; }) complete = complete && given.tables.contains(law.table);
   });
   return complete;
 }
@@ -217,8 +210,8 @@ void require_all_pairs(Section& contact, const CaseSpec& spec) {
 }  // namespace
 
 void check(Section contact, const ContactSpec& law, const CaseSpec& spec) {
-  law.parameters([&](const model::LawParameter& p, const Quantity& value) {
-    contact.require(in_range(value, p), p.key, expected(p));
+  law.parameters([&](const Parameter& p, const Quantity& value) {
+    contact.require(in_range(value, p.range), p.key, expected(p));
   });
   if (std::holds_alternative<model::PowderLoad<Quantity>>(law.law)) require_diameters(contact, spec);
   require_least(contact, law.least_separation);

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <set>
 #include <sstream>
-#include <type_traits>
 #include <utility>
 
 #include "casefile/case_spec.hpp"
+#include "casefile/key_reader.hpp"
 #include "casefile/output_entry.hpp"
 #include "casefile/parts.hpp"
-#include "casefile/quantity.hpp"
+#include "casefile/study_spec.hpp"
 
 namespace edmill::casefile {
 
@@ -23,13 +23,8 @@ struct FixedKey {
 
 // clang-format off
 constexpr FixedKey fixed_keys[] = {
-    {"run", "end_time", "time", "none", "the run ends here; this or another stop rule, a key `max_...`, is required, and the first that is met ends the run"},
-    {"run", "start_time", "time", "`initial_time`", "statistics begin here"},
-    {"run", "initial_time", "time", "`\"0 s\"`", "instant of the initial state"},
     {"run", "precision", "name of a scalar", "`\"double\"`", "scalar of the run; `edmill --version` lists all"},
-    {"run", "seed", "count", "1", "of the random placement"},
     {"run", "gravity", "acceleration, or a vector", "none", "along -Y when it is one number"},
-    {"run", "initial_state", "file", "none", "a `final_state.csv` to start from, relative to the case file; the properties of the balls stay those of the case"},
 
     {"mill", "type", "name", "`\"spex8000\"`", "how the vessel moves"},
     {"mill", "joint", "tables", "required", "from the ground to the vessel, any number of entries `[[mill.joint]]`", "chain"},
@@ -62,12 +57,11 @@ constexpr FixedKey fixed_keys[] = {
     {"vessel.piston.swing", "speed", "angular speed", "required", "2 pi times the frequency"},
     {"vessel.piston.swing", "phase", "angle", "`\"0 deg\"`", "at the time 0"},
 
-    {"material", "name", "text", "required", "by which balls, walls and pairs name it"},
-    {"material", "density", "density", "none", "required for a material of balls"},
 
     {"contact", "model", "name", "`\"walton-braun\"`", "the contact law"},
     {"contact", "restitution_normal", "number", "none", "another name of `restitution`", "walton-braun, constant"},
     {"contact", "restitution_by_speed", "list of pairs", "required", "points `[[\"0.1 m/s\", 0.9], [\"3 m/s\", 0.6]]`; straight lines between, constant beyond", "restitution-by-speed"},
+    {"contact", "tangential_by_slip", "list of pairs", "required", "points `[[0, -0.4], [3, 0.1]]` of slip over approach and e_t; straight lines between, constant below the first, sliding beyond the last", "restitution-by-slip"},
     {"contact", "least_separation", "speed", "`\"1 cm/s\"`", "bodies do not separate more slowly after an impact; `\"0 m/s\"` is the exact model, which ends at a Zeno point"},
     {"contact", "ball_ball", "table", "none", "keys that override those of `[contact]` between balls"},
     {"contact", "ball_wall", "table", "none", "keys that override those of `[contact]` at walls"},
@@ -76,38 +70,14 @@ constexpr FixedKey fixed_keys[] = {
 
     {"powder", "mass", "mass", "required", "for the charge ratio and the specific dose"},
 
-    {"balls", "count", "count", "1", "of balls that are placed at random"},
-    {"balls", "diameter", "length", "required", "of each ball"},
-    {"balls", "diameter_spread", "length", "`\"0 m\"`", "diameters are uniform within so much of `diameter`, on either side"},
-    {"balls", "density", "density", "`\"8 g/cm3\"`", "this or a material that has one"},
     {"balls", "material", "name", "none", "of a `[[material]]`"},
-    {"balls", "reduced_inertia", "number", "0.4", "moment of inertia over m R^2; 0.4 of a solid sphere"},
-    {"balls", "velocity", "three speeds", "at rest", "of each ball of the batch"},
-    {"balls", "random_speed", "speed", "none", "each ball gets a random direction and a random speed up to this one, in place of `velocity`"},
-    {"balls", "gap_ball", "length", "`\"1 mm\"`", "least distance to other balls"},
-    {"balls", "gap_wall", "length", "`\"1 mm\"`", "least distance to walls"},
-    {"balls", "max_relocations", "count", "100000", "attempts to place a ball"},
-    {"balls", "colour", "colour", "blue", "in pictures"},
 
-    {"ball", "diameter", "length", "required", "of the ball"},
-    {"ball", "position", "three lengths", "required", "of the centre, in the inertial frame; not needed with `run.initial_state`"},
-    {"ball", "velocity", "three speeds", "at rest", "in the inertial frame"},
-    {"ball", "spin", "three angular speeds", "none", "in the inertial frame"},
-    {"ball", "density", "density", "`\"8 g/cm3\"`", "this or a material that has one"},
     {"ball", "material", "name", "none", "of a `[[material]]`"},
-    {"ball", "reduced_inertia", "number", "0.4", "moment of inertia over m R^2"},
-    {"ball", "colour", "colour", "blue", "in pictures"},
 
     {"output", "type", "name", "required", "which table or picture"},
     {"output", "file", "text", "type and extension", "a plain name; a table whose name ends in `.h5` is written as HDF5"},
     {"output", "folder", "text", "the run's folder", "inside the run's folder; created if absent"},
     {"output", "append", "true or false", "false", "of CSV: keep the content of the file and add to it; outputs that all append can share a file"},
-    {"output", "on", "true or false", "true", "false leaves the table empty"},
-    {"output", "start_time", "time", "the start of the run", "the record begins at this time or at `start_collision`, whichever is earlier"},
-    {"output", "start_collision", "count", "none", "index of an impact, from 0"},
-    {"output", "end_time", "time", "the end of the run", "the record ends at this time, after `duration` or after `collisions`, whichever is earliest"},
-    {"output", "duration", "time", "none", "of the record"},
-    {"output", "collisions", "count", "none", "number of impacts in the record, with those that `only` excludes"},
     {"output", "only", "table", "all impacts", "only impacts with these values of flags and counts"},
     {"output.only", "*", "true, false or count", "", "the key is a flag or a count"},
     {"output.columns", "variable", "name", "required", "a variable; of `trends_balls` a quantity of a ball"},
@@ -116,21 +86,12 @@ constexpr FixedKey fixed_keys[] = {
     {"output.columns", "true_text", "text", "`\"1\"`", "for a flag that is true", "trends_instant"},
     {"output.columns", "false_text", "text", "`\"0\"`", "for a flag that is false", "trends_instant"},
     {"output.columns", "with_ball", "true or false", "false", "also which ball has the minimum or maximum", "trends_balls"},
-    {"output.contact_point", "radius", "length", "`\"1 mm\"`", "of the sphere that marks it"},
-    {"output.contact_point", "colour", "colour", "yellow", "of the sphere that marks it"},
 
     {"audit", "columns", "table", "none", "names of columns in the other code's log, `[audit.columns]`"},
-    {"audit", "tolerance", "number", "1e-9", "relative"},
-    {"audit", "gap_tolerance", "length", "by rounding", "largest gap or overlap of bodies in contact"},
-    {"audit", "first_ball", "count", "0", "number of the log's first ball"},
-    {"audit", "walls", "text", "those of edmill", "numbers of the walls by id: `\"1, 2, 3\"`"},
-    {"audit", "from_start", "true or false", "false", "the log begins at the initial state of the case"},
     {"audit.columns", "*", "text", "the same name", "ours = theirs, with a unit in brackets: `approach_speed = \"vn [mm/s]\"`"},
 
     {"sweep", "case", "file", "required", "relative to the sweep file"},
     {"sweep", "precision", "name of a scalar", "that of the case", "of all runs"},
-    {"sweep", "seed", "count", "1", "the first of the seeds"},
-    {"sweep", "replicas", "count", "1", "runs of each point, with successive seeds"},
     {"sweep", "max_cpu_time", "time", "none", "of processor time, after which a run ends without a result"},
     {"sweep", "grid", "table", "none", "every combination of the values, `[sweep.grid]`"},
     {"sweep", "point", "tables", "none", "single points, each with all of the grid, entries `[[sweep.point]]`"},
@@ -141,14 +102,8 @@ constexpr FixedKey fixed_keys[] = {
 
     {"optimize", "case", "file", "required", "relative to the optimisation file"},
     {"optimize", "precision", "name of a scalar", "that of the case", "of all runs"},
-    {"optimize", "seed", "count", "1", "the first of the seeds"},
     {"optimize", "max_cpu_time", "time", "none", "of processor time, after which a run ends without a result"},
     {"optimize", "objective", "name", "`\"specific_milling_dose_rate\"`", "this or `milling_dose_rate`"},
-    {"optimize", "runs_max", "count", "required", "the whole budget"},
-    {"optimize", "replicas_first", "count", "3", "runs of every point"},
-    {"optimize", "replicas_max", "count", "24", "runs of a point that may be the best"},
-    {"optimize", "points", "count", "5", "of the first grid along each variable"},
-    {"optimize", "refinements", "count", "2", "finer grids around the best point"},
     {"optimize", "variable", "tables", "required", "one to three entries `[[optimize.variable]]`"},
     {"optimize.variable", "key", "text", "required", "a key of the case, or `charge_ratio`"},
     {"optimize.variable", "low", "value", "required without `values`", "lower bound"},
@@ -189,6 +144,19 @@ constexpr SectionText texts[] = {
 };
 // clang-format on
 
+/// The sections whose keys stand in a struct.
+struct KeyedSection {
+  std::string_view section;
+  void (*see)(const SeeKey& see);
+};
+constexpr KeyedSection keyed_sections[] = {
+    {"run", see_keys<CaseSpec>},          {"material", see_keys<MaterialSpec>},
+    {"balls", see_keys<BallBatch>},       {"ball", see_keys<ExplicitBall>},
+    {"output", see_keys<TimerSpec>},      {"output.contact_point", see_keys<ContactPointSpec>},
+    {"audit", see_keys<AuditSpec>},       {"sweep", see_keys<SweepSpec>},
+    {"optimize", see_keys<OptimizeSpec>},
+};
+
 class Table {
  public:
   Table() {
@@ -196,6 +164,8 @@ class Table {
       const std::string name(section.name);
       // What chooses a type comes before the keys of the types.
       add_fixed(name, true);
+      for (const auto& keyed : keyed_sections)
+        if (keyed.section == name) keyed.see(adder(name, ""));
       if (name == "run") add_stop_rules();
       if (name == "mill") add_parts<MotionSpec>(name);
       if (name == "vessel") add_parts<VesselSpec>(name);
@@ -264,47 +234,46 @@ class Table {
     if constexpr (
         requires(Part part) { part.given; } || requires(Part part) { part.faces; })
       return;
+    const auto see = adder(section, Part::name);
     Part part{};
-    const auto row = [&](const model::PartParameter& p, const auto& value) {
-      if (!p.key) return;
-      const bool vector = !std::is_same_v<std::decay_t<decltype(value)>, Quantity>;
-      const auto kind = noun(p.dimension);
-      add({section, Part::name, p.key, vector ? "three " + kind + "s" : kind,
-           p.fallback ? fmt::format("`\"{}\"`", p.fallback) : "required", p.meaning});
+    Part::parameters(part, [&](const Parameter& p, const auto& value) {
+      if (p.key) see(p, kind_of(p, value), default_of(p, false));
+    });
+  }
+
+  SeeKey adder(const std::string& section, const std::string& of) {
+    return [this, section, of](const Parameter& p, const std::string& kind, const std::string& fallback) {
+      add({section, of, p.key, kind, fallback, p.meaning});
     };
-    Part::parameters(part, row);
   }
 
   void add_stop_rules() {
+    const auto see = adder("run", "");
     model::for_each_stop_rule([&](auto rule, std::size_t) {
-      const bool count = rule.key.range == model::Range::count;
-      add({"run", "", rule.key.key, count ? "count" : noun(rule.key.dimension), "none", rule.key.meaning});
+      see(rule.key, kind_of(rule.key, Quantity{}), default_of(rule.key, true));
     });
   }
 
   void add_laws() {
-    using Laws = model::NamedLaws<Quantity>;
     [&]<std::size_t... kind>(std::index_sequence<kind...>) {
-      (add_law(std::variant_alternative_t<kind, Laws>{}), ...);
+      (add_law(std::variant_alternative_t<kind, model::NamedLaws<Quantity>>{}), ...);
     }
-    (std::make_index_sequence<std::variant_size_v<Laws>>{});
+    (std::make_index_sequence<std::variant_size_v<model::NamedLaws<Quantity>>>{});
   }
   void add_law(const auto& law) {
-    law.parameters(law, [&](const model::LawParameter& p, const Quantity&) { add_law_key(p, law.name); });
-  }
-  void add_law_key(const model::LawParameter& p, const char* law) {
-    add({"contact", law, p.key, noun(p.dimension),
-         p.fallback                                  ? std::to_string(*p.fallback)
-         : p.key == std::string_view("charge_ratio") ? "that of the case"
-                                                     : "required",
-         p.meaning});
+    const auto see = adder("contact", law.name);
+    law.parameters(law, [&](const Parameter& p, const Quantity& value) {
+      see(p, kind_of(p, value), default_of(p, false));
+    });
   }
 
   void add_outputs() {
-    for (const auto& type : output_types())
+    for (const auto& type : output_types()) {
       for (const auto& k : type.keys)
         add({"output", std::string(type.name), std::string(k.name), std::string(k.kind),
              std::string(k.fallback), std::string(k.meaning)});
+      if (type.see) type.see(adder("output", std::string(type.name)));
+    }
   }
 
   std::vector<Key> rows_;

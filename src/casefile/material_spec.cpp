@@ -2,6 +2,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/case_parts.hpp"
+#include "casefile/key_reader.hpp"
 
 namespace edmill::casefile {
 
@@ -31,15 +32,12 @@ int CaseSpec::material_named(const std::string& name) const {
 
 void read_material(Section entry, CaseSpec& spec) {
   MaterialSpec material;
-  material.name = entry.text("name").value_or("");
-  if (!entry.has("name")) entry.problem("name", "nothing", "a name");
+  read_keys(entry, material);
   entry.require(material.name.empty() || spec.material_named(material.name) == 0, "name",
                 "a name that no other material has");
-  material.density = entry.quantity("density", Dimension::density);
-  const bool good = material.density && material.density->positive();
-  if (material.density) entry.require(good, "density", "a positive density");
-  // A wrong one is reported here and not at the balls that have it.
-  if (entry.has("density") && !good) material.density = BallSpec{}.density;
+  // A wrong one has been reported here, and is not at the balls that have it.
+  if (entry.has("density") && !(material.density && material.density->positive()))
+    material.density = BallSpec{}.density;
   entry.reject_unknown_keys();
   spec.materials.push_back(std::move(material));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "casefile/key_reader.hpp"
 #include "casefile/nearest.hpp"
 #include "model/impact_variables.hpp"
 
@@ -101,20 +102,11 @@ double size_of(const Quantity& quantity) {
   return quantity.value.convert_to<double>() * std::pow(3.14159265358979, quantity.pi_power);
 }
 
-std::uint64_t read_size(Section& s, const char* key, std::uint64_t fallback) {
-  constexpr std::uint64_t largest = 1000;
-  const auto size = s.count(key).value_or(fallback);
-  s.require(size > 0 && size <= largest, key, "1 to " + std::to_string(largest));
-  return size;
-}
-
 void read_contact_point(Section& s, OutputSpec& output) {
   if (!s.has("contact_point")) return;
   Section point = s.section("contact_point");
   ContactPointSpec spec;
-  spec.radius = point.quantity("radius", Dimension::length, spec.radius);
-  point.require(spec.radius.positive(), "radius", "a positive length");
-  spec.colour = point.colour("colour", spec.colour);
+  read_keys(point, spec);
   point.reject_unknown_keys();
   output.contact_point = spec;
 }

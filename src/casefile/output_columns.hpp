@@ -36,8 +36,8 @@ std::vector<Statistic> read_statistics(Section& s, const std::vector<Statistic>&
 /// Reads `interval` and `max_rows`.
 void read_interval(Section& s, TimerSpec& timer, const std::optional<Quantity>& fallback = std::nullopt);
 
-/// Reads the size of a table: at least 1 and not beyond reason.
-std::uint64_t read_size(Section& s, const char* key, std::uint64_t fallback);
+/// The size of a table: at least 1 and not beyond reason.
+inline constexpr Range table_size{1, 1000};
 
 /// Reads `contact_point`.
 void read_contact_point(Section& s, OutputSpec& output);

@@ -13,20 +13,9 @@ using model::impact_variables;
 using model::VariableKind;
 
 void read_timer(Section& s, TimerSpec& timer) {
-  timer.on = !s.has("on") || s.flag("on");
-  timer.start_time = s.quantity("start_time", Dimension::time);
-  timer.end_time = s.quantity("end_time", Dimension::time);
-  timer.duration = s.quantity("duration", Dimension::time);
-  timer.start_collision = s.count("start_collision");
-  timer.collisions = s.count("collisions");
-  for (const auto* key : {"start_time", "end_time"}) {
-    const auto& time = key == std::string("end_time") ? timer.end_time : timer.start_time;
-    s.require(!time || !time->negative(), key, "a time of 0 or more");
-  }
+  read_keys(s, timer);
   if (timer.start_time && timer.end_time)
     s.require(timer.end_time->value > timer.start_time->value, "end_time", "a time after start_time");
-  s.require(!timer.duration || timer.duration->positive(), "duration", "a positive time");
-  s.require(!timer.collisions || *timer.collisions > 0, "collisions", "at least 1");
 }
 
 void read_restrictions(Section& s, std::vector<Restriction>& only) {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "casefile/key.hpp"
+#include "casefile/key_reader.hpp"
 #include "casefile/section.hpp"
 
 namespace edmill::casefile {
@@ -17,8 +18,17 @@ struct OutputType {
   std::string_view extension;  ///< of its file unless the entry names one; ".csv" for tables
   std::string_view what;       ///< it writes, for readers
   ReadOutputKeys* read;
-  std::span<const KeyText> keys = {};  ///< that `read` looks up
+  std::span<const KeyText> keys = {};        ///< that `read` looks up
+  void (*see)(const SeeKey& see) = nullptr;  ///< shows those of a struct that lists them
 };
+
+/// Reads keys that a struct lists, into OutputSpec::own.
+template <class Keys>
+void read_own(Section& entry, const CaseSpec&, OutputSpec& output) {
+  Keys keys;
+  read_keys(entry, keys);
+  output.own = keys;
+}
 
 /// Every type of output. The registry of the outputs defines it, and makes outputs from the same rows.
 std::span<const OutputType> output_types();

@@ -11,8 +11,12 @@
 
 #include "casefile/colour.hpp"
 #include "casefile/quantity.hpp"
+#include "model/parts/parameter.hpp"
 
 namespace edmill::casefile {
+
+using model::Parameter;
+using model::Range;
 
 /// When an output records. (thesis D.3.2) Of two starts the first counts, and of two ends.
 struct TimerSpec {
@@ -22,6 +26,28 @@ struct TimerSpec {
   std::optional<std::uint64_t> collisions;       ///< how many impacts it lasts
   std::optional<Quantity> interval;
   std::optional<std::uint64_t> max_rows;
+
+  /// Of every output; some have an interval beside them.
+  static void keys(auto& t, auto&& row) {
+    using enum Dimension;
+    row(Parameter{"on", none, "false leaves the table empty", Range::any, "true"}, t.on);
+    row(Parameter{"start_time", time,
+                  "the record begins at this time or at `start_collision`, whichever is earlier",
+                  Range::not_negative, nullptr, "the start of the run"},
+        t.start_time);
+    row(Parameter{"start_collision", none, "index of an impact, from 0", Range::any, nullptr, "none"},
+        t.start_collision);
+    row(
+        Parameter{
+            "end_time", time,
+            "the record ends at this time, after `duration` or after `collisions`, whichever is earliest",
+            Range::not_negative, nullptr, "the end of the run"},
+        t.end_time);
+    row(Parameter{"duration", time, "of the record", Range::positive}, t.duration);
+    row(Parameter{"collisions", none, "number of impacts in the record, with those that `only` excludes",
+                  Range::count, nullptr, "none"},
+        t.collisions);
+  }
 };
 
 /// Only impacts for which a flag or a count has this value.
@@ -59,6 +85,13 @@ struct FrequencySpec {
 struct ContactPointSpec {
   Quantity radius{boost::multiprecision::cpp_rational(1, 1000)};
   Colour colour{1, 1, 0};
+
+  static void keys(auto& c, auto&& row) {
+    row(Parameter{"radius", Dimension::length, "of the sphere that marks it", Range::positive, "1 mm"},
+        c.radius);
+    row(Parameter{"colour", Dimension::none, "of the sphere that marks it", Range::any, nullptr, "yellow"},
+        c.colour);
+  }
 };
 
 /// How an animation is played. (thesis D.4.2)
@@ -66,6 +99,14 @@ struct AnimationSpec {
   Quantity speed{boost::multiprecision::cpp_rational(1, 1000)};  ///< of playback; 1 is real time
   std::uint64_t frames_per_minute = 60;                          ///< of playback
   std::uint64_t min_frames = 8;
+
+  static void keys(auto& a, auto&& row) {
+    row(Parameter{"speed", Dimension::none, "of playback; 1 is real time", Range::positive, "0.001"},
+        a.speed);
+    row(Parameter{"frames_per_minute", Dimension::none, "of playback", Range::count, "60"},
+        a.frames_per_minute);
+    row(Parameter{"min_frames", Dimension::none, "of the whole", Range::count, "8"}, a.min_frames);
+  }
 };
 
 /// What every entry says, what several types share, and what reports ask for.

@@ -38,8 +38,8 @@ template <class... Part, class Visit>
 void for_each_parameter(const std::variant<Part...>& part, Visit&& visit) {
   struct Call {
     Visit& visit;
-    void operator()(const model::PartParameter& p, const Quantity& value) { visit(p, std::vector{value}); }
-    void operator()(const model::PartParameter& p, const std::array<Quantity, 3>& values) {
+    void operator()(const model::Parameter& p, const Quantity& value) { visit(p, std::vector{value}); }
+    void operator()(const model::Parameter& p, const std::array<Quantity, 3>& values) {
       visit(p, std::vector(values.begin(), values.end()));
     }
   } call{visit};
@@ -50,7 +50,7 @@ void for_each_parameter(const std::variant<Part...>& part, Visit&& visit) {
 template <class... Part>
 std::string text_of(const std::variant<Part...>& part) {
   std::string text = name_of(part);
-  for_each_parameter(part, [&](const model::PartParameter&, const std::vector<Quantity>& values) {
+  for_each_parameter(part, [&](const model::Parameter&, const std::vector<Quantity>& values) {
     for (const auto& value : values) text += " " + value.text();
   });
   return text;
@@ -68,8 +68,6 @@ std::string describe(const MotionSpec& motion);
 std::string describe(const VesselSpec& vessel);
 
 class Section;
-/// The value of a key that may be absent; what is wrong is reported.
-std::optional<Quantity> read_if_given(Section& section, const model::PartParameter& p);
 /// Type and parameters of [mill] and [vessel]; what is wrong is reported.
 MotionSpec read_motion(Section& mill);
 VesselSpec read_vessel(Section& vessel);

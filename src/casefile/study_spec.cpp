@@ -5,14 +5,13 @@
 #include <filesystem>
 
 #include "base/errors.hpp"
+#include "casefile/key_reader.hpp"
 #include "casefile/section.hpp"
 #include "io/input_file.hpp"
 
 namespace edmill::casefile {
 
 namespace {
-
-constexpr std::uint64_t most_runs = 1000000;
 
 void read_study(Section& s, StudySpec& spec) {
   if (const auto name = s.text("case")) {
@@ -28,20 +27,10 @@ void read_study(Section& s, StudySpec& spec) {
     spec.precision = s.choice("precision", precisions());
   else
     s.choice("precision", precisions());
-  spec.seed = s.count("seed").value_or(1);
-  s.require(spec.seed < 1000000000000, "seed", "a number below 1e12");
   if (const auto limit = s.quantity("max_cpu_time", Dimension::time)) {
     s.require(limit->positive(), "max_cpu_time", "a time above 0");
     spec.max_cpu_time = limit->to<double>();
   }
-}
-
-std::uint64_t bounded(Section& s, const std::string& key, std::uint64_t fallback, std::uint64_t low,
-                      std::uint64_t high) {
-  const auto value = s.count(key).value_or(fallback);
-  s.require(value >= low && value <= high, key,
-            "a number from " + std::to_string(low) + " to " + std::to_string(high));
-  return std::clamp(value, low, high);
 }
 
 /// Seeds and precision belong to the whole study; other keys of a case have a section.
@@ -143,17 +132,6 @@ void read_variable(Section s, OptimizeSpec& spec) {
   spec.variables.push_back(std::move(variable));
 }
 
-void read_budget(Section& s, OptimizeSpec& spec) {
-  spec.objective = s.choice("objective", {"specific_milling_dose_rate", "milling_dose_rate"});
-  if (!s.has("runs_max")) s.problem("runs_max", "nothing", "the largest number of runs");
-  spec.runs_max = bounded(s, "runs_max", 100, 1, most_runs);
-  spec.replicas_first = bounded(s, "replicas_first", 3, 2, 1000);
-  spec.replicas_max = bounded(s, "replicas_max", 24, 2, 1000);
-  s.require(spec.replicas_max >= spec.replicas_first, "replicas_max", "at least 'replicas_first'");
-  spec.points = bounded(s, "points", 5, 2, 100);
-  spec.refinements = bounded(s, "refinements", 2, 0, 20);
-}
-
 /// Reads the one section of a file by `read`, and reports everything that is wrong.
 template <class Spec, class Read>
 Spec read_study_file(const std::string& path, const std::string& section, const Read& read) {
@@ -167,6 +145,7 @@ Spec read_study_file(const std::string& path, const std::string& section, const 
   if (!top.has(section)) top.problem(section, "nothing", "a section [" + section + "]");
   Section s = top.section(section);
   read_study(s, spec);
+  read_keys(s, spec);
   read(s, spec);
   s.reject_unknown_keys();
   top.reject_unknown_keys();
@@ -178,7 +157,6 @@ Spec read_study_file(const std::string& path, const std::string& section, const 
 
 SweepSpec read_sweep(const std::string& path) {
   return read_study_file<SweepSpec>(path, "sweep", [](Section& s, SweepSpec& spec) {
-    spec.replicas = bounded(s, "replicas", 1, 1, most_runs);
     read_grid(s.section("grid"), spec);
     for (const auto& entry : s.sections("point")) read_entry(entry, spec);
     check_size(s, spec);
@@ -187,7 +165,8 @@ SweepSpec read_sweep(const std::string& path) {
 
 OptimizeSpec read_optimize(const std::string& path) {
   return read_study_file<OptimizeSpec>(path, "optimize", [](Section& s, OptimizeSpec& spec) {
-    read_budget(s, spec);
+    spec.objective = s.choice("objective", {"specific_milling_dose_rate", "milling_dose_rate"});
+    s.require(spec.replicas_max >= spec.replicas_first, "replicas_max", "at least 'replicas_first'");
     const auto variables = s.sections("variable");
     if (!s.has("variable")) s.problem("variable", "nothing", "1 to 3 entries [[optimize.variable]]");
     for (const auto& variable : variables) read_variable(variable, spec);

@@ -1,7 +1,9 @@
 #include "cli/audit_command.hpp"
 
+#include <limits>
 #include <optional>
 
+#include "cli/dem_command.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/progress_line.hpp"
 #include "io/input_file.hpp"
@@ -22,7 +24,11 @@ std::optional<io::NamedFile> file_for(const std::string& name) {
 }  // namespace
 
 int run_audit(const casefile::CaseSpec& spec, AuditOptions options) {
-  auto json = file_for(options.json);
+  const io::Spool pipes;
+  if (dem::is_contact_log(options.log))
+    return run_contact_audit(spec, {options.log, options.interrupt}, {options.json, options.junit},
+                             options.quiet);
+  auto json = file_for(options.json), junit = file_for(options.junit);
   std::optional<ProgressLine> line;
   if (shows_progress(options.quiet)) {
     std::optional<double> end;
@@ -34,6 +40,7 @@ int run_audit(const casefile::CaseSpec& spec, AuditOptions options) {
   const auto audited = app::audit(spec, options);
   line.reset();
   if (json) json->write([&](std::ostream& out) { out << audited.json(); });
+  if (junit) junit->write([&](std::ostream& out) { out << audited.junit(); });
   if (!options.quiet) io::print("{}", audited.table());
   switch (audited.result.verdict) {
     case audit::Verdict::clean:
@@ -46,10 +53,15 @@ int run_audit(const casefile::CaseSpec& spec, AuditOptions options) {
 }
 
 int run_compare(const CompareOptions& options) {
-  auto json = file_for(options.json);
+  auto json = file_for(options.json), junit = file_for(options.junit);
   const io::Spool pipes;
+  if (dem::is_contact_log(options.a.string()) || dem::is_contact_log(options.b.string()))
+    return run_contact_comparison(options.a.string(), options.b.string(), options.limits.from.value_or(0),
+                                  options.limits.until.value_or(std::numeric_limits<double>::infinity()),
+                                  {options.json, options.junit}, options.quiet);
   const auto comparison = compare::compare(options);
   if (json) json->write([&](std::ostream& out) { out << compare::to_json(comparison); });
+  if (junit) junit->write([&](std::ostream& out) { out << compare::to_junit(comparison); });
   if (!options.quiet) io::print("{}", compare::table(comparison));
   switch (comparison.verdict) {
     case compare::Verdict::agree:

@@ -9,7 +9,7 @@
 namespace edmill::cli {
 
 struct AuditOptions : app::AuditOptions {
-  std::string json;  ///< file for the result; none when empty
+  std::string json, junit;  ///< files for the result; none when empty
   bool quiet = false;
 };
 
@@ -17,7 +17,7 @@ struct AuditOptions : app::AuditOptions {
 int run_audit(const casefile::CaseSpec& spec, AuditOptions options);
 
 struct CompareOptions : compare::Options {
-  std::string json;  ///< file for the result; none when empty
+  std::string json, junit;  ///< files for the result; none when empty
   bool quiet = false;
 };
 

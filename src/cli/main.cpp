@@ -11,6 +11,7 @@
 #include "base/version.hpp"
 #include "cli/commands/certainty.hpp"
 #include "cli/commands/check.hpp"
+#include "cli/commands/dem.hpp"
 #include "cli/commands/logs.hpp"
 #include "cli/commands/report.hpp"
 #include "cli/commands/run.hpp"
@@ -39,6 +40,9 @@ using Commands = std::tuple<cli::Run,        //
                             cli::Optimize,   //
                             cli::Compare,    //
                             cli::Audit,      //
+                            cli::Export,     //
+                            cli::Import,     //
+                            cli::Limit,      //
                             cli::Manual,     //
                             cli::Reference,  //
                             cli::Completion>;

@@ -53,4 +53,7 @@ std::string table(const Comparison& comparison);
 /// docs/files.md, "comparison".
 std::string to_json(const Comparison& comparison);
 
+/// JUnit's XML: a test case for the events, where they must agree, and for each quantity that is tested.
+std::string to_junit(const Comparison& comparison);
+
 }  // namespace edmill::compare

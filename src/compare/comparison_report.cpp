@@ -6,6 +6,7 @@
 #include "base/version.hpp"
 #include "compare/comparison.hpp"
 #include "io/json_text.hpp"
+#include "io/junit_text.hpp"
 
 namespace edmill {
 extern template std::string to_text<double>(const double&);
@@ -166,6 +167,23 @@ std::string to_json(const Comparison& c) {
     json.end();
   }
   return json.finish();
+}
+
+std::string to_junit(const Comparison& c) {
+  io::JunitText junit("edmill compare");
+  if (c.events_verdict)
+    junit.add("events", *c.events_verdict == Verdict::agree
+                            ? ""
+                            : fmt::format("{} events agree, {} must", c.events.agreeing, *c.options.events));
+  for (const auto& q : c.quantities) {
+    if (q.verdict == Verdict::not_compared) continue;
+    junit.add(q.name, q.verdict == Verdict::agree
+                          ? ""
+                          : fmt::format("differs by {:.4g} {}, {:.4g} at most", q.difference.value_or(0),
+                                        q.unit, q.half_width.value_or(0)));
+  }
+  junit.add("enough events", c.verdict == Verdict::too_few ? "too few to compare" : "");
+  return junit.finish();
 }
 
 }  // namespace edmill::compare

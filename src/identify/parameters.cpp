@@ -15,7 +15,6 @@ namespace edmill::identify {
 namespace {
 
 using casefile::Quantity;
-using model::PartParameter;
 using model::Range;
 
 using std::numbers::pi;
@@ -25,8 +24,8 @@ template <class Part, class F>
 void each_number(Part& part, F&& f) {
   struct Visit {
     F& f;
-    void operator()(const PartParameter& p, Quantity& q) const { f(p, q, -1); }
-    void operator()(const PartParameter& p, std::array<Quantity, 3>& q) const {
+    void operator()(const model::Parameter& p, Quantity& q) const { f(p, q, -1); }
+    void operator()(const model::Parameter& p, std::array<Quantity, 3>& q) const {
       for (int axis = 0; axis < 3; ++axis) f(p, q[static_cast<std::size_t>(axis)], axis);
     }
   } visit{f};
@@ -49,7 +48,7 @@ void add_numbers(const std::string& section, const Assumptions& nominal, Member 
                  std::vector<Parameter>& list) {
   auto part = nominal.spec.*member;
   std::size_t place = 0;
-  each_number(part, [&](const PartParameter& p, Quantity& q, int axis) {
+  each_number(part, [&](const model::Parameter& p, Quantity& q, int axis) {
     const std::size_t own = place++;
     if (!p.key) return;
     const bool drive = p.range == Range::drive;
@@ -58,7 +57,7 @@ void add_numbers(const std::string& section, const Assumptions& nominal, Member 
     if (nominal_value == 0) return;
     const auto set = [member, own, drive](Assumptions& a, double value) {
       std::size_t k = 0;
-      each_number(a.spec.*member, [&](const PartParameter&, Quantity& target, int) {
+      each_number(a.spec.*member, [&](const model::Parameter&, Quantity& target, int) {
         if (k++ == own) target = exactly(drive ? 2 * pi / value : value);
       });
     };

@@ -10,6 +10,7 @@
 #include "model/laws/custom.hpp"
 #include "model/laws/elastic_plastic.hpp"
 #include "model/laws/powder_load.hpp"
+#include "model/laws/restitution_by_slip.hpp"
 #include "model/laws/restitution_by_speed.hpp"
 #include "model/laws/viscoelastic.hpp"
 #include "model/laws/walton_braun.hpp"
@@ -22,6 +23,7 @@ template <class Number>
 using NamedLaws = std::variant<WaltonBraun<Number>,          //
                                ConstantRestitution<Number>,  //
                                RestitutionBySpeed<Number>,   //
+                               RestitutionBySlip<Number>,    //
                                Viscoelastic<Number>,         //
                                ElasticPlastic<Number>,       //
                                PowderLoad<Number>>;
@@ -53,7 +55,7 @@ struct ContactLaw {
   const char* name() const {
     return std::visit([](const auto& l) { return l.name; }, law);
   }
-  /// Calls visit(LawParameter, value) for every parameter of the law.
+  /// Calls visit(Parameter, value) for every parameter of the law.
   template <class Visit>
   void parameters(Visit&& visit) const {
     std::visit([&](const auto& l) { l.parameters(l, visit); }, law);

@@ -11,21 +11,11 @@
 
 namespace edmill::output {
 
-inline constexpr casefile::KeyText animation_keys[] = {
-    {"speed", "number", "0.001", "of playback; 1 is real time"},
-    {"frames_per_minute", "count", "60", "of playback"},
-    {"min_frames", "count", "8", ""},
-    casefile::contact_point_key};
+inline constexpr casefile::KeyText animation_keys[] = {casefile::contact_point_key};
 
 inline void read_animation(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   casefile::read_contact_point(s, output);
-  auto& a = output.animation;
-  a.speed = s.quantity("speed", casefile::Dimension::none, a.speed);
-  s.require(a.speed.positive(), "speed", "a positive number; 1 is real time");
-  a.frames_per_minute = s.count("frames_per_minute").value_or(a.frames_per_minute);
-  s.require(a.frames_per_minute > 0, "frames_per_minute", "at least 1");
-  a.min_frames = s.count("min_frames").value_or(a.min_frames);
-  s.require(a.min_frames > 0, "min_frames", "at least 1");
+  casefile::read_keys(s, output.animation);
 }
 
 /// Keys of a ball are its impacts, and frames between them: it flies straight as far as one sees.

@@ -10,20 +10,20 @@ namespace edmill::output {
 
 /// Whether a log holds the bodies' states before and after.
 struct StatesKey {
-  bool states;
+  bool states = false;
+
+  static void keys(auto& k, auto&& row) {
+    row(casefile::Parameter{"states", Dimension::none,
+                            "also the places and velocities before and after each impact",
+                            casefile::Range::any, "false"},
+        k.states);
+  }
 };
-
-inline constexpr casefile::KeyText states_keys[] = {
-    {"states", "true or false", "false", "also the places and velocities before and after each impact"}};
-
-inline void read_states_key(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  output.own = StatesKey{s.flag("states")};
-}
 
 inline void read_collisions(casefile::Section& s, const casefile::CaseSpec& spec,
                             casefile::OutputSpec& output) {
   s.require(!output.hdf5(), "file", "a name ending in .csv; `events` is the log as HDF5");
-  read_states_key(s, spec, output);
+  casefile::read_own<StatesKey>(s, spec, output);
 }
 
 /// Text alone, line by line: the log as HDF5 is another type, `events`.

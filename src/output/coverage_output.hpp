@@ -10,7 +10,17 @@ namespace edmill::output {
 
 /// Into how many equal parts the coordinates on walls are divided.
 struct CoverageKeys {
-  std::uint64_t angles, heights, rings, parts;
+  std::uint64_t angles = 36, heights = 24, rings = 6, parts = 12;
+
+  static void keys(auto& c, auto&& row) {
+    using casefile::table_size;
+    row(casefile::Parameter{"angles", Dimension::none, "cells about the axis", table_size, "36"}, c.angles);
+    row(casefile::Parameter{"heights", Dimension::none, "cells along the axis", table_size, "24"}, c.heights);
+    row(casefile::Parameter{"rings", Dimension::none, "of equal area on round caps", table_size, "6"},
+        c.rings);
+    row(casefile::Parameter{"parts", Dimension::none, "along each edge of a rectangle", table_size, "12"},
+        c.parts);
+  }
 
   std::size_t parts_of(model::Coordinate c) const {
     switch (c) {
@@ -25,18 +35,6 @@ struct CoverageKeys {
     }
   }
 };
-
-inline constexpr casefile::KeyText coverage_keys[] = {
-    {"angles", "count", "36", "cells about the axis"},
-    {"heights", "count", "24", "cells along the axis"},
-    {"rings", "count", "6", "of equal area on round caps"},
-    {"parts", "count", "12", "along each edge of a rectangle"}};
-
-inline void read_coverage(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  using casefile::read_size;
-  output.own = CoverageKeys{read_size(s, "angles", 36), read_size(s, "heights", 24), read_size(s, "rings", 6),
-                            read_size(s, "parts", 12)};
-}
 
 template <class Real>
 class CoverageOutput : public TableOutput<Real> {

@@ -39,10 +39,6 @@ inline std::vector<EventColumn> event_columns(const model::Partners& partners, b
 
 }  // namespace detail
 
-inline void read_events(casefile::Section& s, const casefile::CaseSpec& spec, casefile::OutputSpec& output) {
-  read_states_key(s, spec, output);
-}
-
 /// NAME.h5: /events with a dataset for each column, the balls and their final state beside it. Numbers
 /// are 64-bit whatever the scalar: the digits of a wide run are in the CSV.
 template <class Real>

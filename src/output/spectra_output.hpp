@@ -14,13 +14,18 @@ struct SpectraKeys {
   bool of_speed = false;         ///< of energy otherwise
   casefile::Quantity low, high;  ///< [m/s] or [J]
   std::uint64_t bins_per_decade = 10;
+
+  static void keys(auto& k, auto&& row) {
+    row(casefile::Parameter{"bins_per_decade", Dimension::none, "in which impacts are counted",
+                            casefile::table_size, "10"},
+        k.bins_per_decade);
+  }
 };
 
 inline constexpr casefile::KeyText spectra_keys[] = {
     {"of", "name", "`\"energy\"`", "this or `speed`"},
     {"low", "energy or speed", "`\"1e-9 J\"`, `\"1 mm/s\"`", "begin of the first bin"},
-    {"high", "energy or speed", "`\"1 J\"`, `\"10 m/s\"`", "end of the last bin"},
-    {"bins_per_decade", "count", "10", ""}};
+    {"high", "energy or speed", "`\"1 J\"`, `\"10 m/s\"`", "end of the last bin"}};
 
 inline void read_spectra(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
   SpectraKeys spectra;
@@ -38,7 +43,7 @@ inline void read_spectra(casefile::Section& s, const casefile::CaseSpec&, casefi
   const bool low_is_wrong = s.has("low") && !s.has("high");
   s.require(ascending || !spectra.low.positive(), low_is_wrong ? "low" : "high",
             low_is_wrong ? "a value below high" : "a value above low");
-  spectra.bins_per_decade = casefile::read_size(s, "bins_per_decade", 10);
+  casefile::read_keys(s, spectra);
   output.own = spectra;
 }
 

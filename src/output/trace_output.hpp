@@ -8,18 +8,21 @@
 namespace edmill::output {
 
 struct TraceKeys {
-  std::uint64_t ball;
+  std::uint64_t ball = 0;
+
+  static void keys(auto& k, auto&& row) {
+    row(casefile::Parameter{"ball", Dimension::none, "its id", casefile::Range::any, "0"}, k.ball);
+  }
 };
 
-inline constexpr casefile::KeyText trace_keys[] = {
-    casefile::interval_if_given, casefile::max_rows_key, {"ball", "count", "0", "its id"}};
+inline constexpr casefile::KeyText trace_keys[] = {casefile::interval_if_given, casefile::max_rows_key};
 
 inline void read_trace(casefile::Section& s, const casefile::CaseSpec& spec, casefile::OutputSpec& output) {
   casefile::read_interval(s, output.timer);
-  const TraceKeys keys{s.count("ball").value_or(0)};
+  casefile::read_own<TraceKeys>(s, spec, output);
   if (spec.ball_count() > 0)
-    s.require(keys.ball < spec.ball_count(), "ball", "a ball of the case; they count from 0");
-  output.own = keys;
+    s.require(output.own_keys<TraceKeys>().ball < spec.ball_count(), "ball",
+              "a ball of the case; they count from 0");
 }
 
 template <class Real>

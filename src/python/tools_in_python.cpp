@@ -1,11 +1,9 @@
 #include <pybind11/stl.h>
 
 #include <atomic>
-#include <chrono>
-#include <future>
+#include <limits>
 #include <sstream>
 #include <string>
-#include <type_traits>
 
 #include "api/case_access.hpp"
 #include "app/audit.hpp"
@@ -15,9 +13,13 @@
 #include "app/study.hpp"
 #include "base/errors.hpp"
 #include "compare/comparison.hpp"
+#include "dem/contact_audit.hpp"
+#include "dem/contact_comparison.hpp"
+#include "dem/contact_log.hpp"
 #include "io/input_file.hpp"
 #include "prove/certificate.hpp"
 #include "python/binding.hpp"
+#include "python/interruptible.hpp"
 #include "report/report_page.hpp"
 
 namespace py = pybind11;
@@ -25,30 +27,6 @@ namespace py = pybind11;
 namespace edmill::python {
 
 namespace {
-
-/// Work on a thread of its own, while this one lets Python's signal handlers run: Ctrl-C sets the flag, which
-/// the work obeys, and is raised when that has ended.
-template <class Work>
-std::invoke_result_t<Work> interruptible(std::atomic<bool>& interrupt, const Work& work) {
-  auto done = std::async(std::launch::async, work);
-  bool raised = false;
-  for (;;) {
-    {
-      const py::gil_scoped_release others;
-      if (done.wait_for(std::chrono::milliseconds(100)) == std::future_status::ready) break;
-    }
-    if (PyErr_CheckSignals() != 0) {
-      PyErr_Clear();
-      raised = interrupt = true;
-    }
-  }
-  auto result = done.get();
-  if (raised) {
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
-    throw py::error_already_set();
-  }
-  return result;
-}
 
 /// @return how many runs failed
 template <class Command>
@@ -68,6 +46,9 @@ std::string compare(const std::string& a, const std::string& b, double tolerance
   options.limits.from = from, options.limits.until = until, options.batch = batch;
   const py::gil_scoped_release others;
   const io::Spool pipes;
+  if (dem::is_contact_log(a) || dem::is_contact_log(b))
+    return dem::to_json(dem::compare_contacts(a, b, from.value_or(0),
+                                              until.value_or(std::numeric_limits<double>::infinity())));
   return compare::to_json(compare::compare(options));
 }
 
@@ -81,7 +62,12 @@ std::string audit(const Case& the_case, const std::string& log, const std::vecto
   options.gap_tolerance = gap_tolerance, options.first_ball = first_ball, options.walls = walls;
   options.from_start = from_start, options.identify = identify;
   options.interrupt = &interrupt;
-  return interruptible(interrupt, [&] { return app::audit(CaseAccess::spec(the_case), options).json(); });
+  const auto& spec = CaseAccess::spec(the_case);
+  return interruptible(interrupt, [&] {
+    const io::Spool pipes;
+    return dem::is_contact_log(log) ? dem::to_json(dem::audit_contacts(spec, {log, &interrupt}))
+                                    : app::audit(spec, options).json();
+  });
 }
 
 py::dict digits_of(const run::Agreement& agreement) {

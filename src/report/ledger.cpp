@@ -38,7 +38,7 @@ namespace {
 
 std::string law_text(const casefile::ContactSpec& c) {
   std::string text = c.name();
-  c.parameters([&](const model::LawParameter& p, const casefile::Quantity& value) {
+  c.parameters([&](const model::Parameter& p, const casefile::Quantity& value) {
     text += fmt::format(", {} = {}", p.key, brief(value.to<double>()));
   });
   return text + fmt::format(", least separation {} mm/s", brief(1000 * c.least_separation.to<double>()));

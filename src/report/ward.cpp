@@ -18,7 +18,7 @@ bool same(const Quantity& a, const Quantity& b) { return a.text() == b.text(); }
 /// Law and parameters in one line.
 std::string text_of(const ContactSpec& c) {
   std::string text = c.name();
-  c.parameters([&](const model::LawParameter&, const Quantity& value) { text += " " + value.text(); });
+  c.parameters([&](const model::Parameter&, const Quantity& value) { text += " " + value.text(); });
   return text;
 }
 

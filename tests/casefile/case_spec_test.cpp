@@ -22,7 +22,7 @@ using WaltonBraun = model::WaltonBraun<Quantity>;
 /// A parameter of the law, by its key.
 cpp_rational parameter(const casefile::ContactSpec& c, const std::string& key) {
   cpp_rational found = -2;
-  c.parameters([&](const model::LawParameter& p, const Quantity& q) {
+  c.parameters([&](const model::Parameter& p, const Quantity& q) {
     if (p.key == key) found = q.value;
   });
   return found;

@@ -66,6 +66,12 @@ model::ContactLaw<Real> draw_law() {
     case 4:
       law.law = model::PowderLoad<Real>{draw<Real>(Real(5) / 2, Real(10)), slip};
       break;
+    case 5:
+      law.law = model::RestitutionBySlip<Real>{draw<Real>(Real(0), Real(1)),
+                                               {{Real(0), draw<Real>(Real(-1), Real(1))},
+                                                {Real(1), draw<Real>(Real(-1), Real(1))},
+                                                {Real(3), draw<Real>(Real(-1), Real(1))}}};
+      break;
     default:
       law.law = model::WaltonBraun<Real>{draw<Real>(Real(0), Real(1)), slip.friction, slip.min_tangential};
   }
@@ -76,9 +82,11 @@ model::ContactLaw<Real> draw_law() {
 /// Friction and lowest restitution of a law that has them.
 template <class Real>
 std::optional<model::CoulombSlip<Real>> coulomb_of(const model::ContactLaw<Real>& law) {
-  if (std::holds_alternative<model::ConstantRestitution<Real>>(law.law)) return std::nullopt;
+  if (std::holds_alternative<model::ConstantRestitution<Real>>(law.law) ||
+      std::holds_alternative<model::RestitutionBySlip<Real>>(law.law))
+    return std::nullopt;
   model::CoulombSlip<Real> slip;
-  law.parameters([&](const model::LawParameter& p, const Real& value) {
+  law.parameters([&](const model::Parameter& p, const Real& value) {
     if (p.key == std::string("friction")) slip.friction = value;
     if (p.key == std::string("min_tangential")) slip.min_tangential = value;
   });

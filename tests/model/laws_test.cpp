@@ -132,6 +132,20 @@ TEST(RestitutionBySpeed, IsTheTableAndMonotoneBetweenItsPoints) {
   }
 }
 
+TEST(RestitutionBySlip, IsTheTableAndSlidesBeyondIt) {
+  const RestitutionBySlip<double> law{0.6, {{{0, -0.5}}, {{1, -0.4}}, {{4, 0.2}}}};
+  const double approach = 2, change = (1 + 0.6) * approach, compliance = 3.5;
+  const auto at = [&](double ratio) { return law.restitution_of_slip(change, ratio * approach, compliance); };
+  EXPECT_EQ(law.restitution(3), 0.6);
+  for (const auto& point : law.points) EXPECT_NEAR(at(point[0]), point[1], 1e-15);
+  EXPECT_NEAR(at(2.5), -0.1, 1e-15);
+  // The impulse along the surface is (1 - e_t) times the slip over the compliance.
+  for (const double ratio : {4.0, 5.0, 40.0, 4e6}) EXPECT_NEAR((1 - at(ratio)) * ratio, 0.8 * 4, 1e-9) << ratio;
+  // Without an approach nothing is left to slip: no impulse.
+  EXPECT_EQ(law.restitution_of_slip(0, 1, compliance), 1);
+  EXPECT_EQ(law.restitution_of_slip(0, 0, compliance), 0.2);
+}
+
 // Table 5.3 of the thesis at its points; between them the plain mean.
 TEST(PowderLoad, IsTheTableOfTheThesis) {
   const double table[3][4] = {{0.56, 0.54, 0.53, 0.50}, {0.64, 0.60, 0.56, 0.52}, {0.80, 0.74, 0.64, 0.55}};

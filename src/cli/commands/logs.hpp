@@ -21,6 +21,7 @@ struct Compare {
     command.add_option("--batch", options_.batch, "length of a batch in s; a twentieth unless given")
         ->check(CLI::PositiveNumber);
     command.add_option("--json", options_.json, "file for the result in JSON");
+    command.add_option("--junit", options_.junit, "file for the result as JUnit's XML");
     command.add_flag("--quiet", options_.quiet, "no table");
   }
   int run() { return run_compare(options_); }
@@ -56,6 +57,7 @@ struct Audit {
     command.add_option("--examples", options_.examples, "of each kind of violation; 3 unless given")
         ->check(CLI::Range(0, 1000));
     command.add_option("--json", options_.json, "file for the result in JSON");
+    command.add_option("--junit", options_.junit, "file for the result as JUnit's XML");
     command.add_flag("--quiet", options_.quiet, "no progress line and no table");
   }
   int run() { return interruptible(given_.read(), options_, run_audit); }

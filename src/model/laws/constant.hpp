@@ -14,8 +14,8 @@ struct ConstantRestitution {
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
-    visit(LawParameter{"restitution", "e_n", 0, 1}, law.normal);
-    visit(LawParameter{"restitution_tangential", "e_t", -1, 1}, law.tangential);
+    visit(Parameter{"restitution", Dimension::none, "e_n", {0, 1}}, law.normal);
+    visit(Parameter{"restitution_tangential", Dimension::none, "e_t", {-1, 1}}, law.tangential);
   }
 
   const Number& restitution(const Number&) const { return normal; }

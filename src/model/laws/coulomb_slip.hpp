@@ -24,8 +24,8 @@ struct CoulombSlip {
 
   template <class Slip, class Visit>
   static void parameters(Slip& slip, Visit&& visit) {
-    visit(LawParameter{"friction", "mu", 0, 1000000}, slip.friction);
-    visit(LawParameter{"min_tangential", "least e_t", -1, 1, -1}, slip.min_tangential);
+    visit(Parameter{"friction", Dimension::none, "mu", {0, 1000000}}, slip.friction);
+    visit(Parameter{"min_tangential", Dimension::none, "least e_t", {-1, 1}, "-1"}, slip.min_tangential);
   }
 
   Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,

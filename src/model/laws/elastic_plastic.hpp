@@ -22,10 +22,9 @@ struct ElasticPlastic {
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
     visit(effective_modulus, law.modulus);
-    visit(
-        LawParameter{
-            "yield_pressure", "contact pressure at which yielding begins", 0, 0, {}, Dimension::pressure},
-        law.yield_pressure);
+    visit(Parameter{"yield_pressure", Dimension::pressure, "contact pressure at which yielding begins",
+                    Range::positive},
+          law.yield_pressure);
     law.slip.parameters(law.slip, visit);
   }
 

@@ -24,7 +24,12 @@ struct PowderLoad {
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
-    visit(LawParameter{"charge_ratio", "mass of the balls over that of the powder", 2.5, 10},
+    visit(Parameter{"charge_ratio",
+                    Dimension::none,
+                    "mass of the balls over that of the powder",
+                    {2.5, 10},
+                    nullptr,
+                    "that of the case"},
           law.charge_ratio);
     law.slip.parameters(law.slip, visit);
   }

@@ -13,16 +13,20 @@ namespace edmill::model {
 template <class Number>
 struct RestitutionBySpeed {
   static constexpr const char* name = "restitution-by-speed";
+  static constexpr const char* table = "restitution_by_speed";
+  static constexpr Parameter table_rows[] = {
+      {"speed", Dimension::speed, "of the approach", Range::not_negative},
+      {"restitution", Dimension::none, "e_n of a point", {0, 1}}};
+  static constexpr const char* table_form =
+      "points [speed, restitution], speeds rising from 0 or more, restitutions from 0 to 1";
 
   std::vector<std::array<Number, 2>> points;  ///< approach speed [m/s], rising, and e_n
   CoulombSlip<Number> slip;
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
-    for (auto& point : law.points) {
-      visit(LawParameter{"speed", "of a point", 0, 0, {}, Dimension::speed}, point[0]);
-      visit(LawParameter{"restitution", "of a point", 0, 1}, point[1]);
-    }
+    for (auto& point : law.points)
+      for (std::size_t k = 0; k < 2; ++k) visit(table_rows[k], point[k]);
     law.slip.parameters(law.slip, visit);
   }
   template <class From>

@@ -23,7 +23,7 @@ struct Viscoelastic {
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
     visit(effective_modulus, law.modulus);
-    visit(LawParameter{"dissipative_time", "A of the dissipative force", 0, 0, {}, Dimension::time},
+    visit(Parameter{"dissipative_time", Dimension::time, "A of the dissipative force", Range::positive},
           law.dissipative_time);
     law.slip.parameters(law.slip, visit);
   }

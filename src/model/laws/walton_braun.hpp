@@ -17,9 +17,9 @@ struct WaltonBraun {
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
-    visit(LawParameter{"restitution", "e_n", 0, 1}, law.normal);
-    visit(LawParameter{"friction", "mu", 0, 1000000}, law.friction);
-    visit(LawParameter{"min_tangential", "least e_t", -1, 1, -1}, law.min_tangential);
+    visit(Parameter{"restitution", Dimension::none, "e_n", {0, 1}}, law.normal);
+    visit(Parameter{"friction", Dimension::none, "mu", {0, 1000000}}, law.friction);
+    visit(Parameter{"min_tangential", Dimension::none, "least e_t", {-1, 1}, "-1"}, law.min_tangential);
   }
 
   const Number& restitution(const Number&) const { return normal; }

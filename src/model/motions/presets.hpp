@@ -25,14 +25,13 @@ struct Chain {
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
     for (auto& joint : part.given.list) {
-      visit(PartParameter{joint.rotates ? "rotate" : "translate", Dimension::none, ""}, joint.axis);
-      visit(PartParameter{"shift", Dimension::length, ""}, joint.shift);
-      visit(PartParameter{"angle", Dimension::angle, ""}, joint.angle);
-      visit(PartParameter{"speed", joint.rotates ? Dimension::angular_speed : Dimension::speed, ""},
-            joint.speed);
+      visit(Parameter{joint.rotates ? "rotate" : "translate", Dimension::none, ""}, joint.axis);
+      visit(Parameter{"shift", Dimension::length, ""}, joint.shift);
+      visit(Parameter{"angle", Dimension::angle, ""}, joint.angle);
+      visit(Parameter{"speed", joint.rotates ? Dimension::angular_speed : Dimension::speed, ""}, joint.speed);
       for (auto& swing : joint.swings)
         for (auto* number : {&swing.amplitude, &swing.frequency, &swing.phase})
-          visit(PartParameter{"swing", Dimension::none, ""}, *number);
+          visit(Parameter{"swing", Dimension::none, ""}, *number);
     }
   }
   Joints<Number> joints() const { return given; }
@@ -48,16 +47,13 @@ struct Planetary {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(
-        PartParameter{"radius", Dimension::length, "of the disc, to the centre of the jar", Range::positive},
-        part.radius);
-    visit(PartParameter{"speed", Dimension::angular_speed, "of the disc, about Y", Range::drive},
-          part.period);
-    visit(
-        PartParameter{"ratio", Dimension::none,
-                      "speed of the jar as seen from the disc, over that of the disc: negative where the jar "
-                      "turns the other way, -1 where it keeps its direction in space"},
-        part.ratio);
+    visit(Parameter{"radius", Dimension::length, "of the disc, to the centre of the jar", Range::positive},
+          part.radius);
+    visit(Parameter{"speed", Dimension::angular_speed, "of the disc, about Y", Range::drive}, part.period);
+    visit(Parameter{"ratio", Dimension::none,
+                    "speed of the jar as seen from the disc, over that of the disc: negative where the jar "
+                    "turns the other way, -1 where it keeps its direction in space"},
+          part.ratio);
   }
   Joints<Number> joints() const {
     auto disc = axis_joint<Number>(true, 1), arm = axis_joint<Number>(false, 0),
@@ -77,8 +73,8 @@ struct Drum {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"speed", Dimension::angular_speed,
-                        "of the drum, about its y axis, horizontal along Z", Range::drive},
+    visit(Parameter{"speed", Dimension::angular_speed, "of the drum, about its y axis, horizontal along Z",
+                    Range::drive},
           part.period);
   }
   Joints<Number> joints() const {
@@ -99,11 +95,10 @@ struct Vibratory {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"amplitude", Dimension::length,
-                        "A of A sin(w t) + B cos(w t), the place of the centre"},
+    visit(Parameter{"amplitude", Dimension::length, "A of A sin(w t) + B cos(w t), the place of the centre"},
           part.amplitude);
-    visit(PartParameter{"amplitude_quarter", Dimension::length, "B of it", Range::any, "0 m"}, part.quarter);
-    visit(PartParameter{"speed", Dimension::angular_speed, "of the drive", Range::drive}, part.period);
+    visit(Parameter{"amplitude_quarter", Dimension::length, "B of it", Range::any, "0 m"}, part.quarter);
+    visit(Parameter{"speed", Dimension::angular_speed, "of the drive", Range::drive}, part.period);
   }
   Joints<Number> joints() const {
     Joints<Number> chain{{}, period};

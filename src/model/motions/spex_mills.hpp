@@ -8,17 +8,17 @@ namespace edmill::model {
 
 namespace detail {
 
-inline constexpr PartParameter spex_arm{
-    "arm", Dimension::length, "from the fulcrum to the centre of the vessel", Range::not_negative, "100 mm"};
-inline constexpr PartParameter spex_theta{"theta_max", Dimension::angle,
-                                          "amplitude of the swing of the arm, thesis (2.9)",
-                                          Range::quarter_turn, "15 deg"};
-inline constexpr PartParameter spex_gamma{"gamma_max", Dimension::angle,
-                                          "amplitude of the rotation about the arm, thesis (2.9)",
-                                          Range::quarter_turn, "15 deg"};
-inline constexpr PartParameter spex_speed{"speed", Dimension::angular_speed, "of the drive", Range::drive,
-                                          "1098 rpm"};
-inline constexpr PartParameter no_angle{nullptr, Dimension::angle, "", Range::any, "0 rad"};
+inline constexpr Parameter spex_arm{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
+                                    Range::not_negative, "100 mm"};
+inline constexpr Parameter spex_theta{"theta_max", Dimension::angle,
+                                      "amplitude of the swing of the arm, thesis (2.9)", Range::quarter_turn,
+                                      "15 deg"};
+inline constexpr Parameter spex_gamma{"gamma_max", Dimension::angle,
+                                      "amplitude of the rotation about the arm, thesis (2.9)",
+                                      Range::quarter_turn, "15 deg"};
+inline constexpr Parameter spex_speed{"speed", Dimension::angular_speed, "of the drive", Range::drive,
+                                      "1098 rpm"};
+inline constexpr Parameter no_angle{nullptr, Dimension::angle, "", Range::any, "0 rad"};
 
 }  // namespace detail
 
@@ -63,12 +63,12 @@ struct StillMill {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
-                        Range::not_negative, "0 m"},
+    visit(Parameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
+                    Range::not_negative, "0 m"},
           part.arm);
     visit(detail::no_angle, part.theta_max);
     visit(detail::no_angle, part.gamma_max);
-    visit(PartParameter{nullptr, Dimension::time, "", Range::positive, "0.0625 s"}, part.period);
+    visit(Parameter{nullptr, Dimension::time, "", Range::positive, "0.0625 s"}, part.period);
   }
   SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
 };

@@ -1,45 +1,55 @@
-// What a case file and a reader need to know of a parameter of a contact law, a motion, a vessel or a stop
-// rule.
+// What a case file and a reader need to know of one of its keys.
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "base/dimension.hpp"
 
 namespace edmill::model {
 
-/// A number without unit in [low, high], or a positive quantity, of a contact law.
-struct LawParameter {
-  const char* key;
-  const char* meaning;
-  double low, high;
-  std::optional<int> fallback = std::nullopt;  ///< of a parameter that may be left out
-  Dimension dimension = Dimension::none;
+/// The values that a parameter can have.
+struct Range {
+  enum Kind {
+    any,
+    not_negative,
+    positive,
+    count,         ///< a whole number of 1 or more
+    quarter_turn,  ///< an angle from 0 to 90 deg
+    drive,         ///< a positive angular speed w, kept as its period 2 pi / w, exact for rpm and Hz
+    share,         ///< a number above 0, up to 1
+    interval       ///< from `low` to `high`
+  };
+  Kind kind;
+  double low = 0, high = 0;
+
+  constexpr Range(Kind of) : kind(of) {}
+  constexpr Range(double from, double to) : kind(interval), low(from), high(to) {}
+  friend constexpr bool operator==(const Range& range, Kind kind) { return range.kind == kind; }
 };
 
-/// Of laws after Hertz.
-inline constexpr LawParameter effective_modulus{
-    "effective_modulus", "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j", 0, 0, {}, Dimension::pressure};
-
-enum class Range {
-  any,
-  not_negative,
-  positive,
-  count,         ///< a whole number of 1 or more
-  quarter_turn,  ///< an angle from 0 to 90 deg
-  drive          ///< a positive angular speed w, kept as its period 2 pi / w, exact for rpm and Hz
-};
-
-/// A quantity, or three along the axes, of a motion, a vessel or a stop rule.
-struct PartParameter {
+/// A key of a case file that gives one member of a struct: a quantity, three along the axes, a count, a flag,
+/// a text or a colour, as the member's type says. Laws, motions, vessels, stop rules, balls and outputs list
+/// theirs; reading, range, reference and digest follow.
+struct Parameter {
   const char* key;  ///< null for a constant, which a file does not give
   Dimension dimension;
   const char* meaning;
   Range range = Range::any;
-  const char* fallback = nullptr;  ///< as in a file; null for one that must be given
+  const char* fallback = nullptr;   ///< as in a file
+  const char* otherwise = nullptr;  ///< what holds without the key, for readers, where it is no value
+  enum class Digest {
+    value,  ///< the value alone, always
+    named,  ///< key and value where it is not the default: what 1.0 did not have keeps the digests of its
+            ///< cases
+    none    ///< a run does not depend on it
+  } digest = Digest::value;
 };
+
+/// Of laws after Hertz.
+inline constexpr Parameter effective_modulus{"effective_modulus", Dimension::pressure,
+                                             "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j",
+                                             Range::positive};
 
 namespace detail {
 

@@ -8,8 +8,8 @@
 namespace edmill::model {
 
 struct MaxBallSpeed {
-  static constexpr PartParameter key{"max_ball_speed", Dimension::speed,
-                                     "the run ends when a ball is faster after an impact", Range::positive};
+  static constexpr Parameter key{"max_ball_speed", Dimension::speed,
+                                 "the run ends when a ball is faster after an impact", Range::positive};
 
   template <class Real>
   struct Watch {

@@ -7,8 +7,8 @@
 namespace edmill::model {
 
 struct MaxCollisions {
-  static constexpr PartParameter key{"max_collisions", Dimension::none, "the run ends after so many impacts",
-                                     Range::count};
+  static constexpr Parameter key{"max_collisions", Dimension::none, "the run ends after so many impacts",
+                                 Range::count};
 
   template <class Real>
   struct Watch {

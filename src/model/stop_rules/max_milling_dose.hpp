@@ -8,9 +8,9 @@
 namespace edmill::model {
 
 struct MaxMillingDose {
-  static constexpr PartParameter key{"max_milling_dose", Dimension::energy,
-                                     "the run ends when so much has been dissipated since it began",
-                                     Range::positive};
+  static constexpr Parameter key{"max_milling_dose", Dimension::energy,
+                                 "the run ends when so much has been dissipated since it began",
+                                 Range::positive};
 
   template <class Real>
   struct Watch {

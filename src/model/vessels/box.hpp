@@ -105,7 +105,7 @@ struct Box {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"size", Dimension::length, "edges along x, y, z", Range::positive}, part.size);
+    visit(Parameter{"size", Dimension::length, "edges along x, y, z", Range::positive}, part.size);
   }
   BoxVessel<Number> vessel() const { return {{size[0] / 2, size[1] / 2, size[2] / 2}}; }
 };

@@ -130,8 +130,8 @@ struct Cylinder {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
-    visit(PartParameter{"height", Dimension::length, "inside", Range::positive}, part.height);
+    visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
+    visit(Parameter{"height", Dimension::length, "inside", Range::positive}, part.height);
   }
   CylinderVessel<Number> vessel() const { return {diameter / 2, height / 2}; }
 };

@@ -284,9 +284,9 @@ struct Polyhedron {
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
     for (auto& face : part.faces) {
-      visit(PartParameter{"normal", Dimension::none, ""}, face.normal);
-      visit(PartParameter{"point", Dimension::length, ""}, face.point);
-      visit(PartParameter{"distance", Dimension::length, ""}, face.distance);
+      visit(Parameter{"normal", Dimension::none, ""}, face.normal);
+      visit(Parameter{"point", Dimension::length, ""}, face.point);
+      visit(Parameter{"distance", Dimension::length, ""}, face.distance);
     }
   }
   std::vector<typename PolyhedronVessel<Number>::Plane> planes() const {

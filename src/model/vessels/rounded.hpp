@@ -346,8 +346,8 @@ struct Capsule {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
-    visit(PartParameter{"height", Dimension::length, "over all", Range::positive}, part.height);
+    visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
+    visit(Parameter{"height", Dimension::length, "over all", Range::positive}, part.height);
   }
   RoundedVessel<Number> vessel() const {
     return {Number(0), Number((height - diameter) / 2), Number(diameter / 2)};
@@ -362,9 +362,9 @@ struct RoundedCylinder {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
-    visit(PartParameter{"height", Dimension::length, "inside", Range::positive}, part.height);
-    visit(PartParameter{"edge_radius", Dimension::length, "of the edges of the caps", Range::positive},
+    visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
+    visit(Parameter{"height", Dimension::length, "inside", Range::positive}, part.height);
+    visit(Parameter{"edge_radius", Dimension::length, "of the edges of the caps", Range::positive},
           part.edge);
   }
   RoundedVessel<Number> vessel() const {

@@ -94,7 +94,7 @@ struct Sphere {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(PartParameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
+    visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
   }
   SphereVessel<Number> vessel() const { return {diameter / 2}; }
 };

@@ -10,11 +10,12 @@ Quantities are strings with units; numbers without a unit are for counts and rat
 from ._edmill import InputError, UndecidedError, __version__
 from .callbacks import ContactLaw, Impact, Running
 from .case import Case
+from .dem import Deck, export, import_dump, limit
 from .judges import (Agreement, Certification, CertifiedEvent, Judgement, Proof, ProvenEvent, Shadow, audit, certify, check,
                      check_certificate, compare, prove, shadow)
 from .runs import Interrupted, Run, report, run
 from .studies import Study, optimize, sweep
 
-__all__ = ["Agreement", "Case", "Certification", "CertifiedEvent", "ContactLaw", "Impact", "InputError", "Interrupted", "Judgement",
+__all__ = ["Agreement", "Case", "Certification", "CertifiedEvent", "ContactLaw", "Deck", "Impact", "InputError", "Interrupted", "Judgement",
            "Proof", "ProvenEvent", "Run", "Running", "Shadow", "Study", "UndecidedError", "__version__", "audit", "certify", "check",
-           "check_certificate", "compare", "optimize", "prove", "report", "run", "shadow", "sweep"]
+           "check_certificate", "compare", "export", "import_dump", "limit", "optimize", "prove", "report", "run", "shadow", "sweep"]

@@ -19,7 +19,7 @@ LARGEST = 2**63 - 1  #: of counts
 class Judgement(dict):
     """The result as in its JSON file; `good` when the logs agree, or break no law."""
 
-    _codes = {"clean": 0, "agree": 0, "violations": 6, "differ": 6}
+    _codes = {"clean": 0, "agree": 0, "agrees": 0, "violations": 6, "differ": 6, "differs": 6}
 
     @property
     def code(self) -> int:

@@ -1,0 +1,168 @@
+#include "casefile/key_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+
+namespace edmill::casefile {
+
+using boost::multiprecision::cpp_rational;
+using model::Parameter;
+using model::Range;
+
+namespace {
+
+/// What is kept of a value that was read.
+Quantity kept(const Quantity& q, const Range& range) {
+  if (range.kind != Range::drive) return q;
+  return q.positive() ? Quantity{2 / q.value, 1 - q.pi_power} : Quantity{1};
+}
+
+}  // namespace
+
+bool in_range(const Quantity& q, const Range& range) {
+  switch (range.kind) {
+    case Range::any:
+      return true;
+    case Range::not_negative:
+      return !q.negative();
+    case Range::positive:
+    case Range::count:
+    case Range::drive:
+      return q.positive();
+    case Range::quarter_turn:
+      return !q.negative() && q.value <= (q.pi_power == 1 ? cpp_rational(1, 2) : cpp_rational(157, 100));
+    case Range::share:
+      return q.positive() && q.value <= 1;
+    case Range::interval:
+      if (q.pi_power != 0) return q.to<double>() >= range.low && q.to<double>() <= range.high;
+      return q.value >= cpp_rational(range.low) && q.value <= cpp_rational(range.high);
+  }
+  return false;
+}
+
+std::string expected(const Parameter& p) {
+  if (p.range == Range::quarter_turn) return "an angle from 0 to 90 deg";
+  if (p.range == Range::count) return "at least 1";
+  if (p.range == Range::share) return "a number above 0, up to 1";
+  if (p.range == Range::interval) return fmt::format("a number from {} to {}", p.range.low, p.range.high);
+  const auto what = noun(p.dimension);
+  const std::string article = std::string("aeiou").find(what[0]) == std::string::npos ? "a " : "an ";
+  return p.range == Range::any            ? article + what
+         : p.range == Range::not_negative ? article + what + " of 0 or more"
+                                          : "a positive " + what;
+}
+
+Quantity fallback_of(const Parameter& p) {
+  const auto result = parse_quantity(p.fallback, p.dimension);
+  EDMILL_REQUIRE(std::holds_alternative<Quantity>(result), "a default that can be read");
+  return std::get<Quantity>(result);
+}
+
+bool KeyReader::may_be_absent(const Parameter& p, const std::string& what) {
+  if (p.otherwise || section_.has(p.key)) return true;
+  section_.problem(p.key, "nothing", what);
+  return false;
+}
+
+void KeyReader::operator()(const Parameter& p, Quantity& value) {
+  if (!p.key) {
+    value = kept(fallback_of(p), p.range);
+    return;
+  }
+  if (!p.fallback && p.otherwise && !section_.has(p.key)) return;
+  const Quantity found = p.fallback ? section_.quantity(p.key, p.dimension, fallback_of(p))
+                                    : section_.required(p.key, p.dimension);
+  section_.require(in_range(found, p.range), p.key, expected(p));
+  if ((!p.fallback || section_.has(p.key)) && !section_.quantity(p.key, p.dimension)) complete_ = false;
+  value = kept(found, p.range);
+}
+
+void KeyReader::operator()(const Parameter& p, std::optional<Quantity>& value) {
+  if (p.range != Range::count)
+    value = section_.quantity(p.key, p.dimension);
+  else if (const auto count = section_.count(p.key))
+    value = Quantity{cpp_rational(*count)};
+  if (value) section_.require(in_range(*value, p.range), p.key, expected(p));
+  if (!value && p.fallback) value = fallback_of(p);
+}
+
+void KeyReader::operator()(const Parameter& p, std::array<Quantity, 3>& values) {
+  const auto found = section_.vector(p.key, p.dimension);
+  if (found) {
+    for (const auto& value : *found) section_.require(in_range(value, p.range), p.key, expected(p));
+    values = *found;
+  } else if (p.fallback && !section_.has(p.key)) {
+    values.fill(fallback_of(p));
+  } else {
+    may_be_absent(p, "three of " + describe(p.dimension));
+  }
+}
+
+void KeyReader::operator()(const Parameter& p, std::optional<std::uint64_t>& value) {
+  value = section_.count(p.key);
+  if (value) section_.require(in_range(Quantity{cpp_rational(*value)}, p.range), p.key, expected(p));
+}
+
+void KeyReader::operator()(const Parameter& p, std::uint64_t& value) {
+  std::optional<std::uint64_t> found;
+  (*this)(p, found);
+  if (found)
+    value = *found;
+  else if (p.fallback)
+    value = static_cast<std::uint64_t>(numerator(fallback_of(p).value));
+  else
+    may_be_absent(p, "a count");
+}
+
+void KeyReader::operator()(const Parameter& p, int& value) {
+  std::uint64_t count = 0;
+  (*this)(p, count);
+  value = static_cast<int>(std::min<std::uint64_t>(count, static_cast<std::uint64_t>(p.range.high)));
+}
+
+void KeyReader::operator()(const Parameter& p, bool& value) {
+  const bool found = section_.flag(p.key);
+  value = section_.has(p.key) || !p.fallback ? found : p.fallback == std::string("true");
+}
+
+void KeyReader::operator()(const Parameter& p, std::string& value) {
+  if (const auto found = section_.text(p.key))
+    value = *found;
+  else if (p.fallback)
+    value = p.fallback;
+  else
+    may_be_absent(p, "a text");
+}
+
+void KeyReader::operator()(const Parameter& p, Colour& value) { value = section_.colour(p.key, value); }
+
+std::string kind_of(const Parameter& p, const Quantity&) {
+  return p.range == Range::count ? "count" : noun(p.dimension);
+}
+std::string kind_of(const Parameter& p, const std::array<Quantity, 3>&) {
+  return "three " + noun(p.dimension) + "s";
+}
+std::string kind_of(const Parameter&, std::uint64_t) { return "count"; }
+std::string kind_of(const Parameter&, int) { return "count"; }
+std::string kind_of(const Parameter&, bool) { return "true or false"; }
+std::string kind_of(const Parameter&, const std::string&) { return "text"; }
+std::string kind_of(const Parameter&, const Colour&) { return "colour"; }
+
+std::string default_of(const Parameter& p, bool optional) {
+  if (p.otherwise) return p.otherwise;
+  if (!p.fallback) return optional ? "none" : "required";
+  return p.dimension == Dimension::none ? p.fallback : fmt::format("`\"{}\"`", p.fallback);
+}
+
+std::string digest_of(const Quantity& value) { return value.text(); }
+std::string digest_of(const std::array<Quantity, 3>& v) {
+  return v[0].text() + "," + v[1].text() + "," + v[2].text();
+}
+std::string digest_of(const Colour& v) { return fmt::format("{},{},{}", v[0], v[1], v[2]); }
+std::string digest_of(const std::string& value) { return value; }
+std::string digest_of(std::uint64_t value) { return std::to_string(value); }
+
+}  // namespace edmill::casefile

@@ -1,0 +1,254 @@
+#include "dem/contact_audit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "dem/dose_rate.hpp"
+
+namespace edmill::dem {
+
+namespace {
+
+/// What one single contact shows.
+struct Shown {
+  double approach = 0, slip = 0;       ///< at the touch [m/s]
+  double restitution = 0;              ///< separation at the detachment over approach
+  double slip_change = 0;              ///< of the surface's velocity along it [m/s]
+  double slip_left = 0;                ///< along the slip at the touch, over it
+  double compliance = 1;               ///< 1 + M/(m_i J_i) + M/(m_j J_j)
+  double expected = 0, friction = -1;  ///< of the case's law; no friction below 0
+};
+
+double friction_of(const model::ContactLaw<double>& law) {
+  double friction = -1;
+  law.parameters([&](const model::Parameter& p, double value) {
+    if (p.key == std::string("friction")) friction = value;
+  });
+  return friction;
+}
+
+void set_expected(const model::ContactLaw<double>& law, const model::ContactBodies<double>& bodies,
+                  Shown& shown) {
+  shown.expected = law.restitution(shown.approach, bodies);
+  shown.friction = friction_of(law);
+}
+
+void set_slip(const Vector& before, const Vector& after, Shown& shown) {
+  shown.slip = norm<double>(before);
+  shown.slip_change = norm<double>(Vector(after - before));
+  if (shown.slip > 0) shown.slip_left = dot<double>(after, before) / (shown.slip * shown.slip);
+}
+
+/// Restitution is against the wall's velocity at either time: it turns meanwhile.
+Shown shown_by_wall(const MovingVessel& vessel, const model::Mill<double>& mill, const Contact& c) {
+  Shown shown;
+  const auto ball = static_cast<std::size_t>(c.ball);
+  const auto& b = vessel.ball(ball);
+  std::array<double, 2> normal_speed{};
+  std::array<Vector, 2> along;
+  for (const bool touch : {true, false}) {
+    const auto& state = touch ? c.before : c.after;
+    const auto pose = vessel.at(touch ? c.begin : c.end);
+    const Vector n = vessel.normal(pose, ball, c.partner, state.position);
+    const Vector point = state.position - n * b.radius;
+    const Vector g =
+        state.velocity + cross<double>(state.spin, Vector(-n * b.radius)) - vessel.wall_velocity(pose, point);
+    const std::size_t k = touch ? 0 : 1;
+    normal_speed[k] = dot<double>(g, n);
+    along[k] = g - n * normal_speed[k];
+  }
+  shown.approach = -normal_speed[0];
+  if (shown.approach > 0) shown.restitution = normal_speed[1] / shown.approach;
+  shown.compliance = 1 + 1 / b.reduced_inertia;
+  set_slip(along[0], along[1], shown);
+  set_expected(mill.law_with_wall(b, c.partner), {b.mass, b.radius}, shown);
+  return shown;
+}
+
+/// Pairs are judged along the mean normal: the line of centres turns while they touch.
+Shown shown_by_pair(const MovingVessel& vessel, const model::Mill<double>& mill, const Contact& c) {
+  Shown shown;
+  const auto &a = vessel.ball(static_cast<std::size_t>(c.ball)),
+             &b = vessel.ball(static_cast<std::size_t>(c.partner));
+  const auto unit = [](const Vector& v) { return Vector(v / norm<double>(v)); };
+  const Vector n = unit(unit(c.before.position - c.partner_before.position) +
+                        unit(c.after.position - c.partner_after.position));
+  const auto surface = [&](const BallState& i, const BallState& j) {
+    return Vector(i.velocity - j.velocity - cross<double>(Vector(i.spin * a.radius + j.spin * b.radius), n));
+  };
+  const Vector before = surface(c.before, c.partner_before), after = surface(c.after, c.partner_after);
+  shown.approach = -dot<double>(before, n);
+  if (shown.approach > 0) shown.restitution = dot<double>(after, n) / shown.approach;
+  const double effective = a.mass * b.mass / (a.mass + b.mass);
+  shown.compliance = 1 + effective / (a.mass * a.reduced_inertia) + effective / (b.mass * b.reduced_inertia);
+  set_slip(before - n * dot<double>(before, n), after - n * dot<double>(after, n), shown);
+  set_expected(mill.law_between(a, b), {effective, a.radius, b.radius}, shown);
+  return shown;
+}
+
+std::vector<double> values_of(const std::vector<Shown>& list, double least, const auto& value) {
+  std::vector<double> values;
+  for (const auto& shown : list)
+    if (shown.approach >= least)
+      if (const std::optional<double> v = value(shown)) values.push_back(*v);
+  return values;
+}
+
+/// Gentle contacts have walls and gravity that turn them within their duration.
+double least_approach(const std::vector<Shown>& list) {
+  std::vector<double> speeds;
+  for (const auto& shown : list) speeds.push_back(shown.approach);
+  if (speeds.empty()) return 0;
+  const auto place = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() * 9 / 10);
+  std::nth_element(speeds.begin(), place, speeds.end());
+  return *place / 8;
+}
+
+/// Sliding throughout: Walton and Braun's limit is at a slip of compliance mu (1 + e) approach.
+std::optional<double> sliding_friction(const Shown& s, double friction) {
+  const double impulse = s.compliance * (1 + s.restitution) * s.approach;
+  if (!(impulse > 0) || s.slip < 1.5 * friction * impulse) return std::nullopt;
+  return s.slip_change / impulse;
+}
+
+void judge_laws(const std::vector<Shown>& list, const std::string& where, ContactAudit& audit) {
+  const double least = least_approach(list);
+  Judged e{"restitution " + where, "", "(2.23')",
+           median_of(values_of(list, least, [](const Shown& s) { return std::optional(s.restitution); }))};
+  e.expected =
+      median_of(values_of(list, least, [](const Shown& s) { return std::optional(s.expected); })).value;
+  e.allowed = 0.002;
+  if (e.found.known()) audit.judged.push_back(e);
+  const double friction = list.empty() ? -1 : list.front().friction;
+  if (friction < 0) return;
+  Judged mu{"friction " + where, "", "(2.24')",
+            median_of(values_of(list, least, [&](const Shown& s) { return sliding_friction(s, friction); }))};
+  mu.expected = friction, mu.allowed = 0.01;
+  if (mu.found.known()) audit.judged.push_back(mu);
+}
+
+void judge_facts(const casefile::CaseSpec&, const model::Mill<double>& mill, ContactAudit& audit) {
+  const auto& s = audit.facts.statistics;
+  const auto exactly = [](double value, double half_width) {
+    return Median{value, value - half_width, value + half_width, 20};
+  };
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    Judged g{fmt::format("gravity along {}", "XYZ"[k]), "m/s^2", "",
+             exactly(s.gravity[k], s.gravity_half_width[k])};
+    g.expected = mill.gravity[k];
+    g.allowed = 1e-3 * norm<double>(mill.gravity) + 1e-3;
+    audit.judged.push_back(g);
+  }
+  Judged mass{"density over the case's", "", "",
+              exactly(audit.facts.mass_factor / std::pow(audit.facts.radius_factor, 3), 0)};
+  mass.expected = 1, mass.allowed = 1e-6;
+  Judged size{"diameter over the case's", "", "", exactly(audit.facts.radius_factor, 0)};
+  size.expected = 1, size.allowed = 1e-6;
+  audit.judged.push_back(mass);
+  audit.judged.push_back(size);
+}
+
+/// A ball that leaves its flight has met something.
+void judge_unexplained(ContactAudit& audit) {
+  double all = 0;
+  for (const auto count : audit.counts) all += static_cast<double>(count);
+  if (all == 0) return;
+  const double share =
+      static_cast<double>(audit.counts[static_cast<std::size_t>(ContactClass::unexplained)]) / all;
+  const double half_width = 1.96 * std::sqrt(share * (1 - share) / all);
+  Judged j{"contacts with no wall or ball", "", "", {share, share - half_width, share + half_width, 20}};
+  j.allowed = 0.05;
+  audit.judged.push_back(j);
+}
+
+std::vector<SlipBin> slips_of(const std::vector<Shown>& walls, const std::vector<Shown>& balls) {
+  std::vector<SlipBin> bins;
+  const double least = std::max(least_approach(walls), least_approach(balls));
+  for (double low = 0; low < 12; low = low < 1 ? low + 0.25 : low * 1.25) {
+    const double high = low < 1 ? low + 0.25 : low * 1.25;
+    const auto of = [&](const std::vector<Shown>& list, const auto& value) {
+      return median_of(values_of(list, least, [&](const Shown& s) -> std::optional<double> {
+        const double ratio = s.slip / s.approach;
+        if (!(ratio >= low && ratio < high)) return std::nullopt;
+        return value(s);
+      }));
+    };
+    const auto left = [](const Shown& s) { return s.slip_left; };
+    const auto ratio = [](const Shown& s) { return s.slip / s.approach; };
+    SlipBin bin{0, of(walls, left), of(balls, left)};
+    const Median middle = of(bin.of_walls.count >= bin.of_balls.count ? walls : balls, ratio);
+    bin.ratio = middle.value;
+    if (bin.of_walls.known() || bin.of_balls.known()) bins.push_back(bin);
+  }
+  return bins;
+}
+
+}  // namespace
+
+Median median_of(std::vector<double> values) {
+  Median median;
+  median.count = values.size();
+  if (values.empty()) return median;
+  std::sort(values.begin(), values.end());
+  const auto n = static_cast<double>(values.size());
+  const auto at = [&](double place) {
+    return values[static_cast<std::size_t>(std::clamp(std::round(place), 0.0, n - 1))];
+  };
+  median.value = at((n - 1) / 2);
+  median.low = at((n - 1) / 2 - 0.98 * std::sqrt(n));
+  median.high = at((n - 1) / 2 + 0.98 * std::sqrt(n));
+  return median;
+}
+
+ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOptions& options) {
+  ContactLogReader log(options.log);
+  const auto built = casefile::build_case<double>(spec);
+  const auto& mill = built.the_case.mill;
+  const MovingVessel vessel(mill, built.the_case.balls);
+  ContactAudit audit;
+  audit.case_name = spec.file, audit.log_name = options.log, audit.facts = log.facts();
+  std::vector<Shown> walls, balls;
+  std::vector<Contact> at_walls;
+  DoseRate rate(log.facts().first, log.facts().last);
+  while (const auto contact = log.next()) {
+    if (options.interrupt && *options.interrupt) audit.interrupted = true;
+    if (audit.interrupted) break;
+    const auto& c = *contact;
+    const auto count = static_cast<int>(vessel.ball_count());
+    if (c.ball >= count ||
+        c.partner >= (c.kind == ContactClass::pair ? count : std::max(count, vessel.walls())) ||
+        (c.kind == ContactClass::wall && c.partner >= vessel.walls()))
+      throw InputError(fmt::format("{}: found ball {} with {}, expected {} balls and {} walls", options.log,
+                                   c.ball, c.partner, count, vessel.walls()));
+    ++audit.counts[static_cast<std::size_t>(c.kind)];
+    rate.add((c.begin + c.end) / 2, c.dose);
+    if (c.kind == ContactClass::wall) walls.push_back(shown_by_wall(vessel, mill, c));
+    if (c.kind == ContactClass::pair) balls.push_back(shown_by_pair(vessel, mill, c));
+    constexpr std::size_t enough = 400;
+    if (c.bodies == 1 && c.kind != ContactClass::lasting && at_walls.size() < enough) at_walls.push_back(c);
+  }
+  audit.dose_rate = rate.mean(), audit.dose_rate_half_width = rate.half_width();
+  judge_laws(walls, "at walls", audit);
+  judge_laws(balls, "between balls", audit);
+  const bool enough = !audit.judged.empty();
+  judge_facts(spec, mill, audit);
+  audit.slips = slips_of(walls, balls);
+  judge_unexplained(audit);
+  // Balls of another size meet the walls elsewhere.
+  if (audit.facts.radius_factor == 1)
+    audit.causes = geometry_causes(spec, at_walls, audit.facts.statistics, audit.wall_distance,
+                                   audit.wall_resolution, options.interrupt);
+  const bool met = audit.wall_distance <= 2 * audit.wall_resolution;
+  const bool all =
+      std::all_of(audit.judged.begin(), audit.judged.end(), [](const Judged& j) { return j.agrees(); });
+  if (!all || !met)
+    audit.verdict = ContactVerdict::differs;
+  else if (enough && !audit.interrupted)
+    audit.verdict = ContactVerdict::agrees;
+  return audit;
+}
+
+}  // namespace edmill::dem

@@ -1,0 +1,88 @@
+// Contacts that last against the laws of a case: values, their intervals and what is expected. docs/dem.md
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casefile/build_case.hpp"
+#include "dem/contact_log.hpp"
+#include "io/json_text.hpp"
+
+namespace edmill::dem {
+
+/// A median with its 95 % interval by order statistics, which ask nothing of the distribution.
+struct Median {
+  double value = 0, low = 0, high = 0;
+  std::uint64_t count = 0;
+
+  bool known() const { return count >= 20; }
+  double half_width() const { return (high - low) / 2; }
+};
+Median median_of(std::vector<double> values);
+
+/// One value of the code against that of the case.
+struct Judged {
+  std::string name;      ///< "restitution at walls"
+  std::string unit;      ///< empty for numbers
+  std::string equation;  ///< of theory.md that it belongs to
+  Median found;
+  double expected = 0;
+  double allowed = 0;  ///< beyond the interval: what contacts of this duration do, and a time step
+
+  bool agrees() const { return found.low - allowed <= expected && expected <= found.high + allowed; }
+};
+
+/// A number of the case that explains where the walls were met.
+struct GeometryCause {
+  std::string key;
+  std::string text;  ///< "10.45 +- 0.01 mm, the case has 11 mm"
+  double value = 0, half_width = 0, expected = 0;
+  double left = 0;  ///< median distance from the walls with it [m]
+};
+
+/// e_t, what a contact leaves of the slip, for a range of slip over approach.
+struct SlipBin {
+  double ratio = 0;  ///< median in the bin
+  Median of_walls, of_balls;
+};
+
+enum class ContactVerdict { agrees, differs, too_few };
+
+struct ContactAudit {
+  std::string case_name, log_name;
+  ContactLogFacts facts;
+  ContactVerdict verdict = ContactVerdict::too_few;
+  std::array<std::uint64_t, contact_class_names.size()> counts{};
+  std::vector<Judged> judged;
+  std::vector<SlipBin> slips;
+  double wall_distance =
+      0;  ///< median distance from the walls of the case where balls left their flights [m]
+  double wall_resolution = 0;  ///< what frames resolve of it [m]
+  std::vector<GeometryCause> causes;
+  double dose_rate = 0, dose_rate_half_width = 0;  ///< [W]
+  bool interrupted = false;
+};
+
+struct ContactAuditOptions {
+  std::string log;
+  const std::atomic<bool>* interrupt = nullptr;
+};
+
+/// @throws InputError when the log cannot be read or is of other balls
+ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOptions& options);
+
+std::string table(const ContactAudit& audit);
+std::string to_json(const ContactAudit& audit);
+/// JUnit's XML, a test case for each value.
+std::string to_junit(const ContactAudit& audit);
+
+/// Numbers of mill and vessel with which balls leave their flights at the walls; best first.
+/// @param contacts  with a wall, or without a partner
+std::vector<GeometryCause> geometry_causes(const casefile::CaseSpec& spec,
+                                           const std::vector<Contact>& contacts,
+                                           const FrameStatistics& frames, double& distance,
+                                           double& resolution, const std::atomic<bool>* interrupt);
+
+}  // namespace edmill::dem

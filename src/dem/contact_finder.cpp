@@ -1,0 +1,343 @@
+#include "dem/contact_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+
+namespace edmill::dem {
+
+namespace {
+
+/// Frames after which a stretch is cut, so that a ball at rest needs no memory.
+constexpr std::size_t longest_stretch = 4096;
+/// Places in which a flight is tried between frames that are far apart.
+constexpr int tried = 32;
+
+double middle_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& expected_gravity) {
+  EDMILL_REQUIRE(frames.size() > 2, "three frames");
+  FrameStatistics s;
+  std::vector<double> intervals;
+  std::array<std::vector<double>, 3> accelerations;
+  const std::size_t balls = frames[0].balls.size();
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    const double dt = frames[k].time - frames[k - 1].time;
+    intervals.push_back(dt);
+    for (std::size_t i = 0; i < balls; ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<Eigen::Index>(axis);
+        accelerations[axis].push_back((frames[k].balls[i].velocity[a] - frames[k - 1].balls[i].velocity[a]) /
+                                      dt);
+      }
+  }
+  s.interval = middle_of(intervals);
+  // Free flight is most of the time: the median is gravity, and half of the scatter's quantiles its
+  // sharpness.
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<Eigen::Index>(axis);
+    s.gravity[a] = middle_of(accelerations[axis]);
+    std::vector<double> off;
+    for (const double value : accelerations[axis]) off.push_back(std::abs(value - s.gravity[a]));
+    s.gravity_half_width[a] =
+        1.96 * 1.2533 * 1.4826 * middle_of(off) / std::sqrt(static_cast<double>(off.size()));
+  }
+  bool as_expected = true;
+  for (Eigen::Index a = 0; a < 3; ++a)
+    as_expected =
+        as_expected && std::abs(s.gravity[a] - expected_gravity[a]) <= 3 * s.gravity_half_width[a] + 1e-6;
+  if (as_expected) s.gravity = expected_gravity;
+  std::vector<double> changes;
+  for (std::size_t k = 1; k < frames.size(); ++k)
+    for (std::size_t i = 0; i < balls; ++i) {
+      const double dt = frames[k].time - frames[k - 1].time;
+      changes.push_back(norm<double>(
+          Vector(frames[k].balls[i].velocity - frames[k - 1].balls[i].velocity - s.gravity * dt)));
+    }
+  std::sort(changes.begin(), changes.end());
+  s.kick = std::clamp(20 * changes[changes.size() / 4], 2e-5, 1e-2);
+  std::vector<double> stretches;
+  for (std::size_t i = 0; i < balls; ++i) {
+    double since = -1;
+    for (std::size_t k = 1; k < frames.size(); ++k) {
+      const double dt = frames[k].time - frames[k - 1].time;
+      const bool kicked = norm<double>(Vector(frames[k].balls[i].velocity - frames[k - 1].balls[i].velocity -
+                                              s.gravity * dt)) > s.kick;
+      if (kicked && since < 0) since = frames[k - 1].time;
+      if (!kicked && since >= 0) stretches.push_back(frames[k - 1].time - since), since = -1;
+    }
+  }
+  s.contact_time = stretches.empty() ? s.interval : middle_of(stretches);
+  return s;
+}
+
+ContactFinder::ContactFinder(const MovingVessel& vessel, const FrameStatistics& frames, Found found)
+    : vessel_(vessel), frames_(frames), found_(std::move(found)), open_of_(vessel.ball_count(), -1) {}
+
+bool ContactFinder::flies(const Frame& from, const Frame& to, std::size_t ball) const {
+  const Vector change =
+      to.balls[ball].velocity - from.balls[ball].velocity - frames_.gravity * (to.time - from.time);
+  return norm<double>(change) <= frames_.kick;
+}
+
+void ContactFinder::add(Frame next) {
+  window_.push_back(std::move(next));
+  const std::size_t now = first_ + window_.size() - 1;
+  if (window_.size() < 2) return;
+  std::vector<std::size_t> ended;
+  for (std::size_t ball = 0; ball < open_of_.size(); ++ball) {
+    int& open = open_of_[ball];
+    const bool flying = flies(frame(now - 1), frame(now), ball);
+    if (!flying && open < 0) {
+      open = static_cast<int>(stretches_.size());
+      stretches_.push_back({ball, now - 1, now, groups_++});
+    } else if (!flying) {
+      auto& stretch = stretches_[static_cast<std::size_t>(open)];
+      stretch.last = now;
+      if (now - stretch.first >= longest_stretch) ended.push_back(ball);
+    } else if (open >= 0) {
+      ended.push_back(ball);
+    }
+  }
+  for (const std::size_t ball : ended) {
+    close(static_cast<std::size_t>(open_of_[ball]));
+    open_of_[ball] = -1;
+  }
+  if (!ended.empty()) settle();
+  forget();
+}
+
+void ContactFinder::finish() {
+  for (auto& stretch : stretches_)
+    if (stretch.open) close(static_cast<std::size_t>(&stretch - stretches_.data()));
+  settle();
+}
+
+void ContactFinder::close(std::size_t place) {
+  auto& stretch = stretches_[place];
+  stretch.open = false;
+  for (auto& other : stretches_)
+    if (other.group != stretch.group && other.first < stretch.last && stretch.first < other.last &&
+        come_near(stretch, other))
+      join(stretch, other);
+}
+
+void ContactFinder::join(Stretch& one, Stretch& other) {
+  const int from = other.group, to = one.group;
+  for (auto& stretch : stretches_)
+    if (stretch.group == from) stretch.group = to;
+}
+
+bool ContactFinder::come_near(const Stretch& one, const Stretch& other) const {
+  const std::size_t low = std::max(one.first, other.first), high = std::min(one.last, other.last);
+  const auto &a = vessel_.ball(one.ball), &b = vessel_.ball(other.ball);
+  const double touch = (a.radius + b.radius) * (1 + 1e-9);
+  double nearest = std::numeric_limits<double>::infinity(), fastest = 0;
+  for (std::size_t k = low; k <= high; ++k) {
+    const auto &i = frame(k).balls[one.ball], &j = frame(k).balls[other.ball];
+    nearest = std::min(nearest, norm<double>(Vector(i.position - j.position)));
+    fastest = std::max(fastest, norm<double>(Vector(i.velocity - j.velocity)));
+  }
+  if (nearest <= touch) return true;
+  const double step = frame(high).time - frame(low).time;
+  if (high - low > 2 || nearest > touch + 2 * fastest * step) return false;
+  // A contact between two frames: flights out of the one and back from the other.
+  for (const std::size_t from : {low, high}) {
+    const auto &i = frame(from).balls[one.ball], &j = frame(from).balls[other.ball];
+    for (int k = 0; k <= tried; ++k) {
+      const double t = (from == low ? 1 : -1) * step * k / tried;
+      const Vector apart = i.position - j.position + (i.velocity - j.velocity) * t;
+      if (norm<double>(apart) <= touch) return true;
+    }
+  }
+  return false;
+}
+
+void ContactFinder::settle() {
+  std::vector<int> groups;
+  for (const auto& stretch : stretches_)
+    if (std::find(groups.begin(), groups.end(), stretch.group) == groups.end())
+      groups.push_back(stretch.group);
+  for (const int group : groups) {
+    std::vector<Stretch> members;
+    bool open = false;
+    for (const auto& stretch : stretches_)
+      if (stretch.group == group) {
+        members.push_back(stretch);
+        open = open || stretch.open;
+      }
+    if (open) continue;
+    std::erase_if(stretches_, [&](const Stretch& stretch) { return stretch.group == group; });
+    report(members);
+  }
+  std::fill(open_of_.begin(), open_of_.end(), -1);
+  for (std::size_t k = 0; k < stretches_.size(); ++k)
+    if (stretches_[k].open) open_of_[stretches_[k].ball] = static_cast<int>(k);
+}
+
+std::vector<ContactFinder::Touch> ContactFinder::touches_of(const Stretch& s) const {
+  std::vector<int> spells(static_cast<std::size_t>(vessel_.walls()));
+  std::vector<bool> inside(spells.size());
+  const auto see = [&](const std::vector<double>& gaps) {
+    for (std::size_t wall = 0; wall < spells.size(); ++wall) {
+      const bool under = gaps[wall] < 0;
+      if (under && !inside[wall]) ++spells[wall];
+      inside[wall] = under;
+    }
+  };
+  const auto &from = frame(s.first), &to = frame(s.last);
+  if (s.last - s.first > 2) {
+    for (std::size_t k = s.first; k <= s.last; ++k)
+      see(vessel_.gaps(vessel_.at(frame(k).time), s.ball, frame(k).balls[s.ball].position));
+  } else {
+    for (int k = 0; k <= tried; ++k) {
+      const double t = from.time + (to.time - from.time) * k / tried;
+      const auto pose = vessel_.at(t);
+      auto gaps =
+          vessel_.gaps(pose, s.ball, flown(from.balls[s.ball], frames_.gravity, t - from.time).position);
+      const auto back =
+          vessel_.gaps(pose, s.ball, flown(to.balls[s.ball], frames_.gravity, t - to.time).position);
+      for (std::size_t wall = 0; wall < gaps.size(); ++wall) gaps[wall] = std::min(gaps[wall], back[wall]);
+      see(gaps);
+    }
+  }
+  std::vector<Touch> touches;
+  for (std::size_t wall = 0; wall < spells.size(); ++wall)
+    if (spells[wall] > 0) touches.push_back({static_cast<int>(wall), spells[wall]});
+  return touches;
+}
+
+double ContactFinder::balance(const Stretch& s) const {
+  auto pose = vessel_.at(frame(s.first).time);
+  double lost = vessel_.energy(pose, s.ball, frame(s.first).balls[s.ball]);
+  for (std::size_t k = s.first; k < s.last; ++k) {
+    const auto next = vessel_.at(frame(k + 1).time);
+    lost +=
+        vessel_.work(pose, frame(k).balls[s.ball], next, frame(k + 1).balls[s.ball], s.ball, frames_.gravity);
+    pose = next;
+  }
+  return lost - vessel_.energy(pose, s.ball, frame(s.last).balls[s.ball]);
+}
+
+std::optional<double> ContactFinder::crossing(const std::function<double(double)>& gap, double low,
+                                              double high, bool falling) const {
+  for (int round = 0; round < 4; ++round) {
+    double left = low, value = gap(low), found_low = 0, found_high = 0;
+    bool found = false;
+    for (int k = 1; k <= tried; ++k) {
+      const double right = low + (high - low) * k / tried, next = gap(right);
+      if (falling ? value > 0 && next <= 0 : value <= 0 && next > 0) {
+        if (!found || !falling) found_low = left, found_high = right;
+        found = true;
+      }
+      left = right, value = next;
+    }
+    if (!found) return std::nullopt;
+    low = found_low, high = found_high;
+  }
+  const double one = gap(low), other = gap(high);
+  return one == other ? low : low + (high - low) * one / (one - other);
+}
+
+bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const {
+  const auto& a = group[0];
+  const Frame &from = frame(a.first), &to = frame(a.last);
+  const auto gap_of = [&](const Frame& known) {
+    return [&, this](double t) {
+      const auto own = flown(known.balls[a.ball], frames_.gravity, t - known.time).position;
+      if (wall >= 0) return vessel_.gap(vessel_.at(t), a.ball, wall, own);
+      const auto other = flown(known.balls[group[1].ball], frames_.gravity, t - known.time).position;
+      return norm<double>(Vector(own - other)) - vessel_.ball(a.ball).radius -
+             vessel_.ball(group[1].ball).radius;
+    };
+  };
+  const double longest = to.time - from.time;
+  const auto touch = crossing(gap_of(from), from.time, to.time, true);
+  const auto leave = crossing(gap_of(to), from.time, to.time + 2 * longest, false);
+  if (!touch || !leave || *leave < *touch) return false;
+  contact.begin = *touch, contact.end = *leave;
+  contact.dose = 0;
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    const std::size_t ball = group[k].ball;
+    const auto before = flown(from.balls[ball], frames_.gravity, *touch - from.time);
+    const auto after = flown(to.balls[ball], frames_.gravity, *leave - to.time);
+    auto pose = vessel_.at(*touch);
+    BallState last = before;
+    double lost = vessel_.energy(pose, ball, before);
+    const auto move_to = [&](double t, const BallState& state) {
+      const auto next = vessel_.at(t);
+      lost += vessel_.work(pose, last, next, state, ball, frames_.gravity);
+      pose = next, last = state;
+    };
+    for (std::size_t f = a.first + 1; f < a.last; ++f)
+      if (frame(f).time > *touch && frame(f).time < *leave) move_to(frame(f).time, frame(f).balls[ball]);
+    move_to(*leave, after);
+    contact.dose += lost - vessel_.energy(pose, ball, after);
+    (k == 0 ? contact.before : contact.partner_before) = before;
+    (k == 0 ? contact.after : contact.partner_after) = after;
+  }
+  return true;
+}
+
+void ContactFinder::report(const std::vector<Stretch>& members) {
+  auto group = members;
+  std::sort(group.begin(), group.end(), [](const Stretch& a, const Stretch& b) { return a.ball < b.ball; });
+  Contact contact;
+  std::size_t first = group[0].first, last = group[0].last;
+  for (const auto& s : group) {
+    first = std::min(first, s.first), last = std::max(last, s.last);
+    contact.dose += balance(s);
+  }
+  contact.free_until = contact.begin = frame(first).time;
+  contact.free_from = contact.end = frame(last).time;
+  contact.bodies = static_cast<int>(group.size());
+  contact.ball = static_cast<int>(group[0].ball);
+  contact.before = frame(group[0].first).balls[group[0].ball];
+  contact.after = frame(group[0].last).balls[group[0].ball];
+  contact.kind = ContactClass::several;
+  const double duration = contact.free_from - contact.free_until;
+  const bool lasts = first == 0 || duration > 3 * frames_.contact_time + 2 * frames_.interval;
+  const auto impulse = [&](const Stretch& s) {
+    const double dt = frame(s.last).time - frame(s.first).time;
+    return Vector(vessel_.ball(s.ball).mass * (frame(s.last).balls[s.ball].velocity -
+                                               frame(s.first).balls[s.ball].velocity - frames_.gravity * dt));
+  };
+  if (group.size() == 1) {
+    const auto touches = touches_of(group[0]);
+    // Rounded numbers of a dump, and no contact.
+    const double change = norm<double>(impulse(group[0])) / vessel_.ball(group[0].ball).mass;
+    if (touches.empty() && change < std::max(50 * frames_.kick, 1e-3)) return;
+    if (touches.empty()) contact.kind = ContactClass::unexplained;
+    if (touches.size() == 1) contact.partner = touches[0].wall;
+    if (lasts && !touches.empty())
+      contact.kind = ContactClass::lasting;
+    else if (touches.size() == 1 && touches[0].spells == 1)
+      contact.kind =
+          make_single(group, contact.partner, contact) ? ContactClass::wall : ContactClass::unexplained;
+  } else if (group.size() == 2) {
+    const auto &a = group[0], &b = group[1];
+    const Vector of_a = impulse(a), of_b = impulse(b);
+    const bool alone = a.first == b.first && a.last == b.last &&
+                       norm<double>(Vector(of_a + of_b)) < 0.01 * norm<double>(of_a);
+    if (alone) contact.partner = static_cast<int>(b.ball);
+    if (alone && lasts) contact.kind = ContactClass::lasting;
+    if (alone && !lasts && make_single(group, -1, contact)) contact.kind = ContactClass::pair;
+  }
+  found_(contact);
+}
+
+void ContactFinder::forget() {
+  std::size_t needed = first_ + window_.size() - 1;
+  for (const auto& stretch : stretches_) needed = std::min(needed, stretch.first);
+  while (first_ < needed) window_.pop_front(), ++first_;
+}
+
+}  // namespace edmill::dem

@@ -1,0 +1,205 @@
+#include "dem/contact_log.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "io/input_file.hpp"
+
+namespace edmill::dem {
+
+namespace {
+
+constexpr const char* first_line = "# edmill contacts 1";
+constexpr const char* leading =
+    "time,end,class,ball,partner_kind,partner,bodies,free_until,free_from,milling_dose";
+constexpr std::size_t first_state = 10;
+constexpr const char* quantities[] = {"x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"};
+constexpr const char* bodies[] = {"", "partner_"};
+constexpr const char* whens[] = {"_before", "_after"};
+
+std::string header() {
+  std::string text = leading;
+  for (const char* body : bodies)
+    for (const char* when : whens)
+      for (const char* quantity : quantities) text += fmt::format(",{}{}{}", body, quantity, when);
+  return text;
+}
+
+void put(std::string& line, const BallState& state, bool given) {
+  for (const auto* v : {&state.position, &state.velocity, &state.spin})
+    for (Eigen::Index k = 0; k < 3; ++k) line += given ? fmt::format(",{}", (*v)[k]) : ",";
+}
+
+/// Numbers behind a name in a comment of the head.
+std::vector<double> numbers_of(const std::string& line) {
+  std::istringstream in(line);
+  std::string mark, name;
+  in >> mark >> name;
+  std::vector<double> numbers;
+  for (std::string word; in >> word;) numbers.push_back(std::strtod(word.c_str(), nullptr));
+  return numbers;
+}
+
+ContactLogFacts read_facts(const std::string& file) {
+  io::InputFile in(file, "a log of contacts");
+  std::string line;
+  if (!std::getline(in, line) || !line.starts_with(first_line))
+    throw InputError(fmt::format("{}:1: found {}, expected '{}'", file, io::in_quotes(line), first_line));
+  ContactLogFacts facts;
+  auto& s = facts.statistics;
+  std::size_t known = 0;
+  const auto expect = [&](std::size_t found, std::size_t count, std::uint64_t number) {
+    if (found != count)
+      throw InputError(fmt::format("{}:{}: found {} numbers in a line of the head, expected {}", file, number,
+                                   found, count));
+    ++known;
+  };
+  for (std::uint64_t number = 2; std::getline(in, line) && line.starts_with("#"); ++number) {
+    const auto n = numbers_of(line);
+    if (line.starts_with("# dump ")) facts.dump = line.substr(7);
+    if (line.starts_with("# frames ")) {
+      expect(n.size(), 5, number);
+      for (const double count : {n[0], n[1]})
+        if (!(count >= 0 && count < 1e18))
+          throw InputError(
+              fmt::format("{}:{}: found {}, expected a number of frames or contacts", file, number, count));
+      facts.frames = static_cast<std::uint64_t>(n[0]), facts.contacts = static_cast<std::uint64_t>(n[1]);
+      facts.first = n[2], facts.last = n[3], s.interval = n[4];
+    }
+    if (line.starts_with("# gravity ")) {
+      expect(n.size(), 6, number);
+      s.gravity = {n[0], n[1], n[2]}, s.gravity_half_width = {n[3], n[4], n[5]};
+    }
+    if (line.starts_with("# contact_time "))
+      expect(n.size(), 2, number), s.contact_time = n[0], s.kick = n[1];
+    if (line.starts_with("# factors "))
+      expect(n.size(), 2, number), facts.mass_factor = n[0], facts.radius_factor = n[1];
+    if (line.starts_with("# doses ")) {
+      expect(n.size(), facts.doses.size(), number);
+      std::copy(n.begin(), n.end(), facts.doses.begin());
+    }
+  }
+  if (known != 5)
+    throw InputError(fmt::format(
+        "{}: found a head without all of frames, gravity, contact_time, factors and doses, expected "
+        "that of `edmill import`",
+        file));
+  return facts;
+}
+
+}  // namespace
+
+double ContactLogFacts::dose() const { return std::accumulate(doses.begin(), doses.end(), 0.0); }
+
+ContactLogWriter::ContactLogWriter() : rows_(std::tmpfile(), std::fclose) {
+  if (!rows_)
+    throw InputError("found no room for a temporary file, expected a folder for them that can be written");
+}
+
+void ContactLogWriter::add(const Contact& c) {
+  const bool single = c.kind != ContactClass::several;
+  const bool wall = single && c.bodies == 1 && c.partner >= 0, pair = single && c.bodies == 2;
+  std::string line = fmt::format("{},{},{},{},{},{},{},{},{},{}", c.begin, c.end,
+                                 contact_class_names[static_cast<std::size_t>(c.kind)], c.ball,
+                                 wall   ? "wall"
+                                 : pair ? "ball"
+                                        : "",
+                                 c.partner >= 0 ? std::to_string(c.partner) : "", c.bodies, c.free_until,
+                                 c.free_from, c.dose);
+  const bool states_of_pair = c.kind == ContactClass::pair;
+  put(line, c.before, true);
+  put(line, c.after, true);
+  put(line, c.partner_before, states_of_pair);
+  put(line, c.partner_after, states_of_pair);
+  line += '\n';
+  if (std::fwrite(line.data(), 1, line.size(), rows_.get()) != line.size())
+    throw std::runtime_error("a temporary file could not be written");
+}
+
+void ContactLogWriter::write(std::ostream& out, const ContactLogFacts& f) {
+  const auto& s = f.statistics;
+  out << fmt::format(
+      "{}\n# dump {}\n# frames {} {} {} {} {}\n# gravity {} {} {} {} {} {}\n# contact_time {} {}\n"
+      "# factors {} {}\n# doses",
+      first_line, f.dump, f.frames, f.contacts, f.first, f.last, s.interval, s.gravity[0], s.gravity[1],
+      s.gravity[2], s.gravity_half_width[0], s.gravity_half_width[1], s.gravity_half_width[2], s.contact_time,
+      s.kick, f.mass_factor, f.radius_factor);
+  for (const double dose : f.doses) out << fmt::format(" {}", dose);
+  out << "\n" << header() << "\n";
+  std::rewind(rows_.get());
+  std::array<char, 65536> block;
+  while (const auto size = std::fread(block.data(), 1, block.size(), rows_.get()))
+    out.write(block.data(), static_cast<std::streamsize>(size));
+}
+
+bool is_contact_log(const std::string& file) {
+  if (!io::is_readable(file)) return false;
+  io::InputFile in(file, "a log of contacts");
+  std::string line;
+  return std::getline(in, line) && line.starts_with(first_line);
+}
+
+ContactLogReader::ContactLogReader(const std::string& file)
+    : facts_(read_facts(file)), csv_(file, "a log of contacts") {
+  std::string found;
+  for (const auto& name : csv_.header()) found += (found.empty() ? "" : ",") + name;
+  if (found != header())
+    throw InputError(fmt::format("{}:{}: found other columns, expected {}", file, csv_.line(), header()));
+}
+
+std::optional<Contact> ContactLogReader::next() {
+  while (csv_.next_row()) {
+    const auto before = csv_.problem_count();
+    if (auto contact = parse(); contact && csv_.problem_count() == before) return contact;
+  }
+  csv_.throw_problems();
+  return std::nullopt;
+}
+
+std::optional<Contact> ContactLogReader::parse() {
+  constexpr int most = std::numeric_limits<int>::max();
+  Contact c;
+  const auto begin = csv_.finite(0), end = csv_.finite(1), until = csv_.finite(7), from = csv_.finite(8),
+             dose = csv_.finite(9);
+  const auto ball = csv_.whole(3, "the number of a ball", 0, most),
+             balls = csv_.whole(6, "a number of balls", 1, most);
+  const auto kind = std::find(contact_class_names.begin(), contact_class_names.end(), csv_.field(2));
+  if (kind == contact_class_names.end()) csv_.bad_field(2, "wall, pair, several, lasting or unexplained");
+  if (!begin || !end || !until || !from || !dose || !ball || !balls || kind == contact_class_names.end())
+    return std::nullopt;
+  c.kind = static_cast<ContactClass>(kind - contact_class_names.begin());
+  c.begin = *begin, c.end = *end, c.free_until = *until, c.free_from = *from, c.dose = *dose;
+  c.ball = *ball, c.bodies = *balls;
+  if (!csv_.field(5).empty()) {
+    const auto partner = csv_.whole(5, "the number of a wall or ball", 0, most);
+    if (!partner) return std::nullopt;
+    c.partner = *partner;
+  }
+  std::size_t column = first_state;
+  for (auto* state : {&c.before, &c.after, &c.partner_before, &c.partner_after}) {
+    if (csv_.field(column).empty()) {
+      column += std::size(quantities);
+      continue;
+    }
+    for (auto* v : {&state->position, &state->velocity, &state->spin})
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const auto value = csv_.finite(column++);
+        if (!value) return std::nullopt;
+        (*v)[k] = *value;
+      }
+  }
+  const bool needs_partner = c.kind == ContactClass::wall || c.kind == ContactClass::pair;
+  if (needs_partner && c.partner < 0) {
+    csv_.bad_field(5, "the number of a wall or ball");
+    return std::nullopt;
+  }
+  return c;
+}
+
+}  // namespace edmill::dem

@@ -1,0 +1,141 @@
+#include "dem/deck.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "base/version.hpp"
+#include "casefile/joints.hpp"
+#include "casefile/parts.hpp"
+#include "dem/soft_contact.hpp"
+
+namespace edmill::dem {
+
+namespace {
+
+SoftLaw soft_law(const model::ContactLaw<double>& law, const std::string& file, const DeckOptions& options) {
+  if (law.name() != std::string("walton-braun"))
+    throw InputError(
+        fmt::format("{}: key 'contact.model': found \"{}\", expected \"walton-braun\": a deck has "
+                    "contacts of one restitution and friction",
+                    file, law.name()));
+  SoftLaw soft{};
+  law.parameters([&](const model::Parameter& p, double value) {
+    if (p.key == std::string("restitution")) soft.restitution = value;
+    if (p.key == std::string("friction")) soft.friction = value;
+  });
+  if (soft.restitution < 0.05)
+    throw InputError(
+        fmt::format("{}: key 'contact.restitution': found {}, expected 0.05 or more: with less the "
+                    "contacts of DEM codes stick",
+                    file, soft.restitution));
+  soft.damping = damping_for(soft.restitution, options.steps,
+                             options.code == "yade" ? Separation::attracts : Separation::free);
+  return soft;
+}
+
+void refuse_what_no_code_has(const casefile::CaseSpec& spec, const casefile::InitialCase<double>& built) {
+  std::vector<std::string> problems;
+  const auto problem = [&](const std::string& found, const std::string& expected) {
+    problems.push_back(fmt::format("{}: found {}, expected {}", spec.file, found, expected));
+  };
+  if (!spec.pistons.empty())
+    problem("pistons", "walls that move together: no deck has walls that move apart");
+  if (!spec.pairs.empty()) problem("laws of pairs of materials", "one law between balls and one at walls");
+  for (const auto& ball : built.the_case.balls)
+    if (std::abs(ball.reduced_inertia - 0.4) > 1e-12) {
+      problem(fmt::format("a reduced inertia of {}", ball.reduced_inertia),
+              "0.4: DEM codes have solid spheres");
+      break;
+    }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+}  // namespace
+
+double DeckCase::density(std::size_t ball) const {
+  const double r = balls[ball].radius;
+  // As it was given: the mass came from it.
+  return std::stod(fmt::format("{:.14g}", balls[ball].mass / (4.0 / 3 * numerics::pi<double>() * r * r * r)));
+}
+
+bool DeckCase::translates() const {
+  return std::none_of(joints.list.begin(), joints.list.end(), [](const auto& j) { return j.rotates; });
+}
+
+std::string header_of(const DeckCase& c, const DeckOptions& options, const std::string& comment) {
+  return fmt::format(
+      "{0} {1} of edmill {2}: contacts of {3:g} s at {4:g} m/s, restitution {5:g} (balls) and {6:g} "
+      "(walls)\n",
+      comment, c.file, version(), options.contact_time, options.speed, c.of_balls.restitution,
+      c.of_walls.restitution);
+}
+
+std::array<std::string, 3> displacement_formulas(const DeckCase& c, const std::string& time,
+                                                 const std::string& sine) {
+  std::array<std::string, 3> sums;
+  const auto add = [&](std::size_t k, const std::string& term) {
+    sums[k] += (sums[k].empty() ? "" : "+") + term;
+  };
+  for (const auto& joint : c.joints.list) {
+    const double length = std::hypot(joint.axis[0], joint.axis[1], joint.axis[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (joint.shift[k] != 0) add(k, fmt::format("{}", joint.shift[k]));
+      const double along = length > 0 ? joint.axis[k] / length : 0;
+      if (along == 0) continue;
+      if (joint.speed != 0) add(k, fmt::format("{}*{}", along * joint.speed, time));
+      for (const auto& s : joint.swings) {
+        if (s.amplitude == 0) continue;
+        add(k, fmt::format("{}*{}({}*{}+{})", along * s.amplitude, sine,
+                           2 * numerics::pi<double>() * s.frequency, time,
+                           2 * numerics::pi<double>() * s.phase));
+      }
+    }
+  }
+  for (auto& sum : sums)
+    if (sum.empty()) sum = "0.0";
+  return sums;
+}
+
+Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
+  const auto built = casefile::build_case<double>(spec);
+  refuse_what_no_code_has(spec, built);
+  const auto& c = built.the_case;
+  DeckCase deck{
+      .file = spec.file,
+      .digest = spec.digest,
+      .balls = c.balls,
+      .states = built.states,
+      .of_balls = soft_law(c.mill.ball_ball, spec.file, options),
+      .of_walls = soft_law(c.mill.ball_wall, spec.file, options),
+      .mill = c.mill,
+      .joints = model::converted_joints<double>(
+          model::Joints<casefile::Quantity>{casefile::joints_of(spec.mill), casefile::period_of(spec.mill)},
+          [](const casefile::Quantity& q) { return q.to<double>(); }),
+      .begin = spec.initial_time.to<double>(),
+      .period = casefile::period_of(spec.mill).to<double>(),
+      .young = 0,
+      .time_step = options.contact_time / options.steps,
+      .steps = 0,
+      .frame_every = 1,
+      .largest_radius = 0};
+  double mass = 0;
+  for (const auto& ball : c.balls)
+    if (ball.radius > deck.largest_radius) deck.largest_radius = ball.radius, mass = ball.mass;
+  deck.young = young_for(options.contact_time, options.speed, deck.largest_radius, mass, DeckCase::poisson);
+  const double duration = options.duration > 0 ? options.duration
+                          : spec.end_time      ? spec.end_time->to<double>() - deck.begin
+                                               : 0;
+  if (!(duration > 0))
+    throw InputError(spec.file + ": found no run.end_time and no --duration, expected one of them");
+  deck.steps = std::lround(duration / deck.time_step);
+  const double interval = options.frame_interval > 0 ? options.frame_interval : options.contact_time / 5;
+  deck.frame_every = std::max(1L, std::lround(interval / deck.time_step));
+  if (options.code == "lammps") return lammps_deck(deck, options);
+  if (options.code == "liggghts") return liggghts_deck(deck, options);
+  return yade_deck(deck, options);
+}
+
+}  // namespace edmill::dem

@@ -1,0 +1,75 @@
+// Frames of DEM codes: the text of LAMMPS's and LIGGGHTS's `dump custom`, which YADE's decks write too.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/input_file.hpp"
+#include "model/ball.hpp"
+
+namespace edmill::dem {
+
+/// What a file does not say of itself.
+struct DumpFormat {
+  std::optional<double> time_step;  ///< [s]; of files without times
+  std::string units = "si";         ///< "si", "cgs", "micro" or "nano"; a file that says its own overrides it
+};
+
+/// Time step, units and frame of a deck of LAMMPS or LIGGGHTS: its lines `timestep`, `units` and
+/// `# frame vessel`.
+struct DeckFacts {
+  std::optional<double> time_step;
+  std::optional<std::string> units;
+  bool in_vessel = false;
+};
+/// @throws InputError when it cannot be read
+DeckFacts facts_of_deck(const std::string& deck);
+
+/// All balls at one time, by ascending number.
+struct Frame {
+  double time = 0;  ///< [s]
+  std::vector<model::BallState<double>> balls;
+};
+
+/// Reads frames in bounded memory. Columns may be in any order, unknown ones are skipped, and a file that
+/// ends within a frame ends before it.
+class FrameReader {
+ public:
+  /// @param balls  of the case
+  /// @throws InputError when the file cannot be read
+  FrameReader(const std::string& file, const DumpFormat& format, std::size_t balls);
+
+  /// The next frame; false at the end.
+  /// @throws InputError naming line, found and expected
+  bool next(Frame& frame);
+
+  /// Masses [kg] and radii [m] of the first frame, where the file has them.
+  const std::vector<double>& masses() const { return masses_; }
+  const std::vector<double>& radii() const { return radii_; }
+
+ private:
+  bool line();
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
+  void read_columns();
+  bool read_balls(Frame& frame);
+  void place(const std::vector<double>& values, model::BallState<double>& state) const;
+  double number(std::string_view text) const;
+
+  std::string name_;
+  io::InputFile in_;
+  DumpFormat format_;
+  std::size_t count_;
+  std::string line_;
+  std::uint64_t line_number_ = 0;
+  std::vector<std::string> names_;        ///< of the columns
+  std::vector<int> places_;               ///< of what is needed among them; -1 for what is absent
+  std::array<double, 3> low_{}, size_{};  ///< of the box, for scaled coordinates
+  double length_ = 1, speed_ = 1, time_ = 1, mass_ = 1;  ///< units to SI
+  std::vector<long> ids_;
+  std::vector<double> masses_, radii_;
+  double last_time_;
+};
+
+}  // namespace edmill::dem

@@ -1,0 +1,209 @@
+// Which number of mill or vessel puts the walls where balls left their flights.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/contact_audit.hpp"
+#include "identify/parameters.hpp"
+
+namespace edmill::dem {
+
+namespace {
+
+using identify::Assumptions;
+using identify::Parameter;
+
+/// A ball that leaves its flight at a wall.
+struct Meeting {
+  std::size_t ball;
+  int wall;
+  double time;  ///< in the middle between the frames [s]
+  Vector position;
+};
+
+/// What a mill may have otherwise beside the numbers of its case.
+struct Offset {
+  double delay = 0;     ///< of the drive [s]
+  int wall = -1;        ///< that is moved
+  double distance = 0;  ///< outward [m]
+};
+
+/// A number to vary.
+struct Candidate {
+  std::string key;
+  Dimension dimension;
+  double value, change;
+  std::vector<double> starts;
+  std::function<void(Assumptions&, Offset&, double)> set;
+};
+
+class Geometry {
+ public:
+  Geometry(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts,
+           const FrameStatistics& frames)
+      : nominal_(identify::assumptions_of(spec)), frames_(frames) {
+    const auto built = nominal_.built();
+    if (!built) return;
+    const MovingVessel vessel(built->mill, built->balls);
+    std::vector<double> reaches;
+    for (const auto& c : contacts) {
+      const double t = c.free_until + frames.interval / 2;
+      const auto state =
+          flown(c.before, frames.gravity, t - (c.kind == ContactClass::wall ? c.begin : c.free_until));
+      const double lasted = c.kind == ContactClass::wall ? c.end - c.begin : c.free_from - c.free_until;
+      const Vector impulse = c.after.velocity - c.before.velocity - frames.gravity * lasted;
+      const auto pose = vessel.at(t);
+      double best = 0.5 * norm<double>(impulse);
+      int wall = -1;
+      for (int w = 0; w < vessel.walls(); ++w)
+        if (const double along = dot<double>(
+                vessel.normal(pose, static_cast<std::size_t>(c.ball), w, state.position), impulse);
+            along > best)
+          best = along, wall = w;
+      if (wall < 0) continue;
+      meetings_.push_back({static_cast<std::size_t>(c.ball), wall, t, state.position});
+      reaches.push_back(norm<double>(impulse) / 1.5 * frames.interval / 2);
+    }
+    resolution = median_of(reaches).value;
+    distance = of(gaps(nominal_, {}));
+  }
+
+  bool known() const { return meetings_.size() >= 20; }
+  const Assumptions& nominal() const { return nominal_; }
+  double distance = 0, resolution = 0;
+
+  /// Gaps with a mill; empty where it can be none.
+  std::vector<double> gaps(const Assumptions& assumed, const Offset& offset) const {
+    std::vector<double> gaps;
+    const auto built = assumed.built();
+    if (!built) return gaps;
+    const MovingVessel vessel(built->mill, built->balls);
+    for (const auto& m : meetings_)
+      gaps.push_back(vessel.gap(vessel.at(m.time + offset.delay), m.ball, m.wall, m.position) +
+                     (m.wall == offset.wall ? offset.distance : 0));
+    return gaps;
+  }
+  /// The largest of the walls' medians: a mistake may move one wall alone.
+  double of(const std::vector<double>& gaps) const {
+    if (gaps.empty()) return INFINITY;
+    std::vector<std::vector<double>> by_wall(static_cast<std::size_t>(nominal_.walls));
+    for (std::size_t k = 0; k < gaps.size(); ++k)
+      by_wall[static_cast<std::size_t>(meetings_[k].wall)].push_back(std::abs(gaps[k]));
+    double largest = 0;
+    for (auto& own : by_wall)
+      if (own.size() >= 10) largest = std::max(largest, median_of(std::move(own)).value);
+    return largest;
+  }
+  std::vector<double> gaps_with(const Candidate& c, double value) const {
+    Assumptions assumed = nominal_;
+    Offset offset;
+    c.set(assumed, offset, value);
+    return gaps(assumed, offset);
+  }
+
+  std::optional<GeometryCause> fit(const Candidate& c) const {
+    double best = c.value, left = distance;
+    for (const double start : c.starts)
+      if (const double found = of(gaps_with(c, start)); found < left) left = found, best = start;
+    double curvature = 0;
+    for (int round = 0; round < 12; ++round) {
+      const auto here = gaps_with(c, best), there = gaps_with(c, best + 1e-4 * c.change);
+      if (here.empty() || there.empty()) return std::nullopt;
+      double slope = 0;
+      curvature = 0;
+      const double limit = 3 * of(here) + 1e-12;
+      for (std::size_t k = 0; k < here.size(); ++k) {
+        const double rate = (there[k] - here[k]) / (1e-4 * c.change),
+                     weight = std::abs(here[k]) > limit ? 0 : 1;
+        slope += weight * rate * here[k], curvature += weight * rate * rate;
+      }
+      if (!(curvature > 0)) return std::nullopt;
+      double step = -slope / curvature;
+      for (int half = 0; half < 6; ++half, step /= 2)
+        if (const double found = of(gaps_with(c, best + step)); found < left) {
+          best += step, left = found;
+          break;
+        }
+      if (std::abs(step) < 1e-7 * c.change) break;
+    }
+    GeometryCause cause{c.key, "", best, 1.96 * 1.4826 * left / std::sqrt(curvature), c.value, left};
+    cause.text = fmt::format("{}, the case has {}", identify::value_text(c.dimension, best, cause.half_width),
+                             identify::value_text(c.dimension, c.value));
+    return cause;
+  }
+
+ private:
+  Assumptions nominal_;
+  FrameStatistics frames_;
+  std::vector<Meeting> meetings_;
+};
+
+Candidate of_number(const Parameter& p) {
+  Candidate c{p.key,    p.dimension, p.value,
+              p.change, {},          [set = p.set](Assumptions& a, Offset&, double x) { set(a, x); }};
+  for (const double share : {0.001, 0.003, 0.01, 0.03, 0.05, 0.1, 0.2, 0.5})
+    for (const double sign : {-1.0, 1.0}) c.starts.push_back(p.value * (1 + sign * share));
+  c.starts.push_back(2 * p.value);
+  return c;
+}
+
+void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
+  const double turn = 2 * numerics::pi<double>();
+  std::vector<double> starts;
+  for (int k = 1; k < 16; ++k) starts.push_back(turn * (k <= 8 ? k : k - 16) / 16);
+  const double period = casefile::period_of(nominal.spec.mill).to<double>();
+  list.push_back(
+      {"phase of the drive", Dimension::angle, 0, 1, starts,
+       [period, turn](Assumptions&, Offset& offset, double x) { offset.delay = x / turn * period; }});
+  const auto* vibratory = std::get_if<model::Vibratory<casefile::Quantity>>(&nominal.spec.mill);
+  for (std::size_t axis = 0; vibratory && axis < 3; ++axis) {
+    if (vibratory->amplitude[axis].zero() && vibratory->quarter[axis].zero()) continue;
+    list.push_back({fmt::format("phase of mill.amplitude along {}", "xyz"[axis]), Dimension::angle, 0, 1,
+                    starts, [axis](Assumptions& a, Offset&, double x) {
+                      auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
+                      const double s = mill.amplitude[axis].to<double>(), q = mill.quarter[axis].to<double>();
+                      mill.amplitude[axis] = identify::exactly(s * std::cos(x) - q * std::sin(x));
+                      mill.quarter[axis] = identify::exactly(s * std::sin(x) + q * std::cos(x));
+                    }});
+  }
+}
+
+void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
+  const auto partners = casefile::partners_of(spec);
+  for (int wall = 0; wall < partners.walls(); ++wall)
+    list.push_back(
+        {"place of wall " + partners[wall].label,
+         Dimension::length,
+         0,
+         1e-3,
+         {-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3},
+         [wall](Assumptions&, Offset& offset, double x) { offset.wall = wall, offset.distance = x; }});
+}
+
+}  // namespace
+
+std::vector<GeometryCause> geometry_causes(const casefile::CaseSpec& spec,
+                                           const std::vector<Contact>& contacts,
+                                           const FrameStatistics& frames, double& distance,
+                                           double& resolution, const std::atomic<bool>* interrupt) {
+  const Geometry geometry(spec, contacts, frames);
+  std::vector<GeometryCause> causes;
+  if (!geometry.known()) return causes;
+  distance = geometry.distance, resolution = geometry.resolution;
+  if (distance <= 2 * resolution) return causes;
+  std::vector<Candidate> candidates;
+  for (const auto& p : identify::parameters_of(geometry.nominal()))
+    if (p.key.starts_with("mill.") || p.key.starts_with("vessel.")) candidates.push_back(of_number(p));
+  add_phases(geometry.nominal(), candidates);
+  add_walls(spec, candidates);
+  for (const auto& candidate : candidates) {
+    if (interrupt && *interrupt) break;
+    if (const auto cause = geometry.fit(candidate); cause && cause->left <= 2 * resolution)
+      causes.push_back(*cause);
+  }
+  std::sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.left < b.left; });
+  return causes;
+}
+
+}  // namespace edmill::dem

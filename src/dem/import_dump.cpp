@@ -1,0 +1,101 @@
+#include "dem/import_dump.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "casefile/build_case.hpp"
+
+namespace edmill::dem {
+
+namespace {
+
+/// Frames from which the statistics of all are taken.
+constexpr std::size_t first_frames = 4000;
+
+/// The median of what the dump says over what the case says; 1 where it says nothing.
+double factor_of(const std::vector<double>& dump, const std::vector<model::BallProperties<double>>& balls,
+                 const auto& of) {
+  if (dump.empty()) return 1;
+  std::vector<double> factors;
+  for (std::size_t k = 0; k < balls.size(); ++k) factors.push_back(dump[k] / of(balls[k]));
+  std::nth_element(factors.begin(), factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2),
+                   factors.end());
+  const double factor = factors[factors.size() / 2];
+  // As dumps write numbers.
+  return std::abs(factor - 1) < 1e-5 ? 1 : factor;
+}
+
+}  // namespace
+
+Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options, ContactLogWriter& log) {
+  const auto built = casefile::build_case<double>(spec);
+  const auto& balls = built.the_case.balls;
+  const MovingVessel vessel(built.the_case.mill, balls);
+  DumpFormat format{options.time_step, options.units.value_or("si")};
+  bool in_vessel = options.in_vessel;
+  if (!options.deck.empty()) {
+    const auto facts = facts_of_deck(options.deck);
+    if (!format.time_step) format.time_step = facts.time_step;
+    if (facts.units && !options.units) format.units = *facts.units;
+    in_vessel = in_vessel || facts.in_vessel;
+  }
+  FrameReader reader(options.dump, format, balls.size());
+  // A deck counts its time from the initial time of the case.
+  const double begin = spec.initial_time.to<double>();
+  const auto next = [&](Frame& frame) {
+    if (!reader.next(frame)) return false;
+    frame.time += begin;
+    if (in_vessel) {
+      const auto pose = vessel.at(frame.time);
+      for (auto& ball : frame.balls) ball = vessel.inertial(pose, ball);
+    }
+    return true;
+  };
+  std::vector<Frame> head;
+  for (Frame frame; head.size() < first_frames && next(frame);) head.push_back(frame);
+  if (head.size() < 3)
+    throw InputError(fmt::format("{}: found {} frames, expected at least 3", options.dump, head.size()));
+  Imported result;
+  auto& facts = result.facts;
+  facts.dump = options.dump;
+  facts.statistics = statistics_of(head, built.the_case.mill.gravity);
+  facts.mass_factor = factor_of(reader.masses(), balls, [](const auto& b) { return b.mass; });
+  facts.radius_factor = factor_of(reader.radii(), balls, [](const auto& b) { return b.radius; });
+  ContactFinder finder(vessel, facts.statistics, [&](const Contact& contact) {
+    ++facts.contacts;
+    ++result.counts[static_cast<std::size_t>(contact.kind)];
+    facts.doses[static_cast<std::size_t>(contact.kind)] += contact.dose;
+    log.add(contact);
+  });
+  facts.first = head.front().time;
+  const auto take = [&](Frame frame) {
+    facts.last = frame.time;
+    if (++facts.frames % 1024 == 0 && options.progress) options.progress(frame.time, facts.contacts);
+    finder.add(std::move(frame));
+  };
+  for (auto& frame : head) take(std::move(frame));
+  for (Frame frame; next(frame);) {
+    take(frame);
+    result.interrupted = options.interrupt && *options.interrupt;
+    if (result.interrupted) break;
+  }
+  finder.finish();
+  return result;
+}
+
+std::string table(const Imported& r, const std::string& log) {
+  const auto& f = r.facts;
+  std::string out = fmt::format(
+      "{}: {} frames, {:.3g} s apart, {:g} s to {:g} s{}\n{} contacts, to {}\n\n  {:<14}{:>10}{:>13}\n",
+      f.dump, f.frames, f.statistics.interval, f.first, f.last, r.interrupted ? " (interrupted)" : "",
+      f.contacts, log, "contacts", "number", "of the dose");
+  for (std::size_t k = 0; k < contact_class_names.size(); ++k)
+    out += fmt::format("  {:<14}{:>10}{:>12.2f}%\n", contact_class_names[k], r.counts[k],
+                       f.dose() != 0 ? 100 * f.doses[k] / f.dose() : 0);
+  return out + fmt::format("\n  milling dose, by the balance of energy: {:.6g} J, {:.4g} W\n", f.dose(),
+                           f.duration() > 0 ? f.dose() / f.duration() : 0);
+}
+
+}  // namespace edmill::dem

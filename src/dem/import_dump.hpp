@@ -1,0 +1,37 @@
+// A dump of frames becomes a log of contacts.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "casefile/case_spec.hpp"
+#include "dem/contact_log.hpp"
+
+namespace edmill::dem {
+
+struct ImportOptions {
+  std::string dump;
+  std::string deck;                  ///< that made it: tells time step, units and frame; none when empty
+  std::optional<double> time_step;   ///< [s]
+  std::optional<std::string> units;  ///< of LAMMPS: "si", "cgs", ...
+  bool in_vessel = false;            ///< places and velocities are those in the vessel's frame
+  const std::atomic<bool>* interrupt = nullptr;
+  std::function<void(double time, std::uint64_t contacts)> progress;
+};
+
+struct Imported {
+  ContactLogFacts facts;
+  std::array<std::uint64_t, contact_class_names.size()> counts{};
+  bool interrupted = false;  ///< what was read until then is in the log
+};
+
+/// Memory does not depend on the length of the dump.
+/// @throws InputError when it cannot be read, lacks what is needed or has other balls than the case
+Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options, ContactLogWriter& log);
+
+std::string table(const Imported& imported, const std::string& log);
+
+}  // namespace edmill::dem

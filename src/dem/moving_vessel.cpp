@@ -1,0 +1,90 @@
+#include "dem/moving_vessel.hpp"
+
+namespace edmill::dem {
+
+MovingVessel::MovingVessel(const model::Mill<double>& mill,
+                           const std::vector<model::BallProperties<double>>& balls)
+    : mill_(mill), balls_(balls), clock_(mill.motion.period()) {
+  std::vector<double> radii;
+  for (const auto& ball : balls_) {
+    std::size_t k = 0;
+    while (k < radii.size() && radii[k] != ball.radius) ++k;
+    if (k == radii.size()) {
+      radii.push_back(ball.radius);
+      insets_.push_back(mill_.vessel.inset(ball.radius));
+    }
+    inset_of_.push_back(k);
+  }
+}
+
+MovingVessel::Pose MovingVessel::at(double time) const { return {mill_.motion.pose(clock_.at(time))}; }
+
+// Gap functions need not be lengths; overlaps are.
+double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
+  return -inset(ball).overlap(wall, mill_.motion.position_in_vessel(pose.pose, position));
+}
+
+std::vector<double> MovingVessel::gaps(const Pose& pose, std::size_t ball, const Vector& position) const {
+  const Vector p = mill_.motion.position_in_vessel(pose.pose, position);
+  std::vector<double> gaps(static_cast<std::size_t>(walls()));
+  for (int wall = 0; wall < walls(); ++wall)
+    gaps[static_cast<std::size_t>(wall)] = -inset(ball).overlap(wall, p);
+  return gaps;
+}
+
+Vector MovingVessel::normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
+  const Vector p = mill_.motion.position_in_vessel(pose.pose, position);
+  return mill_.motion.direction_to_inertial(pose.pose, inset(ball).normal(wall, p));
+}
+
+Vector MovingVessel::wall_velocity(const Pose& pose, const Vector& place) const {
+  return mill_.motion.wall_velocity(pose.pose, place);
+}
+
+Vector MovingVessel::in_axes(const Pose& pose, const Vector& v) const {
+  const auto& m = mill_.motion;
+  return {dot<double>(m.axis_x(pose.pose), v), dot<double>(m.axis_y(pose.pose), v),
+          dot<double>(m.axis_z(pose.pose), v)};
+}
+
+double MovingVessel::energy(const Pose& pose, std::size_t ball, const BallState& state) const {
+  const auto& b = balls_[ball];
+  const Vector u = mill_.motion.to_vessel_frame(pose.pose, state.position, state.velocity).velocity;
+  const Vector s = state.spin - mill_.motion.angular_velocity(pose.pose);
+  return b.mass / 2 * squared_norm<double>(u) +
+         b.reduced_inertia * b.mass * b.radius * b.radius / 2 * squared_norm<double>(s);
+}
+
+double MovingVessel::work(const Pose& from, const BallState& before, const Pose& to, const BallState& after,
+                          std::size_t ball, const Vector& gravity) const {
+  const auto& m = mill_.motion;
+  // Coriolis's force does no work.
+  const Vector force = in_axes(from, gravity - m.wall_acceleration(from.pose, before.position)) +
+                       in_axes(to, gravity - m.wall_acceleration(to.pose, after.position));
+  const Vector way =
+      m.position_in_vessel(to.pose, after.position) - m.position_in_vessel(from.pose, before.position);
+  const auto& b = balls_[ball];
+  double work = b.mass / 2 * dot<double>(force, way);
+  // The torque -J w' on a spin relative to the vessel.
+  const Vector turn = m.angular_velocity(to.pose) - m.angular_velocity(from.pose);
+  const Vector spins = before.spin - m.angular_velocity(from.pose) + after.spin - m.angular_velocity(to.pose);
+  work -= b.reduced_inertia * b.mass * b.radius * b.radius / 2 * dot<double>(turn, spins);
+  return work;
+}
+
+BallState MovingVessel::inertial(const Pose& pose, const BallState& seen) const {
+  const auto& m = mill_.motion;
+  BallState state;
+  state.position = m.to_inertial(pose.pose, seen.position);
+  state.velocity =
+      m.direction_to_inertial(pose.pose, seen.velocity) + m.wall_velocity(pose.pose, state.position);
+  state.spin = m.direction_to_inertial(pose.pose, seen.spin) + m.angular_velocity(pose.pose);
+  return state;
+}
+
+BallState flown(const BallState& state, const Vector& gravity, double duration) {
+  return {state.position + (state.velocity + gravity * (duration / 2)) * duration,
+          state.velocity + gravity * duration, state.spin};
+}
+
+}  // namespace edmill::dem

@@ -1,0 +1,59 @@
+// The vessel of a case at any time, and balls as seen from it.
+#pragma once
+
+#include <vector>
+
+#include "model/mill.hpp"
+
+namespace edmill::dem {
+
+using Vector = Vec3<double>;
+using BallState = model::BallState<double>;
+
+/// Motion and walls for balls of given radii. A wall that moves by itself (a piston) is not one of them.
+class MovingVessel {
+ public:
+  MovingVessel(const model::Mill<double>& mill, const std::vector<model::BallProperties<double>>& balls);
+
+  struct Pose {
+    model::AnyPose<double> pose;
+  };
+  Pose at(double time) const;
+
+  /// Gap of a ball's surface from each wall; negative for an overlap [m].
+  std::vector<double> gaps(const Pose& pose, std::size_t ball, const Vector& position) const;
+  double gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
+  /// Unit, into the vessel, inertial, of the wall at the place of a ball.
+  Vector normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
+  /// Of the vessel's material at an inertial place [m/s].
+  Vector wall_velocity(const Pose& pose, const Vector& place) const;
+  int walls() const { return mill_.vessel.wall_count(); }
+
+  /// Kinetic energy of a ball relative to the vessel [J].
+  double energy(const Pose& pose, std::size_t ball, const BallState& state) const;
+  /// Work of gravity and of the fictitious forces and torques on a ball between two states, relative to the
+  /// vessel [J]: forces are means of both ends, the way is that between them.
+  double work(const Pose& from, const BallState& before, const Pose& to, const BallState& after,
+              std::size_t ball, const Vector& gravity) const;
+
+  /// A state out of a frame of the vessel, as inertial.
+  BallState inertial(const Pose& pose, const BallState& in_vessel) const;
+
+  const model::BallProperties<double>& ball(std::size_t k) const { return balls_[k]; }
+  std::size_t ball_count() const { return balls_.size(); }
+
+ private:
+  Vector in_axes(const Pose& pose, const Vector& inertial) const;
+  const model::AnyVessel<double>& inset(std::size_t ball) const { return insets_[inset_of_[ball]]; }
+
+  model::Mill<double> mill_;
+  std::vector<model::BallProperties<double>> balls_;
+  DriveClock<double> clock_;
+  std::vector<model::AnyVessel<double>> insets_;  ///< for each radius
+  std::vector<std::size_t> inset_of_;             ///< of each ball
+};
+
+/// Free flight from a state.
+BallState flown(const BallState& state, const Vector& gravity, double duration);
+
+}  // namespace edmill::dem

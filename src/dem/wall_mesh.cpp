@@ -1,0 +1,71 @@
+#include "dem/wall_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace edmill::dem {
+
+namespace {
+
+/// Corner k of the prism around a tube, at one end.
+Vec3<double> corner(const model::Tube<double>& tube, int facets, int k, double height) {
+  const double r = tube.radius / std::cos(numerics::pi<double>() / facets),
+               angle = 2 * numerics::pi<double>() * (k + 0.5) / facets;
+  return tube.frame.outside({r * std::cos(angle), height, r * std::sin(angle)});
+}
+
+void add_fan(const std::vector<Vec3<double>>& corners, std::vector<Triangle>& triangles) {
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    triangles.push_back({corners[0], corners[k - 1], corners[k]});
+}
+
+/// A square in the plane of a disc, beyond the prism's corners.
+std::vector<Vec3<double>> square_of(const model::Disc<double>& disc, int facets) {
+  const double half = 1.05 * disc.radius / std::cos(numerics::pi<double>() / facets);
+  std::vector<Vec3<double>> corners;
+  for (const auto& [x, z] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+    corners.push_back(disc.frame.outside({x * half, 0.0, z * half}));
+  return corners;
+}
+
+}  // namespace
+
+std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int facets) {
+  WallMesh flat{"walls", {}, 0}, round{"side", {}, 1.01 * 360 / facets};
+  bool all = true;
+  for (const auto& surface : vessel.surfaces()) {
+    if (const auto* tube = std::get_if<model::Tube<double>>(&surface.kind())) {
+      for (int k = 0; k < facets; ++k) {
+        const double low = -tube->half_height, high = tube->half_height;
+        add_fan({corner(*tube, facets, k, low), corner(*tube, facets, k + 1, low),
+                 corner(*tube, facets, k + 1, high), corner(*tube, facets, k, high)},
+                round.triangles);
+      }
+    } else if (const auto* disc = std::get_if<model::Disc<double>>(&surface.kind())) {
+      add_fan(square_of(*disc, facets), flat.triangles);
+    } else if (std::holds_alternative<model::Zone<double>>(surface.kind()) ||
+               std::holds_alternative<model::Edge<double>>(surface.kind())) {
+      all = false;
+    } else {
+      add_fan(surface.rings().front(), flat.triangles);
+    }
+  }
+  std::vector<WallMesh> meshes;
+  if (!all) return meshes;
+  for (auto* mesh : {&flat, &round})
+    if (!mesh->triangles.empty()) meshes.push_back(std::move(*mesh));
+  return meshes;
+}
+
+std::string stl_text(const std::vector<Triangle>& triangles) {
+  std::string text = "solid walls\n";
+  for (const auto& triangle : triangles) {
+    text += " facet normal 0 0 0\n  outer loop\n";
+    for (const auto& p : triangle) text += fmt::format("   vertex {} {} {}\n", p[0], p[1], p[2]);
+    text += "  endloop\n endfacet\n";
+  }
+  return text + "endsolid walls\n";
+}
+
+}  // namespace edmill::dem

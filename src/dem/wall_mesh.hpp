@@ -1,0 +1,28 @@
+// Walls as triangles, for codes that have nothing else.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "model/vessel.hpp"
+
+namespace edmill::dem {
+
+using Triangle = std::array<Vec3<double>, 3>;
+
+/// The triangles of one part of the vessel, and the angle between neighbours beyond which an edge is one.
+struct WallMesh {
+  std::string name;
+  std::vector<Triangle> triangles;
+  double smooth_angle = 0;  ///< [deg] of facets that stand for a round wall; 0 for flat walls
+};
+
+/// A round wall becomes a prism around it, whose facets touch it along their middles; every code gets the
+/// same one. Empty for a vessel that has none.
+std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int facets);
+
+/// The text of an STL file (ASCII).
+std::string stl_text(const std::vector<Triangle>& triangles);
+
+}  // namespace edmill::dem

@@ -1,0 +1,102 @@
+#include "dem/frame_reader.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/errors.hpp"
+
+using namespace edmill;
+
+namespace {
+
+class FrameReaderTest : public testing::Test {
+ protected:
+  std::string file = std::filesystem::temp_directory_path() / ("edmill_frames_" + std::to_string(::getpid()));
+  void TearDown() override { std::filesystem::remove(file); }
+
+  void put(const std::string& text) { std::ofstream(file) << text; }
+  std::string problem(const std::string& text, const dem::DumpFormat& format = {1e-6, "si"}) {
+    put(text);
+    try {
+      dem::FrameReader reader(file, format, 2);
+      for (dem::Frame frame; reader.next(frame);) {
+      }
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+constexpr const char* head =
+    "ITEM: TIMESTEP\n10\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n0 2\n0 2\n0 2\n";
+constexpr const char* columns = "ITEM: ATOMS id x y z vx vy vz omegax omegay omegaz\n";
+constexpr const char* row_1 = "1 0.1 0.2 0.3 1 2 3 4 5 6\n";
+constexpr const char* row_2 = "2 0.4 0.5 0.6 7 8 9 10 11 12\n";
+
+TEST_F(FrameReaderTest, ColumnsAndBallsInAnyOrder) {
+  put(std::string(head) + "ITEM: ATOMS omegaz type vz vy vx z y x id omegay omegax\n" +
+      "12 1 9 8 7 0.6 0.5 0.4 2 11 10\n6 1 3 2 1 0.3 0.2 0.1 1 5 4\n");
+  dem::FrameReader reader(file, {1e-6, "si"}, 2);
+  dem::Frame frame;
+  ASSERT_TRUE(reader.next(frame));
+  EXPECT_DOUBLE_EQ(frame.time, 1e-5);
+  EXPECT_DOUBLE_EQ(frame.balls[0].position[2], 0.3);
+  EXPECT_DOUBLE_EQ(frame.balls[1].velocity[0], 7);
+  EXPECT_DOUBLE_EQ(frame.balls[1].spin[2], 12);
+  EXPECT_FALSE(reader.next(frame));
+}
+
+TEST_F(FrameReaderTest, UnitsTimesAndScaledPlaces) {
+  put("ITEM: UNITS\ncgs\nITEM: TIME\n0.5\n" + std::string(head) +
+      "ITEM: ATOMS id xs ys zs vx vy vz omegax omegay omegaz mass diameter\n"
+      "1 0.5 0 0 100 0 0 2 0 0 3 0.8\n2 0 0.25 0 0 0 0 0 0 0 3 0.8\n");
+  dem::FrameReader reader(file, {std::nullopt, "si"}, 2);
+  dem::Frame frame;
+  ASSERT_TRUE(reader.next(frame));
+  EXPECT_DOUBLE_EQ(frame.time, 0.5);
+  EXPECT_DOUBLE_EQ(frame.balls[0].position[0], 0.01);
+  EXPECT_DOUBLE_EQ(frame.balls[0].velocity[0], 1);
+  EXPECT_DOUBLE_EQ(frame.balls[0].spin[0], 2);
+  EXPECT_DOUBLE_EQ(reader.masses()[0], 0.003);
+  EXPECT_DOUBLE_EQ(reader.radii()[0], 0.004);
+}
+
+TEST_F(FrameReaderTest, AFileThatIsCutOffEndsBeforeItsLastFrame) {
+  const std::string whole = std::string(head) + columns + row_1 + row_2;
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    put(whole + whole.substr(0, size));
+    std::string second = whole;
+    second.replace(second.find("10"), 2, "20");
+    put(whole + second.substr(0, size));
+    dem::FrameReader reader(file, {1e-6, "si"}, 2);
+    dem::Frame frame;
+    ASSERT_TRUE(reader.next(frame));
+    try {
+      EXPECT_FALSE(reader.next(frame)) << size;
+    } catch (const InputError&) {  // a word cut off is no word
+    }
+  }
+}
+
+TEST_F(FrameReaderTest, Problems) {
+  const std::string good = std::string(head) + columns + row_1 + row_2;
+  EXPECT_EQ(problem(good), "");
+  EXPECT_NE(problem(good, {std::nullopt, "si"}).find("without time"), std::string::npos);
+  EXPECT_NE(problem(good + good).find("expected one after"), std::string::npos);
+  EXPECT_NE(problem(std::string(head) + "ITEM: ATOMS id x y z vx vy vz\n1 0 0 0 0 0 0\n").find("omegax"),
+            std::string::npos);
+  EXPECT_NE(problem("1,2,3\n").find("ITEM:"), std::string::npos);
+  EXPECT_NE(problem(std::string(head) + columns + "1 0.1 0.2 0.3 1 nan 3 4 5 6\n" + row_2).find("'nan'"),
+            std::string::npos);
+  EXPECT_NE(problem(std::string(head) + columns + row_1 + row_1).find("twice"), std::string::npos);
+  EXPECT_NE(problem("ITEM: UNITS\nlj\n" + good).find("units 'lj'"), std::string::npos);
+  std::string three = good;
+  three.replace(three.find("ATOMS\n2"), 7, "ATOMS\n3");
+  EXPECT_NE(problem(three).find("3 balls"), std::string::npos);
+}
+
+}  // namespace

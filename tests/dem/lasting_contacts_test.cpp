@@ -1,0 +1,153 @@
+// `edmill import` and `edmill audit` on the dumps of a small DEM code: right decks, frames that are far
+// apart, and a table of mistakes by what names them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "casefile/case_spec.hpp"
+#include "dem/contact_audit.hpp"
+#include "dem/import_dump.hpp"
+#include "small_dem.hpp"
+
+using namespace edmill;
+
+namespace {
+
+constexpr const char* box = R"(
+[run]
+end_time = "1 s"
+gravity = "9.8 m/s2"
+[mill]
+type = "vibratory"
+amplitude = ["3 mm", "11 mm", "-2 mm"]
+speed = "3600 rpm"
+[vessel]
+type = "box"
+size = ["33 mm", "57 mm", "36 mm"]
+[contact]
+restitution = 0.6
+friction = 0.4
+[[balls]]
+count = 5
+diameter = "8 mm"
+density = "8 g/cm3"
+)";
+
+dem::ContactAudit audited(const small_dem::Deck& deck, const std::string& name) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("edmill_contacts_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const auto dump = folder / (name + ".dump"), log = folder / (name + ".csv");
+  small_dem::Run(deck).write(dump);
+  const auto spec = casefile::parse_case(box, "box.toml");
+  dem::ImportOptions options;
+  options.dump = dump, options.time_step = deck.time_step;
+  dem::ContactLogWriter writer;
+  const auto imported = dem::import_dump(spec, options, writer);
+  {
+    std::ofstream out(log);
+    writer.write(out, imported.facts);
+  }
+  auto audit = dem::audit_contacts(spec, {log, nullptr});
+  std::filesystem::remove_all(folder);
+  return audit;
+}
+
+const dem::Judged* named(const dem::ContactAudit& audit, const std::string& name) {
+  for (const auto& judged : audit.judged)
+    if (judged.name == name) return &judged;
+  return nullptr;
+}
+
+TEST(LastingContacts, RightDecksAgree) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    small_dem::Deck deck;
+    deck.seed = seed;
+    const auto audit = audited(deck, "right");
+    EXPECT_EQ(audit.verdict, dem::ContactVerdict::agrees) << "seed " << seed << "\n" << dem::table(audit);
+    ASSERT_TRUE(named(audit, "restitution at walls"));
+    EXPECT_NEAR(named(audit, "restitution at walls")->found.value, 0.6, 0.002);
+    EXPECT_NEAR(named(audit, "friction at walls")->found.value, 0.4, 0.01);
+    double shares = 0;
+    for (const double dose : audit.facts.doses) shares += dose / audit.facts.dose();
+    EXPECT_NEAR(shares, 1, 1e-12);
+  }
+}
+
+TEST(LastingContacts, FramesFarApartGiveTheSameValues) {
+  double fine = 0;
+  for (const double interval : {1e-5, 1e-4, 1e-3}) {
+    small_dem::Deck deck;
+    deck.frames = interval, deck.duration = 2;
+    const auto audit = audited(deck, "apart");
+    const auto* e = named(audit, "restitution at walls");
+    ASSERT_TRUE(e) << dem::table(audit);
+    EXPECT_NEAR(e->found.value, 0.6, 0.002) << dem::table(audit);
+    if (interval == 1e-5) fine = audit.dose_rate;
+    EXPECT_NEAR(audit.dose_rate, fine, 0.02 * fine) << dem::table(audit);
+  }
+}
+
+/// Numbers as "%g" writes them.
+TEST(LastingContacts, RoundedDumpsAgree) {
+  small_dem::Deck deck;
+  deck.number = "%g";
+  const auto audit = audited(deck, "rounded");
+  EXPECT_EQ(audit.verdict, dem::ContactVerdict::agrees) << dem::table(audit);
+}
+
+struct Mistake {
+  const char* name;
+  void (*make)(small_dem::Deck&);
+  const char* value;  ///< that names it
+  double truth;
+};
+
+TEST(LastingContacts, MistakesAreNamedWithTheirValues) {
+  const Mistake mistakes[] = {
+      {"restitution 0.7", [](auto& d) { d.damping = 0.27575; }, "restitution at walls", 0.7},
+      {"attraction", [](auto& d) { d.attracts = true; }, "restitution at walls", 0.561},
+      {"friction 0.3", [](auto& d) { d.friction = 0.3; }, "friction at walls", 0.3},
+      {"no gravity",
+       [](auto& d) {
+         d.gravity = {0, 0, 0};
+       },
+       "gravity along Y", 0},
+      {"gravity upwards",
+       [](auto& d) {
+         d.gravity = {0, 9.8, 0};
+       },
+       "gravity along Y", 9.8},
+      {"density 7800", [](auto& d) { d.density = 7800; }, "density over the case's", 0.975},
+      {"diameter 7.9 mm", [](auto& d) { d.radius = 0.00395; }, "diameter over the case's", 0.9875},
+      {"amplitude -5 %", [](auto& d) { d.amplitude[1] = 0.01045; }, "mill.amplitude.y", 0.01045},
+      {"one axis out of phase", [](auto& d) { d.quarter[1] = 0.011, d.amplitude[1] = 0; },
+       "phase of mill.amplitude along y", 1.5708},
+      {"all axes out of phase",
+       [](auto& d) {
+         d.quarter = d.amplitude, d.amplitude = {0, 0, 0};
+       },
+       "phase of the drive", 1.5708},
+      {"speed +1 %", [](auto& d) { d.frequency = 60.6; }, "mill.speed", 380.76},
+      {"box 0.3 mm too wide", [](auto& d) { d.half[0] += 0.00015; }, "vessel.size.x", 0.0333},
+  };
+  for (const auto& mistake : mistakes) {
+    small_dem::Deck deck;
+    mistake.make(deck);
+    const auto audit = audited(deck, "mistake");
+    SCOPED_TRACE(mistake.name + std::string("\n") + dem::table(audit));
+    EXPECT_EQ(audit.verdict, dem::ContactVerdict::differs);
+    if (const auto* judged = named(audit, mistake.value)) {
+      EXPECT_FALSE(judged->agrees());
+      EXPECT_NEAR(judged->found.value, mistake.truth, 0.01 * std::max(1.0, mistake.truth));
+      continue;
+    }
+    ASSERT_FALSE(audit.causes.empty());
+    EXPECT_EQ(audit.causes[0].key, mistake.value);
+    EXPECT_NEAR(audit.causes[0].value, mistake.truth,
+                std::max(3 * audit.causes[0].half_width, 0.003 * mistake.truth));
+  }
+}
+
+}  // namespace
