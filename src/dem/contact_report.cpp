@@ -60,10 +60,10 @@ std::string table(const ContactAudit& a) {
     out += fmt::format("  {:<14}{:>10}{:>11.2f}%\n", contact_class_names[k], a.counts[k],
                        dose != 0 ? 100 * f.doses[k] / dose : 0);
   out += fmt::format(
-      "\n  dose rate, by the balance of energy: {:.4g} ± {:.2g} W\n\n  {:<28}{:<28}{:>10}{:>10}  {}\n",
+      "\n  dose rate, by the balance of energy: {:.4g} ± {:.2g} W\n\n  {:<32}{:<28}{:>10}{:>10}  {}\n",
       a.dose_rate, a.dose_rate_half_width, "value", "found, 95 % interval", "case", "allowed", "");
   for (const auto& j : a.judged)
-    out += fmt::format("  {:<28}{:<28}{:>10.5g}{:>10.2g}  {}\n", j.name, interval(j.found), j.expected,
+    out += fmt::format("  {:<32}{:<28}{:>10.5g}{:>10.2g}  {}\n", j.name, interval(j.found), j.expected,
                        j.allowed, j.agrees() ? "" : "differs");
   if (a.wall_resolution > 0)
     out += fmt::format(

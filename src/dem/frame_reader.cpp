@@ -7,8 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <sstream>
+#include <utility>
 
 #include "base/errors.hpp"
 
@@ -38,29 +37,36 @@ enum : std::size_t {
   scaled_x,
   scaled_y,
   scaled_z,
+  moment,
   count
 };
-constexpr Needed needed[count] = {{{"id"}},
+constexpr Needed needed[count] = {{{"id", "ball"}},
                                   {{"x", "xu"}, false},
                                   {{"y", "yu"}, false},
                                   {{"z", "zu"}, false},
                                   {{"vx"}},
                                   {{"vy"}},
                                   {{"vz"}},
-                                  {{"omegax"}},
-                                  {{"omegay"}},
-                                  {{"omegaz"}},
+                                  {{"omegax", "wx"}},
+                                  {{"omegay", "wy"}},
+                                  {{"omegaz", "wz"}},
                                   {{"mass"}, false},
                                   {{"radius"}, false},
                                   {{"diameter"}, false},
                                   {{"xs", "xsu"}, false},
                                   {{"ys", "ysu"}, false},
-                                  {{"zs", "zsu"}, false}};
+                                  {{"zs", "zsu"}, false},
+                                  {{"time", "t"}, false}};
 
+/// Apart by spaces, tabs, commas or semicolons.
 std::vector<std::string> words(const std::string& line) {
-  std::istringstream in(line);
+  constexpr const char* separators = " \t,;";
   std::vector<std::string> list;
-  for (std::string word; in >> word;) list.push_back(word);
+  for (std::size_t begin = line.find_first_not_of(separators); begin != std::string::npos;) {
+    const auto end = std::min(line.find_first_of(separators, begin), line.size());
+    list.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(separators, end);
+  }
   return list;
 }
 
@@ -113,9 +119,14 @@ double FrameReader::number(std::string_view text) const {
   return value;
 }
 
-void FrameReader::read_columns() {
-  auto columns = words(line_);
-  columns.erase(columns.begin(), columns.begin() + 2);
+void FrameReader::set_units(const std::string& units) {
+  const auto* found = std::find_if(std::begin(known_units), std::end(known_units),
+                                   [&](const Units& u) { return units == u.name; });
+  if (found == std::end(known_units)) fail("units '" + units + "'", "si, cgs, micro or nano");
+  length_ = found->length, time_ = found->time, mass_ = found->mass, speed_ = length_ / time_;
+}
+
+void FrameReader::read_columns(const std::vector<std::string>& columns) {
   if (columns == names_) return;
   names_ = columns;
   places_.assign(count, -1);
@@ -145,104 +156,127 @@ void FrameReader::place(const std::vector<double>& values, model::BallState<doub
   }
 }
 
-bool FrameReader::read_balls(Frame& frame) {
-  std::vector<long> ids(count_);
+FrameReader::Row FrameReader::row() const {
   std::vector<double> values(names_.size());
-  std::vector<model::BallState<double>> balls(count_);
-  std::vector<double> masses, radii;
-  for (std::size_t k = 0; k < count_; ++k) {
-    if (!line() || in_.eof()) return false;  // cut off
-    std::size_t column = 0;
-    for (std::size_t begin = 0; begin < line_.size();) {
-      begin = line_.find_first_not_of(" \t", begin);
-      if (begin == std::string::npos) break;
-      const auto end = std::min(line_.find_first_of(" \t", begin), line_.size());
-      if (column == values.size()) fail("more values than columns", fmt::format("{}", names_.size()));
-      const bool used = std::find(places_.begin(), places_.end(), static_cast<int>(column)) != places_.end();
-      if (used) values[column] = number(std::string_view(line_).substr(begin, end - begin));
-      ++column;
-      begin = end;
-    }
-    if (column < values.size())
-      fail(fmt::format("{} values", column), fmt::format("{}, one for each column", names_.size()));
-    const double own = values[static_cast<std::size_t>(places_[id])];
-    if (!(std::abs(own) < 1e15)) fail(fmt::format("ball {}", own), "the number of a ball");
-    ids[k] = static_cast<long>(own);
-    place(values, balls[k]);
-    if (places_[mass] >= 0) masses.push_back(mass_ * values[static_cast<std::size_t>(places_[mass])]);
-    const std::size_t size = places_[radius] >= 0 ? radius : diameter;
-    if (places_[size] >= 0)
-      radii.push_back(length_ * values[static_cast<std::size_t>(places_[size])] / (size == radius ? 1 : 2));
+  std::size_t column = 0;
+  for (const auto& word : words(line_)) {
+    if (column == values.size()) fail("more values than columns", fmt::format("{}", names_.size()));
+    const bool used = std::find(places_.begin(), places_.end(), static_cast<int>(column)) != places_.end();
+    if (used) values[column] = number(word);
+    ++column;
   }
-  std::vector<std::size_t> order(count_);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
-  std::vector<long> sorted;
-  frame.balls.resize(count_);
-  for (std::size_t k = 0; k < count_; ++k) {
-    sorted.push_back(ids[order[k]]);
-    frame.balls[k] = balls[order[k]];
-    if (k > 0 && sorted[k] == sorted[k - 1])
-      fail(fmt::format("ball {} twice in a frame", sorted[k]), "each once");
+  if (column < values.size())
+    fail(fmt::format("{} values", column), fmt::format("{}, one for each column", names_.size()));
+  const auto at = [&](std::size_t what) { return values[static_cast<std::size_t>(places_[what])]; };
+  if (!(std::abs(at(id)) < 1e15)) fail(fmt::format("ball {}", at(id)), "the number of a ball");
+  Row row;
+  row.id = static_cast<long>(at(id));
+  place(values, row.state);
+  if (places_[mass] >= 0) row.mass = mass_ * at(mass);
+  if (places_[radius] >= 0) row.radius = length_ * at(radius);
+  if (places_[radius] < 0 && places_[diameter] >= 0) row.radius = length_ * at(diameter) / 2;
+  if (places_[moment] >= 0) row.time = time_ * at(moment);
+  return row;
+}
+
+void FrameReader::finish(std::vector<Row> rows, double time, Frame& frame) {
+  if (rows.size() != count_)
+    fail(fmt::format("{} balls in a frame", rows.size()), fmt::format("{}, as in the case", count_));
+  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.id < b.id; });
+  std::vector<long> ids;
+  frame.balls.clear();
+  for (const auto& row : rows) {
+    if (!ids.empty() && ids.back() == row.id)
+      fail(fmt::format("ball {} twice in a frame", row.id), "each once");
+    ids.push_back(row.id);
+    frame.balls.push_back(row.state);
   }
   if (ids_.empty()) {
-    ids_ = sorted;
-    for (const std::size_t k : order) {
-      if (!masses.empty()) masses_.push_back(masses[k]);
-      if (!radii.empty()) radii_.push_back(radii[k]);
+    ids_ = ids;
+    for (const auto& row : rows) {
+      if (row.mass) masses_.push_back(*row.mass);
+      if (row.radius) radii_.push_back(*row.radius);
     }
-  } else if (ids_ != sorted) {
+  } else if (ids_ != ids) {
     fail("other balls than in the first frame", "the same in all");
   }
-  return true;
+  frame.time = time;
+  if (!(time > last_time_))
+    fail(fmt::format("a frame at {} s", time), fmt::format("one after {} s", last_time_));
+  last_time_ = time;
 }
 
 bool FrameReader::next(Frame& frame) {
-  std::optional<double> step, time;
-  std::string units = format_.units;
+  if (kind_ == Kind::unknown) kind_ = in_.peek() == 'I' ? Kind::dump : Kind::table;
+  return kind_ == Kind::dump ? next_of_dump(frame) : next_of_table(frame);
+}
+
+/// Rows of one time are a frame; the last frame ends with the file.
+bool FrameReader::next_of_table(Frame& frame) {
+  while (names_.empty()) {
+    if (!line()) return false;
+    if (line_.empty() || line_.starts_with("#")) continue;
+    set_units(format_.units);
+    read_columns(words(line_));
+    if (places_[moment] < 0) fail("no column time", "time id x y z vx vy vz omegax omegay omegaz");
+  }
+  std::vector<Row> rows;
+  if (waiting_) rows.push_back(*std::exchange(waiting_, std::nullopt));
   while (line()) {
     if (line_.empty()) continue;
-    if (!line_.starts_with("ITEM:"))
+    const auto next = row();
+    if (!rows.empty() && *next.time != *rows.front().time) {
+      waiting_ = next;
+      break;
+    }
+    rows.push_back(next);
+  }
+  if (rows.empty() || (!waiting_ && rows.size() < count_)) return false;  // cut off
+  const double time = *rows.front().time;
+  finish(std::move(rows), time, frame);
+  return true;
+}
+
+bool FrameReader::next_of_dump(Frame& frame) {
+  std::optional<double> step, time;
+  while (line()) {
+    if (line_.empty()) continue;
+    if (!line_.starts_with("ITEM: "))
       fail(fmt::format("'{}'", line_.substr(0, 40)), "a line that begins with ITEM:");
-    if (line_.starts_with("ITEM: TIMESTEP")) {
-      if (!line()) return false;
-      step = number(line_);
-    } else if (line_.starts_with("ITEM: TIME")) {
-      if (!line()) return false;
-      time = number(line_);
-    } else if (line_.starts_with("ITEM: UNITS")) {
-      if (!line()) return false;
-      format_.units = units = line_;
-    } else if (line_.starts_with("ITEM: NUMBER OF ATOMS")) {
-      if (!line()) return false;
-      if (number(line_) != static_cast<double>(count_))
-        fail(fmt::format("{} balls", line_), fmt::format("{}, as in the case", count_));
-    } else if (line_.starts_with("ITEM: BOX BOUNDS")) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!line()) return false;
-        const auto ends = words(line_);
-        if (ends.size() < 2) fail(fmt::format("'{}'", line_.substr(0, 40)), "two bounds");
-        low_[k] = number(ends[0]), size_[k] = number(ends[1]) - low_[k];
-      }
-    } else if (line_.starts_with("ITEM: ATOMS")) {
-      const auto* found = std::find_if(std::begin(known_units), std::end(known_units),
-                                       [&](const Units& u) { return units == u.name; });
-      if (found == std::end(known_units)) fail("units '" + units + "'", "si, cgs, micro or nano");
-      length_ = found->length, time_ = found->time, mass_ = found->mass, speed_ = length_ / time_;
-      read_columns();
+    const std::string item = line_.substr(6);
+    if (item.starts_with("ATOMS")) {
+      set_units(format_.units);
+      auto columns = words(line_);
+      columns.erase(columns.begin(), columns.begin() + 2);
+      read_columns(columns);
       if (!time && !(step && format_.time_step))
         fail("a frame without time", "ITEM: TIME in it, or the time step: --timestep or --deck");
-      if (!read_balls(frame)) return false;
-      frame.time = time ? *time * time_ : *step * *format_.time_step;
-      if (!(frame.time > last_time_))
-        fail(fmt::format("a frame at {} s", frame.time), fmt::format("one after {} s", last_time_));
-      last_time_ = frame.time;
+      std::vector<Row> rows;
+      while (rows.size() < count_) {
+        if (!line() || in_.eof()) return false;  // cut off
+        rows.push_back(row());
+      }
+      finish(std::move(rows), time ? *time * time_ : *step * *format_.time_step, frame);
       return true;
-    } else {
-      line();  // an item of no interest has one line
     }
+    const int bounds = item.starts_with("BOX BOUNDS") ? 3 : 1;  // an item of no interest has one line, too
+    for (int k = 0; k < bounds; ++k) {
+      if (!line()) return false;
+      if (bounds == 3) read_bounds(static_cast<std::size_t>(k));
+    }
+    if (item.starts_with("TIMESTEP")) step = number(line_);
+    if (item == "TIME") time = number(line_);
+    if (item == "UNITS") format_.units = line_;
+    if (item.starts_with("NUMBER OF ATOMS") && number(line_) != static_cast<double>(count_))
+      fail(fmt::format("{} balls", line_), fmt::format("{}, as in the case", count_));
   }
   return false;
+}
+
+void FrameReader::read_bounds(std::size_t axis) {
+  const auto ends = words(line_);
+  if (ends.size() < 2) fail(fmt::format("'{}'", line_.substr(0, 40)), "two bounds");
+  low_[axis] = number(ends[0]), size_[axis] = number(ends[1]) - low_[axis];
 }
 
 }  // namespace edmill::dem

@@ -1,7 +1,8 @@
-// Frames of DEM codes: the text of LAMMPS's and LIGGGHTS's `dump custom`, which YADE's decks write too.
+// Frames of DEM codes: the text of LAMMPS's and LIGGGHTS's `dump custom`, which YADE's decks write too, or a
+// table.
 #pragma once
 
-#include <filesystem>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,8 +34,9 @@ struct Frame {
   std::vector<model::BallState<double>> balls;
 };
 
-/// Reads frames in bounded memory. Columns may be in any order, unknown ones are skipped, and a file that
-/// ends within a frame ends before it.
+/// Reads frames in bounded memory: a dump of LAMMPS or LIGGGHTS, or a table with a column `time` whose rows
+/// of one time are a frame. Columns may be in any order, unknown ones are skipped, and a file that ends
+/// within a frame ends before it.
 class FrameReader {
  public:
   /// @param balls  of the case
@@ -50,10 +52,22 @@ class FrameReader {
   const std::vector<double>& radii() const { return radii_; }
 
  private:
+  enum class Kind { unknown, dump, table };
+  struct Row {
+    long id = 0;
+    model::BallState<double> state;
+    std::optional<double> mass, radius, time;
+  };
+
+  bool next_of_dump(Frame& frame);
+  bool next_of_table(Frame& frame);
   bool line();
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
-  void read_columns();
-  bool read_balls(Frame& frame);
+  void set_units(const std::string& units);
+  void read_columns(const std::vector<std::string>& columns);
+  void read_bounds(std::size_t axis);
+  Row row() const;
+  void finish(std::vector<Row> rows, double time, Frame& frame);
   void place(const std::vector<double>& values, model::BallState<double>& state) const;
   double number(std::string_view text) const;
 
@@ -61,6 +75,7 @@ class FrameReader {
   io::InputFile in_;
   DumpFormat format_;
   std::size_t count_;
+  Kind kind_ = Kind::unknown;
   std::string line_;
   std::uint64_t line_number_ = 0;
   std::vector<std::string> names_;        ///< of the columns
@@ -69,6 +84,7 @@ class FrameReader {
   double length_ = 1, speed_ = 1, time_ = 1, mass_ = 1;  ///< units to SI
   std::vector<long> ids_;
   std::vector<double> masses_, radii_;
+  std::optional<Row> waiting_;  ///< of the next frame of a table
   double last_time_;
 };
 

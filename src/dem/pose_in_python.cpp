@@ -23,27 +23,34 @@ std::string pose_in_python(const DeckCase& c) {
         j.shift[1], j.shift[2], turn * j.angle, j.rotates ? turn * j.speed : j.speed, swings);
   }
   return fmt::format(
-      R"(# rotates, axis, shift, angle, speed, swings (amplitude, angular speed, phase): from the ground to the vessel
+      R"(from math import cos, sin
+# rotates, axis, shift, angle, speed, swings (amplitude, angular speed, phase): from the ground to the vessel
 JOINTS = [
 {}]
+def cross(a, b):
+    a, b = a.tolist(), b.tolist()  # sooner than np.cross
+    return np.array((a[1]*b[2]-a[2]*b[1], a[2]*b[0]-a[0]*b[2], a[0]*b[1]-a[1]*b[0]))
+def skew(n):
+    x, y, z = n.tolist()
+    return np.array(((0, -z, y), (z, 0, -x), (-y, x, 0)))
 def turned(n, q):
-    K = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
-    return np.eye(3)+np.sin(q)*K+(1-np.cos(q))*(K @ K)
+    K = skew(n)
+    return np.eye(3)+sin(q)*K+(1-cos(q))*(K @ K)
 def pose(t):
     R, C, w, dw, V, A = np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
     for rotates, axis, shift, angle, speed, swings in JOINTS:
         q, q1, q2 = angle+speed*t, speed, 0.0
         for a, f, p in swings:
-            q, q1, q2 = q+a*np.sin(f*t+p), q1+a*f*np.cos(f*t+p), q2-a*f*f*np.sin(f*t+p)
+            q, q1, q2 = q+a*sin(f*t+p), q1+a*f*cos(f*t+p), q2-a*f*f*sin(f*t+p)
         if rotates:
             n = R @ axis
-            dw = dw+q2*n+q1*np.cross(w, n)
+            dw = dw+q2*n+q1*cross(w, n)
             w = w+q1*n
             R = R @ turned(axis, q)
         else:
             d, v, a = R @ (shift+axis*q), R @ (axis*q1), R @ (axis*q2)
-            A = A+a+2*np.cross(w, v)+np.cross(dw, d)+np.cross(w, np.cross(w, d))
-            V = V+v+np.cross(w, d)
+            A = A+a+2*cross(w, v)+cross(dw, d)+cross(w, cross(w, d))
+            V = V+v+cross(w, d)
             C = C+d
     return R, C, w, dw, V, A)",
       joints);

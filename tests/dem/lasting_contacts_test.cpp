@@ -63,7 +63,7 @@ const dem::Judged* named(const dem::ContactAudit& audit, const std::string& name
 TEST(LastingContacts, RightDecksAgree) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     small_dem::Deck deck;
-    deck.seed = seed;
+    deck.seed = seed, deck.duration = 0.6;
     const auto audit = audited(deck, "right");
     EXPECT_EQ(audit.verdict, dem::ContactVerdict::agrees) << "seed " << seed << "\n" << dem::table(audit);
     ASSERT_TRUE(named(audit, "restitution at walls"));
@@ -79,7 +79,7 @@ TEST(LastingContacts, FramesFarApartGiveTheSameValues) {
   double fine = 0;
   for (const double interval : {1e-5, 1e-4, 1e-3}) {
     small_dem::Deck deck;
-    deck.frames = interval, deck.duration = 2;
+    deck.frames = interval, deck.duration = 1.5;
     const auto audit = audited(deck, "apart");
     const auto* e = named(audit, "restitution at walls");
     ASSERT_TRUE(e) << dem::table(audit);
@@ -134,6 +134,7 @@ TEST(LastingContacts, MistakesAreNamedWithTheirValues) {
   };
   for (const auto& mistake : mistakes) {
     small_dem::Deck deck;
+    deck.duration = 0.6;
     mistake.make(deck);
     const auto audit = audited(deck, "mistake");
     SCOPED_TRACE(mistake.name + std::string("\n") + dem::table(audit));

@@ -7,3 +7,4 @@ set(dem_environment "PYTHONPATH=${CMAKE_BINARY_DIR}/python" PYTHONDONTWRITEBYTEC
 add_test(NAME dem_commands_test COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/dem/dem_commands_test.py
          $<TARGET_FILE:edmill_cli> $<TARGET_FILE:small_dem_dump>)
 set_tests_properties(dem_commands_test PROPERTIES TIMEOUT 600 ENVIRONMENT "${dem_environment}")
+add_test(NAME dem_cases_test COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/dem/dem_cases_test.py)

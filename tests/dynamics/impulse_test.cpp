@@ -231,6 +231,14 @@ TYPED_TEST(Impulse, SlipIsLeftByTheLaw) {
       if (const auto coulomb = coulomb_of(law)) {  // (2.24')
         e_t = 1 - coulomb->friction * compliance * (gn2 - gn) / slip;
         if (e_t < coulomb->min_tangential) e_t = coulomb->min_tangential;
+      } else if (const auto* by_slip = std::get_if<model::RestitutionBySlip<Real>>(&law.law)) {
+        const Real change = gn2 - gn, sliding = slip * (1 + by_slip->normal);
+        RC_PRE(change > Real(1) / 1000);
+        const Real ratio = sliding / change;  // points at 0, 1 and 3
+        const auto& p = by_slip->points;
+        e_t = ratio < 1   ? Real(p[0][1] + (p[1][1] - p[0][1]) * ratio)
+              : ratio < 3 ? Real(p[1][1] + (p[2][1] - p[1][1]) * (ratio - 1) / 2)
+                          : Real(1 - (1 - p[2][1]) * 3 / ratio);
       } else {
         e_t = std::get<model::ConstantRestitution<Real>>(law.law).tangential;
       }

@@ -1,6 +1,7 @@
 // Logs of contacts, as `audit`, `compare` and `limit` read them.
-#include "base/errors.hpp"
 #include "dem/contact_log.hpp"
+
+#include "base/errors.hpp"
 #include "input.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

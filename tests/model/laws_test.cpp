@@ -140,7 +140,8 @@ TEST(RestitutionBySlip, IsTheTableAndSlidesBeyondIt) {
   for (const auto& point : law.points) EXPECT_NEAR(at(point[0]), point[1], 1e-15);
   EXPECT_NEAR(at(2.5), -0.1, 1e-15);
   // The impulse along the surface is (1 - e_t) times the slip over the compliance.
-  for (const double ratio : {4.0, 5.0, 40.0, 4e6}) EXPECT_NEAR((1 - at(ratio)) * ratio, 0.8 * 4, 1e-9) << ratio;
+  for (const double ratio : {4.0, 5.0, 40.0, 4e6})
+    EXPECT_NEAR((1 - at(ratio)) * ratio, 0.8 * 4, 1e-9) << ratio;
   // Without an approach nothing is left to slip: no impulse.
   EXPECT_EQ(law.restitution_of_slip(0, 1, compliance), 1);
   EXPECT_EQ(law.restitution_of_slip(0, 0, compliance), 0.2);
