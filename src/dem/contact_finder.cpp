@@ -260,7 +260,8 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
     };
   };
   const double longest = to.time - from.time;
-  const auto touch = crossing(gap_of(from), from.time, to.time, true);
+  // Velocities of some codes are half a step old: the touch may be before the last frame that shows a flight.
+  const auto touch = crossing(gap_of(from), from.time - frames_.interval, to.time, true);
   const auto leave = crossing(gap_of(to), from.time, to.time + 2 * longest, false);
   if (!touch || !leave || *leave < *touch) return false;
   contact.begin = *touch, contact.end = *leave;

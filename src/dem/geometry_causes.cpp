@@ -173,7 +173,7 @@ void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
   const auto partners = casefile::partners_of(spec);
   for (int wall = 0; wall < partners.walls(); ++wall)
     list.push_back(
-        {"place of wall " + partners[wall].label,
+        {"place of " + partners[wall].label,
          Dimension::length,
          0,
          1e-3,

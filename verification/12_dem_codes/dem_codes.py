@@ -113,7 +113,7 @@ def mistakes():
         if key in found["values"]:
             value = found["values"][key]
             named, off = not value["agrees"], abs(value["found"] - truth)
-            close = off <= max(0.01 * abs(truth), 0.003)
+            close = off <= (0.01 if "friction" in key else max(0.01 * abs(truth), 0.003))
             shown = f"{key} {value['found']:.4g}"
         else:
             causes = sorted(found["causes"].items(), key=lambda cause: cause[1]["left"])
