@@ -127,7 +127,7 @@ void FrameReader::set_units(const std::string& units) {
 }
 
 void FrameReader::read_columns(const std::vector<std::string>& columns) {
-  if (columns == names_) return;
+  if (!columns.empty() && columns == names_) return;
   names_ = columns;
   places_.assign(count, -1);
   std::vector<std::string> missing;
@@ -215,7 +215,7 @@ bool FrameReader::next(Frame& frame) {
 bool FrameReader::next_of_table(Frame& frame) {
   while (names_.empty()) {
     if (!line()) return false;
-    if (line_.empty() || line_.starts_with("#")) continue;
+    if (words(line_).empty() || line_.starts_with("#")) continue;
     set_units(format_.units);
     read_columns(words(line_));
     if (places_[moment] < 0) fail("no column time", "time id x y z vx vy vz omegax omegay omegaz");
@@ -223,7 +223,7 @@ bool FrameReader::next_of_table(Frame& frame) {
   std::vector<Row> rows;
   if (waiting_) rows.push_back(*std::exchange(waiting_, std::nullopt));
   while (line()) {
-    if (line_.empty()) continue;
+    if (words(line_).empty()) continue;
     const auto next = row();
     if (!rows.empty() && *next.time != *rows.front().time) {
       waiting_ = next;

@@ -105,6 +105,9 @@ TEST_F(FrameReaderTest, Problems) {
             std::string::npos);
   EXPECT_NE(problem("1,2,3\n").find("no column id"), std::string::npos);
   EXPECT_NE(problem("id,x,y,z,vx,vy,vz,wx,wy,wz\n").find("no column time"), std::string::npos);
+  EXPECT_EQ(problem(" \n"), "");
+  EXPECT_NE(problem(" \nI\n:M").find("no column id"), std::string::npos);
+  EXPECT_NE(problem(std::string(head) + "ITEM: ATOMS\n").find("no column id"), std::string::npos);
   EXPECT_NE(problem(good + "1 2 3\n").find("ITEM:"), std::string::npos);
   EXPECT_NE(problem(std::string(head) + columns + "1 0.1 0.2 0.3 1 nan 3 4 5 6\n" + row_2).find("'nan'"),
             std::string::npos);
