@@ -48,6 +48,8 @@ def simulate(command, name, case=CASE):
     environment = dict(os.environ, LD_LIBRARY_PATH=os.getcwd(), LAMMPS_POTENTIALS="")
     with open(f"{name}.out", "w") as out:
         code = subprocess.run(command, stdout=out, stderr=subprocess.STDOUT, env=environment).returncode
+    if code:
+        reader.terminate()  # which may wait for a dump that nobody writes
     if reader.wait() or code:
         sys.exit(f"{name}: code {code}, import {reader.returncode}: see {os.getcwd()}/{name}.out")
     after = os.times()
