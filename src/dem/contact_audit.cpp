@@ -151,15 +151,13 @@ void judge_facts(const casefile::CaseSpec&, const model::Mill<double>& mill, Con
   audit.judged.push_back(size);
 }
 
-/// A ball that leaves its flight has met something.
+/// A ball that leaves its flight has met something. Facets that stand for a round wall are met beside it,
+/// gently.
 void judge_unexplained(ContactAudit& audit) {
-  double all = 0;
-  for (const auto count : audit.counts) all += static_cast<double>(count);
-  if (all == 0) return;
-  const double share =
-      static_cast<double>(audit.counts[static_cast<std::size_t>(ContactClass::unexplained)]) / all;
-  const double half_width = 1.96 * std::sqrt(share * (1 - share) / all);
-  Judged j{"contacts with no wall or ball", "", "", {share, share - half_width, share + half_width, 20}};
+  const double all = audit.facts.dose();
+  if (!(all > 0)) return;
+  const double share = audit.facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all;
+  Judged j{"dose with no wall or ball", "", "", {share, share, share, 20}};
   j.allowed = 0.05;
   audit.judged.push_back(j);
 }

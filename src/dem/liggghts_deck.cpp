@@ -59,7 +59,8 @@ class Chain {
 
   /// A variable for what is longer than a variable.
   Formula named(const Formula& formula) {
-    if (formula.empty() || formula == "1" || formula.starts_with("v_")) return formula;
+    const bool is_variable = formula.starts_with("v_") && formula.find_first_of("*+(") == Formula::npos;
+    if (formula.empty() || formula == "1" || is_variable) return formula;
     const auto name = fmt::format("q{}", count_++);
     lines_ += fmt::format("variable {} equal {}\n", name, formula);
     return "v_" + name;
