@@ -61,10 +61,8 @@ Quantity fallback_of(const Parameter& p) {
   return std::get<Quantity>(result);
 }
 
-bool KeyReader::may_be_absent(const Parameter& p, const std::string& what) {
-  if (p.otherwise || section_.has(p.key)) return true;
-  section_.problem(p.key, "nothing", what);
-  return false;
+void KeyReader::require_presence(const Parameter& p, const std::string& what) {
+  if (!p.otherwise && !section_.has(p.key)) section_.problem(p.key, "nothing", what);
 }
 
 void KeyReader::operator()(const Parameter& p, Quantity& value) {
@@ -97,7 +95,7 @@ void KeyReader::operator()(const Parameter& p, std::array<Quantity, 3>& values) 
   } else if (p.fallback && !section_.has(p.key)) {
     values.fill(fallback_of(p));
   } else {
-    may_be_absent(p, "three of " + describe(p.dimension));
+    require_presence(p, "three of " + describe(p.dimension));
   }
 }
 
@@ -114,7 +112,7 @@ void KeyReader::operator()(const Parameter& p, std::uint64_t& value) {
   else if (p.fallback)
     value = static_cast<std::uint64_t>(numerator(fallback_of(p).value));
   else
-    may_be_absent(p, "a count");
+    require_presence(p, "a count");
 }
 
 void KeyReader::operator()(const Parameter& p, int& value) {
@@ -134,7 +132,7 @@ void KeyReader::operator()(const Parameter& p, std::string& value) {
   else if (p.fallback)
     value = p.fallback;
   else
-    may_be_absent(p, "a text");
+    require_presence(p, "a text");
 }
 
 void KeyReader::operator()(const Parameter& p, Colour& value) { value = section_.colour(p.key, value); }

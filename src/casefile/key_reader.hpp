@@ -44,7 +44,8 @@ class KeyReader {
   bool complete() const { return complete_; }
 
  private:
-  bool may_be_absent(const Parameter& p, const std::string& expected);
+  /// Reports an absent key that nothing stands in for.
+  void require_presence(const Parameter& p, const std::string& expected);
 
   Section& section_;
   bool complete_ = true;

@@ -105,7 +105,8 @@ struct AnimationSpec {
         a.speed);
     row(Parameter{"frames_per_minute", Dimension::none, "of playback", Range::count, "60"},
         a.frames_per_minute);
-    row(Parameter{"min_frames", Dimension::none, "of the whole", Range::count, "8"}, a.min_frames);
+    row(Parameter{"min_frames", Dimension::none, "of the whole animation, at least", Range::count, "8"},
+        a.min_frames);
   }
 };
 

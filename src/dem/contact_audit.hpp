@@ -57,12 +57,14 @@ struct ContactAudit {
   std::array<std::uint64_t, contact_class_names.size()> counts{};
   std::vector<Judged> judged;
   std::vector<SlipBin> slips;
-  double wall_distance =
-      0;  ///< median distance from the walls of the case where balls left their flights [m]
+  double wall_distance = 0;    ///< median from the walls of the case where balls left their flights [m]
   double wall_resolution = 0;  ///< what frames resolve of it [m]
   std::vector<GeometryCause> causes;
   double dose_rate = 0, dose_rate_half_width = 0;  ///< [W]
   bool interrupted = false;
+
+  /// Balls leave their flights at the walls of the case.
+  bool walls_met() const { return wall_distance <= 2 * wall_resolution; }
 };
 
 struct ContactAuditOptions {
@@ -78,11 +80,10 @@ std::string to_json(const ContactAudit& audit);
 /// JUnit's XML, a test case for each value.
 std::string to_junit(const ContactAudit& audit);
 
-/// Numbers of mill and vessel with which balls leave their flights at the walls; best first.
-/// @param contacts  with a wall, or without a partner
-std::vector<GeometryCause> geometry_causes(const casefile::CaseSpec& spec,
-                                           const std::vector<Contact>& contacts,
-                                           const FrameStatistics& frames, double& distance,
-                                           double& resolution, const std::atomic<bool>* interrupt);
+/// Finds the distance from the walls at which balls leave their flights, and the numbers of mill and vessel
+/// with which it vanishes, best first.
+/// @param contacts  of single balls
+void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts,
+                  const std::atomic<bool>* interrupt, ContactAudit& audit);
 
 }  // namespace edmill::dem

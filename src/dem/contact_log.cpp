@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -132,10 +131,15 @@ void ContactLogWriter::write(std::ostream& out, const ContactLogFacts& f) {
       s.kick, f.mass_factor, f.radius_factor);
   for (const double dose : f.doses) out << fmt::format(" {}", dose);
   out << "\n" << header() << "\n";
+  const auto check = [&](bool good) {
+    if (!good) throw std::runtime_error("a temporary file could not be written");
+  };
+  check(std::fflush(rows_.get()) == 0);
   std::rewind(rows_.get());
   std::array<char, 65536> block;
   while (const auto size = std::fread(block.data(), 1, block.size(), rows_.get()))
     out.write(block.data(), static_cast<std::streamsize>(size));
+  check(std::ferror(rows_.get()) == 0);
 }
 
 bool is_contact_log(const std::string& file) {

@@ -71,8 +71,7 @@ std::string table(const ContactAudit& a) {
         a.wall_distance, a.wall_resolution);
   for (const auto& cause : a.causes)
     out += fmt::format("    with {}: {}; then {:.3g} m\n", cause.key, cause.text, cause.left);
-  if (a.wall_distance > 2 * a.wall_resolution && a.causes.empty())
-    out += "    no single number of mill or vessel explains it\n";
+  if (!a.walls_met() && a.causes.empty()) out += "    no single number of mill or vessel explains it\n";
   if (!a.slips.empty())
     out += "\n  what a contact leaves of the slip\n  slip/approach   at walls            between balls\n";
   for (const auto& s : a.slips) {
@@ -138,8 +137,7 @@ std::string to_junit(const ContactAudit& a) {
   io::JunitText junit("edmill audit of " + a.log_name);
   for (const auto& j : a.judged) junit.add(j.name, j.agrees() ? "" : sentence(j));
   std::string moved;
-  if (a.wall_distance > 2 * a.wall_resolution)
-    moved = "balls leave their flights away from the walls of the case";
+  if (!a.walls_met()) moved = "balls leave their flights away from the walls of the case";
   for (const auto& c : a.causes) moved += fmt::format("; with {}: {}", c.key, c.text);
   junit.add("places of the walls", moved);
   junit.add("enough contacts", a.verdict != ContactVerdict::too_few ? "" : "too few contacts to judge");

@@ -68,9 +68,9 @@ bool DeckCase::translates() const {
 std::string header_of(const DeckCase& c, const DeckOptions& options, const std::string& comment) {
   return fmt::format(
       "{0} {1} of edmill {2}: contacts of {3:g} s at {4:g} m/s, restitution {5:g} (balls) and {6:g} "
-      "(walls)\n",
+      "(walls)\n{0} digest of the case {7}\n",
       comment, c.file, version(), options.contact_time, options.speed, c.of_balls.restitution,
-      c.of_walls.restitution);
+      c.of_walls.restitution, c.digest);
 }
 
 std::array<std::string, 3> displacement_formulas(const DeckCase& c, const std::string& time,
@@ -114,7 +114,7 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
       .joints = model::converted_joints<double>(
           model::Joints<casefile::Quantity>{casefile::joints_of(spec.mill), casefile::period_of(spec.mill)},
           [](const casefile::Quantity& q) { return q.to<double>(); }),
-      .begin = spec.initial_time.to<double>(),
+      .begin = DriveClock<double>(c.mill.motion.period()).seconds(built.start),
       .period = casefile::period_of(spec.mill).to<double>(),
       .young = 0,
       .time_step = options.contact_time / options.steps,

@@ -60,7 +60,7 @@ struct DeckCase {
   bool translates() const;
 };
 
-/// "line 1 of every deck": what it is and of which case.
+/// The first lines of every deck, behind its mark of comments: of which case it is, and with which contacts.
 std::string header_of(const DeckCase& c, const DeckOptions& options, const std::string& comment);
 
 // One file each.

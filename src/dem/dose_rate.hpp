@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "base/student.hpp"
@@ -19,7 +18,7 @@ class DoseRate {
 
   void add(double time, double dose) {
     const double place = (time - first_) / length_;
-    if (place >= 0) doses_[std::min(static_cast<std::size_t>(place), batches - 1)] += dose;
+    if (place >= 0) doses_[static_cast<std::size_t>(std::min(place, batches - 1.0))] += dose;
   }
   /// [W]
   double mean() const {

@@ -42,7 +42,7 @@ class Geometry {
  public:
   Geometry(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts,
            const FrameStatistics& frames)
-      : nominal_(identify::assumptions_of(spec)), frames_(frames) {
+      : nominal_(identify::assumptions_of(spec)) {
     const auto built = nominal_.built();
     if (!built) return;
     const MovingVessel vessel(built->mill, built->balls);
@@ -135,7 +135,6 @@ class Geometry {
 
  private:
   Assumptions nominal_;
-  FrameStatistics frames_;
   std::vector<Meeting> meetings_;
 };
 
@@ -183,15 +182,12 @@ void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
 
 }  // namespace
 
-std::vector<GeometryCause> geometry_causes(const casefile::CaseSpec& spec,
-                                           const std::vector<Contact>& contacts,
-                                           const FrameStatistics& frames, double& distance,
-                                           double& resolution, const std::atomic<bool>* interrupt) {
-  const Geometry geometry(spec, contacts, frames);
-  std::vector<GeometryCause> causes;
-  if (!geometry.known()) return causes;
-  distance = geometry.distance, resolution = geometry.resolution;
-  if (distance <= 2 * resolution) return causes;
+void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts,
+                  const std::atomic<bool>* interrupt, ContactAudit& audit) {
+  const Geometry geometry(spec, contacts, audit.facts.statistics);
+  if (!geometry.known()) return;
+  audit.wall_distance = geometry.distance, audit.wall_resolution = geometry.resolution;
+  if (audit.walls_met()) return;
   std::vector<Candidate> candidates;
   for (const auto& p : identify::parameters_of(geometry.nominal()))
     if (p.key.starts_with("mill.") || p.key.starts_with("vessel.")) candidates.push_back(of_number(p));
@@ -199,11 +195,11 @@ std::vector<GeometryCause> geometry_causes(const casefile::CaseSpec& spec,
   add_walls(spec, candidates);
   for (const auto& candidate : candidates) {
     if (interrupt && *interrupt) break;
-    if (const auto cause = geometry.fit(candidate); cause && cause->left <= 2 * resolution)
-      causes.push_back(*cause);
+    if (const auto cause = geometry.fit(candidate); cause && cause->left <= 2 * geometry.resolution)
+      audit.causes.push_back(*cause);
   }
-  std::sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.left < b.left; });
-  return causes;
+  std::sort(audit.causes.begin(), audit.causes.end(),
+            [](const auto& a, const auto& b) { return a.left < b.left; });
 }
 
 }  // namespace edmill::dem

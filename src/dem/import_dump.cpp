@@ -42,8 +42,8 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
     in_vessel = in_vessel || facts.in_vessel;
   }
   FrameReader reader(options.dump, format, balls.size());
-  // A deck counts its time from the initial time of the case.
-  const double begin = spec.initial_time.to<double>();
+  // A deck counts its time from the start of the case.
+  const double begin = DriveClock<double>(built.the_case.mill.motion.period()).seconds(built.start);
   const auto next = [&](Frame& frame) {
     if (!reader.next(frame)) return false;
     frame.time += begin;

@@ -90,7 +90,7 @@ def chung_ooi_4():
             normal, along = speed * math.cos(math.radians(degrees)), speed * math.sin(math.radians(degrees))
             impulse = friction * (1 + restitution) * normal
             case.expect(f"spin_after_{degrees}", 2.5 * impulse / radius, 1e-2,
-                        "of a contact that slides throughout; below 50 degrees an elastic one sticks at a time")
+                        "of a contact that slides throughout; below 50 degrees an elastic one sticks for a part of its duration")
             case.expect(f"tangential_restitution_{degrees}", (along - impulse) / along, 1e-2, "the same")
         yield case
 

@@ -75,8 +75,9 @@ struct Import {
 
   void add_options(CLI::App& command) {
     command
-        .add_option("dump", options_.dump,
-                    "frames: `dump custom` of LAMMPS or LIGGGHTS, also compressed; - for standard input")
+        .add_option(
+            "dump", options_.dump,
+            "frames: `dump custom` of LAMMPS or LIGGGHTS, or a table, also compressed; - for standard input")
         ->required();
     command.add_option("--case", given_.file, "case file (TOML)")->required();
     command

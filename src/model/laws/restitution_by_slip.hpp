@@ -1,11 +1,8 @@
-// Tangential restitution by slip over approach, as a table gives it: contacts of DEM codes, which stick and
-// slip at a time, have such laws. docs/dem.md
+// Tangential restitution by slip over approach, as a table gives it: so are the contacts of DEM codes, which
+// stick for a part of their duration and slip for the rest. docs/dem.md
 #pragma once
 
-#include <array>
-#include <vector>
-
-#include "base/vector.hpp"
+#include "model/laws/table.hpp"
 #include "model/parts/parameter.hpp"
 
 namespace edmill::model {
@@ -23,7 +20,7 @@ struct RestitutionBySlip {
       "points [slip over approach, e_t], ratios rising from 0 or more, e_t from -1 to 1";
 
   Number normal{0};
-  std::vector<std::array<Number, 2>> points;  ///< |g_t| / |g_n|, rising, and e_t
+  LawTable<Number> points;  ///< |g_t| / |g_n|, rising, and e_t
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
@@ -46,12 +43,7 @@ struct RestitutionBySlip {
       if (!(slip > 0)) return last[1];
       return 1 - (1 - last[1]) * last[0] * normal_change / slip;
     }
-    std::size_t k = 0;
-    while (points[k][0] * normal_change < slip) ++k;
-    if (k == 0) return points.front()[1];
-    const auto &low = points[k - 1], &high = points[k];
-    const Number share = (slip / normal_change - low[0]) / (high[0] - low[0]);
-    return low[1] * (1 - share) + high[1] * share;
+    return value_at(points, Number(slip / normal_change));
   }
 };
 

@@ -1,10 +1,8 @@
 // Restitution by approach speed, as a table gives it.
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "model/laws/coulomb_slip.hpp"
+#include "model/laws/table.hpp"
 
 namespace edmill::model {
 
@@ -20,7 +18,7 @@ struct RestitutionBySpeed {
   static constexpr const char* table_form =
       "points [speed, restitution], speeds rising from 0 or more, restitutions from 0 to 1";
 
-  std::vector<std::array<Number, 2>> points;  ///< approach speed [m/s], rising, and e_n
+  LawTable<Number> points;  ///< approach speed [m/s], rising, and e_n
   CoulombSlip<Number> slip;
 
   template <class Law, class Visit>
@@ -35,15 +33,7 @@ struct RestitutionBySpeed {
   }
 
   /// @pre there are points
-  Number restitution(const Number& approach_speed) const {
-    std::size_t k = 0;
-    while (k < points.size() && points[k][0] < approach_speed) ++k;
-    if (k == 0) return points.front()[1];
-    if (k == points.size()) return points.back()[1];
-    const auto &low = points[k - 1], &high = points[k];
-    const Number share = (approach_speed - low[0]) / (high[0] - low[0]);
-    return low[1] * (1 - share) + high[1] * share;
-  }
+  Number restitution(const Number& approach_speed) const { return value_at(points, approach_speed); }
   Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
                              const Number& compliance) const {
     return slip.restitution_of_slip(normal_change, slip_speed, compliance);
