@@ -1,8 +1,10 @@
 #include "cli/failures.hpp"
 
 #include <fmt/format.h>
+#include <gmp.h>
 
 #include <cctype>
+#include <cstdlib>
 #include <new>
 
 #include "base/errors.hpp"
@@ -21,7 +23,19 @@ int failed(const std::string& problem, int code = internal_error) {
   return code;
 }
 
+void* or_throw(void* memory) {
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
 }  // namespace
+
+void throw_for_lack_of_memory() {
+  mp_set_memory_functions(
+      [](std::size_t size) { return or_throw(std::malloc(size)); },
+      [](void* old, std::size_t, std::size_t size) { return or_throw(std::realloc(old, size)); },
+      [](void* memory, std::size_t) { std::free(memory); });
+}
 
 void print_problem(const std::string& problem) {
   std::string line;

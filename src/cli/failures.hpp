@@ -6,6 +6,10 @@
 
 namespace edmill::cli {
 
+/// GMP ends the program when there is no memory; from here on it throws `std::bad_alloc`. Its functions are
+/// those of the whole process, so that the program may set them and the library may not.
+void throw_for_lack_of_memory();
+
 /// In one line; control characters are escaped.
 void print_problem(const std::string& problem);
 

@@ -98,6 +98,7 @@ class CommandLine {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cli::throw_for_lack_of_memory();
   cli::open_standard_descriptors();
   cli::ignore_write_signals();
   const io::Spool pipes;
