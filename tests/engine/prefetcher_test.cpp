@@ -12,7 +12,7 @@
 namespace edmill::engine {
 namespace {
 
-/// Impacts of the first tenth of a second, and all balls' states then.
+/// Impacts of the first 20 ms, and all balls' states then.
 struct Record {
   std::vector<Impact<double>> impacts;
   std::vector<model::BallState<double>> states;
@@ -22,7 +22,7 @@ struct Record {
     testing::EventRecorder<double> recorder;
     simulation.attach(recorder);
     simulation.prefetch(prefetch);
-    const auto end = simulation.clock().at(0.1);
+    const auto end = simulation.clock().at(0.02);
     EXPECT_EQ(simulation.run_until(end), EndReason::end_time);
     impacts = recorder.impacts;
     for (int i = 0; i < simulation.ball_count(); ++i) states.push_back(simulation.state_at(i, end));
