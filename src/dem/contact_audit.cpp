@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "dem/dose_rate.hpp"
+#include "dem/soft_contact.hpp"
 
 namespace edmill::dem {
 
@@ -15,7 +16,9 @@ namespace {
 /// What one single contact shows.
 struct Shown {
   double approach = 0, slip = 0;       ///< at the touch [m/s]
-  double restitution = 0;              ///< separation at the detachment over approach
+  double pressed = 0;                  ///< what the wall and gravity add to the approach meanwhile, over it
+  double separation = 0;               ///< at the detachment, over approach
+  double restitution = 0;              ///< what it would be if nothing pressed
   double slip_change = 0;              ///< of the surface's velocity along it [m/s]
   double slip_left = 0;                ///< along the slip at the touch, over it
   double compliance = 1;               ///< 1 + M/(m_i J_i) + M/(m_j J_j)
@@ -34,6 +37,25 @@ void set_expected(const model::ContactLaw<double>& law, const model::ContactBodi
                   Shown& shown) {
   shown.expected = law.restitution(shown.approach, bodies);
   shown.friction = friction_of(law);
+  shown.restitution = shown.separation + press_effect(shown.expected) * shown.pressed;
+}
+
+/// Of the surface of a ball at a wall, into the vessel, and along the wall [m/s].
+struct SurfaceSpeed {
+  double normal = 0;
+  Vector along;
+};
+
+SurfaceSpeed speed_at_wall(const MovingVessel& vessel, const Contact& c, double time,
+                           const BallState& state) {
+  const auto ball = static_cast<std::size_t>(c.ball);
+  const auto pose = vessel.at(time);
+  const Vector n = vessel.normal(pose, ball, c.partner, state.position);
+  const Vector arm = -n * vessel.ball(ball).radius;
+  const Vector g =
+      state.velocity + cross<double>(state.spin, arm) - vessel.wall_velocity(pose, state.position + arm);
+  const double normal = dot<double>(g, n);
+  return {normal, g - n * normal};
 }
 
 void set_slip(const Vector& before, const Vector& after, Shown& shown) {
@@ -42,28 +64,27 @@ void set_slip(const Vector& before, const Vector& after, Shown& shown) {
   if (shown.slip > 0) shown.slip_left = dot<double>(after, before) / (shown.slip * shown.slip);
 }
 
-/// Restitution is against the wall's velocity at either time: it turns meanwhile.
-Shown shown_by_wall(const MovingVessel& vessel, const model::Mill<double>& mill, const Contact& c) {
+/// Restitution is against the wall's velocity at either time: it turns meanwhile, and so does the normal
+/// where the wall is round. Both, and gravity, press the ball on the wall or lift it, as the flights show if
+/// they go on through the contact.
+Shown shown_by_wall(const MovingVessel& vessel, const model::Mill<double>& mill, const Vector& gravity,
+                    const Contact& c) {
   Shown shown;
-  const auto ball = static_cast<std::size_t>(c.ball);
-  const auto& b = vessel.ball(ball);
-  std::array<double, 2> normal_speed{};
-  std::array<Vector, 2> along;
-  for (const bool touch : {true, false}) {
-    const auto& state = touch ? c.before : c.after;
-    const auto pose = vessel.at(touch ? c.begin : c.end);
-    const Vector n = vessel.normal(pose, ball, c.partner, state.position);
-    const Vector point = state.position - n * b.radius;
-    const Vector g =
-        state.velocity + cross<double>(state.spin, Vector(-n * b.radius)) - vessel.wall_velocity(pose, point);
-    const std::size_t k = touch ? 0 : 1;
-    normal_speed[k] = dot<double>(g, n);
-    along[k] = g - n * normal_speed[k];
+  const auto& b = vessel.ball(static_cast<std::size_t>(c.ball));
+  const double duration = c.end - c.begin;
+  const auto touch = speed_at_wall(vessel, c, c.begin, c.before),
+             leave = speed_at_wall(vessel, c, c.end, c.after);
+  const auto flown_on = speed_at_wall(vessel, c, c.end, flown(c.before, gravity, duration));
+  const auto flown_back = speed_at_wall(vessel, c, c.begin, flown(c.after, gravity, -duration));
+  shown.approach = -touch.normal;
+  if (shown.approach > 0) {
+    shown.separation = leave.normal / shown.approach;
+    shown.pressed =
+        (flown_back.normal - leave.normal + touch.normal - flown_on.normal) / (2 * shown.approach);
   }
-  shown.approach = -normal_speed[0];
-  if (shown.approach > 0) shown.restitution = normal_speed[1] / shown.approach;
   shown.compliance = 1 + 1 / b.reduced_inertia;
-  set_slip(along[0], along[1], shown);
+  const Vector turned = flown_on.along - touch.along;
+  set_slip(touch.along, leave.along - turned, shown);
   set_expected(mill.law_with_wall(b, c.partner), {b.mass, b.radius}, shown);
   return shown;
 }
@@ -81,7 +102,7 @@ Shown shown_by_pair(const MovingVessel& vessel, const model::Mill<double>& mill,
   };
   const Vector before = surface(c.before, c.partner_before), after = surface(c.after, c.partner_after);
   shown.approach = -dot<double>(before, n);
-  if (shown.approach > 0) shown.restitution = dot<double>(after, n) / shown.approach;
+  if (shown.approach > 0) shown.separation = dot<double>(after, n) / shown.approach;
   const double effective = a.mass * b.mass / (a.mass + b.mass);
   shown.compliance = 1 + effective / (a.mass * a.reduced_inertia) + effective / (b.mass * b.reduced_inertia);
   set_slip(before - n * dot<double>(before, n), after - n * dot<double>(after, n), shown);
@@ -89,10 +110,13 @@ Shown shown_by_pair(const MovingVessel& vessel, const model::Mill<double>& mill,
   return shown;
 }
 
+/// Beyond, what presses is no small part of a contact.
+constexpr double most_pressed = 0.2;
+
 std::vector<double> values_of(const std::vector<Shown>& list, double least, const auto& value) {
   std::vector<double> values;
   for (const auto& shown : list)
-    if (shown.approach >= least)
+    if (shown.approach >= least && std::abs(shown.pressed) <= most_pressed)
       if (const std::optional<double> v = value(shown)) values.push_back(*v);
   return values;
 }
@@ -109,7 +133,7 @@ double least_approach(const std::vector<Shown>& list) {
 
 /// Sliding throughout: Walton and Braun's limit is at a slip of compliance mu (1 + e) approach.
 std::optional<double> sliding_friction(const Shown& s) {
-  const double impulse = s.compliance * (1 + s.restitution) * s.approach;
+  const double impulse = s.compliance * (1 + s.separation + s.pressed) * s.approach;
   if (s.friction < 0 || !(impulse > 0) || s.slip < 1.5 * s.friction * impulse) return std::nullopt;
   return s.slip_change / impulse;
 }
@@ -230,7 +254,8 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
                                    balls_of_case, vessel.walls()));
     ++audit.counts[static_cast<std::size_t>(c.kind)];
     rate.add((c.begin + c.end) / 2, c.dose);
-    if (c.kind == ContactClass::wall) walls.push_back(shown_by_wall(vessel, mill, c));
+    if (c.kind == ContactClass::wall)
+      walls.push_back(shown_by_wall(vessel, mill, log.facts().statistics.gravity, c));
     if (c.kind == ContactClass::pair) balls.push_back(shown_by_pair(vessel, mill, c));
     constexpr std::size_t enough = 400;
     if (c.bodies == 1 && c.kind != ContactClass::lasting && at_walls.size() < enough) at_walls.push_back(c);

@@ -1,5 +1,7 @@
 #include "dem/soft_contact.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/trigonometry.hpp"
@@ -18,23 +20,35 @@ double where_falling(const F& f, double value, double low, double high) {
   return (low + high) / 2;
 }
 
+struct Bounce {
+  double separation = 0;  ///< speed over that of the approach; 0 where the bodies do not part
+  double duration = 0;
+};
+
+/// In units in which m = K = 1 and the speed of the approach is 1. Without damping a contact lasts 3.218.
+/// @param place  of the touch between two steps, 0 to 1
+/// @param press  acceleration towards each other, beside the contact's own force
+Bounce bounce(double damping, int steps, double place, Separation separation, double press = 0) {
+  const double step = 3.218 / steps;
+  double x = step * place, v = 1;
+  int k = 0;
+  // With much damping a contact creeps: what has not parted by then does not.
+  for (; x > 0 && k < 50 * steps; ++k) {
+    const double root = std::sqrt(x), force = x * root + damping * std::sqrt(root) * v;
+    v += step * press;
+    if (force > 0 || separation == Separation::attracts) v -= step * force;
+    x += step * v;
+  }
+  return {x <= 0 ? -v : 0, k * step};
+}
+
 }  // namespace
 
 double restitution_of(double damping, int steps, Separation separation) {
-  // In units in which m = K = 1 and the speed of the approach is 1. Without damping a contact lasts 3.218.
-  const double step = 3.218 / steps;
   constexpr int places = 8;  // of the touch between two steps
   double sum = 0;
-  for (int place = 0; place < places; ++place) {
-    double x = step * (place + 0.5) / places, v = 1;
-    // With much damping a contact creeps: what has not parted by then does not.
-    for (int k = 0; x > 0 && k < 50 * steps; ++k) {
-      const double root = std::sqrt(x), force = x * root + damping * std::sqrt(root) * v;
-      if (force > 0 || separation == Separation::attracts) v -= step * force;
-      x += step * v;
-    }
-    if (x <= 0) sum -= v;
-  }
+  for (int place = 0; place < places; ++place)
+    sum += bounce(damping, steps, (place + 0.5) / places, separation).separation;
   return sum / places;
 }
 
@@ -42,6 +56,26 @@ double damping_for(double restitution, int steps, Separation separation) {
   if (restitution >= 1) return 0;
   return where_falling([&](double damping) { return restitution_of(damping, steps, separation); },
                        restitution, 0, 8);
+}
+
+double press_effect(double restitution) {
+  constexpr int steps = 2000, intervals = 20;
+  constexpr double press = 0.003;
+  static const auto effects = [] {
+    std::array<double, intervals + 1> values{};
+    for (int k = 1; k < intervals; ++k) {
+      const double damping = damping_for(k / double{intervals}, 100);
+      const auto at_rest = bounce(damping, steps, 0.5, Separation::free);
+      const auto pressed = bounce(damping, steps, 0.5, Separation::free, press);
+      values[static_cast<std::size_t>(k)] =
+          (at_rest.separation - pressed.separation) / (press * pressed.duration);
+    }
+    values[0] = values[1];
+    return values;
+  }();
+  const double place = std::clamp(restitution, 0.0, 1.0) * intervals;
+  const auto low = std::min(static_cast<std::size_t>(place), std::size_t{intervals - 1});
+  return effects[low] + (place - static_cast<double>(low)) * (effects[low + 1] - effects[low]);
 }
 
 double lammps_restitution(double damping) {
