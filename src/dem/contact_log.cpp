@@ -79,6 +79,12 @@ ContactLogFacts read_facts(const std::string& file) {
       expect(n.size(), 2, number), s.contact_time = n[0], s.kick = n[1];
     if (line.starts_with("# factors "))
       expect(n.size(), 2, number), facts.mass_factor = n[0], facts.radius_factor = n[1];
+    if (line.starts_with("# facets ")) {
+      if (n.size() != 1 || !(n[0] == 0 || (n[0] >= 3 && n[0] <= 1e6)))
+        throw InputError(fmt::format("{}:{}: found {}, expected 0 or a number of facets", file, number,
+                                     io::in_quotes(line)));
+      facts.facets = static_cast<int>(n[0]);
+    }
     if (line.starts_with("# doses ")) {
       expect(n.size(), facts.doses.size(), number);
       std::copy(n.begin(), n.end(), facts.doses.begin());
@@ -125,10 +131,10 @@ void ContactLogWriter::write(std::ostream& out, const ContactLogFacts& f) {
   const auto& s = f.statistics;
   out << fmt::format(
       "{}\n# dump {}\n# frames {} {} {} {} {}\n# gravity {} {} {} {} {} {}\n# contact_time {} {}\n"
-      "# factors {} {}\n# doses",
+      "# factors {} {}\n# facets {}\n# doses",
       first_line, f.dump, f.frames, f.contacts, f.first, f.last, s.interval, s.gravity[0], s.gravity[1],
       s.gravity[2], s.gravity_half_width[0], s.gravity_half_width[1], s.gravity_half_width[2], s.contact_time,
-      s.kick, f.mass_factor, f.radius_factor);
+      s.kick, f.mass_factor, f.radius_factor, f.facets);
   for (const double dose : f.doses) out << fmt::format(" {}", dose);
   out << "\n" << header() << "\n";
   const auto check = [&](bool good) {

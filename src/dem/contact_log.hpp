@@ -20,6 +20,7 @@ struct ContactLogFacts {
   FrameStatistics statistics;
   double mass_factor = 1,
          radius_factor = 1;  ///< of the dump's balls over the case's; 1 where it does not tell
+  int facets = 0;            ///< of the prism that stands for a round wall; 0 for a round wall
   std::array<double, contact_class_names.size()> doses{};  ///< by class [J]
 
   double dose() const;

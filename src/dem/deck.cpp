@@ -134,8 +134,10 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
   const double interval = options.frame_interval > 0 ? options.frame_interval : options.contact_time / 5;
   deck.frame_every = std::max(1L, std::lround(interval / deck.time_step));
   if (options.code == "lammps") return lammps_deck(deck, options);
-  if (options.code == "liggghts") return liggghts_deck(deck, options);
-  return yade_deck(deck, options);
+  auto filled = options;
+  // A ball at an edge between two triangles of YADE touches both, so that they must be few.
+  if (filled.facets == 0) filled.facets = options.code == "yade" ? 24 : 128;
+  return options.code == "liggghts" ? liggghts_deck(deck, filled) : yade_deck(deck, filled);
 }
 
 }  // namespace edmill::dem

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "io/csv_reader.hpp"
 
 namespace edmill::dem {
 
@@ -77,6 +78,15 @@ struct Units {
 constexpr Units known_units[] = {
     {"si", 1, 1, 1}, {"cgs", 1e-2, 1, 1e-3}, {"micro", 1e-6, 1e-6, 1e-15}, {"nano", 1e-9, 1e-9, 1e-21}};
 
+int facets_of(const std::string& word, const std::string& deck) {
+  int facets = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), facets);
+  if (error != std::errc() || *end != 0 || facets < 3)
+    throw InputError(
+        fmt::format("{}: found {} facets, expected a number from 3 on", deck, io::in_quotes(word)));
+  return facets;
+}
+
 }  // namespace
 
 DeckFacts facts_of_deck(const std::string& deck) {
@@ -85,6 +95,7 @@ DeckFacts facts_of_deck(const std::string& deck) {
   for (std::string line; std::getline(in, line);) {
     const auto w = words(line);
     if (w.size() == 3 && w[0] == "#" && w[1] == "frame") facts.in_vessel = w[2] == "vessel";
+    if (w.size() == 3 && w[0] == "#" && w[1] == "facets") facts.facets = facets_of(w[2], deck);
     if (w.size() < 2 || w[0] == "#") continue;
     if (w[0] == "timestep") facts.time_step = std::strtod(w[1].c_str(), nullptr);
     if (w[0] == "units") facts.units = w[1];

@@ -18,12 +18,12 @@ struct DumpFormat {
   std::string units = "si";         ///< "si", "cgs", "micro" or "nano"; a file that says its own overrides it
 };
 
-/// Time step, units and frame of a deck of LAMMPS or LIGGGHTS: its lines `timestep`, `units` and
-/// `# frame vessel`.
+/// What a deck says: its lines `timestep`, `units`, `# frame vessel` and `# facets`.
 struct DeckFacts {
   std::optional<double> time_step;
   std::optional<std::string> units;
   bool in_vessel = false;
+  int facets = 0;  ///< of the prism that stands for a round wall
 };
 /// @throws InputError when it cannot be read
 DeckFacts facts_of_deck(const std::string& deck);

@@ -40,12 +40,12 @@ struct Candidate {
 
 class Geometry {
  public:
-  Geometry(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts,
-           const FrameStatistics& frames)
-      : nominal_(identify::assumptions_of(spec)) {
+  Geometry(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts, const ContactLogFacts& log)
+      : nominal_(identify::assumptions_of(spec)), facets_(log.facets) {
+    const auto& frames = log.statistics;
     const auto built = nominal_.built();
     if (!built) return;
-    const MovingVessel vessel(built->mill, built->balls);
+    const MovingVessel vessel(built->mill, built->balls, facets_);
     std::vector<double> reaches;
     for (const auto& c : contacts) {
       const double t = c.free_until + frames.interval / 2;
@@ -78,7 +78,7 @@ class Geometry {
     std::vector<double> gaps;
     const auto built = assumed.built();
     if (!built) return gaps;
-    const MovingVessel vessel(built->mill, built->balls);
+    const MovingVessel vessel(built->mill, built->balls, facets_);
     for (const auto& m : meetings_)
       gaps.push_back(vessel.gap(vessel.at(m.time + offset.delay), m.ball, m.wall, m.position) +
                      (m.wall == offset.wall ? offset.distance : 0));
@@ -135,6 +135,7 @@ class Geometry {
 
  private:
   Assumptions nominal_;
+  int facets_;
   std::vector<Meeting> meetings_;
 };
 
@@ -184,7 +185,7 @@ void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
 
 void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& contacts,
                   const std::atomic<bool>* interrupt, ContactAudit& audit) {
-  const Geometry geometry(spec, contacts, audit.facts.statistics);
+  const Geometry geometry(spec, contacts, audit.facts);
   if (!geometry.known()) return;
   audit.wall_distance = geometry.distance, audit.wall_resolution = geometry.resolution;
   if (audit.walls_met()) return;

@@ -32,15 +32,17 @@ double factor_of(const std::vector<double>& dump, const std::vector<model::BallP
 Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options, ContactLogWriter& log) {
   const auto built = casefile::build_case<double>(spec);
   const auto& balls = built.the_case.balls;
-  const MovingVessel vessel(built.the_case.mill, balls);
   DumpFormat format{options.time_step, options.units.value_or("si")};
   bool in_vessel = options.in_vessel;
+  int facets = 0;
   if (!options.deck.empty()) {
     const auto facts = facts_of_deck(options.deck);
     if (!format.time_step) format.time_step = facts.time_step;
     if (facts.units && !options.units) format.units = *facts.units;
     in_vessel = in_vessel || facts.in_vessel;
+    facets = facts.facets;
   }
+  const MovingVessel vessel(built.the_case.mill, balls, facets);
   FrameReader reader(options.dump, format, balls.size());
   // A deck counts its time from the start of the case.
   const double begin = DriveClock<double>(built.the_case.mill.motion.period()).seconds(built.start);
@@ -60,6 +62,7 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
   Imported result;
   auto& facts = result.facts;
   facts.dump = options.dump;
+  facts.facets = facets;
   facts.statistics = statistics_of(head, built.the_case.mill.gravity);
   facts.mass_factor = factor_of(reader.masses(), balls, [](const auto& b) { return b.mass; });
   facts.radius_factor = factor_of(reader.radii(), balls, [](const auto& b) { return b.radius; });

@@ -39,12 +39,18 @@ Formula number(double x) {
 class Chain {
  public:
   explicit Chain(const DeckCase& c) {
-    lines_ = fmt::format("variable t equal {}+step*dt\n", c.begin);
+    // Moves of a step ask for rates when its number is that of its end: those of its middle keep the walls in
+    // place.
+    lines_ = fmt::format("variable t equal {}+(step-0.5)*dt\n", c.begin);
     for (std::size_t i = 0; i < 3; ++i) orientation_[i][i] = "1";
     for (const auto& joint : c.joints.list) joint.rotates ? add_rotation(joint) : add_translation(joint);
     // The velocity that the material point at the origin has.
     for (std::size_t i = 0; i < 3; ++i)
       velocity_[i] = named(sum(velocity_[i], negative(cross(spin_, centre_)[i])));
+    // A turn carries the vessel from where it is at the beginning of a step, before it is shifted.
+    const auto turned_shift = cross(spin_, velocity_);
+    for (std::size_t i = 0; i < 3; ++i)
+      velocity_[i] = named(sum(velocity_[i], product("(0.5*dt)", turned_shift[i])));
   }
 
   const std::string& lines() const { return lines_; }
@@ -238,7 +244,7 @@ Deck liggghts_deck(const DeckCase& c, const DeckOptions& options) {
   Chain chain(c);
   const double reach = 1.5 * c.mill.motion.reach(c.mill.vessel.reach());
   Deck deck;
-  std::string text = header_of(c, options, "#") + "# frame laboratory\n";
+  std::string text = header_of(c, options, "#") + facts_of(meshes, options.facets);
   text += fmt::format(R"(atom_style granular
 atom_modify map array
 communicate single vel yes
@@ -269,8 +275,7 @@ run {}
                       c.frame_every, options.name, format, std::max(1L, c.steps / 20), c.steps);
   deck.files.insert(deck.files.begin(), {options.name + ".in", std::move(text)});
   deck.command = fmt::format("liggghts -in {}.in", options.name);
-  if (meshes.size() > 1)
-    deck.notes = {fmt::format("the cylinder is a prism of {} facets around it", options.facets)};
+  deck.notes = notes_on(meshes, options.facets);
   return deck;
 }
 

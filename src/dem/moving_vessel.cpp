@@ -1,10 +1,16 @@
 #include "dem/moving_vessel.hpp"
 
+#include "dem/wall_mesh.hpp"
+
 namespace edmill::dem {
 
 MovingVessel::MovingVessel(const model::Mill<double>& mill,
-                           const std::vector<model::BallProperties<double>>& balls)
-    : mill_(mill), balls_(balls), clock_(mill.motion.period()) {
+                           const std::vector<model::BallProperties<double>>& balls, int facets)
+    : mill_(mill),
+      balls_(balls),
+      clock_(mill.motion.period()),
+      facets_(facets),
+      surfaces_(mill.vessel.surfaces()) {
   std::vector<double> radii;
   for (const auto& ball : balls_) {
     std::size_t k = 0;
@@ -19,22 +25,36 @@ MovingVessel::MovingVessel(const model::Mill<double>& mill,
 
 MovingVessel::Pose MovingVessel::at(double time) const { return {mill_.motion.pose(clock_.at(time))}; }
 
+const model::Tube<double>* MovingVessel::prism(int wall) const {
+  return facets_ > 0 ? std::get_if<model::Tube<double>>(&surfaces_[static_cast<std::size_t>(wall)].kind())
+                     : nullptr;
+}
+
 // Gap functions need not be lengths; overlaps are.
+double MovingVessel::gap_in_vessel(std::size_t ball, int wall, const Vector& place) const {
+  if (const auto* tube = prism(wall))
+    return tube->radius - balls_[ball].radius -
+           dot<double>(place - tube->frame.origin, facet_normal(*tube, facets_, place));
+  return -inset(ball).overlap(wall, place);
+}
+
 double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
-  return -inset(ball).overlap(wall, mill_.motion.position_in_vessel(pose.pose, position));
+  return gap_in_vessel(ball, wall, mill_.motion.position_in_vessel(pose.pose, position));
 }
 
 std::vector<double> MovingVessel::gaps(const Pose& pose, std::size_t ball, const Vector& position) const {
   const Vector p = mill_.motion.position_in_vessel(pose.pose, position);
   std::vector<double> gaps(static_cast<std::size_t>(walls()));
   for (int wall = 0; wall < walls(); ++wall)
-    gaps[static_cast<std::size_t>(wall)] = -inset(ball).overlap(wall, p);
+    gaps[static_cast<std::size_t>(wall)] = gap_in_vessel(ball, wall, p);
   return gaps;
 }
 
 Vector MovingVessel::normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
   const Vector p = mill_.motion.position_in_vessel(pose.pose, position);
-  return mill_.motion.direction_to_inertial(pose.pose, inset(ball).normal(wall, p));
+  const auto* tube = prism(wall);
+  return mill_.motion.direction_to_inertial(
+      pose.pose, tube ? Vector(-facet_normal(*tube, facets_, p)) : inset(ball).normal(wall, p));
 }
 
 Vector MovingVessel::wall_velocity(const Pose& pose, const Vector& place) const {

@@ -13,7 +13,10 @@ using BallState = model::BallState<double>;
 /// Motion and walls for balls of given radii. A wall that moves by itself (a piston) is not one of them.
 class MovingVessel {
  public:
-  MovingVessel(const model::Mill<double>& mill, const std::vector<model::BallProperties<double>>& balls);
+  /// @param facets  of the prism that stands for a round wall, as `meshes_of` makes it; 0 for a wall that is
+  /// round
+  MovingVessel(const model::Mill<double>& mill, const std::vector<model::BallProperties<double>>& balls,
+               int facets = 0);
 
   struct Pose {
     model::AnyPose<double> pose;
@@ -45,12 +48,17 @@ class MovingVessel {
  private:
   Vector in_axes(const Pose& pose, const Vector& inertial) const;
   const model::AnyVessel<double>& inset(std::size_t ball) const { return insets_[inset_of_[ball]]; }
+  /// The tube that a wall is where facets stand for it.
+  const model::Tube<double>* prism(int wall) const;
+  double gap_in_vessel(std::size_t ball, int wall, const Vector& place) const;
 
   model::Mill<double> mill_;
   std::vector<model::BallProperties<double>> balls_;
   DriveClock<double> clock_;
   std::vector<model::AnyVessel<double>> insets_;  ///< for each radius
   std::vector<std::size_t> inset_of_;             ///< of each ball
+  int facets_;
+  std::vector<model::WallSurface<double>> surfaces_;
 };
 
 /// Free flight from a state.

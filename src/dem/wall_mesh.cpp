@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace edmill::dem {
@@ -56,6 +57,33 @@ std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int face
   for (auto* mesh : {&flat, &round})
     if (!mesh->triangles.empty()) meshes.push_back(std::move(*mesh));
   return meshes;
+}
+
+namespace {
+
+bool any_round(const std::vector<WallMesh>& meshes) {
+  return std::any_of(meshes.begin(), meshes.end(),
+                     [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
+}
+
+}  // namespace
+
+std::vector<std::string> notes_on(const std::vector<WallMesh>& meshes, int facets) {
+  if (!any_round(meshes)) return {};
+  const double beyond = 1 / std::cos(numerics::pi<double>() / facets) - 1;
+  return {fmt::format("the cylinder is a prism of {} facets around it, {:.2g} % wider at its corners", facets,
+                      100 * beyond)};
+}
+
+std::string facts_of(const std::vector<WallMesh>& meshes, int facets) {
+  return "# frame laboratory\n" + (any_round(meshes) ? fmt::format("# facets {}\n", facets) : "");
+}
+
+Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec3<double>& place) {
+  const auto p = tube.frame.inside(place);
+  const double apart = 2 * numerics::pi<double>() / facets,
+               angle = std::round(std::atan2(p[2], p[0]) / apart) * apart;
+  return tube.frame.x * std::cos(angle) + tube.frame.z * std::sin(angle);
 }
 
 std::string stl_text(const std::vector<Triangle>& triangles) {

@@ -144,8 +144,9 @@ Deck yade_deck(const DeckCase& c, const DeckOptions& options) {
         all.push_back(triangle);
       }
     deck.files.push_back({options.name + "_walls.stl", stl_text(all)});
+    deck.notes = notes_on(meshes, options.facets);
   }
-  std::string text = header_of(c, options, "#") + "# frame laboratory\n";
+  std::string text = header_of(c, options, "#") + facts_of(meshes, options.facets);
   text += fmt::format(R"(from math import *
 import numpy as np
 BEGIN, FRICTION, WALL_FRICTION = {}, {}, {}

@@ -34,13 +34,14 @@ diameter = "8 mm"
 density = "8 g/cm3"
 )";
 
-dem::ContactAudit audited(const small_dem::Deck& deck, const std::string& name) {
+dem::ContactAudit audited(const small_dem::Deck& deck, const std::string& name,
+                          const std::vector<std::string>& settings = {}) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("edmill_contacts_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   const auto dump = folder / (name + ".dump"), log = folder / (name + ".csv");
   small_dem::Run(deck).write(dump);
-  const auto spec = casefile::parse_case(box, "box.toml");
+  const auto spec = casefile::parse_case(box, "box.toml", settings);
   dem::ImportOptions options;
   options.dump = dump, options.time_step = deck.time_step;
   dem::ContactLogWriter writer;
@@ -87,6 +88,19 @@ TEST(LastingContacts, FramesFarApartGiveTheSameValues) {
     if (interval == 1e-5) fine = audit.dose_rate;
     EXPECT_NEAR(audit.dose_rate, fine, 0.02 * fine) << dem::table(audit);
   }
+}
+
+/// Long contacts that a strong gravity presses on the floor: it would change approaches by some per cent
+/// meanwhile.
+TEST(LastingContacts, WhatPressesIsNoPartOfTheLaws) {
+  small_dem::Deck deck;
+  deck.gravity = {0, -100, 0}, deck.contact_time = 4e-4, deck.time_step = 8e-6, deck.frames = 8e-5,
+  deck.duration = 6;
+  const auto audit = audited(deck, "pressed", {"run.gravity=\"100 m/s2\""});
+  const auto* e = named(audit, "restitution at walls");
+  ASSERT_TRUE(e) << dem::table(audit);
+  EXPECT_NEAR(e->found.value, 0.6, 0.002) << dem::table(audit);
+  EXPECT_NEAR(named(audit, "friction at walls")->found.value, 0.4, 0.01) << dem::table(audit);
 }
 
 /// Numbers as "%g" writes them.

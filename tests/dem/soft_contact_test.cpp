@@ -9,23 +9,41 @@ using namespace edmill;
 namespace {
 
 /// The contact by an integration of its own: Heun's method with steps of 1e-5, in units of m = K = speed = 1.
-double restitution_by_heun(double damping) {
+struct Rebound {
+  double separation, duration;
+};
+Rebound rebound_by_heun(double damping, double press = 0) {
   const double h = 1e-5;
   double x = 1e-12, v = 1;
-  const auto force = [&](double place, double speed) {
+  const auto acceleration = [&](double place, double speed) {
     const double s = std::max(place, 0.0);
-    return std::pow(s, 1.5) + damping * std::pow(s, 0.25) * speed;
+    return press - std::max(0.0, std::pow(s, 1.5) + damping * std::pow(s, 0.25) * speed);
   };
-  for (;;) {
-    const double a = -force(x, v), x1 = x + h * v, v1 = v + h * a, b = -force(x1, v1);
+  for (double t = h;; t += h) {
+    const double a = acceleration(x, v), x1 = x + h * v, v1 = v + h * a, b = acceleration(x1, v1);
     x += h / 2 * (v + v1), v += h / 2 * (a + b);
-    if (v < 0 && (force(x, v) <= 0 || x <= 0)) return -v;
+    if (x <= 0 || t > 50) return {-v, t};
   }
 }
 
 TEST(SoftContact, RestitutionIsThatOfItsEquation) {
   for (const double damping : {0.0, 0.05, 0.2, 0.4, 0.8, 1.2})
-    EXPECT_NEAR(dem::restitution_of(damping, 20000), restitution_by_heun(damping), 2e-4) << damping;
+    EXPECT_NEAR(dem::restitution_of(damping, 20000), rebound_by_heun(damping).separation, 2e-4) << damping;
+}
+
+/// Separation is e - press_effect(e) p, with p the speed that the press would give meanwhile over the
+/// approach.
+TEST(SoftContact, APressTakesOffItsEffect) {
+  for (const double e : {0.3, 0.52, 0.6, 0.77, 0.9})
+    for (const double press : {-0.02, 0.005, 0.02}) {
+      const double damping = dem::damping_for(e, 20000);
+      const auto found = rebound_by_heun(damping, press);
+      const double p = press * found.duration;
+      EXPECT_NEAR(found.separation, rebound_by_heun(damping).separation - dem::press_effect(e) * p,
+                  0.04 * 0.45 * std::abs(p))
+          << e << " " << press;
+    }
+  EXPECT_NEAR(dem::press_effect(1), 0, 1e-12);
 }
 
 TEST(SoftContact, DampingIsItsInverse) {

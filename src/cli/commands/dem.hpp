@@ -57,8 +57,9 @@ struct Export {
     command.add_option("--steps", options_.steps, "of time in a contact; 50 unless given")
         ->check(CLI::Range(10, 10000));
     command
-        .add_option("--facets", options_.facets,
-                    "of a cylinder where the code has triangles alone; 128 unless given")
+        .add_option(
+            "--facets", options_.facets,
+            "of a cylinder where the code has triangles alone; 128 in LIGGGHTS and 24 in YADE unless given")
         ->check(CLI::Range(8, 4096));
     command.add_flag("--quiet", options_.quiet, "print nothing");
   }

@@ -34,7 +34,7 @@ class Deck:
 
 def export(case: Case | Mapping | str | os.PathLike, to: str, *, name: str = "deck", contact_time: float = 50e-6,
            contact_speed: float = 1.0, duration: float | None = None, frames: float | None = None, steps: int = 50,
-           facets: int = 128) -> Deck:
+           facets: int | None = None) -> Deck:
     """As `edmill export`: a deck for "lammps", "liggghts" or "yade". Times in s, the speed in m/s."""
     case = case_of(case)
     require("to", to, to in CODES, '"lammps", "liggghts" or "yade"')
@@ -44,7 +44,7 @@ def export(case: Case | Mapping | str | os.PathLike, to: str, *, name: str = "de
     for key, value in times.items():
         require(key, value, value is None or number(key, value) > 0, "a number above 0")
     files, command, notes = _edmill.deck(case._case, to, name, contact_time, contact_speed, duration, frames,
-                                         whole("steps", steps, 10, 10000), whole("facets", facets, 8, 4096))
+                                         whole("steps", steps, 10, 10000), 0 if facets is None else whole("facets", facets, 8, 4096))
     return Deck(dict(files), command, notes)
 
 
