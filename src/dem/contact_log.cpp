@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -35,13 +36,17 @@ void put(std::string& line, const BallState& state, bool given) {
     for (Eigen::Index k = 0; k < 3; ++k) line += given ? fmt::format(",{}", (*v)[k]) : ",";
 }
 
-/// Numbers behind a name in a comment of the head.
+/// Numbers behind a name in a comment of the head; what is none is left out, so that one is missing.
 std::vector<double> numbers_of(const std::string& line) {
   std::istringstream in(line);
   std::string mark, name;
   in >> mark >> name;
   std::vector<double> numbers;
-  for (std::string word; in >> word;) numbers.push_back(std::strtod(word.c_str(), nullptr));
+  for (std::string word; in >> word;) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error == std::errc() && *end == 0 && std::isfinite(number)) numbers.push_back(number);
+  }
   return numbers;
 }
 

@@ -18,8 +18,8 @@ struct WallMesh {
   double smooth_angle = 0;  ///< [deg] of facets that stand for a round wall; 0 for flat walls
 };
 
-/// A round wall becomes a prism around it, whose facets touch it along their middles; every code gets the
-/// same one. Empty for a vessel that has none.
+/// A round wall becomes a prism around it, whose facets touch it along their middles, one of them on the
+/// vessel's x axis. Empty for a vessel that has none.
 std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int facets);
 
 /// What `facts_of_deck` reads of walls in the laboratory's frame that are triangles.

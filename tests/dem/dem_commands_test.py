@@ -35,6 +35,37 @@ def dump_to(file, *words):
         subprocess.run([DUMP, *map(str, words)], stdout=out, check=True)
 
 
+#: A ball that flies freely; of which no contact comes.
+FLIGHT = "".join(f"ITEM: TIMESTEP\n{k}\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-1 1\n-1 1\n"
+                 f"ITEM: ATOMS id x y z vx vy vz omegax omegay omegaz\n1 0 0 0 0 0 0 0 0 0\n" for k in range(5))
+
+
+def facets():
+    """What a deck says of the prism goes into the log; a number that can be none is refused."""
+    pathlib.Path("one.toml").write_text('[run]\nend_time = "1 s"\n[mill]\ntype = "still"\n[vessel]\ndiameter = "40 mm"\nheight = "40 mm"\n'
+                                        + COMMON.replace("count = 3", "count = 1"))
+    pathlib.Path("one.dump").write_text(FLIGHT)
+    words = ("import", "one.dump", "--case", "one.toml", "--out", "one.csv", "--deck", "one.in", "--quiet")
+    for code, expected in (("liggghts", 128), ("yade", 24), ("lammps", 0)):
+        run("export", "one.toml", "--to", code, "--name", code)
+        deck = next(file for file in map(pathlib.Path, (f"{code}.in", f"{code}.py")) if file.exists())
+        pathlib.Path("one.in").write_text(deck.read_text())
+        done = run(*words)
+        check(done.returncode == 0 and f"# facets {expected}\n" in pathlib.Path("one.csv").read_text(), f"facets of {code}: {done.stderr}")
+    for wrong in ("2", "-8", "many", "8.5", "99999999999999"):
+        pathlib.Path("one.in").write_text(f"timestep 1e-6\n# facets {wrong}\n")
+        fails(f"one.in: found '{wrong}' facets, expected a number from 3 on", *words)
+    log = pathlib.Path("one.csv").read_text()
+    for wrong in ("1", "-8", "many", "8 8", "1e300"):
+        pathlib.Path("wrong.csv").write_text(log.replace("# facets 0", f"# facets {wrong}"))
+        fails("expected 0 or a number of facets", "audit", "one.toml", "wrong.csv")
+    head = [line for line in log.splitlines() if line.startswith("# ") and line.split()[1] in ("frames", "gravity", "contact_time", "factors", "doses")]
+    check(len(head) == 5, f"lines of the head: {head}")
+    for line in head:
+        pathlib.Path("wrong.csv").write_text(log.replace(line, line.rsplit(" ", 1)[0] + " x"))
+        fails("numbers in a line of the head, expected", "audit", "one.toml", "wrong.csv")
+
+
 MILLS = {  # a case, and the codes that cannot have it
     "box": ('[mill]\ntype = "vibratory"\namplitude = ["3 mm", "0 mm", "0 mm"]\nspeed = "3000 rpm"\n[vessel]\ntype = "box"\nsize = ["4 cm", "4 cm", "4 cm"]\n', {}),
     "spex": ('[vessel]\ndiameter = "38 mm"\nheight = "57 mm"\n', {}),
@@ -153,7 +184,7 @@ def python():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for part in (exports, imports, verdicts, limits, python):
+    for part in (exports, facets, imports, verdicts, limits, python):
         part()
 print(f"{len(failures)} failed")
 sys.exit(bool(failures))
