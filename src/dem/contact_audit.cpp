@@ -167,7 +167,7 @@ void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
   const auto within = [](double value, double half_width) {
     return Median{value, value - half_width, value + half_width, 1};
   };
-  for (Eigen::Index k = 0; k < 3; ++k) {
+  for (Eigen::Index k = 0; k < 3 && !audit.facts.of_list(); ++k) {
     Judged g{fmt::format("gravity along {}", "XYZ"[k]), "m/s^2", "",
              within(s.gravity[k], s.gravity_half_width[k])};
     g.expected = mill.gravity[k];
@@ -267,7 +267,8 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
   audit.slips = slips_of(walls, balls);
   judge_unexplained(audit);
   // Balls of another size meet the walls elsewhere.
-  if (audit.facts.radius_factor == 1) judge_places(spec, at_walls, options.interrupt, audit);
+  if (audit.facts.radius_factor == 1 && !audit.facts.of_list())
+    judge_places(spec, at_walls, options.interrupt, audit);
   const bool met = audit.walls_met();
   const bool all =
       std::all_of(audit.judged.begin(), audit.judged.end(), [](const Judged& j) { return j.agrees(); });

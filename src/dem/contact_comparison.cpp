@@ -27,6 +27,7 @@ struct Window {
 
 ContactRates rates_of_contacts(const std::string& file, const Window& window) {
   ContactLogReader log(file);
+  log.need_frames();
   ContactRates r{.log = file};
   r.first = std::max(window.from, log.facts().first), r.last = std::min(window.until, log.facts().last);
   if (!(r.last > r.first))

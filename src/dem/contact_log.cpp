@@ -168,6 +168,14 @@ ContactLogReader::ContactLogReader(const std::string& file)
     throw InputError(fmt::format("{}:{}: found other columns, expected {}", file, csv_.line(), header()));
 }
 
+void ContactLogReader::need_frames() const {
+  if (facts_.of_list())
+    throw InputError(
+        csv_.file() +
+        ": found a list of contacts with walls, expected contacts of frames: those between balls "
+        "have a part of the dose");
+}
+
 std::optional<Contact> ContactLogReader::next() {
   while (csv_.next_row()) {
     const auto before = csv_.problem_count();

@@ -25,6 +25,8 @@ struct ContactLogFacts {
 
   double dose() const;
   double duration() const { return last - first; }
+  /// Made from a list of contacts with walls: no frames, no pairs, no gravity, no places.
+  bool of_list() const { return frames == 0; }
 };
 
 /// Collects rows on disk until the facts are known.
@@ -47,6 +49,8 @@ class ContactLogReader {
   explicit ContactLogReader(const std::string& file);
 
   const ContactLogFacts& facts() const { return facts_; }
+  /// @throws InputError for a log of a list, whose dose rate is not that of all contacts
+  void need_frames() const;
   /// The next contact; nothing at the end. @throws InputError with the bad lines
   std::optional<Contact> next();
 

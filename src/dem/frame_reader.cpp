@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "dem/binary_dump.hpp"
 #include "io/csv_reader.hpp"
 
 namespace edmill::dem {
@@ -178,6 +179,10 @@ FrameReader::Row FrameReader::row() const {
   }
   if (column < values.size())
     fail(fmt::format("{} values", column), fmt::format("{}, one for each column", names_.size()));
+  return row_of(values);
+}
+
+FrameReader::Row FrameReader::row_of(const std::vector<double>& values) const {
   const auto at = [&](std::size_t what) { return values[static_cast<std::size_t>(places_[what])]; };
   if (!(std::abs(at(id)) < 1e15)) fail(fmt::format("ball {}", at(id)), "the number of a ball");
   Row row;
@@ -218,8 +223,38 @@ void FrameReader::finish(std::vector<Row> rows, double time, Frame& frame) {
 }
 
 bool FrameReader::next(Frame& frame) {
-  if (kind_ == Kind::unknown) kind_ = in_.peek() == 'I' ? Kind::dump : Kind::table;
+  if (kind_ == Kind::unknown)
+    kind_ = begins_binary_dump(in_.peek()) ? Kind::binary : in_.peek() == 'I' ? Kind::dump : Kind::table;
+  if (kind_ == Kind::binary) return next_of_binary(frame);
   return kind_ == Kind::dump ? next_of_dump(frame) : next_of_table(frame);
+}
+
+double FrameReader::time_of(std::optional<double> time, std::optional<double> step) const {
+  if (!time && !(step && format_.time_step))
+    fail("a frame without time", "its time in it, or the time step: --timestep or --deck");
+  return time ? *time * time_ : *step * *format_.time_step;
+}
+
+bool FrameReader::next_of_binary(Frame& frame) {
+  BinaryFrame read;
+  if (!read_binary_frame(in_, name_, count_, read)) return false;
+  ++line_number_;  // of the frame
+  if (!read.units.empty()) format_.units = read.units;
+  set_units(format_.units);
+  low_ = read.low, size_ = read.size;
+  read_columns(words(read.columns));
+  if (names_.size() != read.rows.front().size())
+    fail(fmt::format("{} names for {} columns", names_.size(), read.rows.front().size()), "one for each");
+  std::vector<Row> rows;
+  for (const auto& values : read.rows) {
+    for (const int place : places_)
+      if (place >= 0 && !std::isfinite(values[static_cast<std::size_t>(place)]))
+        fail("a value that is no number", "a number");
+    rows.push_back(row_of(values));
+  }
+  const double time = time_of(read.time, static_cast<double>(read.step));
+  finish(std::move(rows), time, frame);
+  return true;
 }
 
 /// Rows of one time are a frame; the last frame ends with the file.
@@ -260,14 +295,13 @@ bool FrameReader::next_of_dump(Frame& frame) {
       auto columns = words(line_);
       columns.erase(columns.begin(), columns.begin() + 2);
       read_columns(columns);
-      if (!time && !(step && format_.time_step))
-        fail("a frame without time", "ITEM: TIME in it, or the time step: --timestep or --deck");
+      const double at = time_of(time, step);
       std::vector<Row> rows;
       while (rows.size() < count_) {
         if (!line() || in_.eof()) return false;  // cut off
         rows.push_back(row());
       }
-      finish(std::move(rows), time ? *time * time_ : *step * *format_.time_step, frame);
+      finish(std::move(rows), at, frame);
       return true;
     }
     const int bounds = item.starts_with("BOX BOUNDS") ? 3 : 1;  // an item of no interest has one line, too

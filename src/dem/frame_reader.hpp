@@ -34,9 +34,9 @@ struct Frame {
   std::vector<model::BallState<double>> balls;
 };
 
-/// Reads frames in bounded memory: a dump of LAMMPS or LIGGGHTS, or a table with a column `time` whose rows
-/// of one time are a frame. Columns may be in any order, unknown ones are skipped, and a file that ends
-/// within a frame ends before it.
+/// Reads frames in bounded memory: a dump of LAMMPS or LIGGGHTS, text or binary, or a table with a column
+/// `time` whose rows of one time are a frame. Columns may be in any order, unknown ones are skipped, and a
+/// file that ends within a frame ends before it.
 class FrameReader {
  public:
   /// @param balls  of the case
@@ -52,7 +52,7 @@ class FrameReader {
   const std::vector<double>& radii() const { return radii_; }
 
  private:
-  enum class Kind { unknown, dump, table };
+  enum class Kind { unknown, dump, binary, table };
   struct Row {
     long id = 0;
     model::BallState<double> state;
@@ -60,6 +60,7 @@ class FrameReader {
   };
 
   bool next_of_dump(Frame& frame);
+  bool next_of_binary(Frame& frame);
   bool next_of_table(Frame& frame);
   bool line();
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
@@ -67,6 +68,8 @@ class FrameReader {
   void read_columns(const std::vector<std::string>& columns);
   void read_bounds(std::size_t axis);
   Row row() const;
+  Row row_of(const std::vector<double>& values) const;
+  double time_of(std::optional<double> time, std::optional<double> step) const;
   void finish(std::vector<Row> rows, double time, Frame& frame);
   void place(const std::vector<double>& values, model::BallState<double>& state) const;
   double number(std::string_view text) const;

@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
+#include "dem/contact_list.hpp"
 
 namespace edmill::dem {
 
@@ -30,6 +31,7 @@ double factor_of(const std::vector<double>& dump, const std::vector<model::BallP
 }  // namespace
 
 Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options, ContactLogWriter& log) {
+  if (is_contact_list(options.dump)) return import_contact_list(spec, options, log);
   const auto built = casefile::build_case<double>(spec);
   const auto& balls = built.the_case.balls;
   DumpFormat format{options.time_step, options.units.value_or("si")};
@@ -90,10 +92,11 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
 
 std::string table(const Imported& r, const std::string& log) {
   const auto& f = r.facts;
-  std::string out = fmt::format(
-      "{}: {} frames, {:.3g} s apart, {:g} s to {:g} s{}\n{} contacts, to {}\n\n  {:<14}{:>10}{:>13}\n",
-      f.dump, f.frames, f.statistics.interval, f.first, f.last, r.interrupted ? " (interrupted)" : "",
-      f.contacts, log, "contacts", "number", "of the dose");
+  const auto source = f.of_list() ? std::string("a list of contacts with walls")
+                                  : fmt::format("{} frames, {:.3g} s apart", f.frames, f.statistics.interval);
+  std::string out = fmt::format("{}: {}, {:g} s to {:g} s{}\n{} contacts, to {}\n\n  {:<14}{:>10}{:>13}\n",
+                                f.dump, source, f.first, f.last, r.interrupted ? " (interrupted)" : "",
+                                f.contacts, log, "contacts", "number", "of the dose");
   for (std::size_t k = 0; k < contact_class_names.size(); ++k)
     out += fmt::format("  {:<14}{:>10}{:>12.2f}%\n", contact_class_names[k], r.counts[k],
                        f.dose() != 0 ? 100 * f.doses[k] / f.dose() : 0);

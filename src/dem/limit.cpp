@@ -25,6 +25,7 @@ namespace {
 
 LimitPoint point_of(const std::string& file, double from) {
   ContactLogReader log(file);
+  log.need_frames();
   const auto& facts = log.facts();
   if (!(facts.last > from))
     throw InputError(fmt::format("{}: found a record that ends at {} s, expected one beyond {} s", file,

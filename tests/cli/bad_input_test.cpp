@@ -37,7 +37,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-struct Outcome {
+struct Answer {
   int code = -1;  ///< exit code, or -1 after a signal
   std::string out, err;
 };
@@ -82,7 +82,7 @@ class BadInput : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(scratch); }
 
-  Outcome edmill(const std::vector<std::string>& arguments) const {
+  Answer edmill(const std::vector<std::string>& arguments) const {
     const fs::path out_file = scratch / "stdout", err_file = scratch / "stderr";
     std::string command = quoted(EDMILL_BINARY);
     for (const auto& argument : arguments) command += " " + quoted(argument);
@@ -94,7 +94,7 @@ class BadInput : public ::testing::Test {
   /// Runs a case that must fail with exactly these messages, and checks the output folder afterwards.
   void expect_failure(const std::vector<std::string>& arguments, const std::vector<std::string>& starts,
                       const std::vector<std::string>& parts) const {
-    const Outcome outcome = edmill(arguments);
+    const Answer outcome = edmill(arguments);
     EXPECT_EQ(outcome.code, 2) << outcome.err;
     EXPECT_EQ(outcome.out, "");
     const auto lines = lines_of(outcome.err);
@@ -177,7 +177,7 @@ TEST_F(BadInput, EveryCutOfAValidCaseEndsWithoutACrash) {
   const std::string whole = contents(valid_case);
   for (std::size_t length = 0; length < whole.size(); length += 13) {
     write(scratch / "cut.toml", whole.substr(0, length));
-    const Outcome outcome = edmill({"check", scratch / "cut.toml"});
+    const Answer outcome = edmill({"check", scratch / "cut.toml"});
     EXPECT_TRUE(outcome.code == 2 || (outcome.code == 0 && length > whole.find("diameter = \"4.76")))
         << length << ": " << outcome.code << " " << outcome.err;
     for (const auto& line : lines_of(outcome.err)) EXPECT_TRUE(line.starts_with("edmill: ")) << line;
@@ -186,7 +186,7 @@ TEST_F(BadInput, EveryCutOfAValidCaseEndsWithoutACrash) {
 
 TEST_F(BadInput, AnEmptyFileNamesEveryMissingKey) {
   write(scratch / "empty.toml", "");
-  const Outcome outcome = edmill(run(scratch / "empty.toml"));
+  const Answer outcome = edmill(run(scratch / "empty.toml"));
   EXPECT_EQ(outcome.code, 2);
   for (const auto* key : {"run.end_time", "vessel.diameter", "vessel.height", "contact.restitution",
                           "contact.friction", "balls"})

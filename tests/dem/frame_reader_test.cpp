@@ -95,6 +95,55 @@ TEST_F(FrameReaderTest, AFileThatIsCutOffEndsBeforeItsLastFrame) {
   }
 }
 
+TEST_F(FrameReaderTest, BinaryDumpsAreTheTextTheyStandFor) {
+  const std::string made = EDMILL_SOURCE_DIR "/tests/dem/two_balls";  // by LAMMPS
+  dem::FrameReader text(made + ".dump", {std::nullopt, "si"}, 2),
+      binary(made + ".bin", {std::nullopt, "si"}, 2);
+  dem::Frame expected, found;
+  for (int frame = 0; frame < 3; ++frame) {
+    ASSERT_TRUE(text.next(expected));
+    ASSERT_TRUE(binary.next(found));
+    EXPECT_EQ(found.time, expected.time);
+    EXPECT_DOUBLE_EQ(found.time, 2e-4 * frame);
+    for (std::size_t ball = 0; ball < 2; ++ball) {
+      EXPECT_EQ(found.balls[ball].position, expected.balls[ball].position);
+      EXPECT_EQ(found.balls[ball].velocity, expected.balls[ball].velocity);
+      EXPECT_EQ(found.balls[ball].spin, expected.balls[ball].spin);
+    }
+  }
+  EXPECT_FALSE(text.next(expected));
+  EXPECT_FALSE(binary.next(found));
+  EXPECT_EQ(binary.masses(), text.masses());
+  EXPECT_EQ(binary.radii(), text.radii());
+}
+
+TEST_F(FrameReaderTest, ABinaryDumpThatIsCutOffOrDamaged) {
+  std::ifstream in(EDMILL_SOURCE_DIR "/tests/dem/two_balls.bin", std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  constexpr std::size_t last_frame = 389;
+  for (std::size_t size = whole.size() - last_frame; size < whole.size(); ++size) {
+    put(whole.substr(0, size));
+    dem::FrameReader reader(file, {std::nullopt, "si"}, 2);
+    dem::Frame frame;
+    EXPECT_TRUE(reader.next(frame) && reader.next(frame));
+    EXPECT_FALSE(reader.next(frame)) << size;
+  }
+  const auto damaged = [&](std::size_t place, const std::string& bytes) {
+    std::string text = whole;
+    return problem(text.replace(place, bytes.size(), bytes));
+  };
+  using namespace std::string_literals;
+  EXPECT_EQ(problem(whole), "");
+  EXPECT_NE(damaged(0, "\0\0\0\0\0\0\0\0"s).find("does not name its columns"), std::string::npos);
+  EXPECT_NE(damaged(8, "X").find("does not name its columns"), std::string::npos);
+  EXPECT_NE(damaged(18, "\0\0\0\1"s).find("the other order of bytes"), std::string::npos);
+  EXPECT_NE(damaged(22, "\1"s).find("revision 1"), std::string::npos);
+  EXPECT_NE(damaged(34, "\3"s).find("3 balls"), std::string::npos);
+  EXPECT_NE(damaged(whole.find("omegax"), "ooegax").find("no column omegax"), std::string::npos);
+  EXPECT_NE(damaged(whole.size() - 8, "\xff\xff\xff\xff\xff\xff\xff\xff").find("no number"),
+            std::string::npos);
+}
+
 TEST_F(FrameReaderTest, Problems) {
   const std::string good = std::string(head) + columns + row_1 + row_2;
   EXPECT_EQ(problem(good), "");

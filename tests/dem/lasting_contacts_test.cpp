@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
 #include "dem/contact_audit.hpp"
 #include "dem/import_dump.hpp"
@@ -34,25 +35,42 @@ diameter = "8 mm"
 density = "8 g/cm3"
 )";
 
-dem::ContactAudit audited(const small_dem::Deck& deck, const std::string& name,
-                          const std::vector<std::string>& settings = {}) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("edmill_contacts_" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
-  const auto dump = folder / (name + ".dump"), log = folder / (name + ".csv");
-  small_dem::Run(deck).write(dump);
-  const auto spec = casefile::parse_case(box, "box.toml", settings);
-  dem::ImportOptions options;
-  options.dump = dump, options.time_step = deck.time_step;
-  dem::ContactLogWriter writer;
-  const auto imported = dem::import_dump(spec, options, writer);
-  {
-    std::ofstream out(log);
-    writer.write(out, imported.facts);
+/// What the small code finds by itself is its list of contacts with walls.
+enum class Made { frames, list };
+
+/// The files of a run of the small code, removed with it.
+class Files {
+ public:
+  explicit Files(const small_dem::Deck& deck)
+      : time_step_(deck.time_step),
+        folder_(std::filesystem::temp_directory_path() / ("edmill_contacts_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+    small_dem::Run(deck).write(folder_ / "frames.dump", folder_ / "list.csv");
   }
-  auto audit = dem::audit_contacts(spec, {log, nullptr});
-  std::filesystem::remove_all(folder);
-  return audit;
+  ~Files() { std::filesystem::remove_all(folder_); }
+
+  dem::ContactAudit audited(Made made, const std::vector<std::string>& settings = {}) const {
+    const auto spec = casefile::parse_case(box, "box.toml", settings);
+    dem::ImportOptions options;
+    options.dump = folder_ / (made == Made::frames ? "frames.dump" : "list.csv"),
+    options.time_step = time_step_;
+    dem::ContactLogWriter writer;
+    const auto imported = dem::import_dump(spec, options, writer);
+    const auto log = folder_ / "contacts.csv";
+    {
+      std::ofstream out(log);
+      writer.write(out, imported.facts);
+    }
+    return dem::audit_contacts(spec, {log, nullptr});
+  }
+
+ private:
+  double time_step_;
+  std::filesystem::path folder_;
+};
+
+dem::ContactAudit audited(const small_dem::Deck& deck, const std::vector<std::string>& settings = {}) {
+  return Files(deck).audited(Made::frames, settings);
 }
 
 const dem::Judged* named(const dem::ContactAudit& audit, const std::string& name) {
@@ -65,7 +83,7 @@ TEST(LastingContacts, RightDecksAgree) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     small_dem::Deck deck;
     deck.seed = seed, deck.duration = 0.6;
-    const auto audit = audited(deck, "right");
+    const auto audit = audited(deck);
     EXPECT_EQ(audit.verdict, dem::ContactVerdict::agrees) << "seed " << seed << "\n" << dem::table(audit);
     ASSERT_TRUE(named(audit, "restitution at walls"));
     EXPECT_NEAR(named(audit, "restitution at walls")->found.value, 0.6, 0.002);
@@ -81,7 +99,7 @@ TEST(LastingContacts, FramesFarApartGiveTheSameValues) {
   for (const double interval : {1e-5, 1e-4, 1e-3}) {
     small_dem::Deck deck;
     deck.frames = interval, deck.duration = 1.5;
-    const auto audit = audited(deck, "apart");
+    const auto audit = audited(deck);
     const auto* e = named(audit, "restitution at walls");
     ASSERT_TRUE(e) << dem::table(audit);
     EXPECT_NEAR(e->found.value, 0.6, 0.002) << dem::table(audit);
@@ -96,7 +114,7 @@ TEST(LastingContacts, WhatPressesIsNoPartOfTheLaws) {
   small_dem::Deck deck;
   deck.gravity = {0, -100, 0}, deck.contact_time = 4e-4, deck.time_step = 8e-6, deck.frames = 8e-5,
   deck.duration = 6;
-  const auto audit = audited(deck, "pressed", {"run.gravity=\"100 m/s2\""});
+  const auto audit = audited(deck, {"run.gravity=\"100 m/s2\""});
   const auto* e = named(audit, "restitution at walls");
   ASSERT_TRUE(e) << dem::table(audit);
   EXPECT_NEAR(e->found.value, 0.6, 0.002) << dem::table(audit);
@@ -107,7 +125,7 @@ TEST(LastingContacts, WhatPressesIsNoPartOfTheLaws) {
 TEST(LastingContacts, RoundedDumpsAgree) {
   small_dem::Deck deck;
   deck.number = "%g";
-  const auto audit = audited(deck, "rounded");
+  const auto audit = audited(deck);
   EXPECT_EQ(audit.verdict, dem::ContactVerdict::agrees) << dem::table(audit);
 }
 
@@ -150,7 +168,7 @@ TEST(LastingContacts, MistakesAreNamedWithTheirValues) {
     small_dem::Deck deck;
     deck.duration = 0.6;
     mistake.make(deck);
-    const auto audit = audited(deck, "mistake");
+    const auto audit = audited(deck);
     SCOPED_TRACE(mistake.name + std::string("\n") + dem::table(audit));
     EXPECT_EQ(audit.verdict, dem::ContactVerdict::differs);
     if (const auto* judged = named(audit, mistake.value)) {
@@ -162,6 +180,46 @@ TEST(LastingContacts, MistakesAreNamedWithTheirValues) {
     EXPECT_EQ(audit.causes[0].key, mistake.value);
     EXPECT_NEAR(audit.causes[0].value, mistake.truth,
                 std::max(3 * audit.causes[0].half_width, 0.003 * mistake.truth));
+  }
+}
+
+TEST(LastingContacts, AListOfContactsIsJudgedAsFramesAre) {
+  for (const unsigned seed : {1u, 2u}) {
+    small_dem::Deck deck;
+    deck.seed = seed, deck.duration = 0.5;
+    const Files files(deck);
+    const auto by_list = files.audited(Made::list), by_frames = files.audited(Made::frames);
+    EXPECT_EQ(by_list.verdict, dem::ContactVerdict::agrees) << "seed " << seed << "\n" << dem::table(by_list);
+    for (const auto* name : {"restitution at walls", "friction at walls"}) {
+      ASSERT_TRUE(named(by_list, name));
+      EXPECT_NEAR(named(by_list, name)->found.value, named(by_frames, name)->found.value, 0.002);
+    }
+    const auto walls = static_cast<std::size_t>(dem::ContactClass::wall);
+    EXPECT_NEAR(by_list.facts.doses[walls] / by_frames.facts.doses[walls], 1, 0.1);
+  }
+  small_dem::Deck weak;
+  weak.duration = 0.4, weak.friction = 0.3;
+  const auto audit = Files(weak).audited(Made::list);
+  EXPECT_EQ(audit.verdict, dem::ContactVerdict::differs);
+  EXPECT_NEAR(named(audit, "friction at walls")->found.value, 0.3, 0.01);
+  small_dem::Deck light;
+  light.duration = 0.2, light.density = 7800;
+  EXPECT_EQ(Files(light).audited(Made::list).verdict, dem::ContactVerdict::differs);
+}
+
+TEST(LastingContacts, AListNeedsWallsThatAreFlatAndDoNotTurn) {
+  small_dem::Deck deck;
+  deck.duration = 0.1;
+  for (const auto& settings : std::vector<std::vector<std::string>>{
+           {"vessel={type=\"cylinder\",diameter=\"36 mm\",height=\"57 mm\"}"},
+           {"mill={type=\"drum\",speed=\"60 rpm\"}"}}) {
+    try {
+      Files(deck).audited(Made::list, settings);
+      ADD_FAILURE() << settings.front();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("walls are flat and do not turn"), std::string::npos)
+          << error.what();
+    }
   }
 }
 

@@ -56,9 +56,15 @@ class Run {
       }
   }
 
-  /// Writes the frames as LAMMPS does.
-  void write(const std::string& file) {
+  /// Writes the frames as LAMMPS does, and the contacts with walls as Lethe does.
+  void write(const std::string& file, const std::string& list_file = "/dev/null") {
     std::FILE* out = std::fopen(file.c_str(), "w");
+    list = std::fopen(list_file.c_str(), "w");
+    std::fputs("particle_id,diameter,mass,boundary_id,start_time,end_time", list);
+    for (const char* when : {"start", "end"})
+      for (const char* what : {"velocity", "angular_velocity"})
+        for (const char axis : {'x', 'y', 'z'}) std::fprintf(list, ",%s_particle_%s_%c", when, what, axis);
+    std::fputc('\n', list);
     const auto every = static_cast<long>(std::lround(d.frames / d.time_step));
     const auto steps = static_cast<long>(std::lround(d.duration / d.time_step));
     forces(0);
@@ -73,10 +79,29 @@ class Run {
       for (std::size_t i = 0; i < d.balls; ++i)
         v[i] = v[i] + f[i] * (h / 2 / d.mass()), w[i] = w[i] + torque[i] * (h / 2 / inertia());
     }
-    std::fclose(out);
+    std::fclose(out), std::fclose(list);
   }
 
  private:
+  struct State {
+    double time = 0;
+    V velocity{}, spin{};
+  };
+
+  /// Follows whether a ball touches a wall.
+  void note(std::size_t ball, std::size_t wall, bool touches, double t) {
+    const auto key = std::make_pair(ball, wall);
+    const auto known = begun.find(key);
+    if (touches && known == begun.end()) begun[key] = {t, v[ball], w[ball]};
+    if (touches || known == begun.end()) return;
+    const State& s = known->second;
+    std::fprintf(list, "%zu,%.15g,%.15g,%zu,%.15g,%.15g", ball, 2 * d.radius, d.mass(), 10 + wall, s.time, t);
+    for (const V& vector : {s.velocity, s.spin, v[ball], w[ball]})
+      for (const double a : vector) std::fprintf(list, ",%.15g", a);
+    std::fputc('\n', list);
+    begun.erase(known);
+  }
+
   double inertia() const { return 0.4 * d.mass() * d.radius * d.radius; }
 
   void frame(std::FILE* out, long step) const {
@@ -127,6 +152,7 @@ class Run {
         n[k] = -side;
         const double overlap = side * (x[i][k] - centre[k]) + d.radius - d.half[k];
         const V g = v[i] - moving - cross(w[i], n) * d.radius;
+        note(i, wall, overlap > 0, t);
         const V force = contact(static_cast<long>(1000 * i + wall), overlap, wall_stiffness, d.mass(), n, g);
         f[i] = f[i] + force, torque[i] = torque[i] - cross(n, force) * d.radius;
       }
@@ -146,6 +172,8 @@ class Run {
   Deck d;
   std::vector<V> x, v, w, f, torque;
   std::map<long, V> springs;
+  std::map<std::pair<std::size_t, std::size_t>, State> begun;
+  std::FILE* list = nullptr;
   double wall_stiffness = 0, pair_stiffness = 0;
 };
 

@@ -9,3 +9,7 @@ add_test(NAME dem_commands_test COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE
          $<TARGET_FILE:edmill_cli> $<TARGET_FILE:small_dem_dump>)
 set_tests_properties(dem_commands_test PROPERTIES TIMEOUT 600 ENVIRONMENT "${dem_environment}")
 add_test(NAME dem_cases_test COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/dem/dem_cases_test.py)
+add_test(NAME vtk_frames_long COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/dem/vtk_frames_test.py)
+set_tests_properties(vtk_frames_long PROPERTIES LABELS long TIMEOUT 300 SKIP_RETURN_CODE 77)
+add_test(NAME large_dump_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/dem/large_dump_test.py $<TARGET_FILE:edmill_cli>)
+set_tests_properties(large_dump_long PROPERTIES LABELS long TIMEOUT 3600)

@@ -13,13 +13,13 @@ namespace edmill::dynamics {
 namespace {
 
 /// A ball of random size somewhere in the vessel at the instant, flying at random.
-struct RandomFlight {
+struct GapFlight {
   Flight<double> flight;
   double radius;
   std::int64_t period;
   double offset;
 
-  RandomFlight(casefile::Random& random, const model::Mill<double>& mill, double top_speed) {
+  GapFlight(casefile::Random& random, const model::Mill<double>& mill, double top_speed) {
     const auto uniform = [&] { return random.uniform<double>(); };
     const auto symmetric = [&] { return random.symmetric<double>(); };
     radius = 0.001 + 0.005 * uniform();
@@ -57,7 +57,7 @@ TEST_P(GapErrorsAtArm, RoundingErrorsStayBelowTheirBounds) {
   casefile::Random random(21);
   double worst_gap = 0, worst_rate = 0, worst_curvature = 0;
   for (int k = 0; k < 20000; ++k) {
-    const RandomFlight r(random, mill, 10);
+    const GapFlight r(random, mill, 10);
     const testing::GeneralFunctions<double> narrow(constants, r.flight, r.radius, r.period);
     const testing::GeneralFunctions<mpfr50> exact(wide_constants, flight_cast<mpfr50>(r.flight),
                                                   mpfr50(r.radius), r.period);
@@ -94,7 +94,7 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
   casefile::Random random(23);
   double worst_gap = 0, worst_rate = 0, worst_curvature = 0;
   for (int k = 0; k < 50000; ++k) {
-    const RandomFlight r(random, mill, 10);
+    const GapFlight r(random, mill, 10);
     // Digits below those of double, anywhere up to half a unit in the last place.
     const auto more = [&](double x) {
       return mpfr50(x) * (1 + mpfr50(random.symmetric<double>()) * 0x1p-54);
@@ -159,7 +159,7 @@ TEST(MotionBounds, DerivativesOfTheGapsStayBelowTheirBounds) {
   casefile::Random random(22);
   std::array<double, 3> worst_y{}, worst_q{};
   for (int k = 0; k < 5000; ++k) {
-    const RandomFlight r(random, narrow_mill, 10);
+    const GapFlight r(random, narrow_mill, 10);
     const double length = table.longest_window() * (0.01 + 0.99 * random.uniform<double>());
     const testing::GeneralFunctions<mpfr50> f(constants, flight_cast<mpfr50>(r.flight), mpfr50(r.radius),
                                               r.flight.start.period);

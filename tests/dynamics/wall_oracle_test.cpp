@@ -34,11 +34,11 @@ TEST(WallSearch, AgreesWithAnIndependentSolverOnAdversarialStates) {
 }
 
 template <class Real>
-class WideWallSearch : public ::testing::Test {};
+class WideWallOracle : public ::testing::Test {};
 using WideScalars = ::testing::Types<float128, mpfr50>;
-TYPED_TEST_SUITE(WideWallSearch, WideScalars);
+TYPED_TEST_SUITE(WideWallOracle, WideScalars);
 
-TYPED_TEST(WideWallSearch, AgreesWithAnIndependentSolver) {
+TYPED_TEST(WideWallOracle, AgreesWithAnIndependentSolver) {
   constexpr std::uint64_t seed = 20110104;
   const long count = wanted_states() / 10;
   std::cout << "seed " << seed << ", " << count << " states\n";
@@ -79,7 +79,7 @@ WallQuery<Real> with_more_digits(Draw& draw, const WallQuery<double>& q) {
   return wide;
 }
 
-TYPED_TEST(WideWallSearch, InDoubleFirstDecidesAsTheFullSearch) {
+TYPED_TEST(WideWallOracle, InDoubleFirstDecidesAsTheFullSearch) {
   using Real = TypeParam;
   const auto walls = testing::general_search(testing::spex_mill<Real>());
   const auto& clock = walls.mill().clock;

@@ -61,14 +61,14 @@ class Exact {
   std::mt19937_64 random_;
 };
 
-struct Ball {
+struct TiedBall {
   std::array<cpp_rational, 3> position, velocity;
 };
 
 /// A vessel at rest about the origin: caps at X = ±half_height, Z across.
 struct Scene {
   cpp_rational radius, vessel_radius, half_height;
-  std::vector<Ball> balls;
+  std::vector<TiedBall> balls;
 };
 
 /// The first collision, and the number of impacts at that time that were put first by a rule.
@@ -288,7 +288,7 @@ TYPED_TEST(ExactTies, OfMoreContactsThanABallKeepsAreMarked) {
   Scene s{cpp_rational(1, 8), 2, 2, {{{0, 0, 0}, {0, 0, 0}}}};
   for (const int sign : {-1, 1})
     for (int axis = 0; axis < 3; ++axis) {
-      Ball ball{};
+      TiedBall ball{};
       ball.position[axis] = sign, ball.velocity[axis] = -sign;
       s.balls.push_back(ball);
     }

@@ -1,4 +1,3 @@
 edmill_test(checkpoint_file_test io/checkpoint_file_test.cpp)
-add_dependencies(checkpoint_file_test edmill_cli)
 edmill_test(table_test io/table_test.cpp LIBRARIES hdf5::hdf5)
 edmill_test(final_state_test io/final_state_test.cpp)

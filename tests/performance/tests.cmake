@@ -1,9 +1,9 @@
 # The reference implementations, the comparison of figures and the recorded count of instructions; times are not tested.
 set(benchmarks ${CMAKE_SOURCE_DIR}/verification/performance)
 edmill_test(reference_loops_test performance/reference_loops_test.cpp)
-target_sources(reference_loops_test PRIVATE ${benchmarks}/minimal_loop.cpp ${benchmarks}/peer_loop.cpp
+target_sources(performance_tests PRIVATE ${benchmarks}/minimal_loop.cpp ${benchmarks}/peer_loop.cpp
                                        ${benchmarks}/periodic_gas.cpp)
-target_include_directories(reference_loops_test PRIVATE ${benchmarks})
+target_include_directories(performance_tests PRIVATE ${benchmarks})
 
 find_program(PYTHON3 python3)
 if(PYTHON3)

@@ -1,5 +1,4 @@
 edmill_test(prove_test prove/prove_test.cpp)
-add_dependencies(prove_test edmill_cli)
 foreach(name certificates_test certificates_long)
   add_test(NAME ${name} COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/prove/certificates_test.py $<TARGET_FILE:edmill_cli>
                                 $<TARGET_FILE:check_certificate> ${CMAKE_SOURCE_DIR}/regression/reference ${CMAKE_BINARY_DIR}/${name}

@@ -1,7 +1,6 @@
 foreach(name series_test warnings_test ward_test mill_drawing_test report_page_test)
   edmill_test(${name} report/${name}.cpp LIBRARIES pugixml::pugixml nlohmann_json::nlohmann_json)
 endforeach()
-add_dependencies(report_page_test edmill_cli)
 # The page in Debian's chromium: chromium-driver, python3-selenium.
 add_test(NAME report_browser_test COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/report/report_browser_test.py
                                           $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/report-in-browser)
@@ -9,4 +8,4 @@ add_test(NAME report_browser_long COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURC
                                           $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/report-of-mills --long)
 set_tests_properties(report_browser_long PROPERTIES LABELS long TIMEOUT 1800 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 set_tests_properties(report_browser_test PROPERTIES TIMEOUT 300 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
-target_compile_definitions(report_page_test PRIVATE EDMILL_THREE_JS="${THREE_JS}" EDMILL_THREE_ORBIT_JS="${THREE_ORBIT_JS}")
+target_compile_definitions(report_tests PRIVATE EDMILL_THREE_JS="${THREE_JS}" EDMILL_THREE_ORBIT_JS="${THREE_ORBIT_JS}")

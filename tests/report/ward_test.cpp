@@ -8,11 +8,11 @@ namespace {
 
 using edmill::casefile::read_case;
 using edmill::report::ward_case_of;
-const std::filesystem::path source = EDMILL_SOURCE_DIR;
+const std::filesystem::path tree = EDMILL_SOURCE_DIR;
 
 TEST(WardCase, EachOfTheCaseFilesIsItsOwnRow) {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(source / "regression/ward/cases")) {
+  for (const auto& entry : std::filesystem::directory_iterator(tree / "regression/ward/cases")) {
     const auto ward = ward_case_of(read_case(entry.path().string()));
     ASSERT_TRUE(ward.has_value()) << entry.path();
     std::string name = ward->powder + "g_" + ward->charge_ratio + "_" + ward->diameter + "mm";
@@ -24,14 +24,14 @@ TEST(WardCase, EachOfTheCaseFilesIsItsOwnRow) {
 }
 
 TEST(WardCase, TheDemoIsOneUnderAnotherName) {
-  const auto ward = ward_case_of(read_case((source / "docs/examples/demo.toml").string()));
+  const auto ward = ward_case_of(read_case((tree / "docs/examples/demo.toml").string()));
   ASSERT_TRUE(ward.has_value());
   EXPECT_EQ(ward->inverse_dose_rate, 0.2123);  // thesis, table 5.5: 5 g, charge ratio 2.5, 4.76 mm
   EXPECT_EQ(ward->collision_rate, 8672);       // table 5.6
 }
 
 TEST(WardCase, WhatIsPrintedNowhereIsMissing) {
-  const auto ward = ward_case_of(read_case((source / "regression/ward/cases/5g_5_3_16mm.toml").string()));
+  const auto ward = ward_case_of(read_case((tree / "regression/ward/cases/5g_5_3_16mm.toml").string()));
   ASSERT_TRUE(ward.has_value());
   EXPECT_FALSE(ward->collision_rate.has_value());
 }
@@ -39,7 +39,7 @@ TEST(WardCase, WhatIsPrintedNowhereIsMissing) {
 class Changed : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Changed, IsNoWardCase) {
-  const auto spec = read_case((source / "docs/examples/demo.toml").string(), {GetParam()});
+  const auto spec = read_case((tree / "docs/examples/demo.toml").string(), {GetParam()});
   EXPECT_FALSE(ward_case_of(spec).has_value());
 }
 INSTANTIATE_TEST_SUITE_P(WardCase, Changed,
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(WardCase, Changed,
 class Free : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Free, IsStillAWardCase) {
-  const auto spec = read_case((source / "docs/examples/demo.toml").string(), {GetParam()});
+  const auto spec = read_case((tree / "docs/examples/demo.toml").string(), {GetParam()});
   EXPECT_TRUE(ward_case_of(spec).has_value());
 }
 INSTANTIATE_TEST_SUITE_P(WardCase, Free,

@@ -1,4 +1,3 @@
 edmill_test(agreement_test run/agreement_test.cpp)
 edmill_test(certify_test run/certify_test.cpp TIMEOUT 300 LABELS verification)
-add_dependencies(certify_test edmill_cli)
 edmill_test(own_law_test run/own_law_test.cpp)

@@ -192,26 +192,27 @@ def vessels(codes):
                   f"{mill} in {code}, {duration}: exit code {result}, restitution {e:.4f}, no wall or ball for {unexplained:.2%}, {cpu:.0f} s")
 
 
-def limit(duration="120 s"):
+def limit():
+    """The stiffest contacts decide the limit: theirs is the longest run. 20 steps in a contact at 4 m/s, as usual in this box."""
     logs = []
-    for us in (200, 100, 50):
-        log, cpu = simulate(export("lammps", f"limit{us}", "--contact-time", f"{us} us", "--duration", duration, "--frames", "100 us"),
-                            f"limit{us}")
-        print(f"        contacts of {us} us: {cpu:.0f} s of processor time", flush=True)
+    for us, duration in ((300, 300), (150, 300), (75, 1000)):
+        log, cpu = simulate(export("lammps", f"limit{us}", "--contact-time", f"{us} us", "--contact-speed", "4 m/s", "--steps", "20",
+                                   "--duration", f"{duration} s", "--frames", "150 us"), f"limit{us}")
+        print(f"        contacts of {us} us, {duration} s: {cpu:.0f} s of processor time", flush=True)
         logs.append(log)
     slips = audit(logs[-1])[1]["slips"]
     # A contact of LAMMPS can turn the slip by a little more than all of it, as it takes from the approach too; a law cannot.
     law = {body: [[float(ratio), max(-1.0, bin[body])] for ratio, bin in slips.items() if body in bin] for body in ("walls", "balls")}
     own = ['contact.model="restitution-by-slip"', f"contact.ball_wall.tangential_by_slip={law['walls']}",
-           f"contact.ball_ball.tangential_by_slip={law['balls']}", 'run.end_time="401 s"']
-    for name, settings in (("walton_braun", ['run.end_time="401 s"']), ("own_law", own)):
+           f"contact.ball_ball.tangential_by_slip={law['balls']}", 'run.end_time="3001 s"']
+    for name, settings in (("walton_braun", ['run.end_time="3001 s"']), ("own_law", own)):
         done = edmill("run", CASE, "--quiet", "--out", name, *(f"--set={setting}" for setting in settings))
         if done.returncode:
             sys.exit(done.stderr)
         edmill("limit", *logs, "--edmill", name, "--from", "1 s", "--json", "limit.json", "--draw", "limit.svg")
         found = json.load(open("limit.json"))
         text = f"limit {found['limit']:.3f} +- {found['half_width']:.3f} W over edmill {name}: {found['ratio']:.4f} +- {found['ratio_half_width']:.4f}"
-        check(name != "own_law" or abs(found["ratio"] - 1) <= found["ratio_half_width"], text)
+        check(name != "own_law" or abs(found["ratio"] - 1) <= found["ratio_half_width"] <= 0.006, text)
 
 
 if __name__ == "__main__":

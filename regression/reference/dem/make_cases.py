@@ -35,13 +35,14 @@ class Case:
     def text(self):
         lines = self.lines + ["expected:"]
         for name, value, tolerance, finite in self.quantities:
-            lines += [f"  {name}:", f"    value: {value!r}", f"    relative_tolerance: {tolerance!r}"]
+            lines += [f"  {name}:", f"    value: {float(format(value, '.15g'))!r}", f"    relative_tolerance: {tolerance!r}"]
             if finite:
                 lines.append(f"    contact_time: \"{finite}\"")
         return "\n".join(lines) + "\n"
 
 
 ELASTIC = "closed form of Hertz's contact: holds at any stiffness; a time step of a hundredth of the duration is off by less than the tolerance"
+OTHERS = "Chung and Ooi, Granular Matter 13 (2011) 643, test {}; numbers as in PySPH's examples"
 CHUNG = "Chung and Ooi, Granular Matter 13 (2011) 643, test {}; numbers as in YADE's examples of 2023"
 
 
@@ -95,6 +96,83 @@ def chung_ooi_4():
         yield case
 
 
+SLIDES = "of a contact that slides throughout: no matter how long it lasts; the tolerance is for the steps at its begin and end"
+PLANE = {"aluminium_alloy": (2700.0, 7.0e10, 0.33), "nylon": (1000.0, 2.5e9, 0.4)}
+METALS = {"aluminium_alloy": (2700.0, 7.0e10, 0.33), "copper": (8900.0, 1.2e11, 0.35)}
+
+
+def chung_ooi_5():
+    normal, friction, restitution, radius = 5.0, 0.3, 1.0, 1.0e-5
+    case = Case("chung_ooi_5_steel", "Chung and Ooi, Granular Matter 13 (2011) 643, test 5; the speeds are chosen here so that contacts slide throughout",
+                "a sphere without spin meets a rigid plane with one normal and several tangential speeds, elastic")
+    case.given(radius=radius, density=7850.0, young=2.08e11, poisson=0.3, normal_speed=normal, friction=friction, restitution=restitution)
+    change = friction * (1 + restitution) * normal
+    for along in (12.0, 15.0, 20.0, 30.0):
+        case.expect(f"tangential_speed_after_{along}", along - change, 1e-2, SLIDES)
+        case.expect(f"spin_after_{along}", 2.5 * change / radius, 1e-2, SLIDES)
+    yield case
+
+
+def spun(source, what, name, material, spins, second_mass=None, second_radius=None):
+    """Impact of a sphere that spins: what friction gives it while it slides throughout, by its share of the impulse."""
+    density, young, poisson = material
+    radius, speed, friction, restitution = 0.1, 0.2, 0.4, 0.5
+    case = Case(name, source, what)
+    given = dict(radius=radius, density=density, young=young, poisson=poisson, speed=speed, friction=friction, restitution=restitution)
+    share = 1.0
+    if second_mass is not None:
+        given.update(second_radius=second_radius, second_mass_over_first=second_mass)
+        share = second_mass / (1 + second_mass)
+    case.given(**given)
+    change = friction * (1 + restitution) * speed * share
+    for spin in spins:
+        case.expect(f"tangential_speed_after_{spin}", change, 1e-2, SLIDES)
+        case.expect(f"spin_after_{spin}", spin - 2.5 * change / radius, 1e-2, SLIDES)
+    return case
+
+
+def chung_ooi_6():
+    for material, values in PLANE.items():
+        yield spun(OTHERS.format(6), "a spinning sphere meets a rigid plane head-on", f"chung_ooi_6_{material}", values, (5.0, 7.0, 9.0, 12.0, 22.0))
+
+
+def chung_ooi_7():
+    for material, values in METALS.items():
+        yield spun(OTHERS.format(7), "two equal spheres with the same speed meet head-on, both with this spin about the same axis and in the same sense",
+                   f"chung_ooi_7_{material}", values, (5.0, 7.0, 9.0, 12.0, 22.0))
+
+
+def chung_ooi_8():
+    for material, values in PLANE.items():
+        yield spun(OTHERS.format(8), "a spinning sphere meets one at rest that is five times as large and a thousand times as dense, nearly a plane",
+                   f"chung_ooi_8_{material}", values, (5.0, 7.0, 9.0, 12.0, 22.0), second_mass=125000.0, second_radius=0.5)
+
+
+def mohajeri():
+    source = "after Mohajeri et al., Powder Technology 447 (2024); numbers as in LAMMPS's unittest/granular of 2026"
+    radius, resistance, gravity, spin = 0.0025, 0.05, 1.0, 1.0
+    case = Case("mohajeri_rolling", source, "a ball turns on a plane without slip forces and is stopped by rolling resistance, a torque of resistance x radius x weight")
+    case.given(radius=radius, density=2700.0, rolling_resistance=resistance, gravity=gravity, spin=spin)
+    rate = 2.5 * resistance * gravity / radius
+    for time in (0.005, 0.01, 0.015):
+        case.expect(f"spin_at_{time}", spin - rate * time, 1e-2, "of a resistance that has reached its limit; a rolling spring needs its own time to do so")
+    case.expect("end_of_motion", spin / rate, 1e-2, "the same")
+    yield case
+    radius, energy = 0.01, 0.1
+    case = Case("mohajeri_pull_off", source, "the force that separates two equal spheres that just touch, by Derjaguin, Muller and Toporov (DMT)")
+    case.given(radius=radius, surface_energy=energy)
+    case.expect("pull_off_force", 4 * math.pi * energy * radius / 2, 1e-3, "at rest: holds at any stiffness; the work of adhesion is twice the surface energy")
+    yield case
+    friction, restitution, normal, along = 0.3, 0.8, 0.5, 2.0
+    case = Case("mohajeri_oblique", "after Mohajeri et al., Powder Technology 447 (2024); numbers chosen here", "a sphere without spin meets a plane and slides throughout")
+    case.given(radius=0.005, density=2500.0, normal_speed=normal, tangential_speed=along, friction=friction, restitution=restitution)
+    change = friction * (1 + restitution) * normal
+    case.expect("normal_speed_after", restitution * normal, 5e-3, "where the damping is that of this restitution")
+    case.expect("tangential_speed_after", along - change, 1e-2, SLIDES)
+    case.expect("spin_after", 2.5 * change / 0.005, 1e-2, SLIDES)
+    yield case
+
+
 def mfix():
     case = Case("mfix_dem02", "MFiX verification and validation manual, DEM02", "a particle falls from rest and bounces: height of its centre above contact after each bounce")
     height, radius = 0.5, 0.1
@@ -113,8 +191,10 @@ def mfix():
     yield case
 
 
+FAMILIES = (chung_ooi_1, chung_ooi_2, chung_ooi_3, chung_ooi_4, chung_ooi_5, chung_ooi_6, chung_ooi_7, chung_ooi_8, mohajeri, mfix)
+
 if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
-    for family in (chung_ooi_1, chung_ooi_2, chung_ooi_3, chung_ooi_4, mfix):
+    for family in FAMILIES:
         for case in family():
             (folder / f"{case.name}.yaml").write_text(case.text())

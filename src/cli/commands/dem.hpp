@@ -76,9 +76,10 @@ struct Import {
 
   void add_options(CLI::App& command) {
     command
-        .add_option(
-            "dump", options_.dump,
-            "frames: `dump custom` of LAMMPS or LIGGGHTS, or a table, also compressed; - for standard input")
+        .add_option("dump", options_.dump,
+                    "frames: `dump custom` of LAMMPS (text or binary) or LIGGGHTS, or a table, also "
+                    "compressed; - for "
+                    "standard input; or a list of contacts with walls, as Lethe writes it")
         ->required();
     command.add_option("--case", given_.file, "case file (TOML)")->required();
     command
