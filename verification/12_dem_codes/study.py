@@ -31,12 +31,13 @@ FEATURES = {
     "cylinder, shaken along straight lines": SHAKEN + CYLINDER + LAW + BALL,
     "sphere": SHAKEN + '[vessel]\ntype = "sphere"\ndiameter = "48 mm"\n' + LAW + BALL,
     "capsule": SHAKEN + '[vessel]\ntype = "capsule"\ndiameter = "38 mm"\nheight = "57 mm"\n' + LAW + BALL,
-    "cylinder with rounded edges": SHAKEN + CYLINDER + 'edge_radius = "5 mm"\n' + LAW + BALL,
+    "cylinder with rounded edges": SHAKEN + '[vessel]\ntype = "rounded_cylinder"\ndiameter = "38 mm"\nheight = "57 mm"\nedge_radius = "5 mm"\n' +
+                                   LAW + BALL,
     "SPEX, nested rotations": SPEX,
     "planetary jar": PLANETARY,
     "drum": '[mill]\ntype = "drum"\nspeed = "60 rpm"\n' + CYLINDER + LAW + BALL,
     "restitution that depends on the speed": SHAKEN + CYLINDER +
-        '[contact]\nmodel = "viscoelastic"\nfriction = 0.3\ndissipation = "1e-6 s"\neffective_modulus = "100 GPa"\n' + BALL,
+        '[contact]\nmodel = "viscoelastic"\nfriction = 0.3\ndissipative_time = "1 us"\neffective_modulus = "100 GPa"\n' + BALL,
 }
 
 
