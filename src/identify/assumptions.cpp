@@ -1,8 +1,11 @@
 #include "identify/assumptions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "audit/mechanics.hpp"
+#include "base/instant.hpp"
 #include "casefile/check_case.hpp"
 
 namespace edmill::casefile {
@@ -12,20 +15,54 @@ extern template InitialCase<double> build_case<double>(const CaseSpec&, bool);
 
 namespace edmill::identify {
 
-bool LogChange::none() const {
-  return time == 1 && positions == 1 && velocities == 1 && spins == 1 && energies == 1 && speeds == 1 &&
-         delay == 0 && !states_exchanged && exchanged[0] < 0;
+Vec3<double> Axes::of(const Vec3<double>& v) const {
+  Vec3<double> turned;
+  for (std::size_t k = 0; k < 3; ++k) turned[static_cast<Eigen::Index>(k)] = sign[k] * v[from[k]];
+  return turned;
 }
 
-void LogChange::apply(audit::LoggedEvent& event) const {
+namespace {
+
+/// Vectors of another frame in that of the laboratory.
+void to_laboratory(audit::LoggedEvent& event, LogFrame from, const model::Mill<double>& mill) {
+  const auto pose = mill.motion.pose(DriveClock<double>(mill.motion.period()).at(event.time));
+  const auto frame = audit::frame_of(mill.motion, pose, false);
+  const auto turned = [&](const Vec3<double>& v) {
+    return Vec3<double>(frame.x * v[0] + frame.y * v[1] + frame.z * v[2]);
+  };
+  const bool moves = from == LogFrame::vessel;
+  for (auto& body : event.body) {
+    body.position = turned(body.position);
+    if (moves) body.position += frame.centre;
+    const Vec3<double> of_vessel =
+        moves ? audit::wall_velocity(audit::WallVelocity::nested, frame, frame, body.position, body.position)
+              : Vec3<double>(0, 0, 0);
+    for (auto* v : {&body.velocity_before, &body.velocity_after}) *v = turned(*v) + of_vessel;
+    for (auto* w : {&body.spin_before, &body.spin_after}) {
+      *w = turned(*w);
+      if (moves) *w += frame.angular_velocity;
+    }
+  }
+}
+
+}  // namespace
+
+bool LogChange::none() const { return *this == LogChange{}; }
+
+void LogChange::apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const {
   event.time = event.time * time + delay;
   event.milling_dose *= energies, event.wall_work *= energies;
   event.approach_speed *= speeds, event.slip_speed *= speeds;
   for (auto& body : event.body) {
-    body.position *= positions;
-    body.velocity_before *= velocities, body.velocity_after *= velocities;
-    body.spin_before *= spins, body.spin_after *= spins;
+    body.position = axes_of_positions.of(body.position * positions);
+    for (auto* v : {&body.velocity_before, &body.velocity_after}) *v = axes_of_velocities.of(*v * velocities);
+    for (auto* w : {&body.spin_before, &body.spin_after}) *w = axes_of_spins.of(*w * spins);
+    if (reversed_in_time) {
+      std::swap(body.velocity_before, body.velocity_after);
+      std::swap(body.spin_before, body.spin_after);
+    }
   }
+  if (frame != LogFrame::laboratory) to_laboratory(event, frame, mill);
   if (states_exchanged && !event.with_wall) std::swap(event.body[0], event.body[1]);
   if (exchanged[0] < 0) return;
   const auto renamed = [&](int& ball) {
@@ -55,7 +92,10 @@ Assumptions assumptions_of(const casefile::CaseSpec& spec) {
   return {spec, built.balls, {}, built.mill.vessel.wall_count()};
 }
 
-casefile::Quantity exactly(double value) { return {boost::multiprecision::cpp_rational(value)}; }
+casefile::Quantity exactly(double value) {
+  // What is no number is none of a case: 0 is refused, or fits as badly.
+  return {boost::multiprecision::cpp_rational(std::isfinite(value) ? value : 0.0)};
+}
 
 std::vector<BallGroup> ball_groups(const casefile::CaseSpec& spec) {
   std::vector<BallGroup> groups;

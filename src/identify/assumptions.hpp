@@ -4,24 +4,49 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "audit/event_log.hpp"
 #include "casefile/build_case.hpp"
+#include "identify/subsets.hpp"
+#include "identify/terms.hpp"
 
 namespace edmill::identify {
+
+/// Axes of vectors, permuted and turned: component k is sign[k] times component from[k] of the log.
+struct Axes {
+  std::array<int, 3> from{0, 1, 2}, sign{1, 1, 1};
+
+  bool operator==(const Axes&) const = default;
+  Vec3<double> of(const Vec3<double>& v) const;
+};
+
+/// In which frame a log has its vectors.
+enum class LogFrame {
+  laboratory,
+  axes_of_vessel,  ///< the laboratory's vectors, in components along the vessel's axes
+  vessel           ///< as seen from the vessel
+};
 
 /// How a log differs from what its header and the conventions say. Factors lead to SI.
 struct LogChange {
   double time = 1, positions = 1, velocities = 1, spins = 1, energies = 1, speeds = 1;
-  double delay = 0;                         ///< [s], added to each time: the phase of the drive
-  bool states_exchanged = false;            ///< of the two balls of an impact
+  double delay = 0;               ///< [s], added to each time: the phase of the drive
+  bool states_exchanged = false;  ///< of the two balls of an impact
+  bool reversed_in_time = false;  ///< states before and after an impact exchanged
+  Axes axes_of_positions, axes_of_velocities, axes_of_spins;
+  LogFrame frame = LogFrame::laboratory;
   std::array<int, 2> exchanged = {-1, -1};  ///< numbers of two balls that are taken for each other
 
+  bool operator==(const LogChange&) const = default;
   bool none() const;
-  void apply(audit::LoggedEvent& event) const;
+  /// @param mill  of the vessel whose frame it may be
+  void apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const;
 };
+
+struct Restricted;
 
 /// Values that may explain a log. The balls are those of the built case; the mill follows from the file's
 /// exact quantities, so that every mill, vessel and law is varied by its own parameters.
@@ -30,10 +55,19 @@ struct Assumptions {
   std::vector<model::BallProperties<double>> balls;
   LogChange log;
   int walls;  ///< of the case, which the log's walls are
+  Terms terms = {};
+  std::vector<Restricted> restricted = {};  ///< what holds in a part of the log only
 
   /// The case of these values; none where its file would be refused, a ball has no room in the vessel, or the
   /// vessel has other walls: a log cannot be of such a mill.
   std::optional<model::Case<double>> built() const;
+  /// Whether a case alone says all of it, so that an audit can be made with it.
+  bool is_case() const { return restricted.empty() && terms == Terms{}; }
+};
+
+struct Restricted {
+  SharedSubset part;
+  std::function<void(Assumptions&)> make;
 };
 
 /// @pre the spec can be built

@@ -16,8 +16,19 @@ double misfit_of(const Residuals& sample, const Assumptions& assumed) {
   return misfit(sample.rows(assumed), sample.kinds());
 }
 
-double penalty(const Residuals& sample, std::size_t parameters) {
-  return static_cast<double>(parameters) * std::log(static_cast<double>(sample.count()));
+double penalty(const Residuals& sample, const Model& model) {
+  double sum = static_cast<double>(model.free.size()) * std::log(static_cast<double>(sample.count()));
+  for (const auto* p : model.free) sum += p->prior;
+  return sum;
+}
+
+/// Values over decades at which a number that is far off, or a term that is reversed or left out, shows.
+std::vector<double> values_from_afar(const Parameter& p) {
+  if (p.is_speed || p.is_phase) return {};  // of a periodic motion: Candidates::starts
+  if (p.value == 0) return {0.1 * p.change, p.change, 10 * p.change, -p.change};
+  std::vector<double> values;
+  for (const double factor : {-1.0, 0.0, 0.1, 0.5, 0.75, 1.3, 2.0, 10.0}) values.push_back(factor * p.value);
+  return values;
 }
 
 }  // namespace
@@ -38,6 +49,7 @@ Candidates::Candidates(const audit::EventsAtHand& log, const audit::Options& opt
       nominal_(nominal),
       period_(the_case.mill.motion.period()),
       residuals_(log, audit::tolerances_of(the_case, options), the_case),
+      parts_(subsets_of(the_case, log.events, residuals_.branches())),
       samples_(log.events, period_),
       violations_(violations) {
   draw_samples({nominal});
@@ -49,24 +61,43 @@ void Candidates::draw_samples(const std::vector<Assumptions>& assumptions) {
     const auto all = residuals_.on(samples_.every());
     const auto rows = all.rows(assumed);
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (std::abs(rows[k]) > 1) samples_.note_violating(all.events()[k]);
+      if (std::abs(rows[k]) > 1) samples_.note_violating(all.places()[k].event);
   }
   samples_.choose();
   without_ = misfit_of(residuals_.on(samples_.whole()), nominal_);
 }
 
-std::uint64_t Candidates::violations_with(const Assumptions& assumed) const {
+void Candidates::count_violations(Candidate& c) const {
+  const auto assumed = c.assumed();
+  c.of = violations_;
+  if (!assumed.is_case()) {
+    c.of = events_off(nominal_), c.left = events_off(assumed);
+    return;
+  }
   const auto built = assumed.built();
-  if (!built) return std::numeric_limits<std::uint64_t>::max();
-  if (assumed.log.none()) return audit::audit(*built, log_, options_).findings.total();
-  audit::EventsAtHand changed = log_;
-  for (auto& event : changed.events) assumed.log.apply(event);
-  return audit::audit(*built, changed, options_).findings.total();
+  if (!built) {
+    c.left = std::numeric_limits<std::uint64_t>::max();
+  } else if (assumed.log.none()) {
+    c.left = audit::audit(*built, log_, options_).findings.total();
+  } else {
+    audit::EventsAtHand changed = log_;
+    for (auto& event : changed.events) assumed.log.apply(event, built->mill);
+    c.left = audit::audit(*built, changed, options_).findings.total();
+  }
+}
+
+std::uint64_t Candidates::events_off(const Assumptions& assumed) const {
+  const auto all = residuals_.on(samples_.every());
+  const auto rows = all.rows(assumed);
+  std::set<std::size_t> off;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (std::abs(rows[k]) > 1) off.insert(all.places()[k].event);
+  return off.size();
 }
 
 void Candidates::judge(Candidate& c) const {
   const auto sample = residuals_.on(samples_.whole());
-  c.criterion = misfit_of(sample, c.assumed()) + penalty(sample, c.model.free.size());
+  c.criterion = misfit_of(sample, c.assumed()) + penalty(sample, c.model);
 }
 
 Candidate Candidates::with_mistakes(const Assumptions& base, const std::vector<std::string>& names) const {
@@ -85,15 +116,21 @@ Candidate Candidates::fitted(const Model& model, const std::vector<std::string>&
     if (sample.count() < 12 && w + 1 < windows.size()) continue;
     auto result = fit(sample, model, c.values);
     c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
-    c.criterion = result.cost + penalty(sample, model.free.size());
+    c.criterion = result.cost + penalty(sample, model);
   }
   return c;
 }
 
 std::vector<double> Candidates::starts(const Assumptions& base, const Parameter& p) const {
   if (!p.is_speed && !p.is_phase) {
-    if (p.value != 0) return {p.value};
-    return {p.value, 0.1 * p.change, p.change, 10 * p.change};
+    const auto few = residuals_.on(samples_.few());
+    double best = misfit_of(few, base) - strong_evidence, far = p.value;
+    for (const double value : values_from_afar(p)) {
+      Assumptions moved = base;
+      p.set(moved, value);
+      if (const double now = misfit_of(few, moved); now < best) best = now, far = value;
+    }
+    return far == p.value ? std::vector{p.value} : std::vector{p.value, far};
   }
   const auto sample = residuals_.on(samples_.early());
   std::vector<std::pair<double, double>> tried;
@@ -126,11 +163,27 @@ bool Candidates::accept(Candidate& c) const {
     auto result = fit(residuals_.on(samples_.many()), c.model, c.values);
     c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
   }
-  for (std::size_t k = 0; k < c.values.size(); ++k)
+  for (std::size_t k = 0; k < c.values.size(); ++k) {
+    if (c.model.free[k]->dimension == Dimension::time)  // times are rounded
+      c.half_widths[k] += 1e-15 * std::abs(log_.events.back().time);
     if (!(std::abs(c.values[k] - c.model.free[k]->value) > c.half_widths[k])) return false;
-  c.left = violations_with(c.assumed());
-  return c.left <= violations_ && audit::accounts_for(violations_ - c.left, violations_) &&
-         rows_vanish(c.assumed());
+    const bool is_factor = !c.model.free[k]->equation.empty() && c.model.free[k]->value == 1;
+    if (is_factor && !word_for(c.values[k], c.half_widths[k]).empty()) c.criterion -= 3;  // no coincidence
+    widen(c, k);
+  }
+  count_violations(c);
+  return c.left <= c.of && audit::accounts_for(c.of - c.left, c.of) && rows_vanish(c.assumed());
+}
+
+/// A number known from one side only, such as a restitution below which all impacts separate at v_s: the
+/// interval reaches to zero where that fits as well.
+void Candidates::widen(Candidate& c, std::size_t place) const {
+  if (c.model.free[place]->value == 0 || c.values[place] == 0) return;
+  const auto sample = residuals_.on(samples_.many());
+  auto values = c.values;
+  values[place] = 0;
+  if (misfit_of(sample, c.model.with(values)) <= misfit_of(sample, c.assumed()) + 1)
+    c.half_widths[place] = std::max(c.half_widths[place], std::abs(c.values[place]));
 }
 
 /// Whether the rows that are off vanish when a cause is assumed.
@@ -185,6 +238,93 @@ std::vector<const Parameter*> Candidates::ranked(const Assumptions& base,
   std::vector<const Parameter*> best;
   for (std::size_t k = 0; k < order.size(); ++k)
     if (k < most || order[k].second->is_speed || order[k].second->is_phase) best.push_back(order[k].second);
+  for (const auto* p : telling_from_afar(base, parameters, most / 2))
+    if (std::ranges::find(best, p) == best.end()) best.push_back(p);
+  return best;
+}
+
+/// A number may have no effect near its value, or another one far from it.
+std::vector<const Parameter*> Candidates::telling_from_afar(const Assumptions& base,
+                                                            const std::vector<Parameter>& parameters,
+                                                            std::size_t most) const {
+  const auto sample = residuals_.on(samples_.whole());
+  const double here = misfit_of(sample, base);
+  std::vector<std::pair<double, const Parameter*>> order;
+  for (const auto& p : parameters) {
+    double best = here;
+    for (const double value : values_from_afar(p)) {
+      Assumptions moved = base;
+      p.set(moved, value);
+      best = std::min(best, misfit_of(sample, moved));
+    }
+    if (best < here - strong_evidence) order.emplace_back(best, &p);
+  }
+  std::ranges::stable_sort(order, {}, [](const auto& row) { return row.first; });
+  std::vector<const Parameter*> list;
+  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) list.push_back(order[k].second);
+  return list;
+}
+
+namespace {
+
+/// Terms, and numbers of the contact law; where both kinds of contact have one law, its numbers once.
+std::vector<Parameter> of_parts(const std::vector<Parameter>& parameters) {
+  std::set<std::string> common;
+  const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
+  for (const auto& p : parameters)
+    if (p.key.starts_with("contact.") && std::ranges::count(p.key, '.') == 1) common.insert(last(p.key));
+  std::vector<Parameter> list;
+  for (const auto& p : parameters) {
+    const bool of_law = p.key.starts_with("contact.");
+    const bool again = of_law && std::ranges::count(p.key, '.') > 1 && common.contains(last(p.key));
+    if (!p.equation.empty() || (of_law && !again)) list.push_back(p);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, const std::vector<Parameter>& all,
+                                                   std::size_t most, double share) const {
+  const auto parameters = of_parts(all);
+  const auto sample = residuals_.on(samples_.whole());
+  const auto rows = sample.rows(base);
+  const auto slopes = slopes_of(sample, base, parameters);
+  struct Ranked {
+    double misfit;
+    std::size_t parameter, part;
+  };
+  std::vector<Ranked> order;
+  const std::uint64_t off =
+      static_cast<std::uint64_t>(std::ranges::count_if(rows, [](double r) { return std::abs(r) > 1; }));
+  for (std::size_t s = 0; s < parts_.size(); ++s) {
+    std::vector<bool> inside;
+    std::uint64_t off_inside = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      inside.push_back(parts_[s]->holds(sample.places()[k]));
+      if (inside.back() && std::abs(rows[k]) > 1) ++off_inside;
+    }
+    if (off_inside == 0 || static_cast<double>(off_inside) < share * static_cast<double>(off)) continue;
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      const auto& part = *parts_[s];
+      const bool fits =
+          (part.of_impacts && parameters[p].of_impacts) || (part.of_flights && parameters[p].of_flights);
+      if (slopes[p].empty() || !fits) continue;
+      auto slope = slopes[p];
+      bool some = false, others = false;  // a part that holds all of a parameter's rows restricts nothing
+      for (std::size_t k = 0; k < slope.size(); ++k) {
+        (inside[k] ? some : others) |= slope[k] != 0;
+        if (!inside[k]) slope[k] = 0;
+      }
+      if (!some || !others) continue;
+      std::vector<double> change;
+      order.push_back({linear_misfit(rows, sample.kinds(), {&slope}, change), p, s});
+    }
+  }
+  std::ranges::stable_sort(order, {}, &Ranked::misfit);
+  std::vector<Parameter> best;
+  for (std::size_t k = 0; k < std::min(most, order.size()); ++k)
+    best.push_back(restricted_to(parts_[order[k].part], parameters[order[k].parameter], parts_.size()));
   return best;
 }
 

@@ -20,8 +20,8 @@ struct Candidate {
   Model model;
   std::vector<std::string> mistakes;
   std::vector<double> values, half_widths;
-  double criterion = 0;    ///< misfit + parameters ln(rows)
-  std::uint64_t left = 0;  ///< violations
+  double criterion = 0;            ///< misfit + parameters ln(rows)
+  std::uint64_t left = 0, of = 0;  ///< violations with it and without, or events that are off
 
   Assumptions assumed() const { return model.with(values); }
   std::size_t complexity() const { return model.free.size() + mistakes.size(); }
@@ -66,9 +66,14 @@ class Candidates {
   /// Mistakes that make the rows fit better, the best first.
   std::vector<Tried> promising(const Assumptions& base, const std::vector<Mistake>& mistakes,
                                std::size_t most) const;
-  /// The parameters whose fit promises most on top of a base, by a linear fit of the rows that tell most.
+  /// The parameters whose fit promises most on top of a base, by a linear fit of the rows that tell most, and
+  /// by values far off.
   std::vector<const Parameter*> ranked(const Assumptions& base, const std::vector<Parameter>& parameters,
                                        std::size_t most) const;
+  /// The same of parameters in a part of the log, where that share of what is off with the base lies in the
+  /// part.
+  std::vector<Parameter> ranked_in_parts(const Assumptions& base, const std::vector<Parameter>& parameters,
+                                         std::size_t most, double share) const;
   /// Two parameters with the changes that a linear fit finds, in their units; the best first.
   struct Pair {
     double misfit;
@@ -82,13 +87,20 @@ class Candidates {
   /// nothing.
   Residuals telling(const Assumptions& base) const;
   bool rows_vanish(const Assumptions& assumed) const;
-  std::uint64_t violations_with(const Assumptions& assumed) const;
+  std::vector<const Parameter*> telling_from_afar(const Assumptions& base,
+                                                  const std::vector<Parameter>& parameters,
+                                                  std::size_t most) const;
+  void widen(Candidate& c, std::size_t place) const;
+  /// What an audit finds with these assumptions; events that are off where a case does not say all of them.
+  void count_violations(Candidate& c) const;
+  std::uint64_t events_off(const Assumptions& assumed) const;
 
   const audit::EventsAtHand& log_;
   const audit::Options& options_;
   const Assumptions& nominal_;
   double period_;  ///< of the drive [s]
   LogResiduals residuals_;
+  std::vector<SharedSubset> parts_;
   Samples samples_;
   std::uint64_t violations_;
   double without_ = 0;

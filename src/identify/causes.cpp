@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 #include <variant>
+
+#include "audit/mechanics.hpp"
 
 namespace edmill::identify {
 
@@ -122,6 +126,71 @@ void add_columns(const audit::Available& has, std::vector<Mistake>& list) {
                     [](Assumptions& a) { a.log.states_exchanged = true; }});
 }
 
+/// Axes that a code has in another order or direction.
+void add_axes(const audit::Available& has, std::vector<Mistake>& list) {
+  struct Group {
+    const char* name;
+    bool positions, velocities, spins;
+  };
+  const bool velocities = has.body[0].velocity_before || has.body[0].velocity_after,
+             spins = has.body[0].spin_before || has.body[0].spin_after;
+  constexpr Group groups[] = {{"vectors", true, true, true},
+                              {"positions", true, false, false},
+                              {"velocities", false, true, false},
+                              {"spins", false, false, true}};
+  std::array<int, 3> from{0, 1, 2};
+  do {
+    for (unsigned signs = 0; signs < 8; ++signs) {
+      Axes axes{from, {}};
+      std::string text;
+      for (std::size_t k = 0; k < 3; ++k) {
+        axes.sign[k] = signs >> k & 1 ? -1 : 1;
+        text += fmt::format("{}{}{}", k > 0 ? ", " : "", axes.sign[k] < 0 ? "-" : "", "xyz"[axes.from[k]]);
+      }
+      if (axes == Axes{}) continue;
+      for (const auto& group : groups) {
+        if ((group.positions && !has.body[0].position) || (group.velocities && !velocities) ||
+            (group.spins && !spins))
+          continue;
+        list.push_back({fmt::format("the log's {}", group.name),
+                        fmt::format("{} of the log are x, y, z of the case", text), [=](Assumptions& a) {
+                          if (group.positions) a.log.axes_of_positions = axes;
+                          if (group.velocities) a.log.axes_of_velocities = axes;
+                          if (group.spins) a.log.axes_of_spins = axes;
+                        }});
+      }
+    }
+  } while (std::next_permutation(from.begin(), from.end()));
+}
+
+void add_frames(const audit::Available& has, std::vector<Mistake>& list) {
+  if (!has.body[0].position) return;
+  list.push_back({"the log's frame", "vectors in components along the vessel's axes",
+                  [](Assumptions& a) { a.log.frame = LogFrame::axes_of_vessel; }});
+  list.push_back({"the log's frame", "places, velocities and spins as seen from the vessel",
+                  [](Assumptions& a) { a.log.frame = LogFrame::vessel; }});
+  if (has.body[0].velocity_before && has.body[0].velocity_after)
+    list.push_back({"the log's states", "before and after the impact exchanged",
+                    [](Assumptions& a) { a.log.reversed_in_time = true; }});
+  for (int formula = 1; formula < audit::wall_velocity_count; ++formula)
+    list.push_back({"velocity of the wall (2.27)", audit::name_of(static_cast<audit::WallVelocity>(formula)),
+                    [formula](Assumptions& a) { a.terms.wall_velocity_formula = formula; }});
+}
+
+/// Formulas that hold for balls that are alike, for those that are not.
+void add_equal_balls(const Assumptions& nominal, std::vector<Mistake>& list) {
+  using Form = Terms::EqualBalls;
+  const auto alike = [&](const auto& ball) { return ball == nominal.balls.front(); };
+  if (std::ranges::all_of(nominal.balls, alike)) return;
+  const auto add = [&](const char* text, Form form) {
+    list.push_back({"impacts of balls that are not alike (2.24')", text,
+                    [form](Assumptions& a) { a.terms.equal_balls = form; }});
+  };
+  add("1 + 1/J, as (2.24) is printed, in the limit of sliding", Form::limit_of_sliding);
+  add("1 + 1/J, as (2.24) is printed, in the impulse too", Form::friction);
+  add("each takes half of the relative change, as for equal masses", Form::masses);
+}
+
 /// Numbers of balls of different kinds that a log has exchanged. Balls alike cannot be told apart.
 void add_exchanged_balls(const Assumptions& nominal, std::vector<Mistake>& list) {
   constexpr int most = 40;
@@ -143,6 +212,9 @@ std::vector<Mistake> mistakes_of(const Assumptions& nominal, const std::vector<P
   std::vector<Mistake> list;
   add_motions(nominal, list);
   add_columns(log.available, list);
+  add_axes(log.available, list);
+  add_frames(log.available, list);
+  add_equal_balls(nominal, list);
   add_exchanged_balls(nominal, list);
   add_units(parameters, list);
   return list;

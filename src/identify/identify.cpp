@@ -1,6 +1,7 @@
 #include "identify/identify.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <set>
@@ -57,12 +58,21 @@ class Search {
     candidates_.emplace(log_, options_, the_case_, nominal_, result.violations);
     if ((result.too_few = !candidates_->suffice())) return result;
     auto accepted = singles();
-    if (accepted.empty() || accepted.front().left > 0) {
+    const auto explained = [&] { return !accepted.empty() && accepted.front().left == 0; };
+    if (!explained()) {
+      for (auto& one : in_parts()) accepted.push_back(std::move(one));
+      sort(accepted);
+    }
+    if (!explained()) {
       resample(accepted);
       for (auto& pair : pairs()) accepted.push_back(std::move(pair));
       sort(accepted);
+      if (!explained())
+        for (auto& pair : pairs_in_parts()) accepted.push_back(std::move(pair));
+      sort(accepted);
     }
-    if (!(result.interrupted = is_interrupted())) report(accepted, result);
+    result.interrupted = is_interrupted();
+    report(accepted, result);
     return result;
   }
 
@@ -80,7 +90,8 @@ class Search {
     if (!found.cause) return;
     Cause cause;
     if (const auto* p = found.cause->parameter)
-      cause.values.push_back({p->key, p->dimension, found.cause->value, found.cause->half_width, p->value});
+      cause.values.push_back(
+          {p->key, p->dimension, found.cause->value, found.cause->half_width, p->value, p->equation});
     else
       cause.mistakes.push_back(found.cause->mistake);
     cause.follows = found.cause->follows, cause.could_follow = found.cause->of;
@@ -123,6 +134,48 @@ class Search {
     }
     singles_ = one_more(nominal_, {}, 6);
     for (const auto& c : singles_) tried.push_back(c);
+    return accepted_of(std::move(tried));
+  }
+
+  /// One number or term more, in a part of the log where that share of what is off lies.
+  std::vector<Candidate> one_more_in_parts(const Candidate& base, std::size_t most, double share) {
+    std::vector<Candidate> found;
+    for (auto& p : candidates_->ranked_in_parts(base.assumed(), parameters_, most, share)) {
+      if (is_interrupted()) break;
+      const auto& kept = restricted_.emplace_back(std::move(p));
+      Model model = base.model;
+      model.free.push_back(&kept);
+      std::vector<Candidate> of_starts;
+      for (const double start : candidates_->starts(base.assumed(), kept)) {
+        auto values = base.values;
+        values.push_back(start);
+        of_starts.push_back(candidates_->fitted(model, base.mistakes, values));
+      }
+      sort(of_starts);
+      found.push_back(of_starts.front());
+    }
+    return found;
+  }
+
+  std::vector<Candidate> in_parts() { return accepted_of(one_more_in_parts(none(), 8, 0.9)); }
+  Candidate none() const { return {{nominal_, {}}, {}, {}, {}}; }
+
+  /// A cause in a part of the log on top of another one, which may be in a part itself.
+  std::vector<Candidate> pairs_in_parts() {
+    std::vector<Candidate> bases(
+        singles_.begin(),
+        singles_.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(3, singles_.size())));
+    auto some = one_more_in_parts(none(), 4, 0.2);
+    sort(some);
+    for (auto& c : some) bases.push_back(std::move(c));
+    for (std::size_t k = 0; k < std::min<std::size_t>(2, promising_.size()); ++k) {
+      Assumptions assumed = nominal_;
+      promising_[k].mistake.make(assumed);
+      bases.push_back(candidates_->with_mistakes(assumed, {name_of(promising_[k].mistake)}));
+    }
+    std::vector<Candidate> tried;
+    for (const auto& base : bases)
+      for (auto& c : one_more_in_parts(base, 3, 0.9)) tried.push_back(std::move(c));
     return accepted_of(std::move(tried));
   }
 
@@ -195,10 +248,10 @@ class Search {
     Cause cause;
     for (std::size_t k = 0; k < c.values.size(); ++k) {
       const auto& p = *c.model.free[k];
-      cause.values.push_back({p.key, p.dimension, c.values[k], c.half_widths[k], p.value});
+      cause.values.push_back({p.key, p.dimension, c.values[k], c.half_widths[k], p.value, p.equation});
     }
     cause.mistakes = c.mistakes;
-    cause.of = candidates_->violations();
+    cause.of = c.of;
     cause.explains = cause.of - std::min(cause.of, c.left);
     cause.gain = candidates_->without() - c.criterion;
     return cause;
@@ -226,6 +279,7 @@ class Search {
   std::optional<Candidates> candidates_;
   std::vector<Tried> promising_;
   std::vector<Candidate> singles_;
+  std::deque<Parameter> restricted_;  ///< which candidates point to
   const std::atomic<bool>* interrupt_ = nullptr;
   bool from_start_ = false;
 };

@@ -16,6 +16,7 @@ struct Found {
   std::string key;
   Dimension dimension;
   double value, half_width, nominal;  ///< SI
+  std::string equation = {};          ///< of a term
 };
 
 /// One or two values or mistakes that explain nine tenths of the violations or more.
@@ -42,7 +43,7 @@ struct Identification {
   std::optional<std::uint64_t> follows;
   bool follows_all = false;
   bool too_few = false;      ///< impacts that can be checked or followed; no cause was sought
-  bool interrupted = false;  ///< the search ended before it was through; no cause is named then
+  bool interrupted = false;  ///< the search ended before it was through; better causes may exist
   TimeStepping stepping;
 };
 

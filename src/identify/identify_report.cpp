@@ -8,9 +8,14 @@ std::string Cause::text() const {
   std::string text;
   const auto join = [&](const std::string& part) { text += (text.empty() ? "" : ", and ") + part; };
   for (const auto& mistake : mistakes) join(mistake);
-  for (const auto& v : values)
-    join(fmt::format("{} = {} in place of {}", v.key, value_text(v.dimension, v.value, v.half_width),
-                     value_text(v.dimension, v.nominal)));
+  for (const auto& v : values) {
+    const bool is_factor = !v.equation.empty() && v.dimension == Dimension::none;
+    const auto word = is_factor ? word_for(v.value, v.half_width) : "";
+    const auto equation = v.equation.empty() ? "" : " " + v.equation;
+    join(fmt::format("{}{}{} = {} in place of {}{}", v.key, equation, is_factor ? ": factor" : "",
+                     value_text(v.dimension, v.value, v.half_width), value_text(v.dimension, v.nominal),
+                     word.empty() ? "" : ", " + word));
+  }
   return text;
 }
 
@@ -30,7 +35,9 @@ std::string table(const Identification& found) {
       out += fmt::format("    this log cannot distinguish it from   {}\n", other);
   }
   out += table(found.stepping);
-  if (found.interrupted) return out + "  interrupted before a cause was found\n";
+  if (found.interrupted)
+    return out + (found.causes.empty() ? "  interrupted before a cause was found\n"
+                                       : "  interrupted: better causes were not sought\n");
   if (found.too_few) return out + "  no cause sought: too few impacts\n";
   if (!found.causes.empty()) return out;
   if (found.follows)
@@ -110,6 +117,7 @@ void put_json(io::JsonText& json, const Identification& found) {
       json.number("value", v.value);
       json.number("half_width", v.half_width);
       json.number("nominal", v.nominal);
+      if (!v.equation.empty()) json.text("equation", v.equation);
       json.end();
     }
     json.end();

@@ -128,6 +128,7 @@ void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
   list.push_back(number("run.gravity", "size", Dimension::acceleration, size, [=](Assumptions& a, double x) {
     Vec3<double> now;
     for (int k = 0; k < 3; ++k) now[k] = a.spec.gravity[static_cast<std::size_t>(k)].to<double>();
+    if (norm<double>(now) == 0) now = g;
     put(a, Vec3<double>(now * (x / norm<double>(now))));
   }));
   // Two tilts of the direction: towards the axes that are most across it.
@@ -287,6 +288,7 @@ std::vector<Parameter> parameters_of(const Assumptions& nominal) {
   add_gravity(nominal, list);
   Laws(nominal, list).add();
   add_all_balls(nominal, list);
+  for (auto& term : term_parameters()) list.push_back(std::move(term));
   return list;
 }
 
@@ -328,7 +330,8 @@ std::string value_text(Dimension dimension, double value) {
 
 std::string value_text(Dimension dimension, double value, double half_width) {
   const Unit unit = unit_of(dimension, value);
-  const double v = value / unit.size, h = half_width / unit.size;
+  const double h = half_width / unit.size,
+               v = std::abs(value) <= half_width && h < 1e-6 ? 0 : value / unit.size;
   if (!(h > 0) || !std::isfinite(h)) return fmt::format("{:.9g}{}", v, unit.name);
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(h))) + 1, 0, 15);
   if (h < 1e-6 * std::max(std::abs(v), 1e-3)) return fmt::format("{:.9g} ± {:.1e}{}", v, h, unit.name);

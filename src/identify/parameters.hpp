@@ -21,10 +21,19 @@ struct Parameter {
   bool has_unit = false, is_diameter = false;
   /// A periodic motion's speed or phase: a fit from afar may go to a wrong period.
   bool is_speed = false, is_phase = false;
+  std::string equation = {};  ///< of docs/theory.md that a term belongs to; empty for a number of the case
+  bool of_impacts = true,
+       of_flights = true;  ///< the rows that depend on it, which a part of the log may restrict
+  double prior = 0;        ///< what the choice among parts of the log costs in Schwarz's criterion
 };
 
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.
 std::vector<Parameter> parameters_of(const Assumptions& nominal);
+
+/// The factors and shifts of the terms of the equations.
+std::vector<Parameter> term_parameters();
+/// The same in a part of the log alone. @param choices  number of parts that were tried
+Parameter restricted_to(const SharedSubset& part, const Parameter& parameter, std::size_t choices);
 
 /// "100.500 +- 0.001 mm": in the usual unit of its dimension.
 std::string value_text(Dimension dimension, double value, double half_width);

@@ -65,11 +65,14 @@ struct LogResiduals::Writer {
   const std::vector<double>* allowed = nullptr;
   std::vector<double>* note = nullptr;
   std::vector<RowKind>* kinds = nullptr;
+  std::vector<RowPlace>* places = nullptr;
+  RowPlace at = {};
 
   void add(RowKind kind, double off, double allow) {
     if (note) {
       note->push_back(allow > 0 && std::isfinite(allow) ? allow : 1.0);
       kinds->push_back(kind);
+      places->push_back(at);
       return;
     }
     const double row = off / (*allowed)[values->size()];
@@ -86,6 +89,7 @@ LogResiduals::LogResiduals(const audit::EventsAtHand& log, const audit::Toleranc
       tolerances_(tolerances),
       before_(log.events.size()),
       in_stall_(log.events.size()),
+      branches_(log.events.size()),
       nominal_(nominal) {
   std::vector<Before> last(nominal.balls.size());
   audit::StallHistory stalls(nominal.mill, nominal.balls.size());
@@ -104,22 +108,62 @@ LogResiduals::LogResiduals(const audit::EventsAtHand& log, const audit::Toleranc
     const auto friction =
         stalls.take(event, law_of(nominal.mill, impact_of(event, nominal, {}, false)), tolerances.relative);
     in_stall_[k] = friction == audit::Friction::rests;
+    branches_[k] = branches_of(event);
   }
+}
+
+Branches LogResiduals::branches_of(const LoggedEvent& event) const {
+  const auto& has = log_.available;
+  if (!has.positions(event.with_wall) || !has.velocities_before(event.with_wall)) return {};
+  const auto impact = impact_of(
+      event, nominal_, event.with_wall ? frame_at(nominal_.mill, event.time) : audit::VesselFrame{}, true);
+  const auto& law = law_of(nominal_.mill, impact);
+  const auto speeds = audit::speeds_before(event, impact);
+  const double separation = audit::separation_speed(law, impact, speeds.g_n);
+  const double bounce = separation - speeds.g_n;
+  // Twice the impulse changes nothing where contacts stick.
+  const auto e_t = [&](double impulse) {
+    return audit::tangential_restitution(law, impact, impact.compliance, impulse, speeds.slip);
+  };
+  return {true, has.spins(event.with_wall) && e_t(bounce) == e_t(2 * bounce),
+          separation > law.restitution(-speeds.g_n, impact.bodies()) * -speeds.g_n};
 }
 
 Residuals LogResiduals::on(const std::vector<std::size_t>& events) const {
   Residuals sample(*this);
-  Writer note{nullptr, nullptr, &sample.allowed_, &sample.kinds_};
+  Writer note{nullptr, nullptr, &sample.allowed_, &sample.kinds_, &sample.places_};
   for (const std::size_t k : events) {
     if (!log_.events[k].problem.empty()) continue;
-    event_rows(k, nominal_, {}, note);
-    sample.row_events_.resize(sample.kinds_.size(), k);
+    event_rows(k, {nominal_, {}, {}}, note);
     sample.chosen_.push_back(k);
   }
   return sample;
 }
 
 std::vector<double> Residuals::rows(const Assumptions& assumed) const {
+  if (assumed.restricted.empty()) return of_whole(assumed);
+  Assumptions whole = assumed;
+  whole.restricted.clear();
+  auto values = of_whole(whole);
+  // Each set of parts that a row may be in has rows of its own.
+  const std::size_t sets = std::size_t{1} << assumed.restricted.size();
+  std::vector<std::size_t> set_of(count(), 0);
+  for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
+    for (std::size_t k = 0; k < count(); ++k)
+      if (assumed.restricted[r].part->holds(places_[k])) set_of[k] |= std::size_t{1} << r;
+  for (std::size_t set = 1; set < sets; ++set) {
+    if (std::ranges::find(set_of, set) == set_of.end()) continue;
+    Assumptions here = whole;
+    for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
+      if (set >> r & 1) assumed.restricted[r].make(here);
+    const auto own = of_whole(here);
+    for (std::size_t k = 0; k < count(); ++k)
+      if (set_of[k] == set) values[k] = own[k];
+  }
+  return values;
+}
+
+std::vector<double> Residuals::of_whole(const Assumptions& assumed) const {
   const auto model = assumed.built();
   if (!model) return std::vector<double>(count(), out_of_range);
   const auto& nominal = log_->nominal_;
@@ -128,19 +172,67 @@ std::vector<double> Residuals::rows(const Assumptions& assumed) const {
                  "the bodies that the log is of");
   std::vector<double> values;
   values.reserve(count());
-  LogResiduals::Writer out{&values, &allowed_, nullptr, nullptr};
-  for (const std::size_t k : chosen_) log_->event_rows(k, *model, assumed.log, out);
+  LogResiduals::Writer out{&values, &allowed_};
+  for (const std::size_t k : chosen_) log_->event_rows(k, {*model, assumed.log, assumed.terms}, out);
   return values;
 }
 
-void LogResiduals::event_rows(std::size_t k, const model::Case<double>& model, const LogChange& change,
-                              Writer& out) const {
+namespace {
+
+/// The outcome of an impact with other terms.
+audit::Formula formula_of(const Terms& terms, const LoggedImpact& impact) {
+  audit::Formula formula;
+  formula.velocity_sign = terms.friction * terms.friction_on_velocity;
+  formula.spin_sign = terms.friction * terms.torque;
+  const double less = impact.compliance - 1;
+  if (terms.compliance_in_limit != 1)
+    formula.compliance_in_e_t = std::max(1e-3, 1 + less * terms.compliance_in_limit);
+  if (terms.compliance_in_impulse != 1)
+    formula.compliance_in_impulse = std::max(1e-3, 1 + less * terms.compliance_in_impulse);
+  if (!impact.with_wall && terms.equal_balls != Terms::EqualBalls::no) {
+    const double alone = 1 + 1 / impact.ball[0].reduced_inertia;
+    if (terms.equal_balls == Terms::EqualBalls::masses)
+      formula.share = {0.5, 0.5};
+    else
+      formula.compliance_in_e_t = alone;
+    if (terms.equal_balls == Terms::EqualBalls::friction) formula.compliance_in_impulse = alone;
+  }
+  if (terms.share != 1)
+    for (std::size_t b = 0; b < impact.count(); ++b)
+      formula.share[b] = std::max(0.0, terms.share * impact.effective_mass / impact.ball[b].mass);
+  return formula;
+}
+
+/// The wall's velocity as a code with other terms has it.
+Vec assumed_wall_velocity(const LoggedEvent& event, const LoggedImpact& impact,
+                          const model::Mill<double>& mill, const Terms& terms) {
+  if (terms.wall_velocity_delay == 0 && terms.wall_velocity_formula == 0)
+    return impact.wall_velocity * terms.wall_velocity;
+  const auto when = DriveClock<double>(mill.motion.period()).at(event.time - terms.wall_velocity_delay);
+  const auto pose = mill.motion.pose(when);
+  auto frame = audit::frame_of(mill.motion, pose, false);
+  frame.moved = audit::moved_walls(mill.vessel, when);
+  const Vec& centre = event.body[0].position;
+  const Vec point = centre - impact.normal * impact.ball[0].radius;
+  return (audit::wall_velocity(static_cast<audit::WallVelocity>(terms.wall_velocity_formula), frame,
+                               audit::frame_of(mill.motion, pose, true), point, centre) +
+          audit::piston_velocity(frame, event.partner, impact.normal)) *
+         terms.wall_velocity;
+}
+
+}  // namespace
+
+void LogResiduals::event_rows(std::size_t k, const Given& given, Writer& out) const {
+  const auto& model = given.model;
   LoggedEvent event = log_.events[k];
-  change.apply(event);
+  given.change.apply(event, model.mill);
   const bool placed = log_.available.positions(event.with_wall);
   const auto frame = event.with_wall && placed ? frame_at(model.mill, event.time) : audit::VesselFrame{};
   auto impact = impact_of(event, model, frame, placed);
   impact.in_stall = in_stall_[k];
+  if (event.with_wall && placed)
+    impact.wall_velocity = assumed_wall_velocity(event, impact, model.mill, given.terms);
+  out.at = {k, -1, false};
   if (placed) {
     double gap;
     if (event.with_wall)
@@ -153,28 +245,36 @@ void LogResiduals::event_rows(std::size_t k, const model::Case<double>& model, c
   }
   const auto& law = law_of(model.mill, impact);
   if (placed && log_.available.velocities_before(event.with_wall))
-    impact_rows(event, impact, law, out);
+    impact_rows(event, impact, law, given.terms, out);
   else
-    speed_rows(event, impact, law, out);
-  for (std::size_t body = 0; body < impact.count(); ++body) flight_rows(k, body, event, model, change, out);
+    speed_rows(event, impact, law, given.terms, out);
+  for (std::size_t body = 0; body < impact.count(); ++body) flight_rows(k, body, event, given, out);
 }
 
 void LogResiduals::impact_rows(const LoggedEvent& event, const LoggedImpact& impact,
-                               const model::ContactLaw<double>& law, Writer& out) const {
+                               const model::ContactLaw<double>& law, const Terms& terms, Writer& out) const {
   const auto& has = log_.available;
   const bool after = has.velocities_after(event.with_wall), spins = has.spins(event.with_wall);
   const double scale = audit::velocity_scale(impact, event, spins);
   const double by_wall =
       event.with_wall ? tolerances_.of_wall(event.time, scale, impact.bend, impact.ball[0].radius) : 0;
   const double allowed = tolerances_.relative * scale + by_wall;
-  const auto speeds = audit::speeds_before(event, impact);
+  LoggedEvent seen = event;  // by the velocity of the contact point
+  for (auto& body : seen.body) body.spin_before *= terms.arm;
+  const auto speeds = audit::speeds_before(seen, impact);
   if (after && spins) {
-    const auto expected = audit::outcome(impact, law, event, {});
+    const auto formula = formula_of(terms, impact);
+    const auto expected = audit::outcome(impact, law, seen, formula);
     for (std::size_t b = 0; b < impact.count(); ++b) {
+      out.at.body = static_cast<int>(b);
+      const Vec spin_change = expected[b].spin_after - seen.body[b].spin_before;
       out.add(RowKind::law, Vec(event.body[b].velocity_after - expected[b].velocity_after), allowed);
-      out.add(RowKind::law, Vec((event.body[b].spin_after - expected[b].spin_after) * impact.ball[b].radius),
-              allowed);
+      out.add(
+          RowKind::law,
+          Vec((event.body[b].spin_after - event.body[b].spin_before - spin_change) * impact.ball[b].radius),
+          allowed);
     }
+    out.at.body = -1;
   } else if (after) {
     out.add(RowKind::law,
             audit::dot(impact.after(event), impact.normal) - audit::separation_speed(law, impact, speeds.g_n),
@@ -187,49 +287,80 @@ void LogResiduals::impact_rows(const LoggedEvent& event, const LoggedImpact& imp
       out.add(RowKind::law, momentum, allowed);
     }
   }
-  if (has.approach_speed) out.add(RowKind::speed, event.approach_speed + speeds.g_n, allowed);
-  if (has.slip_speed && spins) out.add(RowKind::speed, event.slip_speed - speeds.slip, allowed);
-  if (!after || !spins) return;
-  const double energy = 4 * allowed * impact.effective_mass * scale;
+  if (has.approach_speed)
+    out.add(RowKind::speed, event.approach_speed + speeds.g_n * terms.approach_speed, allowed);
+  if (has.slip_speed && spins)
+    out.add(RowKind::speed, event.slip_speed - speeds.slip * terms.slip_speed, allowed);
+  if (after && spins)
+    energy_rows(event, impact, law, speeds, terms, 4 * allowed * impact.effective_mass * scale, out);
+}
+
+void LogResiduals::energy_rows(const LoggedEvent& event, const LoggedImpact& impact,
+                               const model::ContactLaw<double>& law, const audit::Speeds& speeds,
+                               const Terms& terms, double allowed, Writer& out) const {
   const double work = audit::work_of_wall(event, impact);
-  if (has.milling_dose)
-    out.add(RowKind::energy,
-            event.milling_dose -
-                (work - audit::kinetic_change(event, impact) +
-                 audit::supplied(impact, speeds.g_n, audit::dot(impact.after(event), impact.normal))),
-            energy);
-  if (has.wall_work && event.with_wall) out.add(RowKind::energy, event.wall_work - work, energy);
+  if (log_.available.milling_dose) {
+    LoggedEvent without_spin = event;
+    for (auto& body : without_spin.body) body.spin_before = body.spin_after = Vec(0, 0, 0);
+    const double kinetic = audit::kinetic_change(event, impact),
+                 of_spin = kinetic - audit::kinetic_change(without_spin, impact);
+    const double supplied =
+        audit::supplied(impact, speeds.g_n, audit::dot(impact.after(event), impact.normal));
+    const double dose = work * terms.work_in_dose - kinetic - of_spin * (terms.spin_in_dose - 1) +
+                        supplied * terms.supply_in_dose;
+    double off = event.milling_dose - dose * terms.dose;
+    // A code whose impulse is wrong may have its dose from the law of the case.
+    if (terms.change_impulse())
+      if (const double other = event.milling_dose - terms.dose * audit::dose_by_law(impact, law, speeds);
+          std::abs(other) < std::abs(off))
+        off = other;
+    out.add(RowKind::energy, off, allowed);
+  }
+  if (log_.available.wall_work && event.with_wall)
+    out.add(RowKind::energy, event.wall_work - work * terms.wall_work, allowed);
 }
 
 /// Without states the dose follows from the logged speeds.
 void LogResiduals::speed_rows(const LoggedEvent& event, const LoggedImpact& impact,
-                              const model::ContactLaw<double>& law, Writer& out) const {
+                              const model::ContactLaw<double>& law, const Terms& terms, Writer& out) const {
   const auto& has = log_.available;
   if (!has.approach_speed || !has.slip_speed || !has.milling_dose) return;
   const double speed = std::max({std::abs(event.approach_speed), event.slip_speed, law.least_separation});
   out.add(RowKind::energy,
-          event.milling_dose - audit::dose_by_law(impact, law, {-event.approach_speed, event.slip_speed}),
+          event.milling_dose -
+              terms.dose * audit::dose_by_law(impact, law, {-event.approach_speed, event.slip_speed}),
           4 * tolerances_.relative * impact.effective_mass * speed * speed);
 }
 
-void LogResiduals::flight_rows(std::size_t k, std::size_t body, const LoggedEvent& event,
-                               const model::Case<double>& model, const LogChange& change, Writer& out) const {
+void LogResiduals::flight_rows(std::size_t k, std::size_t body, const LoggedEvent& event, const Given& given,
+                               Writer& out) const {
   const auto& has = log_.available.body[body];
   const Before& begin = before_[k][body];
   if (!has.position || begin.event < 0) return;
   const auto& had = log_.available.body[begin.body];
   if (!had.position || !had.velocity_after) return;
+  out.at = {k, static_cast<int>(body), true};
   LoggedEvent earlier = log_.events[static_cast<std::size_t>(begin.event)];
-  change.apply(earlier);
+  given.change.apply(earlier, given.model.mill);
   const auto &from = earlier.body[begin.body], &to = event.body[body];
-  const double dt = event.time - earlier.time;
-  const Vec& g = model.mill.gravity;
+  const auto& terms = given.terms;
+  const double dt = event.time - earlier.time + terms.time_of_flight;
+  const Vec g = given.model.mill.gravity * terms.gravity;
   const double path = audit::size(from.velocity_after) * dt, speed = audit::size(from.velocity_after);
-  out.add(RowKind::place, Vec(to.position - (from.position + (from.velocity_after + g * (dt / 2)) * dt)),
+  const Vec in_places = g * terms.gravity_in_places;
+  out.add(RowKind::place,
+          Vec(to.position - (from.position + (from.velocity_after + in_places * (dt / 2)) * dt)),
           tolerances_.position(event.time, path, speed));
-  if (has.velocity_before)
-    out.add(RowKind::velocity, Vec(to.velocity_before - (from.velocity_after + g * dt)),
-            tolerances_.velocity(event.time, std::max(speed, audit::size(to.velocity_before))));
+  if (!has.velocity_before) return;
+  const double allowed = tolerances_.velocity(event.time, std::max(speed, audit::size(to.velocity_before)));
+  const Vec fallen = g * (terms.gravity_in_velocities * (dt - terms.age_of_velocities));
+  out.add(RowKind::velocity, Vec(to.velocity_before - (from.velocity_after + fallen)), allowed);
+  if (has.spin_before && had.spin_after) {
+    const double radius = given.model.balls[static_cast<std::size_t>(ball_of(event, body))].radius;
+    const double spin = radius * std::max(audit::size(to.spin_before), audit::size(from.spin_after));
+    out.add(RowKind::velocity, Vec((to.spin_before - from.spin_after * terms.spin_in_flight) * radius),
+            allowed + tolerances_.velocity(event.time, spin));
+  }
 }
 
 }  // namespace edmill::identify

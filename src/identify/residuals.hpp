@@ -7,6 +7,7 @@
 #include "audit/audit.hpp"
 #include "audit/mechanics.hpp"
 #include "identify/assumptions.hpp"
+#include "identify/subsets.hpp"
 
 namespace edmill::identify {
 
@@ -27,6 +28,8 @@ class LogResiduals {
 
   /// The rows of these events; each flight is that before its event.
   Residuals on(const std::vector<std::size_t>& events) const;
+  /// By event: which branches of the case's law its states take.
+  const std::vector<Branches>& branches() const { return branches_; }
 
  private:
   friend class Residuals;
@@ -35,19 +38,29 @@ class LogResiduals {
     std::size_t body = 0;
   };
   struct Writer;
-  void event_rows(std::size_t k, const model::Case<double>& model, const LogChange& change,
-                  Writer& out) const;
-  void flight_rows(std::size_t k, std::size_t body, const audit::LoggedEvent& event,
-                   const model::Case<double>& model, const LogChange& change, Writer& out) const;
+  /// What a row is computed from.
+  struct Given {
+    const model::Case<double>& model;
+    const LogChange& change;
+    const Terms& terms;
+  };
+  void event_rows(std::size_t k, const Given& given, Writer& out) const;
+  void flight_rows(std::size_t k, std::size_t body, const audit::LoggedEvent& event, const Given& given,
+                   Writer& out) const;
   void impact_rows(const audit::LoggedEvent& event, const audit::LoggedImpact& impact,
-                   const model::ContactLaw<double>& law, Writer& out) const;
+                   const model::ContactLaw<double>& law, const Terms& terms, Writer& out) const;
+  void energy_rows(const audit::LoggedEvent& event, const audit::LoggedImpact& impact,
+                   const model::ContactLaw<double>& law, const audit::Speeds& speeds, const Terms& terms,
+                   double allowed, Writer& out) const;
   void speed_rows(const audit::LoggedEvent& event, const audit::LoggedImpact& impact,
-                  const model::ContactLaw<double>& law, Writer& out) const;
+                  const model::ContactLaw<double>& law, const Terms& terms, Writer& out) const;
+  Branches branches_of(const audit::LoggedEvent& event) const;
 
   const audit::EventsAtHand& log_;
   audit::Tolerances tolerances_;
   std::vector<std::array<Before, 2>> before_;  ///< the impact at which the flight of each body began
   std::vector<bool> in_stall_;                 ///< by event: friction rests
+  std::vector<Branches> branches_;
   const model::Case<double>& nominal_;
 };
 
@@ -56,8 +69,8 @@ class Residuals {
  public:
   std::size_t count() const { return kinds_.size(); }
   const std::vector<RowKind>& kinds() const { return kinds_; }
-  /// The event of each row, as its place in the log.
-  const std::vector<std::size_t>& events() const { return row_events_; }
+  /// Where each row stands.
+  const std::vector<RowPlace>& places() const { return places_; }
   /// @return one number for each row; a large one where it is not finite, and all of them for a case that
   /// cannot be
   std::vector<double> rows(const Assumptions& assumed) const;
@@ -66,11 +79,13 @@ class Residuals {
   friend class LogResiduals;
   explicit Residuals(const LogResiduals& log) : log_(&log) {}
 
+  std::vector<double> of_whole(const Assumptions& assumed) const;
+
   const LogResiduals* log_;
   std::vector<std::size_t> chosen_;
   std::vector<double> allowed_;  ///< by row
   std::vector<RowKind> kinds_;
-  std::vector<std::size_t> row_events_;
+  std::vector<RowPlace> places_;
 };
 
 }  // namespace edmill::identify

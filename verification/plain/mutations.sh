@@ -19,11 +19,11 @@ mutate() {
     echo "found: $name: $(grep -v '^  ' "$folder/log" | sed 's/ (.*): /: /; s/, worst.*//' | paste -sd ';') $(tail -n 1 "$folder/errors" | cut -c1-60)"
   fi
 }
-mutate "tangential impulse with the wrong sign" 's/jump - gt \*/jump + gt */'
-mutate "spin with the wrong sign" 's/cross(n, gt) \* (share/cross(n, gt) * (-share/'
-mutate "wall velocity at the ball's centre" 's/pose.velocity(ra - n \* R)/pose.velocity(ra)/'
-mutate "no least separation speed" 's/T(-approach), least_separation_)/T(-approach), T(0))/'
-mutate "1 + e in the sliding impulse instead of the actual normal impulse" 's/c \* jump/c * (1 + restitution_) * approach/'
+mutate "tangential impulse with the wrong sign" 's/(n \* jump - along/(n * jump + along/'
+mutate "spin with the wrong sign" 's/cross(n, along) \* (mass_share/cross(n, along) * (-mass_share/'
+mutate "wall velocity at the ball's centre" 's/late.velocity(ra - n \* R)/late.velocity(ra)/'
+mutate "no least separation speed" 's/slow = fault_.of("least_separation", least_separation_)/slow = T(0)/'
+mutate "1 + e in the sliding impulse instead of the actual normal impulse" 's/c_limit \* jump/c_limit * (1 + restitution_) * approach/'
 mutate "supplied energy subtracted from the dose" 's/std::max(T(0), T(approach \* approach - leave \* leave))/approach * approach - leave * leave/'
 mutate "arm longer by 1e-22 m" 's/mill_.arm = number("arm")/mill_.arm = number("arm") + T("1e-22")/'
 exit $status

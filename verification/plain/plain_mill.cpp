@@ -84,12 +84,19 @@ struct Pose {
 template <class S>
 struct Flight {
   Vec<S> r, v;
-  S turns;  // of the drive at the start
+  S turns;                     // of the drive at the start
+  S in_place{1}, in_speed{1};  // gravity's share, other than 1 in a faulty code
 
   Vec<S> position(const Mill<S>& m, const S& tau) const {
-    return r + v * tau - Vec<S>{S(0), m.gravity * tau * tau / 2, S(0)};
+    return r + v * tau - Vec<S>{S(0), in_place * m.gravity * tau * tau / 2, S(0)};
   }
-  Vec<S> velocity(const Mill<S>& m, const S& tau) const { return v - Vec<S>{S(0), m.gravity * tau, S(0)}; }
+  Vec<S> velocity(const Mill<S>& m, const S& tau) const {
+    return v - Vec<S>{S(0), in_speed * m.gravity * tau, S(0)};
+  }
+  // Of the place: another than the velocity where gravity has other shares.
+  Vec<S> rate(const Mill<S>& m, const S& tau) const {
+    return v - Vec<S>{S(0), in_place * m.gravity * tau, S(0)};
+  }
   Pose<S> pose(const Mill<S>& m, const S& tau) const { return {m, turns + tau * m.turns_per_second}; }
 };
 
@@ -104,7 +111,7 @@ std::array<Gap<S>, 3> gaps(const Mill<S>& m, const Flight<S>& flight, const S& t
   const Pose<S> pose = flight.pose(m, tau);
   const Vec<S> P = flight.position(m, tau);
   const Vec<S> p = pose.inward(P - pose.centre());
-  const Vec<S> u = pose.inward(flight.velocity(m, tau) - pose.velocity(P));
+  const Vec<S> u = pose.inward(flight.rate(m, tau) - pose.velocity(P));
   const S free_height = m.half_height - m.ball_radius, free_radius = m.radius - m.ball_radius;
   return {{{free_height + p.y, u.y},
            {free_height - p.y, -u.y},
@@ -152,7 +159,9 @@ std::pair<T, unsigned> first_wall(const Mill<T>& m, const Flight<T>& flight) {
   auto d = [](const Vec<T>& v) {
     return Vec<double>{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
   };
-  const Flight<double> near_flight{d(flight.r), d(flight.v), static_cast<double>(flight.turns)};
+  const Flight<double> near_flight{d(flight.r), d(flight.v), static_cast<double>(flight.turns),
+                                   static_cast<double>(flight.in_place),
+                                   static_cast<double>(flight.in_speed)};
   // A sign that double cannot decide is computed in the wide scalar.
   auto sample = [&](double tau, bool wide) {
     std::array<Gap<double>, 3> near = gaps(near_mill, near_flight, tau);
@@ -191,10 +200,50 @@ std::pair<T, unsigned> first_wall(const Mill<T>& m, const Flight<T>& flight) {
 
 using Options = std::map<std::string, std::string>;
 
+// Mistakes of a code: terms of equations that are larger, smaller, reversed or absent, everywhere or in some
+// impacts.
+template <class T>
+class Faults {
+ public:
+  // Lists with commas: terms, their values, and where.
+  explicit Faults(const Options& o) {
+    const auto terms = list(o.at("fault")), values = list(o.at("fault-value")), places = list(o.at("where"));
+    if (terms.size() != values.size() || terms.size() != places.size())
+      throw std::runtime_error("a fault needs a value and a place");
+    for (std::size_t k = 0; k < terms.size(); ++k) faults_.push_back({terms[k], places[k], T(values[k])});
+  }
+
+  // What holds of an impact: "wall", "ball", "wall0", "stick", "slide", "slow" (at the least separation
+  // speed) and so on.
+  void meets(std::vector<std::string> facts) { facts_ = std::move(facts); }
+  void also(const std::string& fact) { facts_.push_back(fact); }
+  T of(const char* term, const T& right = T(1)) const {
+    for (const Fault& f : faults_)
+      if (f.term == term &&
+          (f.where == "all" || std::find(facts_.begin(), facts_.end(), f.where) != facts_.end()))
+        return f.value;
+    return right;
+  }
+
+ private:
+  struct Fault {
+    std::string term, where;
+    T value;
+  };
+  static std::vector<std::string> list(const std::string& text) {
+    std::vector<std::string> words;
+    std::string word;
+    for (std::istringstream in(text); std::getline(in, word, ',');) words.push_back(word);
+    return words;
+  }
+  std::vector<Fault> faults_;
+  std::vector<std::string> facts_;
+};
+
 template <class T>
 class PlainMill {
  public:
-  PlainMill(std::istream& states, const Options& o) {
+  PlainMill(std::istream& states, const Options& o) : fault_(o), with_states_(o.at("states") == "1") {
     auto number = [&](const char* name) { return T(o.at(name)); };
     const T degree = boost::math::constants::pi<T>() / 180;
     mill_.turns_per_second = number("rpm") / 60, mill_.arm = number("arm"), mill_.gravity = number("gravity");
@@ -214,13 +263,22 @@ class PlainMill {
       now_ = c[10];
       const Flight<T> flight{{c[1], c[2], c[3]}, {c[4], c[5], c[6]}, now_ * mill_.turns_per_second};
       balls_.push_back({flight, {c[7], c[8], c[9]}, now_});
+      weigh(static_cast<unsigned>(balls_.size() - 1));
     }
     for (Ball& b : balls_) predict_walls(b);
     for (unsigned i = 0; i < balls_.size(); ++i) predict(i);
   }
 
   void run(unsigned long events, std::ostream& out) {
-    out << "index,time,ball,partner_kind,partner,approach_speed,slip_speed,milling_dose,wall_work\n";
+    out << "index,time,ball,partner_kind,partner,approach_speed,slip_speed,milling_dose,wall_work";
+    if (with_states_)
+      for (const char* body : {"", "partner_"}) {
+        for (const char* axis : {"x", "y", "z"}) out << ',' << body << axis;
+        for (const char* when : {"before", "after"})
+          for (const char* name : {"vx", "vy", "vz", "wx", "wy", "wz"})
+            out << ',' << body << name << '_' << when;
+      }
+    out << '\n';
     out.precision(std::numeric_limits<T>::max_digits10);
     for (unsigned long index = 0; index < events; ++index) {
       const unsigned i = earliest();
@@ -231,7 +289,17 @@ class PlainMill {
       const unsigned a = pair ? std::min(i, next.partner) : i,
                      b = pair ? std::max(i, next.partner) : next.partner;
       out << index << ',' << std::scientific << now_ << ',' << a << (pair ? ",ball," : ",wall,") << b;
+      const unsigned bodies[] = {a, b};
+      std::vector<Vec<T>> states;
+      const auto note = [&](unsigned k, bool place) {
+        const Ball& own = balls_[bodies[k]];
+        if (place) states.push_back(position(own));
+        states.push_back(velocity(own)), states.push_back(own.spin);
+      };
+      for (unsigned k = 0; k < (pair ? 2u : 1u); ++k) note(k, true);
       for (const T& value : collide(a, next.kind, b)) out << ',' << value;
+      for (unsigned k = 0; k < (pair ? 2u : 1u); ++k) note(k, false);
+      if (with_states_) write(out, states, pair);
       out << '\n';
       predict(a);
       if (pair) predict(b);
@@ -256,8 +324,30 @@ class PlainMill {
     Next next{};
   };
 
+  // Of each body: place, velocity and spin before, both after.
+  static void write(std::ostream& out, const std::vector<Vec<T>>& states, bool pair) {
+    for (unsigned k = 0; k < 2; ++k) {
+      if (k > 0 && !pair) {
+        out << std::string(15, ',');
+        continue;
+      }
+      const std::size_t before = 3 * k, after = (pair ? 6 : 3) + 2 * k;
+      for (const std::size_t at : {before, before + 1, before + 2, after, after + 1})
+        out << ',' << states[at].x << ',' << states[at].y << ',' << states[at].z;
+    }
+  }
+  // Gravity as the code has it for a ball.
+  void weigh(unsigned i) {
+    const std::string own = "ball" + std::to_string(i);
+    fault_.meets({own});
+    const T both = fault_.of("gravity");
+    balls_[i].flight.in_place = both * fault_.of("gravity_in_places");
+    balls_[i].flight.in_speed = both * fault_.of("gravity_in_velocities");
+  }
+
   Vec<T> position(const Ball& b) const { return b.flight.position(mill_, now_ - b.start); }
   Vec<T> velocity(const Ball& b) const { return b.flight.velocity(mill_, now_ - b.start); }
+  Vec<T> rate(const Ball& b) const { return b.flight.rate(mill_, now_ - b.start); }
 
   void predict_walls(Ball& b) {
     const auto [tau, id] = first_wall(mill_, b.flight);
@@ -270,12 +360,40 @@ class PlainMill {
     const T contact = 4 * mill_.ball_radius * mill_.ball_radius;
     for (unsigned j = 0; j < balls_.size(); ++j) {
       if (j == i) continue;
-      const Vec<T> r = position(b) - position(balls_[j]), v = velocity(b) - velocity(balls_[j]);
+      if (b.flight.in_place != balls_[j].flight.in_place) {
+        if (const auto time = touch(b, balls_[j]); time && *time < b.next.time)
+          b.next = {*time, ball, j, balls_[j].impacts};
+        continue;
+      }
+      const Vec<T> r = position(b) - position(balls_[j]), v = rate(b) - rate(balls_[j]);
       const T rv = dot(r, v), c = dot(r, r) - contact, root = rv * rv - dot(v, v) * c;
       if (rv >= 0 || (c > 0 && root < 0)) continue;
       const T time = c <= 0 ? now_ : now_ + c / (sqrt(root) - rv);  // (3.1)
       if (time < b.next.time) b.next = {time, ball, j, balls_[j].impacts};
     }
+  }
+  // The contact of two balls that fall differently, before one of them meets a wall: samples and bisection.
+  std::optional<T> touch(const Ball& a, const Ball& b) const {
+    const auto gap = [&](const T& time) {
+      const Vec<T> apart =
+          a.flight.position(mill_, time - a.start) - b.flight.position(mill_, time - b.start);
+      return T(dot(apart, apart) - 4 * mill_.ball_radius * mill_.ball_radius);
+    };
+    const T end = std::min(a.wall_time, b.wall_time), step = T(2e-5);
+    T last = gap(now_);
+    for (T time = now_; time < end; time += step) {
+      const T next = gap(time + step);
+      if (last > 0 && next <= 0) {
+        T low = time, high = time + step;
+        for (int k = 0; k < 110; ++k) {
+          const T middle = (low + high) / 2;
+          (gap(middle) > 0 ? low : high) = middle;
+        }
+        return high;
+      }
+      last = next;
+    }
+    return {};
   }
   // A prediction is void when the partner has collided since.
   unsigned earliest() {
@@ -289,8 +407,10 @@ class PlainMill {
     }
   }
 
-  void restart(Ball& b, const Vec<T>& r, const Vec<T>& v, const Vec<T>& spin) {
+  void restart(unsigned i, const Vec<T>& r, const Vec<T>& v, const Vec<T>& spin) {
+    Ball& b = balls_[i];
     b.flight = {r, v, now_ * mill_.turns_per_second};
+    weigh(i);
     b.spin = spin;
     b.start = now_;
     ++b.impacts;
@@ -311,24 +431,52 @@ class PlainMill {
     const Vec<T> ra = position(a), va = velocity(a), rb = b ? position(*b) : Vec<T>{};
     const Pose<T> pose(mill_, now_ * mill_.turns_per_second);
     const Vec<T> n = b ? (ra - rb) * (1 / sqrt(dot(ra - rb, ra - rb))) : wall_normal(pose, ra, partner);
-    const Vec<T> partner_velocity = b ? velocity(*b) : pose.velocity(ra - n * R);
-    const Vec<T> spins = b ? a.spin + b->spin : a.spin;
+    fault_.meets(
+        {b ? "ball" : "wall", (b ? "ball" : "wall") + std::to_string(partner), "ball" + std::to_string(i)});
+    const Pose<T> late(mill_, (now_ - fault_.of("wall_delay", T(0))) * mill_.turns_per_second);
+    const Vec<T> partner_velocity = b ? velocity(*b) : late.velocity(ra - n * R) * fault_.of("wall_velocity");
+    const Vec<T> spins = (b ? a.spin + b->spin : a.spin) * fault_.of("arm");
     const Vec<T> g = va - partner_velocity - cross(spins * R, n), gt = g - n * dot(g, n);
     const T approach = -dot(g, n), slip = sqrt(dot(gt, gt));
     // Section 6. Bodies that already separate, by rounding, are not slowed down.
-    const T leave = std::max(approach > 0 ? T(restitution_ * approach) : T(-approach), least_separation_);
+    const T slow = fault_.of("least_separation", least_separation_),
+            e = fault_.of("restitution", restitution_);
+    const T leave = std::max(approach > 0 ? T(e * approach) : T(-approach), slow);
+    if (leave == slow) fault_.also("slow");
     const T jump = approach + leave;  // the normal impulse over share * mass
-    T et = min_tangential_;
-    if (slip > 0) et = std::max(et, T(1 - friction_ * c * jump / slip));
-    const Vec<T> change = (n * jump - gt * ((1 - et) / c)) * share;
-    const Vec<T> turn = cross(n, gt) * (share * (1 - et) / (c * R * J));
-    restart(a, ra, va + change, a.spin + turn);
-    if (b) restart(*b, rb, partner_velocity - change, b->spin + turn);
+    const T mu = fault_.of("friction", friction_), least_et = fault_.of("min_tangential", min_tangential_);
+    T et = least_et;
+    const T c_limit = 1 + (c - 1) * fault_.of("c_in_limit"),
+            c_impulse = 1 + (c - 1) * fault_.of("c_in_impulse");
+    if (slip > 0) et = std::max(et, T(1 - mu * c_limit * jump / slip));
+    fault_.also(et > least_et ? "slide" : "stick");
+    const T impulse = fault_.of("friction_impulse"), mass_share = share * fault_.of("share");
+    const Vec<T> along = gt * ((1 - et) / c_impulse * impulse);
+    const Vec<T> change = (n * jump - along * fault_.of("friction_on_velocity")) * mass_share;
+    const Vec<T> turn = cross(n, along) * (mass_share / (R * J) * fault_.of("torque"));
+    const T torque_of_a = fault_.of("torque_of_ball", T(1)),
+            torque_of_b = fault_.of("torque_of_partner", T(1));
+    const Vec<T> old_spin = a.spin, old_spin_b = b ? b->spin : Vec<T>{};
+    restart(i, ra, va + change, a.spin + turn * (b ? torque_of_a : T(1)));
+    if (b) restart(partner, rb, partner_velocity - change, b->spin + turn * torque_of_b);
+    fault_.meets(
+        {b ? "ball" : "wall", (b ? "ball" : "wall") + std::to_string(partner), "ball" + std::to_string(i)});
+    const T work = b ? T(0) : T(mass_ * dot(partner_velocity, change));
+    const auto spin_energy = [&](const Vec<T>& before, const Vec<T>& after) {
+      return T(mass_ * J * R * R / 2 * (dot(after, after) - dot(before, before)));
+    };
+    const T of_spin = spin_energy(old_spin, a.spin) + (b ? spin_energy(old_spin_b, b->spin) : T(0));
     const T normal_loss = std::max(T(0), T(approach * approach - leave * leave));  // below 0: supplied
-    const T dose = share * mass_ / 2 * (normal_loss + (1 - et * et) / c * slip * slip);
-    return {approach, slip, dose, b ? T(0) : T(mass_ * dot(partner_velocity, change))};
+    const T supplied = std::max(T(0), T(share * mass_ / 2 * (leave * leave - approach * approach)));
+    const T dose = share * mass_ / 2 * (normal_loss + (1 - et * et) / c * slip * slip) +
+                   work * (fault_.of("work_in_dose") - 1) - of_spin * (fault_.of("spin_in_dose") - 1) +
+                   supplied * (fault_.of("supply_in_dose") - 1);
+    return {approach * fault_.of("approach_speed"), slip * fault_.of("slip_speed"), dose * fault_.of("dose"),
+            work * fault_.of("wall_work")};
   }
 
+  Faults<T> fault_;
+  bool with_states_;
   Mill<T> mill_;
   T mass_, inertia_, restitution_, friction_, min_tangential_, least_separation_, now_{};
   std::vector<Ball> balls_;
@@ -341,7 +489,7 @@ int main(int argc, char** argv) try {
   std::istringstream defaults(
       "scalar mpfr100 rpm 1098 arm 0.1 theta-max 15 gamma-max 15 diameter 0.038 height 0.057 gravity 9.8 "
       "ball-diameter 0.00476 density 8000 reduced-inertia 0.4 restitution 0.5 friction 0.4 min-tangential -1 "
-      "least-separation 0.01");
+      "least-separation 0.01 fault none fault-value 1 where all states 0");
   Options options;
   for (std::string key, value; defaults >> key >> value;) options[key] = value;
   if (argc < 3 || argc % 2 == 0)

@@ -1,0 +1,36 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "identify/parameters.hpp"
+
+namespace edmill::identify {
+
+std::vector<Parameter> term_parameters() {
+  std::vector<Parameter> list;
+  for (const auto& row : term_rows()) {
+    Parameter p{row.name,
+                "",
+                row.is_shift ? Dimension::time : Dimension::none,
+                row.is_shift ? 0.0 : 1.0,
+                row.is_shift ? 1e-5 : 1.0,
+                [member = row.member](Assumptions& a, double x) { a.terms.*member = x; }};
+    p.equation = row.equation;
+    p.prior = 1;  // of two that fit alike, a number of the case comes first
+    p.of_flights = row.of_flights, p.of_impacts = !row.of_flights;
+    list.push_back(std::move(p));
+  }
+  return list;
+}
+
+Parameter restricted_to(const SharedSubset& part, const Parameter& parameter, std::size_t choices) {
+  Parameter p = parameter;
+  p.key += ", " + part->name;
+  p.set = [part, set = parameter.set](Assumptions& a, double x) {
+    a.restricted.push_back({part, [set, x](Assumptions& here) { set(here, x); }});
+  };
+  p.prior = parameter.prior + 2 * std::log(static_cast<double>(choices));
+  return p;
+}
+
+}  // namespace edmill::identify
