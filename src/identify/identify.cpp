@@ -81,8 +81,17 @@ class Search {
 
   /// Without places impacts cannot be checked, but a run from the case's start can follow the log.
   void follow(Identification& result) const {
-    const auto found = replay(nominal_, parameters_, mistakes_of(nominal_, parameters_, log_), log_,
-                              [this] { return is_interrupted(); });
+    // A run of a case has the terms of the equations as they are.
+    std::vector<Parameter> numbers;
+    for (const auto& p : parameters_)
+      if (p.equation.empty()) numbers.push_back(p);
+    auto mistakes = mistakes_of(nominal_, numbers, log_);
+    std::erase_if(mistakes, [&](const Mistake& m) {
+      Assumptions assumed = nominal_;
+      m.make(assumed);
+      return !assumed.is_case();
+    });
+    const auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
     result.interrupted = is_interrupted(), result.too_few = found.too_few;
     if (result.interrupted || result.too_few) return;
     result.follows = found.without;

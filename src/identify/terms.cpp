@@ -7,9 +7,9 @@ namespace edmill::identify {
 std::span<const TermRow> term_rows() {
   static constexpr TermRow rows[] = {
       {"impulse of the friction", "(2.28')", &Terms::friction},
-      {"change of the velocity by the friction", "(2.34)", &Terms::friction_on_velocity},
+      {"change of the velocity by the friction", "(2.34')", &Terms::friction_on_velocity},
       {"torque of the friction", "(2.35)", &Terms::torque},
-      {"share M/m of the impulse", "(2.26)", &Terms::share},
+      {"share M/m of the impulse", "(2.28')", &Terms::share},
       {"c - 1 in the limit of sliding", "(2.24')", &Terms::compliance_in_limit},
       {"c - 1 in the impulse of the friction", "(2.28')", &Terms::compliance_in_impulse},
       {"lever arm R in the velocity of the contact point", "(2.27)", &Terms::arm},
