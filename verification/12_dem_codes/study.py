@@ -88,7 +88,7 @@ def rows_of(title, text, durations):
                     f"{ratio} | {cpu:.3g} s | {cpu * needed:.3g} s |")
         print(f"{title}: {NAMES[code]} ends the audit with {result}", flush=True)
     expected = re.search(r"restitution = ([\d.]+)", text)[1], re.search(r"friction = ([\d.]+)", text)[1]
-    return [f"### {title[0].upper() + title[1:]}", "",
+    return [f"## {title[0].upper() + title[1:]}", "",
             f"Restitution {expected[0]}, friction {expected[1]}. A dose rate within 1 % takes {needed:.0f} s of the mill's time.", "",
             "| code | simulated | restitution at walls | friction at walls | dose rate | processor time for 1 s | for 1 % of the dose rate |",
             "|---|---|---|---|---|---|---|", *rows, ""]
