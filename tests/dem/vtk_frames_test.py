@@ -65,6 +65,11 @@ first_id = int(text[text.index("id") + 4])
 check(float(rows[1][2]) == numpy.float32(first_x) and int(rows[1][1]) == first_id, "values as they stand in the file")
 check({float(row[12]) for row in rows[1:]} == {0.004}, "radius")
 
+with open("/dev/full", "w") as full:
+    done = subprocess.run(["/usr/bin/python3", str(TOOL), str(HERE / "liggghts_9990.vtk"), "--timestep", "1e-5"], stdout=full,
+                          stderr=subprocess.PIPE, text=True)
+check(done.returncode == 1 and done.stderr == "error: standard output: No space left on device\n", "a full disk: " + done.stderr.strip())
+
 with tempfile.TemporaryDirectory() as folder:
     root = pathlib.Path(folder)
     for name, balls in (("a0", [1, 2]), ("a1", [3]), ("b0", [2, 3]), ("b1", [1])):

@@ -11,7 +11,7 @@ mutate() {
   local name=$1 change=$2
   sed "$change" plain_mill.cpp > "$folder/mutant.cpp"
   cmp -s plain_mill.cpp "$folder/mutant.cpp" && { echo "no change: $name"; status=1; return; }
-  g++ -O1 -std=gnu++20 "$folder/mutant.cpp" -o "$folder/mutant" -lmpfr -lgmp -lquadmath
+  g++ -O1 -std=gnu++20 -I. "$folder/mutant.cpp" -o "$folder/mutant" -lmpfr -lgmp -lquadmath
   if timeout 120 ./plain_mill_test.py "$edmill" "$folder/mutant" > "$folder/log" 2> "$folder/errors"; then
     echo "NOT FOUND: $name"
     status=1

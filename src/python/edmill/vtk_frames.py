@@ -133,14 +133,17 @@ def main(arguments: list[str] | None = None) -> int:
                 raise BadFrame(f"frame at {time} s: found the columns {', '.join(columns)}, expected {', '.join(first)}")
             for row in rows:
                 print(",".join([repr(time), str(int(row[0])), *(repr(float(value)) for value in row[1:])]))
+        sys.stdout.flush()
     except BadFrame as problem:
         print(f"error: {problem}", file=sys.stderr)
         return 2
     except ImportError:
         print("error: needs VTK for Python (Debian: apt-get install python3-vtk9)", file=sys.stderr)
         return 1
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as problem:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left in the buffer goes nowhere
+        if not isinstance(problem, BrokenPipeError):
+            print(f"error: standard output: {problem.strerror}", file=sys.stderr)
         return 1
     return 0
 
