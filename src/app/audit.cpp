@@ -52,8 +52,8 @@ Audited audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   const auto built = casefile::build_case<double>(spec);
   Audited audited{audit::audit(built.the_case, built.states, options), {}};
   audited.result.case_name = spec.file;
-  given.searching();
-  if (given.identify && !audited.result.interrupted) audited.identified = identify::identify(spec, options);
+  if (given.identify && !audited.result.interrupted)
+    audited.identified = identify::identify(spec, options, given.searching);
   return audited;
 }
 

@@ -25,7 +25,7 @@ struct AuditOptions {
   std::size_t examples = 3;
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double time, std::uint64_t events)> progress;
-  std::function<void()> searching = [] {};  ///< called when the log is read, before a search for the cause
+  identify::Progress searching;  ///< called at each stage of a search for the cause
 };
 
 struct Audited {

@@ -35,7 +35,7 @@ int run_audit(const casefile::CaseSpec& spec, AuditOptions options) {
     if (spec.end_time) end = spec.end_time->to<double>();
     line.emplace();
     options.progress = [&line, end](double time, std::uint64_t events) { line->show(time, end, events); };
-    options.searching = [&line] { line.reset(); };
+    options.searching = [&line](const std::string& stage) { line->show("searching: " + stage); };
   }
   const auto audited = app::audit(spec, options);
   line.reset();

@@ -35,7 +35,11 @@ void ProgressLine::show(double now, const std::optional<double>& end, std::uint6
     const double left = spent * (*end - now) / simulated;
     line += fmt::format(", {}:{:02} left", static_cast<long>(left) / 60, static_cast<long>(left) % 60);
   }
-  io::tell("\r\033[K{}", line);
+  show(line);
+}
+
+void ProgressLine::show(const std::string& text) {
+  io::tell("\r\033[K{}", text);
   std::fflush(stderr);
   visible_ = true;
 }

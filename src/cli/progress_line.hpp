@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace edmill::cli {
 
@@ -24,6 +25,7 @@ class ProgressLine {
   /// @param milling_dose  since this line was made [J]
   void show(double now, const std::optional<double>& end, std::uint64_t collisions,
             const std::optional<double>& milling_dose = std::nullopt);
+  void show(const std::string& text);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -51,6 +51,7 @@ class Candidates {
   /// The criterion of no cause, and what an audit says of the log.
   double without() const { return without_; }
   std::uint64_t violations() const { return violations_; }
+  std::size_t part_count() const { return parts_.size(); }
 
   /// With the present samples: sets `criterion`.
   void judge(Candidate& c) const;

@@ -25,8 +25,9 @@ std::string name_of(const Mistake& m) { return m.key + ": " + m.text; }
 
 class Search {
  public:
-  Search(const casefile::CaseSpec& spec, audit::Options options)
-      : nominal_(assumptions_of(spec)),
+  Search(const casefile::CaseSpec& spec, audit::Options options, Progress told)
+      : told_(std::move(told)),
+        nominal_(assumptions_of(spec)),
         the_case_(casefile::build_case<double>(spec).the_case),
         options_(std::move(options)) {
     from_start_ = options_.from_start;
@@ -57,26 +58,32 @@ class Search {
     if (result.too_few) return result;
     candidates_.emplace(log_, options_, the_case_, nominal_, result.violations);
     if ((result.too_few = !candidates_->suffice())) return result;
+    tell("single causes");
     auto accepted = singles();
     const auto explained = [&] { return !accepted.empty() && accepted.front().left == 0; };
-    if (!explained()) {
-      for (auto& one : in_parts()) accepted.push_back(std::move(one));
+    const auto search = [&](const char* what, std::vector<Candidate> (Search::*more)()) {
+      if (explained()) return;
+      tell(what);
+      for (auto& c : (this->*more)()) accepted.push_back(std::move(c));
       sort(accepted);
-    }
-    if (!explained()) {
-      resample(accepted);
-      for (auto& pair : pairs()) accepted.push_back(std::move(pair));
-      sort(accepted);
-      if (!explained())
-        for (auto& pair : pairs_in_parts()) accepted.push_back(std::move(pair));
-      sort(accepted);
-    }
+    };
+    search("causes in a part of the log", &Search::in_parts);
+    if (!explained()) resample(accepted);
+    search("two causes together", &Search::pairs);
+    search("two causes, of parts of the log", &Search::pairs_in_parts);
+    search("three causes together", &Search::threes);
+    result.tried = {parameters_.size(), mistakes_.size(), candidates_->part_count(), stages_};
     result.interrupted = is_interrupted();
     report(accepted, result);
     return result;
   }
 
  private:
+  void tell(const char* what) {
+    stages_.push_back(what);
+    if (told_) told_(what);
+  }
+
   bool is_interrupted() const { return interrupt_ && interrupt_->load(std::memory_order_relaxed); }
 
   /// Without places impacts cannot be checked, but a run from the case's start can follow the log.
@@ -151,19 +158,23 @@ class Search {
     std::vector<Candidate> found;
     for (auto& p : candidates_->ranked_in_parts(base.assumed(), parameters_, most, share)) {
       if (is_interrupted()) break;
-      const auto& kept = restricted_.emplace_back(std::move(p));
-      Model model = base.model;
-      model.free.push_back(&kept);
-      std::vector<Candidate> of_starts;
-      for (const double start : candidates_->starts(base.assumed(), kept)) {
-        auto values = base.values;
-        values.push_back(start);
-        of_starts.push_back(candidates_->fitted(model, base.mistakes, values));
-      }
-      sort(of_starts);
-      found.push_back(of_starts.front());
+      found.push_back(with_one_more(base, restricted_.emplace_back(std::move(p))));
     }
     return found;
+  }
+
+  /// One more number, fitted together with those of a candidate.
+  Candidate with_one_more(const Candidate& base, const Parameter& p) const {
+    Model model = base.model;
+    model.free.push_back(&p);
+    std::vector<Candidate> of_starts;
+    for (const double start : candidates_->starts(base.assumed(), p)) {
+      auto values = base.values;
+      values.push_back(start);
+      of_starts.push_back(candidates_->fitted(model, base.mistakes, values));
+    }
+    sort(of_starts);
+    return of_starts.front();
   }
 
   std::vector<Candidate> in_parts() { return accepted_of(one_more_in_parts(none(), 8, 0.9)); }
@@ -185,6 +196,28 @@ class Search {
     std::vector<Candidate> tried;
     for (const auto& base : bases)
       for (auto& c : one_more_in_parts(base, 3, 0.9)) tried.push_back(std::move(c));
+    pairs_.insert(pairs_.end(), tried.begin(), tried.end());
+    return accepted_of(std::move(tried));
+  }
+
+  /// One more number or mistake on top of the best pairs.
+  std::vector<Candidate> threes() {
+    sort(pairs_);
+    if (pairs_.size() > 4) pairs_.erase(pairs_.begin() + 4, pairs_.end());
+    std::vector<Candidate> tried;
+    for (const auto& base : pairs_) {
+      const auto names = base.names();
+      for (const auto* p : candidates_->ranked(base.assumed(), parameters_, 3))
+        if (!is_interrupted() && !names.contains(p->key)) tried.push_back(with_one_more(base, *p));
+      for (auto& c : one_more_in_parts(base, 3, 0.9)) tried.push_back(std::move(c));
+      for (const auto& t : candidates_->promising(base.assumed(), mistakes_, 2)) {
+        if (names.contains(name_of(t.mistake))) continue;
+        Candidate c = base;
+        t.mistake.make(c.model.base);
+        c.mistakes.push_back(name_of(t.mistake));
+        tried.push_back(candidates_->fitted(c.model, c.mistakes, c.values));
+      }
+    }
     return accepted_of(std::move(tried));
   }
 
@@ -228,6 +261,7 @@ class Search {
         if (p != first)
           tried.push_back(candidates_->fitted({nominal_, {first, p}}, {}, {single.values[0], p->value}));
     }
+    pairs_ = tried;
     return accepted_of(std::move(tried));
   }
 
@@ -279,6 +313,8 @@ class Search {
     result.causes.push_back(std::move(cause));
   }
 
+  Progress told_;
+  std::vector<std::string> stages_;
   Assumptions nominal_;
   model::Case<double> the_case_;
   audit::Options options_;
@@ -287,7 +323,7 @@ class Search {
   std::vector<Mistake> mistakes_;
   std::optional<Candidates> candidates_;
   std::vector<Tried> promising_;
-  std::vector<Candidate> singles_;
+  std::vector<Candidate> singles_, pairs_;
   std::deque<Parameter> restricted_;  ///< which candidates point to
   const std::atomic<bool>* interrupt_ = nullptr;
   bool from_start_ = false;
@@ -295,8 +331,9 @@ class Search {
 
 }  // namespace
 
-Identification identify(const casefile::CaseSpec& spec, const audit::Options& options) {
-  Search search(spec, options);
+Identification identify(const casefile::CaseSpec& spec, const audit::Options& options,
+                        const Progress& progress) {
+  Search search(spec, options, progress);
   auto result = search.run();
   if (!result.interrupted) result.stepping = time_stepping(search.log(), search.the_case(), options);
   return result;

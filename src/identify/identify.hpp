@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct Found {
   std::string equation = {};          ///< of a term
 };
 
-/// One or two values or mistakes that explain nine tenths of the violations or more.
+/// One to three values or mistakes that explain nine tenths of the violations or more.
 struct Cause {
   std::vector<Found> values;
   std::vector<std::string> mistakes;   ///< "mill, sign of gamma: ..."
@@ -34,6 +35,12 @@ struct Cause {
   std::string text() const;
 };
 
+/// What was tried, for the answer "none of these".
+struct SearchedFor {
+  std::size_t numbers = 0, mistakes = 0, parts = 0;  ///< numbers of the case, and terms of the equations
+  std::vector<std::string> stages;                   ///< "single causes", "two causes together"
+};
+
 struct Identification {
   std::uint64_t events = 0, violations = 0;  ///< that were searched
   std::uint64_t noted = 0;                   ///< violations that the audit's notes explain
@@ -44,13 +51,18 @@ struct Identification {
   bool follows_all = false;
   bool too_few = false;      ///< impacts that can be checked or followed; no cause was sought
   bool interrupted = false;  ///< the search ended before it was through; better causes may exist
+  SearchedFor tried;
   TimeStepping stepping;
 };
 
-/// Searches the first events of a log: one value or mistake at a time, then two together.
+/// Called with the name of each stage of a search when it begins.
+using Progress = std::function<void(const std::string& stage)>;
+
+/// Searches the first events of a log: one value or mistake at a time, then two and three together.
 /// @param options  of the audit; its log is read again
 /// @throws InputError
-Identification identify(const casefile::CaseSpec& spec, const audit::Options& options);
+Identification identify(const casefile::CaseSpec& spec, const audit::Options& options,
+                        const Progress& progress = {});
 
 /// As lines of the audit's report.
 std::string table(const Identification& found);

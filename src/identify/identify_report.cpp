@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "identify/identify.hpp"
 
@@ -52,8 +53,11 @@ std::string table(const Identification& found) {
     out += fmt::format("  no other cause: the notes explain {} of {} violations\n", found.noted,
                        found.violations);
   else if (found.violations > 0 && !found.stepping.found())
-    out += fmt::format("  no cause explains nine tenths of the {} violations of {} impacts\n",
-                       found.violations, found.events);
+    out += fmt::format(
+        "  no cause explains nine tenths of the {} violations of {} impacts\n  tried: {}; {} numbers and "
+        "terms, {} mistakes, {} parts of the log\n",
+        found.violations, found.events, fmt::join(found.tried.stages, ", "), found.tried.numbers,
+        found.tried.mistakes, found.tried.parts);
   else if (found.violations == 0)
     out += fmt::format("  no cause: no violation in the columns of the first {} impacts\n", found.events);
   return out;
@@ -96,6 +100,12 @@ void put_json(io::JsonText& json, const Identification& found) {
   if (found.too_few) json.text("ended", "too few impacts");
   if (found.interrupted) json.text("ended", "interrupted");
   if (found.follows) json.integer("follows", *found.follows);
+  json.begin("tried");
+  json.integer("numbers", found.tried.numbers);
+  json.integer("mistakes", found.tried.mistakes);
+  json.integer("parts", found.tried.parts);
+  json.text("stages", fmt::format("{}", fmt::join(found.tried.stages, "; ")));
+  json.end();
   json.begin("causes");
   for (std::size_t k = 0; k < found.causes.size(); ++k) {
     const auto& cause = found.causes[k];

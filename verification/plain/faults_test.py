@@ -62,7 +62,13 @@ approach_speed 2 ball|slip_speed 0.5 all'''.strip().replace("\n", "|").split("|"
 PAIRS = [line.split() for line in '''
 torque,dose -1,2 all,all|restitution,friction 0.6,0.3 all,all|torque,restitution 2,0.6 all,all|gravity,wall_work 0,-1 all,all
 friction_impulse,slip_speed 2,0.5 ball,all|restitution,gravity 0.6,2 wall0,all|arm,dose 0,0.5 all,ball|torque,torque -1,2 wall0,ball
-restitution,friction 0.7,0.2 ball,wall|wall_delay,friction 1e-4,0.3 all,all'''.strip().replace("\n", "|").split("|")]
+restitution,friction 0.7,0.2 ball,wall|wall_delay,friction 1e-4,0.3 all,all|restitution,arm 0.6,2 wall,all
+friction,torque_of_partner 0.3,-1 all,ball|dose,slip_speed 2,0.5 ball,all|gravity_in_velocities,restitution 0,0.5 all,ball
+c_in_limit,approach_speed 0,2 all,all|least_separation,wall_work 0.02,-1 all,all|torque,friction_impulse 0,2 all,wall
+supply_in_dose,arm 0,-1 all,all|friction,friction 0.3,0.2 wall2,ball|gravity,torque 2,-1 ball0,all'''.strip().replace("\n", "|").split("|")]
+THREES = [line.split() for line in '''
+torque,dose,approach_speed -1,2,2 all,all,all|restitution,friction,wall_work 0.6,0.3,-1 all,all,all
+arm,gravity,slip_speed 0,2,0.5 all,all,all|restitution,friction,dose 0.7,0.2,0.5 ball,wall,all'''.strip().replace("\n", "|").split("|")]
 #: The same in other words: both hold of such a log.
 SAME = {"friction 0 all": "impulse of the friction", "wall_velocity 0 all": "a wall at rest", "wall_velocity -1 all": "the wall's velocity with the opposite sign"}
 failures = []
@@ -167,7 +173,7 @@ def main():
             other = SAME.get(f"{term} {value} {place}")
             good = named(causes, {key_of(term, place): float(value)}) or (other is not None and other in text)
             check(good, f"{term} {value} {place}", text)
-        for terms, values, places in PAIRS[::args.every]:
+        for terms, values, places in PAIRS[::args.every] + THREES[::args.every]:
             trials.log(terms, values, places)
             causes = trials.causes()
             wanted = {key_of(*pair): float(value) for value, *pair in zip(values.split(","), terms.split(","), places.split(","))}
