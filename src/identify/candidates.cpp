@@ -295,6 +295,7 @@ std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, cons
     std::size_t parameter, part;
   };
   std::vector<Ranked> order;
+  std::vector<std::size_t> holding;  // parts with so much of what is off
   const std::uint64_t off =
       static_cast<std::uint64_t>(std::ranges::count_if(rows, [](double r) { return std::abs(r) > 1; }));
   for (std::size_t s = 0; s < parts_.size(); ++s) {
@@ -305,6 +306,7 @@ std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, cons
       if (inside.back() && std::abs(rows[k]) > 1) ++off_inside;
     }
     if (off_inside == 0 || static_cast<double>(off_inside) < share * static_cast<double>(off)) continue;
+    holding.push_back(s);
     for (std::size_t p = 0; p < parameters.size(); ++p) {
       const auto& part = *parts_[s];
       const bool fits =
@@ -325,7 +327,37 @@ std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, cons
   std::vector<Parameter> best;
   for (std::size_t k = 0; k < std::min(most, order.size()); ++k)
     best.push_back(restricted_to(parts_[order[k].part], parameters[order[k].parameter], parts_.size()));
+  for (auto& p : telling_from_afar_in_parts(base, parameters, holding, most / 2))
+    best.push_back(std::move(p));
   return best;
+}
+
+/// Of what tells from afar in the whole log, that which does in a part of it.
+std::vector<Parameter> Candidates::telling_from_afar_in_parts(const Assumptions& base,
+                                                              const std::vector<Parameter>& parameters,
+                                                              const std::vector<std::size_t>& parts,
+                                                              std::size_t most) const {
+  const auto few = residuals_.on(samples_.few());
+  const double here = misfit_of(few, base);
+  std::vector<std::pair<double, Parameter>> order;
+  for (const auto* p : telling_from_afar(base, parameters, 4))
+    for (const auto part : parts) {
+      const bool fits =
+          (parts_[part]->of_impacts && p->of_impacts) || (parts_[part]->of_flights && p->of_flights);
+      if (!fits) continue;
+      auto restricted = restricted_to(parts_[part], *p, parts_.size());
+      double best = here - strong_evidence;
+      for (const double value : values_from_afar(restricted)) {
+        Assumptions moved = base;
+        restricted.set(moved, value);
+        best = std::min(best, misfit_of(few, moved));
+      }
+      if (best < here - strong_evidence) order.emplace_back(best, std::move(restricted));
+    }
+  std::ranges::stable_sort(order, {}, [](const auto& row) { return row.first; });
+  std::vector<Parameter> list;
+  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) list.push_back(std::move(order[k].second));
+  return list;
 }
 
 auto Candidates::ranked_pairs(const std::vector<Parameter>& parameters) const -> std::vector<Pair> {

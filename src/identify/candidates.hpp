@@ -91,6 +91,10 @@ class Candidates {
   std::vector<const Parameter*> telling_from_afar(const Assumptions& base,
                                                   const std::vector<Parameter>& parameters,
                                                   std::size_t most) const;
+  std::vector<Parameter> telling_from_afar_in_parts(const Assumptions& base,
+                                                    const std::vector<Parameter>& parameters,
+                                                    const std::vector<std::size_t>& parts,
+                                                    std::size_t most) const;
   void widen(Candidate& c, std::size_t place) const;
   /// What an audit finds with these assumptions; events that are off where a case does not say all of them.
   void count_violations(Candidate& c) const;
