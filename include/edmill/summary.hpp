@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct Summary {
   double cpu_seconds = 0;
   std::string end_reason;  ///< "end_time", "max_collisions", ...; "paused" while the run can go on
   std::string json;        ///< as in summary.json
+  /// Of the 95 % interval of the milling dose rate [W]; nothing where the run is too short for one.
+  std::optional<double> milling_dose_rate_half_width;
+  std::optional<Real> milling_time;   ///< to the case's target dose, where it has one [s]
+  std::vector<std::string> warnings;  ///< why numbers are not to be trusted, for readers
 
   Real milling_dose_rate() const { return milling_dose / (end_time - start_time); }  ///< [W]
 };

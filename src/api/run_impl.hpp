@@ -130,6 +130,7 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
     auto s = run::summary_of(*case_.spec_, built_, driver_);
     s.end_reason = end_reason_;
     s.end_time = time();
+    s.warnings = run::warnings_of(run::measures_of(s));
     Summary<Real> out;
     out.start_time = s.start_time, out.end_time = s.end_time;
     for (int k = 0; k < s.partners.count(); ++k) out.partners.push_back(s.partners[k].key);
@@ -139,6 +140,10 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
     out.simultaneous_contacts = s.simultaneous_contacts;
     out.cpu_seconds = s.cpu_seconds;
     out.end_reason = model::name(end_reason_);
+    out.warnings.reserve(s.warnings.size());
+    for (const auto& warning : s.warnings) out.warnings.push_back(warning.text);
+    if (s.intervals.any()) out.milling_dose_rate_half_width = s.intervals.dose_rate.half_width;
+    out.milling_time = s.milling_time();
     out.json = io::summary_json(s);
     return out;
   }

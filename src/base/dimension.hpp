@@ -10,6 +10,7 @@ enum class Dimension {
   time,
   angle,
   energy,
+  specific_energy,
   speed,
   angular_speed,
   acceleration,

@@ -1,10 +1,10 @@
-#include "study/statistics.hpp"
+#include "base/statistics.hpp"
 
 #include <cmath>
 
 #include "base/student.hpp"
 
-namespace edmill::study {
+namespace edmill::numerics {
 
 namespace {
 
@@ -24,7 +24,7 @@ double variance_of_mean(const std::vector<double>& values) {
 
 /// The value that a |t| of `freedom` degrees exceeds with probability `significance`.
 double student_limit(double freedom, double significance) {
-  const numerics::Student distribution(freedom);
+  const Student distribution(freedom);
   return boost::math::quantile(boost::math::complement(distribution, significance / 2));
 }
 
@@ -57,4 +57,4 @@ bool stands_apart(double value, const std::vector<double>& sample, double signif
   return std::abs(value - mean_of(sample)) > student_limit(n - 1, significance) * spread;
 }
 
-}  // namespace edmill::study
+}  // namespace edmill::numerics

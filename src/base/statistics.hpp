@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-namespace edmill::study {
+namespace edmill::numerics {
 
 struct Estimate {
   std::optional<double> mean, half_width;  ///< of the 95 % interval; needs two values
@@ -21,4 +21,4 @@ bool differ(const std::vector<double>& a, const std::vector<double>& b, double s
 /// 1 - `significance` (Student's prediction interval). Always false for fewer than two values.
 bool stands_apart(double value, const std::vector<double>& sample, double significance);
 
-}  // namespace edmill::study
+}  // namespace edmill::numerics

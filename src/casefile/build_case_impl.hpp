@@ -184,6 +184,8 @@ InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const casefile::C
   };
   c.initial_time = instant(spec.initial_time);
   c.statistics_start = instant(spec.statistics_start);
+  if (spec.target.dose)
+    c.counted_dose = {spec.target.counted.normal_only, spec.target.counted.least.template to<Real>()};
   if (spec.end_time) c.stop.end_time = instant(*spec.end_time);
   for (std::size_t place = 0; place < model::stop_rule_count; ++place)
     if (const auto& limit = spec.stop_limits[place]) c.stop.limits[place] = limit->template to<Real>();

@@ -121,6 +121,8 @@ std::string canonical_text(const CaseSpec& c) {
   }
   for (const auto& b : c.balls) out << "ball" << digest_text(b) << "\n";
   for (const auto& b : c.batches) out << "balls" << digest_text(b) << "\n";
+  if (c.target.dose && (c.target.counted.normal_only || c.target.counted.least.positive()))
+    out << "counts " << c.target.counted.normal_only << " " << c.target.counted.least.text() << "\n";
   if (!c.initial_state.empty()) {
     out << "initial_state " << sha256(io::read_whole(c.initial_state, "a final_state.csv")) << "\n";
   }
@@ -179,6 +181,15 @@ std::vector<Colour> CaseSpec::ball_colours() const {
   return colours;
 }
 
+std::string TargetSpec::counts() const {
+  std::string text = counted.normal_only ? "the dose along the normal" : "all of the dose";
+  if (counted.least.positive())
+    text +=
+        fmt::format("{} {:g} J or more", counted.normal_only ? " of impacts where it is" : " of impacts of",
+                    counted.least.to<double>());
+  return text;
+}
+
 std::size_t CaseSpec::ball_count() const {
   std::size_t count = balls.size();
   for (const auto& batch : batches) count += static_cast<std::size_t>(batch.count);
@@ -214,6 +225,8 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   if (Section powder = top.section("powder"); powder.present()) {
     spec.powder_mass = powder.required("mass", Dimension::mass);
     powder.require(spec.powder_mass->positive(), "mass", "a positive mass");
+    read_keys(powder, spec.target);
+    spec.target.counted.normal_only = powder.choice("counts", {"all", "normal"}) == "normal";
     powder.reject_unknown_keys();
   }
   for (const auto& entry : top.sections("ball")) read_ball(entry, spec);

@@ -12,6 +12,7 @@
 #include "casefile/parts.hpp"
 #include "casefile/quantity.hpp"
 #include "model/contact_law.hpp"
+#include "model/counted_dose.hpp"
 #include "model/parts/partners.hpp"
 #include "model/stop_rules.hpp"
 
@@ -153,6 +154,25 @@ struct AuditSpec {
   }
 };
 
+/// In [powder]: how much milling it needs, and what counts as milling.
+struct TargetSpec {
+  std::optional<Quantity> dose;
+  model::CountedDose<Quantity> counted{false, {}};
+
+  static void keys(auto& t, auto&& row) {
+    row(Parameter{"target_dose", Dimension::specific_energy,
+                  "milling dose per mass that the powder is to get, \"10 kJ/g\": the milling time follows",
+                  Range::positive, nullptr, "none"},
+        t.dose);
+    row(Parameter{"counts_above", Dimension::energy,
+                  "an impact counts toward the target when what it has of `counts` is at least this",
+                  Range::not_negative, "0 J"},
+        t.counted.least);
+  }
+  /// "the dose along the normal, of impacts with 0.001 J of it or more", for readers.
+  std::string counts() const;
+};
+
 struct CaseSpec {
   std::string file;                   ///< path of the case file
   std::string text;                   ///< of the case file
@@ -176,6 +196,7 @@ struct CaseSpec {
   std::vector<PairSpec> pairs;  ///< in place of both where two materials are named
   bool pairs_only = false;      ///< every contact that can be is one of them
   std::optional<Quantity> powder_mass;
+  TargetSpec target;
   std::vector<ExplicitBall> balls;
   std::vector<BallBatch> batches;
   std::vector<OutputSpec> outputs;

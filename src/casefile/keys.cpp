@@ -69,6 +69,7 @@ constexpr FixedKey fixed_keys[] = {
     {"contact.pair", "materials", "two names", "required", "beside these, all keys of `[contact]` that describe a law"},
 
     {"powder", "mass", "mass", "required", "for the charge ratio and the specific dose"},
+    {"powder", "counts", "`\"all\"` or `\"normal\"`", "`\"all\"`", "what of the dose counts toward the target: all, or its part along the normal"},
 
     {"balls", "material", "name", "none", "of a `[[material]]`"},
 
@@ -150,11 +151,11 @@ struct KeyedSection {
   void (*see)(const SeeKey& see);
 };
 constexpr KeyedSection keyed_sections[] = {
-    {"run", see_keys<CaseSpec>},          {"material", see_keys<MaterialSpec>},
-    {"balls", see_keys<BallBatch>},       {"ball", see_keys<ExplicitBall>},
-    {"output", see_keys<TimerSpec>},      {"output.contact_point", see_keys<ContactPointSpec>},
-    {"audit", see_keys<AuditSpec>},       {"sweep", see_keys<SweepSpec>},
-    {"optimize", see_keys<OptimizeSpec>},
+    {"run", see_keys<CaseSpec>},     {"material", see_keys<MaterialSpec>},
+    {"balls", see_keys<BallBatch>},  {"ball", see_keys<ExplicitBall>},
+    {"output", see_keys<TimerSpec>}, {"output.contact_point", see_keys<ContactPointSpec>},
+    {"audit", see_keys<AuditSpec>},  {"powder", see_keys<TargetSpec>},
+    {"sweep", see_keys<SweepSpec>},  {"optimize", see_keys<OptimizeSpec>},
 };
 
 class Table {

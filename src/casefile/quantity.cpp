@@ -49,6 +49,10 @@ const std::vector<Unit>& units() {
       {D::energy, {"J", "joule", "joules"}, 1},
       {D::energy, {"mJ", "millijoule", "millijoules"}, ratio(1, 1000)},
       {D::energy, {"kJ", "kilojoule", "kilojoules"}, 1000},
+      {D::specific_energy, {"J/kg"}, 1},
+      {D::specific_energy, {"kJ/kg", "J/g"}, 1000},
+      {D::specific_energy, {"MJ/kg", "kJ/g"}, 1000000},
+      {D::specific_energy, {"kWh/t", "Wh/kg"}, 3600},
       {D::speed, {"m/s"}, 1},
       {D::speed, {"cm/s"}, ratio(1, 100)},
       {D::speed, {"mm/s"}, ratio(1, 1000)},
@@ -108,6 +112,8 @@ std::string name(Dimension dimension) {
       return "an angle";
     case Dimension::energy:
       return "an energy";
+    case Dimension::specific_energy:
+      return "an energy per mass";
     case Dimension::speed:
       return "a speed";
     case Dimension::angular_speed:

@@ -21,6 +21,11 @@ struct RunCommand {
 int run_case(const casefile::CaseSpec& spec, const RunCommand& command);
 int run_resume(const RunCommand& command);
 
+/// Adds the settings of --until-precision: the stop rule, and an end time far off unless one is set.
+/// @throws InputError when it is no part of 1
+void until_precision(const std::string& precision, const casefile::CaseSpec& spec,
+                     std::vector<std::string>& settings);
+
 /// Name for the outputs of a case: the stem of its file.
 std::string name_of(const std::string& case_file);
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "base/statistics.hpp"
 #include "model/parts/partners.hpp"
-#include "study/statistics.hpp"
 
 namespace edmill::compare {
 
@@ -85,7 +85,8 @@ class Judge {
     Quantity q = named(name, unit);
     BatchValues differences;
     for (std::size_t k = 0; k < a.size(); ++k) differences.push_back(b[k] - a[k]);
-    const auto of_a = study::estimate(a), of_b = study::estimate(b), of_both = study::estimate(differences);
+    const auto of_a = numerics::estimate(a), of_b = numerics::estimate(b),
+               of_both = numerics::estimate(differences);
     q.a = of_a.mean, q.a_half_width = of_a.half_width;
     q.b = of_b.mean, q.b_half_width = of_b.half_width;
     q.difference = of_both.mean, q.half_width = of_both.half_width;

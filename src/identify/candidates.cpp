@@ -39,7 +39,13 @@ std::set<std::string> Candidate::names() const {
   return all;
 }
 
-void sort(std::vector<Candidate>& list) { std::ranges::stable_sort(list, {}, &Candidate::criterion); }
+void sort(std::vector<Candidate>& list) { std::ranges::stable_sort(list, {}, &Candidate::rank); }
+
+double Candidate::evidence() const {
+  double choices = 0;
+  for (const auto* p : model.free) choices += p->prior;
+  return criterion - choices;
+}
 
 Candidates::Candidates(const audit::EventsAtHand& log, const audit::Options& options,
                        const model::Case<double>& the_case, const Assumptions& nominal,
@@ -101,14 +107,14 @@ void Candidates::judge(Candidate& c) const {
 }
 
 Candidate Candidates::with_mistakes(const Assumptions& base, const std::vector<std::string>& names) const {
-  Candidate c{{base, {}}, names, {}, {}, 0, 0};
+  Candidate c{{base, {}}, names, {}, {}, 0, 0, 0};
   judge(c);
   return c;
 }
 
 Candidate Candidates::fitted(const Model& model, const std::vector<std::string>& mistakes,
                              const std::vector<double>& start) const {
-  Candidate c{model, mistakes, start, {}, 0, 0};
+  Candidate c{model, mistakes, start, {}, 0, 0, 0};
   const auto& windows = samples_.windows();
   const bool staged = std::ranges::any_of(model.free, [](const auto* p) { return p->is_speed; });
   for (std::size_t w = staged ? 0 : windows.size() - 1; w < windows.size(); ++w) {
@@ -159,6 +165,7 @@ std::vector<double> Candidates::starts(const Assumptions& base, const Parameter&
 
 bool Candidates::accept(Candidate& c) const {
   if (!(without_ - c.criterion >= strong_evidence)) return false;
+  c.plainness = 0;
   if (!c.model.free.empty()) {
     auto result = fit(residuals_.on(samples_.many()), c.model, c.values);
     c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
@@ -168,7 +175,7 @@ bool Candidates::accept(Candidate& c) const {
       c.half_widths[k] += 1e-15 * std::abs(log_.events.back().time);
     if (!(std::abs(c.values[k] - c.model.free[k]->value) > c.half_widths[k])) return false;
     const bool is_factor = !c.model.free[k]->equation.empty() && c.model.free[k]->value == 1;
-    if (is_factor && !word_for(c.values[k], c.half_widths[k]).empty()) c.criterion -= 3;  // no coincidence
+    if (is_factor && !word_for(c.values[k], c.half_widths[k]).empty()) c.plainness += 3;
     widen(c, k);
   }
   count_violations(c);

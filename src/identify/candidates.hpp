@@ -20,8 +20,14 @@ struct Candidate {
   Model model;
   std::vector<std::string> mistakes;
   std::vector<double> values, half_widths;
-  double criterion = 0;            ///< misfit + parameters ln(rows)
+  double criterion = 0;            ///< misfit + parameters ln(rows) + what each of the choices costs
   std::uint64_t left = 0, of = 0;  ///< violations with it and without, or events that are off
+  double plainness = 0;            ///< of factors with a name, which are no coincidence
+
+  /// The least is the best.
+  double rank() const { return criterion - plainness; }
+  /// Without the cost of choices: what the log says.
+  double evidence() const;
 
   Assumptions assumed() const { return model.with(values); }
   std::size_t complexity() const { return model.free.size() + mistakes.size(); }

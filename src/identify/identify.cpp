@@ -307,7 +307,7 @@ class Search {
     Cause cause = cause_of(best);
     std::set<std::set<std::string>> told = {best.names()};  // two numbers may have been tried in either order
     for (std::size_t k = 1; k < accepted.size(); ++k)
-      if (accepted[k].criterion - best.criterion < same_evidence &&
+      if (accepted[k].evidence() - best.evidence() < same_evidence &&
           accepted[k].complexity() <= best.complexity() && told.insert(accepted[k].names()).second)
         cause.alike.push_back(cause_of(accepted[k]).text());
     result.causes.push_back(std::move(cause));

@@ -325,10 +325,12 @@ void LogResiduals::speed_rows(const LoggedEvent& event, const LoggedImpact& impa
                               const model::ContactLaw<double>& law, const Terms& terms, Writer& out) const {
   const auto& has = log_.available;
   if (!has.approach_speed || !has.slip_speed || !has.milling_dose) return;
-  const double speed = std::max({std::abs(event.approach_speed), event.slip_speed, law.least_separation});
+  const auto true_of = [](double logged, double factor) { return factor == 0 ? logged : logged / factor; };
+  const double approach = true_of(event.approach_speed, terms.approach_speed);
+  const double slip = true_of(event.slip_speed, terms.slip_speed);
+  const double speed = std::max({std::abs(approach), slip, law.least_separation});
   out.add(RowKind::energy,
-          event.milling_dose -
-              terms.dose * audit::dose_by_law(impact, law, {-event.approach_speed, event.slip_speed}),
+          event.milling_dose - terms.dose * audit::dose_by_law(impact, law, {-approach, slip}),
           4 * tolerances_.relative * impact.effective_mass * speed * speed);
 }
 

@@ -42,6 +42,9 @@ class JsonText {
   void integers(std::string_view key, const std::vector<int>& values) {
     put_list(key, values, [](int value) { return std::to_string(value); });
   }
+  void numbers(std::string_view key, const std::vector<double>& values) {
+    put_list(key, values, [](double value) { return to_text<double>(value); });
+  }
   void texts(std::string_view key, const std::vector<std::string>& values) { put_list(key, values, quoted); }
   /// nan and infinity, which JSON does not have, become null.
   template <class Real>

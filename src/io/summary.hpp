@@ -23,6 +23,40 @@ struct Provenance {
   std::uint64_t seed = 0;
 };
 
+/// 95 % intervals of the rates of one run, by Student's t over batches of whole drive periods. Half-widths in
+/// the units of the rates; none where the statistics have too few batches.
+struct Intervals {
+  static constexpr std::size_t fewest = 5;
+
+  /// A rate in each batch, and the half-width of its mean.
+  struct Rate {
+    std::vector<double> means;
+    double half_width = 0;
+  };
+  static Rate of(std::vector<double> amounts, double length);
+
+  std::size_t batches = 0;
+  double batch_length = 0;                        ///< [s]
+  std::vector<Rate> collision_rates, dose_rates;  ///< with each partner
+  Rate collision_rate, dose_rate, wall_work_rate, counted_dose_rate;
+
+  bool any() const { return batches >= fewest; }
+};
+
+/// Why a number of a run is not to be trusted.
+struct Warning {
+  std::string kind;  ///< "transient"
+  std::string text;
+};
+
+/// How long it takes to mill the powder.
+template <class Real>
+struct TargetDose {
+  Real dose;               ///< wanted [J/kg]
+  std::string counts;      ///< what of the dose counts, for readers
+  Real counted_dose_rate;  ///< [W]
+};
+
 template <class Real>
 struct Summary {
   Provenance provenance;
@@ -49,6 +83,23 @@ struct Summary {
   double cpu_seconds = 0;
   std::uint64_t total_impacts = 0;                  ///< since the start of the run
   std::vector<std::pair<std::string, Real>> notes;  ///< of observers (run/every_run.hpp)
+  Intervals intervals;
+  std::vector<Warning> warnings;
+  std::optional<double> wanted_precision;  ///< of the dose rate, relative
+  std::optional<TargetDose<Real>> target;
+
+  /// Milling time to the target dose [s]; nothing without one, or without a dose that counts.
+  std::optional<Real> milling_time() const {
+    if (!target || !powder_mass || !(target->counted_dose_rate > 0)) return std::nullopt;
+    return Real(target->dose * *powder_mass / target->counted_dose_rate);
+  }
+  /// Half-width of its 95 % interval [s].
+  std::optional<double> milling_time_half_width() const {
+    const auto time = milling_time();
+    if (!time || !intervals.any()) return std::nullopt;
+    return static_cast<double>(*time) * intervals.counted_dose_rate.half_width /
+           static_cast<double>(target->counted_dose_rate);
+  }
 
   explicit Summary(const model::Partners& of = model::Partners())
       : partners(of), collisions(of.count()), dose_by_partner(of.count(), Real(0)) {}

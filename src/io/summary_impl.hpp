@@ -23,6 +23,8 @@ class SummaryWriter {
     add_energy();
     add_least_separation();
     add_stalls();
+    add_intervals();
+    if (s.target) add_target();
     if (s.collapse) add_collapse();
     if (s.stall) add_stall();
     if (!s.notes.empty()) add_notes();
@@ -106,6 +108,53 @@ class SummaryWriter {
   void add_stalls() {
     json.begin("stalls");
     add_shares(s.stall_impacts, s.stall_dose);
+    json.end();
+  }
+
+  /// Half-widths of the rates above, under their names.
+  void add_intervals() {
+    json.begin("intervals");
+    json.integer("batches", s.intervals.batches);
+    json.number("batch_length", s.intervals.batch_length);
+    if (s.intervals.any()) {
+      const auto& i = s.intervals;
+      json.number("milling_dose_rate", i.dose_rate.half_width);
+      const Real rate = s.milling_dose / s.duration();
+      if (s.milling_dose > 0)
+        json.number("inverse_milling_dose_rate", i.dose_rate.half_width / static_cast<double>(rate * rate));
+      if (s.powder_mass)
+        json.number("specific_milling_dose_rate",
+                    i.dose_rate.half_width / static_cast<double>(*s.powder_mass));
+      json.number("wall_work_rate", i.wall_work_rate.half_width);
+      put_by_partner("collision_rate", i.collision_rates, i.collision_rate);
+      put_by_partner("milling_dose_rate_by_partner", i.dose_rates, i.dose_rate);
+      json.numbers("milling_dose_rate_of_batches", i.dose_rate.means);
+    }
+    json.end();
+    json.begin("warnings");
+    for (const auto& warning : s.warnings) json.text(warning.kind, warning.text);
+    json.end();
+  }
+  void put_by_partner(std::string_view key, const std::vector<Intervals::Rate>& rates,
+                      const Intervals::Rate& total) {
+    json.begin(key);
+    for (int k = 0; k < s.partners.count(); ++k) json.number(s.partners[k].key, rates[k].half_width);
+    json.number("total", total.half_width);
+    json.end();
+  }
+
+  void add_target() {
+    json.begin("target");
+    json.number("dose", s.target->dose);
+    json.text("counts", s.target->counts);
+    json.number("counted_dose_rate", s.target->counted_dose_rate);
+    if (s.intervals.any())
+      json.number("counted_dose_rate_half_width", s.intervals.counted_dose_rate.half_width);
+    if (const auto time = s.milling_time())
+      json.number("milling_time", *time);
+    else
+      json.null("milling_time");
+    if (const auto width = s.milling_time_half_width()) json.number("milling_time_half_width", *width);
     json.end();
   }
 

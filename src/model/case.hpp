@@ -8,6 +8,7 @@
 #include "base/instant.hpp"
 #include "base/vector.hpp"
 #include "model/ball.hpp"
+#include "model/counted_dose.hpp"
 #include "model/mill.hpp"
 #include "model/stop_rules.hpp"
 
@@ -27,6 +28,7 @@ struct Case {
   StopRules<Real> stop;
   Instant<Real> initial_time;      ///< of the initial state
   Instant<Real> statistics_start;  ///< statistics count from here on
+  CountedDose<Real> counted_dose;  ///< toward the target dose
 };
 
 }  // namespace edmill::model

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "model/stop_rules/dose_rate_precision.hpp"
 #include "model/stop_rules/max_ball_speed.hpp"
 #include "model/stop_rules/max_collisions.hpp"
 #include "model/stop_rules/max_milling_dose.hpp"
@@ -13,9 +14,9 @@
 namespace edmill::model {
 
 /// A rule has a key of [run], whose value is its limit and whose name is the reason of the end, and a Watch:
-/// the limit in the run's scalar, `is_met(impact, simulation)` after each impact, and `archive` of what
-/// changes. A new one is a file in model/stop_rules/ and a line here.
-using StopRuleList = std::tuple<MaxCollisions, MaxMillingDose, MaxBallSpeed>;
+/// the limit in the run's scalar, `is_met(impact, simulation)` after each impact, `archive` of what changes,
+/// and `begin(case)` where it needs the case. A new one is a file in model/stop_rules/ and a line here.
+using StopRuleList = std::tuple<MaxCollisions, MaxMillingDose, MaxBallSpeed, DoseRatePrecision>;
 
 inline constexpr std::size_t stop_rule_count = std::tuple_size_v<StopRuleList>;
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "report/sections.hpp"
-#include "study/statistics.hpp"
 
 namespace edmill::report {
 
@@ -25,18 +24,19 @@ std::vector<Card> cards_of(const RunFolder& run) {
   const double time = f.duration();
   if (!(time > 0)) return {};
   const double dose_rate = f.milling_dose / time;
-  const auto dose_width = half_width_of(run, "milling_dose");
-  const auto scaled = [&](double factor) {
-    return dose_width ? std::optional<double>(*dose_width * factor) : std::nullopt;
-  };
-  std::vector<Card> cards{{"Milling dose rate", "W", dose_rate, dose_width}};
+  std::vector<Card> cards{{"Milling dose rate", "W", dose_rate, f.half_width("milling_dose_rate")}};
   if (dose_rate > 0)
-    cards.push_back({"Inverse milling dose rate", "s/J", 1 / dose_rate, scaled(1 / (dose_rate * dose_rate))});
-  if (f.powder_mass)
     cards.push_back(
-        {"Specific milling dose rate", "W/kg", dose_rate / *f.powder_mass, scaled(1 / *f.powder_mass)});
-  cards.push_back({"Power from the walls", "W", f.wall_work / time, half_width_of(run, "wall_work")});
-  cards.push_back({"Collisions", "1/s", f.all_collisions() / time, half_width_of(run, "collision")});
+        {"Inverse milling dose rate", "s/J", 1 / dose_rate, f.half_width("inverse_milling_dose_rate")});
+  if (f.powder_mass)
+    cards.push_back({"Specific milling dose rate", "W/kg", dose_rate / *f.powder_mass,
+                     f.half_width("specific_milling_dose_rate")});
+  if (f.milling_time)
+    cards.push_back({"Milling time", "h", *f.milling_time / 3600,
+                     f.milling_time_half_width ? std::optional<double>(*f.milling_time_half_width / 3600)
+                                               : std::nullopt});
+  cards.push_back({"Power from the walls", "W", f.wall_work / time, f.half_width("wall_work_rate")});
+  cards.push_back({"Collisions", "1/s", f.all_collisions() / time, f.half_width("collision_rate/total")});
   return cards;
 }
 
@@ -66,18 +66,21 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
       add(box, "dd", {{"class", "interval"}}, "\u00b1 " + width + " " + card.unit);
     }
   }
-  if (const auto series = rate_of(run, "milling_dose"); series && any) {
-    const auto batches = batches_of(*series, f.start_time, f.end_time);
+  if (any)
     add(section, "p", {{"class", "note"}},
-        fmt::format("\u00b1: 95 % interval of this run, Student\u2019s t over {} batches of {} s. It covers "
-                    "longer runs of the same mill; other seeds may settle at another mean (edmill sweep).",
-                    batches.means.size(), readable(batches.length)));
-  } else if (!series) {
-    add_missing(section, "intervals",
-                "type = \"trends\", columns = [{ variable = \"milling_dose\", statistics = [\"rate\"] }]");
-  } else {
-    add(section, "p", {{"class", "note"}}, "Too short for intervals: fewer than 5 whole batches.");
-  }
+        fmt::format(
+            "\u00b1: 95 % interval of this run, Student\u2019s t over {} batches of {} s, whole drive "
+            "periods. It covers longer runs of the same mill; other seeds may settle at another mean "
+            "(edmill sweep).",
+            brief(f.batches), readable(f.batch_length)));
+  else
+    add(section, "p", {{"class", "note"}}, "Too short for intervals: fewer than 5 drive periods.");
+  if (f.target_dose)
+    add(section, "p", {{"class", "note"}},
+        f.milling_time ? fmt::format("Milling time to {} kJ/g, counting {}.", readable(*f.target_dose / 1e6),
+                                     f.target_counts)
+                       : fmt::format("No milling time to {} kJ/g: nothing of the dose counts ({}).",
+                                     readable(*f.target_dose / 1e6), f.target_counts));
 }
 
 void add_ward(pugi::xml_node main, const RunFolder& run) {
@@ -86,8 +89,8 @@ void add_ward(pugi::xml_node main, const RunFolder& run) {
   if (!ward || !(f.duration() > 0) || !(f.milling_dose > 0)) return;
   auto section = add_section(main, "thesis", "Comparison with the thesis");
   const double inverse = f.duration() / f.milling_dose, rate = f.all_collisions() / f.duration();
-  const auto width = half_width_of(run, "milling_dose");
-  const auto [here, interval] = plot::with_interval(inverse, width.value_or(0) * inverse * inverse);
+  const auto width = f.half_width("inverse_milling_dose_rate");
+  const auto [here, interval] = plot::with_interval(inverse, width.value_or(0));
   std::vector<std::vector<std::string>> rows{
       {"inverse milling dose rate [s/J]", width ? here + " \u00b1 " + interval : readable(inverse),
        readable(ward->inverse_dose_rate), readable(ward->inverse_dose_rate / inverse, 3)}};
@@ -105,14 +108,11 @@ void add_ward(pugi::xml_node main, const RunFolder& run) {
 }
 
 void add_warnings(pugi::xml_node main, const RunFolder& run) {
-  Batches batches;
-  if (const auto series = rate_of(run, "milling_dose"))
-    batches = batches_of(*series, run.facts.start_time, run.facts.end_time);
-  const auto warnings = warnings_of(run.facts, batches);
+  const auto& warnings = run.facts.warnings;
   if (warnings.empty()) return;
   auto section = add_section(main, "warnings", warnings.size() == 1 ? "A warning" : "Warnings");
   auto list = add(section, "ul");
-  for (const auto& warning : warnings) add(list, "li", {{"data-kind", warning.kind}}, warning.text);
+  for (const auto& [kind, text] : warnings) add(list, "li", {{"data-kind", kind}}, text);
 }
 
 }  // namespace edmill::report

@@ -3,7 +3,6 @@
 
 #include "model/impact_variables.hpp"
 #include "report/sections.hpp"
-#include "study/statistics.hpp"
 
 namespace edmill::report {
 
@@ -83,12 +82,6 @@ std::optional<Series> rate_of(const RunFolder& run, const char* variable, int pa
   const auto table = read_table(run.file_of(*output), "a table of trends");
   if (table.numbers.empty()) return std::nullopt;
   return series_of(*output, table, row, run.spec.initial_time.to<double>());
-}
-
-std::optional<double> half_width_of(const RunFolder& run, const char* variable) {
-  const auto series = rate_of(run, variable);
-  if (!series) return std::nullopt;
-  return study::estimate(batches_of(*series, run.facts.start_time, run.facts.end_time).means).half_width;
 }
 
 }  // namespace edmill::report

@@ -7,7 +7,6 @@
 #include "model/ball_variables.hpp"
 #include "model/impact_variables.hpp"
 #include "report/sections.hpp"
-#include "study/statistics.hpp"
 
 namespace edmill::report {
 
@@ -56,14 +55,12 @@ void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
   const auto thin = coarser(whole(*series), most_points);
   chart.curves.push_back({"", "c0", points_of(thin), false});
   const double from = run.facts.start_time, until = run.facts.end_time;
-  const auto e = study::estimate(batches_of(*series, from, until).means);
-  if (e.half_width) {
+  if (const auto width = run.facts.half_width("milling_dose_rate")) {
+    const double mean = run.facts.milling_dose / run.facts.duration();
     chart.curves[0].name = fmt::format("over {} s", readable(thin.end[0] - thin.begin[0], 2));
-    chart.bands.push_back({"c1",
-                           {from, until},
-                           {*e.mean - *e.half_width, *e.mean - *e.half_width},
-                           {*e.mean + *e.half_width, *e.mean + *e.half_width}});
-    chart.curves.push_back({"mean with its 95 % interval", "c1", {{from, *e.mean}, {until, *e.mean}}, false});
+    chart.bands.push_back(
+        {"c1", {from, until}, {mean - *width, mean - *width}, {mean + *width, mean + *width}});
+    chart.curves.push_back({"mean with its 95 % interval", "c1", {{from, mean}, {until, mean}}, false});
   }
   fit_heights(chart);
   chart.description =

@@ -7,6 +7,25 @@
 
 namespace edmill::report {
 
+/// "12.3 ± 0.4 h", in the unit that reads best.
+inline std::string time_text(double seconds, const std::optional<double>& half_width) {
+  const auto [size, unit] = seconds >= 7200  ? std::pair{3600.0, "h"}
+                            : seconds >= 120 ? std::pair{60.0, "min"}
+                                             : std::pair{1.0, "s"};
+  return fmt::format("{:.4g}{} {}", seconds / size,
+                     half_width ? fmt::format(" ± {:.2g}", *half_width / size) : "", unit);
+}
+
+template <class Real>
+std::string target_rows(const io::Summary<Real>& s) {
+  std::string text = fmt::format("  {:<28}{:g} kJ/g, {}\n", "target dose",
+                                 static_cast<double>(s.target->dose) / 1e6, s.target->counts);
+  text += fmt::format("  {:<28}", "milling time");
+  const auto time = s.milling_time();
+  if (!time) return text + "none: nothing of the dose counts\n";
+  return text + time_text(static_cast<double>(*time), s.milling_time_half_width()) + "\n";
+}
+
 template <class Real>
 std::string result_table(const io::Summary<Real>& s) {
   const auto real = [](const Real& x) { return static_cast<double>(x); };
@@ -18,27 +37,38 @@ std::string result_table(const io::Summary<Real>& s) {
   out += fmt::format("{} in {}, ended by {}\n", s.provenance.case_file, s.provenance.precision,
                      model::name(s.end_reason));
   row("statistics", fmt::format("{} s to {} s", real(s.start_time), real(s.end_time)));
-  out += fmt::format("  {:<28}{:>12}{:>14}{:>16}\n", "collisions", "number", "per second", "dose [J]");
-  const auto collisions = [&](const std::string& name, std::uint64_t number, const Real& dose) {
+  out += fmt::format("  {:<28}{:>12}{:>14}{:>10}{:>14}\n", "collisions", "number", "per second", "±",
+                     "dose [J]");
+  const auto& of = s.intervals;
+  const auto collisions = [&](const std::string& name, std::uint64_t number, const Real& dose,
+                              const io::Intervals::Rate* interval) {
     const std::string rate =
         duration > 0 ? fmt::format("{:.1f}", static_cast<double>(number) / duration) : "-";
-    out += fmt::format("    {:<26}{:>12}{:>14}{:>16.6g}\n", name, number, rate, real(dose));
+    out += fmt::format("    {:<26}{:>12}{:>14}{:>10}{:>14.6g}\n", name, number, rate,
+                       interval ? fmt::format("{:.2g}", interval->half_width) : "-", real(dose));
+  };
+  const auto interval = [&](double half_width) {
+    return of.any() ? fmt::format(" ± {:.2g}", half_width) : std::string();
   };
   for (int k = 0; k < s.partners.count(); ++k) {
     const auto& label = s.partners[k].label;
     collisions(k < s.partners.walls() ? fmt::format("wall {} ({})", k, label) : label, s.collisions[k],
-               s.dose_by_partner[k]);
+               s.dose_by_partner[k], of.any() ? &of.collision_rates[k] : nullptr);
   }
-  collisions("total", s.total_collisions(), s.milling_dose);
+  collisions("total", s.total_collisions(), s.milling_dose, of.any() ? &of.collision_rate : nullptr);
   if (duration > 0) {
-    row("milling dose rate", fmt::format("{:.6g} W", real(s.milling_dose) / duration));
+    const double rate = real(s.milling_dose) / duration, half_width = of.dose_rate.half_width;
+    row("milling dose rate", fmt::format("{:.6g}{} W", rate, interval(half_width)));
     if (s.milling_dose > 0)
-      row("inverse milling dose rate", fmt::format("{:.6g} s/J", duration / real(s.milling_dose)));
-    row("wall work rate", fmt::format("{:.6g} W", real(s.wall_work) / duration));
+      row("inverse milling dose rate",
+          fmt::format("{:.6g}{} s/J", 1 / rate, interval(half_width / rate / rate)));
+    row("wall work rate",
+        fmt::format("{:.6g}{} W", real(s.wall_work) / duration, interval(of.wall_work_rate.half_width)));
     if (s.powder_mass)
-      row("specific milling dose rate",
-          fmt::format("{:.6g} W/kg", real(s.milling_dose) / duration / real(*s.powder_mass)));
+      row("specific milling dose rate", fmt::format("{:.6g}{} W/kg", rate / real(*s.powder_mass),
+                                                    interval(half_width / real(*s.powder_mass))));
   }
+  if (s.target) out += target_rows(s);
   if (s.milling_dose > 0)
     row("energy closure / dose", fmt::format("{:.2e}", real(s.energy_closure()) / real(s.milling_dose)));
   const auto total = s.total_collisions();
@@ -64,6 +94,7 @@ std::string result_table(const io::Summary<Real>& s) {
   row("CPU time",
       fmt::format("{:.3g} s, {:.3g} collisions/s", s.cpu_seconds,
                   s.cpu_seconds > 0 ? static_cast<double>(s.total_impacts) / s.cpu_seconds : 0.0));
+  for (const auto& warning : s.warnings) row("warning", warning.text);
   return out;
 }
 

@@ -45,6 +45,17 @@ class Reader {
     if (const json* found = find(path, "why the run ended", known))
       value = *model::end_reason_named(found->get<std::string>());
   }
+  void texts_by_key(const std::string& path, std::map<std::string, std::string>& values) {
+    const auto all_texts = [](const json& j) {
+      return j.is_object() &&
+             std::all_of(j.begin(), j.end(), [](const json& one) { return one.is_string(); });
+    };
+    if (const json* found = find(path, "texts by their kinds", all_texts))
+      values = found->get<std::map<std::string, std::string>>();
+  }
+  bool has_number(const std::string& path) const {
+    return has(path) && root_.at(json::json_pointer(path)).is_number();
+  }
   bool has(const std::string& path) const { return root_.contains(json::json_pointer(path)); }
   void throw_problems() const {
     if (!problems_.empty()) throw InputError(problems_);
@@ -108,6 +119,23 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
   for (int k = 0; k <= walls; ++k) {
     reader.number("/collisions/" + model::partner_key(k, walls), f.collisions.emplace_back());
     reader.number("/milling_dose_by_partner/" + model::partner_key(k, walls), f.dose.emplace_back());
+  }
+  if (reader.has("/intervals")) {  // not in those of 1.0
+    reader.number("/intervals/batches", f.batches);
+    reader.number("/intervals/batch_length", f.batch_length);
+    for (const char* rate : {"milling_dose_rate", "inverse_milling_dose_rate", "specific_milling_dose_rate",
+                             "wall_work_rate", "collision_rate/total"})
+      if (const std::string path = std::string("/intervals/") + rate; reader.has(path))
+        reader.number(path, f.half_widths[rate]);
+    reader.texts_by_key("/warnings", f.warnings);
+  }
+  if (reader.has("/target")) {
+    reader.number("/target/dose", f.target_dose.emplace());
+    reader.text("/target/counts", f.target_counts);
+    if (reader.has_number("/target/milling_time"))
+      reader.number("/target/milling_time", f.milling_time.emplace());
+    if (reader.has_number("/target/milling_time_half_width"))
+      reader.number("/target/milling_time_half_width", f.milling_time_half_width.emplace());
   }
   if (reader.has("/powder_mass")) reader.number("/powder_mass", f.powder_mass.emplace());
   reader.throw_problems();

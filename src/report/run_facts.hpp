@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,17 @@ struct RunFacts {
   double supplied_energy = 0;                               ///< by it [J]
   double deepest_overlap = 0;                               ///< [m]
   double impacts_since_start = 0, cpu_seconds = 0;
+  double batches = 0, batch_length = 0;                         ///< of the intervals [s]
+  std::map<std::string, double> half_widths;                    ///< of 95 % intervals, by the names of rates
+  std::map<std::string, std::string> warnings;                  ///< by kind
+  std::optional<double> target_dose;                            ///< [J/kg]
+  std::string target_counts;                                    ///< what counts toward it
+  std::optional<double> milling_time, milling_time_half_width;  ///< to it [s]
+
+  std::optional<double> half_width(const std::string& rate) const {
+    const auto found = half_widths.find(rate);
+    return found == half_widths.end() ? std::nullopt : std::optional<double>(found->second);
+  }
 
   double duration() const { return end_time - start_time; }
   double all_collisions() const {

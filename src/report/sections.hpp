@@ -5,7 +5,6 @@
 #include "report/run_folder.hpp"
 #include "report/series.hpp"
 #include "report/ward.hpp"
-#include "report/warnings.hpp"
 
 namespace edmill::report {
 
@@ -39,7 +38,5 @@ void add_table(pugi::xml_node section, const std::string& id, const std::string&
 
 /// Rate of a variable of all impacts, or of those with one partner; nothing when no table has it.
 std::optional<Series> rate_of(const RunFolder& run, const char* variable, int partner = -1);
-/// Half-width of the 95 % interval of the mean of a rate over the statistics.
-std::optional<double> half_width_of(const RunFolder& run, const char* variable);
 
 }  // namespace edmill::report

@@ -47,27 +47,6 @@ Series coarser(const Series& series, std::size_t most) {
   return result;
 }
 
-Batches batches_of(const Series& series, double from, double until) {
-  std::vector<double> rates;
-  double length = 0;
-  for (std::size_t k = 0; k < series.rate.size(); ++k) {
-    const double interval = series.end[k] - series.begin[k], slack = 1e-6 * interval;
-    if (series.begin[k] < from - slack || series.end[k] > until + slack) continue;
-    if (length == 0) length = interval;
-    if (std::abs(interval - length) < 1e-6 * length) rates.push_back(series.rate[k]);
-  }
-  const std::size_t each = std::max<std::size_t>(1, rates.size() / 20);
-  const std::size_t count = std::min<std::size_t>(20, rates.size() / each);
-  if (count < 5) return {};
-  Batches batches{{}, length * static_cast<double>(each)};
-  for (std::size_t b = 0; b < count; ++b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < each; ++k) sum += rates[rates.size() - (count - b) * each + k];
-    batches.means.push_back(sum / static_cast<double>(each));
-  }
-  return batches;
-}
-
 plot::Points points_of(const Series& series) {
   plot::Points points;
   for (std::size_t k = 0; k < series.rate.size(); ++k)

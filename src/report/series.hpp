@@ -28,16 +28,6 @@ Series whole(Series series);
 /// Intervals merged so that there are at most `most` of them; the last can be shorter.
 Series coarser(const Series& series, std::size_t most);
 
-/// Means over batches of equally many intervals.
-struct Batches {
-  std::vector<double> means;
-  double length = 0;  ///< of each [s]
-};
-
-/// Up to 20 batches of the intervals that lie inside [from, until], the last of them whole; none when that
-/// leaves fewer than 5. Intervals that are shorter than the first are left out.
-Batches batches_of(const Series& series, double from, double until);
-
 /// Points of a line through the midpoints of the intervals.
 plot::Points points_of(const Series& series);
 

@@ -17,7 +17,7 @@ class RunDriver {
       : guests_(guests),
         simulation_(built.the_case, built.states, built.start, guests.interrupt),
         every_run_(built.the_case),
-        statistics_(model::partners_of(built.the_case.mill.vessel)),
+        statistics_(model::partners_of(built.the_case.mill.vessel), built.the_case.counted_dose),
         first_(built.start) {
     every_run_.attach_to(simulation_);
     for (auto* observer : guests.observers) simulation_.attach(*observer);
@@ -81,6 +81,7 @@ class RunDriver {
   void start_counting() {
     counting_ = true;
     energy_at_start_ = simulation_.energy_at(start_);
+    statistics_.begin(start_);
     simulation_.attach(statistics_);
   }
 

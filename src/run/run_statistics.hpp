@@ -4,8 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/batches.hpp"
 #include "base/compensated_sum.hpp"
 #include "engine/observer.hpp"
+#include "io/summary.hpp"
+#include "model/counted_dose.hpp"
 #include "model/parts/partners.hpp"
 
 namespace edmill::run {
@@ -27,13 +30,19 @@ class RunStatistics : public engine::Observer<Real> {
     }
   };
 
-  explicit RunStatistics(const model::Partners& partners) : totals_(partners.count()) {}
+  /// @param counted  what of an impact's dose works the powder
+  RunStatistics(const model::Partners& partners, const model::CountedDose<Real>& counted)
+      : counts_(counted), totals_(partners.count()) {}
+
+  void begin(const Instant<Real>& start) { batches_.begin(start); }
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>&) override {
+    while (!(impact.time < batches_.next())) batches_.close(totals_now());
     Totals& t = impact.with_wall ? totals_[impact.partner] : totals_.back();
     const auto& outcome = impact.outcome;
     ++t.collisions;
     t.milling_dose += outcome.milling_dose;
+    if (!counts_.all()) counted_dose_ += counts_.of(outcome);
     if (impact.with_wall) t.wall_work += outcome.wall_work;
     if (outcome.least_separation) {
       ++t.touched;
@@ -46,7 +55,7 @@ class RunStatistics : public engine::Observer<Real> {
     }
   }
 
-  void archive(Archive& a) override { a(totals_); }
+  void archive(Archive& a) override { a(totals_, counted_dose_, batches_); }
 
   /// By the partners' places.
   const std::vector<Totals>& by_partner() const { return totals_; }
@@ -62,8 +71,43 @@ class RunStatistics : public engine::Observer<Real> {
   Real stall_dose() const { return sum(&Totals::stall_dose); }
   Real supplied_energy() const { return sum(&Totals::supplied_energy); }
   Real wall_work() const { return sum(&Totals::wall_work); }
+  /// What of the dose works the powder [J].
+  Real counted_dose() const { return counts_.all() ? milling_dose() : counted_dose_.value(); }
+
+  /// Intervals of the rates, from the batches that are whole at an instant.
+  io::Intervals intervals(const Instant<Real>& until, const Real& period) const {
+    auto batches = batches_;
+    while (!(until < batches.next())) batches.close(totals_now());
+    io::Intervals found;
+    found.batches = batches.count();
+    found.batch_length = static_cast<double>(batches.periods()) * static_cast<double>(period);
+    if (found.batches < io::Intervals::fewest) return found;
+    std::size_t place = 0;
+    const auto next = [&] { return io::Intervals::of(batches.amounts(place++), found.batch_length); };
+    for (std::size_t k = 0; k < totals_.size(); ++k) {
+      found.collision_rates.push_back(next());
+      found.dose_rates.push_back(next());
+    }
+    found.collision_rate = next(), found.dose_rate = next(), found.wall_work_rate = next();
+    found.counted_dose_rate = next();
+    return found;
+  }
 
  private:
+  std::vector<double> totals_now() const {
+    std::vector<double> now;
+    double collisions = 0, dose = 0, work = 0;
+    for (const auto& t : totals_) {
+      now.push_back(static_cast<double>(t.collisions));
+      now.push_back(static_cast<double>(t.milling_dose.value()));
+      collisions += now[now.size() - 2], dose += now.back();
+      work += static_cast<double>(t.wall_work.value());
+    }
+    now.insert(now.end(),
+               {collisions, dose, work, counts_.all() ? dose : static_cast<double>(counted_dose_.value())});
+    return now;
+  }
+
   std::uint64_t count(std::uint64_t Totals::*part) const {
     std::uint64_t total = 0;
     for (const auto& t : totals_) total += t.*part;
@@ -74,7 +118,10 @@ class RunStatistics : public engine::Observer<Real> {
     for (const auto& t : totals_) total += (t.*part).value();
     return total.value();
   }
+  model::CountedDose<Real> counts_;
   std::vector<Totals> totals_;
+  numerics::CompensatedSum<Real> counted_dose_;
+  numerics::Batches<Real> batches_;
 };
 
 }  // namespace edmill::run

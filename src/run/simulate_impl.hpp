@@ -4,6 +4,7 @@
 #include "base/errors.hpp"
 #include "base/version.hpp"
 #include "run/run_driver_impl.hpp"
+#include "run/warnings.hpp"
 
 namespace edmill::run {
 
@@ -38,6 +39,10 @@ template <class Real>
 io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built) {
   io::Summary<Real> summary(model::partners_of(built.the_case.mill.vessel));
   if (spec.powder_mass) summary.powder_mass = spec.powder_mass->template to<Real>();
+  if (spec.target.dose)
+    summary.target = {spec.target.dose->template to<Real>(), spec.target.counts(), Real(0)};
+  if (const auto& wanted = built.the_case.stop.limits[model::place_of_rule<model::DoseRatePrecision>])
+    summary.wanted_precision = static_cast<double>(*wanted);
   Real ball_mass{0};
   for (const auto& ball : built.the_case.balls) ball_mass += ball.mass;
   summary.ball_mass = ball_mass;
@@ -64,6 +69,11 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   };
   name(summary.start_time, built.the_case.statistics_start, spec.statistics_start);
   if (spec.end_time) name(summary.end_time, *built.the_case.stop.end_time, *spec.end_time);
+  if (summary.duration() > 0) {
+    summary.intervals = driver.statistics().intervals(simulation.now(), simulation.clock().period());
+    if (summary.target)
+      summary.target->counted_dose_rate = driver.statistics().counted_dose() / summary.duration();
+  }
   return summary;
 }
 
@@ -103,6 +113,7 @@ Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCas
     result.saved = {built.start, built.states};
   }
   result.summary.end_reason = end_reason;
+  result.summary.warnings = warnings_of(measures_of(result.summary));
   result.summary.error = result.summary.stall ? io::stall_message(result.summary) : error;
   return result;
 }

@@ -14,6 +14,8 @@ class StopRuleWatch : public engine::Observer<Real> {
   explicit StopRuleWatch(const model::Case<Real>& of) {
     for_each([&]<class Watch>(std::optional<Watch>& watch, std::size_t place) {
       if (const auto& limit = of.stop.limits[place]) watch = Watch{*limit};
+      if constexpr (requires { watch->begin(of); })
+        if (watch) watch->begin(of);
     });
   }
 

@@ -147,7 +147,7 @@ class Search {
     std::optional<std::size_t> best;
     double largest = 0;
     for (std::size_t k = 0; k < study_.points().size(); ++k) {
-      const auto mean = estimate(values(k)).mean;
+      const auto mean = numerics::estimate(values(k)).mean;
       if (!mean || study_.points()[k].failed() > 0) continue;
       if (!best || *mean > largest) best = k, largest = *mean;
     }
@@ -161,7 +161,7 @@ class Search {
     const double significance = 0.05 / static_cast<double>(std::max<std::size_t>(count - 1, 1));
     for (std::size_t k = 0; k < count; ++k) {
       if (k == leader || study_.points()[k].failed() > 0 || values(k).empty()) continue;
-      if (!differ(values(k), values(leader), significance)) group.push_back(k);
+      if (!numerics::differ(values(k), values(leader), significance)) group.push_back(k);
     }
     return group;
   }
@@ -180,7 +180,7 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
   const auto& point = study.points()[index];
   std::string line = fmt::format("  point {}:", index + 1);
   for (const auto& [key, value] : point.settings) line += fmt::format(" {} = {},", key, value);
-  const auto e = estimate(point.values(quantity_named(spec.objective)));
+  const auto e = numerics::estimate(point.values(quantity_named(spec.objective)));
   const std::string unit = spec.objective == "milling_dose_rate" ? "W" : "W/kg";
   return line + fmt::format(" {:.6g} ± {:.2g} {} ({} runs)\n", e.mean.value_or(0), e.half_width.value_or(0),
                             unit, point.done());

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "base/statistics.hpp"
 #include "casefile/study_spec.hpp"
 #include "study/executor.hpp"
-#include "study/statistics.hpp"
 
 namespace edmill::study {
 

@@ -50,6 +50,8 @@ std::string to_json(const RunRecord& r) {
   json.number("wall_work", r.wall_work);
   if (r.powder_mass) json.number("powder_mass", *r.powder_mass);
   if (r.ball_mass) json.number("ball_mass", *r.ball_mass);
+  if (r.dose_rate_half_width) json.number("dose_rate_half_width", *r.dose_rate_half_width);
+  if (r.milling_time) json.number("milling_time", *r.milling_time);
   json.number("cpu_seconds", r.cpu_seconds);
   return json.finish();
 }
@@ -76,6 +78,8 @@ std::optional<RunRecord> from_json(const std::string& text) try {
   r.wall_work = number("wall_work");
   r.powder_mass = number_if_there("powder_mass");
   r.ball_mass = number_if_there("ball_mass");
+  r.dose_rate_half_width = number_if_there("dose_rate_half_width");
+  r.milling_time = number_if_there("milling_time");
   r.cpu_seconds = number("cpu_seconds");
   return r;
 } catch (const std::exception&) {
@@ -116,6 +120,7 @@ std::vector<Quantity> quantities(int walls) {
        [](const RunRecord& r) {
          return r.powder_mass ? rate(r, r.milling_dose / *r.powder_mass) : std::nullopt;
        }},
+      {"milling_time", [](const RunRecord& r) { return r.milling_time; }},
       {"wall_work_rate", [](const RunRecord& r) { return rate(r, r.wall_work); }}};
   for (int wall = 0; wall < walls; ++wall) list.push_back(wall_rate(wall));
   list.push_back({"collision_rate_" + model::partner_key(walls, walls),

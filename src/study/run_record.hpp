@@ -20,6 +20,8 @@ struct RunRecord {
   std::vector<std::uint64_t> collisions;   ///< with each partner; none of a run that could not start
   double milling_dose = 0, wall_work = 0;  ///< [J]
   std::optional<double> powder_mass, ball_mass;
+  std::optional<double> dose_rate_half_width;  ///< of the run's own 95 % interval [W]
+  std::optional<double> milling_time;          ///< to the case's target dose [s]
   double cpu_seconds = 0;
 
   bool done() const { return status == "done"; }
@@ -60,6 +62,8 @@ RunRecord record_of(const io::Summary<Real>& s) {
   r.wall_work = static_cast<double>(s.wall_work);
   r.powder_mass = in_double(s.powder_mass);
   r.ball_mass = in_double(s.ball_mass);
+  if (s.intervals.any()) r.dose_rate_half_width = s.intervals.dose_rate.half_width;
+  r.milling_time = in_double(s.milling_time());
   r.cpu_seconds = s.cpu_seconds;
   return r;
 }

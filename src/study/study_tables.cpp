@@ -64,7 +64,7 @@ Table Study::point_table() const {
     put_point(table, k, point, varied);
     table.put(point.runs.size(), point.done(), point.failed());
     for (const auto& quantity : shown) {
-      const auto e = estimate(point.values(quantity));
+      const auto e = numerics::estimate(point.values(quantity));
       table.put(e.mean, e.half_width);
     }
   }
@@ -77,7 +77,8 @@ Table Study::run_table() const {
   auto columns = point_columns(varied);
   columns.push_back({"seed", Type::integer});
   for (const auto* name : {"status", "end_reason"}) columns.push_back({name, Type::text});
-  for (const auto* name : {"start_time", "end_time", "charge_ratio_reached", "milling_dose", "wall_work"})
+  for (const auto* name : {"start_time", "end_time", "charge_ratio_reached", "milling_dose", "wall_work",
+                           "milling_dose_rate_ci95"})
     columns.push_back({name, Type::number});
   for (const auto& quantity : shown) columns.push_back({quantity.name, Type::number});
   for (const auto* name : {"digest", "message"}) columns.push_back({name, Type::text});
@@ -90,7 +91,7 @@ Table Study::run_table() const {
       put_point(table, k, points_[k], varied);
       table.put(run.seed, run.record ? record.status : "pending", record.end_reason);
       table.put(if_ran(record.start_time), if_ran(record.end_time), charge_ratio(record),
-                if_ran(record.milling_dose), if_ran(record.wall_work));
+                if_ran(record.milling_dose), if_ran(record.wall_work), record.dose_rate_half_width);
       for (const auto& quantity : shown) table.put(quantity.of(record));
       table.put(run.job.digest, record.message);
     }

@@ -20,35 +20,6 @@ Series counting(std::size_t count, double length) {
   return s;
 }
 
-TEST(Batches, AreTwentyOfEquallyManyIntervalsAndEndWithTheStatistics) {
-  const auto batches = report::batches_of(counting(100, 0.1), 1.0, 9.0);
-  ASSERT_EQ(batches.means.size(), 20u);  // intervals 10 to 89, 4 in each
-  EXPECT_NEAR(batches.length, 0.4, 1e-12);
-  EXPECT_EQ(batches.means.front(), (10 + 11 + 12 + 13) / 4.0);
-  EXPECT_EQ(batches.means.back(), (86 + 87 + 88 + 89) / 4.0);
-}
-
-TEST(Batches, LeaveOutTheFirstIntervalsThatDoNotFit) {
-  const auto batches = report::batches_of(counting(47, 1), 0, 47);
-  ASSERT_EQ(batches.means.size(), 20u);  // of 2, the last 40
-  EXPECT_EQ(batches.means.front(), 7.5);
-  EXPECT_EQ(batches.means.back(), 45.5);
-}
-
-TEST(Batches, LeaveOutAShorterLastInterval) {
-  auto series = counting(11, 1);
-  series.end.back() = 10.25;
-  series.rate.back() = 1e9;
-  const auto batches = report::batches_of(series, 0, 10.25);
-  ASSERT_EQ(batches.means.size(), 10u);
-  EXPECT_EQ(batches.means.back(), 9);
-}
-
-TEST(Batches, OfFewerThanFiveIntervalsThereAreNone) {
-  EXPECT_TRUE(report::batches_of(counting(4, 1), 0, 4).means.empty());
-  EXPECT_EQ(report::batches_of(counting(5, 1), 0, 5).means.size(), 5u);
-}
-
 TEST(Series, CoarserIntervalsKeepTheAmount) {
   auto fine = counting(10, 1);
   fine.end.back() = 9.5;

@@ -1,3 +1,5 @@
 edmill_test(agreement_test run/agreement_test.cpp)
 edmill_test(certify_test run/certify_test.cpp TIMEOUT 300 LABELS verification)
 edmill_test(own_law_test run/own_law_test.cpp)
+edmill_test(warnings_test run/warnings_test.cpp)
+edmill_test(intervals_test run/intervals_test.cpp)

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/statistics.hpp"
 #include "program.hpp"
-#include "study/statistics.hpp"
 
 namespace edmill {
 namespace {
@@ -28,7 +28,7 @@ TEST(SweepStatistics, TheIntervalHolds95PercentOfStudentsDistribution) {
                                         {5.1, 4.9, 5.3},
                                         {-1, 0.5, 3, 8, 2},
                                         {1, 1.1, 0.9, 1.05, 0.95, 1, 1.2, 0.8, 1, 1.01}}) {
-    const auto e = study::estimate(values);
+    const auto e = numerics::estimate(values);
     const double n = static_cast<double>(values.size());
     double sum = 0, squares = 0;
     for (const double v : values) sum += v, squares += v * v;
@@ -39,23 +39,23 @@ TEST(SweepStatistics, TheIntervalHolds95PercentOfStudentsDistribution) {
 }
 
 TEST(SweepStatistics, OneValueHasNoInterval) {
-  EXPECT_FALSE(study::estimate({}).mean);
-  EXPECT_EQ(*study::estimate({3}).mean, 3);
-  EXPECT_FALSE(study::estimate({3}).half_width);
+  EXPECT_FALSE(numerics::estimate({}).mean);
+  EXPECT_EQ(*numerics::estimate({3}).mean, 3);
+  EXPECT_FALSE(numerics::estimate({3}).half_width);
 }
 
 TEST(SweepStatistics, OnlyDistantMeansDiffer) {
-  EXPECT_TRUE(study::differ({1, 1.1, 0.9}, {2, 2.1, 1.9}, 0.05));
-  EXPECT_FALSE(study::differ({1, 1.1, 0.9}, {1.05, 1.15, 0.95}, 0.05));
-  EXPECT_FALSE(study::differ({1}, {2, 2.1}, 0.05));
-  EXPECT_TRUE(study::differ({1, 1}, {2, 2}, 0.05));
+  EXPECT_TRUE(numerics::differ({1, 1.1, 0.9}, {2, 2.1, 1.9}, 0.05));
+  EXPECT_FALSE(numerics::differ({1, 1.1, 0.9}, {1.05, 1.15, 0.95}, 0.05));
+  EXPECT_FALSE(numerics::differ({1}, {2, 2.1}, 0.05));
+  EXPECT_TRUE(numerics::differ({1, 1}, {2, 2}, 0.05));
   // Equal sizes and variances: Welch's test is Student's with 4 degrees, whose limit at 5 % is 2.7764.
   const double error = std::sqrt(2 * 0.01 / 3);
   const auto shifted = [&](double t) {
     return std::vector<double>{1 + t * error, 1.1 + t * error, 0.9 + t * error};
   };
-  EXPECT_FALSE(study::differ({1, 1.1, 0.9}, shifted(2.776), 0.05));
-  EXPECT_TRUE(study::differ({1, 1.1, 0.9}, shifted(2.777), 0.05));
+  EXPECT_FALSE(numerics::differ({1, 1.1, 0.9}, shifted(2.776), 0.05));
+  EXPECT_TRUE(numerics::differ({1, 1.1, 0.9}, shifted(2.777), 0.05));
 }
 
 class SweepIntervals : public ProgramTest {};

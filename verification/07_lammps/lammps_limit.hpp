@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/statistics.hpp"
 #include "claim.hpp"
 #include "instances/instances.hpp"
 #include "lammps_library.hpp"
-#include "study/statistics.hpp"
 
 namespace edmill::verification {
 
@@ -24,7 +24,7 @@ class LammpsPeer : public testing::Test {
 
 /// Ratio of two means, and half the width of its 95 % interval.
 inline std::pair<double, double> ratio(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto one = study::estimate(a), two = study::estimate(b);
+  const auto one = numerics::estimate(a), two = numerics::estimate(b);
   const double r = *one.mean / *two.mean;
   return {r, r * std::hypot(*one.half_width / *one.mean, *two.half_width / *two.mean)};
 }
@@ -49,7 +49,7 @@ inline std::vector<double> rates_of_run(const casefile::CaseSpec& spec,
 }
 
 inline std::string inverse(const std::vector<double>& rates) {
-  const auto e = study::estimate(rates);
+  const auto e = numerics::estimate(rates);
   return Claim::text(1 / *e.mean, 4) + " +- " + Claim::text(*e.half_width / (*e.mean * *e.mean), 2) + " s/J";
 }
 
@@ -78,14 +78,14 @@ inline void agree_in_the_limit(const Claim& claim, const std::string& name, cons
   std::vector<double> durations, rates, halves;
   for (const double duration : {longest, longest / 2, longest / 4}) {
     const auto found = lammps(duration);
-    const auto estimate = study::estimate(found);
+    const auto estimate = numerics::estimate(found);
     durations.push_back(duration), rates.push_back(*estimate.mean), halves.push_back(*estimate.half_width);
     const auto [r, half] = ratio(found, edmill);
     claim.say(name + ", contacts of " + Claim::text(1e6 * duration) + " us: LAMMPS " + inverse(found) +
               ", over edmill " + Claim::text(r, 4) + " +- " + Claim::text(half, 2));
   }
   const auto [limit, half] = at_zero(durations, rates, halves);
-  const auto peer = study::estimate(edmill);
+  const auto peer = numerics::estimate(edmill);
   const double r = limit / *peer.mean, r_half = r * std::hypot(half / limit, *peer.half_width / *peer.mean);
   claim.at_most(name + ", contacts of no time: LAMMPS " + Claim::text(1 / limit, 4) + " +- " +
                     Claim::text(half / (limit * limit), 2) + " s/J, over edmill " + Claim::text(r, 4) +

@@ -1,9 +1,9 @@
 // Claim 08: as the least separation speed goes to zero, what stays, what vanishes, and what has no limit.
 #include <cmath>
 
+#include "base/statistics.hpp"
 #include "claim.hpp"
 #include "instances/instances.hpp"
-#include "study/statistics.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -57,7 +57,7 @@ Figures figures(const Charge& charge, const char* least_separation) {
     f.normal += doses.normal / whole / charge.seeds;
     f.tangential += doses.tangential / whole / charge.seeds;
   }
-  const auto rate = study::estimate(rates);
+  const auto rate = numerics::estimate(rates);
   f.rate = *rate.mean, f.half_width = *rate.half_width;
   claim.say(std::to_string(charge.count) + " balls, v_s " + least_separation + " m/s: dose rate " +
             Claim::text(f.rate, 5) + " +- " + Claim::text(f.half_width, 2) + " W, " +

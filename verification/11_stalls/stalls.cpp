@@ -1,9 +1,9 @@
 // Claim 11: the dose rate does not depend on the numbers of the rule on stalls.
 #include <cmath>
 
+#include "base/statistics.hpp"
 #include "claim.hpp"
 #include "instances/instances.hpp"
-#include "study/statistics.hpp"
 
 namespace edmill::verification {
 namespace {
@@ -38,7 +38,7 @@ Figures figures(const Charge& charge, const model::StallRule& rule) {
     rates.push_back(s.milling_dose / s.duration());
     f.rested += s.stall_dose / s.milling_dose / charge.seeds;
   }
-  const auto rate = study::estimate(rates);
+  const auto rate = numerics::estimate(rates);
   f.rate = *rate.mean, f.half_width = *rate.half_width;
   claim.say(std::to_string(charge.count) + " balls, N " + std::to_string(rule.impacts) + ", a_s " +
             std::to_string(rule.acceleration) + " m/s2: dose rate " + Claim::text(f.rate, 5) + " +- " +

@@ -27,13 +27,24 @@ struct Run {
     command.add_option("--checkpoint", run_.checkpoint, every + "; never unless given")->excludes(shadow);
     command.add_flag("--report", run_.report, "write report.html, and the tables that it shows");
     command.add_flag("--quiet", run_.quiet, quiet_run);
+    command.add_option(
+        "--until-precision", precision_,
+        "run until the 95 % interval of the dose rate is this part of it, \"1%\" or 0.01: up to "
+        "100 times the case's end time, or to the run.end_time of --set");
+    command.add_option("--target-dose", target_,
+                       "dose that the powder is to get, \"10 kJ/g\": tells the milling time");
   }
   int run() {
-    run_.overrides = given_.overrides;
-    return run_case(given_.read(), run_);
+    auto spec = given_.read();
+    auto& settings = run_.overrides = given_.overrides;
+    if (!precision_.empty()) until_precision(precision_, spec, settings);
+    if (!target_.empty()) settings.push_back("powder.target_dose=\"" + target_ + "\"");
+    if (settings != given_.overrides) spec = casefile::parse_case(spec.text, spec.file, settings);
+    return run_case(spec, run_);
   }
 
  private:
+  std::string precision_, target_;
   CaseArgument given_;
   RunCommand run_;
 };

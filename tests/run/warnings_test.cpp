@@ -1,4 +1,4 @@
-#include "report/warnings.hpp"
+#include "run/warnings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,30 +6,34 @@
 
 namespace {
 
-using namespace edmill::report;
+using namespace edmill::run;
 namespace model = edmill::model;
+using Rates = std::vector<double>;
 
-RunFacts good_facts() {
-  RunFacts f;
-  f.end_reason = model::EndReason::end_time;
-  f.start_time = 1, f.end_time = 11;
-  f.collisions = {1000, 1000, 1000, 1000};
-  f.milling_dose = 50, f.wall_work = 50;
-  f.touched_dose_share = 0.03, f.supplied_energy = 0.4;
-  return f;
+Measures good_facts() {
+  Measures m;
+  m.end_reason = model::EndReason::end_time;
+  m.duration = 10;
+  m.collisions = 4000;
+  m.touched_dose_share = 0.03, m.supplied_share = 0.008;
+  return m;
 }
 
-Batches steady() {
-  Batches b{{}, 0.5};
+Rates steady() {
+  Rates rates;
   std::mt19937 random(1);
   std::normal_distribution<double> noise(5, 0.05);
-  for (int k = 0; k < 20; ++k) b.means.push_back(noise(random));
-  return b;
+  for (int k = 0; k < 20; ++k) rates.push_back(noise(random));
+  return rates;
 }
 
-std::vector<std::string> kinds(const RunFacts& f, const Batches& b) {
+std::vector<edmill::io::Warning> warnings_of(Measures m, const Rates& rates) {
+  m.dose_rates = rates;
+  return edmill::run::warnings_of(m);
+}
+std::vector<std::string> kinds(const Measures& m, const Rates& rates) {
   std::vector<std::string> list;
-  for (const auto& warning : warnings_of(f, b)) list.push_back(warning.kind);
+  for (const auto& warning : warnings_of(m, rates)) list.push_back(warning.kind);
   return list;
 }
 
@@ -37,34 +41,34 @@ using Kinds = std::vector<std::string>;
 
 TEST(Warnings, AGoodRunHasNone) {
   EXPECT_EQ(kinds(good_facts(), steady()), Kinds{});
-  EXPECT_EQ(kinds(good_facts(), {}), Kinds{});
+  EXPECT_EQ(kinds(good_facts(), {}), Kinds{"too_short"});
 }
 
 TEST(Warnings, ALargeShareOfTheDoseByTheLeastSeparationSpeedIsTold) {
   auto f = good_facts();
   f.touched_dose_share = 0.0501;
   EXPECT_EQ(kinds(f, steady()), Kinds{"separation_share"});
-  EXPECT_NE(warnings_of(f, steady())[0].text.find("5.0 %"), std::string::npos);
+  EXPECT_NE(warnings_of(f, steady())[0].text.find("5 %"), std::string::npos);
 }
 
 TEST(Warnings, MoreThanOnePercentOfTheDoseAsSuppliedEnergyIsTold) {
   auto f = good_facts();
-  f.supplied_energy = 0.499;  // the dose is 50 J
+  f.supplied_share = 0.00998;
   EXPECT_EQ(kinds(f, steady()), Kinds{});
-  f.supplied_energy = 0.76;
+  f.supplied_share = 0.0152;
   EXPECT_EQ(kinds(f, steady()), Kinds{"supplied_energy"});
   EXPECT_NE(warnings_of(f, steady())[0].text.find("1.5 %"), std::string::npos);
 }
 
 TEST(Warnings, AFirstBatchThatStandsApartIsATransient) {
   auto b = steady();
-  b.means[0] = 4.5;  // 10 standard deviations below
+  b[0] = 4.5;  // 10 standard deviations below
   EXPECT_EQ(kinds(good_facts(), b), Kinds{"transient"});
 }
 
 TEST(Warnings, HalvesThatDifferAreATransient) {
   auto b = steady();
-  for (std::size_t k = 0; k < 20; ++k) b.means[k] += 0.015 * static_cast<double>(k);
+  for (std::size_t k = 0; k < 20; ++k) b[k] += 0.015 * static_cast<double>(k);
   EXPECT_EQ(kinds(good_facts(), b), Kinds{"transient"});
 }
 
@@ -73,8 +77,8 @@ TEST(Warnings, SteadyRunsAreCalledTransientAboutAsRarelyAsTheTestsSay) {
   std::normal_distribution<double> noise(5, 0.05);
   int told = 0;
   for (int run = 0; run < 2000; ++run) {
-    Batches b{{}, 0.5};
-    for (int k = 0; k < 20; ++k) b.means.push_back(noise(random));
+    Rates b;
+    for (int k = 0; k < 20; ++k) b.push_back(noise(random));
     told += !kinds(good_facts(), b).empty();
   }
   // Two tests at 1 % each: 20 to 40 expected, with 4 standard deviations around.
@@ -84,23 +88,31 @@ TEST(Warnings, SteadyRunsAreCalledTransientAboutAsRarelyAsTheTestsSay) {
 
 TEST(Warnings, FewerThanAThousandCollisionsAreTooFew) {
   auto f = good_facts();
-  f.collisions = {0, 0, 999, 0};
+  f.collisions = 999;
   EXPECT_EQ(kinds(f, steady()), Kinds{"too_few_collisions"});
-  f.collisions[2] = 1000;
+  f.collisions = 1000;
   EXPECT_EQ(kinds(f, steady()), Kinds{});
 }
 
 TEST(Warnings, AWideIntervalIsTold) {
-  Batches b{{}, 0.5};
-  for (int k = 0; k < 20; ++k) b.means.push_back(k % 2 ? 3 : 7);  // t 2.09 * 2.05 / sqrt(20) = 0.96 of 5
+  Rates b;
+  for (int k = 0; k < 20; ++k) b.push_back(k % 2 ? 3 : 7);  // t 2.09 * 2.05 / sqrt(20) = 0.96 of 5
   EXPECT_EQ(kinds(good_facts(), b), Kinds{"wide_interval"});
+}
+
+TEST(Warnings, APrecisionThatWasNotReachedIsToldWithTheTimeThatIsLeft) {
+  auto f = good_facts();
+  f.wanted_precision = 0.002;  // t 2.09 * 0.05 / sqrt(20) = 0.5 % of 5
+  EXPECT_EQ(kinds(f, steady()), Kinds{"precision"});
+  f.wanted_precision = 0.01;
+  EXPECT_EQ(kinds(f, steady()), Kinds{});
 }
 
 TEST(Warnings, EnergyThatDoesNotCloseIsTold) {
   auto f = good_facts();
-  f.closure = -1e-7;
+  f.closure_share = -1e-9 * 2;
   EXPECT_EQ(kinds(f, steady()), Kinds{"energy"});
-  f.closure = 1e-9;
+  f.closure_share = 1e-9;
   EXPECT_EQ(kinds(f, steady()), Kinds{});
 }
 

@@ -1,0 +1,55 @@
+// Totals at the ends of successive intervals of equal length: for the interval of a mean from one run.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/instant.hpp"
+
+namespace edmill::numerics {
+
+/// Batches of whole drive periods, so that each has all phases of the drive. When there are too many they are
+/// joined in pairs: a run of any length has 20 to 39 whole ones behind its first 20 periods.
+template <class Real>
+class Batches {
+ public:
+  static constexpr std::size_t most = 40;
+
+  void begin(const Instant<Real>& start) { start_ = start; }
+
+  /// Where the open batch ends.
+  Instant<Real> next() const {
+    return {start_.period + periods_ * static_cast<std::int64_t>(totals_.size() + 1), start_.offset};
+  }
+  /// Ends the open batch. @param totals  of all quantities since the start
+  void close(std::vector<double> totals) {
+    totals_.push_back(std::move(totals));
+    if (totals_.size() < most) return;
+    for (std::size_t k = 0; k < most / 2; ++k) totals_[k] = std::move(totals_[2 * k + 1]);
+    totals_.resize(most / 2);
+    periods_ *= 2;
+  }
+
+  std::size_t count() const { return totals_.size(); }
+  /// Of each batch, in drive periods.
+  std::int64_t periods() const { return periods_; }
+  /// What each whole batch has of a quantity.
+  std::vector<double> amounts(std::size_t quantity) const {
+    std::vector<double> each;
+    double before = 0;
+    for (const auto& total : totals_) {
+      each.push_back(total.at(quantity) - before);
+      before = total.at(quantity);
+    }
+    return each;
+  }
+
+  void archive(Archive& a) { a(start_, periods_, totals_); }
+
+ private:
+  Instant<Real> start_;
+  std::int64_t periods_ = 1;
+  std::vector<std::vector<double>> totals_;  ///< at the end of each batch
+};
+
+}  // namespace edmill::numerics

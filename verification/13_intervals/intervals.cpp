@@ -1,0 +1,99 @@
+// Claim 13: the interval that a run gives for its dose rate holds the dose rate of the mill in 95 of 100
+// runs, and a run that ends when its interval is narrow does not have another dose rate for it.
+#include <algorithm>
+#include <cmath>
+
+#include "base/statistics.hpp"
+#include "claim.hpp"
+#include "instances/instances.hpp"
+
+namespace edmill::verification {
+namespace {
+
+const Claim claim("13 intervals");
+
+struct Mill {
+  const char* name;
+  std::string file;
+  std::vector<std::string> settings;
+  double precision;  ///< that takes more than the least time
+};
+const Mill mills[] = {
+    {"SPEX, 28 balls", "docs/examples/demo.toml", {"run.start_time=3 s", "run.end_time=7 s"}, 0.004},
+    {"SPEX, 7 balls",
+     "docs/examples/ward.toml",
+     {"balls.0.count=7", "balls.0.diameter=6.35 mm", "run.start_time=3 s", "run.end_time=11 s"},
+     0.01},
+    {"planetary mill", "docs/examples/planetary.toml", {"run.start_time=2 s", "run.end_time=5 s"}, 0.01}};
+
+io::Summary<double> run_of(const Mill& mill, int seed, const std::vector<std::string>& more = {}) {
+  auto settings = mill.settings;
+  settings.push_back("run.seed=" + std::to_string(seed));
+  settings.insert(settings.end(), more.begin(), more.end());
+  auto spec = casefile::read_case(EDMILL_SOURCE_DIR "/" + mill.file, settings);
+  spec.outputs.clear();
+  const auto built = casefile::build_case<double>(spec);
+  return run::simulate<double>(spec, built, {}).summary;
+}
+
+struct Rates {
+  std::vector<double> rates, half_widths;
+
+  void add(const io::Summary<double>& s) {
+    rates.push_back(s.milling_dose / s.duration());
+    half_widths.push_back(s.intervals.dose_rate.half_width);
+  }
+  /// The share of the runs whose interval holds `mean`.
+  double coverage(double mean) const {
+    double held = 0;
+    for (std::size_t k = 0; k < rates.size(); ++k) held += std::abs(rates[k] - mean) <= half_widths[k];
+    return held / static_cast<double>(rates.size());
+  }
+};
+
+/// @param allowed  largest distance of the share from 0.95
+void holds_its_mean(const Mill& mill, int runs, double allowed) {
+  Rates found;
+  for (int seed = 1; seed <= runs; ++seed) found.add(run_of(mill, seed));
+  const auto all = numerics::estimate(found.rates);
+  const double share = found.coverage(*all.mean);
+  claim.say(std::string(mill.name) + ": " + std::to_string(runs) + " runs, dose rate " +
+            Claim::text(*all.mean, 6) + " +- " + Claim::text(*all.half_width, 2) + " W; in " +
+            Claim::text(100 * share, 3) + " % of them the run's own interval holds it");
+  EXPECT_NEAR(share, 0.95, allowed) << mill.name;
+}
+
+/// Of runs that end by their precision, against runs of one length.
+void does_not_bias(const Mill& mill, int runs, double precision) {
+  Rates found, fixed;
+  double longest = 0, shortest = 1e9;
+  const std::string rule = "run.dose_rate_precision=" + Claim::text(precision, 6);
+  for (int seed = 1; seed <= runs; ++seed) {
+    const auto s = run_of(mill, seed, {rule, "run.end_time=1000 s"});
+    EXPECT_EQ(model::name(s.end_reason), "dose_rate_precision") << mill.name << ", seed " << seed;
+    found.add(s);
+    longest = std::max(longest, s.duration()), shortest = std::min(shortest, s.duration());
+    fixed.add(run_of(mill, runs + seed));
+  }
+  const auto a = numerics::estimate(found.rates), b = numerics::estimate(fixed.rates);
+  claim.say(std::string(mill.name) + ": " + std::to_string(runs) + " runs until " +
+            Claim::text(100 * precision, 3) + " %, " + Claim::text(shortest, 3) + " to " +
+            Claim::text(longest, 3) + " s: " + Claim::text(*a.mean, 6) + " +- " +
+            Claim::text(*a.half_width, 2) + " W; runs of one length " + Claim::text(*b.mean, 6) + " +- " +
+            Claim::text(*b.half_width, 2) + " W; in " + Claim::text(100 * found.coverage(*b.mean), 3) +
+            " % of the former the interval holds the latter");
+  EXPECT_FALSE(numerics::differ(found.rates, fixed.rates, 0.01)) << mill.name;
+}
+
+TEST(Intervals, HoldTheDoseRate) { holds_its_mean(mills[0], 60, 0.1); }
+TEST(Precision, DoesNotBias) { does_not_bias(mills[0], 20, 0.004); }
+
+TEST(Intervals, LongHoldTheDoseRateIn95Of100Runs) {
+  for (const auto& mill : mills) holds_its_mean(mill, 1000, 0.02);
+}
+TEST(Precision, LongDoesNotBias) {
+  for (const auto& mill : mills) does_not_bias(mill, 200, mill.precision);
+}
+
+}  // namespace
+}  // namespace edmill::verification
