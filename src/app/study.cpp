@@ -4,6 +4,7 @@
 #include "base/with_scalar.hpp"
 #include "casefile/memory_for.hpp"
 #include "instances/instances.hpp"
+#include "report/study_page.hpp"
 #include "run/cpu_limit.hpp"
 #include "study/optimizer.hpp"
 
@@ -57,6 +58,7 @@ std::optional<StudyResult> sweep(const StudyOptions& options) {
     for (auto& point : study::points_of(spec)) study.add_runs(study.add_point(point), spec.replicas);
     study.require_a_good_case();
     study.run();
+    study.write_page(report::study_page(study, "Sweep", ""));
     return StudyResult{study.counts(), study.interrupted(), folder, ""};
   });
 }
@@ -67,7 +69,9 @@ std::optional<StudyResult> optimize(const StudyOptions& options) {
     const auto folder = folder_of(options);
     study::Study study(spec, folder, "optimize", executor, !options.quiet);
     const auto result = study::optimize(spec, study);
-    return StudyResult{study.counts(), study.interrupted(), folder, study::describe(spec, study, result)};
+    const auto finding = study::describe(spec, study, result);
+    study.write_page(report::study_page(study, "Optimisation", finding));
+    return StudyResult{study.counts(), study.interrupted(), folder, finding};
   });
 }
 

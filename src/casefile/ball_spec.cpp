@@ -1,5 +1,12 @@
+#include <cmath>
+#include <numbers>
+
 #include "casefile/case_parts.hpp"
 #include "casefile/key_reader.hpp"
+
+namespace edmill {
+extern template double casefile::Quantity::to<double>() const;
+}
 
 namespace edmill::casefile {
 
@@ -22,11 +29,23 @@ void read_density(Section& s, BallSpec& ball, const CaseSpec& spec) {
 
 }  // namespace
 
+/// The number of balls whose mass is nearest to that of the batch.
+void count_by_mass(Section& s, BallBatch& batch) {
+  if (!batch.mass || !batch.diameter.positive() || !batch.density.positive()) return;
+  if (s.has("count")) return s.problem("mass", "both 'count' and 'mass'", "one of them");
+  const double d = batch.diameter.to<double>();
+  const double one = batch.density.to<double>() * std::numbers::pi / 6 * d * d * d;
+  const double count = std::round(batch.mass->to<double>() / one);
+  s.require(count <= largest_count, "mass", "that of at most " + std::to_string(largest_count) + " balls");
+  batch.count = count <= largest_count ? static_cast<int>(count) : 0;
+}
+
 void read_batch(Section s, CaseSpec& spec) {
   BallBatch batch;
   batch.where = s.where();
   read_keys(s, batch);
   read_density(s, batch, spec);
+  count_by_mass(s, batch);
   const bool narrow = batch.diameter_spread.value < batch.diameter.value || !batch.diameter.positive();
   s.require(narrow, "diameter_spread", "a length from 0 to less than the diameter");
   if (batch.random_speed && s.has("velocity"))

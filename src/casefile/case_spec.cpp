@@ -236,6 +236,8 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   read_audit(top.section("audit"), spec.audit);
   if (!top.has("ball") && !top.has("balls"))
     top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
+  else if (document.problems.empty() && spec.ball_count() == 0)
+    top.problem("balls", "no balls", "a count above 0 in one of the entries");
   top.reject_unknown_keys();
   check_times(top.section("run"), spec);
   if (document.problems.empty()) require_travel(pistons, spec);

@@ -60,6 +60,7 @@ inline constexpr int largest_count = 100000000;  ///< of balls
 /// A batch of balls placed at random. (thesis D.2.4)
 struct BallBatch : BallSpec {
   int count = 1;
+  std::optional<Quantity> mass;  ///< of the batch, from which the count follows
   Quantity diameter_spread;
   std::optional<Quantity> random_speed;  ///< largest; direction and size at random
   Quantity gap_ball{boost::multiprecision::cpp_rational(1, 1000)};
@@ -67,8 +68,12 @@ struct BallBatch : BallSpec {
   std::uint64_t max_relocations = 100000;
 
   static void keys(auto& b, auto&& row) {
-    row(Parameter{"count", Dimension::none, "of balls that are placed at random", {1, largest_count}, "1"},
+    row(Parameter{"count", Dimension::none, "of balls that are placed at random", {0, largest_count}, "1"},
         b.count);
+    row(Parameter{"mass", Dimension::mass,
+                  "of all balls of the batch, in place of `count`: the nearest number of balls",
+                  Range::not_negative, nullptr, "none", Parameter::Digest::none},
+        b.mass);
     row(diameter_key, b.diameter);
     row(Parameter{"diameter_spread", Dimension::length,
                   "diameters are uniform within so much of `diameter`, on either side", Range::not_negative,

@@ -76,10 +76,36 @@ std::optional<std::string> Section::setting_of(const toml::node& node, const std
     return std::nullopt;
   }
   const bool in_one_line = node.source().begin.line == node.source().end.line;
-  if (node.is_string() || node.is_number() || node.is_boolean() || (node.is_array() && in_one_line))
+  const auto* array = node.as_array();
+  const bool of_tables = array && !array->empty() && array->get(0)->is_table();
+  if (node.is_string() || node.is_number() || node.is_boolean() || (array && in_one_line && !of_tables))
     return document_->raw(node, path);
+  if (of_tables) return list_of(*array, path);
   document_->report(&node, path, kind_of(node), "a value of this key");
   return std::nullopt;
+}
+
+/// An array of tables in one line, "[{count = 2, diameter = "12.7 mm"}]".
+std::optional<std::string> Section::list_of(const toml::array& entries, const std::string& path) {
+  std::string list;
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const auto* table = entries.get(k)->as_table();
+    const std::string place = path + "." + std::to_string(k);
+    if (!table) {
+      document_->report(entries.get(k), place, kind_of(*entries.get(k)), "a table");
+      return std::nullopt;
+    }
+    std::string row;
+    for (const auto& [key, value] : *table) {
+      const auto text = setting_of(value, place + "." + std::string(key.str()));
+      if (!text) return std::nullopt;
+      const bool quoted = value.is_string();
+      row +=
+          (row.empty() ? "" : ", ") + std::string(key.str()) + " = " + (quoted ? "\"" + *text + "\"" : *text);
+    }
+    list += (list.empty() ? "{" : ", {") + row + "}";
+  }
+  return "[" + list + "]";
 }
 
 bool Section::flag(const std::string& key) {

@@ -98,7 +98,9 @@ constexpr FixedKey fixed_keys[] = {
     {"sweep", "point", "tables", "none", "single points, each with all of the grid, entries `[[sweep.point]]`"},
     {"sweep.grid", "*", "list of values", "", "the key is one of the case, as `--set` takes it, or `charge_ratio`"},
     {"sweep.point", "name", "text", "none", "of the point in the tables"},
-    {"sweep.point", "set", "table", "required", "keys of the case with their values"},
+    {"sweep.point", "set", "table", "this or a list", "keys of the case with their values"},
+    {"sweep.point", "balls", "tables", "those of the case", "whole list, entries `[[sweep.point.balls]]`"},
+    {"sweep.point", "ball", "tables", "those of the case", "whole list, entries `[[sweep.point.ball]]`"},
     {"sweep.point.set", "*", "value", "", "the key is one of the case"},
 
     {"optimize", "case", "file", "required", "relative to the optimisation file"},

@@ -113,6 +113,7 @@ class Section {
   std::optional<Quantity> item(const toml::array& array, const std::string& path, std::size_t k,
                                Dimension dimension);
   std::optional<std::string> setting_of(const toml::node& node, const std::string& path);
+  std::optional<std::string> list_of(const toml::array& entries, const std::string& path);
 
   Document* document_;
   const toml::table* table_;

@@ -33,11 +33,15 @@ void read_study(Section& s, StudySpec& spec) {
   }
 }
 
+/// Lists of a case that a point may replace as a whole.
+constexpr std::string_view charge_lists[] = {"balls", "ball"};
+
 /// Seeds and precision belong to the whole study; other keys of a case have a section.
 std::string problem_of_key(const std::string& key) {
   if (key == "run.seed" || key == "run.precision") return "a key other than run.seed and run.precision";
-  if (key != charge_ratio_key && key.find('.') == std::string::npos)
-    return "section.key of the case, or charge_ratio";
+  const bool list = std::ranges::find(charge_lists, key) != std::end(charge_lists);
+  if (key != charge_ratio_key && !list && key.find('.') == std::string::npos)
+    return "section.key of the case, balls, ball or charge_ratio";
   return "";
 }
 
@@ -49,7 +53,15 @@ void check_key(Section& s, const std::string& key) {
 void read_entry(Section entry, SweepSpec& spec) {
   SweepSpec::Entry point;
   point.name = entry.text("name").value_or("");
-  if (!entry.has("set")) entry.problem("set", "nothing", "a table of keys and values");
+  bool lists = false;
+  for (const auto name : charge_lists) {
+    const std::string list(name);
+    if (!entry.has(list)) continue;
+    lists = true;
+    if (const auto value = entry.setting(list)) point.set.emplace_back(list, *value);
+  }
+  if (!entry.has("set") && !lists)
+    entry.problem("set", "nothing", "a table of keys and values, or [[sweep.point.balls]]");
   Section set = entry.section("set");
   for (const auto& key : set.keys()) {
     if (const auto value = set.setting(key)) point.set.emplace_back(key, *value);

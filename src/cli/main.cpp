@@ -13,6 +13,7 @@
 #include "cli/commands/check.hpp"
 #include "cli/commands/dem.hpp"
 #include "cli/commands/logs.hpp"
+#include "cli/commands/machines.hpp"
 #include "cli/commands/report.hpp"
 #include "cli/commands/run.hpp"
 #include "cli/commands/studies.hpp"
@@ -28,7 +29,9 @@ using namespace edmill;
 
 /// In the order of the help. A command has a name, what it does in a line, `add_options`, and `run`, which
 /// gives the exit code. A new one is a file in cli/commands/ and a line here.
-using Commands = std::tuple<cli::Run,        //
+using Commands = std::tuple<cli::New,        //
+                            cli::Machines,   //
+                            cli::Run,        //
                             cli::Demo,       //
                             cli::Resume,     //
                             cli::Report,     //

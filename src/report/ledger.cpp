@@ -51,11 +51,9 @@ std::string ball_text(const casefile::BallSpec& ball, int count) {
 
 }  // namespace
 
-void add_case(pugi::xml_node main, const RunFolder& run) {
+Rows case_rows(const RunFolder& run) {
   const auto& spec = run.spec;
-  const auto& f = run.facts;
-  auto section = add_section(main, "case", "Case");
-  std::vector<std::vector<std::string>> rows;
+  Rows rows;
   for (const auto& batch : spec.batches) rows.push_back({"balls", ball_text(batch, batch.count)});
   if (!spec.balls.empty())
     rows.push_back(
@@ -72,6 +70,14 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   }
   for (const auto& pair : spec.pairs)
     rows.push_back({"contact of " + spec.names_of(pair), law_text(pair.law)});
+  return rows;
+}
+
+void add_case(pugi::xml_node main, const RunFolder& run) {
+  const auto& spec = run.spec;
+  const auto& f = run.facts;
+  auto section = add_section(main, "case", "Case");
+  auto rows = case_rows(run);
   rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time, 12),
                                             brief(f.end_time, 12), model::name(f.end_reason))});
   rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.seed, f.precision)});

@@ -20,6 +20,23 @@ std::string partner_colour(const model::Partners& partners, int place) {
   return "c" + std::to_string(place < 3 ? place : 5 + (place - 3) % 3);  // c4 is that of all impacts
 }
 
+std::string run_colour(std::size_t place) { return "c" + std::to_string(place % 8); }
+
+std::string text_of(const RateOf& rate) {
+  const auto [value, width] = plot::with_interval(rate.value, rate.half_width.value_or(0));
+  return rate.half_width ? value + " \u00b1 " + width : plot::readable(rate.value);
+}
+
+void add_point(plot::Chart& chart, double x, double half_length, const RateOf& rate, const std::string& name,
+               const std::string& colour) {
+  const double half = rate.half_width.value_or(0), left = x - half_length, right = x + half_length;
+  chart.bands.push_back({colour,
+                         {left, right},
+                         {rate.value - half, rate.value - half},
+                         {rate.value + half, rate.value + half}});
+  chart.curves.push_back({name, colour, {{left, rate.value}, {right, rate.value}}, false});
+}
+
 pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std::string& heading) {
   auto section = add(main, "section", {{"id", id}, {"aria-labelledby", id + "-heading"}});
   add(section, "h2", {{"id", id + "-heading"}}, heading);
@@ -33,7 +50,7 @@ void add_missing(pugi::xml_node section, const std::string& what, const std::str
 }
 
 void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
-               const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows) {
+               const std::vector<std::string>& headings, const Rows& rows) {
   add(section, "h3", {{"id", id}}, caption);
   // Wide tables scroll inside their own box, which can be focused by keyboard.
   auto box = add(section, "div",

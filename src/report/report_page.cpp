@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "io/atomic_file.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/file_record.hpp"
 #include "io/output_folder.hpp"
 #include "report/embedded.hpp"
+#include "report/page.hpp"
 #include "report/scene.hpp"
 #include "report/sections.hpp"
 
@@ -18,25 +18,6 @@ namespace edmill::report {
 namespace {
 
 using plot::add;
-
-/// Puts values in place of {{names}}; what a value holds is not looked at again.
-std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto open = text.find("{{", at), close = text.find("}}", open == text.npos ? at : open);
-    if (open == text.npos || close == text.npos) return out.append(text.substr(at));
-    out.append(text.substr(at, open - at));
-    out.append(values.at(std::string(text.substr(open + 2, close - open - 2))));
-    at = close + 2;
-  }
-  return out;
-}
-
-std::string escaped(const std::string& text) {
-  pugi::xml_document document;
-  document.append_child(pugi::node_pcdata).set_value(text.c_str());
-  return plot::html_of(document);
-}
 
 /// One line that identifies the case.
 std::string subtitle_of(const RunFolder& run) {
@@ -117,15 +98,8 @@ std::string report_page(const RunFolder& run) {
   add_energy(main, run);
   add_case(main, run);
   const bool plays = static_cast<bool>(main.select_node("//div[@id='player']"));
-  const auto program = fmt::format("edmill {} ({})", run.facts.version, run.facts.commit);
-  return filled(page_html,
-                {{"title", escaped(title_of(run))},
-                 {"subtitle", escaped(subtitle_of(run))},
-                 {"program", escaped(program)},
-                 {"main", plot::html_of(document)},
-                 {"style", std::string(page_css)},
-                 {"player", plays ? player() : ""},
-                 {"player_note", plays ? "The animation is played by three.js (MIT licence)." : ""}});
+  return page_of({title_of(run), subtitle_of(run), run.facts.version, run.facts.commit, document,
+                  plays ? player() : "", plays ? "The animation is played by three.js (MIT licence)." : ""});
 }
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {

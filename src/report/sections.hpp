@@ -2,6 +2,7 @@
 #pragma once
 
 #include "plot/markup.hpp"
+#include "report/rate_of.hpp"
 #include "report/run_folder.hpp"
 #include "report/series.hpp"
 #include "report/ward.hpp"
@@ -22,6 +23,17 @@ void add_ball_speeds(pugi::xml_node main, const RunFolder& run);
 void add_energy(pugi::xml_node main, const RunFolder& run);
 void add_case(pugi::xml_node main, const RunFolder& run);
 
+using Rows = std::vector<std::vector<std::string>>;
+
+/// Balls, powder, vessel, mill and contacts in words: name and text.
+Rows case_rows(const RunFolder& run);
+/// Dose by energy and impacts by speed of several runs over each other, where they have such tables.
+/// @param names  of the runs
+void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
+                    const std::vector<std::string>& names);
+/// The colour of one of several runs in charts.
+std::string run_colour(std::size_t place);
+
 /// The label of a partner with the signs of typesetting: "cap −y", "ball–ball".
 std::string name_of(const model::PartnerInfo& partner);
 /// The colour of a partner in charts, by its place; balls have the same beside any walls.
@@ -34,7 +46,7 @@ void add_missing(pugi::xml_node section, const std::string& what, const std::str
 
 /// A table under a heading with this id, and a row of headings; the first cell of each row is its heading.
 void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
-               const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows);
+               const std::vector<std::string>& headings, const Rows& rows);
 
 /// Rate of a variable of all impacts, or of those with one partner; nothing when no table has it.
 std::optional<Series> rate_of(const RunFolder& run, const char* variable, int partner = -1);

@@ -135,4 +135,38 @@ void add_spectra(pugi::xml_node main, const RunFolder& run) {
     add_missing(grid, "spectra of impact energy", "type = \"spectra\"");
 }
 
+void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
+                    const std::vector<std::string>& names) {
+  plot::Chart energies, speeds;
+  energies.id = "energy-spectrum", energies.title = "Dose by the energy of the impact";
+  energies.description =
+      "Histograms on a logarithmic scale of impact energy: dose rate per decade of each run.";
+  energies.x.title = "energy that the impact dissipates [J]", energies.y.title = "dose rate [W per decade]";
+  speeds.id = "approach-speeds", speeds.title = "Impacts by approach speed";
+  speeds.description = "Histograms on logarithmic scales: impacts per second and decade of each run.";
+  speeds.x.title = "approach speed [m/s]", speeds.y.title = "impacts [1/s per decade]";
+  speeds.y.logarithmic = true;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const auto put = [&](plot::Chart& chart, const std::optional<OutputTable>& table, const char* spectrum,
+                         const char* column) {
+      if (table)
+        chart.curves.push_back(
+            {names[k], run_colour(k), density(*table, spectrum, column, 1 / table->duration()), true});
+    };
+    put(energies, spectra_of(runs[k], "energy", "normal"), "total", "total energy");
+    put(speeds, spectra_of(runs[k], "speed", "approach"), "approach", "total impacts");
+  }
+  auto section = add_section(main, "spectra", "Impact spectra");
+  auto grid = add(section, "div", {{"class", "charts"}});
+  for (auto* chart : {&energies, &speeds}) {
+    if (!chart->curves.empty()) {
+      fit(*chart);
+      draw(grid, *chart);
+    }
+    if (chart->curves.size() < runs.size())
+      add(section, "p", {{"class", "missing"}},
+          chart->title + ": runs without --report have no such table and are left out.");
+  }
+}
+
 }  // namespace edmill::report

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "casefile/quantity.hpp"
+
 namespace edmill::study {
 
 namespace {
@@ -186,6 +188,22 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
                             unit, point.done());
 }
 
+/// Says so where the best value of a variable is the end of its range.
+std::string bound_of(const casefile::OptimizeVariable& v, const Point& point) {
+  if (!v.values.empty()) return "";
+  for (const auto& [key, value] : point.settings) {
+    if (key != v.key) continue;
+    const auto number = casefile::parse_decimal(value.substr(0, value.size() - v.unit.size()));
+    const double x = number ? static_cast<double>(*number) : 0, slack = 1e-9 * (v.high - v.low);
+    for (const auto& [end, name] : {std::pair{v.low, "low"}, std::pair{v.high, "high"}})
+      if (number && std::abs(x - end) <= slack)
+        return fmt::format(
+            "  {} is at the end '{}' of its range: there may be more beyond it; widen the range\n", key,
+            name);
+  }
+  return "";
+}
+
 }  // namespace
 
 Optimum optimize(const OptimizeSpec& spec, Study& study) { return Search(spec, study).run(); }
@@ -195,6 +213,7 @@ std::string describe(const OptimizeSpec& spec, const Study& study, const Optimum
   std::string text = fmt::format("largest {} of {} points, 95 % interval; the search ended: {}\n",
                                  spec.objective, study.points().size(), optimum.why);
   text += line_of(spec, study, *optimum.best);
+  for (const auto& v : spec.variables) text += bound_of(v, study.points()[*optimum.best]);
   text += optimum.contenders.empty() ? "every other point is smaller, at 5 % for all comparisons together\n"
                                      : "indistinguishable from it, at 5 % for all comparisons together:\n";
   for (const auto k : optimum.contenders) text += line_of(spec, study, k);

@@ -111,7 +111,14 @@ void Study::tick() {
   next_write_ = after + std::max<std::chrono::nanoseconds>(std::chrono::seconds(1), 20 * (after - now));
   if (!show_) return;
   const auto c = counts();
-  io::tell("\r\033[K{} of {} runs, {} failed", c.kept + c.ran, c.total, c.failed);
+  std::string line = fmt::format("{} of {} runs, {} failed", c.kept + c.ran, c.total, c.failed);
+  if (c.ran > 0) {
+    const double spent = std::chrono::duration<double>(after - began_).count();
+    const auto left =
+        static_cast<long>(spent * static_cast<double>(c.total - c.kept - c.ran) / static_cast<double>(c.ran));
+    line += fmt::format(", about {}:{:02} left", left / 60, left % 60);
+  }
+  io::tell("\r\033[K{}", line);
 }
 
 void Study::take_folder() {
@@ -126,13 +133,14 @@ void Study::take_folder() {
 
 std::vector<std::filesystem::path> Study::table_places() const {
   return {folder_ / (name_ + ".csv"), folder_ / "runs.csv", folder_ / (name_ + ".h5"),
-          folder_ / (name_ + "_log.csv")};
+          folder_ / (name_ + "_log.csv"), folder_ / (name_ + ".html")};
 }
 
 void Study::run() {
   take_folder();
   const auto jobs = collect_jobs();
   write_tables();
+  if (began_ == std::chrono::steady_clock::time_point{}) began_ = std::chrono::steady_clock::now();
   executor_.run(
       jobs, [this](const RunRecord& r) { put(r); }, [this] { tick(); });
   write_tables();
@@ -144,8 +152,10 @@ void Study::write_tables() const {
   const auto places = table_places();
   const std::string tables[] = {points.csv(), runs.csv(),
                                 io::hdf5_compounds({{"points", points}, {"runs", runs}}), log_table().csv()};
-  for (std::size_t k = 0; k < places.size(); ++k) write_file(places[k], tables[k]);
+  for (std::size_t k = 0; k < std::size(tables); ++k) write_file(places[k], tables[k]);
 }
+
+void Study::write_page(const std::string& html) const { write_file(table_places().back(), html); }
 
 StudyCounts Study::counts() const {
   StudyCounts c;

@@ -35,7 +35,10 @@ class Study {
   /// Does every run without a record, then writes the tables.
   void run();
   void write_tables() const;
+  /// Beside the tables, under the study's name.
+  void write_page(const std::string& html) const;
 
+  const std::string& file() const { return spec_.file; }
   const std::vector<Point>& points() const { return points_; }
   StudyCounts counts() const;
   bool interrupted() const { return executor_.interrupted(); }
@@ -66,7 +69,7 @@ class Study {
   std::multimap<std::string, Run*> waiting_;  ///< by digest: points can share a case
   std::vector<std::pair<std::string, double>> log_;
   std::size_t kept_ = 0, ran_ = 0;
-  std::chrono::steady_clock::time_point next_write_{};
+  std::chrono::steady_clock::time_point next_write_{}, began_{};
 };
 
 }  // namespace edmill::study

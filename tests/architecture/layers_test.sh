@@ -24,14 +24,15 @@ declare -A allowed=(
   [identify]="base model model/parts model/motions io casefile audit run" # fits what an audit measures; logs without states are run again
   [prove]="base model model/parts model/motions casefile run" # arithmetic of its own; the engine only tells where to look
   [plot]=""
+  [machines]="base casefile" # cases of mills that one can buy
   [dem]="base model model/parts io casefile compare identify plot" # decks, dumps and contacts of DEM codes
   [report]="base model model/parts io casefile study plot"
   [app]="base model model/parts dynamics engine io casefile run output study compare audit identify prove report instances instances/tools" # prints no result, knows no exit code
-  [cli]="base model model/parts io casefile run compare audit prove dem report app cli/commands"
-  [cli/commands]="base io casefile dem report app cli" # one file each, which main.cpp lists
+  [cli]="base model model/parts io casefile run compare audit prove dem report machines app cli/commands"
+  [cli/commands]="base io casefile dem report machines app cli" # one file each, which main.cpp lists
   [instances]="base model model/parts dynamics engine io casefile run output api" # the core in every scalar
   [instances/tools]="base io casefile report app instances" # and what is around it
-  [python]="base api casefile compare dem io prove report app run instances" # a program like those of users, and the commands
+  [python]="base machines api casefile compare dem io prove report app run instances" # a program like those of users, and the commands
   [python/edmill]=""
 )
 

@@ -1,0 +1,58 @@
+// Mills, ball materials and contacts with the sources of their numbers, and new cases made of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace edmill::machines {
+
+/// A key of a case with its value, and where that is from.
+struct Setting {
+  std::string key, value;  ///< "mill.arm", "\"10 cm\"": as in a case file
+  std::string source;      ///< of the value, whole
+  std::string note;        ///< may be empty
+};
+
+struct Machine {
+  std::string key, name;
+  std::string slowest, fastest;  ///< speeds of its drive
+  std::vector<Setting> settings;
+};
+
+/// What balls are made of.
+struct Material {
+  std::string key, density, source;
+};
+
+/// How bodies bounce when a case does not say it.
+struct Contact {
+  std::string key, what, model, restitution, source;
+};
+
+struct Catalogue {
+  std::vector<Machine> machines;
+  std::vector<Material> materials;
+  std::vector<Contact> contacts;
+  std::string friction, friction_source;
+};
+
+/// All that the program knows.
+const Catalogue& catalogue();
+
+/// As a table for a terminal, and as the page docs/machines.md.
+std::string table();
+std::string markdown();
+
+/// What a new case is asked to have; empty texts leave what the machine has.
+struct Wanted {
+  std::string machine = "spex8000";
+  std::vector<std::string> balls;  ///< "10x12.7mm", "4x6.35mm:zirconia"; one batch each
+  std::string powder, speed, restitution, friction, target_dose;
+  std::string time = "10 s";
+};
+
+/// A case file with comments that tell the sources.
+/// @throws InputError that names the wish, what was found and what was expected
+std::string new_case(const Wanted& wanted);
+
+}  // namespace edmill::machines

@@ -1,0 +1,190 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "base/errors.hpp"
+#include "casefile/quantity.hpp"
+#include "machines/machines.hpp"
+
+namespace edmill::machines {
+
+namespace {
+
+/// One batch: "10x12.7mm:zirconia".
+struct Batch {
+  std::uint64_t count;
+  std::string diameter;  ///< with its unit
+  double size;           ///< [m]
+  const Material* material;
+};
+
+template <class List>
+std::string keys_of(const List& list) {
+  std::string keys;
+  for (const auto& one : list) keys += (keys.empty() ? "" : ", ") + one.key;
+  return keys;
+}
+
+/// An option's quantity, in SI. @throws InputError
+double value_of(const std::string& option, const std::string& text, Dimension dimension) {
+  const auto read = casefile::parse_quantity(text, dimension);
+  const auto* quantity = std::get_if<casefile::Quantity>(&read);
+  if (quantity && quantity->positive()) return quantity->to<double>();
+  const auto* problem = std::get_if<casefile::QuantityProblem>(&read);
+  throw InputError(fmt::format("{}: found {}, expected a positive {}", option,
+                               problem ? problem->found : "\"" + text + "\"", casefile::noun(dimension)));
+}
+
+/// @throws InputError
+double number_of(const std::string& option, const std::string& text, double high) {
+  const auto number = casefile::parse_decimal(text);
+  if (number && *number >= 0 && static_cast<double>(*number) <= high) return static_cast<double>(*number);
+  throw InputError(fmt::format("{}: found \"{}\", expected a number from 0{}", option, text,
+                               std::isfinite(high) ? fmt::format(" to {:g}", high) : ""));
+}
+
+Batch batch_of(const std::string& text) {
+  const auto fail = [&](const std::string& expected) -> InputError {
+    return InputError(fmt::format("--balls: found \"{}\", expected {}", text, expected));
+  };
+  const auto times = text.find_first_of("x*");
+  const auto count = casefile::parse_decimal(text.substr(0, times));
+  if (times == std::string::npos || !count || *count < 1 || *count > 1000000 || denominator(*count) != 1)
+    throw fail(
+        "a number of balls and their diameter, \"10x12.7mm\", and a material if not steel, "
+        "\"10x12.7mm:zirconia\"");
+  std::string diameter = text.substr(times + 1), material = "steel";
+  if (const auto colon = diameter.find(':'); colon != std::string::npos) {
+    material = diameter.substr(colon + 1);
+    diameter.resize(colon);
+  }
+  const auto& materials = catalogue().materials;
+  const auto found = std::ranges::find(materials, material, &Material::key);
+  if (found == materials.end()) throw fail("a material among " + keys_of(materials));
+  return {static_cast<std::uint64_t>(*count), diameter, value_of("--balls", diameter, Dimension::length),
+          &*found};
+}
+
+/// What fills the vessel, and what follows from it.
+struct Charge {
+  std::vector<Batch> batches;
+  double mass = 0, smallest = 1e9, largest = 0;  ///< [kg], [m], [m]
+
+  explicit Charge(const std::vector<std::string>& texts) {
+    for (const auto& text : texts) {
+      batches.push_back(batch_of(text));
+      const auto& b = batches.back();
+      const double density = value_of("density", b.material->density, Dimension::density);
+      mass += static_cast<double>(b.count) * density * std::numbers::pi / 6 * b.size * b.size * b.size;
+      smallest = std::min(smallest, b.size), largest = std::max(largest, b.size);
+    }
+  }
+};
+
+const Contact& contact_of(const Charge& charge, double powder_mass) {
+  const auto named = [](std::string_view key) -> const Contact& {
+    return *std::ranges::find(catalogue().contacts, key, &Contact::key);
+  };
+  if (powder_mass <= 0) return named("bare");
+  const double ratio = charge.mass / powder_mass;
+  const bool measured =
+      ratio >= 2.5 && ratio <= 10 && charge.smallest >= 2.36e-3 && charge.largest <= 9.52e-3;
+  return named(measured ? "coated" : "powder");
+}
+
+class Writer {
+ public:
+  void section(const std::string& name) { text_ += "\n[" + name + "]\n"; }
+  void key(const std::string& name, const std::string& value, const std::string& comment) {
+    const auto line = name + " = " + value;
+    text_ += comment.empty() ? line + "\n" : fmt::format("{:<28} # {}\n", line, comment);
+  }
+  void comment(const std::string& text) { text_ += "# " + text + "\n"; }
+  std::string text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+/// "Barahona", of a source: the whole one is in `edmill machines`.
+std::string brief(const std::string& source) { return source.substr(0, source.find_first_of(",:")); }
+
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+void put_machine(Writer& out, const Machine& machine, const Wanted& wanted) {
+  std::string section, source;
+  for (const auto& s : machine.settings) {
+    const auto dot = s.key.find('.');
+    if (s.key.substr(0, dot) != section) out.section(section = s.key.substr(0, dot)), source.clear();
+    const bool given = s.key == "mill.speed" && !wanted.speed.empty();
+    std::string comment = given ? "as given" : s.source == source ? "" : brief(s.source);
+    if (!given && !s.note.empty()) comment = s.note + (comment.empty() ? "" : "; " + comment);
+    out.key(s.key.substr(dot + 1), given ? quoted(wanted.speed) : s.value, comment);
+    if (!given) source = s.source;
+  }
+}
+
+void put_contact(Writer& out, const Wanted& wanted, const Contact& contact) {
+  out.section("contact");
+  if (!wanted.restitution.empty()) {
+    out.key("restitution", wanted.restitution, "as given");
+  } else if (!contact.model.empty()) {
+    out.key("model", quoted(contact.model),
+            "restitution by charge ratio and diameter; " + brief(contact.source));
+  } else {
+    out.key("restitution", contact.restitution, contact.what + "; " + brief(contact.source));
+  }
+  const auto& all = catalogue();
+  out.key("friction", wanted.friction.empty() ? all.friction : wanted.friction,
+          wanted.friction.empty() ? brief(all.friction_source) : "as given");
+}
+
+}  // namespace
+
+std::string new_case(const Wanted& wanted) {
+  const auto& machines = catalogue().machines;
+  const auto machine = std::ranges::find(machines, wanted.machine, &Machine::key);
+  if (machine == machines.end())
+    throw InputError(
+        fmt::format("--mill: found \"{}\", expected one of {}", wanted.machine, keys_of(machines)));
+  const Charge charge(wanted.balls.empty() ? std::vector<std::string>{"10x10mm"} : wanted.balls);
+  const double powder = wanted.powder.empty() ? 0 : value_of("--powder", wanted.powder, Dimension::mass);
+  if (!wanted.speed.empty()) value_of("--speed", wanted.speed, Dimension::angular_speed);
+  if (!wanted.target_dose.empty()) {
+    value_of("--target-dose", wanted.target_dose, Dimension::specific_energy);
+    if (powder <= 0) throw InputError("--target-dose: found no --powder, expected the mass of the powder");
+  }
+  if (!wanted.restitution.empty()) number_of("--restitution", wanted.restitution, 1);
+  if (!wanted.friction.empty()) number_of("--friction", wanted.friction, 1e6);
+  const double time = value_of("--time", wanted.time, Dimension::time);
+  Writer out;
+  out.comment(fmt::format("{}, {} to {}. Sources of its numbers: edmill machines", machine->name,
+                          machine->slowest, machine->fastest));
+  out.comment("Check it with `edmill check`, simulate it with `edmill run FILE --report`.");
+  out.section("run");
+  out.key("start_time", quoted(fmt::format("{:g} s", time / 10)),
+          "statistics begin here, when the charge has spread");
+  out.key("end_time", quoted(wanted.time),
+          "or until the dose rate is known: edmill run --until-precision 1%");
+  out.key("gravity", quoted("9.81 m/s2"), "downward, along -Y");
+  put_machine(out, *machine, wanted);
+  if (powder > 0) {
+    out.section("powder");
+    out.key("mass", quoted(wanted.powder), fmt::format("charge ratio {:.3g}", charge.mass / powder));
+    if (!wanted.target_dose.empty())
+      out.key("target_dose", quoted(wanted.target_dose), "the run tells the milling time");
+  }
+  put_contact(out, wanted, contact_of(charge, powder));
+  for (const auto& b : charge.batches) {
+    out.section("[balls]");
+    out.key("count", std::to_string(b.count), "");
+    out.key("diameter", quoted(b.diameter), "");
+    out.key("density", quoted(b.material->density), b.material->key + "; " + brief(b.material->source));
+  }
+  return out.text();
+}
+
+}  // namespace edmill::machines

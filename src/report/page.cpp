@@ -1,0 +1,46 @@
+#include "report/page.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string_view>
+
+#include "plot/markup.hpp"
+#include "report/embedded.hpp"
+
+namespace edmill::report {
+
+namespace {
+
+/// Puts values in place of {{names}}; what a value holds is not looked at again.
+std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto open = text.find("{{", at), close = text.find("}}", open == text.npos ? at : open);
+    if (open == text.npos || close == text.npos) return out.append(text.substr(at));
+    out.append(text.substr(at, open - at));
+    out.append(values.at(std::string(text.substr(open + 2, close - open - 2))));
+    at = close + 2;
+  }
+  return out;
+}
+
+std::string escaped(const std::string& text) {
+  pugi::xml_document document;
+  document.append_child(pugi::node_pcdata).set_value(text.c_str());
+  return plot::html_of(document);
+}
+
+}  // namespace
+
+std::string page_of(const Page& page) {
+  return filled(page_html, {{"title", escaped(page.title)},
+                            {"subtitle", escaped(page.subtitle)},
+                            {"program", escaped(fmt::format("edmill {} ({})", page.version, page.commit))},
+                            {"main", plot::html_of(page.main)},
+                            {"style", std::string(page_css)},
+                            {"player", page.scripts},
+                            {"player_note", page.note}});
+}
+
+}  // namespace edmill::report
