@@ -21,7 +21,7 @@ test_packages=(
   libbenchmark-dev clang libclang-rt-14-dev clang-format patch valgrind
   python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-h5py python3-vtk9 view3dscene libxml2-utils
   chromium chromium-driver python3-selenium
-  doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-nbclient python3-ipykernel python3-matplotlib
+  doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-nbclient python3-ipykernel python3-matplotlib python3-pandas python3-xarray
 )
 
 long_packages=(lammps python3-lammps liggghts yade debootstrap dpkg-dev python3-venv python3-pip)

@@ -3,56 +3,22 @@
 
 #include <algorithm>
 
-#include "casefile/output_columns.hpp"
 #include "output/table_output.hpp"
+#include "output/wall_cells.hpp"
 
 namespace edmill::output {
-
-/// Into how many equal parts the coordinates on walls are divided.
-struct CoverageKeys {
-  std::uint64_t angles = 36, heights = 24, rings = 6, parts = 12;
-
-  static void keys(auto& c, auto&& row) {
-    using casefile::table_size;
-    row(casefile::Parameter{"angles", Dimension::none, "cells about the axis", table_size, "36"}, c.angles);
-    row(casefile::Parameter{"heights", Dimension::none, "cells along the axis", table_size, "24"}, c.heights);
-    row(casefile::Parameter{"rings", Dimension::none, "of equal area on round caps", table_size, "6"},
-        c.rings);
-    row(casefile::Parameter{"parts", Dimension::none, "along each edge of a rectangle", table_size, "12"},
-        c.parts);
-  }
-
-  std::size_t parts_of(model::Coordinate c) const {
-    switch (c) {
-      case model::Coordinate::angle:
-        return angles;
-      case model::Coordinate::height:
-        return heights;
-      case model::Coordinate::radius:
-        return rings;
-      default:
-        return parts;
-    }
-  }
-};
 
 template <class Real>
 class CoverageOutput : public TableOutput<Real> {
  public:
   CoverageOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                  const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run) {
-    std::size_t cells = 0;
-    for (const auto& surface : run.surfaces) {
-      const auto c = surface.coordinates();
-      const auto& keys = spec.own_keys<CoverageKeys>();
-      walls_.push_back({surface, keys.parts_of(c[0]), keys.parts_of(c[1]), cells});
-      cells += walls_.back().columns * walls_.back().rows;
-    }
-    cells_.resize(cells);
+      : TableOutput<Real>(spec, folder, run),
+        walls_(run.surfaces, spec.own_keys<CoverageKeys>()),
+        cells_(walls_.count()) {
     for (std::size_t k = 0; k < model::coordinate_infos.size(); ++k) {
       const auto c = static_cast<model::Coordinate>(k);
-      if (std::any_of(walls_.begin(), walls_.end(), [&](const Wall& wall) { return wall.has(c); }))
+      if (std::ranges::any_of(walls_.walls(), [&](const auto& wall) { return wall.has(c); }))
         coordinates_.push_back(c);
     }
   }
@@ -63,9 +29,7 @@ class CoverageOutput : public TableOutput<Real> {
   void record(const Seen<Real>& seen) override {
     const auto& f = seen.facts;
     if (f.ball_ball) return;
-    const auto& wall = walls_[static_cast<std::size_t>(f.partner)];
-    const auto place = wall.surface.map(own_contact_point(seen, pose_of(seen)));
-    auto& cell = cells_[wall.cell(part(place.u, wall.columns), part(place.v, wall.rows))];
+    auto& cell = cells_[walls_.cell_of(seen)];
     ++cell.impacts;
     cell.dose += f.milling_dose;
   }
@@ -83,9 +47,10 @@ class CoverageOutput : public TableOutput<Real> {
     columns.push_back({"dose", number, "J", "milling dose"});
     columns.push_back({"dose_per_area", number, "J/m2", "milling dose of the cell over its area"});
     this->begin(std::move(columns), {this->window(until)});
-    for (std::size_t wall = 0; wall < walls_.size(); ++wall)
-      for (std::size_t row = 0; row < walls_[wall].rows; ++row)
-        for (std::size_t column = 0; column < walls_[wall].columns; ++column) write_cell(wall, column, row);
+    const auto& walls = walls_.walls();
+    for (std::size_t wall = 0; wall < walls.size(); ++wall)
+      for (std::size_t row = 0; row < walls[wall].rows; ++row)
+        for (std::size_t column = 0; column < walls[wall].columns; ++column) write_cell(wall, column, row);
   }
 
  private:
@@ -94,26 +59,6 @@ class CoverageOutput : public TableOutput<Real> {
     Real dose{0};  ///< [J]
     void archive(Archive& a) { a(impacts, dose); }
   };
-  /// A wall in columns of equal parts of u and rows of equal parts of v.
-  struct Wall {
-    model::WallSurface<Real> surface;
-    std::size_t columns, rows;
-    std::size_t first;  ///< of its cells
-
-    std::size_t cell(std::size_t column, std::size_t row) const { return first + row * columns + column; }
-    bool has(model::Coordinate c) const {
-      const auto own = surface.coordinates();
-      return std::find(own.begin(), own.end(), c) != own.end();
-    }
-  };
-
-  /// Which of `count` equal parts of [0, 1] holds a value; rounding may have put it outside.
-  static std::size_t part(const Real& value, std::size_t count) {
-    if (!(value > 0)) return 0;
-    const Real place = value * Real(count);
-    return place < Real(count) ? static_cast<std::size_t>(place) : count - 1;
-  }
-
   /// "0 the cap at -y, 1 the cap at +y"
   static std::string wall_names(const std::vector<model::WallInfo>& walls) {
     std::string text;
@@ -124,7 +69,7 @@ class CoverageOutput : public TableOutput<Real> {
   /// "; none on caps"
   std::string where_none(model::Coordinate c) const {
     std::string text;
-    for (const auto& wall : walls_) {
+    for (const auto& wall : walls_.walls()) {
       const std::string name = wall.surface.name();
       if (!wall.has(c) && text.find(name) == std::string::npos)
         text += (text.empty() ? "; none on " : ", ") + name;
@@ -133,7 +78,7 @@ class CoverageOutput : public TableOutput<Real> {
   }
 
   void write_cell(std::size_t index, std::size_t column, std::size_t row) {
-    const Wall& wall = walls_[index];
+    const auto& wall = walls_.walls()[index];
     this->put(static_cast<std::uint64_t>(index));
     for (const auto c : coordinates_) {
       const bool along_u = wall.surface.coordinates()[0] == c;
@@ -141,13 +86,13 @@ class CoverageOutput : public TableOutput<Real> {
       for (const std::size_t edge : {part, part + 1})
         this->put(io::value_if(wall.has(c), [&] { return wall.surface.edge(along_u ? 0 : 1, edge, parts); }));
     }
-    const Real area = wall.surface.area() / (Real(wall.columns) * Real(wall.rows));
+    const Real area = wall.area_of_cell();
     const auto& cell = cells_[wall.cell(column, row)];
     // Walls of no area are those of a vessel that is just round.
     this->put(area, cell.impacts, cell.dose, io::value_if(area > 0, [&] { return Real(cell.dose / area); }));
   }
 
-  std::vector<Wall> walls_;                     ///< by id
+  WallCells<Real> walls_;
   std::vector<model::Coordinate> coordinates_;  ///< that walls have
   std::vector<Cell> cells_;                     ///< wall after wall, row after row
 };

@@ -19,6 +19,7 @@
 #include "output/spectra_output.hpp"
 #include "output/statistics_output.hpp"
 #include "output/trace_output.hpp"
+#include "output/treatment_output.hpp"
 #include "output/trends_balls_output.hpp"
 #include "output/trends_instant_output.hpp"
 #include "output/trends_output.hpp"
@@ -85,6 +86,12 @@ inline constexpr std::tuple output_registry{
         {"vessel_load", ".csv",
          "impulse, force and torque on the vessel, and the power draw, of each interval", read_vessel_load,
          vessel_load_keys}},
+    OutputRow<TreatmentOutput>{{"treatment",
+                                ".csv",
+                                "how often powder has been hit, if it is mixed and if it stays in place",
+                                casefile::read_own<TreatmentKeys>,
+                                {},
+                                casefile::see_keys<TreatmentKeys>}},
     OutputRow<CoverageOutput>{{"coverage",
                                ".csv",
                                "dose and impacts by position on the vessel's walls",

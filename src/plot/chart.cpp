@@ -35,6 +35,14 @@ class Places {
   const Chart& chart_;
 };
 
+/// "0.1,5.8 0.2,5.9": for a reader who takes the curve as a table.
+std::string points_of(const Curve& curve) {
+  std::string points;
+  for (const auto& [x, y] : curve.points)
+    if (!std::isnan(y)) points += fmt::format("{}{:.6g},{:.6g}", points.empty() ? "" : " ", x, y);
+  return points;
+}
+
 std::string path_of(const Curve& curve, const Places& places) {
   std::string path;
   const auto& points = curve.points;
@@ -173,7 +181,11 @@ void draw(pugi::xml_node parent, const Chart& chart) {
         mark.text);
   }
   for (const auto& curve : chart.curves)
-    add(inside, "path", {{"class", "curve " + curve.colour}, {"d", path_of(curve, places)}});
+    add(inside, "path",
+        {{"class", "curve " + curve.colour},
+         {"d", path_of(curve, places)},
+         {"data-name", curve.name},
+         {"data-points", points_of(curve)}});
 }
 
 }  // namespace edmill::plot

@@ -4,12 +4,14 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 #include "api/case_access.hpp"
 #include "app/audit.hpp"
 #include "app/certify.hpp"
 #include "app/check_case.hpp"
 #include "app/prove.hpp"
+#include "app/run.hpp"
 #include "app/study.hpp"
 #include "base/errors.hpp"
 #include "compare/comparison.hpp"
@@ -17,10 +19,14 @@
 #include "dem/contact_comparison.hpp"
 #include "dem/contact_log.hpp"
 #include "io/input_file.hpp"
+#include "machines/machines.hpp"
+#include "model/impact_variables.hpp"
 #include "prove/certificate.hpp"
 #include "python/binding.hpp"
 #include "python/interruptible.hpp"
+#include "report/comparison_page.hpp"
 #include "report/report_page.hpp"
+#include "run/run_folder.hpp"
 
 namespace py = pybind11;
 
@@ -162,6 +168,47 @@ std::string report(const std::string& folder) {
   return report::write_report(folder).string();
 }
 
+/// @throws KeyboardInterrupt when Ctrl-C ended it, with its state on disk
+void in_folder(app::RunOptions options, const std::function<app::RunResult(const app::RunOptions&)>& work) {
+  std::atomic<bool> interrupt{false};
+  options.interrupt = &interrupt;
+  const auto result = interruptible(interrupt, [&] { return work(options); });
+  if (result.end_reason == model::EndReason::undecided) throw UndecidedError(result.error);
+}
+
+void run_with_checkpoints(const Case& the_case, const std::string& precision, const std::string& folder,
+                          bool report, const std::string& interval) {
+  const auto& spec = CaseAccess::spec(the_case);
+  run::parse_checkpoint_interval(interval);
+  app::RunOptions options;
+  options.folder = folder, options.report = report;
+  options.checkpoint = app::first_checkpoint(spec, spec.settings, precision, report, interval);
+  in_folder(options, [&](const app::RunOptions& o) { return app::run(precision, spec, o); });
+}
+
+void resume(const std::string& folder, const std::string& interval) {
+  if (!interval.empty()) run::parse_checkpoint_interval(interval);
+  app::RunOptions options;
+  options.folder = folder;
+  in_folder(options, [&](const app::RunOptions& o) { return app::resume(interval, o); });
+}
+
+py::list machines_in_python() {
+  py::list all;
+  for (const auto& m : machines::catalogue().machines) {
+    py::list rows;
+    for (const auto& s : m.settings) rows.append(py::make_tuple(s.key, s.value, s.source));
+    all.append(py::make_tuple(m.key, rows));
+  }
+  return all;
+}
+
+std::string new_case(const std::string& machine, const std::vector<std::string>& balls,
+                     const std::string& powder, const std::string& speed, const std::string& restitution,
+                     const std::string& friction, const std::string& target_dose, const std::string& time) {
+  return machines::new_case({machine, balls, powder, speed, restitution, friction, target_dose, time});
+}
+
 const Binding tools([](py::module_& m) {
   m.def("sweep", [](const std::string& file, const std::string& folder, int jobs) {
     return study(file, folder, jobs, app::sweep);
@@ -177,6 +224,19 @@ const Binding tools([](py::module_& m) {
   m.def("shadow", &shadow);
   m.def("check", &check);
   m.def("report", &report);
+  m.def("report_of_runs", [](const std::vector<std::string>& folders, const std::string& file) {
+    const py::gil_scoped_release others;
+    report::write_comparison(folders, file);
+  });
+  m.def("run_with_checkpoints", &run_with_checkpoints);
+  m.def("resume", &resume);
+  m.def("machines", &machines_in_python);
+  m.def("new_case", &new_case);
+  m.def("variables", [] {
+    std::vector<std::tuple<std::string, std::string, std::string>> rows;
+    for (const auto& v : model::impact_variables) rows.emplace_back(v.name, v.unit, v.meaning);
+    return rows;
+  });
 });
 
 }  // namespace

@@ -65,8 +65,11 @@ std::vector<std::string> names_of(const std::vector<RunFolder>& runs) {
 /// "+12 %", with a word where the difference may be noise.
 std::string against(const RateOf& rate, const RateOf& first) {
   const auto apart = differ(rate, first);
-  const std::string change = first.value != 0 ? fmt::format("{:+.1f} %", 100 * (rate.value / first.value - 1))
-                                              : std::string("\u2013");
+  std::string change = "\u2013";
+  if (first.value != 0) {
+    const double percent = 100 * (rate.value / first.value - 1);
+    change = fmt::format("{}{:.1f} %", percent < 0 ? "\u2212" : "+", std::abs(percent));
+  }
   return !apart ? change + ", no interval" : *apart ? change : change + ", not significant";
 }
 

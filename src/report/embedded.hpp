@@ -6,6 +6,7 @@
 namespace edmill::report {
 
 extern const std::string_view page_html, page_css, page_js;  ///< the page, its look, its behaviour
+extern const std::string_view figures_js;                    ///< files of figures, units of the reader's choice
 extern const std::string_view outputs_toml;                  ///< what `edmill run --report` adds to a case
 extern const std::string_view demo_toml;                     ///< the case of `edmill demo`
 extern const std::string_view ward_toml;                     ///< what the 24 Ward cases share

@@ -57,7 +57,9 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
   for (const auto& card : cards_of(run)) {
     auto box = add(list, "div", {{"class", "card"}});
     add(box, "dt", {}, card.name);
-    auto value = add(box, "dd");
+    auto value = add(box, "dd", {{"data-unit", card.unit}, {"data-value", fmt::format("{}", card.value)}});
+    if (card.half_width)
+      value.append_attribute("data-interval") = fmt::format("{}", *card.half_width).c_str();
     const auto [number, width] = plot::with_interval(card.value, card.half_width.value_or(0));
     add(value, "strong", {}, number);
     add(value, "span", {{"class", "unit"}}, " " + card.unit);

@@ -31,6 +31,19 @@ std::string escaped(const std::string& text) {
   return plot::html_of(document);
 }
 
+/// Links to the sections of the page.
+std::string contents_of(const pugi::xml_document& main) {
+  pugi::xml_document document;
+  auto list =
+      plot::add(plot::add(document, "nav", {{"class", "contents"}, {"aria-label", "Contents"}}), "ul");
+  for (const auto& found : main.select_nodes("//section[@id]")) {
+    const auto section = found.node();
+    plot::add(plot::add(list, "li"), "a", {{"href", std::string("#") + section.attribute("id").value()}},
+              section.child("h2").text().get());
+  }
+  return plot::html_of(document);
+}
+
 }  // namespace
 
 std::string page_of(const Page& page) {
@@ -39,7 +52,8 @@ std::string page_of(const Page& page) {
                             {"program", escaped(fmt::format("edmill {} ({})", page.version, page.commit))},
                             {"main", plot::html_of(page.main)},
                             {"style", std::string(page_css)},
-                            {"player", page.scripts},
+                            {"contents", contents_of(page.main)},
+                            {"player", fmt::format("<script>\n{}</script>\n", figures_js) + page.scripts},
                             {"player_note", page.note}});
 }
 

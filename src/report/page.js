@@ -105,12 +105,25 @@ function makePicture(renderer, mill) {
 /** Turning and coming nearer with the mouse or fingers. */
 function addControls(camera, canvas, target, onChange) {
   const controls = new THREE.OrbitControls(camera, canvas);
-  controls.enableKeys = false; // they scroll the page
-  canvas.tabIndex = -1;
+  controls.enableKeys = false; // its keys would move the mill sideways
+  canvas.tabIndex = 0;
   controls.maxDistance = camera.far / 2;
   controls.target.fromArray(target);
   controls.update();
   controls.addEventListener("change", onChange);
+  const turn = { ArrowLeft: [-1, 0, 1], ArrowRight: [1, 0, 1], ArrowUp: [0, -1, 1], ArrowDown: [0, 1, 1], "+": [0, 0, 0.9], "-": [0, 0, 1 / 0.9] };
+  canvas.addEventListener("keydown", (event) => {
+    const step = turn[event.key];
+    if (!step) return;
+    event.preventDefault(); // the page stays where it is
+    const from = new THREE.Spherical().setFromVector3(camera.position.clone().sub(controls.target));
+    from.theta += 0.1 * step[0];
+    from.phi = Math.min(Math.max(from.phi + 0.1 * step[1], 0.01), Math.PI - 0.01);
+    from.radius = Math.min(from.radius * step[2], controls.maxDistance);
+    camera.position.setFromSpherical(from).add(controls.target);
+    controls.update();
+    onChange();
+  });
 }
 
 function play(renderer) {
@@ -160,8 +173,8 @@ function play(renderer) {
     ask();
   }).observe(stage);
 
-  canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", "The vessel and its balls as they move");
+  canvas.setAttribute("role", "application"); // it takes keys
+  canvas.setAttribute("aria-label", "The vessel and its balls as they move; arrow keys turn it, + and - zoom");
   stage.append(canvas);
   document.getElementById("player").hidden = false;
   document.body.classList.add("plays"); // in place of the still picture

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/scalar.hpp"
+#include "casefile/build_case.hpp"
 #include "model/ball_variables.hpp"
 #include "model/impact_variables.hpp"
 #include "report/sections.hpp"
@@ -87,21 +89,48 @@ void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
   draw(grid, chart);
 }
 
+/// Of the walls by id, then of all balls together [m2].
+std::vector<double> areas_of(const RunFolder& run) {
+  std::vector<double> areas;
+  for (const auto& surface : casefile::build_mill<double>(run.spec).vessel.surfaces())
+    areas.push_back(surface.area());
+  double balls = 0;
+  const auto add_balls = [&](const casefile::BallSpec& ball, double count) {
+    const double d = ball.diameter.to<double>();
+    balls += count * numerics::pi<double>() * d * d;
+  };
+  for (const auto& ball : run.spec.balls) add_balls(ball, 1);
+  for (const auto& batch : run.spec.batches) add_balls(batch, batch.count);
+  areas.push_back(balls);
+  return areas;
+}
+
 void add_partners(pugi::xml_node section, const RunFolder& run) {
   const auto& f = run.facts;
+  const auto areas = areas_of(run);
   std::vector<std::vector<std::string>> rows;
-  const auto row = [&](const std::string& name, double collisions, double dose) {
+  const auto row = [&](const std::string& name, double collisions, double dose, double area) {
     const bool timed = f.duration() > 0;
     rows.push_back({name, brief(collisions, 12), timed ? readable(collisions / f.duration()) : "\u2013",
                     timed ? readable(dose / f.duration()) : "\u2013",
                     f.milling_dose > 0 ? readable(100 * dose / f.milling_dose, 3) : "\u2013",
-                    collisions > 0 ? readable(1000 * dose / collisions, 3) : "\u2013"});
+                    collisions > 0 ? readable(1000 * dose / collisions, 3) : "\u2013",
+                    timed && area > 0 ? readable(dose / f.duration() / area / 1e4, 3) : "\u2013"});
   };
-  for (int k = 0; k < run.partners.count(); ++k) row(name_of(run.partners[k]), f.collisions[k], f.dose[k]);
-  row("all", f.all_collisions(), f.milling_dose);
+  for (int k = 0; k < run.partners.count(); ++k)
+    row(name_of(run.partners[k]), f.collisions[k], f.dose[k], areas[static_cast<std::size_t>(k)]);
+  row("all", f.all_collisions(), f.milling_dose, 0);
   add_table(section, "by-partner", "Collisions and dose by partner",
-            {"with", "collisions", "[1/s]", "dose rate [W]", "share of the dose [%]", "mean dose [mJ]"},
+            {"with", "collisions", "[1/s]", "dose rate [W]", "share of the dose [%]", "mean dose [mJ]",
+             "dose rate per area [W/cm\u00b2]"},
             rows);
+  if (f.duration() > 0)
+    add(section, "p", {{"class", "note"}},
+        fmt::format(
+            "Area: of the wall, or of all balls. Each of the {} balls has a part in {} W on the average: an "
+            "impact between balls counts half for either, one with a wall whole.",
+            run.spec.ball_count(),
+            readable(f.milling_dose / f.duration() / static_cast<double>(run.spec.ball_count()), 3)));
 }
 
 void add_cutoffs(pugi::xml_node section, const RunFolder& run) {

@@ -54,7 +54,8 @@ void add_player(pugi::xml_node section, const Animation& animation, double speed
        {"value", "0"},
        {"aria-label", "Time from the beginning of the animation"}});
   add(controls, "span", {{"id", "clock"}, {"aria-hidden", "true"}}, "0.0 ms");
-  add(player, "p", {{"class", "note"}}, pace(speed) + ". Drag to rotate, scroll to zoom.");
+  add(player, "p", {{"class", "note"}},
+      pace(speed) + ". Drag to rotate, scroll to zoom; by keyboard the arrows, + and -.");
 }
 
 /// The scripts that play the animation.
@@ -94,6 +95,7 @@ std::string report_page(const RunFolder& run) {
   add_rates(main, run);
   add_spectra(main, run);
   add_vessel(main, run);
+  add_treatment(main, run);
   add_ball_speeds(main, run);
   add_energy(main, run);
   add_case(main, run);

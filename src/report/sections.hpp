@@ -19,6 +19,8 @@ void add_animation(pugi::xml_node main, const RunFolder& run);
 void add_rates(pugi::xml_node main, const RunFolder& run);
 void add_spectra(pugi::xml_node main, const RunFolder& run);
 void add_vessel(pugi::xml_node main, const RunFolder& run);
+/// How often powder has been hit, where the case has such an output.
+void add_treatment(pugi::xml_node main, const RunFolder& run);
 void add_ball_speeds(pugi::xml_node main, const RunFolder& run);
 void add_energy(pugi::xml_node main, const RunFolder& run);
 void add_case(pugi::xml_node main, const RunFolder& run);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "report/sections.hpp"
 
@@ -133,6 +134,35 @@ void add_spectra(pugi::xml_node main, const RunFolder& run) {
     add_energies(grid, *table, run.partners);
   else
     add_missing(grid, "spectra of impact energy", "type = \"spectra\"");
+}
+
+void add_treatment(pugi::xml_node main, const RunFolder& run) {
+  const auto* output = run.output("treatment", [](const auto& o) { return o.only.empty(); });
+  if (!output) return;
+  const auto table = read_table(run.file_of(*output), "a table of treatment", 1);
+  plot::Chart chart;
+  chart.id = "treatment-hits", chart.title = "How often powder has been hit";
+  chart.description = "Histograms of the part of the powder that was hit so many times: mixed, and in place.";
+  chart.x.title = "hits", chart.x.low = 0, chart.x.high = static_cast<double>(table.numbers.size());
+  chart.y.title = "part of the powder";
+  double top = 0;
+  for (const auto& [name, column, colour] :
+       {std::tuple{"mixed between impacts", "mixed", "c0"}, std::tuple{"stays in place", "in_place", "c1"}}) {
+    plot::Curve curve{name, colour, {}, true};
+    const auto place = table.column(column);
+    for (std::size_t k = 0; k < table.numbers.size(); ++k) {
+      curve.points.emplace_back(static_cast<double>(k), table.numbers[k][place]);
+      top = std::max(top, table.numbers[k][place]);
+    }
+    curve.points.emplace_back(chart.x.high, 0);
+    chart.curves.push_back(std::move(curve));
+  }
+  chart.y.high = top > 0 ? 1.1 * top : 1;
+  auto section = add_section(main, "treatment", "How evenly the powder is treated");
+  draw(add(section, "div", {{"class", "charts"}}), chart);
+  add(section, "p", {{"class", "note"}},
+      "The last bar is of all that was hit more often. The counts and what an impact works are those of the "
+      "output (type = \"treatment\").");
 }
 
 void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs,

@@ -32,7 +32,7 @@ declare -A allowed=(
   [cli/commands]="base io casefile dem report machines app cli" # one file each, which main.cpp lists
   [instances]="base model model/parts dynamics engine io casefile run output api" # the core in every scalar
   [instances/tools]="base io casefile report app instances" # and what is around it
-  [python]="base machines api casefile compare dem io prove report app run instances" # a program like those of users, and the commands
+  [python]="base model machines api casefile compare dem io prove report app run instances" # a program like those of users, and the commands
   [python/edmill]=""
 )
 

@@ -36,6 +36,9 @@ done
 "$edmill" reference >reference.md
 diff "$source_folder/docs/reference.md" reference.md || fail "docs/reference.md is not what 'edmill reference' prints"
 
+"$edmill" machines --markdown >machines.md
+diff "$source_folder/docs/machines.md" machines.md || fail "docs/machines.md is not what 'edmill machines --markdown' prints"
+
 "$edmill" demo --quiet --out demo
 "$edmill" run "$source_folder/docs/examples/demo.toml" --quiet --out run
 cmp demo/final_state.csv run/final_state.csv

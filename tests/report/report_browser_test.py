@@ -158,12 +158,12 @@ class Report(unittest.TestCase):
                 if entry["level"] in ("WARNING", "SEVERE") and "GL Driver Message" not in entry["message"]]
         self.assertEqual(ours, [])
 
-    def assert_good(self, name):
-        """The report of a run: the console, its numbers, its labels at two widths, and where its scene is."""
+    def assert_good_page(self, page, name):
+        """Of any page: the console, its numbers, its labels at two widths."""
         self.browser.get_log("browser")  # of the page before
         # Paused: to draw without a graphics card takes most of the time.
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]})
-        self.browser.get((self.folder / name / "report.html").as_uri())
+        self.browser.get((self.folder / page).as_uri())
         self.assert_silent()
         text = self.script("return document.querySelector('main').outerHTML")
         self.assertEqual(re.findall(r"[^\w](?:nan|inf|infinity|undefined|null)[^\w]", text, re.IGNORECASE), [])
@@ -174,6 +174,12 @@ class Report(unittest.TestCase):
                 self.keep(f"{name}-{width}.png")
             self.assertEqual(self.script(BAD_LABELS), [], f"at {width} px")
             self.assertEqual(self.script("return document.documentElement.scrollWidth"), width)
+        links = self.script("return [...document.querySelectorAll('.contents a')].map(a => !!document.getElementById(a.hash.slice(1)))")
+        self.assertTrue(links and all(links), links)
+
+    def assert_good(self, name):
+        """The report of a run, and where its scene is."""
+        self.assert_good_page(f"{name}/report.html", name)
         farthest = self.script(FARTHEST)
         self.assertLess(farthest, 1, "all balls are in the picture at all times")
         self.assertGreater(farthest, 0.9, "and what they are in fills it")
@@ -363,6 +369,58 @@ class Report(unittest.TestCase):
             case = self.folder / f"{name}.toml"
             case.write_text(MILLS[name])
             yield case
+
+    def test_9_pages_of_several_runs_are_good(self):
+        for balls in (7, 14):
+            run(self.folder / f"of-{balls}", "run.end_time=2 s", f"balls.0.count={balls}", 'powder.target_dose="10 kJ/g"')
+        subprocess.run([EDMILL, "report", "--quiet", "--out", self.folder / "compared.html", *(self.folder / f"of-{n}" for n in (7, 14))],
+                       check=True)
+        (self.folder / "speeds.sweep.toml").write_text(f'''[sweep]
+case = "{ROOT / "docs/examples/demo.toml"}"
+replicas = 2
+[sweep.grid]
+"mill.speed" = ["900 rpm", "1100 rpm"]
+"run.end_time" = ["1.5 s"]
+''')
+        subprocess.run([EDMILL, "sweep", self.folder / "speeds.sweep.toml", "--quiet", "--out", self.folder / "speeds"], check=True)
+        for page in ("compared.html", "speeds/sweep.html"):
+            with self.subTest(page):
+                self.assert_good_page(page, page.replace("/", "-"))
+
+    def test_7_figures_are_saved_as_files(self):
+        """What the buttons of a figure make, caught on its way to the disk."""
+        self.browser.get((self.folder / "run/report.html").as_uri())
+        made = self.browser.execute_async_script("""
+            const done = arguments[0], made = {};
+            const figure = document.getElementById('dose-rate'), buttons = [...figure.querySelectorAll('.files button')];
+            HTMLAnchorElement.prototype.click = function () {
+              const name = this.download;
+              fetchBlob(this.href).then(text => { made[name] = text; if (Object.keys(made).length === buttons.length) done(made); });
+            };
+            const blobs = new Map(), create = URL.createObjectURL;
+            URL.createObjectURL = (blob) => { const url = create.call(URL, blob); blobs.set(url, blob); return url; };
+            const fetchBlob = async (url) => [blobs.get(url).type, (await blobs.get(url).text()).slice(0, 400000)];
+            for (const button of buttons) button.click();""")
+        self.assertEqual(set(made), {"dose-rate.svg", "dose-rate.png", "dose-rate.csv"})
+        self.assertEqual(made["dose-rate.png"][0], "image/png")
+        svg = ElementTree.fromstring(made["dose-rate.svg"][1])
+        strokes = {node.get("style") for node in svg.iter() if "curve" in (node.get("class") or "")}
+        self.assertTrue(strokes and all("stroke: rgb" in style for style in strokes), strokes)
+        rows = made["dose-rate.csv"][1].splitlines()
+        self.assertEqual(rows[0], "curve,x,y")
+        self.assertGreater(len(rows), 20)
+
+    def test_7_units_are_the_readers_choice(self):
+        self.browser.get((self.folder / "run/report.html").as_uri())
+        before, after, unit = self.script("""
+            const card = document.querySelector('.card [data-unit=W]'), select = document.querySelector('.units select');
+            const number = () => Number(card.querySelector('strong').textContent);
+            const before = number();
+            select.value = 'J/min';
+            select.dispatchEvent(new Event('change'));
+            return [before, number(), card.querySelector('.unit').textContent];""")
+        self.assertAlmostEqual(after / before / 60, 1, 3)
+        self.assertEqual(unit.strip(), "J/min")
 
     def test_9_reports_of_other_mills_are_good(self):
         self.assert_good_runs(self.mills(SOME))

@@ -2,20 +2,23 @@
 
     import edmill
     run = edmill.run(edmill.Case.spex8000(balls=28, diameter="4.76 mm"), until="2 s")
-    run.milling_dose_rate       # W
+    run.dose_rate               # with its 95 % interval [W]
     run.events["milling_dose"]  # a NumPy array with a number for each impact
 
 Quantities are strings with units; numbers without a unit are for counts and ratios. The manual explains cases, outputs and precisions.
 """
 from ._edmill import InputError, UndecidedError, __version__
 from .callbacks import ContactLaw, Impact, Running
-from .case import Case
+from .case import Case, EditError
 from .dem import Deck, export, import_dump, limit
 from .judges import (Agreement, Certification, CertifiedEvent, Judgement, Proof, ProvenEvent, Shadow, audit, certify, check,
                      check_certificate, compare, prove, shadow)
-from .runs import Interrupted, Run, report, run
+from .machines import machines, new, variables
+from .runs import Interrupted, Run, read_run, report, resume, run
 from .studies import Study, optimize, sweep
+from .tables import Records
+from .values import Value
 
-__all__ = ["Agreement", "Case", "Certification", "CertifiedEvent", "ContactLaw", "Deck", "Impact", "InputError", "Interrupted", "Judgement",
-           "Proof", "ProvenEvent", "Run", "Running", "Shadow", "Study", "UndecidedError", "__version__", "audit", "certify", "check",
-           "check_certificate", "compare", "export", "import_dump", "limit", "optimize", "prove", "report", "run", "shadow", "sweep"]
+__all__ = ["Agreement", "Case", "Certification", "CertifiedEvent", "ContactLaw", "Deck", "EditError", "Impact", "InputError", "Interrupted", "Judgement",
+           "Proof", "ProvenEvent", "Records", "Run", "Running", "Shadow", "Study", "UndecidedError", "Value", "__version__", "audit", "certify", "check",
+           "check_certificate", "compare", "export", "import_dump", "limit", "machines", "new", "optimize", "prove", "read_run", "report", "resume", "run", "shadow", "sweep", "variables"]

@@ -55,6 +55,15 @@ def _toml(tree: Mapping[str, Any], path: str = "") -> str:
     return "".join(lines + sections)
 
 
+class EditError(_edmill.InputError):
+    """Changes that make no valid case."""
+
+    def __init__(self, text: str):
+        super().__init__(text)
+        found = re.finditer(r"key '([^']*)': found (.*?), expected (.*)", text)
+        self.problems = [{"key": m[1], "found": m[2], "expected": m[3]} for m in found]
+
+
 class Case:
     """A case as its file states it, in exact quantities.
 
@@ -105,6 +114,18 @@ class Case:
     def with_settings(self, *settings: str) -> Case:
         """The case with "section.key=value" over it."""
         return Case.parse(self._text, self._name, [*self._settings, *settings])
+
+    def edit(self, changes: Mapping[str, Any] | None = None, **keys: Any) -> Case:
+        """The case with other values: `case.edit({"mill.speed": "1000 rpm"}, balls=[{"count": 10, "diameter": "12.7 mm"}])`. Raises
+        `EditError`, whose `problems` name each key, what was found and what was expected."""
+        settings = []
+        for key, value in {**(changes or {}), **keys}.items():
+            require("key", key, isinstance(key, str) and "=" not in key, "a text such as \"mill.speed\"")
+            settings.append(f"{key}={value if isinstance(value, str) else _text_of(value, key)}")
+        try:
+            return self.with_settings(*settings)
+        except _edmill.InputError as error:
+            raise EditError(str(error)) from None
 
     @property
     def text(self) -> str:

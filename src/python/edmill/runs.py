@@ -1,6 +1,7 @@
 """Runs of a case, and what they gather."""
 from __future__ import annotations
 
+import csv
 import decimal
 import importlib
 import json
@@ -17,7 +18,8 @@ from . import _edmill, checks
 from .callbacks import ContactLaw, Impact, Running
 from .case import Case, case_of
 from .checks import require
-from .tables import Tables
+from .tables import Records, Tables
+from .values import Value
 
 
 class Interrupted(KeyboardInterrupt):
@@ -39,8 +41,8 @@ class Run:
     case: Case
     precision: str
     summary: dict[str, Any]  #: summary.json; its keys: the manual, "Files"
-    events: np.ndarray  #: one row for each impact; empty unless events were asked for
-    states: np.ndarray  #: position [m], velocity [m/s] and spin [rad/s] of each ball at the end
+    events: Records  #: one row for each impact; empty unless events were asked for
+    states: Records  #: position [m], velocity [m/s] and spin [rad/s] of each ball at the end
     time: float | decimal.Decimal  #: at the end [s]
     folder: pathlib.Path | None  #: of its files
 
@@ -49,8 +51,8 @@ class Run:
         number = float if precision == "double" else decimal.Decimal
         self.summary = json.loads(result["summary"], parse_float=number)
         self.time = result["time"]
-        self.events = _array(result["events"], _edmill.event_dtype)
-        self.states = _array(result["states"], _edmill.state_dtype)
+        self.events = _array(result["events"], _edmill.event_dtype).view(Records)
+        self.states = _array(result["states"], _edmill.state_dtype).view(Records)
         self._page: str | None = None
         self._series: dict[str, np.ndarray] | None = None
         self._laws: dict[str, Any] = {}  # of Python
@@ -66,6 +68,43 @@ class Run:
 
     def __dir__(self):
         return [*super().__dir__(), *self.summary]
+
+    def _value(self, rate: str) -> Value | None:
+        number = self.summary.get(rate)
+        return None if number is None else Value(number, self.summary["intervals"].get(rate))
+
+    @property
+    def dose_rate(self) -> Value | None:
+        """Milling dose rate with its 95 % interval [W]; None of a run that ended before its start_time."""
+        return self._value("milling_dose_rate")
+
+    @property
+    def specific_dose_rate(self) -> Value | None:
+        """Of the powder [W/kg]; None without powder."""
+        return self._value("specific_milling_dose_rate")
+
+    @property
+    def wall_power(self) -> Value | None:
+        """Work of the walls per time [W]."""
+        return self._value("wall_work_rate")
+
+    @property
+    def collision_rates(self) -> dict[str, Value]:
+        """Collisions per second with each partner, and of all: "total"."""
+        widths = self.summary["intervals"].get("collision_rate", {})
+        return {name: Value(rate, widths.get(name)) for name, rate in self.summary["collision_rate"].items() if rate is not None}
+
+    @property
+    def milling_time(self) -> Value | None:
+        """Time to the case's `powder.target_dose` [s]; None without one."""
+        target = self.summary.get("target", {})
+        time = target.get("milling_time")
+        return None if time is None else Value(time, target.get("milling_time_half_width"))
+
+    @property
+    def warnings(self) -> list[str]:
+        """Why numbers are not to be trusted; empty where nothing speaks against them."""
+        return list(self.summary["warnings"].values())
 
     def _simulate_again(self, folder: str, report: bool) -> None:
         if self._laws is None:
@@ -106,20 +145,20 @@ class Run:
     def __repr__(self) -> str:
         s = self.summary
         rate = s["milling_dose_rate"]
-        counted = ("ended before its start_time" if rate is None else
-                   f"{s['collisions']['total']} collisions, {float(rate):.4g} W")
+        counted = ("ended before its start_time" if rate is None else f"{s['collisions']['total']} collisions, {self.dose_rate!r} W")
         return f"<edmill.Run of {self.case!r} in {self.precision} to {self.time} s ({s['end_reason']}): {counted}>"
+
+
+def _wide(dtype: np.dtype) -> np.dtype:
+    """The fields with objects for numbers."""
+    return np.dtype([(name, object if dtype[name].base.kind == "f" else dtype[name].base, dtype[name].shape) for name in dtype.names])
 
 
 def _array(rows: Any, dtype: np.dtype) -> np.ndarray:
     """Rows of a run in double are an array already; numbers of others become objects."""
     if isinstance(rows, np.ndarray):
         return rows
-    fields = []
-    for name in dtype.names:
-        field, shape = dtype[name].base, dtype[name].shape
-        fields.append((name, object if field.kind == "f" else field, shape))
-    return np.array(rows, dtype=fields)
+    return np.array(rows, dtype=_wide(dtype))
 
 
 class _Line:
@@ -185,7 +224,7 @@ def _check_law(name: str, law: Any) -> None:
 def run(case: Case | Mapping | str, precision: str | None = None, until: str | float | decimal.Decimal | None = None, *,
         folder: str | pathlib.Path | None = None, events: bool = True, report: bool = False,
         observers: Iterable[Callable[[Impact, Running], object]] = (), ball_ball_law: ContactLaw | None = None,
-        ball_wall_law: ContactLaw | None = None,
+        ball_wall_law: ContactLaw | None = None, until_precision: float | str | None = None, checkpoint: str | None = None,
         progress: bool | Callable[[float, int], Any] = False) -> Run:
     """Simulates a case, without Python's lock.
 
@@ -199,6 +238,11 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     ball_ball_law, ball_wall_law
                    objects with `restitution(approach_speed)` and `restitution_of_slip(normal_change, slip_speed,
                    compliance)`, in place of the case's laws; slow, unlike the laws that a case names
+    until_precision
+                   ends the run when the 95 % interval of the dose rate is this part of it, 0.01 or "1%"; `until` is the limit,
+                   100 times the case's end_time unless given
+    checkpoint     how often to save the state in `folder`, "10 min" or "2 s simulated", so that `resume(folder)` can go on; such
+                   a run has no events, observers or laws of Python
     progress       True for a bar of tqdm, or a line of text without it; or a callable of time [s] and number of collisions,
                    ten times a second
 
@@ -207,6 +251,8 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     if until is not None:
         require("until", until, isinstance(until, str) or checks.is_number(until), 'a time such as "2 s", or a number of seconds')
         case = case.with_settings(f"run.end_time={json.dumps(until if isinstance(until, str) else f'{until} s')}")
+    if until_precision is not None:
+        case = _until_precision(case, until_precision, until is not None)
     precision = case.precision if precision is None else checks.scalar("precision", precision)
     folder = None if folder is None else checks.place("folder", folder)
     events, report = checks.flag("events", events), checks.flag("report", report)
@@ -218,6 +264,13 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     _check_law("ball_ball_law", ball_ball_law)
     _check_law("ball_wall_law", ball_wall_law)
     require("progress", progress, isinstance(progress, bool) or callable(progress), "True, False or a callable")
+    if checkpoint is not None:
+        require("checkpoint", checkpoint, isinstance(checkpoint, str), 'a text such as "10 min"')
+        require("folder", folder, folder is not None, "one for the checkpoints")
+        require("observers", observers, not observers and ball_ball_law is None and ball_wall_law is None,
+                "none, and no laws of Python, in a run with checkpoints")
+        _edmill.run_with_checkpoints(case._case, precision, folder, report, checkpoint)
+        return read_run(folder)
     show = _Progress(case.end_time) if progress is True else progress or None
     try:
         result = _edmill.run(case._case, precision, folder or "", events, report, observers, ball_ball_law, ball_wall_law, show)
@@ -232,6 +285,56 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     return done
 
 
-def report(folder: str | pathlib.Path) -> pathlib.Path:
-    """Makes the report of a run's folder, as `edmill report`. Returns the page's path."""
-    return pathlib.Path(_edmill.report(checks.place("folder", folder)))
+def _until_precision(case: Case, wanted: float | str, limited: bool) -> Case:
+    expected = "a part of the dose rate above 0 and below 1, 0.01 or \"1%\""
+    try:
+        part = float(wanted[:-1]) / 100 if isinstance(wanted, str) and wanted.rstrip().endswith("%") else float(wanted)
+    except ValueError:
+        part = 0.0
+    require("until_precision", wanted, not isinstance(wanted, bool) and 0 < part < 1, expected)
+    settings = [f"run.dose_rate_precision={part}"]
+    if not limited and case.end_time is not None:
+        settings.append(f'run.end_time="{100 * case.end_time} s"')
+    return case.with_settings(*settings)
+
+
+def read_run(folder: str | pathlib.Path) -> Run:
+    """A run from the folder that it was written into, by this module or by `edmill run`; without events."""
+    place = pathlib.Path(checks.place("folder", folder))
+    files = [place / name for name in ("summary.json", "case.toml", "final_state.csv")]
+    try:
+        summary, case, _ = (file.read_text(encoding="utf-8") for file in files)
+    except OSError as error:
+        raise _edmill.InputError(f"{error.filename}: found no readable file, expected one of a run's folder") from None
+    facts = json.loads(summary)
+    number = float if facts["precision"] == "double" else decimal.Decimal
+    with open(files[2], newline="", encoding="utf-8") as stream:
+        states = list(csv.DictReader(stream))
+    rows = np.empty(len(states), dtype=_edmill.state_dtype if number is float else _wide(_edmill.state_dtype))
+    for field in _edmill.state_dtype.names:
+        for k, axis in enumerate("xyz"):
+            rows[field][:, k] = [number(state[f"{field}_{axis}"]) for state in states]
+    made = Case.parse(case, str(files[1]), facts["settings"])
+    time = number(json.loads(summary, parse_float=str)["end_time"])
+    return Run(made, facts["precision"], place,
+               {"summary": summary, "time": time, "events": np.empty(0, dtype=_edmill.event_dtype), "states": rows})
+
+
+def resume(folder: str | pathlib.Path, checkpoint: str | None = None) -> Run:
+    """Continues a run that was ended, from its checkpoint, as `edmill resume`. @param checkpoint  how often to save; as before
+    unless given"""
+    place = checks.place("folder", folder)
+    require("checkpoint", checkpoint, checkpoint is None or isinstance(checkpoint, str), 'a text such as "10 min"')
+    _edmill.resume(place, checkpoint or "")
+    return read_run(place)
+
+
+def report(folder: str | pathlib.Path, *others: str | pathlib.Path, out: str | pathlib.Path = "comparison.html") -> pathlib.Path:
+    """Makes the report of a run's folder, as `edmill report`; of several, the page `out` that compares them. Returns the page's
+    path."""
+    places = [checks.place("folder", one) for one in (folder, *others)]
+    if len(places) == 1:
+        return pathlib.Path(_edmill.report(places[0]))
+    page = checks.place("out", out)
+    _edmill.report_of_runs(places, page)
+    return pathlib.Path(page)

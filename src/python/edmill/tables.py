@@ -8,6 +8,37 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 
+class Records(np.ndarray):
+    """A structured array that other libraries take as a table."""
+
+    def to_dataframe(self):
+        """A `pandas.DataFrame` with a column for each field; of a vector, a column for each component: "position_x"."""
+        import pandas
+
+        columns = {}
+        for name in self.dtype.names or ():
+            column = np.asarray(self[name])
+            if column.ndim == 2:
+                columns.update({f"{name}_{axis}": column[:, k] for k, axis in enumerate("xyz")})
+            else:
+                columns[name] = column
+        return pandas.DataFrame(columns)
+
+    def to_xarray(self, dimension: str = "row"):
+        """An `xarray.Dataset`: a variable for each field along `dimension`, vectors along "axis" as well. Titles with units, where
+        the table has them, are attributes."""
+        import xarray
+
+        units = {name: field[2] for name, field in (self.dtype.fields or {}).items() if len(field) > 2}
+        variables = {}
+        for name in self.dtype.names or ():
+            column = np.asarray(self[name])
+            dimensions = (dimension, "axis") if column.ndim == 2 else (dimension,)
+            variables[name] = (dimensions, column, {"long_name": units[name]} if name in units else {})
+        coordinates = {"axis": list("xyz")} if any(np.asarray(self[n]).ndim == 2 for n in self.dtype.names or ()) else {}
+        return xarray.Dataset(variables, coords=coordinates)
+
+
 def _cell(text: str):
     for kind in (int, float):
         try:
@@ -17,7 +48,7 @@ def _cell(text: str):
     return text
 
 
-def read_table(file: str | pathlib.Path) -> np.ndarray:
+def read_table(file: str | pathlib.Path) -> Records:
     """A CSV file of edmill: its columns have the names of the header without units, which `dtype.fields` keep as titles.
     Empty cells are NaN."""
     with open(file, newline="", encoding="utf-8") as stream:
@@ -38,7 +69,7 @@ def read_table(file: str | pathlib.Path) -> np.ndarray:
     table = np.empty(len(cells), dtype=fields)
     for field, column in zip(fields, columns):
         table[field[0][1] if isinstance(field[0], tuple) else field[0]] = column
-    return table
+    return table.view(Records)
 
 
 class Tables(Mapping):
@@ -50,7 +81,7 @@ class Tables(Mapping):
         stems = [f.stem for f in files]
         self._files = {f.stem if stems.count(f.stem) == 1 else f.relative_to(folder).with_suffix("").as_posix(): f for f in files}
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Records:
         return read_table(self._files[name])
 
     def __iter__(self) -> Iterator[str]:

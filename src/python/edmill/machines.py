@@ -1,0 +1,26 @@
+"""Mills that one can buy, new cases of them, and what outputs can show."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from . import _edmill
+from .case import Case
+from .checks import text, texts
+
+
+def machines() -> dict[str, dict[str, tuple[str, str]]]:
+    """Mills by their names; of each, the keys of the case with value and source."""
+    return {name: {key: (value, source) for key, value, source in rows} for name, rows in _edmill.machines()}
+
+
+def new(mill: str = "spex8000", balls: Sequence[str] = ("10x10mm",), *, powder: str = "", target_dose: str = "", speed: str = "",
+        restitution: float | str = "", friction: float | str = "", time: str = "10 s") -> Case:
+    """A case of a mill, as `edmill new`: `balls` are "10x12.7mm", or "10x12.7mm:zirconia"."""
+    wanted = [text("mill", mill), texts("balls", balls, '"10x12.7mm"'), text("powder", powder), text("speed", speed), str(restitution),
+              str(friction), text("target_dose", target_dose), text("time", time)]
+    return Case.parse(_edmill.new_case(*wanted), f"{mill}.toml")
+
+
+def variables() -> list[dict[str, str]]:
+    """The variables of an impact that outputs can show: name, unit and meaning."""
+    return [{"name": name, "unit": unit, "meaning": meaning} for name, unit, meaning in _edmill.variables()]

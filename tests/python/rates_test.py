@@ -1,0 +1,90 @@
+"""Rates with intervals, edits of cases, runs from folders, and tables for other libraries."""
+import pickle
+
+import numpy as np
+import pytest
+
+import edmill
+
+
+@pytest.fixture(scope="module")
+def case():
+    return edmill.new("spex8000", ["6x9mm"], powder="3g", target_dose="10 kJ/g", time="2 s", restitution=0.5)
+
+
+def test_rates_are_those_of_the_summary(case):
+    run = edmill.run(case)
+    assert run.dose_rate == run.summary["milling_dose_rate"]
+    assert run.dose_rate.half_width == run.summary["intervals"]["milling_dose_rate"]
+    assert run.dose_rate.low < run.dose_rate < run.dose_rate.high
+    assert run.collision_rates["total"] == run.summary["collision_rate"]["total"]
+    assert run.milling_time == pytest.approx(1e7 * 3e-3 / run.dose_rate)
+    assert "±" in repr(run)
+    assert pickle.loads(pickle.dumps(run)).dose_rate.half_width == run.dose_rate.half_width
+    other = edmill.run(case.edit(balls=[{"count": 2, "diameter": "9 mm"}]))
+    assert run.dose_rate.differs(other.dose_rate) and run.dose_rate.differs(run.dose_rate) is False
+    short = edmill.run(case, until="0.3 s")
+    assert short.dose_rate.half_width is None and short.dose_rate.differs(run.dose_rate) is None and short.warnings
+
+
+def test_a_run_ends_at_its_precision(case):
+    run = edmill.run(case, until_precision="5%")
+    assert run.summary["end_reason"] == "dose_rate_precision"
+    assert run.dose_rate.half_width < 0.052 * run.dose_rate
+    for wrong in (0, 1.5, "x%", True, "-1%"):
+        with pytest.raises(edmill.InputError, match="until_precision"):
+            edmill.run(case, until_precision=wrong)
+
+
+def test_edits_name_what_is_wrong(case):
+    assert case.edit({"mill.speed": "1000 rpm"}) == case.with_settings('mill.speed="1000 rpm"')
+    with pytest.raises(edmill.EditError) as raised:
+        case.edit({"mill.sped": 1, "contact.friction": -1})
+    assert {problem["key"] for problem in raised.value.problems} == {"mill.sped", "contact.friction"}
+    assert all(problem["found"] and problem["expected"] for problem in raised.value.problems)
+
+
+@pytest.mark.parametrize("precision", ["double", "float128"])
+def test_a_run_is_read_from_its_folder(case, precision, tmp_path):
+    run = edmill.run(case, precision, until="0.4 s", folder=tmp_path / "run")
+    again = edmill.read_run(tmp_path / "run")
+    assert (again.states == run.states).all() and again.time == run.time and again.case == run.case
+    assert again.dose_rate == run.dose_rate and again.precision == precision
+    with pytest.raises(edmill.InputError, match="no readable file"):
+        edmill.read_run(tmp_path)
+
+
+def test_a_run_with_checkpoints_is_that_without(case, tmp_path):
+    run = edmill.run(case, folder=tmp_path / "a", checkpoint="0.5 s simulated")
+    assert (run.states == edmill.run(case).states).all()
+    with pytest.raises(edmill.InputError):
+        edmill.run(case, checkpoint="0.5 s simulated")
+    with pytest.raises(edmill.InputError):
+        edmill.resume(tmp_path / "a")
+
+
+def test_events_are_tables_of_pandas_and_xarray(case):
+    run = edmill.run(case, until="0.5 s")
+    pandas = pytest.importorskip("pandas")
+    frame = run.events.to_dataframe()
+    assert isinstance(frame, pandas.DataFrame) and len(frame) == len(run.events)
+    assert np.array_equal(frame["normal_y"], run.events["normal"][:, 1])
+    pytest.importorskip("xarray")
+    dataset = run.events.to_xarray("impact")
+    assert dataset["normal"].dims == ("impact", "axis") and float(dataset["time"][-1]) == run.events["time"][-1]
+
+
+def test_a_sweep_takes_a_case(case, tmp_path):
+    edited = case.edit({"contact.friction": 0.3})
+    study = edmill.sweep({"sweep": {"case": edited, "replicas": 2, "grid": {"mill.speed": ["900 rpm", "1000 rpm"]}}}, tmp_path / "out")
+    assert len(study.runs) == 4 and (study.runs["status"] == "done").all()
+    one = edmill.run(edited.edit({"mill.speed": "900 rpm", "run.seed": 2}))
+    assert study.runs["milling_dose_rate"][1] == one.dose_rate
+    assert study.page.exists() and "iframe" in study._repr_html_()
+
+
+def test_machines_and_variables():
+    assert edmill.machines()["pm100"]["mill.ratio"][0] == "-2"
+    assert {"milling_dose", "normal_impulse"} <= {row["name"] for row in edmill.variables()}
+    with pytest.raises(edmill.InputError, match="--mill"):
+        edmill.new("foo")
