@@ -26,6 +26,28 @@ std::string target_rows(const io::Summary<Real>& s) {
   return text + time_text(static_cast<double>(*time), s.milling_time_half_width()) + "\n";
 }
 
+/// Rates with their intervals; nothing of a run without time.
+template <class Real>
+std::string rate_rows(const io::Summary<Real>& s) {
+  std::string out;
+  const double duration = static_cast<double>(s.duration());
+  if (!(duration > 0)) return out;
+  const auto& of = s.intervals;
+  const auto row = [&](const char* name, double value, double half_width, const char* unit) {
+    out += fmt::format("  {:<28}{:.6g}{} {}\n", name, value,
+                       of.any() ? fmt::format(" ± {:.2g}", half_width) : "", unit);
+  };
+  const double rate = static_cast<double>(s.milling_dose) / duration, half_width = of.dose_rate.half_width;
+  row("milling dose rate", rate, half_width, "W");
+  if (rate > 0) row("inverse milling dose rate", 1 / rate, half_width / rate / rate, "s/J");
+  row("wall work rate", static_cast<double>(s.wall_work) / duration, of.wall_work_rate.half_width, "W");
+  if (s.powder_mass) {
+    const double mass = static_cast<double>(*s.powder_mass);
+    row("specific milling dose rate", rate / mass, half_width / mass, "W/kg");
+  }
+  return out;
+}
+
 template <class Real>
 std::string result_table(const io::Summary<Real>& s) {
   const auto real = [](const Real& x) { return static_cast<double>(x); };
@@ -47,27 +69,13 @@ std::string result_table(const io::Summary<Real>& s) {
     out += fmt::format("    {:<26}{:>12}{:>14}{:>10}{:>14.6g}\n", name, number, rate,
                        interval ? fmt::format("{:.2g}", interval->half_width) : "-", real(dose));
   };
-  const auto interval = [&](double half_width) {
-    return of.any() ? fmt::format(" ± {:.2g}", half_width) : std::string();
-  };
   for (int k = 0; k < s.partners.count(); ++k) {
     const auto& label = s.partners[k].label;
     collisions(k < s.partners.walls() ? fmt::format("wall {} ({})", k, label) : label, s.collisions[k],
                s.dose_by_partner[k], of.any() ? &of.collision_rates[k] : nullptr);
   }
   collisions("total", s.total_collisions(), s.milling_dose, of.any() ? &of.collision_rate : nullptr);
-  if (duration > 0) {
-    const double rate = real(s.milling_dose) / duration, half_width = of.dose_rate.half_width;
-    row("milling dose rate", fmt::format("{:.6g}{} W", rate, interval(half_width)));
-    if (s.milling_dose > 0)
-      row("inverse milling dose rate",
-          fmt::format("{:.6g}{} s/J", 1 / rate, interval(half_width / rate / rate)));
-    row("wall work rate",
-        fmt::format("{:.6g}{} W", real(s.wall_work) / duration, interval(of.wall_work_rate.half_width)));
-    if (s.powder_mass)
-      row("specific milling dose rate", fmt::format("{:.6g}{} W/kg", rate / real(*s.powder_mass),
-                                                    interval(half_width / real(*s.powder_mass))));
-  }
+  out += rate_rows(s);
   if (s.target) out += target_rows(s);
   if (s.milling_dose > 0)
     row("energy closure / dose", fmt::format("{:.2e}", real(s.energy_closure()) / real(s.milling_dose)));

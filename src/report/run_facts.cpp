@@ -78,6 +78,26 @@ class Reader {
   std::vector<std::string> problems_;
 };
 
+void read_intervals(Reader& reader, RunFacts& f) {
+  if (reader.has("/intervals")) {  // not in those of 1.0
+    reader.number("/intervals/batches", f.batches);
+    reader.number("/intervals/batch_length", f.batch_length);
+    for (const char* rate : {"milling_dose_rate", "inverse_milling_dose_rate", "specific_milling_dose_rate",
+                             "wall_work_rate", "collision_rate/total"})
+      if (const std::string path = std::string("/intervals/") + rate; reader.has(path))
+        reader.number(path, f.half_widths[rate]);
+    reader.texts_by_key("/warnings", f.warnings);
+  }
+  if (reader.has("/target")) {
+    reader.number("/target/dose", f.target_dose.emplace());
+    reader.text("/target/counts", f.target_counts);
+    if (reader.has_number("/target/milling_time"))
+      reader.number("/target/milling_time", f.milling_time.emplace());
+    if (reader.has_number("/target/milling_time_half_width"))
+      reader.number("/target/milling_time_half_width", f.milling_time_half_width.emplace());
+  }
+}
+
 }  // namespace
 
 RunFacts read_run_facts(const std::filesystem::path& file) {
@@ -120,23 +140,7 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
     reader.number("/collisions/" + model::partner_key(k, walls), f.collisions.emplace_back());
     reader.number("/milling_dose_by_partner/" + model::partner_key(k, walls), f.dose.emplace_back());
   }
-  if (reader.has("/intervals")) {  // not in those of 1.0
-    reader.number("/intervals/batches", f.batches);
-    reader.number("/intervals/batch_length", f.batch_length);
-    for (const char* rate : {"milling_dose_rate", "inverse_milling_dose_rate", "specific_milling_dose_rate",
-                             "wall_work_rate", "collision_rate/total"})
-      if (const std::string path = std::string("/intervals/") + rate; reader.has(path))
-        reader.number(path, f.half_widths[rate]);
-    reader.texts_by_key("/warnings", f.warnings);
-  }
-  if (reader.has("/target")) {
-    reader.number("/target/dose", f.target_dose.emplace());
-    reader.text("/target/counts", f.target_counts);
-    if (reader.has_number("/target/milling_time"))
-      reader.number("/target/milling_time", f.milling_time.emplace());
-    if (reader.has_number("/target/milling_time_half_width"))
-      reader.number("/target/milling_time_half_width", f.milling_time_half_width.emplace());
-  }
+  read_intervals(reader, f);
   if (reader.has("/powder_mass")) reader.number("/powder_mass", f.powder_mass.emplace());
   reader.throw_problems();
   return f;

@@ -97,7 +97,7 @@ void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Pl
       top = std::max(top, rate->value + rate->half_width.value_or(0));
     }
   if (chart.curves.empty()) return;
-  chart.y.high = 1.1 * top;
+  chart.y.high = top > 0 ? 1.1 * top : 1;
   draw(grid, chart);
 }
 

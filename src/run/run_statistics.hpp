@@ -31,7 +31,8 @@ class RunStatistics : public engine::Observer<Real> {
   };
 
   /// @param counted  what of an impact's dose works the powder
-  explicit RunStatistics(const model::Partners& partners, const model::CountedDose<Real>& counted = {})
+  explicit RunStatistics(const model::Partners& partners,
+                         const model::CountedDose<Real>& counted = model::CountedDose<Real>())
       : counts_(counted), totals_(partners.count()) {}
 
   void begin(const Instant<Real>& start) { batches_.begin(start); }

@@ -41,7 +41,7 @@ def find_long(name, lines):
         if not re.search(r"\)[\w &:<>,*-]*( :.*)? ?\{$", line) or re.match(r"\s*(if|for|while|switch|else|struct|class|\})", line):
             continue
         begin = k
-        while begin > 0 and re.match(r"\s{4,}\S|\s+:", lines[begin]) and not re.search(r"[;{}]$|:$", lines[begin - 1]):
+        while begin > 0 and re.match(r"\s{4,}\S|\s+:", lines[begin]) and not re.search(r"[;{}]$|:$|^$", lines[begin - 1]):
             begin -= 1
         indent = re.match(r" *", lines[begin]).group()
         end = next((n for n in range(k + 1, len(lines)) if re.match(indent + r"\}", lines[n])), k)

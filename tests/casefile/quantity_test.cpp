@@ -157,7 +157,7 @@ TEST(Quantity, EveryUnitOfTheReferenceIsUnderstood) {
       EXPECT_EQ(understood, 1) << spelling;
     }
   }
-  EXPECT_EQ(dimensions.size(), 10u);
+  EXPECT_EQ(dimensions.size(), 11u);
 }
 
 TEST(Quantity, ACommaInANumberIsNamed) {

@@ -21,6 +21,8 @@ std::string entry_of(std::string_view type) {
     keys = "variable = \"milling_dose\"\nlow = \"0 J\"\nhigh = \"1 J\"\n";
   else if (type == "statistics" || type == "trends")
     keys = "columns = [{ variable = \"milling_dose\", statistics = [\"sum\"] }]\n";
+  else if (type == "treatment")
+    keys = "share_per_impact = 1e-5\n";
   else if (type == "trends_instant")
     keys = "columns = [{ variable = \"milling_dose\" }]\n";
   else if (type == "trends_balls")

@@ -24,7 +24,7 @@ const Mill mills[] = {
      "docs/examples/ward.toml",
      {"balls.0.count=7", "balls.0.diameter=6.35 mm", "run.start_time=3 s", "run.end_time=11 s"},
      0.01},
-    {"planetary mill", "docs/examples/planetary.toml", {"run.start_time=2 s", "run.end_time=5 s"}, 0.01}};
+    {"planetary mill", "docs/examples/planetary.toml", {"run.start_time=1 s", "run.end_time=3 s"}, 0.01}};
 
 io::Summary<double> run_of(const Mill& mill, int seed, const std::vector<std::string>& more = {}) {
   auto settings = mill.settings;
