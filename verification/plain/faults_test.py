@@ -173,7 +173,7 @@ def main():
             other = SAME.get(f"{term} {value} {place}")
             good = named(causes, {key_of(term, place): float(value)}) or (other is not None and other in text)
             check(good, f"{term} {value} {place}", text)
-        for terms, values, places in PAIRS[::2 * args.every] + (THREES if args.every == 1 else []):
+        for terms, values, places in (PAIRS + THREES if args.every == 1 else PAIRS[::2 * args.every]):
             trials.log(terms, values, places)
             causes = trials.causes()
             wanted = {key_of(*pair): float(value) for value, *pair in zip(values.split(","), terms.split(","), places.split(","))}
