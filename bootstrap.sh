@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets edmill up on Debian 12 and runs it. Every command can be repeated.
+# Sets edmill up on Debian 12 and 13 and runs it. Every command can be repeated.
 #
 #   ./bootstrap.sh demo    install what is missing, build, run the demo case
 #   ./bootstrap.sh test    install what is missing, build with tests, run all but the long studies
@@ -9,16 +9,17 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 
+# "a|b": the first of these that the release has.
 program_packages=(
   g++ cmake ninja-build git ca-certificates
-  libboost1.81-dev libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
-  libmpfr-dev libgmp-dev libflint-arb-dev libgsl-dev libssl-dev libtbb-dev libhdf5-dev libpugixml-dev zlib1g-dev libzstd-dev libopenmpi-dev openmpi-bin
+  "libboost1.81-dev|libboost-dev" libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
+  libmpfr-dev libgmp-dev "libflint-arb-dev|libflint-dev" libgsl-dev libssl-dev libtbb-dev libhdf5-dev libpugixml-dev zlib1g-dev libzstd-dev libopenmpi-dev openmpi-bin
   nlohmann-json3-dev libjs-three
 )
 
 test_packages=(
   libgtest-dev librapidcheck-dev libudunits2-dev libglpk-dev zstd
-  libbenchmark-dev clang libclang-rt-14-dev clang-format patch valgrind
+  libbenchmark-dev clang "libclang-rt-14-dev|libclang-rt-19-dev|libclang-rt-18-dev" clang-format patch valgrind
   python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-h5py python3-vtk9 view3dscene libxml2-utils
   chromium chromium-driver python3-selenium
   doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-nbclient python3-ipykernel python3-matplotlib python3-pandas python3-xarray
@@ -28,20 +29,39 @@ long_packages=(lammps python3-lammps liggghts yade debootstrap dpkg-dev python3-
 
 say() { printf '\n== %s\n' "$*"; }
 
+is_installed() { dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }
+
+# Of alternatives that are all missing: the first that the release has.
+available() {
+  local names one
+  IFS='|' read -ra names <<<"$1"
+  for one in "${names[@]}"; do
+    if apt-cache policy "$one" 2>/dev/null | grep -q 'Candidate: [0-9]'; then
+      echo "$one"
+      return
+    fi
+  done
+  echo "${names[0]}"
+}
+
 install_missing() {
-  local missing=()
+  local missing=() package one
   for package in "$@"; do
-    dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+    for one in ${package//|/ }; do
+      is_installed "$one" && continue 2
+    done
+    missing+=("$package")
   done
   if [ ${#missing[@]} = 0 ]; then
     say "all packages are installed"
     return
   fi
-  say "installing ${missing[*]}"
-  local root=()
+  local root=() chosen=()
   [ "$(id -u)" = 0 ] || root=(sudo)
   "${root[@]}" apt-get update -qq
-  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+  for package in "${missing[@]}"; do chosen+=("$(available "$package")"); done
+  say "installing ${chosen[*]}"
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${chosen[@]}"
 }
 
 build() { # preset [option...]

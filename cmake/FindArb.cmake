@@ -1,6 +1,6 @@
-# Arb::Arb, the library of ball arithmetic that Debian packages as libflint-arb-dev, with FLINT.
+# Arb::Arb, the library of ball arithmetic: Debian 12 packages it as libflint-arb-dev; FLINT 3, of Debian 13, has it in itself.
 find_path(ARB_INCLUDE_DIR arb.h PATH_SUFFIXES flint)
-find_library(ARB_LIBRARY NAMES flint-arb arb)
+find_library(ARB_LIBRARY NAMES flint-arb arb flint)
 find_library(FLINT_LIBRARY flint)
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(Arb DEFAULT_MSG ARB_LIBRARY FLINT_LIBRARY ARB_INCLUDE_DIR)
