@@ -1,0 +1,13 @@
+// Everything that edmill offers to programs.
+#pragma once
+
+#include "edmill/case.hpp"
+#include "edmill/contact_law.hpp"
+#include "edmill/errors.hpp"
+#include "edmill/impact.hpp"
+#include "edmill/observer.hpp"
+#include "edmill/run.hpp"
+#include "edmill/scalars.hpp"
+#include "edmill/summary.hpp"
+#include "edmill/version.hpp"
+#include "edmill/vessel.hpp"
