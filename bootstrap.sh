@@ -36,7 +36,7 @@ available() {
   local names one
   IFS='|' read -ra names <<<"$1"
   for one in "${names[@]}"; do
-    if apt-cache policy "$one" 2>/dev/null | grep -q 'Candidate: [0-9]'; then
+    if [[ $(apt-cache policy "$one" 2>/dev/null) =~ Candidate:\ [0-9] ]]; then
       echo "$one"
       return
     fi
