@@ -128,10 +128,14 @@ std::string study_page(const study::Study& study, const std::string& kind, const
     rows.push_back(std::move(row));
   }
   add_table(section, "rates-of-points", "Rates", headings, rows);
-  add(section, "p", {{"class", "note"}},
-      "\u00b1: 95 % interval by Student\u2019s t over the runs of a point; of a single run, its own "
-      "interval. "
-      "All numbers of all runs are in the tables beside this page.");
+  auto note =
+      add(section, "p", {{"class", "note"}},
+          "\u00b1: 95 % interval by Student\u2019s t over the runs of a point; of a single run, its own "
+          "interval. All numbers: ");
+  for (const auto& table : {study.name() + ".csv", std::string("runs.csv")}) {
+    add(note, "a", {{"href", table}}, table);
+    add(note, "span", {}, table == "runs.csv" ? ", a row for each run." : " for the points, ");
+  }
   auto grid = add(add_section(main, "charts", "Charts"), "div", {{"class", "charts"}});
   const Places places(points);
   for (const auto& what : shown) draw_points(grid, points, places, what);

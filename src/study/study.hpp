@@ -39,6 +39,7 @@ class Study {
   void write_page(const std::string& html) const;
 
   const std::string& file() const { return spec_.file; }
+  const std::string& name() const { return name_; }  ///< of the files
   const std::vector<Point>& points() const { return points_; }
   StudyCounts counts() const;
   bool interrupted() const { return executor_.interrupted(); }
