@@ -252,7 +252,7 @@ TEST_F(BadInput, CommandLineErrorsAreOneLineAndCodeTwo) {
   expect_failure(run(demo, {"--set"}), "--set");
   expect_failure(run(demo, {"another.toml"}), "another.toml");
   expect_failure({"run"}, "case is required");
-  expect_failure({"grind", demo}, "grind: found an unknown command, expected one of: run, demo, ");
+  expect_failure({"grind", demo}, "grind: found an unknown command, expected one of: new, machines, run, demo, ");
   expect_failure({"check", demo, "--out", out}, "--out");
   expect_failure({}, "subcommand is required");
 }
