@@ -237,7 +237,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   if (!top.has("ball") && !top.has("balls"))
     top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
   else if (document.problems.empty() && spec.ball_count() == 0)
-    top.problem("balls", "no balls", "a count above 0 in one of the entries");
+    top.sections("balls").front().problem("count", "no balls", "a count above 0 in one of the entries");
   top.reject_unknown_keys();
   check_times(top.section("run"), spec);
   if (document.problems.empty()) require_travel(pistons, spec);

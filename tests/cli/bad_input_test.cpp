@@ -312,7 +312,7 @@ TEST_F(BadInput, BadSettingsAreNamedWithTheirKey) {
       {"balls.99999999999999999999.count=5", "found no entry '99999999999999999999' of 'balls'"},
       {"balls.count=5", "found 'balls', which is no section"},
       {"balls.0=5", "found 'balls', which is no section"},
-      {"balls.0.count=0", "key 'balls': found no balls, expected a count above 0"},
+      {"balls.0.count=0", "key 'balls.0.count': found no balls, expected a count above 0"},
       {"balls.00.count=-1", "key 'balls.0.count': found \"-1\", expected an integer"},
       {"vessel.diameter=-1 m", "key 'vessel.diameter': found \"-1 m\", expected a positive length"},
       {"contact.restitution=1e-400", "key 'contact.restitution': found \"1e-400\" (its size"},
