@@ -30,6 +30,18 @@ class Batches {
     periods_ *= 2;
   }
 
+  /// Where the open drive period ends.
+  Instant<Real> next_period() const { return {start_.period + elapsed_ + 1, start_.offset}; }
+  /// To be called with the totals before the first event at or behind the end of a period.
+  void pass(const Instant<Real>& time, const std::vector<double>& totals) {
+    elapsed_ = time.period - start_.period - (time.offset < start_.offset ? 1 : 0);
+    latest_ = totals;
+    while (!(time < next())) close(totals);
+  }
+  /// Whole periods so far, and what they had of a quantity. @pre some have passed
+  std::int64_t elapsed() const { return elapsed_; }
+  double total(std::size_t quantity) const { return latest_.at(quantity); }
+
   std::size_t count() const { return totals_.size(); }
   /// Of each batch, in drive periods.
   std::int64_t periods() const { return periods_; }
@@ -44,12 +56,14 @@ class Batches {
     return each;
   }
 
-  void archive(Archive& a) { a(start_, periods_, totals_); }
+  void archive(Archive& a) { a(start_, periods_, totals_, elapsed_, latest_); }
 
  private:
   Instant<Real> start_;
   std::int64_t periods_ = 1;
   std::vector<std::vector<double>> totals_;  ///< at the end of each batch
+  std::int64_t elapsed_ = 0;                 ///< whole periods
+  std::vector<double> latest_;               ///< totals at the end of the last of them
 };
 
 }  // namespace edmill::numerics

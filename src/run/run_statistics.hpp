@@ -1,6 +1,7 @@
 // Totals of a run since the start of statistics.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -38,7 +39,7 @@ class RunStatistics : public engine::Observer<Real> {
   void begin(const Instant<Real>& start) { batches_.begin(start); }
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>&) override {
-    while (!(impact.time < batches_.next())) batches_.close(totals_now());
+    if (!(impact.time < batches_.next_period())) batches_.pass(impact.time, totals_now());
     Totals& t = impact.with_wall ? totals_[impact.partner] : totals_.back();
     const auto& outcome = impact.outcome;
     ++t.collisions;
@@ -76,15 +77,24 @@ class RunStatistics : public engine::Observer<Real> {
   Real counted_dose() const { return counts_.all() ? milling_dose() : counted_dose_.value(); }
 
   /// Intervals of the rates, from the batches that are whole at an instant.
-  io::Intervals intervals(const Instant<Real>& until, const Real& period) const {
+  /// The rates themselves are over `duration` [s], whose last period need not be whole: how far that moves
+  /// them is part of the interval.
+  io::Intervals intervals(const Instant<Real>& until, const Real& period, const Real& duration) const {
     auto batches = batches_;
-    while (!(until < batches.next())) batches.close(totals_now());
+    const auto all = totals_now();
+    if (!(until < batches.next_period())) batches.pass(until, all);
     io::Intervals found;
     found.batches = batches.count();
     found.batch_length = static_cast<double>(batches.periods()) * static_cast<double>(period);
     if (found.batches < io::Intervals::fewest) return found;
     std::size_t place = 0;
-    const auto next = [&] { return io::Intervals::of(batches.amounts(place++), found.batch_length); };
+    const double whole = static_cast<double>(batches.elapsed()) * static_cast<double>(period);
+    const auto next = [&] {
+      auto rate = io::Intervals::of(batches.amounts(place), found.batch_length);
+      rate.half_width += std::abs(all[place] / static_cast<double>(duration) - batches.total(place) / whole);
+      ++place;
+      return rate;
+    };
     for (std::size_t k = 0; k < totals_.size(); ++k) {
       found.collision_rates.push_back(next());
       found.dose_rates.push_back(next());

@@ -70,7 +70,8 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   name(summary.start_time, built.the_case.statistics_start, spec.statistics_start);
   if (spec.end_time) name(summary.end_time, *built.the_case.stop.end_time, *spec.end_time);
   if (summary.duration() > 0) {
-    summary.intervals = driver.statistics().intervals(simulation.now(), simulation.clock().period());
+    summary.intervals =
+        driver.statistics().intervals(simulation.now(), simulation.clock().period(), summary.duration());
     if (summary.target)
       summary.target->counted_dose_rate = driver.statistics().counted_dose() / summary.duration();
   }
