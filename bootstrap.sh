@@ -25,7 +25,7 @@ test_packages=(
   doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-nbclient python3-ipykernel python3-matplotlib python3-pandas python3-xarray
 )
 
-long_packages=(lammps python3-lammps liggghts yade debootstrap dpkg-dev python3-venv python3-pip)
+long_packages=(lammps python3-lammps liggghts yade debootstrap dpkg-dev python3-venv python3-pip patchelf)
 
 say() { printf '\n== %s\n' "$*"; }
 

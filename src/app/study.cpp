@@ -57,9 +57,10 @@ std::optional<StudyResult> sweep(const StudyOptions& options) {
     study::Study study(spec, folder, "sweep", executor, !options.quiet);
     for (auto& point : study::points_of(spec)) study.add_runs(study.add_point(point), spec.replicas);
     study.require_a_good_case();
+    if (options.estimate) return StudyResult{{}, false, "", "", study.forecast()};
     study.run();
     study.write_page(report::study_page(study, "Sweep", ""));
-    return StudyResult{study.counts(), study.interrupted(), folder, ""};
+    return StudyResult{study.counts(), study.interrupted(), folder, "", ""};
   });
 }
 
@@ -68,10 +69,11 @@ std::optional<StudyResult> optimize(const StudyOptions& options) {
     const auto spec = casefile::read_optimize(options.file);
     const auto folder = folder_of(options);
     study::Study study(spec, folder, "optimize", executor, !options.quiet);
+    if (options.estimate) return StudyResult{{}, false, "", "", study::forecast(spec, study)};
     const auto result = study::optimize(spec, study);
     const auto finding = study::describe(spec, study, result);
     study.write_page(report::study_page(study, "Optimisation", finding));
-    return StudyResult{study.counts(), study.interrupted(), folder, finding};
+    return StudyResult{study.counts(), study.interrupted(), folder, finding, ""};
   });
 }
 

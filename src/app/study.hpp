@@ -10,10 +10,11 @@
 namespace edmill::app {
 
 struct StudyOptions {
-  std::string file;    ///< the sweep or the optimisation
-  std::string folder;  ///< of the outputs; out/<name of the file> when empty
-  int jobs = 0;        ///< threads; 0 for all cores
-  bool quiet = false;  ///< no progress line on standard error
+  std::string file;       ///< the sweep or the optimisation
+  std::string folder;     ///< of the outputs; out/<name of the file> when empty
+  int jobs = 0;           ///< threads; 0 for all cores
+  bool quiet = false;     ///< no progress line on standard error
+  bool estimate = false;  ///< only say how long it will take
   std::atomic<bool>* interrupt = nullptr;
 };
 
@@ -21,7 +22,8 @@ struct StudyResult {
   study::StudyCounts counts;
   bool interrupted = false;
   std::string folder;
-  std::string optimum;  ///< what an optimisation found, as text
+  std::string optimum;   ///< what an optimisation found, as text
+  std::string estimate;  ///< how long it will take, as text, where only that is asked for
 };
 
 /// @return nothing on ranks that only do runs of rank 0

@@ -9,6 +9,7 @@ namespace {
 
 int end_of(const std::optional<app::StudyResult>& result, bool quiet) {
   if (!result) return ok;
+  if (!result->estimate.empty()) return io::print("{}\n", result->estimate), ok;
   const auto& c = result->counts;
   if (!quiet)
     io::print("{}{} runs: {} reused, {} run now, {} failed{}\nTables are in {}\n", result->optimum, c.total,

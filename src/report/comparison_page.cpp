@@ -89,7 +89,7 @@ void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
     }
     if (any) rows.push_back(std::move(row));
   }
-  std::vector<std::string> headings{""};
+  std::vector<std::string> headings{"quantity"};
   for (std::size_t k = 0; k < names.size(); ++k) {
     headings.push_back(names[k]);
     if (k > 0) headings.push_back("against " + names[0]);
@@ -177,7 +177,7 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs,
     add(section, "p", {}, "Nothing: all runs are of one case.");
     return;
   }
-  std::vector<std::string> headings{""};
+  std::vector<std::string> headings{"key"};
   headings.insert(headings.end(), names.begin(), names.end());
   add_table(section, "differences", "Differences", headings, rows);
 }

@@ -30,7 +30,7 @@ void add_energy(pugi::xml_node main, const RunFolder& run) {
   rows.push_back(
       {"closure error, by rounding", readable(f.closure, 2),
        f.milling_dose > 0 ? readable(std::abs(f.closure) / f.milling_dose, 2) + " of the dose" : "\u2013"});
-  add_table(section, "ledger", "From the start of statistics to their end", {"", "energy [J]", "rate [W]"},
+  add_table(section, "ledger", "From the start of statistics to their end", {"part", "energy [J]", "rate [W]"},
             rows);
 }
 
@@ -93,7 +93,7 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
                                           brief(f.impacts_since_start, 12))});
   for (const auto& setting : spec.settings) rows.push_back({"set over the case file", setting});
   rows.push_back({"digest of the case", f.case_digest});
-  add_table(section, "run", "Run", {"", ""}, rows);
+  add_table(section, "run", "Run", {"name", "value"}, rows);
   auto details = add(section, "details");
   add(details, "summary", {}, "The case file");
   add(add(details, "pre", {{"tabindex", "0"}}), "code", {}, spec.text);

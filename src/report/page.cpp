@@ -7,6 +7,7 @@
 
 #include "plot/markup.hpp"
 #include "report/embedded.hpp"
+#include "report/terms.hpp"
 
 namespace edmill::report {
 
@@ -47,6 +48,7 @@ std::string contents_of(const pugi::xml_document& main) {
 }  // namespace
 
 std::string page_of(const Page& page) {
+  add_terms(page.main.first_child());
   return filled(page_html, {{"title", escaped(page.title)},
                             {"subtitle", escaped(page.subtitle)},
                             {"program", escaped(fmt::format("edmill {} ({})", page.version, page.commit))},

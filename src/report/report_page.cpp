@@ -51,6 +51,7 @@ void add_player(pugi::xml_node section, const Animation& animation, double speed
        {"min", "0"},
        {"max", fmt::format("{}", 1000 * animation.duration * speed)},
        {"step", "any"},
+       {"autocomplete", "off"},
        {"value", "0"},
        {"aria-label", "Time from the beginning of the animation"}});
   add(controls, "span", {{"id", "clock"}, {"aria-hidden", "true"}}, "0.0 ms");

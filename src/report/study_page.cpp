@@ -101,6 +101,52 @@ void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Pl
   draw(grid, chart);
 }
 
+/// As one word of a shell.
+std::string quoted(const std::string& word) {
+  const auto* safe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,%@";
+  if (!word.empty() && word.find_first_not_of(safe) == word.npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
+
+/// The command that makes a run again, with a report.
+std::string command_of(const study::Job& job, const std::string& folder) {
+  auto text = "edmill run " + quoted(job.case_file);
+  for (const auto& setting : job.overrides) text += " --set " + quoted(setting);
+  return text + " --report --out " + quoted(folder);
+}
+
+void add_runs(pugi::xml_node main, const std::vector<Point>& points) {
+  auto section = add_section(main, "runs", "Runs");
+  add(section, "p", {{"class", "note"}},
+      "The record of each run, and the command that makes it again with a report of its own.");
+  const auto dose_rate = study::quantity_named("milling_dose_rate");
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    auto details = add(section, "details", {{"class", "runs"}});
+    add(details, "summary", {}, fmt::format("{}: {}", k + 1, name_of_point(points[k], k)));
+    auto list = add(details, "ul");
+    for (const auto& run : points[k].runs) {
+      auto item = add(list, "li");
+      std::string text = fmt::format("seed {}: ", run.seed);
+      const auto rate = run.record ? dose_rate.of(*run.record) : std::nullopt;
+      if (!run.record)
+        text += "not run";
+      else if (!run.record->done())
+        text += run.record->status + ", " + run.record->message;
+      else if (rate)
+        text += text_of({*rate, run.record->dose_rate_half_width}) + " W";
+      add(item, "span", {}, text);
+      if (run.job.digest.empty()) continue;
+      auto lines = add(item, "ul");
+      if (run.record && run.record->lasting())
+        add(add(lines, "li"), "a", {{"href", "runs/" + run.job.digest + ".json"}},
+            fmt::format("record of seed {}", run.seed));
+      add(add(lines, "li"), "code", {}, command_of(run.job, fmt::format("run-{}-{}", k + 1, run.seed)));
+    }
+  }
+}
+
 }  // namespace
 
 std::string study_page(const study::Study& study, const std::string& kind, const std::string& finding) {
@@ -128,17 +174,17 @@ std::string study_page(const study::Study& study, const std::string& kind, const
     rows.push_back(std::move(row));
   }
   add_table(section, "rates-of-points", "Rates", headings, rows);
-  auto note =
-      add(section, "p", {{"class", "note"}},
-          "\u00b1: 95 % interval by Student\u2019s t over the runs of a point; of a single run, its own "
-          "interval. All numbers: ");
-  for (const auto& table : {study.name() + ".csv", std::string("runs.csv")}) {
-    add(note, "a", {{"href", table}}, table);
-    add(note, "span", {}, table == "runs.csv" ? ", a row for each run." : " for the points, ");
-  }
+  add(section, "p", {{"class", "note"}},
+      "\u00b1: 95 % interval by Student\u2019s t over the runs of a point; of a single run, its own "
+      "interval. "
+      "All numbers:");
+  auto files = add(section, "ul");
+  add(add(files, "li"), "a", {{"href", study.name() + ".csv"}}, study.name() + ".csv: a row for each point");
+  add(add(files, "li"), "a", {{"href", "runs.csv"}}, "runs.csv: a row for each run");
   auto grid = add(add_section(main, "charts", "Charts"), "div", {{"class", "charts"}});
   const Places places(points);
   for (const auto& what : shown) draw_points(grid, points, places, what);
+  add_runs(main, points);
   const auto counts = study.counts();
   return page_of({kind + " " + std::filesystem::path(study.file()).filename().string(),
                   fmt::format("{} points, {} runs, {} failed{}", points.size(), counts.total, counts.failed,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 #include "base/scalar_list.hpp"
@@ -53,6 +54,10 @@ Executor::Executor(Ranks& ranks, int threads, RunFunction run, std::atomic<bool>
 Executor::~Executor() {
   if (running_ > 0) interrupt_ = true;
   for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, stop_message);
+}
+
+int Executor::threads() const {
+  return std::accumulate(free_slots_.begin(), free_slots_.end(), workers_->threads());
 }
 
 bool Executor::hand_out(const Job& job) {

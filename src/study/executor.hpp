@@ -17,7 +17,9 @@ struct Job {
   std::string case_file;
   std::vector<std::string> overrides;
   std::string digest;  ///< of the case that these give
-  double cost = 0;     ///< estimated; only its order counts
+  double cost = 0;     ///< balls times simulated time: about in proportion to processor time
+  /// Of the run [s]; no end where only other rules stop it.
+  double initial_time = 0, end_time = std::numeric_limits<double>::infinity();
   /// Processor time after which the run ends without a result [s].
   double max_cpu_time = std::numeric_limits<double>::infinity();
 };
@@ -44,6 +46,8 @@ class Executor {
            const std::function<void()>& tick);
 
   bool interrupted() const { return interrupt_; }
+  /// Of all ranks that have reported.
+  int threads() const;
 
  private:
   bool hand_out(const Job& job);

@@ -26,9 +26,13 @@ class Search {
     }
   }
 
+  std::string forecast() {
+    begin();
+    return study_.forecast();
+  }
+
   Optimum run() {
-    add_grid();
-    study_.require_a_good_case();
+    begin();
     study_.run();
     for (std::uint64_t round = 0;; ++round) {
       separate();
@@ -45,6 +49,12 @@ class Search {
   }
 
  private:
+  void begin() {
+    study_.expect_at_most(spec_.runs_max);
+    add_grid();
+    study_.require_a_good_case();
+  }
+
   bool stopped() const { return out_of_budget_ || study_.interrupted(); }
 
   /// Adds runs unless that would exceed the budget.
@@ -207,6 +217,8 @@ std::string bound_of(const casefile::OptimizeVariable& v, const Point& point) {
 }  // namespace
 
 Optimum optimize(const OptimizeSpec& spec, Study& study) { return Search(spec, study).run(); }
+
+std::string forecast(const OptimizeSpec& spec, Study& study) { return Search(spec, study).forecast(); }
 
 std::string describe(const OptimizeSpec& spec, const Study& study, const Optimum& optimum) {
   if (!optimum.best) return "no point has a value of " + spec.objective + "\n";

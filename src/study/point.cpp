@@ -32,12 +32,12 @@ std::string count_of(const casefile::CaseSpec& spec, const std::string& ratio) {
   return std::to_string(static_cast<std::uint64_t>(std::max(count, 1.0)));
 }
 
-double cost_of(const casefile::CaseSpec& spec) {
-  const double balls = static_cast<double>(spec.ball_count());
-  const double start = spec.initial_time.to<double>();
+void estimate_cost(const casefile::CaseSpec& spec, Job& job) {
+  job.initial_time = spec.initial_time.to<double>();
+  if (spec.end_time) job.end_time = spec.end_time->to<double>();
   // A run without an end time may be long: it starts early.
-  const double time = spec.end_time ? spec.end_time->to<double>() - start : 1e9;
-  return balls * time;
+  const double time = std::clamp(job.end_time - job.initial_time, 1e-9, 1e9);
+  job.cost = static_cast<double>(std::max<std::size_t>(spec.ball_count(), 1)) * time;
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ Run make_run(const casefile::StudySpec& spec, const Point& point, std::uint64_t 
     }
     run.walls = casefile::partners_of(the_case).walls();
     run.job.digest = the_case.digest;
-    run.job.cost = cost_of(the_case);
+    estimate_cost(the_case, run.job);
     run.job.max_cpu_time = spec.max_cpu_time;
   } catch (const InputError& error) {
     run.record = failed_run("", "bad_case", error.what());

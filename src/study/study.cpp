@@ -112,13 +112,39 @@ void Study::tick() {
   if (!show_) return;
   const auto c = counts();
   std::string line = fmt::format("{} of {} runs, {} failed", c.kept + c.ran, c.total, c.failed);
-  if (c.ran > 0) {
-    const double spent = std::chrono::duration<double>(after - began_).count();
-    const auto left =
-        static_cast<long>(spent * static_cast<double>(c.total - c.kept - c.ran) / static_cast<double>(c.ran));
-    line += fmt::format(", about {}:{:02} left", left / 60, left % 60);
-  }
-  io::tell("\r\033[K{}", line);
+  io::tell("\r\033[K{}{}", line, time_left(std::chrono::duration<double>(after - began_).count()));
+}
+
+std::string Study::time_left(double spent) const {
+  std::vector<Job> to_do;
+  for (const auto& point : points_)
+    for (const auto& run : point.runs)
+      if (!run.record) to_do.push_back(run.job);
+  auto left = forecast_.wall_time(to_do, executor_.threads());
+  if (!left && ran_ > 0) left = spent * static_cast<double>(to_do.size()) / static_cast<double>(ran_);
+  return left ? ", " + in_words(*left) + " left" : "";
+}
+
+std::string Study::forecast(const std::vector<Job>& jobs, const std::function<void(const RunRecord&)>& done) {
+  forecast_.make(jobs, executor_, done);
+  const auto threads = executor_.threads();
+  const auto wall_time = forecast_.wall_time(jobs, threads);
+  const auto with_time = [&](std::uint64_t runs) {
+    const double more =
+        static_cast<double>(runs) / static_cast<double>(std::max<std::size_t>(jobs.size(), 1));
+    return fmt::format("{} runs", runs) + (wall_time ? ", " + in_words(*wall_time * more) : "");
+  };
+  const auto c = counts();
+  auto text = c.kept > 0 ? fmt::format("{} runs reused; ", c.kept) : std::string();
+  if (jobs.empty()) return text + "no run is left to do";
+  text += with_time(jobs.size()) + fmt::format(" on {} threads", threads);
+  if (!wall_time) text += "; how long they take is not known where no end_time ends them";
+  if (most_runs_ > c.total) text += "; in all at most " + with_time(most_runs_ - c.kept);
+  return text;
+}
+
+std::string Study::forecast() {
+  return forecast(collect_jobs(), [](const RunRecord&) {});
 }
 
 void Study::take_folder() {
@@ -138,7 +164,12 @@ std::vector<std::filesystem::path> Study::table_places() const {
 
 void Study::run() {
   take_folder();
-  const auto jobs = collect_jobs();
+  auto jobs = collect_jobs();
+  if (show_ && !jobs.empty() && ran_ == 0) {
+    io::tell("{}\n", forecast(jobs, [this](const RunRecord& r) { put(r); }));
+    std::erase_if(jobs,
+                  [this](const Job& job) { return waiting_.find(job.digest)->second->record.has_value(); });
+  }
   write_tables();
   if (began_ == std::chrono::steady_clock::time_point{}) began_ = std::chrono::steady_clock::now();
   executor_.run(

@@ -8,6 +8,7 @@
 
 #include "io/output_folder.hpp"
 #include "io/table.hpp"
+#include "study/forecast.hpp"
 #include "study/point.hpp"
 
 namespace edmill::study {
@@ -34,6 +35,10 @@ class Study {
 
   /// Does every run without a record, then writes the tables.
   void run();
+  /// In words, how many runs are left to do and how long they will take, by short trials. Nothing is written.
+  std::string forecast();
+  /// Runs may be added until there are so many.
+  void expect_at_most(std::uint64_t runs) { most_runs_ = runs; }
   void write_tables() const;
   /// Beside the tables, under the study's name.
   void write_page(const std::string& html) const;
@@ -54,6 +59,9 @@ class Study {
   std::vector<Job> collect_jobs();
   void put(const RunRecord& record);
   void tick();
+  /// @param done  called with the records of trials that got to their end
+  std::string forecast(const std::vector<Job>& jobs, const std::function<void(const RunRecord&)>& done);
+  std::string time_left(double spent) const;
   io::Table<double> log_table() const;
   std::filesystem::path record_file(const std::string& digest) const;
   std::vector<std::string> keys() const;
@@ -70,6 +78,8 @@ class Study {
   std::multimap<std::string, Run*> waiting_;  ///< by digest: points can share a case
   std::vector<std::pair<std::string, double>> log_;
   std::size_t kept_ = 0, ran_ = 0;
+  std::uint64_t most_runs_ = 0;
+  Forecast forecast_;
   std::chrono::steady_clock::time_point next_write_{}, began_{};
 };
 

@@ -90,7 +90,12 @@ balls = [{ count = 2, diameter = "12.7 mm" },
 name = "by mass"
 balls = [{ mass = "20 g", diameter = "12.7 mm", density = "8 g/cm3" }, { count = 0, diameter = "1 mm" }]
 ''')
+        said = edmill("sweep", self.folder / "charges.sweep.toml", "--estimate", "--out", self.folder / "out")
+        self.assertRegex(said, r"^6 runs, about \d+:\d\d min on \d+ threads\n$")
+        self.assertFalse((self.folder / "out").exists())
         edmill("sweep", self.folder / "charges.sweep.toml", "--quiet", "--out", self.folder / "out")
+        said = edmill("sweep", self.folder / "charges.sweep.toml", "--estimate", "--out", self.folder / "out")
+        self.assertEqual(said, "6 runs reused; no run is left to do\n")
         rows = list(csv.DictReader((self.folder / "out/sweep.csv").read_text().splitlines()))
         self.assertEqual([row["name"] for row in rows], ["large", "mixed", "by mass"])
         # The same by a case of its own; 20 g of 12.7 mm are 2 balls.
@@ -125,6 +130,8 @@ key = "mill.speed"
 low = "900 rpm"
 high = "1100 rpm"
 ''')
+        said = edmill("optimize", self.folder / "o.optimize.toml", "--estimate", "--out", self.folder / "out")
+        self.assertRegex(said, r"^6 runs, about .* in all at most 12 runs, about \d+:\d\d min\n$")
         text = edmill("optimize", self.folder / "o.optimize.toml", "--out", self.folder / "out")
         self.assertIn("mill.speed is at the end 'high' of its range", text)
         self.assertTrue("at the end" in (self.folder / "out/optimize.html").read_text())

@@ -61,6 +61,36 @@ TEST_F(Report, OfARunWithReportHasEverySection) {
   EXPECT_NE(page().find(edmill::report::three_licence), std::string::npos);  // it asks for that
 }
 
+/// The terms that a section explains, and that it names them in one line.
+std::vector<std::string> terms_of(const pugi::xml_document& main, const std::string& section) {
+  const auto details =
+      main.select_node(("//section[@id='" + section + "']/details[@class='terms']").c_str()).node();
+  const std::string line = details.child("summary").text().as_string();
+  std::vector<std::string> names;
+  for (const auto& found : details.select_nodes("dl/dt")) {
+    names.push_back(found.node().text().as_string());
+    EXPECT_NE(line.find(names.back()), std::string::npos) << line;
+    const std::string text = found.node().next_sibling("dd").text().as_string();
+    EXPECT_GT(text.size(), 20u) << names.back();
+  }
+  return names;
+}
+
+TEST_F(Report, EachSectionExplainsTheTermsThatItUses) {
+  run("--report");
+  const auto main = body();
+  const auto has = [&](const char* section, const std::string& term) {
+    const auto terms = terms_of(main, section);
+    return std::find(terms.begin(), terms.end(), term) != terms.end();
+  };
+  EXPECT_TRUE(has("results", "inverse milling dose rate"));
+  EXPECT_TRUE(has("results", "95 % interval"));
+  EXPECT_TRUE(has("spectra", "slip speed"));
+  EXPECT_TRUE(has("energy", "least separation speed"));
+  EXPECT_FALSE(has("results", "slip speed"));
+  EXPECT_FALSE(has("animation", "dose"));
+}
+
 TEST_F(Report, WarningsHaveASectionOfTheirOwn) {
   run("--report --set 'contact.least_separation=0.5 m/s'");
   const auto sections = ids(body(), "//section");

@@ -14,6 +14,8 @@ struct Study {
                        "folder for the tables; out/<name of the file> unless given");
     command.add_option("--jobs", options_.jobs, "runs at a time in each process; all cores unless given")
         ->check(CLI::Range(1, 4096));
+    command.add_flag("--estimate", options_.estimate,
+                     "only say how many runs there are and how long they will take, after short trials");
     command.add_flag("--quiet", options_.quiet, "no progress line and no report");
   }
   int run() {
