@@ -18,7 +18,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME libedmill-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-    "libboost1.81-dev | libboost-dev, libeigen3-dev, libfmt-dev, libssl-dev, libtomlplusplus-dev, libhdf5-dev, libpugixml-dev, zlib1g-dev, libzstd-dev, libgmp-dev, libmpfr-dev, g++")
+    "libboost1.81-dev | libboost-dev, libeigen3-dev, libfmt-dev, libtomlplusplus-dev, libhdf5-dev, libpugixml-dev, zlib1g-dev, libzstd-dev, libgmp-dev, libmpfr-dev, g++")
 set(CPACK_COMPONENT_DOC_DESCRIPTION "event-driven simulation of ball mills (documentation)\n The manual of edmill as HTML and Markdown, and its examples.")
 set(CPACK_DEBIAN_DOC_PACKAGE_NAME edmill-doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)

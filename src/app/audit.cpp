@@ -15,10 +15,8 @@ namespace {
 
 /// The case's section [audit], overridden by the command line's options.
 audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given) {
-  audit::Options options;
-  const auto& s = spec.audit;
+  auto options = audit::options_of(spec);
   options.log = given.log;
-  options.conventions.columns = s.columns;
   for (const auto& text : given.columns) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -28,16 +26,12 @@ audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given)
     std::erase_if(options.conventions.columns, [&](const auto& column) { return column.first == ours; });
     options.conventions.columns.emplace_back(ours, text.substr(equals + 1));
   }
-  options.conventions.first_ball = given.first_ball.value_or(static_cast<int>(s.first_ball.value_or(0)));
-  const auto partners = casefile::partners_of(spec);
+  if (given.first_ball) options.conventions.first_ball = *given.first_ball;
   if (!given.walls.empty())
-    options.conventions.walls = audit::parse_walls(given.walls, partners, "--walls");
-  else if (!s.walls.empty())
-    options.conventions.walls = audit::parse_walls(s.walls, partners, spec.file + ": key 'audit.walls'");
-  options.tolerance = given.tolerance.value_or(s.tolerance ? s.tolerance->to<double>() : 1e-9);
-  options.gap_tolerance = given.gap_tolerance;
-  if (!given.gap_tolerance && s.gap_tolerance) options.gap_tolerance = s.gap_tolerance->to<double>();
-  options.from_start = given.from_start || s.from_start;
+    options.conventions.walls = audit::parse_walls(given.walls, casefile::partners_of(spec), "--walls");
+  if (given.tolerance) options.tolerance = *given.tolerance;
+  if (given.gap_tolerance) options.gap_tolerance = given.gap_tolerance;
+  options.from_start = options.from_start || given.from_start;
   options.examples = given.examples;
   options.interrupt = given.interrupt;
   options.progress = given.progress;

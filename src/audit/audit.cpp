@@ -70,6 +70,20 @@ std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings
 
 }  // namespace
 
+Options options_of(const casefile::CaseSpec& spec) {
+  const auto& s = spec.audit;
+  Options options;
+  options.conventions.columns = s.columns;
+  options.conventions.first_ball = static_cast<int>(s.first_ball.value_or(0));
+  if (!s.walls.empty())
+    options.conventions.walls =
+        parse_walls(s.walls, casefile::partners_of(spec), spec.file + ": key 'audit.walls'");
+  if (s.tolerance) options.tolerance = s.tolerance->to<double>();
+  if (s.gap_tolerance) options.gap_tolerance = s.gap_tolerance->to<double>();
+  options.from_start = s.from_start;
+  return options;
+}
+
 std::string_view name_of(Verdict verdict) {
   static constexpr std::array<std::string_view, 3> names = {"clean", "violations", "too_few"};
   return names[static_cast<std::size_t>(verdict)];

@@ -11,6 +11,7 @@
 #include "audit/event_log.hpp"
 #include "audit/finding.hpp"
 #include "audit/impact_judge.hpp"
+#include "casefile/case_spec.hpp"
 #include "io/json_text.hpp"
 #include "model/case.hpp"
 
@@ -27,6 +28,10 @@ struct Options {
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double time, std::uint64_t events)> progress;  ///< called regularly
 };
+
+/// What the section [audit] of a case says; `log` is not given by it.
+/// @throws InputError
+Options options_of(const casefile::CaseSpec& spec);
 
 /// One of the thesis's printed errors, with its evidence.
 struct Diagnosis {

@@ -193,7 +193,7 @@ void ImpactJudge::finish() {
   for (const auto& of_law : separations_) {
     const SeparationSuspicions& own = of_law.second;
     // Few impacts of a law may leave no doubt where another law has the same speed.
-    const bool known = std::ranges::any_of(separations_, [&](const auto& other) {
+    const bool known = std::any_of(separations_.begin(), separations_.end(), [&](const auto& other) {
       const SeparationSuspicions& theirs = other.second;
       return theirs.least.is_named() && std::abs(theirs.speed - own.speed) <= 1e-6 * own.speed;
     });

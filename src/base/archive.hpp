@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/byte_order.hpp"
 #include "base/errors.hpp"
 #include "base/vector.hpp"
 
@@ -18,7 +19,8 @@ namespace edmill {
 
 /// Saves or loads everything that it is called with. A class takes part by a function that lists its members,
 /// `void archive(Archive& a) { a(x_, y_); }`; a scalar of its own by `archive_value` (base/scalar_list.hpp).
-/// Every bit is kept. The bytes are of this machine and of this build: there is no versioning of classes.
+/// Every bit is kept. The bytes are the same on every machine; they are of this build: there is no versioning
+/// of classes.
 class Archive {
  public:
   /// Saves.
@@ -100,7 +102,7 @@ void archive_value(Archive& a, std::optional<T>& value) {
 }
 template <class... T>
 void archive_value(Archive& a, std::variant<T...>& value) {
-  std::size_t index = value.index();
+  std::uint64_t index = value.index();
   a(index);
   if (a.loading()) {
     if (index >= sizeof...(T)) throw InputError("found no such kind of a saved state");
@@ -123,9 +125,13 @@ void Archive::one(T& value) {
     raw(&byte, 1);
     if (byte > 1) throw InputError("found neither true nor false in a saved state");
     value = byte == 1;
-  } else if constexpr (std::is_arithmetic_v<T>)
-    raw(&value, sizeof value);
-  else if constexpr (requires { value.archive(*this); })
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    // Of a length that depends on the machine: a member of another type says what it needs.
+    static_assert(!std::is_same_v<T, long> || sizeof(long) == 8);
+    T ordered = in_file_order(value);
+    raw(&ordered, sizeof ordered);
+    value = in_file_order(ordered);
+  } else if constexpr (requires { value.archive(*this); })
     value.archive(*this);
   else
     archive_value(*this, value);

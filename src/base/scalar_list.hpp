@@ -26,16 +26,26 @@ struct ScalarName<mpfr_of<digits>> {
   static constexpr std::string_view value{text.data(), digits < 100 ? 6 : 7};
 };
 
+#if defined(EDMILL_NATIVE_FLOAT128)
+/// As IEEE's binary128.
 inline void archive_value(Archive& a, float128& value) {
-  a.raw(&value.backend().value(), sizeof value.backend().value());
+  a.raw(&value.backend().value(), sizeof value.backend().value());  // x86-64 has the order of files
 }
+#else
+void archive_value(Archive& a, float128& value);
+#endif
+#if !defined(EDMILL_WITHOUT_MPFR)
 /// All limbs, so that no bit depends on a conversion.
 template <unsigned digits>
 void archive_value(Archive& a, mpfr_of<digits>& value) {
   const auto number = value.backend().data();
-  a(number->_mpfr_sign, number->_mpfr_exp);
-  a.raw(number->_mpfr_d, mpfr_custom_get_size(mpfr_get_prec(number)));
+  std::int64_t exponent = number->_mpfr_exp;
+  a(number->_mpfr_sign, exponent);
+  number->_mpfr_exp = static_cast<mpfr_exp_t>(exponent);
+  const auto bits = static_cast<std::size_t>(mpfr_get_prec(number));
+  for (std::size_t limb = 0; limb * mp_bits_per_limb < bits; ++limb) a(number->_mpfr_d[limb]);
 }
+#endif
 
 template <>
 struct WiderScalar<double> {
@@ -50,9 +60,15 @@ struct WiderScalar<float128> {
 
 /// Applies `MACRO(Real)` to every scalar. Another number of MPFR's digits takes a line here, one in
 /// edmill/scalars.hpp, and a file each in src/instances and src/instances/tools.
+#if defined(EDMILL_WITHOUT_MPFR)
+#define EDMILL_FOR_EACH_SCALAR(MACRO) \
+  MACRO(double)                       \
+  MACRO(::edmill::float128)
+#else
 #define EDMILL_FOR_EACH_SCALAR(MACRO) \
   MACRO(double)                       \
   MACRO(::edmill::float128)           \
   MACRO(::edmill::mpfr50)             \
   MACRO(::edmill::mpfr100)            \
   MACRO(::edmill::mpfr200)
+#endif

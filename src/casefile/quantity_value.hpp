@@ -3,6 +3,7 @@
 
 #include "base/instant.hpp"
 #include "base/scalar_list.hpp"
+#include "base/wide_trigonometry.hpp"
 #include "casefile/quantity.hpp"
 
 namespace edmill::casefile {
@@ -12,8 +13,7 @@ Real Quantity::to() const {
   // Twice the digits and more, so that the last rounding is the only one that counts.
   using Wide = mpfr_of<2 * std::numeric_limits<Real>::digits10 + 20>;
   Wide result = Wide(numerator(value).str()) / Wide(denominator(value).str());
-  Wide pi;
-  mpfr_const_pi(pi.backend().data(), MPFR_RNDN);
+  const Wide pi = numerics::pi<Wide>();
   for (int k = 0; k < pi_power; ++k) result *= pi;
   for (int k = 0; k > pi_power; --k) result /= pi;
   return static_cast<Real>(result);

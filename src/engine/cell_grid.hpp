@@ -266,8 +266,12 @@ class CellGrid {
       const Cell* first = &content_[y[row % 3] + z[row / 3]];
 #pragma GCC unroll 3
       for (int k = 0; k < nx; ++k) {
-        const auto cell = std::bit_cast<std::int64_t>(first[along[k]]);
-        std::memcpy(out + (2 * (nx * row + k) + surplus), &cell, sizeof(cell));
+        std::uint64_t both;
+        std::memcpy(&both, &first[along[k]], sizeof(both));
+        std::memcpy(out + (2 * (nx * row + k) + surplus), &both, sizeof(both));
+        // The second ball in the upper half, whatever the order of bytes.
+        const auto cell = static_cast<std::int64_t>(
+            std::endian::native == std::endian::little ? both : std::rotl(both, 32));
         surplus += cell >> 62;
         seen |= cell;
       }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -22,9 +23,28 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+#if defined(__cpp_lib_to_chars)
+std::from_chars_result read_number(std::string_view text, double& value) {
+  return std::from_chars(text.data(), text.data() + text.size(), value);
+}
+#else
+/// libc++ reads no double before its version 20. What strtod takes beyond that, a sign and hexadecimal
+/// digits, is refused.
+std::from_chars_result read_number(std::string_view text, double& value) {
+  const std::string copy(text);
+  if (copy.empty() || copy.find_first_of("+xXpP") == 0 || copy.find_first_of("xX") != copy.npos)
+    return {text.data(), std::errc::invalid_argument};
+  char* end = nullptr;
+  errno = 0;
+  value = std::strtod(copy.c_str(), &end);
+  if (end == copy.c_str()) return {text.data(), std::errc::invalid_argument};
+  return {text.data() + (end - copy.c_str()), errno == ERANGE ? std::errc::result_out_of_range : std::errc()};
+}
+#endif
+
 std::optional<double> number_in(std::string_view text) {
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = read_number(text, value);
   if (error == std::errc::invalid_argument || end != text.data() + text.size()) return std::nullopt;
   // Too small counts as 0, too large is infinite.
   return error == std::errc::result_out_of_range ? std::strtod(std::string(text).c_str(), nullptr) : value;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "base/byte_order.hpp"
 #include "io/hdf5_parts.hpp"
 
 namespace edmill::io {
@@ -64,7 +65,8 @@ Packed packed(const DoubleTable::Cells& cells) {
     const std::size_t width = longest(*texts);
     return {text_type(width), width, padded(*texts, width)};
   }
-  const auto bytes_of = [](const auto& values) {
+  const auto bytes_of = [](auto values) {
+    for (auto& value : values) value = in_file_order(value);
     return std::string(reinterpret_cast<const char*>(values.data()), 8 * values.size());
   };
   if (const auto* integers = std::get_if<Integers>(&cells))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/elementary.hpp"
 #include "base/vector.hpp"
 #include "model/ball.hpp"
 
@@ -64,9 +65,8 @@ struct ImpactFacts {
   Real tangential_size(const Vec3<Real>& v) const { return norm<Real>(v - normal * dot<Real>(v, normal)); }
   /// Between the normal and a velocity, 0 to pi; 0 for a velocity of zero [rad].
   Real angle(const Vec3<Real>& v) const {
-    using std::atan2;
     const Real across = tangential_size(v), along = dot<Real>(v, normal);
-    return across == 0 && along == 0 ? Real(0) : Real(atan2(across, along));
+    return across == 0 && along == 0 ? Real(0) : numerics::angle_between<Real>(across, along);
   }
   static Real energy(const ImpactBody<Real>& body, const Vec3<Real>& velocity, const Vec3<Real>& spin) {
     return body.translational_energy(velocity) + body.spin_energy(spin);
@@ -84,7 +84,6 @@ struct ImpactFacts {
 
 template <class Real>
 Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Real& time) {
-  using std::log1p;
   using std::sqrt;
   const Real strength = norm<Real>(gravity);
   if (strength == 0) return norm<Real>(velocity) * time;
@@ -92,7 +91,9 @@ Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Re
   const Vec3<Real> down = gravity * (1 / strength);
   const Real last = dot<Real>(velocity, down), first = last - strength * time;
   const Real across2 = squared_norm<Real>(velocity - down * last);
-  const auto asinh = [&](const Real& x) { return Real(log1p(x + x * x / (1 + sqrt(1 + x * x)))); };
+  const auto asinh = [&](const Real& x) {
+    return numerics::log_of_one_plus<Real>(x + x * x / (1 + sqrt(1 + x * x)));
+  };
   const auto positive = [](const Real& x) { return x < 0 ? Real(-x) : x; };
   const Real u1 = positive(last), u0 = positive(first);
   const Real q1 = sqrt(u1 * u1 + across2), q0 = sqrt(u0 * u0 + across2);

@@ -18,7 +18,8 @@ class CoverageOutput : public TableOutput<Real> {
         cells_(walls_.count()) {
     for (std::size_t k = 0; k < model::coordinate_infos.size(); ++k) {
       const auto c = static_cast<model::Coordinate>(k);
-      if (std::ranges::any_of(walls_.walls(), [&](const auto& wall) { return wall.has(c); }))
+      const auto& walls = walls_.walls();
+      if (std::any_of(walls.begin(), walls.end(), [&](const auto& wall) { return wall.has(c); }))
         coordinates_.push_back(c);
     }
   }

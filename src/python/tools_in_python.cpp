@@ -38,7 +38,7 @@ namespace {
 template <class Command>
 std::size_t study(const std::string& file, const std::string& folder, int jobs, const Command& command) {
   std::atomic<bool> interrupt{false};
-  const app::StudyOptions options{file, folder, jobs, true, &interrupt};
+  const app::StudyOptions options{file, folder, jobs, true, false, &interrupt};
   const auto result = interruptible(interrupt, [&] { return command(options); });
   return result ? result->counts.failed : 0;
 }

@@ -30,8 +30,8 @@ void add_energy(pugi::xml_node main, const RunFolder& run) {
   rows.push_back(
       {"closure error, by rounding", readable(f.closure, 2),
        f.milling_dose > 0 ? readable(std::abs(f.closure) / f.milling_dose, 2) + " of the dose" : "\u2013"});
-  add_table(section, "ledger", "From the start of statistics to their end", {"part", "energy [J]", "rate [W]"},
-            rows);
+  add_table(section, "ledger", "From the start of statistics to their end",
+            {"part", "energy [J]", "rate [W]"}, rows);
 }
 
 namespace {

@@ -1,6 +1,6 @@
-// The collision log of a case in double, and on standard error its summary, by the core alone: same_bits_test
-// builds it with several compilers, for which the whole program in all its scalars would take too long.
-// usage: collision_bits CASE.toml COLLISIONS [SETTING...]
+// The collision log of a case in double, and on standard error its summary: extending_test builds it with
+// changed sources, for which the whole program in all its scalars would take too long. usage: collision_bits
+// CASE.toml COLLISIONS [SETTING...]
 #include <cstdlib>
 #include <iostream>
 
@@ -16,16 +16,6 @@
 #include "io/summary_impl.hpp"
 #include "run/collision_log.hpp"
 #include "run/simulate_impl.hpp"
-
-#ifdef EDMILL_WIDE_FROM_LIBRARY
-// Their arithmetic is the same whoever compiles it.
-namespace edmill {
-extern template class dynamics::DecisionLadder<float128>;
-extern template class dynamics::DecisionLadder<mpfr50>;
-extern template class dynamics::WallSearch<model::AnyMotion<float128>, model::AnyVessel<float128>>;
-extern template class dynamics::WallSearch<model::AnyMotion<mpfr50>, model::AnyVessel<mpfr50>>;
-}  // namespace edmill
-#endif
 
 namespace {
 

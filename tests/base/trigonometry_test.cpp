@@ -44,6 +44,20 @@ TEST(Trigonometry, TurnsAreExactAtQuarters) {
   }
 }
 
+TEST(Trigonometry, Float128IsWithinTwoUlpOfOne) {
+  casefile::Random random(10);
+  double worst = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const float128 x = (k % 2 ? 0.8 : 20) * random.symmetric<float128>();
+    const auto found = sin_cos<float128>(x);
+    const auto exact = sin_cos<mpfr50>(mpfr50(x));
+    worst = std::max({worst, std::abs(static_cast<double>(mpfr50(found.sin) - exact.sin)),
+                      std::abs(static_cast<double>(mpfr50(found.cos) - exact.cos))});
+  }
+  EXPECT_LT(worst, 2 * 0x1p-112);
+  EXPECT_EQ(pi<float128>(), static_cast<float128>(pi<mpfr50>()));
+}
+
 TEST(Trigonometry, WideScalarsAgreeWithEachOther) {
   casefile::Random random(9);
   for (int k = 0; k < 1000; ++k) {

@@ -22,7 +22,7 @@ trap 'rm -rf "$folder"' EXIT
 # The libraries' baseline code on any CPU.
 export GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX2,-AVX,-FMA,-FMA4,-BMI1,-BMI2,-ERMS,-SSE4_2,-SSE4_1,-SSSE3
 counted_up_to() { # collisions
-  env -u LD_PRELOAD OPENSSL_ia32cap=0:0 LC_ALL=C valgrind --tool=callgrind --callgrind-out-file="$folder/callgrind.out" \
+  env -u LD_PRELOAD LC_ALL=C valgrind --tool=callgrind --callgrind-out-file="$folder/callgrind.out" \
     "$program" run docs/examples/demo.toml --quiet --out "$folder/out" --set run.start_time='"0 s"' \
     --set run.max_collisions="$1" >"$folder/log" 2>&1 || {
     cat "$folder/log" >&2

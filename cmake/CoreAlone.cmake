@@ -1,0 +1,62 @@
+# The core alone: runs in double and float128 by the standard library and header files of Boost, Eigen, fmt and toml++, which any
+# compiler for any machine reads. cmake -DEDMILL_CORE_ALONE=ON [-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_CXX_COMPILER=s390x-linux-gnu-g++]
+# By Emscripten it makes the page, too: the mill in a browser, in one file.
+
+# Links to these headers, so that nothing else of this machine is included.
+set(headers ${CMAKE_BINARY_DIR}/headers)
+file(MAKE_DIRECTORY ${headers})
+function(edmill_take_headers)
+  foreach(header ${ARGN})
+    get_filename_component(name ${header} DIRECTORY)
+    find_path(${name}_folder NAMES ${header} PATHS /usr/include PATH_SUFFIXES eigen3 NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+    file(CREATE_LINK ${${name}_folder}/${name} ${headers}/${name} SYMBOLIC)
+  endforeach()
+endfunction()
+edmill_take_headers(boost/version.hpp fmt/format.h toml++/toml.h Eigen/Core)
+
+add_library(edmill_core_settings INTERFACE)
+target_compile_definitions(edmill_core_settings INTERFACE EDMILL_WITHOUT_MPFR EDMILL_PORTABLE_FLOAT128 FMT_HEADER_ONLY
+                                                          TOML_HEADER_ONLY=1 EIGEN_DONT_VECTORIZE)
+target_include_directories(edmill_core_settings INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/include)
+target_include_directories(edmill_core_settings SYSTEM INTERFACE ${headers})
+target_compile_options(edmill_core_settings INTERFACE ${edmill_bits} ${edmill_warnings})
+if(EMSCRIPTEN)
+  target_compile_options(edmill_core_settings INTERFACE -fexceptions -Wno-sign-conversion -Wno-shorten-64-to-32)
+  target_link_options(edmill_core_settings INTERFACE -O2 -fexceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=4194304)
+endif()
+
+# edmill_take_rooms(target room...)
+function(edmill_take_rooms target)
+  foreach(room ${ARGN})
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
+    # What needs other libraries, for which core_alone/absent.cpp stands, and programs.
+    list(FILTER sources EXCLUDE REGEX "(table_hdf5|hdf5_error|decoder|event_file|x3d_scene|vtk_scene|main)[.]cpp$")
+    target_sources(${target} PRIVATE ${sources})
+  endforeach()
+endfunction()
+
+add_library(edmill_core OBJECT ${EDMILL_VERSION_SOURCE})
+target_link_libraries(edmill_core PUBLIC edmill_core_settings)
+edmill_take_rooms(edmill_core base model dynamics engine casefile io run output api core_alone)
+foreach(instance double double_other float128)
+  target_sources(edmill_core PRIVATE ${CMAKE_SOURCE_DIR}/src/instances/${instance}.cpp)
+endforeach()
+add_executable(edmill_core_alone ${CMAKE_SOURCE_DIR}/src/core_alone/main.cpp)
+set_target_properties(edmill_core_alone PROPERTIES OUTPUT_NAME edmill-core)
+target_link_libraries(edmill_core_alone PRIVATE edmill_core)
+
+if(EMSCRIPTEN)
+  target_link_options(edmill_core_alone PRIVATE -sNODERAWFS=1)
+  edmill_take_headers(nlohmann/json.hpp)
+  add_executable(edmill_page)
+  target_link_libraries(edmill_page PRIVATE edmill_core)
+  edmill_take_rooms(edmill_page page audit compare)
+  target_link_options(edmill_page PRIVATE -sMODULARIZE=1 -sEXPORT_NAME=Edmill -sENVIRONMENT=web,worker,node
+                      -sEXPORTED_RUNTIME_METHODS=ccall,FS -sEXPORTED_FUNCTIONS=_malloc,_free)
+  set(page ${CMAKE_BINARY_DIR}/edmill.html)
+  find_program(PYTHON3 python3 NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+  file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/page/*.html ${CMAKE_SOURCE_DIR}/src/page/*.css ${CMAKE_SOURCE_DIR}/src/page/*.js)
+  add_custom_command(OUTPUT ${page} DEPENDS edmill_page ${parts} ${CMAKE_SOURCE_DIR}/src/page/assemble.py
+                     COMMAND ${PYTHON3} ${CMAKE_SOURCE_DIR}/src/page/assemble.py ${CMAKE_BINARY_DIR}/edmill_page ${page} VERBATIM)
+  add_custom_target(page ALL DEPENDS ${page})
+endif()

@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+"""One file of the page: its text, style and scripts, the engine compressed within it, and the cases of docs/examples.
+
+usage: assemble.py ENGINE PAGE.html   where ENGINE.js and ENGINE.wasm are
+"""
+import base64
+import gzip
+import json
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+EXAMPLES = HERE.parents[1] / "docs/examples"
+CASES = {"SPEX 8000, 28 balls": "demo.toml", "planetary mill": "planetary.toml", "shaken box": "shaken_box.toml",
+         "steel and alumina, with a piston": "materials.toml"}
+
+
+def main(engine, place):
+    def read(name):
+        return (HERE / name).read_text(encoding="utf-8")
+
+    compressed = gzip.compress(pathlib.Path(engine + ".wasm").read_bytes(), 9, mtime=0)
+    cases = {name: (EXAMPLES / file).read_text(encoding="utf-8") for name, file in CASES.items()}
+    reference = HERE.parents[1] / "regression/reference"
+    rows = [line.split(",") for line in (reference / "three_balls.events.csv").read_text(encoding="utf-8").splitlines()
+            if not line.startswith("#")]
+    proven = {"case": (reference / "three_balls.toml").read_text(encoding="utf-8"),
+              "events": [[row[1], int(row[2]), int(row[4]) if row[3] == "ball" else -1 - int(row[4])] for row in rows[1:201]]}
+    worker = pathlib.Path(engine + ".js").read_text(encoding="utf-8") + read("worker.js")
+    parts = {"style": read("page.css"), "script": read("page.js") + read("lessons.js"), "worker": json.dumps(worker).replace("</", "<\\/"),
+             "cases": json.dumps(cases).replace("</", "<\\/"), "proven": json.dumps(proven),
+             "engine": base64.b64encode(compressed).decode()}
+    page = read("page.html")
+    for name, text in parts.items():
+        page = page.replace("{{" + name + "}}", text)
+    partial = pathlib.Path(place + ".partial")
+    partial.write_text(page, encoding="utf-8")
+    partial.replace(place)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

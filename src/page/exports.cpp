@@ -1,0 +1,116 @@
+// What the page calls, as C functions: texts in, JSON out. A text is valid until the next call.
+#include <emscripten.h>
+
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include "audit/audit.hpp"
+#include "casefile/build_case.hpp"
+#include "compare/comparison.hpp"
+#include "io/json_text.hpp"
+#include "page/session.hpp"
+
+namespace edmill {
+extern template casefile::InitialCase<double> casefile::build_case<double>(const casefile::CaseSpec&, bool);
+}  // namespace edmill
+
+namespace {
+
+using edmill::io::JsonText;
+
+std::unique_ptr<edmill::page::Session> session;
+
+const char* kept(std::string text) {
+  static std::string last;
+  last = std::move(text);
+  return last.c_str();
+}
+
+/// The result of `work`, or the problems that it found.
+template <class Work>
+const char* answer(const Work& work) {
+  try {
+    return kept(work());
+  } catch (const edmill::InputError& error) {
+    JsonText json;
+    json.texts("problems", error.problems());
+    return kept(json.finish());
+  } catch (const std::exception& error) {
+    JsonText json;
+    json.texts("problems", {error.what()});
+    return kept(json.finish());
+  }
+}
+
+std::vector<std::string> lines_of(const char* text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
+
+extern "C" {
+
+/// @param settings  "section.key=value", one on each line
+EMSCRIPTEN_KEEPALIVE const char* edmill_begin(const char* text, const char* settings) {
+  return answer([&] {
+    session.reset();
+    std::filesystem::remove_all("/run");
+    session = std::make_unique<edmill::page::Session>(text, lines_of(settings));
+    return session->scene();
+  });
+}
+
+/// To a time [s], or for a negative one by one impact.
+EMSCRIPTEN_KEEPALIVE const char* edmill_advance(double time) {
+  return answer([&] {
+    if (time < 0)
+      session->advance_one_impact();
+    else
+      session->advance_to(time);
+    return session->frame();
+  });
+}
+
+EMSCRIPTEN_KEEPALIVE const char* edmill_finish() {
+  return answer([&] { return session->finish(); });
+}
+
+EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(const char* text, const char* settings, int most) {
+  return answer([&] { return edmill::page::first_impacts(text, lines_of(settings), most); });
+}
+
+/// The log is the file /log of the page's own memory.
+/// @param settings  over the case, among them those of its section [audit]
+EMSCRIPTEN_KEEPALIVE const char* edmill_audit(const char* text, const char* settings) {
+  return answer([&] {
+    const auto spec = edmill::casefile::parse_case(text, "case.toml", lines_of(settings));
+    auto options = edmill::audit::options_of(spec);
+    options.log = "/log";
+    const auto built = edmill::casefile::build_case<double>(spec);
+    auto audited = edmill::audit::audit(built.the_case, built.states, options);
+    audited.case_name = spec.file, audited.log_name = "log";
+    JsonText json;
+    json.text("verdict", edmill::audit::name_of(audited.verdict));
+    json.text("table", edmill::audit::table(audited));
+    return json.finish();
+  });
+}
+
+/// The logs are the files /reference and /log.
+EMSCRIPTEN_KEEPALIVE const char* edmill_compare() {
+  return answer([&] {
+    edmill::compare::Options options;
+    options.a = "/reference", options.b = "/log";
+    const auto comparison = edmill::compare::compare(options);
+    JsonText json;
+    json.text("verdict", edmill::compare::name_of(comparison.verdict));
+    json.text("table", edmill::compare::table(comparison));
+    return json.finish();
+  });
+}
+}

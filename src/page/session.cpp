@@ -1,0 +1,190 @@
+#include "page/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "api/case_access.hpp"
+#include "base/digest.hpp"
+#include "base/version.hpp"
+#include "casefile/build_case.hpp"
+#include "casefile/case_of_run.hpp"
+#include "io/json_text.hpp"
+#include "model/parts/surface.hpp"
+#include "output/vessel_frame.hpp"
+
+namespace edmill {
+extern template std::string to_text<double>(const double&);
+extern template model::Mill<double> casefile::build_mill<double>(const casefile::CaseSpec&);
+extern template class Run<double>;
+}  // namespace edmill
+
+namespace edmill::page {
+
+namespace {
+
+constexpr const char* folder = "/run";
+
+void put_vector(std::vector<double>& list, const auto& v) {
+  for (std::size_t axis = 0; axis < 3; ++axis) list.push_back(v[axis]);
+}
+
+std::string content_of(const std::string& place) {
+  std::ifstream in(place, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+namespace {
+
+struct FirstImpacts : Observer<double> {
+  explicit FirstImpacts(int most) : most(static_cast<std::size_t>(most)) {}
+  void on_impact(const Impact<double>& impact, Run<double>& run) override {
+    times.push_back(impact.time);
+    balls.push_back(impact.ball);
+    partners.push_back(impact.with_wall ? -1 - impact.partner : impact.partner);
+    if (times.size() == most) run.stop();
+  }
+  std::size_t most;
+  std::vector<double> times;
+  std::vector<int> balls, partners;
+};
+
+}  // namespace
+
+std::string first_impacts(const std::string& text, const std::vector<std::string>& settings, int most) {
+  Run<double> run(CaseAccess::make(casefile::parse_case(text, "case.toml", settings)));
+  FirstImpacts found(most);
+  run.attach(found);
+  run.finish();
+  io::JsonText json;
+  json.numbers("time", found.times);
+  json.integers("ball", found.balls);
+  json.integers("partner", found.partners);
+  return json.finish();
+}
+
+void SpeedClasses::add(double speed) {
+  const double place = std::log10(std::max(speed, 1e-3) / 1e-3) * count / 4;
+  ++impacts[static_cast<std::size_t>(std::min(place, count - 1.0))];
+}
+
+Session::Session(const std::string& text, const std::vector<std::string>& settings)
+    : spec_(casefile::parse_case(text, "case.toml", settings)),
+      mill_(casefile::build_mill<double>(spec_)),
+      run_(CaseAccess::make(spec_)) {
+  run_.write_to(folder);
+  run_.attach(*this);
+}
+
+std::string Session::scene() const {
+  io::JsonText json;
+  json.text("version", version());
+  json.text("case_digest", spec_.digest);
+  json.number("period", mill_.motion.period());
+  json.number("start", spec_.statistics_start.to<double>());
+  if (spec_.end_time) json.number("end", spec_.end_time->to<double>());
+  json.integer("balls", run_.ball_count());
+  std::vector<double> radii;
+  for (const auto& batch : spec_.batches)
+    radii.insert(radii.end(), batch.count, batch.diameter.to<double>() / 2);
+  for (const auto& ball : spec_.balls) radii.push_back(ball.diameter.to<double>() / 2);
+  json.numbers("radii", radii);
+  json.texts("partners", run_.summary().partners);
+  json.number("reach", mill_.motion.reach(mill_.vessel.reach()));
+  std::vector<double> middle;
+  put_vector(middle, mill_.motion.middle());
+  json.numbers("middle", middle);
+  json.begin("walls");
+  int wall = 0;
+  for (const auto& surface : mill_.vessel.surfaces()) {
+    const auto mesh = model::mesh_of(surface);
+    json.begin(std::to_string(wall++));
+    std::vector<double> points;
+    for (const auto& point : mesh.points) put_vector(points, point);
+    json.numbers("points", points);
+    std::vector<int> corners;  // of each face, behind their number
+    for (const auto& face : mesh.faces) {
+      corners.push_back(static_cast<int>(face.size()));
+      corners.insert(corners.end(), face.begin(), face.end());
+    }
+    json.integers("faces", corners);
+    json.end();
+  }
+  json.end();
+  return json.finish();
+}
+
+void Session::on_impact(const Impact<double>& impact, Run<double>&) {
+  ++impacts_;
+  last_ = impact;
+  if (impact.time >= spec_.statistics_start.to<double>()) classes_.add(impact.approach_speed);
+}
+
+void Session::advance_to(double time) {
+  if (going_on_) going_on_ = run_.advance_to(time);
+}
+
+void Session::advance_one_impact() {
+  const auto before = impacts_;
+  const double now = run_.time();
+  double step = impacts_ > 0 ? now / static_cast<double>(impacts_) / 20 : 1e-5;
+  for (double time = now; going_on_ && impacts_ == before; step *= 1.1) advance_to(time += step);
+}
+
+std::string Session::frame() {
+  io::JsonText json;
+  const double now = run_.time();
+  const auto summary = run_.summary();
+  json.number("time", now);
+  json.integer("impacts", impacts_);
+  json.flag("ended", !going_on_);
+  json.text("end_reason", summary.end_reason);
+  std::vector<double> places;
+  for (int k = 0; k < run_.ball_count(); ++k) put_vector(places, run_.ball(k).position);
+  json.numbers("places", places);
+  const auto frame = output::vessel_frame(mill_.motion, now);
+  std::vector<double> axes;
+  for (const auto& v : {frame.origin, frame.x, frame.y, frame.z}) put_vector(axes, v);
+  json.numbers("vessel", axes);
+  if (impacts_ > 0) {
+    json.begin("last");
+    json.number("time", last_.time);
+    json.integer("ball", last_.ball);
+    json.integer("partner", last_.partner);
+    json.flag("with_wall", last_.with_wall);
+    json.number("approach_speed", last_.approach_speed);
+    json.number("slip_speed", last_.slip_speed);
+    json.number("separation_speed", last_.separation_speed);
+    json.number("milling_dose", last_.milling_dose);
+    json.end();
+  }
+  if (now > summary.start_time) {
+    json.number("dose", summary.milling_dose);
+    json.number("dose_rate", summary.milling_dose_rate());
+    if (summary.milling_dose_rate_half_width)
+      json.number("half_width", *summary.milling_dose_rate_half_width);
+    std::vector<double> collisions(summary.collisions.begin(), summary.collisions.end());
+    json.numbers("collisions", collisions);
+    json.numbers("dose_by_partner", summary.dose_by_partner);
+  }
+  json.numbers("speeds", {classes_.impacts.begin(), classes_.impacts.end()});
+  return json.finish();
+}
+
+std::string Session::finish() {
+  if (!finished_) run_.commit();
+  finished_ = true;
+  const auto log = content_of(std::string(folder) + "/collisions.csv");
+  io::JsonText json;
+  json.text("case", casefile::text_with_settings(spec_));
+  if (!log.empty()) json.text("digest", sha256(log));
+  json.text("summary", content_of(std::string(folder) + "/summary.json"));
+  return json.finish();
+}
+
+}  // namespace edmill::page

@@ -1,0 +1,57 @@
+// A run that a page shows while it goes on.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "casefile/case_spec.hpp"
+#include "edmill/run.hpp"
+#include "model/mill.hpp"
+
+namespace edmill::page {
+
+/// Impacts by approach speed, in classes of equal ratio from 1 mm/s to 10 m/s.
+struct SpeedClasses {
+  static constexpr int count = 40;
+  std::array<std::uint64_t, count> impacts{};
+
+  void add(double speed);
+};
+
+/// The first impacts of a case as JSON: lists `time` [s], `ball`, `partner`, a wall as -1 - its number.
+/// @throws InputError
+std::string first_impacts(const std::string& text, const std::vector<std::string>& settings, int most);
+
+class Session : private Observer<double> {
+ public:
+  /// @param settings  "section.key=value" over the text
+  /// @throws InputError with all problems of the case
+  Session(const std::string& text, const std::vector<std::string>& settings);
+
+  /// What stands still, as JSON: radii, walls as meshes, names of partners, digest of the case, the period.
+  std::string scene() const;
+  /// Simulates up to a time [s], or one impact.
+  void advance_to(double time);
+  void advance_one_impact();
+  /// The present state as JSON: places, the vessel's frame, rates with intervals, counts by approach speed.
+  std::string frame();
+  bool ended() const { return !going_on_; }
+  /// The case as a run with its settings leaves it, and the SHA-256 of collisions.csv as the command line
+  /// writes it. Nothing can follow.
+  std::string finish();
+
+ private:
+  void on_impact(const Impact<double>& impact, Run<double>& run) override;
+
+  casefile::CaseSpec spec_;
+  model::Mill<double> mill_;
+  Run<double> run_;
+  SpeedClasses classes_;
+  std::uint64_t impacts_ = 0;
+  Impact<double> last_{};
+  bool one_only_ = false, going_on_ = true, finished_ = false;
+};
+
+}  // namespace edmill::page

@@ -1,0 +1,38 @@
+
+// The engine in a worker: the page never waits for it. Each message is answered by one of the same `what`.
+let engine;
+
+function call(name, types = [], values = []) {
+  return JSON.parse(engine.ccall(name, 'string', types, values));
+}
+
+const answers = {
+  begin: ({text, settings}) => call('edmill_begin', ['string', 'string'], [text, settings.join('\n')]),
+  advance: ({time}) => call('edmill_advance', ['number'], [time]),
+  first_impacts: ({text, settings, most}) => call('edmill_first_impacts', ['string', 'string', 'number'], [text, settings.join('\n'), most]),
+  finish: () => call('edmill_finish'),
+  audit: ({text, settings, log}) => {
+    engine.FS.writeFile('/log', log);
+    return call('edmill_audit', ['string', 'string'], [text, settings.join('\n')]);
+  },
+  compare: ({reference, log}) => {
+    engine.FS.writeFile('/reference', reference);
+    engine.FS.writeFile('/log', log);
+    return call('edmill_compare');
+  },
+};
+
+onmessage = async ({data}) => {
+  try {
+    if (data.what === 'engine') {
+      engine = await Edmill({wasmBinary: data.engine, print: () => {}, printErr: () => {}});
+      postMessage({what: 'engine'});
+      return;
+    }
+    const begin = performance.now();
+    const answer = answers[data.what](data);
+    postMessage({what: data.what, answer, milliseconds: performance.now() - begin});
+  } catch (error) {
+    postMessage({what: data.what, answer: {problems: [`the engine stopped: ${error.message || error}`]}, milliseconds: 0});
+  }
+};
