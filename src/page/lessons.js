@@ -85,8 +85,10 @@ async function check_proof() {
   const {case: text, events} = read('proven');
   $('prove-said').textContent = 'Running.';
   const {answer} = await ask({what: 'first_impacts', text, settings: [], most: events.length});
+  const pair = (a, b) => b < 0 ? `${a} ${b}` : `${Math.min(a, b)} ${Math.max(a, b)}`;
+  const agrees = k => pair(answer.ball[k], answer.partner[k]) === pair(events[k][1], events[k][2]);
   let right = 0;
-  while (right < events.length && answer.ball[right] === events[right][1] && answer.partner[right] === events[right][2]) ++right;
+  while (right < events.length && agrees(right)) ++right;
   // Decimals to 17 digits are doubles, so that the difference is that of the run.
   const digits = k => Math.min(16, -Math.log10(Math.abs(answer.time[k] - Number(events[k][0])) / Number(events[k][0])));
   const worst = Math.min(...Array.from({length: right}, (_, k) => digits(k)));

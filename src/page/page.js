@@ -82,13 +82,16 @@ function draw() {
   if (!scene || !frame) return;
   const colours = getComputedStyle(document.documentElement);
   const {right, up, towards} = camera();
-  const scale = 0.48 * Math.min(canvas.width, canvas.height) / scene.size;
+  const [origin, x, y, z] = [0, 3, 6, 9].map(k => frame.vessel.slice(k, k + 3));
+  const outside = p => [0, 1, 2].map(k => origin[k] + x[k] * p[0] + y[k] * p[1] + z[k] * p[2]);
+  // What the vessel has swept so far is in the picture.
+  for (const wall of scene.meshes)
+    for (const point of wall.points) scene.size = Math.max(scene.size, Math.hypot(...outside(point).map((c, k) => c - scene.middle[k])));
+  const scale = 0.47 * Math.min(canvas.width, canvas.height) / scene.size;
   const seen = p => {
     const d = [p[0] - scene.middle[0], p[1] - scene.middle[1], p[2] - scene.middle[2]];
     return [canvas.width / 2 + scale * dot(d, right), canvas.height / 2 - scale * dot(d, up), dot(d, towards)];
   };
-  const [origin, x, y, z] = [0, 3, 6, 9].map(k => frame.vessel.slice(k, k + 3));
-  const outside = p => [0, 1, 2].map(k => origin[k] + x[k] * p[0] + y[k] * p[1] + z[k] * p[2]);
   context.strokeStyle = colours.getPropertyValue('--line');
   for (const wall of scene.meshes)
     for (const face of wall.faces) {
@@ -215,7 +218,7 @@ async function begin() {
     return problems([`${answer.balls} balls are too many to be drawn: this page takes up to ${most_balls}; the command line takes any number.`]);
   }
   scene = answer;
-  scene.size = scene.reach;
+  scene.size = 0;
   scene.meshes = Object.values(scene.walls).map(({points, faces}) => {
     const list = [];
     for (let k = 0; k < faces.length; k += faces[k] + 1) list.push(faces.slice(k + 1, k + 1 + faces[k]));
@@ -240,7 +243,7 @@ async function advance(time, own) {
     return false;
   }
   take(answer);
-  chunk *= milliseconds > 40 ? 0.5 : milliseconds < 15 ? 2 : 1;
+  chunk *= milliseconds > 100 ? 0.5 : milliseconds < 40 ? 2 : 1;
   if (answer.ended) await finish(own);
   return !answer.ended;
 }

@@ -94,8 +94,10 @@ std::string Session::scene() const {
     radii.insert(radii.end(), batch.count, batch.diameter.to<double>() / 2);
   for (const auto& ball : spec_.balls) radii.push_back(ball.diameter.to<double>() / 2);
   json.numbers("radii", radii);
-  json.texts("partners", run_.summary().partners);
-  json.number("reach", mill_.motion.reach(mill_.vessel.reach()));
+  const auto partners = casefile::partners_of(spec_);
+  std::vector<std::string> names;
+  for (int k = 0; k < partners.count(); ++k) names.push_back(partners[k].label);
+  json.texts("partners", names);
   std::vector<double> middle;
   put_vector(middle, mill_.motion.middle());
   json.numbers("middle", middle);
@@ -132,7 +134,7 @@ void Session::advance_to(double time) {
 void Session::advance_one_impact() {
   const auto before = impacts_;
   const double now = run_.time();
-  double step = impacts_ > 0 ? now / static_cast<double>(impacts_) / 20 : 1e-5;
+  double step = impacts_ > 0 ? now / static_cast<double>(impacts_) / 1000 : 1e-6;
   for (double time = now; going_on_ && impacts_ == before; step *= 1.1) advance_to(time += step);
 }
 

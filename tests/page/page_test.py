@@ -9,6 +9,7 @@ FOLDER keeps the build, the page edmill.html and screenshots
 import base64
 import csv
 import gzip
+import json
 import math
 import os
 import pathlib
@@ -128,7 +129,7 @@ class Page(unittest.TestCase):
         self.element("run").click()
         self.wait(lambda: self.text("said") == "The run has ended.", 120)
         spent = time.time() - begin
-        self.run_by_command = subprocess.run([EDMILL, "run", ROOT / "docs/examples/demo.toml", "--quiet", "--out", FOLDER / "demo"], check=True)
+        subprocess.run([EDMILL, "run", ROOT / "docs/examples/demo.toml", "--quiet", "--out", FOLDER / "demo"], check=True)
         rate = re.search(r'"milling_dose_rate": ([\d.e+-]+)', (FOLDER / "demo/summary.json").read_text()).group(1)
         print(f"10 s simulated in {spent:.2f} s")
         self.assertTrue(self.facts()["milling dose rate"].startswith(f"{float(rate):.4g}"), self.facts())
@@ -149,8 +150,10 @@ class Page(unittest.TestCase):
         picture = self.element("mill").screenshot_as_png
         for _ in range(5):
             self.element("step").click()
-            self.wait(lambda: int(self.facts()["impacts"]) == before + 1, 10)
-            before += 1
+            self.wait(lambda: int(self.facts()["impacts"]) > before, 10)
+            after = int(self.facts()["impacts"])
+            self.assertLessEqual(after, before + 2)  # two within a thousandth of the mean time between them are shown together
+            before = after
             self.assertIn("last impact", self.facts())
         self.assertNotEqual(self.element("mill").screenshot_as_png, picture)
         picture = self.element("mill").screenshot_as_png
@@ -215,8 +218,9 @@ class Page(unittest.TestCase):
     def test_it_asks_no_server(self):
         self.element("run").click()
         self.wait(lambda: "impacts" in self.facts(), 30)
-        asked = [line["message"] for line in self.browser.get_log("performance") if '"Network.requestWillBeSent"' in line["message"]]
-        self.assertTrue(all(re.search(r'"url":"(file|blob|data):', line) for line in asked), asked)
+        asked = [json.loads(line["message"])["message"] for line in self.browser.get_log("performance")]
+        asked = [line["params"]["request"]["url"] for line in asked if line["method"] == "Network.requestWillBeSent"]
+        self.assertEqual([url[:80] for url in asked if not url.startswith(("file:", "blob:", "data:", "chrome:"))], [])
 
 
 if __name__ == "__main__":
