@@ -50,13 +50,13 @@ if(EMSCRIPTEN)
   edmill_take_headers(nlohmann/json.hpp)
   add_executable(edmill_page)
   target_link_libraries(edmill_page PRIVATE edmill_core)
-  edmill_take_rooms(edmill_page page audit compare)
+  edmill_take_rooms(edmill_page browser audit compare)
   target_link_options(edmill_page PRIVATE -sMODULARIZE=1 -sEXPORT_NAME=Edmill -sENVIRONMENT=web,worker,node
                       -sEXPORTED_RUNTIME_METHODS=ccall,FS -sEXPORTED_FUNCTIONS=_malloc,_free)
   set(page ${CMAKE_BINARY_DIR}/edmill.html)
   find_program(PYTHON3 python3 NO_CMAKE_FIND_ROOT_PATH REQUIRED)
-  file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/page/*.html ${CMAKE_SOURCE_DIR}/src/page/*.css ${CMAKE_SOURCE_DIR}/src/page/*.js)
-  add_custom_command(OUTPUT ${page} DEPENDS edmill_page ${parts} ${CMAKE_SOURCE_DIR}/src/page/assemble.py
-                     COMMAND ${PYTHON3} ${CMAKE_SOURCE_DIR}/src/page/assemble.py ${CMAKE_BINARY_DIR}/edmill_page ${page} VERBATIM)
+  file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/browser/*.html ${CMAKE_SOURCE_DIR}/src/browser/*.css ${CMAKE_SOURCE_DIR}/src/browser/*.js)
+  add_custom_command(OUTPUT ${page} DEPENDS edmill_page ${parts} ${CMAKE_SOURCE_DIR}/src/browser/assemble.py
+                     COMMAND ${PYTHON3} ${CMAKE_SOURCE_DIR}/src/browser/assemble.py ${CMAKE_BINARY_DIR}/edmill_page ${page} VERBATIM)
   add_custom_target(page ALL DEPENDS ${page})
 endif()

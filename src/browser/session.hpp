@@ -10,7 +10,7 @@
 #include "edmill/run.hpp"
 #include "model/mill.hpp"
 
-namespace edmill::page {
+namespace edmill::browser {
 
 /// Impacts by approach speed, in classes of equal ratio from 1 mm/s to 10 m/s.
 struct SpeedClasses {
@@ -54,4 +54,4 @@ class Session : private Observer<double> {
   bool one_only_ = false, going_on_ = true, finished_ = false;
 };
 
-}  // namespace edmill::page
+}  // namespace edmill::browser

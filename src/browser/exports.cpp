@@ -9,7 +9,7 @@
 #include "casefile/build_case.hpp"
 #include "compare/comparison.hpp"
 #include "io/json_text.hpp"
-#include "page/session.hpp"
+#include "browser/session.hpp"
 
 namespace edmill {
 extern template casefile::InitialCase<double> casefile::build_case<double>(const casefile::CaseSpec&, bool);
@@ -19,7 +19,7 @@ namespace {
 
 using edmill::io::JsonText;
 
-std::unique_ptr<edmill::page::Session> session;
+std::unique_ptr<edmill::browser::Session> session;
 
 const char* kept(std::string text) {
   static std::string last;
@@ -60,7 +60,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_begin(const char* text, const char* sett
   return answer([&] {
     session.reset();
     std::filesystem::remove_all("/run");
-    session = std::make_unique<edmill::page::Session>(text, lines_of(settings));
+    session = std::make_unique<edmill::browser::Session>(text, lines_of(settings));
     return session->scene();
   });
 }
@@ -81,7 +81,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_finish() {
 }
 
 EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(const char* text, const char* settings, int most) {
-  return answer([&] { return edmill::page::first_impacts(text, lines_of(settings), most); });
+  return answer([&] { return edmill::browser::first_impacts(text, lines_of(settings), most); });
 }
 
 /// The log is the file /log of the page's own memory.

@@ -1,4 +1,4 @@
-#include "page/session.hpp"
+#include "browser/session.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ extern template model::Mill<double> casefile::build_mill<double>(const casefile:
 extern template class Run<double>;
 }  // namespace edmill
 
-namespace edmill::page {
+namespace edmill::browser {
 
 namespace {
 
@@ -189,4 +189,4 @@ std::string Session::finish() {
   return json.finish();
 }
 
-}  // namespace edmill::page
+}  // namespace edmill::browser
