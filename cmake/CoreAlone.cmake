@@ -16,7 +16,7 @@ edmill_take_headers(boost/version.hpp fmt/format.h toml++/toml.h Eigen/Core)
 
 add_library(edmill_core_settings INTERFACE)
 target_compile_definitions(edmill_core_settings INTERFACE EDMILL_WITHOUT_MPFR EDMILL_PORTABLE_FLOAT128 FMT_HEADER_ONLY
-                                                          TOML_HEADER_ONLY=1 EIGEN_DONT_VECTORIZE)
+                                                          TOML_HEADER_ONLY=0 TOML_ENABLE_FORMATTERS=0 EIGEN_DONT_VECTORIZE)
 target_include_directories(edmill_core_settings INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/include)
 target_include_directories(edmill_core_settings SYSTEM INTERFACE ${headers})
 target_compile_options(edmill_core_settings INTERFACE ${edmill_bits} ${edmill_warnings})
@@ -25,6 +25,8 @@ if(EMSCRIPTEN)
   target_link_options(edmill_core_settings INTERFACE -O2 -fexceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=4194304)
 endif()
 
+include(cmake/Rooms.cmake)
+
 # edmill_take_rooms(target room...)
 function(edmill_take_rooms target)
   foreach(room ${ARGN})
@@ -32,12 +34,20 @@ function(edmill_take_rooms target)
     # What needs other libraries, for which core_alone/absent.cpp stands, and programs.
     list(FILTER sources EXCLUDE REGEX "(table_hdf5|hdf5_error|decoder|event_file|x3d_scene|vtk_scene|main)[.]cpp$")
     target_sources(${target} PRIVATE ${sources})
+    if(NOT room STREQUAL core_alone)
+      edmill_group(${room} ${sources})
+    endif()
   endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${EDMILL_UNITY} UNITY_BUILD_MODE GROUP)
 endfunction()
 
 add_library(edmill_core OBJECT ${EDMILL_VERSION_SOURCE})
 target_link_libraries(edmill_core PUBLIC edmill_core_settings)
+target_precompile_headers(edmill_core PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <sstream>
+  <string> <variant> <vector> <boost/container/static_vector.hpp> <boost/multiprecision/cpp_int.hpp> <boost/multiprecision/cpp_bin_float.hpp>
+  <boost/multiprecision/eigen.hpp> <Eigen/Geometry> <fmt/format.h> <toml++/toml.h>)
 edmill_take_rooms(edmill_core base model dynamics engine casefile io run output api core_alone)
+set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/core_alone/toml.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 foreach(instance double double_other float128)
   target_sources(edmill_core PRIVATE ${CMAKE_SOURCE_DIR}/src/instances/${instance}.cpp)
 endforeach()

@@ -143,6 +143,14 @@ std::vector<Planted> planted() {
   return all;
 }
 
+/// Every third of them: the others are in the long tests.
+std::vector<Planted> some() {
+  std::vector<Planted> few;
+  const auto all = planted();
+  for (std::size_t k = 0; k < all.size(); k += 3) few.push_back(all[k]);
+  return few;
+}
+
 /// All of them again, where the tolerance is as coarse as for codes with soft contacts.
 std::vector<Planted> coarse() {
   auto all = planted();
@@ -151,7 +159,8 @@ std::vector<Planted> coarse() {
 }
 
 const auto name = [](const auto& info) { return info.param.name; };
-INSTANTIATE_TEST_SUITE_P(Audit, Names, ::testing::ValuesIn(planted()), name);
+INSTANTIATE_TEST_SUITE_P(Audit, Names, ::testing::ValuesIn(some()), name);
+INSTANTIATE_TEST_SUITE_P(LongAll, Names, ::testing::ValuesIn(planted()), name);
 INSTANTIATE_TEST_SUITE_P(LongCoarse, Names, ::testing::ValuesIn(coarse()), name);
 
 }  // namespace
