@@ -21,8 +21,8 @@ target_include_directories(edmill_core_settings INTERFACE ${CMAKE_SOURCE_DIR}/sr
 target_include_directories(edmill_core_settings SYSTEM INTERFACE ${headers})
 target_compile_options(edmill_core_settings INTERFACE ${edmill_bits} ${edmill_warnings})
 if(EMSCRIPTEN)
-  target_compile_options(edmill_core_settings INTERFACE -fexceptions -Wno-sign-conversion -Wno-shorten-64-to-32)
-  target_link_options(edmill_core_settings INTERFACE -O2 -fexceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=4194304)
+  target_compile_options(edmill_core_settings INTERFACE -fwasm-exceptions -msimd128 -Wno-sign-conversion -Wno-shorten-64-to-32)
+  target_link_options(edmill_core_settings INTERFACE -O2 -fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=4194304)
 endif()
 
 include(cmake/Rooms.cmake)
