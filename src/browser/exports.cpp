@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "audit/audit.hpp"
+#include "browser/session.hpp"
 #include "casefile/build_case.hpp"
 #include "compare/comparison.hpp"
 #include "io/json_text.hpp"
-#include "browser/session.hpp"
 
 namespace edmill {
 extern template casefile::InitialCase<double> casefile::build_case<double>(const casefile::CaseSpec&, bool);
@@ -56,11 +56,11 @@ std::vector<std::string> lines_of(const char* text) {
 extern "C" {
 
 /// @param settings  "section.key=value", one on each line
-EMSCRIPTEN_KEEPALIVE const char* edmill_begin(const char* text, const char* settings) {
+EMSCRIPTEN_KEEPALIVE const char* edmill_begin(const char* text, const char* settings, int log) {
   return answer([&] {
     session.reset();
     std::filesystem::remove_all("/run");
-    session = std::make_unique<edmill::browser::Session>(text, lines_of(settings));
+    session = std::make_unique<edmill::browser::Session>(text, lines_of(settings), log != 0);
     return session->scene();
   });
 }

@@ -50,7 +50,7 @@ let text = '';  // of the case
 
 /// Empty fields leave what the case says.
 function settings() {
-  const list = ['output=[{type="collisions"}]'];
+  const list = [];
   for (const [field, key] of Object.entries(fields)) {
     const value = $(field).value.trim();
     if (value === '') continue;
@@ -191,7 +191,7 @@ function take(answer) {
 
 // ---- Running
 
-let going = false, run_number = 0, result = null, chunk = 1e-3;
+let going = false, run_number = 0, result = null, chunk = 0.03;
 
 function enable(running) {
   for (const id of ['pause', 'step', 'end']) $(id).disabled = !running;
@@ -205,7 +205,7 @@ async function begin() {
   problems([]);
   const said = settings();
   $('said').textContent = 'Placing the balls.';
-  const {answer} = await ask({what: 'begin', text, settings: said});
+  const {answer} = await ask({what: 'begin', text, settings: said, log: $('keep').checked});
   if (own !== run_number) return;
   if (answer.problems) {
     scene = null;
@@ -224,7 +224,7 @@ async function begin() {
     for (let k = 0; k < faces.length; k += faces[k] + 1) list.push(faces.slice(k + 1, k + 1 + faces[k]));
     return {points: Array.from({length: points.length / 3}, (_, k) => points.slice(3 * k, 3 * k + 3)), faces: list};
   });
-  rates = [], last_dose = [0, 0], result = null, chunk = 1e-3;
+  rates = [], last_dose = [0, 0], result = null, chunk = 0.03;
   take((await ask({what: 'advance', time: 0})).answer);
   $('version').textContent = scene.version;
   going = true;
@@ -266,7 +266,7 @@ async function finish(own) {
   if (own !== run_number) return;
   if (answer.problems) return problems(answer.problems);
   result = answer;
-  show_facts({'ended by': frame.end_reason, 'SHA-256 of collisions.csv': answer.digest});
+  show_facts({'ended by': frame.end_reason, ...(answer.digest ? {'SHA-256 of collisions.csv': answer.digest} : {})});
   $('said').textContent = 'The run has ended.';
   enable(false);
 }

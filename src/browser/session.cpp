@@ -30,6 +30,13 @@ void put_vector(std::vector<double>& list, const auto& v) {
   for (std::size_t axis = 0; axis < 3; ++axis) list.push_back(v[axis]);
 }
 
+casefile::CaseSpec read(const std::string& text, const std::vector<std::string>& settings, bool log) {
+  auto spec = casefile::parse_case(text, "case.toml", settings);
+  spec.outputs.clear();
+  if (log) casefile::add_outputs("[[output]]\ntype = \"collisions\"\n", "the page's output", spec);
+  return spec;
+}
+
 std::string content_of(const std::string& place) {
   std::ifstream in(place, std::ios::binary);
   std::ostringstream text;
@@ -73,8 +80,8 @@ void SpeedClasses::add(double speed) {
   ++impacts[static_cast<std::size_t>(std::min(place, count - 1.0))];
 }
 
-Session::Session(const std::string& text, const std::vector<std::string>& settings)
-    : spec_(casefile::parse_case(text, "case.toml", settings)),
+Session::Session(const std::string& text, const std::vector<std::string>& settings, bool log)
+    : spec_(read(text, settings, log)),
       mill_(casefile::build_mill<double>(spec_)),
       run_(CaseAccess::make(spec_)) {
   run_.write_to(folder);

@@ -26,9 +26,10 @@ std::string first_impacts(const std::string& text, const std::vector<std::string
 
 class Session : private Observer<double> {
  public:
-  /// @param settings  "section.key=value" over the text
+  /// @param settings  "section.key=value" over the text, whose own outputs are left out
+  /// @param log       whether collisions.csv is written
   /// @throws InputError with all problems of the case
-  Session(const std::string& text, const std::vector<std::string>& settings);
+  Session(const std::string& text, const std::vector<std::string>& settings, bool log);
 
   /// What stands still, as JSON: radii, walls as meshes, names of partners, digest of the case, the period.
   std::string scene() const;

@@ -7,7 +7,7 @@ function call(name, types = [], values = []) {
 }
 
 const answers = {
-  begin: ({text, settings}) => call('edmill_begin', ['string', 'string'], [text, settings.join('\n')]),
+  begin: ({text, settings, log}) => call('edmill_begin', ['string', 'string', 'number'], [text, settings.join('\n'), log ? 1 : 0]),
   advance: ({time}) => call('edmill_advance', ['number'], [time]),
   first_impacts: ({text, settings, most}) => call('edmill_first_impacts', ['string', 'string', 'number'], [text, settings.join('\n'), most]),
   finish: () => call('edmill_finish'),
