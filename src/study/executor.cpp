@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 #include "base/scalar_list.hpp"
@@ -56,9 +55,7 @@ Executor::~Executor() {
   for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, stop_message);
 }
 
-int Executor::threads() const {
-  return std::accumulate(free_slots_.begin(), free_slots_.end(), workers_->threads());
-}
+int Executor::threads() const { return workers_->threads() + threads_elsewhere_; }
 
 bool Executor::hand_out(const Job& job) {
   if (workers_->has_idle()) {
@@ -87,6 +84,7 @@ void Executor::take_messages(const std::function<void(const RunRecord&)>& done) 
     auto& slots = free_slots_[static_cast<std::size_t>(message->first)];
     if (!message->second.starts_with("{")) {
       slots = std::stoi(message->second);
+      threads_elsewhere_ += slots;
       continue;
     }
     ++slots;

@@ -58,6 +58,7 @@ class Executor {
   std::atomic<bool>& interrupt_;
   std::unique_ptr<Workers> workers_;
   std::vector<int> free_slots_;  ///< of each other rank
+  int threads_elsewhere_ = 0;    ///< of other ranks
   std::size_t running_ = 0;
 };
 

@@ -393,16 +393,4 @@ TEST_F(Report, IsMadeOfARunThatBeganFromASavedState) {
   EXPECT_EQ(edmill("report " + next.string()).code, 0);
 }
 
-using Embedded = edmill::ProgramTest;
-
-TEST_F(Embedded, FilesAreThereByteForByte) {
-  using namespace edmill::report;
-  EXPECT_EQ(page_css, contents(source / "src/report/page.css"));
-  EXPECT_EQ(page_html, contents(source / "src/report/page.html"));
-  EXPECT_EQ(thesis_csv, contents(source / "regression/ward/thesis.csv"));
-  EXPECT_EQ(page_js, contents(source / "src/report/page.js"));
-  EXPECT_EQ(three_js, contents(EDMILL_THREE_JS));
-  EXPECT_EQ(three_orbit_js, contents(EDMILL_THREE_ORBIT_JS));
-}
-
 }  // namespace
