@@ -46,7 +46,7 @@ target_link_libraries(edmill_core PUBLIC edmill_core_settings)
 target_precompile_headers(edmill_core PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <sstream>
   <string> <variant> <vector> <boost/container/static_vector.hpp> <boost/multiprecision/cpp_int.hpp> <boost/multiprecision/cpp_bin_float.hpp>
   <boost/multiprecision/eigen.hpp> <Eigen/Geometry> <fmt/format.h> <toml++/toml.h>)
-edmill_take_rooms(edmill_core base model dynamics engine casefile io run output api core_alone)
+edmill_take_rooms(edmill_core base model dynamics engine casefile io run tangent output api core_alone)
 set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/core_alone/toml.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 foreach(instance double double_other float128)
   target_sources(edmill_core PRIVATE ${CMAKE_SOURCE_DIR}/src/instances/${instance}.cpp)

@@ -15,6 +15,8 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #else
 #include <boost/multiprecision/mpfr.hpp>
+
+#include "edmill/detail/chosen_digits.hpp"
 #endif
 
 namespace edmill {
@@ -43,5 +45,6 @@ using mpfr50 = mpfr_of<50>;
 // Errors grow with every collision; these two are for certifying long sequences of events.
 using mpfr100 = mpfr_of<100>;
 using mpfr200 = mpfr_of<200>;
+// Beside them, `mpfr` has as many digits as `mpfr::Digits` chooses.
 
 }  // namespace edmill

@@ -8,8 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
-#include "base/with_scalar.hpp"
-#include "instances/instances.hpp"
+#include "casefile/precisions.hpp"
 #include "io/named_file.hpp"
 #include "run/collision_log.hpp"
 
@@ -37,9 +36,11 @@ Sequence first_events(const std::string& precision, const casefile::CaseSpec& sp
                       const CertifyOptions& options) {
   Sequence sequence{precision, {}, 0};
   const auto begin = std::chrono::steady_clock::now();
-  const auto source = source_in(precision, spec, false);
-  while (sequence.events.size() < options.collisions && !stop_asked(options.interrupt)) {
-    const auto more = source->next(std::min<std::size_t>(64, options.collisions - sequence.events.size()));
+  const bool to_end = options.collisions == 0;
+  const auto source = source_in(precision, spec, to_end);
+  while ((to_end || sequence.events.size() < options.collisions) && !stop_asked(options.interrupt)) {
+    const auto more =
+        source->next(to_end ? 64 : std::min<std::size_t>(64, options.collisions - sequence.events.size()));
     if (more.empty()) break;
     sequence.events.insert(sequence.events.end(), more.begin(), more.end());
     options.progress(precision, sequence.events.size());
@@ -74,7 +75,7 @@ void write_reference(std::ostream& out, const casefile::CaseSpec& spec, const Ce
   for (std::size_t k = 0; k < found.events.size(); ++k) {
     const Event& e = found.events[k];
     // Two digits more than are certified, so that the rounding of the text does not count.
-    const auto text = [&](int q) { return e.values[q].str(options.digits + 2, std::ios_base::scientific); };
+    const auto text = [&](int q) { return e.values[q].str(options.digits + 3, true); };
     out << k << ',' << text(run::time) << ',' << e.ball << (e.with_wall ? ",wall," : ",ball,") << e.partner;
     for (int q = run::approach_speed; q < run::quantity_count; ++q) out << ',' << text(q);
     out << '\n';
@@ -96,74 +97,148 @@ std::string Evidence::text() const {
   return line;
 }
 
-std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
-                                            bool to_end) {
-  return with_scalar(precision, [&]<class Real>() { return run::make_source<Real>(spec, to_end); });
-}
+namespace {
 
-Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options,
-                      const std::function<void(const Evidence&)>& found) {
-  const auto& precisions = casefile::precisions();
-  std::optional<io::NamedFile> file;
-  if (!options.file.empty()) file.emplace(options.file);
+/// What is found on the way to a certain sequence.
+class Certifier {
+ public:
+  Certifier(const casefile::CaseSpec& spec, const CertifyOptions& options,
+            const std::function<void(const Evidence&)>& found)
+      : spec_(spec), options_(options), found_(found) {}
+
+  /// @return whether the matter is settled: certain, impossible, or interrupted
+  bool by_fixed_scalars() {
+    const auto& precisions = casefile::precisions();
+    Sequence narrow = first_events(precisions.front(), spec_, options_);
+    for (std::size_t k = 1; k < precisions.size(); ++k) {
+      Sequence wide = first_events(precisions[k], spec_, options_);
+      if (is_interrupted()) return true;
+      const Agreement agreement = compare(narrow, wide);
+      tell({narrow.precision, wide.precision, agreement, narrow.seconds + wide.seconds});
+      const bool all = agreement.events() == wide.events.size() && narrow.events.size() == wide.events.size();
+      expected_ = wide.events.size();
+      if (settles(all, agreement, wide.events)) return true;
+      narrow = std::move(wide);
+    }
+    return false;
+  }
+
+  /// With as many digits as the last two scalars lead to expect, and more where these do not suffice.
+  void by_chosen_digits() {
+    for (int attempt = 0; attempt < 8; ++attempt) {
+      const unsigned digits = digits_needed(), more = wider_than(digits);
+      if (more > most_digits) {
+        result.undecided = fmt::format("more than {} digits are needed", most_digits);
+        return;
+      }
+      if (side_by_side(digits, more)) return;
+    }
+    result.undecided = "eight attempts with more and more digits do not agree";
+  }
+
   Certification result;
-  Sequence narrow = first_events(precisions.front(), spec, options);
-  for (std::size_t k = 1; k < precisions.size(); ++k) {
-    Sequence wide = first_events(precisions[k], spec, options);
-    result.interrupted = stop_asked(options.interrupt);
-    if (result.interrupted) return result;
-    const Agreement agreement = compare(narrow, wide);
-    result.evidence.push_back({narrow.precision, wide.precision, agreement, narrow.seconds + wide.seconds});
-    found(result.evidence.back());
-    if (wide.events.size() < options.collisions)
-      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec.file,
-                                   wide.events.size(), options.collisions));
-    const auto by_rule = std::find_if(wide.events.begin(), wide.events.end(),
-                                      [](const Event& event) { return event.by_rule; });
-    if (by_rule != wide.events.end()) {
+
+ private:
+  bool is_interrupted() { return result.interrupted = stop_asked(options_.interrupt); }
+  void tell(Evidence evidence) {
+    result.evidence.push_back(std::move(evidence));
+    found_(result.evidence.back());
+  }
+
+  unsigned digits_needed() const {
+    const auto& last = result.evidence.back();
+    const double events = static_cast<double>(last.agreement.events());
+    const double had = casefile::digits_of(last.narrow);
+    const bool all = last.agreement.events() == expected_;
+    const double left = all ? last.agreement.least_digits() : 0;
+    const double lost = std::max(had - left, 0.0) / std::max(events, 1.0);
+    const double needed = options_.digits + 1.05 * lost * static_cast<double>(expected_) + 10;
+    return static_cast<unsigned>(std::min<double>(std::max(needed, 1.2 * had), most_digits));
+  }
+
+  bool side_by_side(unsigned digits, unsigned more) {
+    const auto name = [](unsigned n) { return fmt::format("mpfr:{}", n); };
+    const auto begin = std::chrono::steady_clock::now();
+    SideBySide runs(spec_, name(digits), name(more), options_.collisions == 0);
+    std::vector<Event> events;
+    // The sequence is written with so many; each number of a long one with all its digits would fill the
+    // memory.
+    const mpfr::Digits kept(static_cast<unsigned>(options_.digits) + 10);
+    while (options_.collisions == 0 || events.size() < options_.collisions) {
+      if (is_interrupted()) return true;
+      const std::size_t left = options_.collisions == 0 ? 256 : options_.collisions - events.size();
+      auto taken = runs.next(std::min<std::size_t>(256, left));
+      if (taken.empty()) break;
+      for (auto& event : taken) {
+        for (auto& value : event.values) value = value.rounded();
+        events.push_back(std::move(event));
+      }
+      options_.progress(name(more), events.size());
+    }
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    tell({name(digits), name(more), runs.agreement(), took.count()});
+    const bool all = !runs.diverged() && !runs.uneven();
+    if (all) expected_ = events.size();
+    return settles(all, runs.agreement(), events);
+  }
+
+  /// Whether two runs with these events in common, all of them or not, settle the matter; then takes them.
+  bool settles(bool all, const Agreement& agreement, std::vector<Event>& events) {
+    if (all && events.size() < options_.collisions)
+      throw InputError(fmt::format("{}: the case ends after {} collisions, {} are requested", spec_.file,
+                                   events.size(), options_.collisions));
+    const auto by_rule =
+        std::find_if(events.begin(), events.end(), [](const Event& event) { return event.by_rule; });
+    if (by_rule != events.end()) {
       result.undecided = fmt::format(
           "event {}, {}, has another contact of its ball at the same time in every scalar: a rule and not "
           "the "
           "equations orders them",
-          by_rule - wide.events.begin(), describe(*by_rule));
-      return result;
+          by_rule - events.begin(), describe(*by_rule));
+      return true;
     }
-    if (agreement.events() == options.collisions && agreement.least_digits() >= options.digits) {
-      result.events = std::move(wide.events);
-      if (file) file->write([&](std::ostream& out) { write_reference(out, spec, options, result); });
-      return result;
-    }
-    narrow = std::move(wide);
+    if (!all || agreement.least_digits() < options_.digits) return false;
+    result.events = std::move(events);
+    return true;
   }
-  result.undecided = fmt::format("the widest two scalars do not agree on {} events in {} digits",
-                                 options.collisions, options.digits);
+
+  const casefile::CaseSpec& spec_;
+  const CertifyOptions& options_;
+  const std::function<void(const Evidence&)>& found_;
+  std::size_t expected_ = 0;  ///< events, as the widest run so far has them
+};
+
+}  // namespace
+
+unsigned wider_than(unsigned digits) { return digits + std::max(20u, digits / 20); }
+
+Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options,
+                      const std::function<void(const Evidence&)>& found) {
+  if (options.collisions == 0 && !spec.end_time)
+    throw InputError(spec.file + ": found no run.end_time, expected one, or a number of collisions");
+  std::optional<io::NamedFile> file;
+  if (!options.file.empty()) file.emplace(options.file);
+  Certifier certifier(spec, options, found);
+  if (!certifier.by_fixed_scalars()) certifier.by_chosen_digits();
+  auto result = std::move(certifier.result);
+  if (file && !result.events.empty())
+    file->write([&](std::ostream& out) { write_reference(out, spec, options, result); });
   return result;
 }
 
 void require_wider(const std::string& precision, const std::string& wider, const std::string& what) {
-  const auto& all = casefile::precisions();
-  const auto rank = [&](const std::string& name) {
-    return std::find(all.begin(), all.end(), name) - all.begin();
-  };
-  if (rank(wider) <= rank(precision))
+  if (casefile::digits_of(wider) <= casefile::digits_of(precision))
     throw InputError(
         fmt::format("{}: found \"{}\", expected a scalar wider than {}", what, wider, precision));
 }
 
 Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,
               const std::atomic<bool>* interrupt) {
-  const auto narrow = source_in(precision, spec, true), wide = source_in(wider, spec, true);
-  Shadow s{precision, wider, {}, {}, false, false, spec.ball_count()};
-  while (!s.diverged && !s.uneven && !stop_asked(interrupt)) {
-    const auto one = narrow->next(64), two = wide->next(64);
-    if (one.empty() && two.empty()) break;
-    const std::size_t count = std::min(one.size(), two.size());
-    for (std::size_t k = 0; k < count && !s.diverged; ++k)
-      if (!s.agreement.take(one[k], two[k])) s.diverged = {one[k], two[k]};
-    s.uneven = !s.diverged && one.size() != two.size();
+  SideBySide runs(spec, precision, wider, true);
+  while (!stop_asked(interrupt) && !runs.next(64).empty()) {
   }
-  s.interrupted = stop_asked(interrupt);
-  return s;
+  return {precision,        wider, runs.agreement(), runs.diverged(), runs.uneven(), stop_asked(interrupt),
+          spec.ball_count()};
 }
 
 std::string Shadow::text() const {

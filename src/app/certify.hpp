@@ -3,20 +3,20 @@
 
 #include <atomic>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/side_by_side.hpp"
 #include "casefile/case_spec.hpp"
 #include "run/agreement.hpp"
 
 namespace edmill::app {
 
 struct CertifyOptions {
-  std::string file;  ///< of the certified sequence; none when empty
-  std::size_t collisions = 0;
+  std::string file;            ///< of the certified sequence; none when empty
+  std::size_t collisions = 0;  ///< all up to the case's end time when 0
   int digits = 25;
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(const std::string& precision, std::size_t events)> progress = [](const auto&, auto) {};
@@ -39,17 +39,17 @@ struct Certification {
   bool interrupted = false;
 };
 
-/// Raises the precision until two successive scalars agree on the first events, in order and in the digits
-/// required, and writes them with the evidence.
+/// Raises the precision until two scalars agree on the first events, in order and in the digits required, and
+/// writes them with the evidence: those of a fixed number of digits first, then `mpfr` with as many as the
+/// digits that were lost lead to expect.
 /// @param found  called with each pair of scalars
-/// @throws InputError for a case that ends before
+/// @throws InputError for a case that ends before, or has no end
 Certification certify(
     const casefile::CaseSpec& spec, const CertifyOptions& options,
     const std::function<void(const Evidence&)>& found = [](const auto&) {});
 
-/// The events of a case in the scalar of this name.
-std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
-                                            bool to_end);
+/// Digits of the wider run that judges one of so many.
+unsigned wider_than(unsigned digits);
 
 /// Two runs of a case side by side.
 struct Shadow {

@@ -3,6 +3,7 @@
 #include "base/errors.hpp"
 #include "base/with_scalar.hpp"
 #include "casefile/memory_for.hpp"
+#include "casefile/right_digits.hpp"
 #include "instances/tools/instances.hpp"
 #include "io/input_file.hpp"
 #include "report/report_page.hpp"
@@ -16,7 +17,10 @@ RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOp
     return options.report ? report::put_report(options.folder) : std::filesystem::path();
   };
   return casefile::with_memory_for(spec, [&] {
-    return with_scalar(precision, [&]<class Real>() { return run_in<Real>(spec, options, put_page); });
+    return with_scalar(precision, [&]<class Real>() {
+      const auto shown = casefile::only_right_digits<Real>(spec);
+      return run_in<Real>(spec, options, put_page);
+    });
   });
 }
 

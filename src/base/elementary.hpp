@@ -13,7 +13,8 @@ namespace detail {
 
 /// Scalars whose library functions round correctly, so that all libraries agree.
 template <class Real>
-inline constexpr bool rounds_correctly = (std::numeric_limits<Real>::digits > 113);
+inline constexpr bool rounds_correctly = (std::numeric_limits<Real>::digits == 0 ||
+                                          std::numeric_limits<Real>::digits > 113);
 
 /// x -+ x^3/3 + x^5/5 -+ ...: the arctangent, or with `sign` -1 artanh. @pre |x| <= 0.18
 template <class Real>

@@ -1,7 +1,7 @@
 // Certified statements about a smooth function on an interval, from its values and slopes at the two ends.
 #pragma once
 
-#include <limits>
+#include "base/scalar.hpp"
 
 namespace edmill::numerics {
 
@@ -41,9 +41,9 @@ struct QuarticLowerBound {
     b3 = right.value - right_slope / 4;
     b4 = right.value;
     const auto size = [](const Real& x) { return x < 0 ? Real(-x) : x; };
-    slack = bounds.value_error + s * bounds.slope_error +
-            8 * std::numeric_limits<Real>::epsilon() *
-                (size(left.value) + size(right.value) + size(left_slope) + size(right_slope));
+    slack =
+        bounds.value_error + s * bounds.slope_error +
+        8 * epsilon<Real>() * (size(left.value) + size(right.value) + size(left_slope) + size(right_slope));
   }
 
   Real least() const {

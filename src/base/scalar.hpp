@@ -8,9 +8,30 @@
 
 namespace edmill {
 
-/// Name of a scalar as the case file and the records spell it, e.g. "double", "mpfr50".
+/// Name of a scalar as the case file and the records spell it, e.g. "double", "mpfr50"; of one whose digits
+/// are chosen at run time the part before them.
 template <class Real>
 struct ScalarName;
+
+/// Least and largest number of digits that can be chosen.
+inline constexpr unsigned fewest_digits = 20, most_digits = 1'000'000;
+/// 3000 for "mpfr:3000"; 0 for other names, and numbers that cannot be chosen.
+inline unsigned chosen_digits_of(std::string_view name) {
+  constexpr std::string_view begin = "mpfr:";
+  if (!name.starts_with(begin) || name.size() > begin.size() + 7) return 0;
+  unsigned digits = 0;
+  for (const char c : name.substr(begin.size())) {
+    if (c < '0' || c > '9') return 0;
+    digits = 10 * digits + static_cast<unsigned>(c - '0');
+  }
+  return digits >= fewest_digits && digits <= most_digits ? digits : 0;
+}
+
+/// The whole name, e.g. "mpfr:3000".
+template <class Real>
+std::string scalar_name() {
+  return std::string(ScalarName<Real>::value);
+}
 
 template <>
 struct ScalarName<double> {
@@ -52,5 +73,29 @@ template <class Real>
 Real epsilon() {
   return std::numeric_limits<Real>::epsilon();
 }
+
+/// Binary digits of a scalar.
+template <class Real>
+constexpr int binary_digits() {
+  return std::numeric_limits<Real>::digits;
+}
+
+/// For numbers that are hints or bounds and need few digits, but the range of the scalar's small numbers.
+template <class Real>
+struct HintOf {
+  using type = double;
+};
+template <class Real>
+using Hint = typename HintOf<Real>::type;
+
+/// The digits of a scalar whose digits are chosen at run time, as the thread has them when this is made;
+/// `use` chooses them again for a scope. Nothing for other scalars.
+template <class Real>
+struct ChosenDigits {
+  struct Scope {
+    ~Scope() {}  // so that it counts as used
+  };
+  Scope use() const { return {}; }
+};
 
 }  // namespace edmill

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <boost/math/tools/precision.hpp>
 #include <boost/multiprecision/eigen.hpp>
+#include <optional>
 
 #include "base/archive.hpp"
 #include "base/scalar.hpp"
@@ -35,16 +37,74 @@ inline void archive_value(Archive& a, float128& value) {
 void archive_value(Archive& a, float128& value);
 #endif
 #if !defined(EDMILL_WITHOUT_MPFR)
+namespace detail {
 /// All limbs, so that no bit depends on a conversion.
-template <unsigned digits>
-void archive_value(Archive& a, mpfr_of<digits>& value) {
-  const auto number = value.backend().data();
+inline void archive_limbs(Archive& a, mpfr_ptr number) {
   std::int64_t exponent = number->_mpfr_exp;
   a(number->_mpfr_sign, exponent);
   number->_mpfr_exp = static_cast<mpfr_exp_t>(exponent);
   const auto bits = static_cast<std::size_t>(mpfr_get_prec(number));
   for (std::size_t limb = 0; limb * mp_bits_per_limb < bits; ++limb) a(number->_mpfr_d[limb]);
 }
+}  // namespace detail
+template <unsigned digits>
+void archive_value(Archive& a, mpfr_of<digits>& value) {
+  detail::archive_limbs(a, value.backend().data());
+}
+inline void archive_value(Archive& a, mpfr& value) {
+  std::int64_t bits = mpfr_get_prec(value.data());
+  a(bits);
+  if (a.loading()) {
+    if (bits < 1 || bits > 10'000'000) throw InputError("found no such number in a saved state");
+    mpfr_set_prec(value.data(), static_cast<mpfr_prec_t>(bits));
+  }
+  detail::archive_limbs(a, value.data());
+}
+
+/// A number of any scalar, exactly.
+inline mpfr to_mpfr(double value) { return mpfr(value); }
+inline mpfr to_mpfr(const mpfr& value) { return value; }
+template <unsigned digits>
+mpfr to_mpfr(const mpfr_of<digits>& value) {
+  return mpfr(value.backend().data());
+}
+inline mpfr to_mpfr(float128 value) {
+  mpfr sum(0);
+  mpfr_set_prec(sum.data(), 113);
+  mpfr_set_zero(sum.data(), 1);
+  for (int part = 0; part < 3; ++part) {  // doubles of 53 bits
+    const auto leading = static_cast<double>(value);
+    mpfr_add_d(sum.data(), sum.data(), leading, MPFR_RNDN);
+    value -= leading;
+  }
+  return sum;
+}
+
+template <>
+struct ScalarName<mpfr> {
+  static constexpr std::string_view value = "mpfr";
+};
+template <>
+inline std::string scalar_name<mpfr>() {
+  return "mpfr:" + std::to_string(mpfr::digits());
+}
+template <>
+inline mpfr epsilon<mpfr>() {
+  return ldexp(mpfr(1), static_cast<int>(1 - mpfr::bits()));
+}
+template <>
+inline int binary_digits<mpfr>() {
+  return static_cast<int>(mpfr::bits());
+}
+template <>
+struct HintOf<mpfr> {
+  using type = mpfr;
+};
+template <>
+struct ChosenDigits<mpfr> {
+  unsigned digits = mpfr::digits(), shown = mpfr::shown();
+  mpfr::Digits use() const { return mpfr::Digits(digits, shown); }
+};
 #endif
 
 template <>
@@ -58,6 +118,41 @@ struct WiderScalar<float128> {
 
 }  // namespace edmill
 
+#if !defined(EDMILL_WITHOUT_MPFR)
+template <>
+struct Eigen::NumTraits<edmill::mpfr> : Eigen::GenericNumTraits<edmill::mpfr> {
+  using Real = edmill::mpfr;
+  using NonInteger = edmill::mpfr;
+  using Nested = edmill::mpfr;
+  using Literal = edmill::mpfr;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 20,
+    AddCost = 40,
+    MulCost = 80
+  };
+  static Real epsilon() { return edmill::epsilon<edmill::mpfr>(); }
+  static Real dummy_precision() { return 1000 * epsilon(); }
+};
+namespace boost::math::tools {
+template <>
+inline edmill::mpfr epsilon<edmill::mpfr>() {
+  return edmill::epsilon<edmill::mpfr>();
+}
+template <>
+inline edmill::mpfr min_value<edmill::mpfr>() {
+  return std::numeric_limits<double>::min();
+}
+template <>
+inline edmill::mpfr max_value<edmill::mpfr>() {
+  return std::numeric_limits<double>::max();
+}
+}  // namespace boost::math::tools
+#endif
+
 /// Applies `MACRO(Real)` to every scalar. Another number of MPFR's digits takes a line here, one in
 /// edmill/scalars.hpp, and a file each in src/instances and src/instances/tools.
 #if defined(EDMILL_WITHOUT_MPFR)
@@ -70,5 +165,6 @@ struct WiderScalar<float128> {
   MACRO(::edmill::float128)           \
   MACRO(::edmill::mpfr50)             \
   MACRO(::edmill::mpfr100)            \
-  MACRO(::edmill::mpfr200)
+  MACRO(::edmill::mpfr200)            \
+  MACRO(::edmill::mpfr)
 #endif

@@ -14,8 +14,10 @@ template <class Real>
 std::string to_text(const Real& value) {
   if constexpr (std::is_same_v<Real, double>)
     return fmt::format("{}", value);  // the shortest text that round-trips
-  else
+  else if constexpr (std::numeric_limits<Real>::digits > 0)
     return value.str(std::numeric_limits<Real>::max_digits10);
+  else
+    return value.str(static_cast<int>(Real::shown()));
 }
 
 template <class Real>

@@ -1,7 +1,7 @@
 // Sine and cosine of an angle that has grown a little, without sines, which are expensive in wide scalars.
 #pragma once
 
-#include <limits>
+#include "base/scalar.hpp"
 
 namespace edmill::numerics {
 
@@ -9,14 +9,23 @@ namespace edmill::numerics {
 /// d^5 / 120, are below the scalar's rounding of 1.
 template <class Real>
 constexpr double longest_turn_of() {
-  constexpr int digits = std::numeric_limits<Real>::digits;
+  constexpr int digits = binary_digits<Real>();
   if (digits <= 113) return 0x1p-24;
   double turn = 1;
   for (int k = 0; k < (digits - 53) / 3; ++k) turn /= 2;
   return turn;
 }
+/// Whether speed times dt, which is x in double, is such a turn.
 template <class Real>
-inline constexpr double longest_turn = longest_turn_of<Real>();
+bool is_short_turn(const Real& speed, const Real& dt, double x) {
+  if constexpr (std::is_same_v<Hint<Real>, double>) {
+    constexpr double longest = longest_turn_of<Real>();
+    return x <= longest && x >= -longest;
+  } else {  // double may have no number so small: the cubic term itself is below the rounding
+    const Real turn = speed * dt;
+    return dt == 0 || exponent_of(turn) < -binary_digits<Real>() / 3 - 1;
+  }
+}
 
 /// sin and cos of an angle that has grown by `more`. In the Taylor polynomials the last terms are far below
 /// the first ones and so left to double.

@@ -23,7 +23,7 @@ struct CubicLowerBound {
     b3 = start.value + rise + bend - bounds.third * (length * length * length) / 6;
     slack = bounds.value_error + length * bounds.slope_error +
             (length * length) / 2 * bounds.curvature_error +
-            8 * std::numeric_limits<Real>::epsilon() *
+            8 * epsilon<Real>() *
                 ((start.value < 0 ? Real(-start.value) : start.value) + (rise < 0 ? Real(-rise) : rise) +
                  bounds.second * (length * length));
   }

@@ -88,4 +88,25 @@ struct Trigonometry<mpfr_of<digits>> {
 #endif
 };
 
+#if !defined(EDMILL_WITHOUT_MPFR)
+template <>
+struct Trigonometry<mpfr> {
+  static const mpfr& pi() {
+    static thread_local mpfr value;
+    if (mpfr_get_prec(value.data()) != mpfr::bits()) {
+      mpfr_set_prec(value.data(), mpfr::bits());
+      mpfr_const_pi(value.data(), MPFR_RNDN);
+    }
+    return value;
+  }
+  static SinCos<mpfr> sin_cos(const mpfr& angle) {
+    SinCos<mpfr> result;
+    mpfr_set_prec(result.sin.data(), mpfr::bits());
+    mpfr_set_prec(result.cos.data(), mpfr::bits());
+    mpfr_sin_cos(result.sin.data(), result.cos.data(), angle.data(), MPFR_RNDN);
+    return result;
+  }
+};
+#endif
+
 }  // namespace edmill::numerics

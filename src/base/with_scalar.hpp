@@ -16,7 +16,16 @@ namespace detail {
 
 template <class First, class... Others, class Function>
 auto with_one_of(Scalars<First, Others...>, std::string_view name, const Function& function) {
-  if (name == ScalarName<First>::value) return function.template operator()<First>();
+#if !defined(EDMILL_WITHOUT_MPFR)
+  if constexpr (std::is_same_v<First, mpfr>) {
+    if (const unsigned chosen = chosen_digits_of(name)) {
+      const mpfr::Digits digits(chosen);
+      return function.template operator()<mpfr>();
+    }
+  } else
+#endif
+      if (name == ScalarName<First>::value)
+    return function.template operator()<First>();
   if constexpr (sizeof...(Others) > 0)
     return with_one_of(Scalars<Others...>{}, name, function);
   else

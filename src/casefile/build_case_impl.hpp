@@ -126,7 +126,7 @@ void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>&
     if (diameter / 2 < least_radius)
       problems.push_back(ball.where + ": found a ball of radius " + number(diameter / 2) +
                          " m, expected at least " + number(least_radius) + " m: in this mill " +
-                         std::string(ScalarName<Real>::value) + " knows a position to " + number(rounding) +
+                         scalar_name<Real>() + " knows a position to " + number(rounding) +
                          " m; a wider precision knows it better");
   };
   for (const auto& ball : spec.balls) check(ball, ball.diameter.template to<Real>());
@@ -137,8 +137,7 @@ void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>&
     if (speed > 0 && speed < least_hop)
       problems.push_back(spec.file + ": key '" + section + ".least_separation': found " + number(speed) +
                          " m/s, expected 0 or at least " + number(least_hop) +
-                         " m/s: hops of a slower ball are lost in the rounding of " +
-                         std::string(ScalarName<Real>::value));
+                         " m/s: hops of a slower ball are lost in the rounding of " + scalar_name<Real>());
   };
   check_least(mill.ball_ball.least_separation, "contact.ball_ball");
   check_least(mill.ball_wall.least_separation, "contact.ball_wall");

@@ -15,6 +15,7 @@
 #include "casefile/joints.hpp"
 #include "casefile/key_reader.hpp"
 #include "casefile/output_entry.hpp"
+#include "casefile/precisions.hpp"
 #include "casefile/section.hpp"
 #include "io/input_file.hpp"
 
@@ -26,8 +27,10 @@ namespace {
 
 void read_run(Section run, CaseSpec& spec) {
   run.require(run.present(), "end_time", "a section [run] with at least one stop rule");
-  spec.precision = run.choice("precision", precisions());
+  spec.precision = read_precision(run);
   read_keys(run, spec);
+  run.require(!spec.digits || !run.has("precision"), "digits", "digits or a precision, not both");
+  run.require(!spec.digits || run.has("end_time"), "digits", "a run.end_time beside it");
   if (!run.has("start_time")) spec.statistics_start = spec.initial_time;
   run.require(spec.statistics_start.value >= spec.initial_time.value, "start_time",
               "a time not before the initial time");

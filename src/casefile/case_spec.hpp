@@ -185,6 +185,7 @@ struct CaseSpec {
   bool reported = false;              ///< the outputs of the report were added to those of the file
   std::string digest;                 ///< SHA-256 of the case's canonical text
   std::string precision = "double";
+  std::optional<std::uint64_t> digits;  ///< that are to be right to the end; the precision is chosen for them
   std::uint64_t seed = 1;
   Quantity initial_time, statistics_start;
   std::optional<Quantity> end_time;
@@ -210,6 +211,16 @@ struct CaseSpec {
   /// Of [run], but for precision, gravity and the stop rules.
   static void keys(auto& c, auto&& row) {
     row(Parameter{"seed", Dimension::none, "of the random placement", Range::any, "1"}, c.seed);
+    row(Parameter{"digits",
+                  Dimension::none,
+                  "every event in its true order and every number of the logs right to so many digits: the "
+                  "precision is "
+                  "chosen for it",
+                  {1, 100000},
+                  nullptr,
+                  nullptr,
+                  Parameter::Digest::none},
+        c.digits);
     row(Parameter{"initial_time", Dimension::time, "instant of the initial state", Range::not_negative,
                   "0 s"},
         c.initial_time);
@@ -250,9 +261,6 @@ std::string describe_gravity(const CaseSpec& spec);
 
 /// What the balls of a case can collide with.
 model::Partners partners_of(const CaseSpec& spec);
-
-/// Precisions that a case can name.
-const std::vector<std::string>& precisions();
 
 /// Reads and checks a case file.
 /// @param overrides  "section.key=value", applied over the file; a value that is not TOML is taken as text

@@ -19,25 +19,51 @@ using model::Joint;
 using model::Joints;
 using model::Swing;
 
-constexpr int fraction_bits = 64 * static_cast<int>(TurnFraction::words);
+/// The whole part of the turns times 2^bits.
+cpp_int in_units_of(const Quantity& turns, int bits) {
+#if defined(EDMILL_WITHOUT_MPFR)
+  using Wide = mpfr_of<2 * 64 * TurnFraction::words * 3 / 10>;
+  return static_cast<cpp_int>(Wide(ldexp(turns.to<Wide>(), bits)));
+#else
+  const mpfr::Digits wide(static_cast<unsigned>(2 * bits * 3 / 10));
+  cpp_int whole;
+  mpz_t z;
+  mpz_init(z);
+  mpfr_get_z(z, ldexp(turns.to<mpfr>(), bits).data(), MPFR_RNDZ);
+  std::vector<std::uint64_t> words(mpz_sizeinbase(z, 2) / 64 + 1);
+  std::size_t count = 0;
+  mpz_export(words.data(), &count, -1, sizeof words[0], 0, 0, z);
+  boost::multiprecision::import_bits(whole, words.begin(), words.begin() + static_cast<std::ptrdiff_t>(count),
+                                     64, false);
+  if (mpz_sgn(z) < 0) whole = -whole;
+  mpz_clear(z);
+  return whole;
+#endif
+}
 
-/// The share of a turn by which `turns` exceeds whole turns, cut to the bits of a TurnFraction.
+/// The share of a turn by which `turns` exceeds whole turns, cut to the bits of a TurnFraction: to those that
+/// the thread's `mpfr` needs, too.
 TurnFraction fraction_of(const Quantity& turns) {
+  TurnFraction fraction;
+#if !defined(EDMILL_WITHOUT_MPFR)
+  const std::size_t needed = TurnFraction::words_for(binary_digits<mpfr>());
+  if (needed > TurnFraction::words) fraction.further.resize(needed - TurnFraction::words);
+#endif
+  const int fraction_bits = 64 * static_cast<int>(TurnFraction::words + fraction.further.size());
   cpp_int scaled;
   if (turns.pi_power == 0) {
     const cpp_int shifted = numerator(turns.value) << fraction_bits;
     scaled = shifted / denominator(turns.value);
   } else {
-    using Wide = mpfr_of<2 * fraction_bits * 3 / 10>;
-    scaled = static_cast<cpp_int>(Wide(ldexp(turns.to<Wide>(), fraction_bits)));
+    scaled = in_units_of(turns, fraction_bits);
   }
   const cpp_int one = cpp_int(1) << fraction_bits;
-  TurnFraction fraction;
   fraction.whole = static_cast<std::int64_t>(cpp_int(scaled / one));
   scaled %= one;
   if (scaled < 0) scaled += one, --fraction.whole;
-  for (std::size_t k = TurnFraction::words; k-- > 0; scaled >>= 64)
-    fraction.bits[k] = static_cast<std::uint64_t>(scaled & 0xffffffffffffffffu);
+  for (std::size_t k = TurnFraction::words + fraction.further.size(); k-- > 0; scaled >>= 64)
+    (k < TurnFraction::words ? fraction.bits[k] : fraction.further[k - TurnFraction::words]) =
+        static_cast<std::uint64_t>(scaled & 0xffffffffffffffffu);
   return fraction;
 }
 

@@ -23,7 +23,7 @@ struct FixedKey {
 
 // clang-format off
 constexpr FixedKey fixed_keys[] = {
-    {"run", "precision", "name of a scalar", "`\"double\"`", "scalar of the run; `edmill --version` lists all"},
+    {"run", "precision", "name of a scalar", "`\"double\"`", "scalar of the run; `edmill --version` lists all, and `\"mpfr:3000\"` has 3000 digits"},
     {"run", "gravity", "acceleration, or a vector", "none", "along -Y when it is one number"},
 
     {"mill", "type", "name", "`\"spex8000\"`", "how the vessel moves"},

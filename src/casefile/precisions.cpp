@@ -1,14 +1,48 @@
+#include "casefile/precisions.hpp"
+
+#include <algorithm>
+
 #include "base/scalar_list.hpp"
 //
-#include "casefile/case_spec.hpp"
+#include "casefile/section.hpp"
 
 namespace edmill::casefile {
 
 const std::vector<std::string>& precisions() {
 #define EDMILL_NAME_OF(Real) std::string(ScalarName<Real>::value),
-  static const std::vector<std::string> names{EDMILL_FOR_EACH_SCALAR(EDMILL_NAME_OF)};
+  static const auto names = [] {
+    std::vector<std::string> all{EDMILL_FOR_EACH_SCALAR(EDMILL_NAME_OF)};
+    std::erase(all, "mpfr");  // its digits are chosen
+    return all;
+  }();
 #undef EDMILL_NAME_OF
   return names;
+}
+
+std::string choices_of_precision() {
+  std::string list = "one of ";
+  for (const auto& name : precisions()) list += "\"" + name + "\", ";
+  return list + "\"mpfr:DIGITS\" with " + std::to_string(fewest_digits) + " to " +
+         std::to_string(most_digits) + " digits";
+}
+
+bool is_precision(const std::string& name) {
+  return chosen_digits_of(name) > 0 || std::ranges::find(precisions(), name) != precisions().end();
+}
+
+double digits_of(const std::string& precision) {
+  if (precision == "double") return 15.95;
+  if (precision == "float128") return 34.02;
+  if (const unsigned chosen = chosen_digits_of(precision)) return chosen;
+  return std::stod(precision.substr(4));  // of mpfr50
+}
+
+std::string read_precision(Section& section) {
+  const auto name = section.text("precision");
+  if (!name) return precisions().front();
+  const bool known = is_precision(*name);
+  section.require(known, "precision", choices_of_precision());
+  return known ? *name : precisions().front();
 }
 
 }  // namespace edmill::casefile

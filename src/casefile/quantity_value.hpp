@@ -8,15 +8,52 @@
 
 namespace edmill::casefile {
 
+namespace detail {
+
+/// A type with twice the digits of a scalar and `more`.
+template <class Real, unsigned more>
+struct WideOf {
+  using type = mpfr_of<2 * std::numeric_limits<Real>::digits10 + more>;
+};
+template <class Real, unsigned more>
+using Wide = typename WideOf<Real, more>::type;
+
+/// Chooses these digits for a scope, where they can be chosen.
+template <class Real>
+struct WideDigits {
+  explicit WideDigits(unsigned) {}
+  Real rounded(const auto& value) const { return static_cast<Real>(value); }
+};
+
+#if !defined(EDMILL_WITHOUT_MPFR)
+template <unsigned more>
+struct WideOf<mpfr, more> {
+  using type = mpfr;
+};
+template <>
+struct WideDigits<mpfr> {
+  explicit WideDigits(unsigned more) : wide(2 * narrow.digits + more) {}
+  mpfr rounded(const mpfr& value) const {
+    const auto scope = narrow.use();
+    return value.rounded();
+  }
+  ChosenDigits<mpfr> narrow;
+  mpfr::Digits wide;
+};
+#endif
+
+}  // namespace detail
+
 template <class Real>
 Real Quantity::to() const {
   // Twice the digits and more, so that the last rounding is the only one that counts.
-  using Wide = mpfr_of<2 * std::numeric_limits<Real>::digits10 + 20>;
+  using Wide = detail::Wide<Real, 20>;
+  [[maybe_unused]] const detail::WideDigits<Real> digits(20);
   Wide result = Wide(numerator(value).str()) / Wide(denominator(value).str());
   const Wide pi = numerics::pi<Wide>();
   for (int k = 0; k < pi_power; ++k) result *= pi;
   for (int k = 0; k > pi_power; --k) result /= pi;
-  return static_cast<Real>(result);
+  return digits.rounded(result);
 }
 
 /// The instant at `time` on a clock of whole drive periods, reduced exactly: the offset is as sharp at 1e6 s
@@ -35,11 +72,12 @@ Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
     offset = Quantity{time.value - periods * period.value, time.pi_power}.to<Real>();
   } else {
     // Up to 1e15 periods lead away that many digits more.
-    using Wide = mpfr_of<2 * std::numeric_limits<Real>::digits10 + 40>;
+    using Wide = detail::Wide<Real, 40>;
+    [[maybe_unused]] const detail::WideDigits<Real> digits(40);
     const Wide length = period.to<Wide>(), seconds = time.to<Wide>();
     const Wide whole = floor(Wide(seconds / length));
     periods = static_cast<std::int64_t>(whole);
-    offset = static_cast<Real>(Wide(seconds - whole * length));
+    offset = digits.rounded(Wide(seconds - whole * length));
   }
   if (offset < period.to<Real>()) return {periods, offset};
   return {periods + 1, Real(0)};  // it is rounded to a whole period

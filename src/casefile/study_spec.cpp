@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/key_reader.hpp"
+#include "casefile/precisions.hpp"
 #include "casefile/section.hpp"
 #include "io/input_file.hpp"
 
@@ -23,10 +24,8 @@ void read_study(Section& s, StudySpec& spec) {
   } else if (!s.has("case")) {
     s.problem("case", "nothing", "a case file");
   }
-  if (s.has("precision"))
-    spec.precision = s.choice("precision", precisions());
-  else
-    s.choice("precision", precisions());
+  const auto precision = read_precision(s);
+  if (s.has("precision")) spec.precision = precision;
   if (const auto limit = s.quantity("max_cpu_time", Dimension::time)) {
     s.require(limit->positive(), "max_cpu_time", "a time above 0");
     spec.max_cpu_time = limit->to<double>();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/version.hpp"
+#include "casefile/precisions.hpp"
 #include "cli/commands/certainty.hpp"
 #include "cli/commands/check.hpp"
 #include "cli/commands/dem.hpp"
@@ -16,6 +17,7 @@
 #include "cli/commands/machines.hpp"
 #include "cli/commands/report.hpp"
 #include "cli/commands/run.hpp"
+#include "cli/commands/sensitivity.hpp"
 #include "cli/commands/studies.hpp"
 #include "cli/commands/texts.hpp"
 #include "cli/failures.hpp"
@@ -29,25 +31,26 @@ using namespace edmill;
 
 /// In the order of the help. A command has a name, what it does in a line, `add_options`, and `run`, which
 /// gives the exit code. A new one is a file in cli/commands/ and a line here.
-using Commands = std::tuple<cli::New,        //
-                            cli::Machines,   //
-                            cli::Run,        //
-                            cli::Demo,       //
-                            cli::Resume,     //
-                            cli::Report,     //
-                            cli::Certify,    //
-                            cli::Prove,      //
-                            cli::Check,      //
-                            cli::Variables,  //
-                            cli::Sweep,      //
-                            cli::Optimize,   //
-                            cli::Compare,    //
-                            cli::Audit,      //
-                            cli::Export,     //
-                            cli::Import,     //
-                            cli::Limit,      //
-                            cli::Manual,     //
-                            cli::Reference,  //
+using Commands = std::tuple<cli::New,          //
+                            cli::Machines,     //
+                            cli::Run,          //
+                            cli::Demo,         //
+                            cli::Resume,       //
+                            cli::Report,       //
+                            cli::Certify,      //
+                            cli::Prove,        //
+                            cli::Sensitivity,  //
+                            cli::Check,        //
+                            cli::Variables,    //
+                            cli::Sweep,        //
+                            cli::Optimize,     //
+                            cli::Compare,      //
+                            cli::Audit,        //
+                            cli::Export,       //
+                            cli::Import,       //
+                            cli::Limit,        //
+                            cli::Manual,       //
+                            cli::Reference,    //
                             cli::Completion>;
 
 std::string version_text() {

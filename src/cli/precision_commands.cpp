@@ -1,8 +1,12 @@
 #include "cli/precision_commands.hpp"
 
+#include "app/digits.hpp"
 #include "base/errors.hpp"
+#include "casefile/memory_for.hpp"
+#include "casefile/precisions.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/signals.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {
@@ -15,6 +19,18 @@ void print_attempts(const prove::Proof& proof) {
   for (const auto& attempt : proof.attempts)
     io::print("{} bits: {} events{}\n", attempt.bits, attempt.events,
               attempt.undecided.empty() ? "" : "; undecided: " + attempt.undecided);
+}
+
+/// For runs that write nothing.
+app::DigitsOptions options_of_trials(bool quiet) {
+  app::DigitsOptions options;
+  options.interrupt = &interrupt_flag();
+  listen_for_signals();
+  if (shows_progress(quiet))
+    options.progress = [](const std::string& precision, std::size_t events, double expected) {
+      io::tell("{}{}: {} of about {:.0f} events ", no_line, precision, events, expected);
+    };
+  return options;
 }
 
 /// Whether the certificate is one of this case.
@@ -35,7 +51,8 @@ int run_certify(const casefile::CaseSpec& spec, CertifyOptions options) {
   const bool show = shows_progress(options.quiet);
   if (show)
     options.progress = [&](const std::string& precision, std::size_t events) {
-      io::tell("{}{}: {} of {} events ", no_line, precision, events, options.collisions);
+      const auto all = options.collisions == 0 ? "" : fmt::format(" of {}", options.collisions);
+      io::tell("{}{}: {}{} events ", no_line, precision, events, all);
     };
   const auto result = app::certify(spec, options, [&](const app::Evidence& evidence) {
     if (show) io::tell("{}", no_line);
@@ -56,6 +73,28 @@ int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, con
   const auto result = app::shadow(spec, precision, shadow, interrupt);
   io::print("{}", result.text());
   return result.interrupted ? interrupted : ok;
+}
+
+int run_estimate(const casefile::CaseSpec& spec, const std::string& precision, bool quiet) {
+  const auto estimate = casefile::with_memory_for(
+      spec, [&] { return app::estimate_run(spec, precision, options_of_trials(quiet)); });
+  if (shows_progress(quiet)) io::tell("{}", no_line);
+  if (!estimate.interrupted) io::print("{}", estimate.text());
+  return after_signals(ok);
+}
+
+int choose_digits(const casefile::CaseSpec& spec, bool quiet, std::string& precision) {
+  const auto found =
+      casefile::with_memory_for(spec, [&] { return app::find_digits(spec, options_of_trials(quiet)); });
+  if (shows_progress(quiet)) io::tell("{}", no_line);
+  if (found.interrupted) return after_signals(interrupted);
+  if (!found.undecided.empty()) {
+    io::tell("edmill: {}; nothing is written\n", found.undecided);
+    return undecided;
+  }
+  if (!quiet) io::print("{}", found.text());
+  precision = found.precision;
+  return ok;
 }
 
 int run_prove(const casefile::CaseSpec& spec, ProveOptions options) {

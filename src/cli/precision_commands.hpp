@@ -19,6 +19,14 @@ int run_certify(const casefile::CaseSpec& spec, CertifyOptions options);
 int run_shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& shadow,
                const std::atomic<bool>* interrupt);
 
+/// Prints what the run will take. @param precision  empty where the case asks for digits
+/// @return an exit code
+int run_estimate(const casefile::CaseSpec& spec, const std::string& precision, bool quiet);
+
+/// Finds the precision of a case that asks for digits, and prints the evidence.
+/// @return an exit code; `undecided` when no number of digits suffices
+int choose_digits(const casefile::CaseSpec& spec, bool quiet, std::string& precision);
+
 struct ProveOptions : app::ProveOptions {
   bool compare = false;  ///< also print how many events each scalar gets right
   std::string checked;   ///< a certificate whose header is to be that of the case; else one is proven

@@ -104,11 +104,15 @@ void until_precision(const std::string& precision, const casefile::CaseSpec& spe
 int run_case(const casefile::CaseSpec& spec, const RunCommand& given) {
   auto command = given;
   if (command.folder.empty()) command.folder = "out/" + name_of(spec.file);
-  const auto& scalar = command.precision.empty() ? spec.precision : command.precision;
+  const bool by_digits = spec.digits && command.precision.empty();
+  auto scalar = command.precision.empty() ? spec.precision : command.precision;
+  if (command.estimate) return run_estimate(spec, by_digits ? "" : scalar, command.quiet);
   if (!command.shadow.empty()) app::require_wider(scalar, command.shadow, "option '--shadow'");
   auto options = options_of(command);
+  if (!command.checkpoint.empty()) run::parse_checkpoint_interval(command.checkpoint);
+  if (by_digits)
+    if (const int code = choose_digits(spec, command.quiet, scalar); code != ok) return code;
   if (!command.checkpoint.empty()) {
-    run::parse_checkpoint_interval(command.checkpoint);
     options.checkpoint =
         app::first_checkpoint(spec, command.overrides, scalar, command.report, command.checkpoint);
   }

@@ -38,7 +38,7 @@ DecisionLadder<Real>::DecisionLadder(const model::Mill<Real>& mill, const Real& 
       smallest_sum_(smallest_sum),
       walls_(mill),
       pairs_(mill, smallest_sum, walls_.reach(), top_speed) {
-  if constexpr (!std::is_void_v<Wider<Real>>) passed_up_.scalar = ScalarName<Wider<Real>>::value;
+  if constexpr (!std::is_void_v<Wider<Real>>) passed_up_.scalar = scalar_name<Wider<Real>>();
 }
 
 template <class Real>
@@ -171,8 +171,7 @@ std::vector<Escalations> DecisionLadder<Real>::escalations() const {
     } else {
       // Rungs that were never needed still stand in the report.
       using Wide = Wider<Real>;
-      if constexpr (!std::is_void_v<Wider<Wide>>)
-        rows.push_back({std::string(ScalarName<Wider<Wide>>::value)});
+      if constexpr (!std::is_void_v<Wider<Wide>>) rows.push_back({scalar_name<Wider<Wide>>()});
     }
     return rows;
   }

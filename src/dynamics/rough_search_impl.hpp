@@ -60,7 +60,7 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
 
     const Functions functions(mill_, query.flight, query.radius, query.begin.period);
     const Real left(rough.left);
-    const double unit = static_cast<double>(epsilon<Real>()) / epsilon<double>();
+    const auto unit = static_cast<Hint<Real>>(epsilon<Real>()) / epsilon<double>();
     const auto root = close_in(functions, rough.wall, left > begin ? left : begin, Real(rough.right),
                                {Real(rough.root), rough.curvature, rough.curvature_error, rough.third},
                                Real(rough.error * unit));  // bounds are proportional to epsilon

@@ -43,6 +43,17 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
   return Root{root.first, time_error_at(end.slope)};
 }
 
+/// The digits of Newton's iteration from a root of double on, where digits can be chosen.
+template <class Real>
+auto digits_of_step(int step) {
+  ChosenDigits<Real> digits;
+  if constexpr (requires { digits.digits; }) {
+    constexpr unsigned first = 64;  // of the step from 16 to 45 right digits
+    if (step < 15) digits.digits = std::min(digits.digits, first << step);
+  }
+  return digits.use();
+}
+
 /// The root of a gap that is proven to fall through zero in (from, to): Newton's iteration, which knows the
 /// curvature, up to where one step more would change nothing; then toms748 on the gap itself, in a bracket of
 /// a few units of the clock. Nothing when rounding does not let the signs at such a bracket be seen.
@@ -51,22 +62,30 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
                                 const Approach& approach, const Real& value_error) const
     -> std::optional<Root> {
   const Real unit = epsilon<Real>() * mill_.clock.period();
-  const double clock_unit = static_cast<double>(unit);
+  const auto clock_unit = static_cast<Hint<Real>>(unit);
   Real t = approach.guess;
-  auto pose = functions.pose(t);
+  const int all_digits = binary_digits<Real>();
+  auto pose = [&] {
+    [[maybe_unused]] const auto few = digits_of_step<Real>(0);
+    return functions.pose(t);
+  }();
   const auto pose_at = [&](const Real& time) { return functions.pose_nearby(time, pose, t); };
-  for (int step = 0; step < 8; ++step) {
+  constexpr int steps = std::is_same_v<Hint<Real>, double> ? 8 : 40;  // each doubles the digits
+  for (int step = 0; step < steps; ++step) {
     if (!(t > from && t < to)) return std::nullopt;
+    // A step that finds twice the digits that the last one left needs no more of them.
+    [[maybe_unused]] const auto few = digits_of_step<Real>(step);
+    if constexpr (!std::is_same_v<Hint<Real>, double>) pose = functions.pose(t);
     const auto sample = functions(t, pose);
     const Real& slope = sample.rate[wall];
     const double flatness = static_cast<double>(slope);
     if (!(flatness < 0)) return std::nullopt;
     const Real newton = -sample.gap[wall] / slope;
-    const double size = static_cast<double>(newton), square = size * size;
+    const auto size = static_cast<Hint<Real>>(newton), square = size * size;
     const Real centre = t + (newton - Real(approach.curvature * square / (2 * flatness)));
-    const double off = (approach.curvature_error + approach.third * (size < 0 ? -size : size)) * square;
-    if (off > -flatness * clock_unit) {
-      pose = pose_at(centre);
+    const auto off = (approach.curvature_error + approach.third * (size < 0 ? -size : size)) * square;
+    if (off > -flatness * clock_unit || binary_digits<Real>() < all_digits) {
+      if constexpr (std::is_same_v<Hint<Real>, double>) pose = pose_at(centre);
       t = centre;
       continue;
     }

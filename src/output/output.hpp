@@ -58,6 +58,7 @@ class Output {
 
   void on_impact(const Seen<Real>& seen) {
     const auto& f = seen.facts;
+    every(seen);
     const bool recorded = timer_.admits(f.time, f.index);
     if (timer_.is_open()) before(seen);
     if (!recorded) return;
@@ -89,6 +90,8 @@ class Output {
   virtual void archive_record(Archive& a) = 0;
   /// An impact of the record.
   virtual void record(const Seen<Real>& seen) = 0;
+  /// Any impact of the run, in the record or not.
+  virtual void every(const Seen<Real>&) {}
   /// Any impact, before it is recorded: for rows that are due since the one before.
   virtual void before(const Seen<Real>&) {}
   virtual void end_of_record(const engine::Simulation<Real>&, const Real& /*until*/) {}

@@ -17,7 +17,7 @@ std::vector<io::FileNote> notes_of(const casefile::CaseSpec& spec) {
   std::vector<io::FileNote> notes{
       {"program", "edmill " + std::string(version()) + " (" + std::string(commit()) + ")"},
       {"compiler", std::string(compiler())},
-      {"precision", std::string(ScalarName<Real>::value)},
+      {"precision", scalar_name<Real>()},
       {"seed", std::to_string(spec.seed)},
       {"case_file", spec.file},
       {"case_digest", spec.digest},

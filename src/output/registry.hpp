@@ -12,6 +12,7 @@
 #include "output/events_output.hpp"
 #include "output/frequency_output.hpp"
 #include "output/iterations_output.hpp"
+#include "output/lyapunov_output.hpp"
 #include "output/milling_dose_output.hpp"
 #include "output/paraview_output.hpp"
 #include "output/rates_above_output.hpp"
@@ -92,6 +93,12 @@ inline constexpr std::tuple output_registry{
                                 casefile::read_own<TreatmentKeys>,
                                 {},
                                 casefile::see_keys<TreatmentKeys>}},
+    OutputRow<LyapunovOutput>{{"lyapunov",
+                               ".csv",
+                               "Lyapunov exponents: how fast motions nearby part from that of the run",
+                               casefile::read_own<LyapunovKeys>,
+                               {},
+                               casefile::see_keys<LyapunovKeys>}},
     OutputRow<CoverageOutput>{{"coverage",
                                ".csv",
                                "dose and impacts by position on the vessel's walls",

@@ -69,7 +69,7 @@ std::vector<Candidate> candidates(const casefile::CaseSpec& spec, const ProofOpt
       return {};
     }
     Enclosure time;
-    arf_set_mpfr(arb_midref(time.arb()), event.values[run::time].backend().data());
+    arf_set_mpfr(arb_midref(time.arb()), event.values[run::time].data());
     list.push_back({event.ball, event.with_wall, event.partner, Enclosure(time - start).middle()});
   }
   return list;

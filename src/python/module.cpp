@@ -27,6 +27,7 @@ PYBIND11_MODULE(_edmill, m) {
                   py::arg("settings") = std::vector<std::string>{})
       .def_property_readonly("digest", &Case::digest)
       .def_property_readonly("precision", &Case::precision)
+      .def_property_readonly("digits", [](const Case& c) { return CaseAccess::spec(c).digits; })
       .def_property_readonly("ball_count", &Case::ball_count)
       .def_property_readonly("end_time", [](const Case& c) {
         const auto& end = CaseAccess::spec(c).end_time;

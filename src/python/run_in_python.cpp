@@ -12,6 +12,8 @@
 #include "api/run_access.hpp"
 #include "base/with_scalar.hpp"
 #include "casefile/memory_for.hpp"
+#include "casefile/precisions.hpp"
+#include "casefile/right_digits.hpp"
 #include "edmill/run.hpp"
 #include "instances/instances.hpp"
 #include "python/binding.hpp"
@@ -309,8 +311,9 @@ py::dict run(const Case& the_case, const std::string& precision, const std::stri
              const py::object& ball_wall, const py::object& progress) {
   const Wishes wishes{folder, events, report, observers, ball_ball, ball_wall, progress};
   return with_scalar(precision, [&]<class Real>() {
-    return casefile::with_memory_for(CaseAccess::spec(the_case),
-                                     [&] { return run_in<Real>(the_case, wishes); });
+    const auto& spec = CaseAccess::spec(the_case);
+    const auto shown = casefile::only_right_digits<Real>(spec);
+    return casefile::with_memory_for(spec, [&] { return run_in<Real>(the_case, wishes); });
   });
 }
 
@@ -325,6 +328,7 @@ const Binding runs([](py::module_& m) {
   m.attr("event_dtype") = py::dtype::of<Impact<double>>();
   m.attr("state_dtype") = py::dtype::of<BallState<double>>();
   m.attr("precisions") = py::tuple(py::cast(casefile::precisions()));
+  m.def("is_precision", &casefile::is_precision);
   m.def("run", &run);
 });
 

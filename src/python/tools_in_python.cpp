@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include <array>
 #include <atomic>
 #include <limits>
 #include <sstream>
@@ -10,8 +11,10 @@
 #include "app/audit.hpp"
 #include "app/certify.hpp"
 #include "app/check_case.hpp"
+#include "app/digits.hpp"
 #include "app/prove.hpp"
 #include "app/run.hpp"
+#include "app/sensitivity.hpp"
 #include "app/study.hpp"
 #include "base/errors.hpp"
 #include "compare/comparison.hpp"
@@ -132,6 +135,66 @@ py::dict shadow(const Case& the_case, const std::string& precision, const std::s
   return result;
 }
 
+/// @return the precision, the units, the events, and the derivatives by number: of their quantities, and of
+/// both balls' states
+py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, std::size_t events,
+                      unsigned digits) {
+  std::atomic<bool> interrupt{false};
+  app::SensitivityOptions options;
+  options.by = by, options.events = events, options.digits = digits, options.interrupt = &interrupt;
+  const auto found =
+      interruptible(interrupt, [&] { return app::sensitivity(CaseAccess::spec(the_case), options); });
+  py::list of_numbers;
+  for (std::size_t k = 0; k < by.size(); ++k) {
+    std::vector<std::array<double, run::quantity_count>> quantities;
+    std::vector<std::array<std::array<double, 9>, 2>> states;
+    for (const auto& event : found.derivatives) {
+      const auto& d = event[k];
+      auto& row = quantities.emplace_back();
+      for (std::size_t q = 0; q < row.size(); ++q) row[q] = static_cast<double>(d.values[q]);
+      auto& both = states.emplace_back();
+      for (std::size_t body = 0; body < 2; ++body) {
+        const auto& t = d.states_after[body];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const auto i = static_cast<int>(axis);
+          both[body][axis] = static_cast<double>(t.position[i]);
+          both[body][axis + 3] = static_cast<double>(t.velocity[i]);
+          both[body][axis + 6] = static_cast<double>(t.spin[i]);
+        }
+      }
+    }
+    of_numbers.append(py::make_tuple(quantities, states));
+  }
+  return py::make_tuple(found.precision, found.units, bodies_of(found.events), of_numbers);
+}
+
+/// @return the precision in which the case has these right digits, and the digits at its end
+/// @throws UndecidedError when no number of digits suffices
+py::tuple find_digits(const Case& the_case) {
+  std::atomic<bool> interrupt{false};
+  app::DigitsOptions options;
+  options.interrupt = &interrupt;
+  const auto found =
+      interruptible(interrupt, [&] { return app::find_digits(CaseAccess::spec(the_case), options); });
+  if (!found.undecided.empty()) throw UndecidedError(found.undecided);
+  return py::make_tuple(found.precision, found.left());
+}
+
+py::dict estimate(const Case& the_case, const std::string& precision) {
+  std::atomic<bool> interrupt{false};
+  app::DigitsOptions options;
+  options.interrupt = &interrupt;
+  const auto found = interruptible(
+      interrupt, [&] { return app::estimate_run(CaseAccess::spec(the_case), precision, options); });
+  py::dict facts;
+  facts["precision"] = found.precision, facts["events"] = found.events;
+  facts["digits_lost_per_event"] = found.lost_per_event, facts["right_events"] = found.right_events;
+  facts["cpu_seconds"] = found.cpu_seconds(),
+  facts["verifying_cpu_seconds"] = found.verifying * found.cpu_seconds();
+  facts["bytes"] = found.bytes;
+  return facts;
+}
+
 py::list check(const Case& the_case) {
   const auto checked = [&] {
     const py::gil_scoped_release others;
@@ -223,6 +286,9 @@ const Binding tools([](py::module_& m) {
   m.def("certify", &certify);
   m.def("shadow", &shadow);
   m.def("check", &check);
+  m.def("sensitivity", &sensitivity);
+  m.def("find_digits", &find_digits);
+  m.def("estimate", &estimate);
   m.def("report", &report);
   m.def("report_of_runs", [](const std::vector<std::string>& folders, const std::string& file) {
     const py::gil_scoped_release others;

@@ -21,7 +21,7 @@ class Agreement {
   /// Digits to which all events taken agree; `most` when no difference was seen.
   double digits(Quantity quantity) const;
   double least_digits() const;
-  static constexpr double most = 1000;
+  static constexpr double most = 1e7;
 
   /// Digits lost per event, by least squares over the times of the events; none when there are fewer
   /// than ten with a difference.

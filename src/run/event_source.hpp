@@ -10,8 +10,12 @@
 
 namespace edmill::run {
 
-/// Wide enough to hold a number of any scalar exactly.
-using Number = mpfr200;
+/// Holds a number of any scalar exactly.
+#if defined(EDMILL_WITHOUT_MPFR)
+using Number = mpfr_of<200>;
+#else
+using Number = mpfr;
+#endif
 
 /// The quantities of an impact that are compared, in SI.
 enum Quantity : int { time, approach_speed, slip_speed, milling_dose, wall_work, quantity_count };
@@ -38,6 +42,8 @@ class EventSource {
   /// The next `count` events; fewer at the end of the run.
   /// @throws UndecidedError
   virtual std::vector<Event> next(std::size_t count) = 0;
+  /// Positions, velocities and spins of all balls, ball by ball, at the instant up to which it has come.
+  virtual std::vector<Number> states() const = 0;
 };
 
 /// @param spec     the balls are placed in this scalar, from the exact quantities of the case

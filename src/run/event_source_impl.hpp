@@ -21,6 +21,7 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
   }
 
   std::vector<Event> next(std::size_t count) override {
+    const auto scope = digits_.use();
     while (waiting_.size() < count && !over_) {
       // A window that is short compared with the duration of that many events, so that few are computed in
       // vain.
@@ -36,17 +37,35 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
     return events;
   }
 
+  std::vector<Number> states() const override {
+    std::vector<Number> numbers;
+    for (int k = 0; k < simulation_.ball_count(); ++k) {
+      const auto state = simulation_.state_at(k, simulation_.now());
+      for (const auto& vector : {state.position, state.velocity, state.spin})
+        for (int axis = 0; axis < 3; ++axis) numbers.push_back(number_of(vector[axis]));
+    }
+    return numbers;
+  }
+
  private:
+  static Number number_of(const Real& value) {
+#if defined(EDMILL_WITHOUT_MPFR)
+    return Number(value);
+#else
+    return to_mpfr(value);
+#endif
+  }
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
     const auto& o = impact.outcome;
     Event event{impact.ball, impact.with_wall, impact.partner, {}, false};
     if (!event.with_wall && event.partner < event.ball) std::swap(event.ball, event.partner);
-    event.values = {Number(simulation.clock().seconds(impact.time)), Number(o.approach_speed),
-                    Number(o.slip_speed), Number(o.milling_dose), Number(o.wall_work)};
+    event.values = {number_of(simulation.clock().seconds(impact.time)), number_of(o.approach_speed),
+                    number_of(o.slip_speed), number_of(o.milling_dose), number_of(o.wall_work)};
     event.by_rule = impact.by_rule;
     waiting_.push_back(event);
   }
 
+  ChosenDigits<Real> digits_;
   casefile::InitialCase<Real> built_;
   engine::Simulation<Real> simulation_;
   Instant<Real> reached_, end_ = Instant<Real>::never();

@@ -46,9 +46,8 @@ io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::
   Real ball_mass{0};
   for (const auto& ball : built.the_case.balls) ball_mass += ball.mass;
   summary.ball_mass = ball_mass;
-  summary.provenance = {
-      spec.file, spec.digest, spec.settings, spec.reported, std::string(ScalarName<Real>::value),
-      version(), commit(),    compiler(),    spec.seed};
+  summary.provenance = {spec.file, spec.digest, spec.settings, spec.reported, scalar_name<Real>(),
+                        version(), commit(),    compiler(),    spec.seed};
   return summary;
 }
 

@@ -11,14 +11,15 @@ endif()
 add_test(NAME examples_test
          COMMAND ${architecture}/examples_test.sh ${CMAKE_BINARY_DIR} ${CMAKE_BINARY_DIR}/examples ${CMAKE_CXX_COMPILER})
 set_tests_properties(examples_test PROPERTIES TIMEOUT 600)
-add_test(NAME extending_test
-         COMMAND ${architecture}/extending_test.sh ${CMAKE_BINARY_DIR}/extending ${CMAKE_CXX_COMPILER} ${CMAKE_BINARY_DIR}
+add_test(NAME extending_test COMMAND ${architecture}/extending_test.sh ${CMAKE_BINARY_DIR}/extending)
+add_test(NAME extending_long
+         COMMAND ${architecture}/extending_test.sh ${CMAKE_BINARY_DIR}/extending-long ${CMAKE_CXX_COMPILER} ${CMAKE_BINARY_DIR}
                  ${DEBIAN_PYTHON3})
-set_tests_properties(extending_test PROPERTIES TIMEOUT 900)
+set_tests_properties(extending_long PROPERTIES LABELS long TIMEOUT 1800)
 
 # A program of the core in double alone, for other trees and compilers.
 set(collision_bits_sources)
-foreach(room base engine io casefile output)
+foreach(room base engine io casefile tangent output)
   file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
   list(APPEND collision_bits_sources ${of_room})
   if(room STREQUAL casefile)

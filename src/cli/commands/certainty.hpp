@@ -14,11 +14,10 @@ struct Certify {
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
-    command.add_option("--collisions", options_.collisions, "how many events")
-        ->required()
+    command.add_option("--collisions", options_.collisions, "how many events; all of the case unless given")
         ->check(CLI::Range(1, 10000000));
     command.add_option("--digits", options_.digits, "to how many digits; 25 unless given")
-        ->check(CLI::Range(1, 90));
+        ->check(CLI::Range(1, 100000));
     command.add_option("--out", options_.file, "file; out/<case name>.reference.csv unless given");
     command.add_flag("--quiet", options_.quiet, "no progress and no report");
   }

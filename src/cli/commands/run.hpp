@@ -1,6 +1,7 @@
 // The commands that run one case.
 #pragma once
 
+#include "casefile/precisions.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/run_command.hpp"
 #include "report/embedded.hpp"
@@ -16,7 +17,11 @@ struct Run {
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
-    const auto precisions = CLI::IsMember(casefile::precisions());
+    const CLI::Validator precisions(
+        [](std::string& name) {
+          return casefile::is_precision(name) ? "" : "expected " + casefile::choices_of_precision();
+        },
+        "");
     command.add_option("--out", run_.folder, "folder for the results; out/<case name> unless given");
     command.add_option("--precision", run_.precision, "scalar of the run, overrides that of the case")
         ->check(precisions);
@@ -24,6 +29,14 @@ struct Run {
                        .add_option("--shadow", run_.shadow,
                                    "also run in this wider scalar and report when the two diverge")
                        ->check(precisions);
+    command
+        .add_option(
+            "--digits", digits_,
+            "every event and number right to so many digits: the precision is chosen for it, and verified")
+        ->check(CLI::Range(1, 100000))
+        ->excludes("--precision");
+    command.add_flag("--estimate", run_.estimate,
+                     "tell what the run will take (events, digits, time, memory), and do not run");
     command.add_option("--checkpoint", run_.checkpoint, every + "; never unless given")->excludes(shadow);
     command.add_flag("--report", run_.report, "write report.html, and the tables that it shows");
     command.add_flag("--quiet", run_.quiet, quiet_run);
@@ -38,6 +51,7 @@ struct Run {
     auto spec = given_.read();
     auto& settings = run_.overrides = given_.overrides;
     if (!precision_.empty()) until_precision(precision_, spec, settings);
+    if (digits_ > 0) settings.push_back(fmt::format("run.digits={}", digits_));
     if (!target_.empty()) settings.push_back("powder.target_dose=\"" + target_ + "\"");
     if (settings != given_.overrides) spec = casefile::parse_case(spec.text, spec.file, settings);
     return run_case(spec, run_);
@@ -45,6 +59,7 @@ struct Run {
 
  private:
   std::string precision_, target_;
+  unsigned digits_ = 0;
   CaseArgument given_;
   RunCommand run_;
 };

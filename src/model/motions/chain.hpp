@@ -69,7 +69,7 @@ class ChainMotion {
   Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose_known, const Instant<Real>& known,
                              const Vec3<Real>& position) const {
     const Real dt = when.offset - known.offset;
-    const auto short_dt = static_cast<double>(dt);
+    const auto short_dt = static_cast<Hint<Real>>(dt);
     if (!(short_dt <= moment_ && short_dt >= -moment_)) [[unlikely]]
       return position_in_vessel(made<false>(when), position);
     const Real half = dt / 2;
@@ -314,14 +314,14 @@ class ChainMotion {
 
   /// How long [s] the Taylor polynomials of second order leave less than a quarter of u of a turn and of the
   /// centre's distance: a fraction of the period by a power of two, the same on every machine.
-  double moment() const {
+  Hint<Real> moment() const {
     const auto& w = bounds_.turning;
     const auto& b = bounds_.acceleration;
     const auto third_of_turn = static_cast<double>(w[2] + 6 * w[0] * w[1] + w[0] * w[0] * w[0]);
     const auto third_of_centre = static_cast<double>(b[1] + w[0] * b[0]);
-    const auto u = static_cast<double>(epsilon<Real>() / 2);
+    const auto u = static_cast<Hint<Real>>(epsilon<Real>() / 2);
     const double distance = static_cast<double>(bounds_.distance);
-    double t = static_cast<double>(period());
+    auto t = static_cast<Hint<Real>>(period());
     while (4 * third_of_turn * (t * t * t) > u || 4 * third_of_centre * (t * t * t) > u * distance) t /= 2;
     return t;
   }
@@ -340,7 +340,7 @@ class ChainMotion {
   ChainBounds<Real> bounds_;  ///< on the motion
   ChainBounds<Real> terms_;   ///< on the terms of which its vectors are sums, for their rounding
   std::vector<Step> steps_;
-  double moment_ = 0;  ///< [s]
+  Hint<Real> moment_{0};  ///< [s]
 };
 
 }  // namespace edmill::model

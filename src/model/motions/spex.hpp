@@ -268,7 +268,7 @@ inline SpexPose<Real> SpexMotion<Real>::pose_nearby(const Instant<Real>& when, c
                                                     const Instant<Real>& known) const {
   const Real dt = when.offset - known.offset;
   const double short_dt = static_cast<double>(dt), x = static_cast<double>(angular_speed_) * short_dt;
-  if (!(x <= numerics::longest_turn<Real> && x >= -numerics::longest_turn<Real>)) [[unlikely]]
+  if (!numerics::is_short_turn<Real>(angular_speed_, dt, x)) [[unlikely]]
     return pose(when);
   const Real first = dt - Real(short_dt * (x * x) / 6);                        // sin(x) / w
   const Real second = dt * dt / 2 - Real(short_dt * short_dt * (x * x) / 24);  // (1 - cos(x)) / w^2

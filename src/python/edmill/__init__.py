@@ -11,14 +11,14 @@ from ._edmill import InputError, UndecidedError, __version__
 from .callbacks import ContactLaw, Impact, Running
 from .case import Case, EditError
 from .dem import Deck, export, import_dump, limit
-from .judges import (Agreement, Certification, CertifiedEvent, Judgement, Proof, ProvenEvent, Shadow, audit, certify, check,
-                     check_certificate, compare, prove, shadow)
+from .judges import (Agreement, Certification, CertifiedEvent, Derivative, Judgement, Proof, ProvenEvent, Sensitivities, Shadow,
+                     audit, certify, check, check_certificate, compare, estimate, prove, sensitivity, shadow)
 from .machines import machines, new, variables
 from .runs import Interrupted, Run, read_run, report, resume, run
 from .studies import Study, optimize, sweep
 from .tables import Records
 from .values import Value
 
-__all__ = ["Agreement", "Case", "Certification", "CertifiedEvent", "ContactLaw", "Deck", "EditError", "Impact", "InputError", "Interrupted", "Judgement",
-           "Proof", "ProvenEvent", "Records", "Run", "Running", "Shadow", "Study", "UndecidedError", "Value", "__version__", "audit", "certify", "check",
-           "check_certificate", "compare", "export", "import_dump", "limit", "machines", "new", "optimize", "prove", "read_run", "report", "resume", "run", "shadow", "sweep", "variables"]
+__all__ = ["Agreement", "Case", "Certification", "CertifiedEvent", "ContactLaw", "Deck", "Derivative", "EditError", "Impact", "InputError", "Interrupted", "Judgement",
+           "Proof", "ProvenEvent", "Records", "Run", "Running", "Sensitivities", "Shadow", "Study", "UndecidedError", "Value", "__version__", "audit", "certify", "check",
+           "check_certificate", "compare", "estimate", "export", "import_dump", "limit", "machines", "new", "optimize", "prove", "read_run", "report", "resume", "run", "sensitivity", "shadow", "sweep", "variables"]

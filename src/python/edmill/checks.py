@@ -63,6 +63,5 @@ def is_number(value: Any) -> bool:
 
 def scalar(name: str, value: Any) -> str:
     """The name of a scalar."""
-    *all_but_last, last = _edmill.precisions
-    require(name, value, value in _edmill.precisions, f"{', '.join(all_but_last)} or {last}")
+    require(name, value, isinstance(value, str) and _edmill.is_precision(value), f"{', '.join(_edmill.precisions)} or mpfr:DIGITS")
     return value

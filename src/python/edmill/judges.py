@@ -5,9 +5,11 @@ import csv
 import dataclasses
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from typing import Any
+
+import numpy as np
 
 from . import _edmill
 from .case import Case, case_of
@@ -131,14 +133,59 @@ def _certified(row: Mapping[str, Any]) -> CertifiedEvent:
     return CertifiedEvent(**{k: v if k in whole_or_text else Decimal(v) for k, v in row.items()})
 
 
-def certify(case: Case | Mapping | str | os.PathLike, collisions: int, *, digits: int = 25,
+def certify(case: Case | Mapping | str | os.PathLike, collisions: int | None = None, *, digits: int = 25,
             file: str | os.PathLike | None = None) -> Certification:
-    """As `edmill certify`: raises the precision until two scalars agree on the first events, to so many digits. `file` gets
+    """As `edmill certify`: raises the precision until two scalars agree on the first events, all of the case unless
+    `collisions` are given, to so many digits. `file` gets
     the sequence as the command writes it. Raises UndecidedError where no two scalars agree."""
     case = case_of(case)
-    collisions, digits = whole("collisions", collisions, 1, LARGEST), whole("digits", digits, 1, 90)
+    collisions = 0 if collisions is None else whole("collisions", collisions, 1, LARGEST)
+    digits = whole("digits", digits, 1, 100_000)
     evidence, events = _edmill.certify(case._case, collisions, digits, "" if file is None else place("file", file))
     return Certification([_certified(row) for row in events], [Agreement(*row) for row in evidence])
+
+
+@dataclasses.dataclass(frozen=True)
+class Derivative:
+    """With respect to one number of a case, or of the initial state; SI per unit of the number."""
+    by: str
+    unit: str  #: of the number as the case has it, "rpm"; empty for a ratio
+    quantities: dict[str, np.ndarray]  #: of time, approach_speed, slip_speed, milling_dose and wall_work, by event
+    states: np.ndarray  #: events x 2 bodies x 9: position, velocity and spin behind the impact; 0 of a wall
+
+
+@dataclasses.dataclass(frozen=True)
+class Sensitivities:
+    """The first events of a case and their derivatives."""
+    events: list[CertifiedEvent]
+    derivatives: dict[str, Derivative]  #: by number
+    precision: str  #: of the run
+
+
+def sensitivity(case: Case | Mapping | str | os.PathLike, by: Iterable[str], events: int, *, digits: int = 17) -> Sensitivities:
+    """As `edmill sensitivity`: derivatives of the first events with respect to numbers that the case gives, such as
+    "contact.restitution", and of the initial state, "initial.3.vx". Raises UndecidedError where a rule orders two contacts."""
+    case = case_of(case)
+    require("by", by, isinstance(by, Iterable) and not isinstance(by, str), 'a list of keys, ["contact.restitution"]')
+    keys = [text("by", key) for key in by]
+    precision, units, rows, found = _edmill.sensitivity(case._case, keys, whole("events", events, 1, LARGEST),
+                                                        whole("digits", digits, 1, 1000))
+    names = ("time", "approach_speed", "slip_speed", "milling_dose", "wall_work")
+    derivatives = {}
+    for key, unit, (quantities, states) in zip(keys, units, found):
+        columns = np.array(quantities, dtype=float).reshape(len(rows), len(names))
+        derivatives[key] = Derivative(key, unit, dict(zip(names, columns.T)), np.array(states, dtype=float))
+    return Sensitivities([_certified(row) for row in rows], derivatives, precision)
+
+
+def estimate(case: Case | Mapping | str | os.PathLike, *, digits: int | None = None, precision: str | None = None) -> dict[str, Any]:
+    """As `edmill run --estimate`: what a run will take, from short trials: events, digits lost per event, precision for the
+    `digits` at the end, processor time [s] and memory [bytes]."""
+    case = case_of(case)
+    if digits is not None:
+        case = case.with_settings(f"run.digits={whole('digits', digits, 1, 100_000)}")
+    asked = case._case.digits is not None and precision is None
+    return _edmill.estimate(case._case, "" if asked else case.precision if precision is None else scalar("precision", precision))
 
 
 @dataclasses.dataclass(frozen=True)

@@ -222,13 +222,14 @@ def _check_law(name: str, law: Any) -> None:
 
 
 def run(case: Case | Mapping | str, precision: str | None = None, until: str | float | decimal.Decimal | None = None, *,
-        folder: str | pathlib.Path | None = None, events: bool = True, report: bool = False,
+        digits: int | None = None, folder: str | pathlib.Path | None = None, events: bool = True, report: bool = False,
         observers: Iterable[Callable[[Impact, Running], object]] = (), ball_ball_law: ContactLaw | None = None,
         ball_wall_law: ContactLaw | None = None, until_precision: float | str | None = None, checkpoint: str | None = None,
         progress: bool | Callable[[float, int], Any] = False) -> Run:
     """Simulates a case, without Python's lock.
 
-    precision      double, float128, mpfr50, mpfr100 or mpfr200; that of the case unless given
+    precision      double, float128, mpfr50, mpfr100, mpfr200, or mpfr:DIGITS with any number of digits; that of the case unless
+                   given
     until          where the run ends, in place of the case's `end_time`: "2 s", or a number [s]
     folder         where the outputs of the case, summary.json and final_state.csv are written; nowhere unless given
     events         whether to keep each impact: 128 bytes each in double
@@ -241,6 +242,7 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     until_precision
                    ends the run when the 95 % interval of the dose rate is this part of it, 0.01 or "1%"; `until` is the limit,
                    100 times the case's end_time unless given
+    digits         every event and number right to so many digits: the precision is chosen for it, and verified by a wider run
     checkpoint     how often to save the state in `folder`, "10 min" or "2 s simulated", so that `resume(folder)` can go on; such
                    a run has no events, observers or laws of Python
     progress       True for a bar of tqdm, or a line of text without it; or a callable of time [s] and number of collisions,
@@ -253,6 +255,11 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
         case = case.with_settings(f"run.end_time={json.dumps(until if isinstance(until, str) else f'{until} s')}")
     if until_precision is not None:
         case = _until_precision(case, until_precision, until is not None)
+    if digits is not None:
+        require("precision", precision, precision is None, "none beside digits")
+        case = case.with_settings(f"run.digits={checks.whole('digits', digits, 1, 100_000)}")
+    if precision is None and case._case.digits is not None:
+        precision, _ = _edmill.find_digits(case._case)
     precision = case.precision if precision is None else checks.scalar("precision", precision)
     folder = None if folder is None else checks.place("folder", folder)
     events, report = checks.flag("events", events), checks.flag("report", report)

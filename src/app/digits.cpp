@@ -1,0 +1,183 @@
+#include "app/digits.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/certify.hpp"
+#include "app/side_by_side.hpp"
+#include "base/errors.hpp"
+#include "casefile/precisions.hpp"
+#include "run/cpu_limit.hpp"
+
+namespace edmill::app {
+
+namespace {
+
+bool stop_asked(const DigitsOptions& options) {
+  return options.interrupt && options.interrupt->load(std::memory_order_relaxed);
+}
+
+std::string chosen(double digits) {
+  return fmt::format("mpfr:{}", static_cast<unsigned>(std::clamp(digits, 60.0, double{most_digits})));
+}
+
+/// Events to the end of the case: a run in double has about as many as the true motion.
+double count_events(const casefile::CaseSpec& spec, const DigitsOptions& options) {
+  constexpr double longest = 5;  // [s] of processor time
+  const auto source = source_in("double", spec, true);
+  const double begin = run::cpu_seconds(), first = spec.initial_time.to<double>(),
+               end = spec.end_time->to<double>();
+  double events = 0, reached = first;
+  while (!stop_asked(options)) {
+    const auto more = source->next(1024);
+    if (more.empty()) return events;
+    events += static_cast<double>(more.size());
+    reached = static_cast<double>(more.back().values[run::time]);
+    if (run::cpu_seconds() - begin > longest) return events * (end - first) / (reached - first);
+    options.progress("double", static_cast<std::size_t>(events), events);
+  }
+  return events;
+}
+
+/// Decimal digits that an event costs, by two runs with many digits to where they part.
+double lost_per_event(const casefile::CaseSpec& spec, const DigitsOptions& options) {
+  constexpr unsigned digits = 200;
+  constexpr std::size_t enough = 30000;
+  SideBySide runs(spec, chosen(digits), chosen(wider_than(digits)), true);
+  const auto& agreement = runs.agreement();
+  while (!stop_asked(options) && agreement.events() < enough && !runs.next(256).empty())
+    options.progress(chosen(digits), agreement.events(), double{enough});
+  if (agreement.events() == 0) return 0;
+  const double left = runs.diverged() ? 0 : agreement.least_digits();
+  return std::max(0.0, digits - left) / static_cast<double>(agreement.events());
+}
+
+/// Processor time of an event [s], when the balls have begun to collide.
+double time_per_event(const std::string& precision, const casefile::CaseSpec& spec,
+                      const DigitsOptions& options) {
+  constexpr double longest = 2;  // [s] of processor time
+  const auto source = source_in(precision, spec, true);
+  double begin = run::cpu_seconds(), took = 0;
+  std::size_t events = 0;
+  bool warm = false;
+  while (took < longest && !stop_asked(options)) {
+    const auto more = source->next(64);
+    if (more.empty()) break;
+    if (!warm) {
+      warm = true, begin = run::cpu_seconds();
+      continue;
+    }
+    events += more.size();
+    took = run::cpu_seconds() - begin;
+    options.progress(precision, events, static_cast<double>(events));
+  }
+  return events == 0 ? 0 : took / static_cast<double>(events);
+}
+
+std::uint64_t most_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
+}
+
+std::string duration(double seconds) {
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 3600) return fmt::format("{:.1f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
+                         const DigitsOptions& options) {
+  if (!spec.end_time)
+    throw InputError(spec.file +
+                     ": key 'run.end_time': found nothing, expected the time to which a run is estimated");
+  RunEstimate e;
+  e.precision = precision;
+  e.events = count_events(spec, options);
+  e.lost_per_event = lost_per_event(spec, options);
+  if (precision.empty()) {
+    e.digits = *spec.digits;
+    // A twentieth more, since events differ, and the first bits are lost at once.
+    e.precision = chosen(static_cast<double>(e.digits) + 1.05 * e.lost_per_event * e.events + 15);
+    e.verifying = 2;
+  }
+  e.right_events = e.lost_per_event > 0 ? casefile::digits_of(e.precision) / e.lost_per_event : 1e300;
+  e.seconds_per_event = time_per_event(e.precision, spec, options);
+  e.bytes = most_memory();
+  e.interrupted = stop_asked(options);
+  return e;
+}
+
+std::string RunEstimate::text() const {
+  std::string out;
+  const auto row = [&](const char* name, const std::string& value) {
+    out += fmt::format("{:<15} {}\n", name, value);
+  };
+  row("events", fmt::format("about {:.0f}", events));
+  row("digits lost", fmt::format("{:.4f} per event", lost_per_event));
+  if (digits > 0)
+    row("precision", fmt::format("{}, for {} right digits at the end", precision, digits));
+  else
+    row("precision", precision + (right_events > events
+                                      ? ", which lasts to the end"
+                                      : fmt::format(", used up after about {:.0f} events", right_events)));
+  row("processor time",
+      duration(cpu_seconds()) +
+          (verifying > 0 ? fmt::format(" for the run, and {} before it to find the digits and verify them",
+                                       duration(verifying * cpu_seconds()))
+                         : ""));
+  row("memory", fmt::format("{:.0f} MB", static_cast<double>(bytes) / 1e6));
+  return out;
+}
+
+double FoundDigits::left() const { return std::min(agreement.least_digits(), states); }
+
+std::string FoundDigits::text() const {
+  return fmt::format(
+      "{} and {}: all {} events and the states at their end agree to {:.0f} digits ({:.1f} s)\n", narrow,
+      precision, agreement.events(), std::min(left(), casefile::digits_of(narrow)), seconds);
+}
+
+FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  FoundDigits found;
+  const auto estimate = estimate_run(spec, "", options);
+  const double asked = static_cast<double>(*spec.digits);
+  for (double digits = casefile::digits_of(estimate.precision); digits < most_digits;) {
+    found.narrow = chosen(digits), found.precision = chosen(wider_than(static_cast<unsigned>(digits)));
+    SideBySide runs(spec, found.narrow, found.precision, true);
+    for (bool more = true; more && !(found.interrupted = stop_asked(options));) {
+      const auto events = runs.next(256);
+      more = !events.empty();
+      for (const auto& event : events)
+        if (event.by_rule && found.undecided.empty())
+          found.undecided = fmt::format(
+              "a rule and not the equations orders two contacts of ball {} at {} s: no number of digits "
+              "decides it",
+              event.ball, event.values[run::time].str(17));
+      more = more && found.undecided.empty();
+      options.progress(found.precision, runs.agreement().events(), estimate.events);
+    }
+    found.agreement = runs.agreement();
+    found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const bool all = !runs.diverged() && !runs.uneven();
+    found.states = all ? runs.digits_of_states() : 0;
+    const bool right = all && found.left() >= asked;
+    if (right && found.undecided.empty()) return found;
+    if (found.interrupted || !found.undecided.empty()) break;
+    const double events = std::max(1.0, static_cast<double>(found.agreement.events()));
+    const double lost = all ? digits - found.left() : digits * std::max(1.0, estimate.events / events);
+    digits = std::max(1.2 * digits, asked + 1.05 * lost + 15);
+  }
+  if (!found.interrupted && found.undecided.empty())
+    found.undecided = fmt::format("{} digits do not suffice", most_digits);
+  found.precision.clear();
+  return found;
+}
+
+}  // namespace edmill::app

@@ -1,0 +1,39 @@
+// Derivatives of the first events of a case with respect to its numbers and to the initial state.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/linearised.hpp"
+#include "casefile/case_spec.hpp"
+
+namespace edmill::app {
+
+struct SensitivityOptions {
+  /// Keys of numbers in the case file, "contact.restitution", or "initial.3.vx": of ball 3 at the start one
+  /// of x, y, z, vx, vy, vz, wx, wy, wz.
+  std::vector<std::string> by;
+  std::size_t events = 0;
+  unsigned digits = 17;  ///< of each derivative that are right
+  bool states = false;   ///< the file has the derivatives of the balls' states behind each impact, too
+  std::string file;      ///< CSV; none when empty
+  const std::atomic<bool>* interrupt = nullptr;
+  std::function<void(const std::string& precision, std::size_t events)> progress = [](const auto&, auto) {};
+};
+
+struct Sensitivities {
+  std::vector<std::string> by, units;  ///< of each number as the case has it, "rpm"; "m/s" of a start
+  std::vector<run::Event> events;
+  std::vector<std::vector<EventDerivative>> derivatives;  ///< by event, and by number
+  std::string precision;                                  ///< of the run
+  bool interrupted = false;
+};
+
+/// Runs the first events in as many digits as their growth takes, and carries the derivatives along.
+/// @throws InputError for a key that the case does not give as a number, and a case that ends before
+/// @throws UndecidedError when a rule orders two contacts at one time
+Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptions& options);
+
+}  // namespace edmill::app

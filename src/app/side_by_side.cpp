@@ -1,0 +1,65 @@
+#include "app/side_by_side.hpp"
+
+#include <algorithm>
+#include <array>
+#include <future>
+
+#include "base/with_scalar.hpp"
+#include "instances/instances.hpp"
+
+namespace edmill::app {
+
+namespace {
+
+/// Does both at a time. The second one's failure counts only where the first one has none.
+template <class One, class Two>
+auto together(const One& one, const Two& two) {
+  auto later = std::async(std::launch::async, two);
+  auto first = one();
+  return std::pair{std::move(first), later.get()};
+}
+
+}  // namespace
+
+std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
+                                            bool to_end) {
+  return with_scalar(precision, [&]<class Real>() { return run::make_source<Real>(spec, to_end); });
+}
+
+SideBySide::SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide,
+                       bool to_end) {
+  std::tie(narrow_, wide_) = together([&] { return source_in(narrow, spec, to_end); },
+                                      [&] { return source_in(wide, spec, to_end); });
+}
+
+std::vector<run::Event> SideBySide::next(std::size_t count) {
+  if (diverged_ || uneven_) return {};
+  auto [one, two] = together([&] { return narrow_->next(count); }, [&] { return wide_->next(count); });
+  const std::size_t shared = std::min(one.size(), two.size());
+  std::size_t same = 0;
+  while (same < shared && agreement_.take(one[same], two[same])) ++same;
+  if (same < shared)
+    diverged_ = {one[same], two[same]};
+  else
+    uneven_ = one.size() != two.size();
+  two.resize(same);
+  return std::move(two);
+}
+
+double SideBySide::digits_of_states() const {
+  const auto one = narrow_->states(), two = wide_->states();
+  constexpr std::size_t kinds = 3, per_ball = 3 * kinds;
+  std::array<run::Number, kinds> difference{}, size{};
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    const std::size_t kind = k % per_ball / 3;
+    difference[kind] = std::max(difference[kind], run::Number(abs(one[k] - two[k])));
+    size[kind] = std::max(size[kind], run::Number(abs(two[k])));
+  }
+  double least = run::Agreement::most;
+  for (std::size_t kind = 0; kind < kinds; ++kind)
+    if (difference[kind] > 0)
+      least = std::min(least, -static_cast<double>(log10(difference[kind] / size[kind])));
+  return least;
+}
+
+}  // namespace edmill::app

@@ -1,0 +1,45 @@
+// One case in two scalars, event by event.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "casefile/case_spec.hpp"
+#include "run/agreement.hpp"
+
+namespace edmill::app {
+
+/// The events of a case in the scalar of this name.
+/// @param to_end  whether they end at the case's end time
+std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
+                                            bool to_end);
+
+/// Two runs that advance together, each on a thread of its own.
+class SideBySide {
+ public:
+  /// @pre `wide` is wider than `narrow`
+  SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide, bool to_end);
+
+  /// Takes up to `count` further events of both.
+  /// @return those of the wider run that have the same bodies in both; none when there are no more
+  std::vector<run::Event> next(std::size_t count);
+
+  const run::Agreement& agreement() const { return agreement_; }
+  /// The first events that differ.
+  const std::optional<std::pair<run::Event, run::Event>>& diverged() const { return diverged_; }
+  /// One run has an event more before its end.
+  bool uneven() const { return uneven_; }
+  /// Digits to which positions, velocities and spins agree now, each of the largest of its kind.
+  double digits_of_states() const;
+
+ private:
+  std::unique_ptr<run::EventSource> narrow_, wide_;
+  run::Agreement agreement_;
+  std::optional<std::pair<run::Event, run::Event>> diverged_;
+  bool uneven_ = false;
+};
+
+}  // namespace edmill::app

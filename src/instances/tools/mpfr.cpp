@@ -1,0 +1,3 @@
+#include "instances/tools/implementations.hpp"
+
+EDMILL_TOOL_INSTANCES(template, mpfr)

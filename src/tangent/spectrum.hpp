@@ -1,0 +1,68 @@
+// Lyapunov exponents: how fast motions nearby part from a run's, direction by direction (Benettin et al.
+// 1980). docs/theory.md, "Tangent dynamics"
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "tangent/tangent_map.hpp"
+
+namespace edmill::tangent {
+
+/// A set of directions that is carried along a run and kept orthonormal. What each grows by beyond the ones
+/// before it is summed: the sums over the time tend to the largest exponents, in order.
+class Spectrum {
+ public:
+  using Balls = std::vector<model::BallProperties<double>>;
+
+  /// @param directions  how many; at most nine for each ball
+  Spectrum(const model::Mill<double>& mill, Balls balls, const Instant<double>& start,
+           std::size_t directions);
+
+  /// A body of an impact; `ball` is its number.
+  struct Body {
+    int ball;
+    Vec3<double> position, velocity, spin, velocity_after;
+  };
+  void with_wall(const ImpactAt<double>& impact, int wall, const Body& body);
+  void of_pair(const ImpactAt<double>& impact, const Body& one, const Body& two);
+
+  /// Makes the directions orthonormal as they are at this instant, and adds to the sums what they grew by.
+  void orthonormalise(const Instant<double>& now);
+  /// Natural logarithms of the growth, direction by direction, up to the last call of `orthonormalise`.
+  const std::vector<double>& growth() const { return state_.growth; }
+
+  std::size_t directions() const { return count_; }
+  /// Directions that there are.
+  std::size_t dimensions() const { return 9 * balls_.size(); }
+
+  /// What changes during a run.
+  struct State {
+    std::vector<Tangent<double>> tangents;  ///< of ball 0 in each direction, of ball 1...
+    std::vector<Instant<double>> since;     ///< instants at which they are known, by ball
+    std::vector<double> growth;
+    std::uint64_t since_orthonormal = 0;  ///< impacts
+
+    void archive(Archive& a) { a(tangents, since, growth, since_orthonormal); }
+  };
+  const State& state() const { return state_; }
+  void restore(State state) { state_ = std::move(state); }
+
+ private:
+  std::span<Tangent<double>> of_ball(int ball) {
+    return {state_.tangents.data() + static_cast<std::size_t>(ball) * count_, count_};
+  }
+  void fly(int ball, const Instant<double>& now);
+  double product(std::size_t a, std::size_t b) const;
+  void count_impact(const Instant<double>& now);
+
+  TangentMap map_;
+  Balls balls_;
+  DriveClock<double> clock_;
+  std::size_t count_;
+  double length_, speed_, spin_;  ///< units in which directions are measured
+  State state_;
+};
+
+}  // namespace edmill::tangent
