@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 #include "app/certify.hpp"
 #include "app/side_by_side.hpp"
@@ -97,6 +98,7 @@ RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& prec
     throw InputError(spec.file +
                      ": key 'run.end_time': found nothing, expected the time to which a run is estimated");
   RunEstimate e;
+  const std::clock_t begin = std::clock();
   e.precision = precision;
   e.events = count_events(spec, options);
   e.lost_per_event = lost_per_event(spec, options);
@@ -109,6 +111,7 @@ RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& prec
   e.right_events = e.lost_per_event > 0 ? casefile::digits_of(e.precision) / e.lost_per_event : 1e300;
   e.seconds_per_event = time_per_event(e.precision, spec, options);
   e.bytes = most_memory();
+  e.trials = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   e.interrupted = stop_asked(options);
   return e;
 }
@@ -129,7 +132,7 @@ std::string RunEstimate::text() const {
   row("processor time",
       duration(cpu_seconds()) +
           (verifying > 0 ? fmt::format(" for the run, and {} before it to find the digits and verify them",
-                                       duration(verifying * cpu_seconds()))
+                                       duration(trials + verifying * cpu_seconds()))
                          : ""));
   row("memory", fmt::format("{:.0f} MB", static_cast<double>(bytes) / 1e6));
   return out;

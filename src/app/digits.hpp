@@ -26,6 +26,7 @@ struct RunEstimate {
   double right_events = 0;       ///< of which all digits are used up; more than `events` where they last
   double seconds_per_event = 0;  ///< of processor time
   double verifying = 0;          ///< runs of the case that show the digits right, in times of the run
+  double trials = 0;             ///< processor time that the trials took [s]
   std::uint64_t bytes = 0;       ///< of memory
   std::uint64_t digits = 0;      ///< that are asked for; 0 where a precision is
   bool interrupted = false;

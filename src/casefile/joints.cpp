@@ -33,8 +33,9 @@ cpp_int in_units_of(const Quantity& turns, int bits) {
   std::vector<std::uint64_t> words(mpz_sizeinbase(z, 2) / 64 + 1);
   std::size_t count = 0;
   mpz_export(words.data(), &count, -1, sizeof words[0], 0, 0, z);
-  boost::multiprecision::import_bits(whole, words.begin(), words.begin() + static_cast<std::ptrdiff_t>(count),
-                                     64, false);
+  if (count > 0)  // it fails for no words
+    boost::multiprecision::import_bits(whole, words.begin(),
+                                       words.begin() + static_cast<std::ptrdiff_t>(count), 64, false);
   if (mpz_sgn(z) < 0) whole = -whole;
   mpz_clear(z);
   return whole;

@@ -10,6 +10,7 @@
 
 #include "base/version.hpp"
 #include "casefile/precisions.hpp"
+#include "cli/commands/bifurcation.hpp"
 #include "cli/commands/certainty.hpp"
 #include "cli/commands/check.hpp"
 #include "cli/commands/dem.hpp"
@@ -40,6 +41,7 @@ using Commands = std::tuple<cli::New,          //
                             cli::Certify,      //
                             cli::Prove,        //
                             cli::Sensitivity,  //
+                            cli::Bifurcation,  //
                             cli::Check,        //
                             cli::Variables,    //
                             cli::Sweep,        //

@@ -190,7 +190,8 @@ py::dict estimate(const Case& the_case, const std::string& precision) {
   facts["precision"] = found.precision, facts["events"] = found.events;
   facts["digits_lost_per_event"] = found.lost_per_event, facts["right_events"] = found.right_events;
   facts["cpu_seconds"] = found.cpu_seconds(),
-  facts["verifying_cpu_seconds"] = found.verifying * found.cpu_seconds();
+  facts["verifying_cpu_seconds"] =
+      (found.verifying > 0 ? found.trials + found.verifying * found.cpu_seconds() : 0.0);
   facts["bytes"] = found.bytes;
   return facts;
 }

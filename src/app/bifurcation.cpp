@@ -1,0 +1,104 @@
+#include "app/bifurcation.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include "app/side_by_side.hpp"
+#include "base/errors.hpp"
+#include "casefile/value_of_key.hpp"
+#include "io/named_file.hpp"
+#include "plot/chart.hpp"
+
+namespace edmill::app {
+
+namespace {
+
+/// @return whether there were enough impacts
+bool add_phases(const casefile::CaseSpec& spec, const BifurcationOptions& options, double value,
+                Bifurcation& found) {
+  const double period = casefile::period_of(spec.mill).to<double>();
+  const auto source = source_in("double", spec, false);
+  constexpr std::size_t most = 10'000'000;  // of a ball that rests, and hops more slowly than what counts
+  std::size_t all = 0;
+  for (std::size_t seen = 0; seen < options.skip + options.keep;) {
+    const auto events = source->next(64);
+    if (events.empty() || (all += events.size()) > most) return false;
+    for (const auto& event : events) {
+      if (!event.with_wall || event.ball != 0 || event.values[run::approach_speed] < options.least_approach)
+        continue;
+      if (seen >= options.skip + options.keep || seen++ < options.skip) continue;
+      const double periods = static_cast<double>(event.values[run::time]) / period;
+      found.points.push_back({value, periods - std::floor(periods), event.partner});
+    }
+  }
+  return true;
+}
+
+/// Dots: a line of no length has round ends.
+void write_drawing(std::ostream& out, const BifurcationOptions& options, const Bifurcation& found) {
+  plot::Chart chart;
+  chart.id = "bifurcation";
+  chart.title = "impact phases over " + options.over;
+  chart.description = "phases of the drive at impacts of ball 0, for each value of " + options.over;
+  chart.x = {options.over + (found.unit.empty() ? "" : " [" + found.unit + "]"), options.from, options.to};
+  chart.y = {"phase of the drive [periods]", 0, 1};
+  std::set<int> walls;
+  for (const auto& point : found.points) walls.insert(point.wall);
+  int colour = 0;
+  for (const int wall : walls) {
+    plot::Curve curve{fmt::format("wall {}", wall), fmt::format("c{}", colour++ % 4), {}};
+    for (const auto& point : found.points)
+      if (point.wall == wall)
+        curve.points.insert(curve.points.end(), {{point.value, point.phase},
+                                                 {point.value, point.phase},
+                                                 {point.value, std::numeric_limits<double>::quiet_NaN()}});
+    chart.curves.push_back(std::move(curve));
+  }
+  pugi::xml_document page, document;
+  plot::draw(page, chart);
+  auto svg = document.append_copy(page.first_element_by_path("figure/svg"));
+  svg.append_attribute("xmlns") = "http://www.w3.org/2000/svg";
+  for (auto group : svg.children("g"))
+    for (auto path : group.children("path")) path.remove_attribute("data-points");
+  svg.append_child("style").text() =
+      "text { font: 11px sans-serif; fill: #333; } .axis text { text-anchor: middle; } .y-axis .label { "
+      "text-anchor: end; } "
+      "path, line { fill: none; stroke: currentColor; stroke-width: 1.2; stroke-linecap: round; } .axis { "
+      "color: #999; } "
+      ".c0 { color: #1f4e79; } .c1 { color: #b0472a; } .c2 { color: #2f8f4e; } .c3 { color: #7a4fa0; }";
+  document.save(out, " ");
+}
+
+}  // namespace
+
+Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions& options) {
+  if (!(options.from < options.to))
+    throw InputError(fmt::format("--to: found {}, expected more than {}", options.to, options.from));
+  Bifurcation found;
+  found.unit = casefile::value_of_key(spec, options.over).unit;
+  io::NamedFile drawing(options.file);
+  io::NamedFile table(std::filesystem::path(options.file).replace_extension(".csv").string());
+  for (std::size_t step = 0; step < options.steps; ++step) {
+    found.interrupted = options.interrupt && *options.interrupt;
+    if (found.interrupted) return found;
+    const double share =
+        static_cast<double>(step) / static_cast<double>(std::max<std::size_t>(options.steps - 1, 1));
+    const double value = options.from + share * (options.to - options.from);
+    const auto text = fmt::format("{}{}{}", value, found.unit.empty() ? "" : " ", found.unit);
+    if (!add_phases(casefile::with_value(spec, options.over, text), options, value, found)) ++found.ended;
+    options.progress(step + 1);
+  }
+  drawing.write([&](std::ostream& out) { write_drawing(out, options, found); });
+  table.write([&](std::ostream& out) {
+    out << "# case digest " << spec.digest << "\nvalue,phase,wall\n";
+    for (const auto& point : found.points)
+      out << fmt::format("{},{},{}\n", point.value, point.phase, point.wall);
+  });
+  return found;
+}
+
+}  // namespace edmill::app

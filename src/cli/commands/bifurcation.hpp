@@ -1,0 +1,72 @@
+// The command `edmill bifurcation`.
+#pragma once
+
+#include "app/bifurcation.hpp"
+#include "base/errors.hpp"
+#include "casefile/quantity.hpp"
+#include "cli/commands/case_argument.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/run_command.hpp"
+#include "io/terminal.hpp"
+
+namespace edmill::cli {
+
+struct Bifurcation {
+  static constexpr const char* name = "bifurcation";
+  static constexpr const char* what = "draw the phases of a ball's impacts over a number of the case";
+
+  void add_options(CLI::App& command) {
+    given_.add_to(command);
+    command.add_option("--over", options_.over, "key of a number in the case file, \"contact.restitution\"")
+        ->required();
+    command.add_option("--from", options_.from, "first value, in the unit of the case file")->required();
+    command.add_option("--to", options_.to, "last value")->required();
+    command.add_option("--steps", options_.steps, "how many values; 400 unless given")
+        ->check(CLI::Range(2, 100000));
+    command
+        .add_option("--skip", options_.skip,
+                    "impacts of ball 0 with walls before the first phase; 1000 unless given")
+        ->check(CLI::Range(0, 100000000));
+    command.add_option("--keep", options_.keep, "of which phases are drawn; 100 unless given")
+        ->check(CLI::Range(1, 100000));
+    command.add_option("--above", above_,
+                       "slower impacts do not count, such as the hops of a ball that rests: \"2 cm/s\"");
+    command.add_option(
+        "--out", options_.file,
+        "drawing (SVG), with its points beside it (CSV); out/<case name>.bifurcation.svg unless given");
+    command.add_flag("--quiet", quiet_, "no progress and no report");
+  }
+  int run() {
+    if (!above_.empty()) {
+      const auto speed = casefile::parse_quantity(above_, casefile::Dimension::speed);
+      const auto* known = std::get_if<casefile::Quantity>(&speed);
+      if (known == nullptr)
+        throw InputError("--above: found " + std::get<casefile::QuantityProblem>(speed).found +
+                         ", expected a speed such as \"2 cm/s\"");
+      options_.least_approach = static_cast<double>(known->value);
+    }
+    if (options_.file.empty()) options_.file = "out/" + name_of(given_.file) + ".bifurcation.svg";
+    return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) {
+      const bool show = shows_progress(quiet_);
+      if (show)
+        options.progress = [&](std::size_t step) {
+          io::tell("\r\x1b[K{} of {} values ", step, options.steps);
+        };
+      const auto found = app::bifurcation(spec, options);
+      if (show) io::tell("\r\x1b[K");
+      if (quiet_ || found.interrupted) return ok;
+      io::print("{} phases: {}\n", found.points.size(), options.file);
+      if (found.ended > 0) io::print("{} runs ended before they had all phases\n", found.ended);
+      return ok;
+    });
+  }
+
+ private:
+  CaseArgument given_;
+  app::BifurcationOptions options_;
+  std::string above_;
+  bool quiet_ = false;
+};
+
+}  // namespace edmill::cli
