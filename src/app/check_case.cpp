@@ -36,7 +36,10 @@ using Row = std::function<void(const std::string& name, const std::string& value
 
 void add_run(const casefile::CaseSpec& spec, const model::Case<double>& c, const Row& row) {
   row("digest", spec.digest);
-  row("precision, seed", fmt::format("{}, {}", spec.precision, spec.seed));
+  row("precision, seed",
+      fmt::format("{}, {}",
+                  spec.digits ? fmt::format("for {} right digits at the end", *spec.digits) : spec.precision,
+                  spec.seed));
   row("statistics from", fmt::format("{} s", spec.statistics_start.to<double>()));
   if (spec.end_time) row("end_time", fmt::format("{} s", spec.end_time->to<double>()));
   model::for_each_stop_rule([&](auto rule, std::size_t place) {

@@ -22,6 +22,10 @@ study::RunRecord record_in(const casefile::CaseSpec& spec, double max_cpu_time,
 
 study::RunRecord do_job(const study::Job& job, const std::atomic<bool>* interrupt) {
   const auto spec = casefile::read_case(job.case_file, job.overrides);
+  if (spec.digits)
+    throw InputError(
+        spec.file +
+        ": key 'run.digits': found it in a study, expected a precision: digits are found for one run");
   return with_scalar(spec.precision, [&]<class Real>() {
     return casefile::with_memory_for(spec,
                                      [&] { return record_in<Real>(spec, job.max_cpu_time, interrupt); });

@@ -58,6 +58,7 @@ using Commands = std::tuple<cli::New,          //
 std::string version_text() {
   std::string scalars;
   for (const auto& name : casefile::precisions()) scalars += (scalars.empty() ? "" : ", ") + name;
+  scalars += ", mpfr:DIGITS";
   const auto parts = optional_parts();
   return fmt::format("edmill {} ({})\ncompiler {}\nscalars {}\noptional parts {}", version(), commit(),
                      compiler(), scalars, parts.empty() ? "none" : parts);

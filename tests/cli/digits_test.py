@@ -152,7 +152,7 @@ def test_certify_to_the_end(t):
 
 
 def test_bifurcation(t):
-    """A ball that a table throws once a period has one phase up to where its period doubles: e = 0.4701 for 1 mm."""
+    """A ball that a table throws once a period has one phase up to where its period doubles: e = 0.46551 for 1 mm."""
     table = SOURCE / "docs" / "examples" / "oscillating_table.toml"
     done = edmill("bifurcation", table, "--over", "contact.restitution", "--from", "0.4", "--to", "0.5", "--steps", "21", "--skip",
                   "3000", "--keep", "8", "--out", "b.svg")

@@ -17,5 +17,5 @@ def test_runs(notebook, tmp_path):
     assert all(cell.execution_count for cell in book.cells if cell.cell_type == "code")
 
 
-def test_there_are_three():
-    assert len(list(NOTEBOOKS.glob("*.ipynb"))) == 3
+def test_there_are_four():
+    assert len(list(NOTEBOOKS.glob("*.ipynb"))) == 4
