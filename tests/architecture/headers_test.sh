@@ -6,11 +6,13 @@ cd "$(dirname "$0")/../.."
 compiler=$1
 status=0
 for header in include/edmill/*.hpp; do
-  echo "#include \"${header#include/}\"" |
-    "$compiler" -x c++ -std=gnu++20 -Wall -Wextra -Werror -fsyntax-only -Iinclude - || {
-    echo "$header does not compile on its own"
-    status=1
-  }
+  for standard in gnu++20 c++20; do
+    echo "#include \"${header#include/}\"" |
+      "$compiler" -x c++ -std=$standard -Wall -Wextra -Werror -fsyntax-only -Iinclude - || {
+      echo "$header does not compile on its own as $standard"
+      status=1
+    }
+  done
   head -n 1 "$header" | grep -q '^// .*\.$' || {
     echo "$header: the first line does not state what it is for"
     status=1

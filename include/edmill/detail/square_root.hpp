@@ -14,7 +14,7 @@ namespace edmill::detail {
 /// x - r^2, exact where r is within a unit of its last place of the root: no part of the square has more than
 /// 112 bits.
 inline __float128 rest_of_square(__float128 x, __float128 r) {
-  const __float128 shifted = r * (0x1p57q + 1);
+  const __float128 shifted = r * (__float128(0x1p57) + 1);
   const __float128 high = shifted - (shifted - r), low = r - high;
   return ((x - high * high) - 2 * high * low) - low * low;
 }
@@ -39,8 +39,8 @@ inline __float128 square_root_of(__float128 x) {
   __float128 r = start + more;
   // `more` is right to 150 bits of the root, so that the sum is the nearest number unless it is close to
   // halfway.
-  const __float128 lost = more - (r - start), first = leading_bit(r), above = first * 0x1p-112q;
-  if (lost < above * 0x1.ffffffp-2q && lost > above * -0x1.ffffffp-3q) return r;
+  const __float128 lost = more - (r - start), first = leading_bit(r), above = first * __float128(0x1p-112);
+  if (lost < above * __float128(0x1.ffffffp-2) && lost > above * __float128(-0x1.ffffffp-3)) return r;
   const __float128 rest = rest_of_square(x, r), below = r == first ? above / 2 : above;
   if (rest > r * above)
     r += above;
@@ -50,8 +50,8 @@ inline __float128 square_root_of(__float128 x) {
 }
 
 inline __float128 square_root(__float128 x) {
-  if (x > 0x1p-400q && x < 0x1p400q) return square_root_of(x);
-  if (!(x > 0) || x > FLT128_MAX) return sqrtq(x);  // itself, or not a number
+  if (x > __float128(0x1p-400) && x < __float128(0x1p400)) return square_root_of(x);
+  if (!(x > 0 && x - x == 0)) return sqrtq(x);  // itself, or not a number
   int exponent;
   x = frexpq(x, &exponent);
   const int odd = exponent & 1;
