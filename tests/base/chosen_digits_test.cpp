@@ -1,0 +1,95 @@
+// The scalar whose digits are chosen at run time, against Boost's number of as many digits.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "base/scalar_list.hpp"
+#include "base/scalar_text.hpp"
+#include "base/wide_trigonometry.hpp"
+
+namespace edmill {
+namespace {
+
+double number() {
+  return (*rc::gen::arbitrary<int>()) * 1.0 / (1 + std::abs(*rc::gen::arbitrary<int>() % 1000));
+}
+
+RC_GTEST_PROP(ChosenDigits, RoundAsTheScalarOfAsManyDigits, ()) {
+  const mpfr::Digits digits(100);
+  const double x = number(), y = number();
+  const mpfr a = sqrt(abs(mpfr(x)) + 1) / 3, b = mpfr(y) / 7;
+  const mpfr100 c = sqrt(abs(mpfr100(x)) + 1) / 3, d = mpfr100(y) / 7;
+  const auto same = [](const mpfr& one, const mpfr100& other) { return one == to_mpfr(other); };
+  RC_ASSERT(same(a, c) && same(b, d));
+  RC_ASSERT(same(a + b, c + d) && same(a - b, c - d) && same(a * b, c * d));
+  if (b != 0) RC_ASSERT(same(a / b, c / d));
+  RC_ASSERT(same(exp(-a), mpfr100(exp(mpfr100(-c)))) && same(log1p(a), mpfr100(log1p(c))));
+  RC_ASSERT(same(atan2(b, a), mpfr100(atan2(d, c))) && same(floor(b), mpfr100(floor(d))));
+  const auto one = numerics::sin_cos<mpfr>(b);
+  const auto other = numerics::sin_cos<mpfr100>(d);
+  RC_ASSERT(same(one.sin, other.sin) && same(one.cos, other.cos));
+  RC_ASSERT((a < b) == (c < d) && (a == b) == (c == d) && (a >= b) == (c >= d));
+  mpfr sum = a;
+  sum += b, sum *= a, sum -= b, sum /= 3;
+  mpfr100 sum_of_boost = c;
+  sum_of_boost += d, sum_of_boost *= c, sum_of_boost -= d, sum_of_boost /= 3;
+  RC_ASSERT(same(sum, sum_of_boost));
+}
+
+RC_GTEST_PROP(ChosenDigits, KeepEveryBitOfNarrowerNumbers, ()) {
+  const double x = number();
+  const float128 wide = float128(x) / 3;
+  RC_ASSERT(static_cast<double>(mpfr(x)) == x);
+  const mpfr::Digits digits(40);
+  RC_ASSERT(to_mpfr(wide) - to_mpfr(mpfr100(wide)) == 0);
+  RC_ASSERT(from_text<mpfr>(to_text<mpfr>(mpfr(x) / 3)) == mpfr(x) / 3);
+}
+
+TEST(ChosenDigits, HoldWithinTheirScope) {
+  const unsigned before = mpfr::digits();
+  mpfr third;
+  {
+    const mpfr::Digits digits(500);
+    third = mpfr(1) / 3;
+    EXPECT_EQ(mpfr::digits(), 500u);
+    EXPECT_EQ(to_text<mpfr>(third).size(), 505u);  // "0." and 503 digits
+    const mpfr::Digits fewer(30, 8);
+    EXPECT_EQ(to_text<mpfr>(mpfr(1) / 3), "0.33333333");
+  }
+  EXPECT_EQ(mpfr::digits(), before);
+  const mpfr copy = third;
+  EXPECT_EQ(copy, third);  // with all its bits
+  EXPECT_LT(abs(copy * 3 - 1), mpfr(1e-40));
+  EXPECT_LT(mpfr_get_prec((copy * 3).data()), mpfr_get_prec(copy.data()));  // a result has the thread's
+}
+
+TEST(ChosenDigits, ComparesNoNumberWithNothing) {
+  const mpfr none = std::numeric_limits<mpfr>::quiet_NaN();
+  EXPECT_FALSE(none < 0 || none > 0 || none == 0 || none <= 0 || none >= 0);
+  EXPECT_TRUE(none != 0);
+  EXPECT_TRUE(isnan(none) && !isfinite(std::numeric_limits<mpfr>::infinity()));
+}
+
+TEST(ChosenDigits, AreSavedWithAllBits) {
+  const mpfr::Digits digits(777);
+  mpfr value = sqrt(mpfr(2)), loaded;
+  Archive saved;
+  saved(value);
+  const std::string bytes = saved.bytes();
+  {
+    const mpfr::Digits fewer(30);
+    Archive again(bytes);
+    again(loaded);
+  }
+  EXPECT_EQ(loaded, value);
+  EXPECT_EQ(mpfr_get_prec(loaded.data()), mpfr_get_prec(value.data()));
+}
+
+TEST(ChosenDigits, AreTakenFromNames) {
+  EXPECT_EQ(chosen_digits_of("mpfr:3000"), 3000u);
+  for (const char* name :
+       {"mpfr", "mpfr:", "mpfr:19", "mpfr:1000001", "mpfr:5e3", "mpfr:-30", "mpfr50", ":30"})
+    EXPECT_EQ(chosen_digits_of(name), 0u) << name;
+}
+
+}  // namespace
+}  // namespace edmill
