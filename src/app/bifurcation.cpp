@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "app/side_by_side.hpp"
@@ -81,7 +82,12 @@ Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions
   Bifurcation found;
   found.unit = casefile::value_of_key(spec, options.over).unit;
   io::NamedFile drawing(options.file);
-  io::NamedFile table(std::filesystem::path(options.file).replace_extension(".csv").string());
+  const std::filesystem::path place(options.file);
+  if (place.extension() == ".csv")
+    throw InputError("--out: found \"" + options.file +
+                     "\", expected the drawing's name: its points stand beside it as .csv");
+  std::optional<io::NamedFile> table;
+  if (place.has_extension()) table.emplace(std::filesystem::path(place).replace_extension(".csv").string());
   for (std::size_t step = 0; step < options.steps; ++step) {
     found.interrupted = options.interrupt && *options.interrupt;
     if (found.interrupted) return found;
@@ -93,7 +99,8 @@ Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions
     options.progress(step + 1);
   }
   drawing.write([&](std::ostream& out) { write_drawing(out, options, found); });
-  table.write([&](std::ostream& out) {
+  if (!table) return found;  // to a device
+  table->write([&](std::ostream& out) {
     out << "# case digest " << spec.digest << "\nvalue,phase,wall\n";
     for (const auto& point : found.points)
       out << fmt::format("{},{},{}\n", point.value, point.phase, point.wall);
