@@ -109,6 +109,7 @@ class Differentiator {
     result.interrupted = options_.interrupt && *options_.interrupt;
     result.events = std::move(watch.events);
     result.derivatives = linearised->events();
+    put_lower_first();
     return needed();
   }
 
@@ -141,6 +142,16 @@ class Differentiator {
         ->
         operator[](number.coordinate % 3) = 1;
     return same;
+  }
+
+  /// Of two balls the lower number comes first, as in other lists of events.
+  void put_lower_first() {
+    for (std::size_t k = 0; k < result.events.size(); ++k) {
+      auto& event = result.events[k];
+      if (event.with_wall || event.ball < event.partner) continue;
+      std::swap(event.ball, event.partner);
+      for (auto& d : result.derivatives[k]) std::swap(d.states_after[0], d.states_after[1]);
+    }
   }
 
   /// An error of the run has grown as the derivatives have: by the largest of them.

@@ -47,7 +47,8 @@ std::vector<std::vector<double>> by_dual_numbers(const casefile::CaseSpec& spec,
     else
       map.of_pair(at, struck(0), struck(1), {&of(0), 1}, {&of(1), 1});
     auto& row = rows.emplace_back();
-    for (int place = 0; place < (impact.with_wall ? 1 : 2); ++place)
+    const bool turned = !impact.with_wall && impact.partner < impact.ball;
+    for (int place = turned ? 1 : 0, left = impact.with_wall ? 1 : 2; left > 0; place = 1 - place, --left)
       for (const auto* v : {&of(place).position, &of(place).velocity, &of(place).spin})
         row.insert(row.end(), {(*v)[0], (*v)[1], (*v)[2]});
   });
