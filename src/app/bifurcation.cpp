@@ -29,10 +29,9 @@ bool add_phases(const casefile::CaseSpec& spec, const BifurcationOptions& option
     const auto events = source->next(64);
     if (events.empty() || (all += events.size()) > most) return false;
     for (const auto& event : events) {
-      if (!event.with_wall || event.ball != 0 || event.values[run::approach_speed] < options.least_approach)
-        continue;
+      if (!event.with_wall || event.ball != 0 || event.approach_speed < options.least_approach) continue;
       if (seen >= options.skip + options.keep || seen++ < options.skip) continue;
-      const double periods = static_cast<double>(event.values[run::time]) / period;
+      const double periods = static_cast<double>(event.time) / period;
       found.points.push_back({value, periods - std::floor(periods), event.partner});
     }
   }

@@ -19,7 +19,6 @@ namespace {
 using run::Agreement;
 using run::Event;
 using run::Number;
-using run::Quantity;
 
 bool stop_asked(const std::atomic<bool>* interrupt) {
   return interrupt && interrupt->load(std::memory_order_relaxed);
@@ -71,29 +70,28 @@ void write_reference(std::ostream& out, const casefile::CaseSpec& spec, const Ce
       << fmt::format("# {} events, each value correct to {} digits of the quantity's largest size\n",
                      found.events.size(), options.digits);
   for (const auto& pair : found.evidence) out << "# " << pair.text() << '\n';
-  out << run::collision_log_header << '\n';
+  out << run::collision_log_header(false) << '\n';
   for (std::size_t k = 0; k < found.events.size(); ++k) {
     const Event& e = found.events[k];
     // Two digits more than are certified, so that the rounding of the text does not count.
-    const auto text = [&](int q) { return e.values[q].str(options.digits + 3, true); };
-    out << k << ',' << text(run::time) << ',' << e.ball << (e.with_wall ? ",wall," : ",ball,") << e.partner;
-    for (int q = run::approach_speed; q < run::quantity_count; ++q) out << ',' << text(q);
+    const auto text = [&](std::size_t q) { return e[q].str(options.digits + 3, true); };
+    out << k << ',' << text(model::time) << ',' << e.ball << (e.with_wall ? ",wall," : ",ball,") << e.partner;
+    for (std::size_t q = model::approach_speed; q < model::logged_count; ++q) out << ',' << text(q);
     out << '\n';
   }
 }
 
 std::string describe(const Event& e) {
   return fmt::format("ball {} and {} {} at {} s", e.ball, e.with_wall ? "wall" : "ball", e.partner,
-                     e.values[run::time].str(17));
+                     e.time.str(17));
 }
 
 }  // namespace
 
 std::string Evidence::text() const {
   std::string line = fmt::format("{} and {}: {} events in common; digits:", narrow, wide, agreement.events());
-  for (int k = 0; k < run::quantity_count; ++k)
-    line += fmt::format(" {} {}", name_of(static_cast<Quantity>(k)),
-                        digits_text(agreement.digits(static_cast<Quantity>(k))));
+  for (std::size_t k = 0; k < model::logged_count; ++k)
+    line += fmt::format(" {} {}", model::logged_quantities[k].name, digits_text(agreement.digits(k)));
   return line;
 }
 
@@ -170,7 +168,7 @@ class Certifier {
       auto taken = runs.next(std::min<std::size_t>(256, left));
       if (taken.empty()) break;
       for (auto& event : taken) {
-        for (auto& value : event.values) value = value.rounded();
+        for (std::size_t k = 0; k < model::logged_count; ++k) event[k] = event[k].rounded();
         events.push_back(std::move(event));
       }
       options_.progress(name(more), events.size());
@@ -250,9 +248,9 @@ std::string Shadow::text() const {
   else
     out += fmt::format(
         "  {}\n", uneven ? "one has one event more before the end" : "they do not diverge before the end");
-  for (int k = 0; k < run::quantity_count; ++k)
-    out += fmt::format("  {:<16} agrees to {} digits\n", name_of(static_cast<Quantity>(k)),
-                       digits_text(agreement.digits(static_cast<Quantity>(k))));
+  for (std::size_t k = 0; k < model::logged_count; ++k)
+    out += fmt::format("  {:<16} agrees to {} digits\n", model::logged_quantities[k].name,
+                       digits_text(agreement.digits(k)));
   if (const auto lost = agreement.digits_lost_per_event()) {
     const double each = static_cast<double>(agreement.bodies()) / static_cast<double>(balls);
     out += fmt::format("  digits lost: {:.4f} per event, {:.2f} per collision of a ball\n", *lost,

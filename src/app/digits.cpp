@@ -36,7 +36,7 @@ double count_events(const casefile::CaseSpec& spec, const DigitsOptions& options
     const auto more = source->next(1024);
     if (more.empty()) return events;
     events += static_cast<double>(more.size());
-    reached = static_cast<double>(more.back().values[run::time]);
+    reached = static_cast<double>(more.back().time);
     if (run::cpu_seconds() - begin > longest) return events * (end - first) / (reached - first);
     options.progress("double", static_cast<std::size_t>(events), events);
   }
@@ -162,7 +162,7 @@ FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& opt
           found.undecided = fmt::format(
               "a rule and not the equations orders two contacts of ball {} at {} s: no number of digits "
               "decides it",
-              event.ball, event.values[run::time].str(17));
+              event.ball, event.time.str(17));
       more = more && found.undecided.empty();
       options.progress(found.precision, runs.agreement().events(), estimate.events);
     }

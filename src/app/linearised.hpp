@@ -21,7 +21,7 @@ struct Perturbation {
 
 /// The derivatives of one impact.
 struct EventDerivative {
-  std::array<mpfr, run::quantity_count> values;        ///< of time, speeds, dose and work
+  std::array<mpfr, model::logged_count> values;        ///< of model::logged_quantities
   std::array<tangent::Tangent<mpfr>, 2> states_after;  ///< of the ball and, if it is one, the partner
 };
 

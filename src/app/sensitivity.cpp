@@ -60,11 +60,7 @@ class Watch : public engine::Observer<mpfr> {
       : wanted_(events), options_(options), precision_(std::move(precision)) {}
 
   void on_impact(const engine::Impact<mpfr>& impact, engine::Simulation<mpfr>& simulation) override {
-    const auto& o = impact.outcome;
-    Event event{impact.ball, impact.with_wall, impact.partner, {}, impact.by_rule};
-    event.values = {simulation.clock().seconds(impact.time), o.approach_speed, o.slip_speed, o.milling_dose,
-                    o.wall_work};
-    events.push_back(std::move(event));
+    events.push_back(run::record_of<mpfr>(impact, simulation));
     if (events.size() >= wanted_ || (options_.interrupt && *options_.interrupt))
       simulation.request_stop(engine::EndReason::stopped);
     if (events.size() % 16 == 0) options_.progress(precision_, events.size());
@@ -121,7 +117,7 @@ class Differentiator {
       if (event.by_rule)
         throw UndecidedError(fmt::format(
             "a rule and not the equations orders two contacts of ball {} at {} s: there is no derivative",
-            event.ball, event.values[run::time].str(17)));
+            event.ball, event.time.str(17)));
   }
 
   Sensitivities result;
@@ -178,9 +174,9 @@ void write(std::ostream& out, const casefile::CaseSpec& spec, const SensitivityO
     out << "# d_ columns " << k << ": SI units per " << (found.units[k].empty() ? "1" : found.units[k])
         << " of " << found.by[k] << '\n';
   out << "index,time,ball,partner_kind,partner";
-  const auto header = [&](std::size_t k, const std::string& name) { out << ",d_" << name << '_' << k; };
+  const auto header = [&](std::size_t k, std::string_view name) { out << ",d_" << name << '_' << k; };
   for (std::size_t k = 0; k < found.by.size(); ++k) {
-    for (int q = 0; q < run::quantity_count; ++q) header(k, name_of(static_cast<run::Quantity>(q)));
+    for (const auto& quantity : model::logged_quantities) header(k, quantity.name);
     if (options.states)
       for (const char* body : {"ball", "partner"})
         for (const auto& c : coordinates) header(k, std::string(body) + "_" + std::string(c));
@@ -189,8 +185,8 @@ void write(std::ostream& out, const casefile::CaseSpec& spec, const SensitivityO
   const auto text = [&](const mpfr& x) { return x.str(static_cast<int>(options.digits)); };
   for (std::size_t e = 0; e < found.events.size(); ++e) {
     const auto& event = found.events[e];
-    out << e << ',' << text(event.values[run::time]) << ',' << event.ball
-        << (event.with_wall ? ",wall," : ",ball,") << event.partner;
+    out << e << ',' << text(event.time) << ',' << event.ball << (event.with_wall ? ",wall," : ",ball,")
+        << event.partner;
     for (const auto& d : found.derivatives[e]) {
       for (const auto& value : d.values) out << ',' << text(value);
       if (!options.states) continue;

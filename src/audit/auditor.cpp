@@ -121,7 +121,7 @@ void Auditor::find_wrong_balls(LoggedEvent& event) {
 }
 
 void Auditor::complete_scene(const LoggedEvent& event, Scene& scene) const {
-  LoggedImpact& impact = scene.impact;
+  ContactGeometry& impact = scene.impact;
   impact.with_wall = event.with_wall;
   impact.ball[0] = ball(event.ball);
   if (event.with_wall)

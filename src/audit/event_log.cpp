@@ -65,13 +65,10 @@ bool later(const LoggedEvent& a, const LoggedEvent& b) {
 
 const std::vector<std::string>& column_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all{"time",           "ball",       "partner_kind", "partner",
-                                 "approach_speed", "slip_speed", "milling_dose", "wall_work"};
-    for (const std::string body : {"", "partner_"})
-      for (const auto& [vector, when] :
-           {std::pair("", ""), std::pair("v", "_before"), std::pair("w", "_before"), std::pair("v", "_after"),
-            std::pair("w", "_after")})
-        for (const char* axis : {"x", "y", "z"}) all.push_back(body + vector + axis + when);
+    std::vector<std::string> all{"time", "ball", "partner_kind", "partner"};
+    for (std::size_t q = model::approach_speed; q < model::logged_count; ++q)
+      all.emplace_back(model::logged_quantities[q].name);
+    model::for_logged_vectors([&](const std::string& name) { all.push_back(name); });
     return all;
   }();
   return names;
@@ -217,10 +214,10 @@ std::optional<LoggedEvent> EventLog::read() {
       event.time = latest_;  // it has no time of its own
     }
     bool good = true;
-    const std::array<double*, 4> values = {&event.approach_speed, &event.slip_speed, &event.milling_dose,
-                                           &event.wall_work};
-    for (std::size_t k = 0; k < values.size() && good; ++k)
-      good = read_value(first_value + k, *values[k], event);
+    for (std::size_t q = model::approach_speed; q < model::logged_count && good; ++q) {
+      event[q] = unknown;
+      good = read_value(first_value + q - model::approach_speed, event[q], event);
+    }
     for (std::size_t body = 0; body < (event.with_wall ? 1u : 2u) && good; ++body)
       for (std::size_t vector = 0; vector < 5; ++vector) {
         if (!(available_.body[body].*state_flags[vector])) continue;

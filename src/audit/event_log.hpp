@@ -13,6 +13,7 @@
 
 #include "base/vector.hpp"
 #include "io/csv_reader.hpp"
+#include "model/impact_record.hpp"
 #include "model/parts/partners.hpp"
 
 namespace edmill::audit {
@@ -26,13 +27,8 @@ struct BodyState {
                spin_after = Vec3<double>::Zero();
 };
 
-struct LoggedEvent {
-  std::uint64_t line = 0;
-  double time = 0;  ///< [s]
-  int ball = 0;
-  bool with_wall = false;
-  int partner = 0;
-  double approach_speed = unknown, slip_speed = unknown, milling_dose = unknown, wall_work = unknown;
+/// An impact with what a log may have more: the states of its bodies.
+struct LoggedEvent : model::ImpactRecord<double> {
   std::array<BodyState, 2> body;  ///< the ball and, for balls, its partner
   double earlier_by = 0;          ///< than a line above it, when above 0 [s]
   std::string problem;            ///< "found nan in column vx_before": of an event that cannot be checked

@@ -16,12 +16,12 @@ struct KnownMistake {
   Kind kind;
   const char* note;
   Where where;
-  Formula (*formula)(const LoggedImpact&, std::size_t ball);
+  Formula (*formula)(const ContactGeometry&, std::size_t ball);
   WallVelocity wall = WallVelocity::nested;
 };
 
-Formula right(const LoggedImpact&, std::size_t) { return {}; }
-double alone(const LoggedImpact& impact, std::size_t ball) {
+Formula right(const ContactGeometry&, std::size_t) { return {}; }
+double alone(const ContactGeometry& impact, std::size_t ball) {
   return 1 + 1 / impact.ball[ball].reduced_inertia;
 }
 KnownMistake velocity_of_wall(WallVelocity formula) {
@@ -66,7 +66,7 @@ const std::vector<KnownMistake>& known_mistakes() {
 
 /// What comes of an impact with the mistake, as the code saw it. Of a number of two balls either one.
 struct Way {
-  LoggedImpact impact;
+  ContactGeometry impact;
   std::array<BodyState, 2> outcome;
 };
 using Ways = boost::container::static_vector<Way, 2>;
@@ -76,7 +76,7 @@ Ways ways_of(const KnownMistake& mistake, const LoggedEvent& event, const Scene&
   Ways ways;
   const bool with_wall = scene.impact.with_wall;
   if (mistake.where == (with_wall ? Where::balls : Where::walls)) return ways;
-  LoggedImpact impact = scene.impact;
+  ContactGeometry impact = scene.impact;
   if (mistake.wall != WallVelocity::nested) {
     const Vec centre = event.body[0].position, point = centre - impact.normal * impact.ball[0].radius;
     impact.wall_velocity = wall_velocity(mistake.wall, scene.nested, scene.printed, point, centre) +
@@ -123,8 +123,8 @@ auto ImpactJudge::explaining(const LoggedEvent& event, const Scene& scene, doubl
 }
 
 /// The bodies separate at e_n |g_n| where v_s applies, or the reverse.
-bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const LoggedImpact& impact, double off,
-                                             double allowed) const {
+bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const ContactGeometry& impact,
+                                             double off, double allowed) const {
   const auto& l = law(impact);
   const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
   const double by_restitution = l.restitution(-g_n, impact.bodies()) * -g_n;
@@ -135,7 +135,7 @@ bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const Log
 
 /// Reports a wrong speed of separation. The law's other branch, or another least speed, is named if the log
 /// as a whole has it.
-void ImpactJudge::tell_normal(const LoggedEvent& event, const LoggedImpact& impact, double off,
+void ImpactJudge::tell_normal(const LoggedEvent& event, const ContactGeometry& impact, double off,
                               double allowed, Findings& plain) {
   const auto& l = law(impact);
   const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
@@ -171,7 +171,7 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const LoggedImpact& impa
 }
 
 /// Impacts at which a suspected law of separation would show and the log has another one.
-void ImpactJudge::see_separation(const LoggedEvent& event, const LoggedImpact& impact, double allowed) {
+void ImpactJudge::see_separation(const LoggedEvent& event, const ContactGeometry& impact, double allowed) {
   const auto& l = law(impact);
   const auto place = separations_.find(number_of(l));
   if (place == separations_.end()) return;
@@ -204,7 +204,7 @@ void ImpactJudge::finish() {
 }
 
 /// The wall's speed along n that the logged speeds imply, where the law of impacts holds with it.
-std::optional<double> ImpactJudge::other_wall_speed(const LoggedEvent& event, const LoggedImpact& impact,
+std::optional<double> ImpactJudge::other_wall_speed(const LoggedEvent& event, const ContactGeometry& impact,
                                                     const Residuals& off, double allowed) const {
   if (!event.with_wall || !available_.approach_speed || !available_.slip_speed) return std::nullopt;
   const auto& l = law(impact);

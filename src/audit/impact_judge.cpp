@@ -9,7 +9,7 @@ double ImpactJudge::Residuals::largest() const { return std::max({normal, tangen
 
 /// The equations themselves: momentum, torque, and the separation of the contact points.
 /// @param parting  the bodies do not approach, which is reported: a code may then reflect g_n as usual
-auto ImpactJudge::residuals(const LoggedEvent& event, const LoggedImpact& impact, const Known& known,
+auto ImpactJudge::residuals(const LoggedEvent& event, const ContactGeometry& impact, const Known& known,
                             bool parting) const -> Residuals {
   Residuals off;
   const Vec g = impact.before(event), g_after = impact.after(event);
@@ -43,7 +43,7 @@ auto ImpactJudge::residuals(const LoggedEvent& event, const LoggedImpact& impact
 /// imply. @return whether by the latter
 bool ImpactJudge::tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
                                         double allowed, Findings& plain) {
-  const LoggedImpact& impact = scene.impact;
+  const ContactGeometry& impact = scene.impact;
   const bool spin = off.spin > allowed;
   const auto tell_plainly = [&](Kind kind, double size, double found, double expected) {
     plain.add(finding(kind, event, size, found, expected));
@@ -72,8 +72,8 @@ bool ImpactJudge::tell_broken_equations(const LoggedEvent& event, const Scene& s
 /// @param theirs  becomes the impact as the log's code saw it
 /// @return whether another velocity of the wall is told
 bool ImpactJudge::judge_outcome(const LoggedEvent& event, const Scene& scene, const Known& known,
-                                const Allowed& allowed, LoggedImpact& theirs) {
-  const LoggedImpact& impact = scene.impact;
+                                const Allowed& allowed, ContactGeometry& theirs) {
+  const ContactGeometry& impact = scene.impact;
   findings_.judged(Check::normal_law);
   if (!event.with_wall) findings_.judged(Check::momentum);
   if (known.spins) findings_.judged(Check::tangential_law), findings_.judged(Check::spin_change);
@@ -98,9 +98,9 @@ bool ImpactJudge::judge_outcome(const LoggedEvent& event, const Scene& scene, co
 }
 
 /// Where the log does not tell whether friction rests in an impact: whether it obeys the law only if it does.
-bool ImpactJudge::fits_without_friction(const LoggedEvent& event, const LoggedImpact& impact,
+bool ImpactJudge::fits_without_friction(const LoggedEvent& event, const ContactGeometry& impact,
                                         const Known& known) const {
-  LoggedImpact rested = impact;
+  ContactGeometry rested = impact;
   rested.in_stall = true;
   double with = 0, without = 0, allowed = 0;
   if (known.velocities && known.spins) {
@@ -133,7 +133,7 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
   }
   if (scene.displaced && known.velocities) {
     // The printed matrix is used either with its own derivative or with the printed velocity.
-    LoggedImpact other = scene.impact;
+    ContactGeometry other = scene.impact;
     const Vec& centre = event.body[0].position;
     other.wall_velocity = wall_velocity(WallVelocity::of_the_printed_matrix, scene.nested, scene.printed,
                                         centre - other.normal * other.ball[0].radius, centre) +
@@ -142,7 +142,7 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
         residuals(event, scene.impact, known, false).largest())
       scene.impact = other;
   }
-  const LoggedImpact& impact = scene.impact;
+  const ContactGeometry& impact = scene.impact;
   const double scale = velocity_scale(impact, event, known.spins);
   const double by_wall =
       event.with_wall ? tolerances_.of_wall(event.time, scale, impact.bend, impact.ball[0].radius) : 0;
@@ -155,7 +155,7 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
   const double g_n = dot(impact.before(event), impact.normal);
   findings_.judged(Check::approach);
   if (g_n > allowed.speed) tell(Kind::not_approaching, event, g_n, -g_n, 0);
-  LoggedImpact theirs = impact;
+  ContactGeometry theirs = impact;
   const bool wall_velocity_told = known.velocities && judge_outcome(event, scene, known, allowed, theirs);
   judge_logged_speeds(event, theirs, known, allowed.speed, wall_velocity_told);
   if (known.velocities && known.spins) judge_energies(event, impact, theirs, allowed.energy);
@@ -174,7 +174,7 @@ void ImpactJudge::leave_unresolved(const Known& known) {
   if (available_.wall_work) findings_.unresolved(Check::wall_work);
 }
 
-void ImpactJudge::judge_logged_speeds(const LoggedEvent& event, const LoggedImpact& impact,
+void ImpactJudge::judge_logged_speeds(const LoggedEvent& event, const ContactGeometry& impact,
                                       const Known& known, double allowed_off, bool wall_velocity_told) {
   const Vec g = impact.before(event);
   const double g_n = dot(g, impact.normal);
@@ -191,8 +191,8 @@ void ImpactJudge::judge_logged_speeds(const LoggedEvent& event, const LoggedImpa
 
 /// The dose is the wall work plus the energy that the least separation speed supplies, minus what the balls
 /// have gained.
-void ImpactJudge::judge_energies(const LoggedEvent& event, const LoggedImpact& right,
-                                 const LoggedImpact& theirs, double allowed_off) {
+void ImpactJudge::judge_energies(const LoggedEvent& event, const ContactGeometry& right,
+                                 const ContactGeometry& theirs, double allowed_off) {
   const double work = work_of_wall(event, right), gained = kinetic_change(event, right);
   const Speeds speeds = speeds_before(event, right);
   const double due = supplied(right, speeds.g_n, separation_speed(law(right), right, speeds.g_n));
@@ -218,13 +218,13 @@ void ImpactJudge::judge_energies(const LoggedEvent& event, const LoggedImpact& r
 
 /// The dose of a violating impact may also be that of the law for the same speeds, and its balance without
 /// what v_s supplies in the log: then the law is wrong and not the dose.
-void ImpactJudge::judge_dose(const LoggedEvent& event, const LoggedImpact& right, const LoggedImpact& theirs,
-                             double allowed_off) {
+void ImpactJudge::judge_dose(const LoggedEvent& event, const ContactGeometry& right,
+                             const ContactGeometry& theirs, double allowed_off) {
   findings_.judged(Check::milling_dose);
-  const auto balance = [&](const LoggedImpact& impact) {
+  const auto balance = [&](const ContactGeometry& impact) {
     return work_of_wall(event, impact) - kinetic_change(event, impact);
   };
-  const auto supplied_in_log = [&](const LoggedImpact& impact) {
+  const auto supplied_in_log = [&](const ContactGeometry& impact) {
     return supplied(impact, speeds_before(event, impact).g_n, dot(impact.after(event), impact.normal));
   };
   const auto away = [&](double dose) { return std::abs(event.milling_dose - dose); };
@@ -255,7 +255,7 @@ void ImpactJudge::tell_dose(const LoggedEvent& event, double off, double expecte
   if (off > allowed) findings_.add(found("", false));
 }
 
-void ImpactJudge::judge_speeds(const LoggedEvent& event, const LoggedImpact& impact) {
+void ImpactJudge::judge_speeds(const LoggedEvent& event, const ContactGeometry& impact) {
   if (available_.approach_speed) {
     findings_.judged(Check::approach);
     const double scale = available_.slip_speed ? std::max(std::abs(event.approach_speed), event.slip_speed)

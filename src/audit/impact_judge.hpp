@@ -16,7 +16,7 @@ namespace edmill::audit {
 
 /// An impact and where it takes place.
 struct Scene {
-  LoggedImpact impact;  ///< with the right velocity of the wall
+  ContactGeometry impact;  ///< with the right velocity of the wall
   VesselFrame nested, printed;
   bool displaced = false;  ///< checked in the printed frame, where that code has its walls
   Friction friction = Friction::acts;
@@ -55,8 +55,8 @@ class ImpactJudge {
   /// Judges an impact by the states of the bodies.
   void judge(const LoggedEvent& event, Scene scene);
   /// Judges the dose by the logged speeds, where the log or this impact has no states.
-  void judge_speeds(const LoggedEvent& event, const LoggedImpact& impact);
-  const model::ContactLaw<double>& law(const LoggedImpact& impact) const {
+  void judge_speeds(const LoggedEvent& event, const ContactGeometry& impact);
+  const model::ContactLaw<double>& law(const ContactGeometry& impact) const {
     return impact.with_wall ? mill_.law_with_wall(impact.ball[0], impact.wall)
                             : mill_.law_between(impact.ball[0], impact.ball[1]);
   }
@@ -77,8 +77,8 @@ class ImpactJudge {
     std::size_t mistake;
     Kind kind;
     const char* note;
-    LoggedImpact impact;  ///< as that code saw it
-    double off, left;     ///< without the mistake and with it [m/s]
+    ContactGeometry impact;  ///< as that code saw it
+    double off, left;        ///< without the mistake and with it [m/s]
   };
   struct Known {
     bool velocities, spins;  ///< before and after, of all bodies
@@ -95,33 +95,34 @@ class ImpactJudge {
     if (&law == &mill_.ball_ball) return 0;
     return &law == &mill_.ball_wall ? 1 : 2 + (&law - mill_.pairs.laws.data());
   }
-  Residuals residuals(const LoggedEvent& event, const LoggedImpact& impact, const Known& known,
+  Residuals residuals(const LoggedEvent& event, const ContactGeometry& impact, const Known& known,
                       bool parting) const;
   static std::size_t known_mistake_count();
   /// The known mistake that reproduces the logged outcome, if one does. What does not is noted, also of an
   /// impact that is not violated.
   std::optional<Explanation> explaining(const LoggedEvent& event, const Scene& scene, double allowed,
                                         bool violated);
-  bool fits_without_friction(const LoggedEvent& event, const LoggedImpact& impact, const Known& known) const;
+  bool fits_without_friction(const LoggedEvent& event, const ContactGeometry& impact,
+                             const Known& known) const;
   bool tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
                              double allowed, Findings& plain);
-  void tell_normal(const LoggedEvent& event, const LoggedImpact& impact, double off, double allowed,
+  void tell_normal(const LoggedEvent& event, const ContactGeometry& impact, double off, double allowed,
                    Findings& plain);
-  void see_separation(const LoggedEvent& event, const LoggedImpact& impact, double allowed);
-  std::optional<double> other_wall_speed(const LoggedEvent& event, const LoggedImpact& impact,
+  void see_separation(const LoggedEvent& event, const ContactGeometry& impact, double allowed);
+  std::optional<double> other_wall_speed(const LoggedEvent& event, const ContactGeometry& impact,
                                          const Residuals& off, double allowed) const;
   bool judge_outcome(const LoggedEvent& event, const Scene& scene, const Known& known, const Allowed& allowed,
-                     LoggedImpact& theirs);
-  void judge_logged_speeds(const LoggedEvent& event, const LoggedImpact& impact, const Known& known,
+                     ContactGeometry& theirs);
+  void judge_logged_speeds(const LoggedEvent& event, const ContactGeometry& impact, const Known& known,
                            double allowed, bool wall_velocity_told);
-  void judge_energies(const LoggedEvent& event, const LoggedImpact& right, const LoggedImpact& theirs,
+  void judge_energies(const LoggedEvent& event, const ContactGeometry& right, const ContactGeometry& theirs,
                       double allowed);
-  void judge_dose(const LoggedEvent& event, const LoggedImpact& right, const LoggedImpact& theirs,
+  void judge_dose(const LoggedEvent& event, const ContactGeometry& right, const ContactGeometry& theirs,
                   double allowed);
   void tell_dose(const LoggedEvent& event, double off, double expected, double allowed, double left,
                  double changes, Suspicion& mistake, const char* note);
   void leave_unresolved(const Known& known);
-  bool leaves_by_the_other_branch(const LoggedEvent& event, const LoggedImpact& impact, double off,
+  bool leaves_by_the_other_branch(const LoggedEvent& event, const ContactGeometry& impact, double off,
                                   double allowed) const;
   static Finding finding(Kind kind, const LoggedEvent& event, double size, double found, double expected,
                          const char* note = "", bool explained = false) {

@@ -128,7 +128,7 @@ Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselF
   return {0, 0, 0};
 }
 
-void LoggedImpact::set_masses() {
+void ContactGeometry::set_masses() {
   if (with_wall) {
     effective_mass = ball[0].mass;
     compliance = 1 + 1 / ball[0].reduced_inertia;
@@ -139,28 +139,28 @@ void LoggedImpact::set_masses() {
   for (const auto& b : ball) compliance += effective_mass / (b.mass * b.reduced_inertia);
 }
 
-Vec LoggedImpact::contact_velocity(const Vec& v_i, const Vec& w_i, const Vec& v_j, const Vec& w_j) const {
+Vec ContactGeometry::contact_velocity(const Vec& v_i, const Vec& w_i, const Vec& v_j, const Vec& w_j) const {
   // The ball's contact point is at -R n from its centre, the partner's at +R n.
   const Vec own = v_i - cross(w_i, normal) * ball[0].radius;
   if (with_wall) return own - wall_velocity;
   return own - (v_j + cross(w_j, normal) * ball[1].radius);
 }
 
-Vec LoggedImpact::before(const LoggedEvent& e) const {
+Vec ContactGeometry::before(const LoggedEvent& e) const {
   return contact_velocity(e.body[0].velocity_before, e.body[0].spin_before, e.body[1].velocity_before,
                           e.body[1].spin_before);
 }
-Vec LoggedImpact::after(const LoggedEvent& e) const {
+Vec ContactGeometry::after(const LoggedEvent& e) const {
   return contact_velocity(e.body[0].velocity_after, e.body[0].spin_after, e.body[1].velocity_after,
                           e.body[1].spin_after);
 }
 
-double separation_speed(const model::ContactLaw<double>& law, const LoggedImpact& impact, double g_n) {
+double separation_speed(const model::ContactLaw<double>& law, const ContactGeometry& impact, double g_n) {
   // Bodies that already separate, by rounding, do not leave more slowly.
   return std::max({law.restitution(-g_n, impact.bodies()) * -g_n, law.least_separation, g_n});
 }
 
-double tangential_restitution(const model::ContactLaw<double>& law, const LoggedImpact& impact,
+double tangential_restitution(const model::ContactLaw<double>& law, const ContactGeometry& impact,
                               double compliance, double bounce, double slip_speed) {
   if (impact.in_stall) return 1;
   // A formula of its own where balls slide, so that a mistake in the law that runs use is seen.
@@ -172,7 +172,7 @@ double tangential_restitution(const model::ContactLaw<double>& law, const Logged
   return law.restitution_of_slip(bounce, slip_speed, compliance);
 }
 
-std::array<BodyState, 2> outcome(const LoggedImpact& impact, const model::ContactLaw<double>& law,
+std::array<BodyState, 2> outcome(const ContactGeometry& impact, const model::ContactLaw<double>& law,
                                  const LoggedEvent& event, const Formula& formula) {
   const Vec g = impact.before(event);
   const double g_n = dot(g, impact.normal);
@@ -200,7 +200,7 @@ std::array<BodyState, 2> outcome(const LoggedImpact& impact, const model::Contac
   return result;
 }
 
-double distance(const LoggedImpact& impact, const std::array<BodyState, 2>& one,
+double distance(const ContactGeometry& impact, const std::array<BodyState, 2>& one,
                 const std::array<BodyState, 2>& other) {
   double worst = 0;
   for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
@@ -210,7 +210,7 @@ double distance(const LoggedImpact& impact, const std::array<BodyState, 2>& one,
   return worst;
 }
 
-double velocity_scale(const LoggedImpact& impact, const LoggedEvent& event, bool with_spins) {
+double velocity_scale(const ContactGeometry& impact, const LoggedEvent& event, bool with_spins) {
   double scale = size(impact.wall_velocity);
   for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
     const auto& body = event.body[k];
@@ -222,7 +222,7 @@ double velocity_scale(const LoggedImpact& impact, const LoggedEvent& event, bool
   return scale;
 }
 
-double kinetic_change(const LoggedEvent& event, const LoggedImpact& impact) {
+double kinetic_change(const LoggedEvent& event, const ContactGeometry& impact) {
   double change = 0;
   for (std::size_t k = 0; k < impact.count(); ++k) {
     const auto& ball = impact.ball[k];
@@ -236,23 +236,24 @@ double kinetic_change(const LoggedEvent& event, const LoggedImpact& impact) {
   return change;
 }
 
-double work_of_wall(const LoggedEvent& event, const LoggedImpact& impact) {
+double work_of_wall(const LoggedEvent& event, const ContactGeometry& impact) {
   if (!impact.with_wall) return 0;
   return impact.ball[0].mass *
          dot(impact.wall_velocity, Vec(event.body[0].velocity_after - event.body[0].velocity_before));
 }
 
-Speeds speeds_before(const LoggedEvent& event, const LoggedImpact& impact) {
+Speeds speeds_before(const LoggedEvent& event, const ContactGeometry& impact) {
   const Vec g = impact.before(event);
   const double g_n = dot(g, impact.normal);
   return {g_n, size(Vec(g - impact.normal * g_n))};
 }
 
-double supplied(const LoggedImpact& impact, double g_n, double separation) {
+double supplied(const ContactGeometry& impact, double g_n, double separation) {
   return std::max(0.0, impact.effective_mass / 2 * (separation - g_n) * (separation + g_n));
 }
 
-double dose_by_law(const LoggedImpact& impact, const model::ContactLaw<double>& law, const Speeds& speeds) {
+double dose_by_law(const ContactGeometry& impact, const model::ContactLaw<double>& law,
+                   const Speeds& speeds) {
   const double separation = separation_speed(law, impact, speeds.g_n);
   const double bounce = separation - speeds.g_n;
   const double e_t = tangential_restitution(law, impact, impact.compliance, bounce, speeds.slip);

@@ -76,7 +76,7 @@ inline Vec piston_velocity(const VesselFrame& frame, int wall, const Vec& normal
 }
 
 /// The impact of a logged event as input of the contact law: bodies, geometry, and the wall's velocity.
-struct LoggedImpact {
+struct ContactGeometry {
   bool with_wall = false;
   int wall = -1;                                      ///< id, of an impact with one
   std::array<model::BallProperties<double>, 2> ball;  ///< the partner only for balls
@@ -100,11 +100,11 @@ struct LoggedImpact {
 
 /// Speed along the normal at which the contact points separate, max(e_n |g_n|, v_s) [m/s]. (2.23')
 /// @param g_n  before the impact; negative while the bodies approach
-double separation_speed(const model::ContactLaw<double>& law, const LoggedImpact& impact, double g_n);
+double separation_speed(const model::ContactLaw<double>& law, const ContactGeometry& impact, double g_n);
 
 /// e_t of the law for an impact that gives the normal impulse `bounce` times the effective mass. (2.24')
 /// @param bounce  |g_n| + g_n' [m/s]
-double tangential_restitution(const model::ContactLaw<double>& law, const LoggedImpact& impact,
+double tangential_restitution(const model::ContactLaw<double>& law, const ContactGeometry& impact,
                               double compliance, double bounce, double slip_speed);
 
 /// A formula for the outcome of an impact: the right one, or one with a mistake.
@@ -118,29 +118,29 @@ struct Formula {
 };
 
 /// Velocities and spins after the impact.
-std::array<BodyState, 2> outcome(const LoggedImpact& impact, const model::ContactLaw<double>& law,
+std::array<BodyState, 2> outcome(const ContactGeometry& impact, const model::ContactLaw<double>& law,
                                  const LoggedEvent& event, const Formula& formula);
 
 /// Largest difference of velocities after an impact, with spins times the radius [m/s].
-double distance(const LoggedImpact& impact, const std::array<BodyState, 2>& one,
+double distance(const ContactGeometry& impact, const std::array<BodyState, 2>& one,
                 const std::array<BodyState, 2>& other);
 
 /// Magnitude of the velocities involved [m/s], to which tolerances are relative.
-double velocity_scale(const LoggedImpact& impact, const LoggedEvent& event, bool with_spins);
+double velocity_scale(const ContactGeometry& impact, const LoggedEvent& event, bool with_spins);
 
 /// Kinetic energy that the balls of a logged impact gain [J].
-double kinetic_change(const LoggedEvent& event, const LoggedImpact& impact);
+double kinetic_change(const LoggedEvent& event, const ContactGeometry& impact);
 /// Work of the wall on the ball of a logged impact [J]. (A.82)
-double work_of_wall(const LoggedEvent& event, const LoggedImpact& impact);
+double work_of_wall(const LoggedEvent& event, const ContactGeometry& impact);
 
 /// Speeds of the contact points before an impact [m/s].
 struct Speeds {
   double g_n, slip;
 };
-Speeds speeds_before(const LoggedEvent& event, const LoggedImpact& impact);
+Speeds speeds_before(const LoggedEvent& event, const ContactGeometry& impact);
 /// Energy that an impact adds along the normal [J]; 0 where it dissipates.
-double supplied(const LoggedImpact& impact, double g_n, double separation);
+double supplied(const ContactGeometry& impact, double g_n, double separation);
 /// Milling dose of an impact at these speeds [J]. (2.30'), (2.36')
-double dose_by_law(const LoggedImpact& impact, const model::ContactLaw<double>& law, const Speeds& speeds);
+double dose_by_law(const ContactGeometry& impact, const model::ContactLaw<double>& law, const Speeds& speeds);
 
 }  // namespace edmill::audit

@@ -122,7 +122,7 @@ Scene Flights::scene_at(int ball, int wall, double time, const Vec& position) co
   Scene scene;
   scene.nested = nested_at(time);
   scene.printed = printed_at(time);
-  LoggedImpact& impact = scene.impact;
+  ContactGeometry& impact = scene.impact;
   impact.with_wall = true;
   impact.wall = wall;
   impact.ball[0] = case_.balls[static_cast<std::size_t>(ball)];
@@ -173,7 +173,7 @@ bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEn
   const Track &own = of(ball), &other = of(contact.partner);
   if (!own.spin_known || !other.spin_known) return false;
   LoggedEvent event;
-  LoggedImpact impact;
+  ContactGeometry impact;
   impact.ball = {case_.balls[static_cast<std::size_t>(ball)],
                  case_.balls[static_cast<std::size_t>(contact.partner)]};
   impact.set_masses();

@@ -4,7 +4,6 @@
 #include <array>
 #include <boost/math/tools/precision.hpp>
 #include <boost/multiprecision/eigen.hpp>
-#include <optional>
 
 #include "base/archive.hpp"
 #include "base/scalar.hpp"

@@ -22,21 +22,20 @@ std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const Ba
                                     const SpectrumClasses& dose_classes) {
   std::vector<Batch> batches(times.count, Batch(walls));
   LogReader log(place);
-  const bool dose = log.has(milling_dose), work = log.has(wall_work);
+  const bool dose = log.has(model::milling_dose), work = log.has(model::wall_work);
   while (const auto event = log.next()) {
-    const double place_in_time = (event->values[time] - times.from) / times.length;
+    const double place_in_time = (event->time - times.from) / times.length;
     if (place_in_time < 0) continue;
     if (!(place_in_time < static_cast<double>(times.count))) break;
     Batch& batch = batches[static_cast<std::size_t>(place_in_time)];
     (event->with_wall ? batch.events[event->partner] : batch.events.back()) += 1;
-    batch.approach_speed += event->values[approach_speed];
-    batch.spectra[event->with_wall ? wall_speeds : ball_speeds]
-                 [speed_classes.of(event->values[approach_speed])] += 1;
+    batch.approach_speed += event->approach_speed;
+    batch.spectra[event->with_wall ? wall_speeds : ball_speeds][speed_classes.of(event->approach_speed)] += 1;
     if (dose) {
-      batch.milling_dose += event->values[milling_dose];
-      batch.spectra[doses][dose_classes.of(event->values[milling_dose])] += event->values[milling_dose];
+      batch.milling_dose += event->milling_dose;
+      batch.spectra[doses][dose_classes.of(event->milling_dose)] += event->milling_dose;
     }
-    if (work) batch.wall_work += event->values[wall_work];
+    if (work) batch.wall_work += event->wall_work;
   }
   return batches;
 }

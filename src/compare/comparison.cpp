@@ -159,8 +159,8 @@ class Judge {
 std::vector<Quantity> judge(const Comparison& c) {
   // Spectra in classes above what counts as 0: far below the mean, and within the tolerance.
   const double zero = std::max(c.options.tolerance, 1e-9);
-  const SpectrumClasses speed_classes(zero * c.a.mean_magnitude[approach_speed]);
-  const SpectrumClasses dose_classes(zero * c.a.mean_magnitude[milling_dose]);
+  const SpectrumClasses speed_classes(zero * c.a.mean_magnitude[model::approach_speed]);
+  const SpectrumClasses dose_classes(zero * c.a.mean_magnitude[model::milling_dose]);
   const int walls = std::max(c.a.walls, c.b.walls);
   const auto a = cut_into_batches(c.options.a, c.times, walls, speed_classes, dose_classes);
   const auto b = cut_into_batches(c.options.b, c.times, walls, speed_classes, dose_classes);
@@ -182,18 +182,18 @@ std::vector<Quantity> judge(const Comparison& c) {
     else
       judge.skip(name, "1/s", "no such collisions");
   }
-  const auto missing = [&](Value v) {
-    return "no " + std::string(value_names[v]) + (c.a.has[v] ? " in B" : " in A");
+  const auto missing = [&](std::size_t v) {
+    return "no " + std::string(model::logged_quantities[v].name) + (c.a.has[v] ? " in B" : " in A");
   };
-  const auto power = [&](Value v, const std::string& name, double Batch::*energy) {
+  const auto power = [&](std::size_t v, const std::string& name, double Batch::*energy) {
     const auto rate = [&](const Batch& batch) { return batch.*energy / length; };
     if (c.a.has[v] && c.b.has[v])
       judge.mean(name, "W", all, values_of(a, rate), values_of(b, rate));
     else
       judge.skip(name, "W", missing(v));
   };
-  power(milling_dose, "milling_dose_rate", &Batch::milling_dose);
-  power(wall_work, "wall_work_rate", &Batch::wall_work);
+  power(model::milling_dose, "milling_dose_rate", &Batch::milling_dose);
+  power(model::wall_work, "wall_work_rate", &Batch::wall_work);
   const auto speed = [](const Batch& batch) { return batch.approach_speed; };
   const auto events = [](const Batch& batch) { return batch.all_events(); };
   if (Judge::events(a) > 0 && Judge::events(b) > 0)
@@ -204,10 +204,10 @@ std::vector<Quantity> judge(const Comparison& c) {
   const double between_balls = events_with(walls);
   judge.spectrum("wall_approach_speed_spectrum", wall_speeds, all - between_balls);
   judge.spectrum("ball_approach_speed_spectrum", ball_speeds, between_balls);
-  if (c.a.has[milling_dose] && c.b.has[milling_dose])
+  if (c.a.has[model::milling_dose] && c.b.has[model::milling_dose])
     judge.spectrum("milling_dose_spectrum", doses, all);
   else
-    judge.skip("milling_dose_spectrum", "1", missing(milling_dose));
+    judge.skip("milling_dose_spectrum", "1", missing(model::milling_dose));
   return judge.rows(c.events.agree_throughout());
 }
 

@@ -17,10 +17,10 @@ namespace edmill::compare {
 namespace {
 
 std::string describe(const Event& e) {
-  std::string text = fmt::format("line {}: t = {} s, ball {} with {} {}", e.line, e.values[time], e.ball,
+  std::string text = fmt::format("line {}: t = {} s, ball {} with {} {}", e.line, e.time, e.ball,
                                  e.with_wall ? "wall" : "ball", e.partner);
-  for (std::size_t v = approach_speed; v < value_count; ++v)
-    if (!std::isnan(e.values[v])) text += fmt::format(", {} {}", value_names[v], e.values[v]);
+  for (std::size_t v = model::approach_speed; v < model::logged_count; ++v)
+    if (!std::isnan(e[v])) text += fmt::format(", {} {}", model::logged_quantities[v].name, e[v]);
   return text;
 }
 
@@ -43,7 +43,7 @@ void put(io::JsonText& json, std::string_view key, const Event& e) {
   json.integer("ball", e.ball);
   json.text("partner_kind", e.with_wall ? "wall" : "ball");
   json.integer("partner", e.partner);
-  for (std::size_t v = 0; v < value_count; ++v) json.number(value_names[v], e.values[v]);
+  for (std::size_t v = 0; v < model::logged_count; ++v) json.number(model::logged_quantities[v].name, e[v]);
   json.end();
 }
 
@@ -81,9 +81,10 @@ std::string table(const Comparison& c) {
   }
   if (e.agreeing > 0) {
     std::string largest;
-    for (std::size_t v = 0; v < value_count; ++v)
+    for (std::size_t v = 0; v < model::logged_count; ++v)
       if (c.a.has[v] && c.b.has[v])
-        largest += fmt::format("{}{} {:.1e}", largest.empty() ? "" : ", ", value_names[v], e.largest[v]);
+        largest += fmt::format("{}{} {:.1e}", largest.empty() ? "" : ", ", model::logged_quantities[v].name,
+                               e.largest[v]);
     row("  largest before it", largest);
   }
   if (e.digits_lost_per_event)
@@ -136,8 +137,8 @@ std::string to_json(const Comparison& c) {
     json.end();
   }
   json.begin("largest");
-  for (std::size_t v = 0; v < value_count; ++v)
-    if (c.a.has[v] && c.b.has[v]) json.number(value_names[v], e.largest[v]);
+  for (std::size_t v = 0; v < model::logged_count; ++v)
+    if (c.a.has[v] && c.b.has[v]) json.number(model::logged_quantities[v].name, e.largest[v]);
   json.end();
   put(json, "digits_lost_per_event", e.digits_lost_per_event);
   json.end();

@@ -8,17 +8,11 @@ namespace edmill::compare {
 
 namespace {
 
-bool same_partners(const Event& a, const Event& b) {
-  if (a.with_wall != b.with_wall) return false;
-  if (a.ball == b.ball && a.partner == b.partner) return true;
-  return !a.with_wall && a.ball == b.partner && a.partner == b.ball;
-}
-
 /// The next event within the limits.
 std::optional<Event> next_within(LogReader& reader, const Limits& limits) {
   auto event = reader.next();
-  while (event && limits.from && event->values[time] < *limits.from) event = reader.next();
-  if (event && limits.until && event->values[time] > *limits.until) return std::nullopt;
+  while (event && limits.from && event->time < *limits.from) event = reader.next();
+  if (event && limits.until && event->time > *limits.until) return std::nullopt;
   return event;
 }
 
@@ -51,31 +45,31 @@ EventComparison compare_events(const std::filesystem::path& place_a, const std::
   for (;;) {
     const auto a = next_within(log_a, limits), b = next_within(log_b, limits);
     if (!a || !b) break;  // events beyond the end of either log are not compared
-    if (!same_partners(*a, *b)) {
+    if (!a->same_bodies(*b)) {
       if (!result.first) result.first = {*a, *b, "partners", std::numeric_limits<double>::quiet_NaN()};
       break;
     }
     ++result.same_partners;
     if (result.first) continue;
-    std::array<double, value_count> difference{};
-    for (std::size_t v = 0; v < value_count; ++v) {
+    OfEach<double> difference{};
+    for (std::size_t v = 0; v < model::logged_count; ++v) {
       if (!scan_a.has[v] || !scan_b.has[v]) continue;
-      const double scale = std::max(std::abs(a->values[v]), scan_a.mean_magnitude[v]);
-      const double distance = std::abs(a->values[v] - b->values[v]);
+      const double scale = std::max(std::abs((*a)[v]), scan_a.mean_magnitude[v]);
+      const double distance = std::abs((*a)[v] - (*b)[v]);
       if (distance > 0)
         difference[v] = scale > 0 ? distance / scale : std::numeric_limits<double>::infinity();
     }
     const auto worst = std::max_element(difference.begin(), difference.end());
     if (*worst > tolerance) {
       const auto v = static_cast<std::size_t>(worst - difference.begin());
-      result.first = {*a, *b, std::string(value_names[v]), *worst};
+      result.first = {*a, *b, std::string(model::logged_quantities[v].name), *worst};
       continue;
     }
-    for (std::size_t v = 0; v < value_count; ++v)
+    for (std::size_t v = 0; v < model::logged_count; ++v)
       result.largest[v] = std::max(result.largest[v], difference[v]);
     if (*worst > 0) growth.add(static_cast<double>(result.agreeing), std::log10(*worst));
     ++result.agreeing;
-    result.horizon = a->values[time];
+    result.horizon = a->time;
   }
   if (growth.points() >= 10) result.digits_lost_per_event = growth.slope();
   return result;

@@ -17,11 +17,11 @@ struct FirstDifference {
 };
 
 struct EventComparison {
-  std::uint64_t agreeing = 0;                 ///< events before the first difference
-  double horizon = 0;                         ///< time of the last of them in A [s]
-  std::optional<FirstDifference> first;       ///< nothing when the logs agree to the end of the shorter one
-  std::uint64_t same_partners = 0;            ///< events before the bodies differ; at least `agreeing`
-  std::array<double, value_count> largest{};  ///< relative difference of each value up to the horizon
+  std::uint64_t agreeing = 0;            ///< events before the first difference
+  double horizon = 0;                    ///< time of the last of them in A [s]
+  std::optional<FirstDifference> first;  ///< nothing when the logs agree to the end of the shorter one
+  std::uint64_t same_partners = 0;       ///< events before the bodies differ; at least `agreeing`
+  OfEach<double> largest{};              ///< relative difference of each value up to the horizon
   /// Slope of log10 of the largest relative difference of an event over the events, by least squares from the
   /// first that is not 0 to the horizon [1/event]; needs ten such events.
   std::optional<double> digits_lost_per_event;

@@ -58,12 +58,13 @@ LogReader::LogReader(const fs::path& place)
 }
 
 void LogReader::read_header() {
-  value_columns_[time] = csv_.needed_column("time");
+  columns_[model::time] = csv_.needed_column("time");
   ball_column_ = csv_.needed_column("ball").value_or(0);
   kind_column_ = csv_.needed_column("partner_kind").value_or(0);
   partner_column_ = csv_.needed_column("partner").value_or(0);
-  value_columns_[approach_speed] = csv_.needed_column("approach_speed");
-  for (const Value v : {slip_speed, milling_dose, wall_work}) value_columns_[v] = csv_.column(value_names[v]);
+  columns_[model::approach_speed] = csv_.needed_column("approach_speed");
+  for (const auto q : {model::slip_speed, model::milling_dose, model::wall_work})
+    columns_[q] = csv_.column(model::logged_quantities[q].name);
   csv_.throw_problems();
 }
 
@@ -79,15 +80,15 @@ std::optional<Event> LogReader::next() {
 std::optional<Event> LogReader::parse() {
   Event event;
   event.line = csv_.line();
-  for (std::size_t v = 0; v < value_count; ++v) {
-    event.values[v] = std::numeric_limits<double>::quiet_NaN();
-    if (!value_columns_[v]) continue;
-    const auto number = csv_.finite(*value_columns_[v]);
+  for (std::size_t q = 0; q < model::logged_count; ++q) {
+    event[q] = std::numeric_limits<double>::quiet_NaN();
+    if (!columns_[q]) continue;
+    const auto number = csv_.finite(*columns_[q]);
     if (!number) return std::nullopt;
-    event.values[v] = *number;
+    event[q] = *number;
   }
-  if (event.values[time] < last_time_) {
-    csv_.bad_field(*value_columns_[time],
+  if (event.time < last_time_) {
+    csv_.bad_field(*columns_[model::time],
                    fmt::format("no time before {} s, that of the line above", last_time_));
     return std::nullopt;
   }
@@ -109,7 +110,7 @@ std::optional<Event> LogReader::parse() {
     csv_.bad_field(partner_column_, "another ball than the first");
     return std::nullopt;
   }
-  last_time_ = event.values[time];
+  last_time_ = event.time;
   return event;
 }
 
@@ -117,13 +118,13 @@ LogScan scan_log(const fs::path& place) {
   LogReader reader(place);
   LogScan scan;
   scan.file = reader.file();
-  for (std::size_t v = 0; v < value_count; ++v) scan.has[v] = reader.has(static_cast<Value>(v));
+  for (std::size_t q = 0; q < model::logged_count; ++q) scan.has[q] = reader.has(q);
   while (const auto event = reader.next()) {
-    if (scan.events++ == 0) scan.first = event->values[time];
-    scan.last = event->values[time];
+    if (scan.events++ == 0) scan.first = event->time;
+    scan.last = event->time;
     if (event->with_wall) scan.walls = std::max(scan.walls, event->partner + 1);
-    for (std::size_t v = 0; v < value_count; ++v)
-      if (scan.has[v]) scan.mean_magnitude[v] += std::abs(event->values[v]);
+    for (std::size_t q = 0; q < model::logged_count; ++q)
+      if (scan.has[q]) scan.mean_magnitude[q] += std::abs((*event)[q]);
   }
   if (scan.events > 0)
     for (double& mean : scan.mean_magnitude) mean /= static_cast<double>(scan.events);

@@ -6,25 +6,16 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "io/csv_reader.hpp"
+#include "model/impact_record.hpp"
 
 namespace edmill::compare {
 
-/// The values of an impact that are compared between two logs; SI.
-enum Value : std::size_t { time, approach_speed, slip_speed, milling_dose, wall_work };
-inline constexpr std::size_t value_count = 5;
-inline constexpr std::array<std::string_view, value_count> value_names = {
-    "time", "approach_speed", "slip_speed", "milling_dose", "wall_work"};
-
-struct Event {
-  std::array<double, value_count> values{};  ///< nan for a column that the log does not have
-  int ball = 0;
-  bool with_wall = false;
-  int partner = 0;         ///< ball or wall id
-  std::uint64_t line = 0;  ///< of the file, from 1
-};
+using Event = model::ImpactRecord<double>;
+/// Of each quantity of model::logged_quantities.
+template <class T>
+using OfEach = std::array<T, model::logged_count>;
 
 /// The log that a path names: that file, or in the folder of a run collisions.csv, which may be compressed.
 std::filesystem::path log_in(const std::filesystem::path& place);
@@ -36,7 +27,8 @@ class LogReader {
   /// @throws InputError with every problem of the header
   explicit LogReader(const std::filesystem::path& place);
 
-  bool has(Value value) const { return value_columns_[value].has_value(); }
+  /// @param quantity  of model::logged_quantities
+  bool has(std::size_t quantity) const { return columns_[quantity].has_value(); }
 
   /// The next event, in order of time; nothing at the end. Bad lines are skipped until there are ten of
   /// them or the file ends.
@@ -50,7 +42,7 @@ class LogReader {
   std::optional<Event> parse();
 
   io::CsvReader csv_;
-  std::array<std::optional<std::size_t>, value_count> value_columns_;
+  OfEach<std::optional<std::size_t>> columns_;
   std::size_t ball_column_ = 0, kind_column_ = 0, partner_column_ = 0;
   double last_time_;
 };
@@ -61,8 +53,8 @@ struct LogScan {
   std::uint64_t events = 0;
   int walls = 0;               ///< that the summary beside the log counts, or else up to the last one met
   double first = 0, last = 0;  ///< times [s]
-  std::array<double, value_count> mean_magnitude{};  ///< of each column; 0 for an absent one
-  std::array<bool, value_count> has{};
+  OfEach<double> mean_magnitude{};  ///< of each column; 0 for an absent one
+  OfEach<bool> has{};
   /// From the summary.json beside a log in a folder, when there is one.
   std::optional<double> statistics_start;  ///< [s]
 };

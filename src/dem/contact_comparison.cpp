@@ -54,7 +54,7 @@ ContactRates rates_of_contacts(const std::string& file, const Window& window) {
 
 ContactRates rates_of_impacts(const std::string& place, const Window& window) {
   const auto scan = compare::scan_log(place);
-  if (!scan.has[compare::milling_dose])
+  if (!scan.has[model::milling_dose])
     throw InputError(scan.file + ": found no column milling_dose, expected one: the dose is compared");
   ContactRates r{.log = place};
   r.first = std::max(window.from, scan.statistics_start.value_or(scan.first)),
@@ -65,9 +65,9 @@ ContactRates rates_of_impacts(const std::string& place, const Window& window) {
   std::uint64_t impacts = 0;
   compare::LogReader log(place);
   while (const auto event = log.next()) {
-    const double time = event->values[compare::time];
+    const double time = event->time;
     if (time < r.first || time > r.last) continue;
-    rate.add(time, event->values[compare::milling_dose]);
+    rate.add(time, event->milling_dose);
     ++impacts;
   }
   r.dose_rate = rate.mean(), r.dose_rate_half_width = rate.half_width();

@@ -44,12 +44,11 @@ LimitPoint point_of(const std::string& file, double from) {
 
 LimitPoint point_of_edmill(const std::string& run, double from) {
   const auto scan = compare::scan_log(run);
-  if (!scan.has[compare::milling_dose])
+  if (!scan.has[model::milling_dose])
     throw InputError(scan.file + ": found no column milling_dose, expected that of edmill's collision log");
   DoseRate rate(std::max(from, scan.statistics_start.value_or(scan.first)), scan.last);
   compare::LogReader log(run);
-  while (const auto event = log.next())
-    rate.add(event->values[compare::time], event->values[compare::milling_dose]);
+  while (const auto event = log.next()) rate.add(event->time, event->milling_dose);
   return {run, 0, rate.mean(), rate.half_width()};
 }
 

@@ -22,11 +22,7 @@ namespace {
 constexpr std::size_t most_impacts = 1000;
 constexpr double same_time = 1e-6;  ///< of a drive period: an impact that comes later is another one
 
-struct Impact {
-  double time;
-  int ball, partner;  ///< of two balls the lower number first; walls are -1 - id
-  bool same_bodies(const Impact& other) const { return ball == other.ball && partner == other.partner; }
-};
+using Impact = model::ImpactRecord<double>;
 
 class Replay {
  public:
@@ -41,11 +37,8 @@ class Replay {
     for (const auto& state : states_) places_.push_back(mill.motion.position_in_vessel(pose, state.position));
     for (const auto& e : log.events) {
       if (!e.problem.empty() || log_.size() == most_impacts) break;
-      const bool turn = !e.with_wall && e.partner < e.ball;
-      log_.push_back({e.time, turn ? e.partner : e.ball,
-                      e.with_wall ? -1 - e.partner
-                      : turn      ? e.ball
-                                  : e.partner});
+      log_.push_back(e);
+      log_.back().put_in_order();
     }
   }
 
@@ -86,8 +79,10 @@ class Replay {
     try {
       const auto source = run::make_source<double>(spec, true);
       for (const auto& e : source->next(count))
-        list.push_back({static_cast<double>(e.values[run::time]) / assumed.log.time - assumed.log.delay,
-                        e.ball, e.with_wall ? -1 - e.partner : e.partner});
+        list.push_back({.ball = e.ball,
+                        .with_wall = e.with_wall,
+                        .partner = e.partner,
+                        .time = static_cast<double>(e.time) / assumed.log.time - assumed.log.delay});
     } catch (const InputError&) {  // balls that do not fit into this vessel
     } catch (const UndecidedError&) {
     }
@@ -114,7 +109,7 @@ class Replay {
     std::vector<bool> lost(states_.size(), false);
     for (std::size_t k = 0; k < log_.size(); ++k) {
       of_ball[static_cast<std::size_t>(log_[k].ball)].push_back(k);
-      if (log_[k].partner >= 0) of_ball[static_cast<std::size_t>(log_[k].partner)].push_back(k);
+      if (!log_[k].with_wall) of_ball[static_cast<std::size_t>(log_[k].partner)].push_back(k);
     }
     for (const auto& impact : list) {
       const auto ball = static_cast<std::size_t>(impact.ball);
@@ -125,7 +120,7 @@ class Replay {
         continue;
       }
       ++next[ball], ++seen[ball];
-      if (impact.partner >= 0) ++next[static_cast<std::size_t>(impact.partner)];
+      if (!impact.with_wall) ++next[static_cast<std::size_t>(impact.partner)];
       off.push_back(impact.time - log_[k].time);
       places.push_back(k);
     }

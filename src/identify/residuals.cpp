@@ -8,8 +8,8 @@
 
 namespace edmill::identify {
 
+using audit::ContactGeometry;
 using audit::LoggedEvent;
-using audit::LoggedImpact;
 using audit::Vec;
 
 namespace {
@@ -25,9 +25,9 @@ audit::VesselFrame frame_at(const model::Mill<double>& mill, double time) {
   return frame;
 }
 
-LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& model,
-                       const audit::VesselFrame& frame, bool with_positions) {
-  LoggedImpact impact;
+ContactGeometry impact_of(const LoggedEvent& event, const model::Case<double>& model,
+                          const audit::VesselFrame& frame, bool with_positions) {
+  ContactGeometry impact;
   impact.with_wall = event.with_wall;
   impact.ball[0] = model.balls[static_cast<std::size_t>(event.ball)];
   impact.normal = {1, 0, 0};
@@ -52,7 +52,7 @@ LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& mode
   return impact;
 }
 
-const model::ContactLaw<double>& law_of(const model::Mill<double>& mill, const LoggedImpact& impact) {
+const model::ContactLaw<double>& law_of(const model::Mill<double>& mill, const ContactGeometry& impact) {
   return impact.with_wall ? mill.law_with_wall(impact.ball[0], impact.wall)
                           : mill.law_between(impact.ball[0], impact.ball[1]);
 }
@@ -180,7 +180,7 @@ std::vector<double> Residuals::of_whole(const Assumptions& assumed) const {
 namespace {
 
 /// The outcome of an impact with other terms.
-audit::Formula formula_of(const Terms& terms, const LoggedImpact& impact) {
+audit::Formula formula_of(const Terms& terms, const ContactGeometry& impact) {
   audit::Formula formula;
   formula.velocity_sign = terms.friction * terms.friction_on_velocity;
   formula.spin_sign = terms.friction * terms.torque;
@@ -204,7 +204,7 @@ audit::Formula formula_of(const Terms& terms, const LoggedImpact& impact) {
 }
 
 /// The wall's velocity as a code with other terms has it.
-Vec assumed_wall_velocity(const LoggedEvent& event, const LoggedImpact& impact,
+Vec assumed_wall_velocity(const LoggedEvent& event, const ContactGeometry& impact,
                           const model::Mill<double>& mill, const Terms& terms) {
   if (terms.wall_velocity_delay == 0 && terms.wall_velocity_formula == 0)
     return impact.wall_velocity * terms.wall_velocity;
@@ -251,7 +251,7 @@ void LogResiduals::event_rows(std::size_t k, const Given& given, Writer& out) co
   for (std::size_t body = 0; body < impact.count(); ++body) flight_rows(k, body, event, given, out);
 }
 
-void LogResiduals::impact_rows(const LoggedEvent& event, const LoggedImpact& impact,
+void LogResiduals::impact_rows(const LoggedEvent& event, const ContactGeometry& impact,
                                const model::ContactLaw<double>& law, const Terms& terms, Writer& out) const {
   const auto& has = log_.available;
   const bool after = has.velocities_after(event.with_wall), spins = has.spins(event.with_wall);
@@ -295,7 +295,7 @@ void LogResiduals::impact_rows(const LoggedEvent& event, const LoggedImpact& imp
     energy_rows(event, impact, law, speeds, terms, 4 * allowed * impact.effective_mass * scale, out);
 }
 
-void LogResiduals::energy_rows(const LoggedEvent& event, const LoggedImpact& impact,
+void LogResiduals::energy_rows(const LoggedEvent& event, const ContactGeometry& impact,
                                const model::ContactLaw<double>& law, const audit::Speeds& speeds,
                                const Terms& terms, double allowed, Writer& out) const {
   const double work = audit::work_of_wall(event, impact);
@@ -321,7 +321,7 @@ void LogResiduals::energy_rows(const LoggedEvent& event, const LoggedImpact& imp
 }
 
 /// Without states the dose follows from the logged speeds.
-void LogResiduals::speed_rows(const LoggedEvent& event, const LoggedImpact& impact,
+void LogResiduals::speed_rows(const LoggedEvent& event, const ContactGeometry& impact,
                               const model::ContactLaw<double>& law, const Terms& terms, Writer& out) const {
   const auto& has = log_.available;
   if (!has.approach_speed || !has.slip_speed || !has.milling_dose) return;

@@ -34,17 +34,16 @@ class AnimationOutput : public FramesOutput<Real> {
   std::vector<std::filesystem::path> places() const override { return file_.places(); }
 
  protected:
-  void before(const Seen<Real>& seen) override {
-    FramesOutput<Real>::before(seen);
-    const auto& f = seen.facts;
+  void before(const ImpactFacts<Real>& f) override {
+    FramesOutput<Real>::before(f);
     if (f.time < this->timer().from() || this->timer().until(f.time) < f.time) return;
-    for (const int ball : {f.ball, f.ball_ball ? f.partner : f.ball})
-      add_key(ball, f.time, seen.simulation.flight(ball).position);
+    for (const int ball : {f.impact.ball, f.impact.with_wall ? f.impact.ball : f.impact.partner})
+      add_key(ball, f.time, f.simulation.flight(ball).position);
   }
-  void record(const Seen<Real>& seen) override {
+  void record(const ImpactFacts<Real>& f) override {
     if (!this->shows_contact()) return;
-    const auto key = static_cast<double>(seen.facts.time);
-    const SceneBall contact = this->contact_at(seen.facts.contact_point);
+    const auto key = static_cast<double>(f.time);
+    const SceneBall contact = this->contact_at(f.contact_point);
     // It stays where it was up to this impact, then jumps.
     if (!first_->contact) first_->contact = contact;
     paths_.contact.emplace_back(key,

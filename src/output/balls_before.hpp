@@ -9,13 +9,13 @@ namespace edmill::output {
 template <class Real>
 class BallsBefore {
  public:
-  explicit BallsBefore(const Seen<Real>& seen) : seen_(seen) {}
+  explicit BallsBefore(const ImpactFacts<Real>& f) : facts_(f) {}
 
   /// @param time  not before the last impact, not after the present one [s]
   model::BallState<Real> state(int ball, const Real& time) const {
-    const auto& s = seen_.simulation;
-    const auto& f = seen_.facts;
-    const bool one = ball == f.ball, two = f.ball_ball && ball == f.partner;
+    const auto& f = facts_;
+    const auto& s = f.simulation;
+    const bool one = ball == f.impact.ball, two = !f.impact.with_wall && ball == f.impact.partner;
     if (!one && !two) return s.state_at(ball, s.clock().at(time));
     const auto& body = one ? f.one : f.two;
     const Real back = f.time - time;
@@ -24,7 +24,7 @@ class BallsBefore {
   }
 
  private:
-  const Seen<Real>& seen_;
+  const ImpactFacts<Real>& facts_;
 };
 
 }  // namespace edmill::output

@@ -8,15 +8,15 @@
 #include "base/compensated_sum.hpp"
 #include "base/scalar.hpp"
 #include "io/table.hpp"
-#include "model/impact_facts.hpp"
 #include "model/parts/partners.hpp"
+#include "output/impact_facts.hpp"
 
 namespace edmill::output {
 
 /// What a list with an entry for each partner has for that of an impact.
 template <class Real, class List>
-auto& of_partner(const model::ImpactFacts<Real>& f, List& list) {
-  return f.ball_ball ? list.back() : list[f.partner];
+auto& of_partner(const ImpactFacts<Real>& f, List& list) {
+  return f.impact.with_wall ? list[f.impact.partner] : list.back();
 }
 
 /// A partner, or several together, as columns of tables count them.

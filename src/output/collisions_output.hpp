@@ -34,12 +34,12 @@ class CollisionsOutput : public OneFileOutput<Real, io::AtomicFile> {
                    const RunContext<Real>& run)
       : OneFileOutput<Real, io::AtomicFile>(spec, folder, run, spec.append),
         states_(spec.own_keys<StatesKey>().states) {
-    this->file_.stream() << run::collision_log_header << (states_ ? run::collision_log_states : "") << '\n';
+    this->file_.stream() << run::collision_log_header(states_) << '\n';
   }
 
  protected:
-  void record(const Seen<Real>& seen) override {
-    this->file_.stream() << run::collision_line<Real>(seen.impact, seen.simulation, states_) << '\n';
+  void record(const ImpactFacts<Real>& f) override {
+    this->file_.stream() << run::collision_line<Real>(f.impact, f.simulation, states_) << '\n';
   }
 
  private:

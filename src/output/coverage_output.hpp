@@ -27,12 +27,11 @@ class CoverageOutput : public TableOutput<Real> {
  protected:
   void archive_record(Archive& a) override { a(cells_); }
 
-  void record(const Seen<Real>& seen) override {
-    const auto& f = seen.facts;
-    if (f.ball_ball) return;
-    auto& cell = cells_[walls_.cell_of(seen)];
+  void record(const ImpactFacts<Real>& f) override {
+    if (!f.impact.with_wall) return;
+    auto& cell = cells_[walls_.cell_of(f)];
     ++cell.impacts;
-    cell.dose += f.milling_dose;
+    cell.dose += f.outcome.milling_dose;
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {

@@ -18,22 +18,18 @@ inline std::vector<EventColumn> event_columns(const model::Partners& partners, b
     walls += (wall == 0 ? "" : ", ") + std::to_string(wall) + " " + partners[wall].label;
   std::vector<EventColumn> columns{
       {"index", "1", "impacts since the start of the run, from 0", Type::integer},
-      {"time", "s", "instant of the impact", Type::number},
       {"ball", "1", "id of the ball, from 0", Type::integer},
       {"partner", "1", "id of the other ball, or of the wall: " + walls, Type::integer},
-      {"with_wall", "1", "1 when the partner is a wall", Type::integer},
-      {"approach_speed", "m/s", "normal relative speed at the contact point before", Type::number},
-      {"slip_speed", "m/s", "tangential relative speed at the contact point before", Type::number},
-      {"milling_dose", "J", "kinetic energy that the impact dissipates", Type::number},
-      {"wall_work", "J", "work of the wall on the ball", Type::number}};
+      {"with_wall", "1", "1 when the partner is a wall", Type::integer}};
+  for (const auto& q : model::logged_quantities) {
+    const auto place = q.name == "time" ? columns.begin() + 1 : columns.end();
+    columns.insert(place, {std::string(q.name), std::string(q.unit), std::string(q.meaning), Type::number});
+  }
   if (states)
     for (const std::string body : {"ball", "partner"})
-      for (const auto& [what, unit] : {std::pair{"position", "m"},
-                                       {"velocity_before", "m/s"},
-                                       {"spin_before", "rad/s"},
-                                       {"velocity_after", "m/s"},
-                                       {"spin_after", "rad/s"}})
-        columns.push_back({body + "_" + what, unit, "inertial frame; nan for a wall", Type::vector});
+      for (const auto& v : model::logged_vectors)
+        columns.push_back({body + "_" + std::string(v.name), std::string(v.unit),
+                           "inertial frame; nan for a wall", Type::vector});
   return columns;
 }
 
@@ -52,20 +48,19 @@ class EventsOutput : public OneFileOutput<Real, EventFile> {
         states_(spec.own_keys<StatesKey>().states) {}
 
  protected:
-  void record(const Seen<Real>& seen) override {
-    const auto& f = seen.facts;
-    const auto& o = seen.impact.outcome;
-    file_.add(0, static_cast<std::int64_t>(f.index));
-    file_.add(1, static_cast<double>(f.time));
-    file_.add(2, std::int64_t{f.ball});
-    file_.add(3, std::int64_t{f.partner});
-    file_.add(4, std::int64_t{f.ball_ball ? 0 : 1});
+  void record(const ImpactFacts<Real>& f) override {
+    const auto record = run::record_of<Real>(f.impact, f.simulation);
+    file_.add(0, static_cast<std::int64_t>(f.impact.index));
+    file_.add(1, static_cast<double>(record.time));
+    file_.add(2, std::int64_t{f.impact.ball});
+    file_.add(3, std::int64_t{f.impact.partner});
+    file_.add(4, std::int64_t{f.impact.with_wall ? 1 : 0});
     std::size_t column = 5;
-    for (const Real* value : {&o.approach_speed, &o.slip_speed, &o.milling_dose, &o.wall_work})
-      file_.add(column++, static_cast<double>(*value));
+    for (std::size_t k = model::approach_speed; k < model::logged_count; ++k)
+      file_.add(column++, static_cast<double>(record[k]));
     if (states_) {
-      add_body(column, f.one, seen.simulation.flight(f.ball).position);
-      add_body(column, f.two, f.two.ball ? seen.simulation.flight(f.partner).position : f.contact_point);
+      add_body(column, f.one, f.simulation.flight(f.impact.ball).position);
+      add_body(column, f.two, f.two.ball ? f.simulation.flight(f.impact.partner).position : f.contact_point);
     }
     file_.end_row();
   }
@@ -92,7 +87,7 @@ class EventsOutput : public OneFileOutput<Real, EventFile> {
   }
 
  private:
-  void add_body(std::size_t& column, const model::ImpactBody<Real>& body, const Vec3<Real>& place) {
+  void add_body(std::size_t& column, const ImpactBody<Real>& body, const Vec3<Real>& place) {
     for (const Vec3<Real>* vector :
          {&place, &body.velocity_before, &body.spin_before, &body.velocity_after, &body.spin_after}) {
       for (int axis = 0; axis < 3; ++axis)

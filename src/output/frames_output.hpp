@@ -21,12 +21,12 @@ class FramesOutput : public SceneOutput<Real> {
   virtual void add_frame(const engine::Simulation<Real>& simulation, const Real& time,
                          const StateOf& state_of) = 0;
 
-  void before(const Seen<Real>& seen) override {
-    const Real& now = seen.facts.time;
+  void before(const ImpactFacts<Real>& f) override {
+    const Real& now = f.time;
     if (complete_ || now < this->timer().from()) return;
-    const BallsBefore<Real> balls(seen);
+    const BallsBefore<Real> balls(f);
     const auto frame = [&](const Real& time) {
-      add_frame(seen.simulation, time, [&](int i) { return balls.state(i, time); });
+      add_frame(f.simulation, time, [&](int i) { return balls.state(i, time); });
     };
     if (!begun_) frame(this->timer().from());
     begun_ = true;

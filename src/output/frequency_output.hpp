@@ -59,9 +59,8 @@ class FrequencyOutput : public TableOutput<Real> {
 
  protected:
   void archive_record(Archive& a) override { a(counts_); }
-  void record(const Seen<Real>& seen) override {
-    const auto& f = seen.facts;
-    ++count(row_of(formula_(f)), f.ball_ball ? partners_ - 1 : f.partner);
+  void record(const ImpactFacts<Real>& f) override {
+    ++count(row_of(formula_(f)), f.impact.with_wall ? f.impact.partner : partners_ - 1);
   }
 
   void end_of_record(const engine::Simulation<Real>&, const Real&) override {

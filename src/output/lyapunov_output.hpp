@@ -42,9 +42,9 @@ class LyapunovOutput : public TableOutput<Real> {
   }
 
   /// Directions turn before the record begins, too.
-  void every(const Seen<Real>& seen) override {
-    const auto& simulation = seen.simulation;
-    const auto& impact = seen.impact;
+  void every(const ImpactFacts<Real>& f) override {
+    const auto& simulation = f.simulation;
+    const auto& impact = f.impact;
     if (!spectrum_)
       make_spectrum(simulation, in_double(simulation.clock().after(impact.time, -impact.flight_time[0])));
     const tangent::ImpactAt<double> at{in_double(impact.time), vector_cast<double>(impact.normal),
@@ -63,11 +63,11 @@ class LyapunovOutput : public TableOutput<Real> {
       spectrum_->of_pair(at, body(0, impact.ball), body(1, impact.partner));
   }
 
-  void record(const Seen<Real>& seen) override {
-    if (!begun_) begin_record(in_double(seen.impact.time));
+  void record(const ImpactFacts<Real>& f) override {
+    if (!begun_) begin_record(in_double(f.impact.time));
     ++collisions_;
-    of_balls_ += seen.impact.with_wall ? 1 : 2;
-    touched_ += seen.impact.outcome.least_separation;
+    of_balls_ += f.impact.with_wall ? 1 : 2;
+    touched_ += f.outcome.least_separation;
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {

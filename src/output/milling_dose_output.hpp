@@ -55,7 +55,7 @@ class MillingDoseOutput : public TableOutput<Real> {
 
  protected:
   void archive_record(Archive& a) override { a(dose_); }
-  void record(const Seen<Real>& seen) override { dose_ += seen.facts.milling_dose; }
+  void record(const ImpactFacts<Real>& f) override { dose_ += f.outcome.milling_dose; }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
     const Real time = until - this->timer().from(), dose = dose_.value();

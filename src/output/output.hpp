@@ -8,7 +8,6 @@
 #include "casefile/case_spec.hpp"
 #include "engine/simulation.hpp"
 #include "io/file_note.hpp"
-#include "model/impact_facts.hpp"
 #include "model/parts/surface.hpp"
 #include "output/output_timer.hpp"
 #include "output/variable_values.hpp"
@@ -27,23 +26,15 @@ struct RunContext {
   std::vector<io::FileNote> notes;                 ///< where the run comes from
 };
 
-/// One impact as an output sees it.
-template <class Real>
-struct Seen {
-  const model::ImpactFacts<Real>& facts;
-  const engine::Impact<Real>& impact;
-  const engine::Simulation<Real>& simulation;
-};
-
 /// The vessel at the impact.
 template <class Real>
-model::AnyPose<Real> pose_of(const Seen<Real>& seen) {
-  return seen.simulation.mill().motion.pose(seen.impact.time);
+model::AnyPose<Real> pose_of(const ImpactFacts<Real>& f) {
+  return f.simulation.mill().motion.pose(f.impact.time);
 }
 /// The contact point in the vessel frame [m].
 template <class Real>
-Vec3<Real> own_contact_point(const Seen<Real>& seen, const model::AnyPose<Real>& pose) {
-  return seen.simulation.mill().motion.position_in_vessel(pose, seen.facts.contact_point);
+Vec3<Real> own_contact_point(const ImpactFacts<Real>& f, const model::AnyPose<Real>& pose) {
+  return f.simulation.mill().motion.position_in_vessel(pose, f.contact_point);
 }
 
 /// A timer and restrictions. Types derive from it and say what they do with an impact.
@@ -56,15 +47,14 @@ class Output {
   }
   virtual ~Output() = default;
 
-  void on_impact(const Seen<Real>& seen) {
-    const auto& f = seen.facts;
-    every(seen);
-    const bool recorded = timer_.admits(f.time, f.index);
-    if (timer_.is_open()) before(seen);
+  void on_impact(const ImpactFacts<Real>& f) {
+    every(f);
+    const bool recorded = timer_.admits(f.time, f.impact.index);
+    if (timer_.is_open()) before(f);
     if (!recorded) return;
     for (const auto& r : only_)
       if (r.formula(f) != r.value) return;
-    record(seen);
+    record(f);
   }
   /// At the end of the run, whatever ended it.
   void finish(const engine::Simulation<Real>& simulation) {
@@ -89,11 +79,11 @@ class Output {
   /// What it has gathered and not yet written; what follows from the case is not part of it.
   virtual void archive_record(Archive& a) = 0;
   /// An impact of the record.
-  virtual void record(const Seen<Real>& seen) = 0;
+  virtual void record(const ImpactFacts<Real>& f) = 0;
   /// Any impact of the run, in the record or not.
-  virtual void every(const Seen<Real>&) {}
+  virtual void every(const ImpactFacts<Real>&) {}
   /// Any impact, before it is recorded: for rows that are due since the one before.
-  virtual void before(const Seen<Real>&) {}
+  virtual void before(const ImpactFacts<Real>&) {}
   virtual void end_of_record(const engine::Simulation<Real>&, const Real& /*until*/) {}
 
   const OutputTimer<Real>& timer() const { return timer_; }

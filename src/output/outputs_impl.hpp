@@ -27,38 +27,6 @@ std::vector<io::FileNote> notes_of(const casefile::CaseSpec& spec) {
   return notes;
 }
 
-template <class Real>
-model::ImpactFacts<Real> facts_of(const engine::Impact<Real>& impact,
-                                  const engine::Simulation<Real>& simulation, const Real& previous,
-                                  int walls) {
-  model::ImpactFacts<Real> f;
-  f.index = impact.index;
-  f.time = simulation.clock().seconds(impact.time);
-  f.time_previous = previous;
-  f.ball = impact.ball, f.partner = impact.partner;
-  f.ball_ball = !impact.with_wall;
-  f.least_separation = impact.outcome.least_separation;
-  f.balls = simulation.ball_count(), f.walls = walls;
-  f.gravity = simulation.mill().gravity;
-  f.normal = impact.normal;
-  const auto fill = [&](model::ImpactBody<Real>& body, int place, int ball) {
-    body = {&simulation.properties(ball), impact.velocity_before[place], simulation.flight(ball).velocity,
-            impact.spin_before[place],    simulation.spin(ball),         impact.flight_time[place]};
-  };
-  fill(f.one, 0, impact.ball);
-  if (f.ball_ball)
-    fill(f.two, 1, impact.partner);
-  else
-    f.two.velocity_before = f.two.velocity_after = impact.wall_velocity;
-  f.contact_point = simulation.flight(impact.ball).position - impact.normal * f.one.ball->radius;
-  const auto& o = impact.outcome;
-  f.milling_dose = o.milling_dose, f.wall_work = o.wall_work;
-  f.normal_impulse = o.normal_impulse, f.tangential_impulse = o.tangential_impulse;
-  f.restitution_normal = o.restitution_normal(), f.restitution_tangential = o.restitution_tangential;
-  f.dose_normal = o.normal_dose, f.supplied_energy = o.supplied_energy;
-  return f;
-}
-
 }  // namespace detail
 
 template <class Real>
@@ -82,9 +50,8 @@ Outputs<Real>::~Outputs() = default;
 
 template <class Real>
 void Outputs<Real>::on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) {
-  const auto facts = detail::facts_of<Real>(impact, simulation, previous_, walls_);
-  const Seen<Real> seen{facts, impact, simulation};
-  for (auto& output : outputs_) output->on_impact(seen);
+  const ImpactFacts<Real> facts{impact, simulation, previous_, walls_};
+  for (auto& output : outputs_) output->on_impact(facts);
   previous_ = facts.time;
 }
 

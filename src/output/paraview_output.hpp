@@ -38,12 +38,11 @@ class ParaviewOutput : public FramesOutput<Real> {
   }
 
  protected:
-  void record(const Seen<Real>& seen) override {
-    const auto& f = seen.facts;
-    doses_.resize(static_cast<std::size_t>(f.balls), 0);
-    const auto dose = static_cast<double>(f.milling_dose);
-    doses_[static_cast<std::size_t>(f.ball)] += dose;
-    if (f.ball_ball) doses_[static_cast<std::size_t>(f.partner)] += dose;
+  void record(const ImpactFacts<Real>& f) override {
+    doses_.resize(static_cast<std::size_t>(f.simulation.ball_count()), 0);
+    const auto dose = static_cast<double>(f.outcome.milling_dose);
+    doses_[static_cast<std::size_t>(f.impact.ball)] += dose;
+    if (!f.impact.with_wall) doses_[static_cast<std::size_t>(f.impact.partner)] += dose;
   }
   void archive_record(Archive& a) override {
     FramesOutput<Real>::archive_record(a);

@@ -54,10 +54,10 @@ class RatesAboveOutput : public TableOutput<Real> {
  protected:
   void archive_record(Archive& a) override { a(from_); }
 
-  void record(const Seen<Real>& seen) override {
-    const Real& approach = seen.impact.outcome.approach_speed;
+  void record(const ImpactFacts<Real>& f) override {
+    const Real& approach = f.outcome.approach_speed;
     const Real speed = approach > 0 ? approach : Real(0);
-    of_partner(seen.facts, from_[bin_of<Real>(cutoffs_, speed)]).add(seen.facts.milling_dose);
+    of_partner(f, from_[bin_of<Real>(cutoffs_, speed)]).add(f.outcome.milling_dose);
   }
 
   void end_of_record(const engine::Simulation<Real>&, const Real& until) override {

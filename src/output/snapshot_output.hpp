@@ -42,13 +42,13 @@ class SnapshotOutput : public SceneOutput<Real> {
 
  protected:
   void archive_record(Archive& a) override { a(pages_); }
-  void record(const Seen<Real>& seen) override {
-    const BallsBefore<Real> balls(seen);
-    const Real& time = seen.facts.time;
-    Scene s = this->scene(seen.simulation, time, [&](int i) { return balls.state(i, time); });
-    if (this->shows_contact()) s.contact = this->contact_at(seen.facts.contact_point);
-    look_at(this->walls(), frames_around(seen.simulation.mill().motion, static_cast<double>(time)), s);
-    pages_.emplace_back(seen.facts.index, x3d_text(s));
+  void record(const ImpactFacts<Real>& f) override {
+    const BallsBefore<Real> balls(f);
+    const Real& time = f.time;
+    Scene s = this->scene(f.simulation, time, [&](int i) { return balls.state(i, time); });
+    if (this->shows_contact()) s.contact = this->contact_at(f.contact_point);
+    look_at(this->walls(), frames_around(f.simulation.mill().motion, static_cast<double>(time)), s);
+    pages_.emplace_back(f.impact.index, x3d_text(s));
   }
 
  private:

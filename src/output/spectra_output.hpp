@@ -61,17 +61,16 @@ class SpectraOutput : public TableOutput<Real> {
  protected:
   void archive_record(Archive& a) override { a(spectra_); }
 
-  void record(const Seen<Real>& seen) override {
-    const auto& f = seen.facts;
-    const auto& o = seen.impact.outcome;
+  void record(const ImpactFacts<Real>& f) override {
+    const auto& o = f.outcome;
     if (of_speed_) {
-      add(f, 0, o.approach_speed, f.milling_dose);
-      add(f, 1, o.slip_speed, f.milling_dose);
+      add(f, 0, o.approach_speed, o.milling_dose);
+      add(f, 1, o.slip_speed, o.milling_dose);
     } else {
-      const Real tangential = f.milling_dose - f.dose_normal;
-      add(f, 0, f.dose_normal, f.dose_normal);
+      const Real tangential = o.milling_dose - o.normal_dose;
+      add(f, 0, o.normal_dose, o.normal_dose);
       add(f, 1, tangential, tangential);
-      add(f, 2, f.milling_dose, f.milling_dose);
+      add(f, 2, o.milling_dose, o.milling_dose);
     }
   }
 
@@ -111,7 +110,7 @@ class SpectraOutput : public TableOutput<Real> {
   static std::vector<Real> edges_of(const SpectraKeys& keys) {
     return log_edges<Real>(keys.low, keys.high, keys.bins_per_decade);
   }
-  void add(const model::ImpactFacts<Real>& f, std::size_t spectrum, const Real& value, const Real& energy) {
+  void add(const ImpactFacts<Real>& f, std::size_t spectrum, const Real& value, const Real& energy) {
     of_partner(f, spectra_[spectrum][bin_of<Real>(edges_, value)]).add(energy);
   }
 

@@ -33,8 +33,7 @@ class StatisticsOutput : public TableOutput<Real> {
   void archive_record(Archive& a) override {
     for (auto& g : gathered_) a(g.by_partner);
   }
-  void record(const Seen<Real>& seen) override {
-    const auto& f = seen.facts;
+  void record(const ImpactFacts<Real>& f) override {
     for (auto& g : gathered_) of_partner(f, g.by_partner).add(g.formula(f));
   }
 

@@ -43,16 +43,15 @@ class TraceOutput : public TableOutput<Real> {
 
  protected:
   void archive_record(Archive& a) override { a(clock_); }
-  void before(const Seen<Real>& seen) override {
+  void before(const ImpactFacts<Real>& f) override {
     if (at_impacts_) return;
-    const BallsBefore<Real> balls(seen);
-    clock_.pass(this->timer(), seen.facts.time,
+    const BallsBefore<Real> balls(f);
+    clock_.pass(this->timer(), f.time,
                 [&](const Real&, const Real& end) { write_row(end, balls.state(ball_, end).position); });
   }
-  void record(const Seen<Real>& seen) override {
-    const auto& f = seen.facts;
-    if (at_impacts_ && (f.ball == ball_ || (f.ball_ball && f.partner == ball_)))
-      write_row(f.time, seen.simulation.flight(ball_).position);
+  void record(const ImpactFacts<Real>& f) override {
+    if (at_impacts_ && (f.impact.ball == ball_ || (!f.impact.with_wall && f.impact.partner == ball_)))
+      write_row(f.time, f.simulation.flight(ball_).position);
   }
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
     if (at_impacts_) return;

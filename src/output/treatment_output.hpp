@@ -60,12 +60,12 @@ class TreatmentOutput : public TableOutput<Real> {
  protected:
   void archive_record(Archive& a) override { a(on_walls_, on_balls_, impacts_); }
 
-  void record(const Seen<Real>& seen) override {
-    const auto& f = seen.facts;
-    if (f.milling_dose < threshold_) return;
+  void record(const ImpactFacts<Real>& f) override {
+    if (f.outcome.milling_dose < threshold_) return;
     ++impacts_;
-    ++on_balls_[static_cast<std::size_t>(f.ball)];
-    ++(f.ball_ball ? on_balls_[static_cast<std::size_t>(f.partner)] : on_walls_[walls_.cell_of(seen)]);
+    ++on_balls_[static_cast<std::size_t>(f.impact.ball)];
+    ++(f.impact.with_wall ? on_walls_[walls_.cell_of(f)]
+                          : on_balls_[static_cast<std::size_t>(f.impact.partner)]);
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {

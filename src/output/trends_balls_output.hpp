@@ -56,13 +56,13 @@ class TrendsBallsOutput : public TableOutput<Real> {
 
  protected:
   void archive_record(Archive& a) override { a(clock_); }
-  void before(const Seen<Real>& seen) override {
-    const BallsBefore<Real> balls(seen);
-    clock_.pass(this->timer(), seen.facts.time, [&](const Real&, const Real& end) {
-      write_row(seen.simulation, seen.facts.index, end, [&](int i) { return balls.state(i, end); });
+  void before(const ImpactFacts<Real>& f) override {
+    const BallsBefore<Real> balls(f);
+    clock_.pass(this->timer(), f.time, [&](const Real&, const Real& end) {
+      write_row(f.simulation, f.impact.index, end, [&](int i) { return balls.state(i, end); });
     });
   }
-  void record(const Seen<Real>&) override {}
+  void record(const ImpactFacts<Real>&) override {}
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
     clock_.finish(this->timer().from(), until, [&](const Real&, const Real& end) {
       const auto when = simulation.instant_of(end);

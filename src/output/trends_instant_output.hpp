@@ -36,9 +36,9 @@ class TrendsInstantOutput : public TableOutput<Real> {
 
  protected:
   void archive_record(Archive& a) override { a(clock_, due_, rows_left_); }
-  void record(const Seen<Real>& seen) override {
+  void record(const ImpactFacts<Real>& f) override {
     if (!every_impact_) {
-      clock_.pass(this->timer(), seen.facts.time, [&](const Real&, const Real&) { due_ = true; });
+      clock_.pass(this->timer(), f.time, [&](const Real&, const Real&) { due_ = true; });
       if (!due_) return;
       due_ = false;
     }
@@ -47,7 +47,7 @@ class TrendsInstantOutput : public TableOutput<Real> {
       --*rows_left_;
     }
     for (const auto& c : columns_) {
-      const Real value = variable_formula<Real>(c.variable)(seen.facts);
+      const Real value = variable_formula<Real>(c.variable)(f);
       if (model::impact_variables[c.variable].kind == model::VariableKind::flag)
         this->put(value != 0 ? c.true_text : c.false_text);
       else

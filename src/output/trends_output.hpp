@@ -44,12 +44,11 @@ class TrendsOutput : public TableOutput<Real> {
     a(clock_);
     for (auto& g : gathered_) a(g.sums);
   }
-  void before(const Seen<Real>& seen) override {
-    clock_.pass(this->timer(), seen.facts.time,
-                [&](const Real& begin, const Real& end) { write_row(begin, end); });
+  void before(const ImpactFacts<Real>& f) override {
+    clock_.pass(this->timer(), f.time, [&](const Real& begin, const Real& end) { write_row(begin, end); });
   }
-  void record(const Seen<Real>& seen) override {
-    for (auto& g : gathered_) g.sums.add(g.formula(seen.facts));
+  void record(const ImpactFacts<Real>& f) override {
+    for (auto& g : gathered_) g.sums.add(g.formula(f));
   }
   void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
     clock_.finish(this->timer().from(), until,

@@ -5,18 +5,18 @@
 #include <string>
 
 #include "base/scalar.hpp"
-#include "model/impact_facts.hpp"
 #include "model/impact_variables.hpp"
+#include "output/impact_facts.hpp"
 
 namespace edmill::output {
 
 /// Value of the variable at a place of model::impact_variables; 0 or 1 for a flag.
 template <class Real>
-using VariableFormula = Real (*)(const model::ImpactFacts<Real>&);
+using VariableFormula = Real (*)(const ImpactFacts<Real>&);
 
 template <class Real>
 VariableFormula<Real> variable_formula(int place) {
-  using Facts = model::ImpactFacts<Real>;
+  using Facts = ImpactFacts<Real>;
 #define EDMILL_FLAG(name, thesis, meaning, formula) \
   [](const Facts& f) -> Real { return (static_cast<void>(f), (formula) ? Real(1) : Real(0)); },
 #define EDMILL_COUNT(name, thesis, meaning, formula) [](const Facts& f) -> Real { return Real(formula); },

@@ -40,24 +40,22 @@ class VesselLoadOutput : public TableOutput<Real> {
     a(clock_, impulse_, moment_, vessel_impulse_, vessel_moment_, work_);
   }
 
-  void before(const Seen<Real>& seen) override {
-    clock_.pass(this->timer(), seen.facts.time,
-                [&](const Real& begin, const Real& end) { write_row(begin, end); });
+  void before(const ImpactFacts<Real>& f) override {
+    clock_.pass(this->timer(), f.time, [&](const Real& begin, const Real& end) { write_row(begin, end); });
   }
 
-  void record(const Seen<Real>& seen) override {
-    const auto& f = seen.facts;
-    if (f.ball_ball) return;
+  void record(const ImpactFacts<Real>& f) override {
+    if (!f.impact.with_wall) return;
     const Vec3<Real> impulse = (f.one.velocity_before - f.one.velocity_after) * f.one.ball->mass;
     impulse_ += impulse;
     moment_ += cross<Real>(f.contact_point, impulse);
-    const auto pose = pose_of(seen);
-    const Vec3<Real> own_impulse{dot<Real>(seen.simulation.mill().motion.axis_x(pose), impulse),
-                                 dot<Real>(seen.simulation.mill().motion.axis_y(pose), impulse),
-                                 dot<Real>(seen.simulation.mill().motion.axis_z(pose), impulse)};
+    const auto pose = pose_of(f);
+    const Vec3<Real> own_impulse{dot<Real>(f.simulation.mill().motion.axis_x(pose), impulse),
+                                 dot<Real>(f.simulation.mill().motion.axis_y(pose), impulse),
+                                 dot<Real>(f.simulation.mill().motion.axis_z(pose), impulse)};
     vessel_impulse_ += own_impulse;
-    vessel_moment_ += cross<Real>(own_contact_point(seen, pose), own_impulse);
-    work_ += f.wall_work;
+    vessel_moment_ += cross<Real>(own_contact_point(f, pose), own_impulse);
+    work_ += f.outcome.wall_work;
   }
 
   void end_of_record(const engine::Simulation<Real>&, const Real& until) override {

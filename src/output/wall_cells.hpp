@@ -65,9 +65,9 @@ class WallCells {
   const std::vector<Wall>& walls() const { return walls_; }  ///< by id
   std::size_t count() const { return count_; }               ///< of all cells
   /// The cell of the contact point. @pre the impact is with a wall
-  std::size_t cell_of(const Seen<Real>& seen) const {
-    const auto& wall = walls_[static_cast<std::size_t>(seen.facts.partner)];
-    const auto place = wall.surface.map(own_contact_point(seen, pose_of(seen)));
+  std::size_t cell_of(const ImpactFacts<Real>& f) const {
+    const auto& wall = walls_[static_cast<std::size_t>(f.impact.partner)];
+    const auto place = wall.surface.map(own_contact_point(f, pose_of(f)));
     return wall.cell(part(place.u, wall.columns), part(place.v, wall.rows));
   }
 

@@ -20,7 +20,7 @@ bool stopped(const ProofOptions& options) {
 }
 
 /// All events at this number of bits, or as many as it decides.
-Attempt attempt(Proof& proof, const std::vector<Candidate>& next, slong bits, const ProofOptions& options) {
+Attempt attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, const ProofOptions& options) {
   Prover prover(proof.exact, bits);
   Attempt result{bits, 0, ""};
   proof.events.clear();
@@ -42,8 +42,8 @@ Attempt attempt(Proof& proof, const std::vector<Candidate>& next, slong bits, co
 
 }  // namespace
 
-std::vector<Candidate> candidates(const casefile::CaseSpec& spec, const ProofOptions& options,
-                                  std::string& impossible) {
+std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptions& options,
+                                std::string& impossible) {
   const std::size_t collisions = options.collisions;
   const auto source = run::make_source<mpfr200>(spec, false);
   std::vector<run::Event> events;
@@ -58,18 +58,17 @@ std::vector<Candidate> candidates(const casefile::CaseSpec& spec, const ProofOpt
                                  events.size(), collisions));
   const Precision scope(1024);
   const Enclosure start = enclosure_of(spec.initial_time);
-  std::vector<Candidate> list;
+  std::vector<Meeting> list;
   for (const auto& event : events) {
     if (event.by_rule) {
       impossible = fmt::format(
           "event {}, ball {} and {} {} at {} s, has another contact of its ball at the same time: the "
           "equations do not say what comes next",
-          list.size(), event.ball, event.with_wall ? "wall" : "ball", event.partner,
-          event.values[run::time].str(17));
+          list.size(), event.ball, event.with_wall ? "wall" : "ball", event.partner, event.time.str(17));
       return {};
     }
     Enclosure time;
-    arf_set_mpfr(arb_midref(time.arb()), event.values[run::time].data());
+    arf_set_mpfr(arb_midref(time.arb()), event.time.data());
     list.push_back({event.ball, event.with_wall, event.partner, Enclosure(time - start).middle()});
   }
   return list;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr slong coarse_bits = 64, guard_bits = 64;
 
-std::string name_of(const Candidate& next) {
+std::string name_of(const Meeting& next) {
   return fmt::format("ball {} and {} {}", next.ball, next.with_wall ? "wall" : "ball", next.partner);
 }
 
@@ -75,7 +75,7 @@ slong Prover::accuracy() const {
   return least;
 }
 
-Gap Prover::gap_at(const Candidate& next, const Enclosure& time) const {
+Gap Prover::gap_at(const Meeting& next, const Enclosure& time) const {
   const Flight& one = tracks_[static_cast<std::size_t>(next.ball)].flight;
   if (next.with_wall) {
     const auto seen = Motion::in_vessel(fine_.motion.pose(time), one.position_at(time, fine_.gravity),
@@ -95,13 +95,13 @@ Gap Prover::gap_at(const Candidate& next, const Enclosure& time) const {
   return {pair.value(), 2 * pair.half_rate(), 2 * squared_norm<Enclosure>(pair.relative)};
 }
 
-bool Prover::brackets(const Candidate& next, const Enclosure& time) const {
+bool Prover::brackets(const Meeting& next, const Enclosure& time) const {
   return gap_at(next, time.low()).value.is_positive() && gap_at(next, time.high()).value.is_negative() &&
          gap_at(next, time).rate.is_negative();
 }
 
 /// Newton's method to the width of the flights, then an interval that is proven to hold the contact.
-Enclosure Prover::bracket(const Candidate& next) const {
+Enclosure Prover::bracket(const Meeting& next) const {
   Enclosure time = next.time, wide;
   for (slong bits = 256;; bits = std::min(2 * bits, fine_.bits)) {
     const Precision scope(std::min(bits, fine_.bits));
@@ -184,7 +184,7 @@ bool Prover::friction_rests(std::size_t ball, const Law& law, const Enclosure& t
   return ++track.unmoved > model::StallRule().impacts;
 }
 
-ProvenEvent Prover::impact_on_wall(const Candidate& next, const Enclosure& time) {
+ProvenEvent Prover::impact_on_wall(const Meeting& next, const Enclosure& time) {
   const auto own = static_cast<std::size_t>(next.ball), wall = static_cast<std::size_t>(next.partner);
   const Flight& flight = tracks_[own].flight;
   const Enclosure middle = time.middle(), d = time - middle;
@@ -204,10 +204,10 @@ ProvenEvent Prover::impact_on_wall(const Candidate& next, const Enclosure& time)
   const auto hit = impulse(law, normal, contact, 1 + 1 / inertia, friction_rests(own, law, time));
   const Flight after{middle, position - hit.push * d, velocity + hit.push,
                      flight.spin + hit.turn * Enclosure(1 / (fine_.radius[own] * inertia))};
-  return {next.ball, true, next.partner, time, hit.approach_speed, hit.slip_speed, {after}, {}};
+  return {{next.ball, true, next.partner, time}, hit.approach_speed, hit.slip_speed, {after}, {}};
 }
 
-ProvenEvent Prover::impact_of_balls(const Candidate& next, const Enclosure& time) {
+ProvenEvent Prover::impact_of_balls(const Meeting& next, const Enclosure& time) {
   const auto i = static_cast<std::size_t>(next.ball), j = static_cast<std::size_t>(next.partner);
   const Flight &one = tracks_[i].flight, &two = tracks_[j].flight;
   const Enclosure middle = time.middle(), d = time - middle;
@@ -230,7 +230,7 @@ ProvenEvent Prover::impact_of_balls(const Candidate& next, const Enclosure& time
                        one.spin + hit.turn * Enclosure(share_i / (R_i * fine_.inertia[i]))};
   const Flight after_j{middle, position[1] + push_j * d, velocity[1] - push_j,
                        two.spin + hit.turn * Enclosure(share_j / (R_j * fine_.inertia[j]))};
-  return {next.ball, false, next.partner, time, hit.approach_speed, hit.slip_speed, {after_i, after_j}, {}};
+  return {{next.ball, false, next.partner, time}, hit.approach_speed, hit.slip_speed, {after_i, after_j}, {}};
 }
 
 void Prover::follow(const ProvenEvent& event) {
@@ -251,7 +251,7 @@ void Prover::follow(const ProvenEvent& event) {
   ++events_;
 }
 
-ProvenEvent Prover::take(const Candidate& next) {
+ProvenEvent Prover::take(const Meeting& next) {
   const Precision scope(fine_.bits);
   const Enclosure time = bracket(next);
   if (!less(last_end_, time.low()))

@@ -11,19 +11,15 @@
 
 namespace edmill::prove {
 
-/// Two bodies that may meet next, and about when.
-struct Candidate {
+/// Two bodies that meet next, or may, and when.
+struct Meeting {
   int ball = 0;
   bool with_wall = false;
   int partner = 0;  ///< ball or wall
-  Enclosure time;   ///< about when [s] after the start, exact
+  Enclosure time;   ///< [s] after the start: about when, exact; of a proven event the bracket
 };
 
-struct ProvenEvent {
-  int ball = 0;
-  bool with_wall = false;
-  int partner = 0;
-  Enclosure time;                                 ///< the bracket [s]
+struct ProvenEvent : Meeting {
   Enclosure approach_speed, slip_speed;           ///< before the impact [m/s]
   std::vector<Flight> after;                      ///< of the ball and of a partner that is a ball
   std::vector<std::vector<std::string>> windows;  ///< of the flights that end, by body and wall
@@ -37,7 +33,7 @@ class Prover {
 
   /// Proves that this is the next event, and goes on to its other side.
   /// @throws Undecided
-  ProvenEvent take(const Candidate& next);
+  ProvenEvent take(const Meeting& next);
   /// Proves that the flights that have not ended meet nothing up to the end of the last bracket.
   /// @return by ball, the windows by wall; none for the balls of the last event
   std::vector<std::vector<std::string>> finish();
@@ -65,14 +61,14 @@ class Prover {
   };
 
   static Tools tools(const ExactCase& exact, slong bits);
-  Enclosure bracket(const Candidate& next) const;
-  Gap gap_at(const Candidate& next, const Enclosure& time) const;
-  bool brackets(const Candidate& next, const Enclosure& time) const;
+  Enclosure bracket(const Meeting& next) const;
+  Gap gap_at(const Meeting& next, const Enclosure& time) const;
+  bool brackets(const Meeting& next, const Enclosure& time) const;
   std::vector<std::string> exclude_walls(int ball, const Enclosure& end, int end_wall) const;
   /// @param through  the number of the event at `end`
   void exclude_balls(int ball, int partner, const Enclosure& end, long through) const;
-  ProvenEvent impact_on_wall(const Candidate& next, const Enclosure& time);
-  ProvenEvent impact_of_balls(const Candidate& next, const Enclosure& time);
+  ProvenEvent impact_on_wall(const Meeting& next, const Enclosure& time);
+  ProvenEvent impact_of_balls(const Meeting& next, const Enclosure& time);
   void follow(const ProvenEvent& event);
   bool friction_rests(std::size_t ball, const Law& law, const Enclosure& time);
 

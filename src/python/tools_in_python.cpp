@@ -23,6 +23,7 @@
 #include "dem/contact_log.hpp"
 #include "io/input_file.hpp"
 #include "machines/machines.hpp"
+#include "model/impact_record.hpp"
 #include "model/impact_variables.hpp"
 #include "prove/certificate.hpp"
 #include "python/binding.hpp"
@@ -79,13 +80,17 @@ std::string audit(const Case& the_case, const std::string& log, const std::vecto
   });
 }
 
+py::str name_of(std::size_t quantity) {
+  const auto& name = model::logged_quantities[quantity].name;
+  return {name.data(), name.size()};
+}
+
 py::dict digits_of(const run::Agreement& agreement) {
   py::dict digits;
-  for (int k = 0; k < run::quantity_count; ++k) {
-    const auto quantity = static_cast<run::Quantity>(k);
-    const double found = agreement.digits(quantity);
+  for (std::size_t k = 0; k < model::logged_count; ++k) {
+    const double found = agreement.digits(k);
     // No difference at all was seen.
-    digits[name_of(quantity)] =
+    digits[name_of(k)] =
         found < run::Agreement::most ? py::object(py::float_(found)) : py::object(py::none());
   }
   return digits;
@@ -96,8 +101,7 @@ py::list bodies_of(const std::vector<run::Event>& events) {
   for (const auto& e : events) {
     py::dict row;
     row["ball"] = e.ball, row["partner_kind"] = e.with_wall ? "wall" : "ball", row["partner"] = e.partner;
-    for (int k = 0; k < run::quantity_count; ++k)
-      row[name_of(static_cast<run::Quantity>(k))] = e.values[static_cast<std::size_t>(k)].str();
+    for (std::size_t k = 0; k < model::logged_count; ++k) row[name_of(k)] = e[k].str();
     rows.append(row);
   }
   return rows;
@@ -146,7 +150,7 @@ py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, 
       interruptible(interrupt, [&] { return app::sensitivity(CaseAccess::spec(the_case), options); });
   py::list of_numbers;
   for (std::size_t k = 0; k < by.size(); ++k) {
-    std::vector<std::array<double, run::quantity_count>> quantities;
+    std::vector<std::array<double, model::logged_count>> quantities;
     std::vector<std::array<std::array<double, 9>, 2>> states;
     for (const auto& event : found.derivatives) {
       const auto& d = event[k];
@@ -288,6 +292,9 @@ const Binding tools([](py::module_& m) {
   m.def("shadow", &shadow);
   m.def("check", &check);
   m.def("sensitivity", &sensitivity);
+  py::tuple quantities(model::logged_count);
+  for (std::size_t k = 0; k < model::logged_count; ++k) quantities[k] = name_of(k);
+  m.attr("logged_quantities") = quantities;
   m.def("find_digits", &find_digits);
   m.def("estimate", &estimate);
   m.def("report", &report);

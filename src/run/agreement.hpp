@@ -18,8 +18,9 @@ class Agreement {
   std::size_t events() const { return events_; }
   /// Number of balls involved, summed over the events: two where balls collide.
   std::size_t bodies() const { return bodies_; }
-  /// Digits to which all events taken agree; `most` when no difference was seen.
-  double digits(Quantity quantity) const;
+  /// @param quantity  of model::logged_quantities
+  /// @return digits to which all events taken agree; `most` when no difference was seen.
+  double digits(std::size_t quantity) const;
   double least_digits() const;
   static constexpr double most = 1e7;
 
@@ -29,7 +30,7 @@ class Agreement {
 
  private:
   std::size_t events_ = 0, bodies_ = 0;
-  std::array<Number, quantity_count> largest_difference_{}, largest_size_{};
+  std::array<Number, model::logged_count> largest_difference_{}, largest_size_{};
   double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;  // of the line through log10 of the differences in time
 };
 

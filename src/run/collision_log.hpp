@@ -5,24 +5,38 @@
 
 #include "base/scalar.hpp"
 #include "engine/simulation.hpp"
+#include "model/impact_record.hpp"
 
 namespace edmill::run {
 
-/// SI; balls and impacts count from 0; every number has enough digits to round-trip in its scalar.
-inline constexpr const char* collision_log_header =
-    "index,time,ball,partner_kind,partner,approach_speed,slip_speed,milling_dose,wall_work";
+/// @param states  for the ball and for its partner position, velocity and spin before, velocity and spin
+/// after
+///                the impact, in the inertial frame, too. Those of a wall are empty.
+inline std::string collision_log_header(bool states) {
+  std::string header = "index,time,ball,partner_kind,partner";
+  for (const auto& quantity : model::logged_quantities)
+    if (quantity.name != "time") header += "," + std::string(quantity.name);
+  if (states) model::for_logged_vectors([&](const std::string& name) { header += "," + name; });
+  return header;
+}
 
-/// What `states = true` adds: for the ball and for its partner position, velocity and spin before, velocity
-/// and spin after the impact, in the inertial frame [m, m/s, rad/s]. Those of a wall are empty.
-inline constexpr const char* collision_log_states =
-    ",x,y,z,vx_before,vy_before,vz_before,wx_before,wy_before,wz_before"
-    ",vx_after,vy_after,vz_after,wx_after,wy_after,wz_after"
-    ",partner_x,partner_y,partner_z,partner_vx_before,partner_vy_before,partner_vz_before"
-    ",partner_wx_before,partner_wy_before,partner_wz_before,partner_vx_after,partner_vy_after,partner_vz_"
-    "after"
-    ",partner_wx_after,partner_wy_after,partner_wz_after";
+template <class Real>
+model::ImpactRecord<Real> record_of(const engine::Impact<Real>& impact,
+                                    const engine::Simulation<Real>& simulation) {
+  const auto& o = impact.outcome;
+  return {.ball = impact.ball,
+          .with_wall = impact.with_wall,
+          .partner = impact.partner,
+          .time = simulation.clock().seconds(impact.time),
+          .approach_speed = o.approach_speed,
+          .slip_speed = o.slip_speed,
+          .milling_dose = o.milling_dose,
+          .wall_work = o.wall_work,
+          .by_rule = impact.by_rule};
+}
 
-/// One impact as a line of the log.
+/// One impact as a line of the log: SI; balls and impacts count from 0; every number has enough digits to
+/// round-trip in its scalar.
 /// @param states  with the bodies' states before and after
 template <class Real>
 std::string collision_line(const engine::Impact<Real>& impact, const engine::Simulation<Real>& simulation,
@@ -36,12 +50,12 @@ std::string collision_line(const engine::Impact<Real>& impact, const engine::Sim
       for (int axis = 0; axis < 3; ++axis) text += "," + to_text<Real>((*vector)[axis]);
     return text;
   };
-  const auto& o = impact.outcome;
-  std::string line =
-      std::to_string(impact.index) + "," + to_text<Real>(simulation.clock().seconds(impact.time)) + "," +
-      std::to_string(impact.ball) + (impact.with_wall ? ",wall," : ",ball,") + std::to_string(impact.partner);
-  for (const Real* value : {&o.approach_speed, &o.slip_speed, &o.milling_dose, &o.wall_work})
-    line += "," + to_text<Real>(*value);
+  const auto record = record_of<Real>(impact, simulation);
+  std::string line = std::to_string(impact.index) + "," + to_text<Real>(record.time) + "," +
+                     std::to_string(impact.ball) + (impact.with_wall ? ",wall," : ",ball,") +
+                     std::to_string(impact.partner);
+  for (std::size_t k = model::approach_speed; k < model::logged_count; ++k)
+    line += "," + to_text<Real>(record[k]);
   if (states) line += states_of(0) + (impact.with_wall ? std::string(15, ',') : states_of(1));
   return line;
 }

@@ -7,6 +7,7 @@
 
 #include "base/scalar_list.hpp"
 #include "casefile/case_spec.hpp"
+#include "model/impact_record.hpp"
 
 namespace edmill::run {
 
@@ -17,23 +18,8 @@ using Number = mpfr_of<200>;
 using Number = mpfr;
 #endif
 
-/// The quantities of an impact that are compared, in SI.
-enum Quantity : int { time, approach_speed, slip_speed, milling_dose, wall_work, quantity_count };
-const char* name_of(Quantity quantity);
-const char* unit_of(Quantity quantity);
-
 /// One impact of a run. Of two balls the lower number comes first.
-struct Event {
-  int ball = 0;
-  bool with_wall = false;
-  int partner = 0;  ///< ball or wall id
-  std::array<Number, quantity_count> values;
-  bool by_rule = false;  ///< another contact has the same time, and a rule put this one first
-
-  bool same_bodies(const Event& other) const {
-    return ball == other.ball && with_wall == other.with_wall && partner == other.partner;
-  }
-};
+using Event = model::ImpactRecord<Number>;
 
 /// A run that delivers its events on request.
 class EventSource {

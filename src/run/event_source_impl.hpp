@@ -5,6 +5,7 @@
 
 #include "casefile/build_case.hpp"
 #include "engine/simulation.hpp"
+#include "run/collision_log.hpp"
 #include "run/event_source.hpp"
 
 namespace edmill::run {
@@ -56,12 +57,11 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
 #endif
   }
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
-    const auto& o = impact.outcome;
-    Event event{impact.ball, impact.with_wall, impact.partner, {}, false};
-    if (!event.with_wall && event.partner < event.ball) std::swap(event.ball, event.partner);
-    event.values = {number_of(simulation.clock().seconds(impact.time)), number_of(o.approach_speed),
-                    number_of(o.slip_speed), number_of(o.milling_dose), number_of(o.wall_work)};
-    event.by_rule = impact.by_rule;
+    const auto record = record_of<Real>(impact, simulation);
+    Event event{.ball = record.ball, .with_wall = record.with_wall, .partner = record.partner};
+    for (std::size_t k = 0; k < model::logged_count; ++k) event[k] = number_of(record[k]);
+    event.by_rule = record.by_rule;
+    event.put_in_order();
     waiting_.push_back(event);
   }
 

@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   Log log(std::strtoull(argv[2], nullptr, 10));
   edmill::run::Guests<double> guests;
   guests.observers.push_back(&log);
-  std::cout << edmill::run::collision_log_header << '\n';
+  std::cout << edmill::run::collision_log_header(false) << '\n';
   const auto result = edmill::run::simulate<double>(spec, built, guests);
   std::cerr << edmill::io::summary_json(result.summary);
 }

@@ -47,7 +47,8 @@ for room in $(find . -mindepth 1 -type d -printf "%P\n" | sort); do
     continue
   fi
   while IFS=: read -r file line text; do
-    used=$(sed -E 's|.*"(.+)/[^/]*"|\1|' <<<"$text")
+    [[ $text =~ \"(.+)/[^/]*\" ]] || continue
+    used=${BASH_REMATCH[1]}
     [ "$used" = edmill ] && continue # what users include, of plain types
     case " $room ${allowed[$room]} " in
       *" $used "*) ;;

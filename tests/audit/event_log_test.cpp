@@ -34,7 +34,7 @@ class EventLogReading : public ProgramTest {
 TEST_F(EventLogReading, KnowsTheColumnsOfTheProgramsOwnLog) {
   std::string names;
   for (const auto& name : column_names()) names += "," + name;
-  EXPECT_EQ("index" + names, std::string(run::collision_log_header) + run::collision_log_states);
+  EXPECT_EQ("index" + names, run::collision_log_header(true));
 }
 
 TEST_F(EventLogReading, ColumnsAreMappedWithTheirUnits) {

@@ -104,16 +104,16 @@ TEST_F(Comparing, TheFirstDifferenceOfEachKindIsFound) {
   expect(first([](SyntheticEvent& e) { e.ball += 100; }), "partners", 0);
   const auto scan = compare_changed([](std::size_t, SyntheticEvent&) { return true; }).a;
   const auto event = synthetic_events(1)[700];
-  const auto scale = [&](Value v, double x) { return std::max(std::abs(x), scan.mean_magnitude[v]); };
+  const auto scale = [&](std::size_t v, double x) { return std::max(std::abs(x), scan.mean_magnitude[v]); };
   expect(first([](SyntheticEvent& e) { e.time += 1e-7; }), "time", 1e-7 / scale(time, event.time));
   expect(first([](SyntheticEvent& e) { e.approach_speed += 1e-7; }), "approach_speed",
-         1e-7 / scale(approach_speed, event.approach_speed));
+         1e-7 / scale(model::approach_speed, event.approach_speed));
   expect(first([](SyntheticEvent& e) { e.slip_speed += 1e-7; }), "slip_speed",
-         1e-7 / scale(slip_speed, event.slip_speed));
+         1e-7 / scale(model::slip_speed, event.slip_speed));
   expect(first([](SyntheticEvent& e) { e.milling_dose += 1e-9; }), "milling_dose",
-         1e-9 / scale(milling_dose, event.milling_dose));
+         1e-9 / scale(model::milling_dose, event.milling_dose));
   expect(first([](SyntheticEvent& e) { e.wall_work += 1e-9; }), "wall_work",
-         1e-9 / scale(wall_work, event.wall_work));
+         1e-9 / scale(model::wall_work, event.wall_work));
 }
 
 TEST_F(Comparing, DifferencesWithinTheToleranceAreNone) {
@@ -123,7 +123,7 @@ TEST_F(Comparing, DifferencesWithinTheToleranceAreNone) {
   });
   EXPECT_TRUE(c.events.agree_throughout());
   EXPECT_EQ(c.verdict, Verdict::agree);
-  EXPECT_GT(c.events.largest[milling_dose], 5e-11);
+  EXPECT_GT(c.events.largest[model::milling_dose], 5e-11);
 }
 
 TEST_F(Comparing, TheGrowthOfRoundingIsFitted) {

@@ -40,9 +40,9 @@ TEST_F(LogReading, ColumnsInAnyOrderWithOthersBetween) {
   const auto first = log.next(), second = log.next();
   ASSERT_TRUE(first && second);
   EXPECT_FALSE(log.next());
-  EXPECT_EQ(first->values[time], 0.25);
-  EXPECT_EQ(first->values[milling_dose], 1e-3);
-  EXPECT_TRUE(std::isnan(first->values[wall_work]));
+  EXPECT_EQ(first->time, 0.25);
+  EXPECT_EQ(first->milling_dose, 1e-3);
+  EXPECT_TRUE(std::isnan(first->wall_work));
   EXPECT_TRUE(first->with_wall);
   EXPECT_EQ(first->partner, 2);
   EXPECT_EQ(second->ball, 7);

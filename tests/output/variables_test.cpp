@@ -326,13 +326,12 @@ TEST(PathLength, OfParabolas) {
       r.before[0].velocity = vector_cast<Number>(v);
       const auto expected = static_cast<double>(r.path(0));
       // A kink of the speed, where the ball stops for an instant, costs Simpson's rule digits.
-      EXPECT_NEAR(model::path_length<double>(v, gravity, time), expected, 1e-6 * expected + 1e-18)
-          << v << "\n"
-          << time;
-      EXPECT_NEAR(model::path_length<double>(v, Vec3<double>{0, 0, 0}, time), v.norm() * time, 1e-15);
+      EXPECT_NEAR(path_length<double>(v, gravity, time), expected, 1e-6 * expected + 1e-18) << v << "\n"
+                                                                                            << time;
+      EXPECT_NEAR(path_length<double>(v, Vec3<double>{0, 0, 0}, time), v.norm() * time, 1e-15);
     }
   // Straight up 3 m/s, back after 0.6 s with 2.88 m/s: two legs v^2 / 2g.
-  EXPECT_NEAR(model::path_length<double>({0, -2.88, 0}, gravity, 0.6), (3 * 3 + 2.88 * 2.88) / 19.6, 1e-15);
+  EXPECT_NEAR(path_length<double>({0, -2.88, 0}, gravity, 0.6), (3 * 3 + 2.88 * 2.88) / 19.6, 1e-15);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ class FaultyMill {
   /// Writes `count` impacts. @return how many were handled with a periodic fault
   int write_log(const std::filesystem::path& place, int count) {
     std::ofstream out(place);
-    out << run::collision_log_header << run::collision_log_states << '\n';
+    out << run::collision_log_header(true) << '\n';
     for (int written = 0; written < count;) {
       const Contact next = first_contact();
       advance(next.time);

@@ -61,7 +61,9 @@ class ContactLog {
   void write(const std::filesystem::path& file) {
     std::sort(lines_.begin(), lines_.end());
     std::ofstream out(file);
-    out << "time,ball,partner_kind,partner" << run::collision_log_states << '\n';
+    out << "time,ball,partner_kind,partner";
+    model::for_logged_vectors([&](const std::string& name) { out << ',' << name; });
+    out << '\n';
     for (const auto& [time, line] : lines_) out << line << '\n';
   }
   std::vector<double> durations;

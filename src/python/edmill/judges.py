@@ -170,7 +170,7 @@ def sensitivity(case: Case | Mapping | str | os.PathLike, by: Iterable[str], eve
     keys = [text("by", key) for key in by]
     precision, units, rows, found = _edmill.sensitivity(case._case, keys, whole("events", events, 1, LARGEST),
                                                         whole("digits", digits, 1, 1000))
-    names = ("time", "approach_speed", "slip_speed", "milling_dose", "wall_work")
+    names = _edmill.logged_quantities
     derivatives = {}
     for key, unit, (quantities, states) in zip(keys, units, found):
         columns = np.array(quantities, dtype=float).reshape(len(rows), len(names))

@@ -2,18 +2,18 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 
 #include "base/elementary.hpp"
 #include "base/vector.hpp"
+#include "engine/simulation.hpp"
 #include "model/ball.hpp"
 
-namespace edmill::model {
+namespace edmill::output {
 
 /// One of the two bodies of an impact. A wall has a velocity, at the contact point, and nothing else.
 template <class Real>
 struct ImpactBody {
-  const BallProperties<Real>* ball = nullptr;  ///< null for a wall
+  const model::BallProperties<Real>* ball = nullptr;  ///< null for a wall
   Vec3<Real> velocity_before = Vec3<Real>::Zero(),
              velocity_after = Vec3<Real>::Zero();  ///< of the centre, inertial frame [m/s]
   Vec3<Real> spin_before = Vec3<Real>::Zero(), spin_after = Vec3<Real>::Zero();  ///< [rad/s]
@@ -33,20 +33,24 @@ struct ImpactBody {
 template <class Real>
 Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Real& time);
 
-/// One impact as the variables of model/impact_variables.def see it. Before and after mean just before and
-/// just after the impact; the normal points from the partner to the ball.
+/// One impact as outputs and the variables of model/impact_variables.def see it. Before and after mean just
+/// before and just after the impact.
 template <class Real>
 struct ImpactFacts {
-  std::uint64_t index = 0;       ///< counts from 0 since the start of the run
-  Real time{}, time_previous{};  ///< of this and of the last impact of any ball, or the start of the run [s]
-  int ball = 0, partner = 0;     ///< ids; the partner's is a wall's or a ball's
-  bool ball_ball = false, least_separation = false;
-  int balls = 0, walls = 0;  ///< how many there are
-  Vec3<Real> gravity = Vec3<Real>::Zero();
-  Vec3<Real> normal = Vec3<Real>::Zero(), contact_point = Vec3<Real>::Zero();  ///< inertial frame [m]
-  ImpactBody<Real> one, two;                                                   ///< the ball, its partner
-  Real milling_dose{}, dose_normal{}, supplied_energy{}, wall_work{}, normal_impulse{}, tangential_impulse{};
-  Real restitution_normal{}, restitution_tangential{};
+  const engine::Impact<Real>& impact;
+  const engine::Simulation<Real>& simulation;  ///< just after the impact
+  Real time_previous;                          ///< of the last impact of any ball, or the start of the run [s]
+  int walls;                                   ///< how many there are
+  const dynamics::ImpactOutcome<Real>& outcome = impact.outcome;
+  Real time = simulation.clock().seconds(impact.time);  ///< [s]
+  const Vec3<Real>& gravity = simulation.mill().gravity;
+  const Vec3<Real>& normal = impact.normal;
+  ImpactBody<Real> one = body(0, impact.ball);  ///< the ball
+  ImpactBody<Real> two = impact.with_wall
+                             ? ImpactBody<Real>{nullptr, impact.wall_velocity, impact.wall_velocity}
+                             : body(1, impact.partner);  ///< its partner
+  Vec3<Real> contact_point =
+      simulation.flight(impact.ball).position - impact.normal * one.ball->radius;  ///< inertial frame [m]
 
   Vec3<Real> relative_before() const { return one.velocity_before - two.velocity_before; }
   Vec3<Real> relative_after() const { return one.velocity_after - two.velocity_after; }
@@ -76,6 +80,10 @@ struct ImpactFacts {
   }
 
  private:
+  ImpactBody<Real> body(int place, int ball) const {
+    return {&simulation.properties(ball), impact.velocity_before[place], simulation.flight(ball).velocity,
+            impact.spin_before[place],    simulation.spin(ball),         impact.flight_time[place]};
+  }
   Vec3<Real> rolling(const Vec3<Real>& spin_one, const Vec3<Real>& spin_two) const {
     const Vec3<Real> first = spin_one * one.ball->radius;
     return two.ball ? Vec3<Real>(first + spin_two * two.ball->radius) : first;
@@ -113,4 +121,4 @@ Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Re
   return arc / (2 * strength);
 }
 
-}  // namespace edmill::model
+}  // namespace edmill::output
