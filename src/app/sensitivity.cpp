@@ -12,6 +12,7 @@
 #include "engine/simulation.hpp"
 #include "instances/instances.hpp"
 #include "io/named_file.hpp"
+#include "run/collision_log.hpp"
 
 namespace edmill::app {
 

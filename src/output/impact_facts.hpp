@@ -39,8 +39,8 @@ template <class Real>
 struct ImpactFacts {
   const engine::Impact<Real>& impact;
   const engine::Simulation<Real>& simulation;  ///< just after the impact
-  Real time_previous;                          ///< of the last impact of any ball, or the start of the run [s]
-  int walls;                                   ///< how many there are
+  Real time_previous;  ///< of the last impact of any ball, or the start of the run [s]
+  int walls;           ///< how many there are
   const dynamics::ImpactOutcome<Real>& outcome = impact.outcome;
   Real time = simulation.clock().seconds(impact.time);  ///< [s]
   const Vec3<Real>& gravity = simulation.mill().gravity;

@@ -292,7 +292,7 @@ const Binding tools([](py::module_& m) {
   m.def("shadow", &shadow);
   m.def("check", &check);
   m.def("sensitivity", &sensitivity);
-  py::tuple quantities(model::logged_count);
+  py::tuple quantities(std::size_t{model::logged_count});
   for (std::size_t k = 0; k < model::logged_count; ++k) quantities[k] = name_of(k);
   m.attr("logged_quantities") = quantities;
   m.def("find_digits", &find_digits);

@@ -57,7 +57,7 @@ for room in $(find . -mindepth 1 -type d -printf "%P\n" | sort); do
         status=1
         ;;
     esac
-  done < <(grep -nE '#include "' "$room"/*.[ch]pp || true)
+  done < <(grep -snE '#include "' "$room"/*.[ch]pp || true)
 done
 [ $status = 0 ] && echo "every include follows the layers"
 exit $status

@@ -2,7 +2,7 @@
 """Runs with checkpoints and a report that are killed, interrupted and resumed end like an uninterrupted run; so do studies and
 reports.
 
-usage: kill_test.py EDMILL [KILLS]    of runs, 30 unless given, and a third of that of studies and of reports each
+usage: kill_test.py EDMILL [KILLS]    of runs, 12 unless given, and a third of that of studies and of reports each
 Moments are drawn with a fixed seed, but the machine's load decides what a moment hits.
 """
 import json
@@ -17,7 +17,7 @@ import tempfile
 import time
 
 edmill = os.path.realpath(sys.argv[1])
-kills_wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 30
+kills_wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 12
 rng = random.Random(20110101)
 
 CASE = """

@@ -11,7 +11,7 @@ import sys
 from trials import Trials, case, edmill
 
 BALLS = 20_000
-TRIALS = int(sys.argv[2]) if len(sys.argv) > 2 else 2
+TRIALS = int(sys.argv[2]) if len(sys.argv) > 2 else 1
 SEED = int(sys.argv[3]) if len(sys.argv) > 3 else 20261126
 NEEDED = 70_000_000  # [bytes] more than any of the commands can do without, beside the program itself
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A resumed run ends as if nothing had happened, or is refused: whatever was done to the files that it goes on from.
 
-usage: tampered_test.py EDMILL [TRIALS]    40 unless given
+usage: tampered_test.py EDMILL [TRIALS]    16 unless given
 """
 import os
 import pathlib
@@ -14,7 +14,7 @@ import time
 
 from trials import EDMILL, Trials, case, edmill, results, same
 
-trials = int(sys.argv[2]) if len(sys.argv) > 2 else 40
+trials = int(sys.argv[2]) if len(sys.argv) > 2 else 16
 seed = 20110101
 rng = random.Random(seed)
 OUTPUTS = ("collisions", "events", "trends", "spectra", "paraview", "milling_dose", "vessel_load", "animation")

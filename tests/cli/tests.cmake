@@ -31,5 +31,7 @@ add_test(NAME one_writer_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_D
                                       $<TARGET_FILE:no_locks> 100)
 add_test(NAME left_behind_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/left_behind_test.py $<TARGET_FILE:edmill_cli> 200)
 add_test(NAME tampered_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/tampered_test.py $<TARGET_FILE:edmill_cli> 1000)
-set_tests_properties(one_writer_long left_behind_long tampered_long PROPERTIES LABELS long TIMEOUT 3600
+add_test(NAME kill_long COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/kill_test.py $<TARGET_FILE:edmill_cli> 100)
+add_test(NAME missing_memory_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/missing_memory_test.py $<TARGET_FILE:edmill_cli> 20)
+set_tests_properties(one_writer_long left_behind_long tampered_long kill_long missing_memory_long PROPERTIES LABELS long TIMEOUT 3600
                      ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)

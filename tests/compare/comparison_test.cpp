@@ -105,7 +105,7 @@ TEST_F(Comparing, TheFirstDifferenceOfEachKindIsFound) {
   const auto scan = compare_changed([](std::size_t, SyntheticEvent&) { return true; }).a;
   const auto event = synthetic_events(1)[700];
   const auto scale = [&](std::size_t v, double x) { return std::max(std::abs(x), scan.mean_magnitude[v]); };
-  expect(first([](SyntheticEvent& e) { e.time += 1e-7; }), "time", 1e-7 / scale(time, event.time));
+  expect(first([](SyntheticEvent& e) { e.time += 1e-7; }), "time", 1e-7 / scale(model::time, event.time));
   expect(first([](SyntheticEvent& e) { e.approach_speed += 1e-7; }), "approach_speed",
          1e-7 / scale(model::approach_speed, event.approach_speed));
   expect(first([](SyntheticEvent& e) { e.slip_speed += 1e-7; }), "slip_speed",

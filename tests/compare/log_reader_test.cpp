@@ -35,8 +35,8 @@ TEST_F(LogReading, ColumnsInAnyOrderWithOthersBetween) {
         "\xef\xbb\xbfmilling_dose,partner, partner_kind ,approach_speed,extra,time,ball\r\n"
         "1e-3,2,wall,1.5,hello,0.25,4\r\n\r\n3e-3,4,ball,2.5E0,,0.50,7\r\n");
   LogReader log(scratch / "log.csv");
-  EXPECT_TRUE(log.has(milling_dose));
-  EXPECT_FALSE(log.has(slip_speed));
+  EXPECT_TRUE(log.has(model::milling_dose));
+  EXPECT_FALSE(log.has(model::slip_speed));
   const auto first = log.next(), second = log.next();
   ASSERT_TRUE(first && second);
   EXPECT_FALSE(log.next());
@@ -51,7 +51,7 @@ TEST_F(LogReading, ColumnsInAnyOrderWithOthersBetween) {
   EXPECT_EQ(second->line, 4u);
   const auto scan = scan_log(scratch / "log.csv");
   EXPECT_EQ(scan.events, 2u);
-  EXPECT_EQ(scan.mean_magnitude[approach_speed], 2);
+  EXPECT_EQ(scan.mean_magnitude[model::approach_speed], 2);
   EXPECT_EQ(scan.last, 0.5);
   EXPECT_EQ(scan.walls, 3);
 }

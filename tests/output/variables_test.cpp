@@ -189,7 +189,7 @@ class Follower : public engine::Observer<double> {
   }
 
   void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
-    const auto facts = detail::facts_of<double>(impact, simulation, static_cast<double>(previous_), 3);
+    const ImpactFacts<double> facts{impact, simulation, static_cast<double>(previous_), 3};
     const Recomputed r = recompute(impact, simulation);
     for (int k = 0; k < static_cast<int>(model::impact_variables.size()); ++k) {
       const auto& v = model::impact_variables[k];
@@ -210,12 +210,12 @@ class Follower : public engine::Observer<double> {
       EXPECT_NEAR(static_cast<double>(ours), static_cast<double>(theirs), static_cast<double>(size) * 1e-9)
           << name << " at impact " << impact.index;
     }
-    EXPECT_EQ(facts.ball_ball, !impact.with_wall);
+    EXPECT_EQ(variable_formula<double>(*model::find_variable("ball_ball"))(facts), impact.with_wall ? 0 : 1);
     const Number rebound = -restitution * r.normal_part(r.relative(r.before)), least = 0.01L;
     if (fabsl(rebound - least) > 1e-9L) {
-      EXPECT_EQ(facts.least_separation, rebound < least);
+      EXPECT_EQ(facts.outcome.least_separation, rebound < least);
     }
-    touched_ += facts.least_separation;
+    touched_ += facts.outcome.least_separation;
     previous_ = r.time;
     for (const int ball : {impact.ball, impact.with_wall ? impact.ball : impact.partner})
       states_[ball] = seen(simulation, ball, r.time);

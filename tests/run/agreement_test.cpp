@@ -7,7 +7,7 @@ namespace edmill::run {
 namespace {
 
 Event event(int ball, bool with_wall, int partner, const Number& time, const Number& speed) {
-  return {ball, with_wall, partner, {time, speed, Number(0), Number(0), Number(0)}};
+  return {.ball = ball, .with_wall = with_wall, .partner = partner, .time = time, .approach_speed = speed};
 }
 
 TEST(Agreement, DigitsAreOfTheLargestDifferenceOverTheLargestSize) {
@@ -16,10 +16,10 @@ TEST(Agreement, DigitsAreOfTheLargestDifferenceOverTheLargestSize) {
   EXPECT_EQ(agreement.least_digits(), Agreement::most);
   EXPECT_TRUE(agreement.take(event(1, false, 3, Number(2), Number("1e-3")),
                              event(1, false, 3, Number(2) + Number("2e-40"), Number("1.004e-3"))));
-  EXPECT_NEAR(agreement.digits(time), 40, 1e-9);           // 2e-40 of 2 s
-  EXPECT_NEAR(agreement.digits(approach_speed), 6, 1e-9);  // 4e-6 of 4 m/s
+  EXPECT_NEAR(agreement.digits(model::time), 40, 1e-9);           // 2e-40 of 2 s
+  EXPECT_NEAR(agreement.digits(model::approach_speed), 6, 1e-9);  // 4e-6 of 4 m/s
   EXPECT_NEAR(agreement.least_digits(), 6, 1e-9);
-  EXPECT_EQ(agreement.digits(slip_speed), Agreement::most);
+  EXPECT_EQ(agreement.digits(model::slip_speed), Agreement::most);
   EXPECT_EQ(agreement.bodies(), 3u);
 }
 
