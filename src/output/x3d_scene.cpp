@@ -16,7 +16,7 @@ std::string numbers(std::initializer_list<double> list) {
   for (const double x : list) text += fmt::format("{}{}", text.empty() ? "" : " ", x);
   return text;
 }
-std::string vector(const Vec3<double>& v) { return numbers({v[0], v[1], v[2]}); }
+std::string triple(const Vec3<double>& v) { return numbers({v[0], v[1], v[2]}); }
 
 pugi::xml_node add(pugi::xml_node parent, const char* name,
                    std::initializer_list<std::pair<const char*, std::string>> attributes = {}) {
@@ -31,7 +31,7 @@ void add_look(pugi::xml_node shape, const casefile::Colour& c, double transparen
 }
 
 void add_ball(pugi::xml_node parent, const SceneBall& ball, const std::string& name = "") {
-  auto place = add(parent, "Transform", {{"translation", vector(ball.position)}});
+  auto place = add(parent, "Transform", {{"translation", triple(ball.position)}});
   if (!name.empty()) place.append_attribute("DEF") = name.c_str();
   auto shape = add(place, "Shape");
   add_look(shape, ball.colour);
@@ -43,7 +43,7 @@ std::string rotation(const Frame<double>& frame) {
   Eigen::Matrix3d axes;
   axes << frame.x, frame.y, frame.z;
   const Eigen::AngleAxisd turn(axes);
-  return vector(turn.axis()) + " " + numbers({turn.angle()});
+  return triple(turn.axis()) + " " + numbers({turn.angle()});
 }
 
 void add_wall(pugi::xml_node parent, const model::Mesh& wall, const casefile::Colour& colour) {
@@ -54,7 +54,7 @@ void add_wall(pugi::xml_node parent, const model::Mesh& wall, const casefile::Co
     for (const int corner : face) corners += fmt::format("{} ", corner);
     corners += "-1 ";
   }
-  for (const auto& point : wall.points) points += vector(point) + " ";
+  for (const auto& point : wall.points) points += triple(point) + " ";
   // Faces of one curved wall meet at less than the crease angle and look smooth.
   auto faces =
       add(shape, "IndexedFaceSet", {{"solid", "false"}, {"creaseAngle", "0.5"}, {"coordIndex", corners}});
@@ -67,7 +67,7 @@ std::string name_of_wall(std::size_t wall) { return fmt::format("wall_{}", wall)
 void add_vessel(pugi::xml_node parent, const SceneVessel& vessel, const SceneMotion* motion) {
   auto place = add(parent, "Transform",
                    {{"DEF", "vessel"},
-                    {"translation", vector(vessel.frame.origin)},
+                    {"translation", triple(vessel.frame.origin)},
                     {"rotation", rotation(vessel.frame)}});
   for (std::size_t id = 0; id < vessel.walls.size(); ++id) {
     const bool moves = motion && std::any_of(motion->pistons.begin(), motion->pistons.end(),
@@ -95,7 +95,7 @@ void add_path(pugi::xml_node scene, const SceneMotion::Path& path, const std::st
   std::string keys, places;
   for (const auto& [key, place] : path) {
     keys += fmt::format("{} ", key);
-    places += vector(place) + " ";
+    places += triple(place) + " ";
   }
   add_interpolator(scene, "PositionInterpolator", target + "_path", target, "set_translation", keys, places);
 }
@@ -143,7 +143,7 @@ std::string x3d_text(const Scene& s, const SceneMotion* motion) {
   auto scene = add(x3d, "Scene");
   add(scene, "Background", {{"skyColor", "1 1 1"}});
   add(scene, "Viewpoint",
-      {{"description", "mill"}, {"position", vector(s.eye)}, {"centerOfRotation", vector(s.target)}});
+      {{"description", "mill"}, {"position", triple(s.eye)}, {"centerOfRotation", triple(s.target)}});
   add_vessel(scene, s.vessel, motion);
   for (std::size_t i = 0; i < s.balls.size(); ++i) add_ball(scene, s.balls[i], fmt::format("ball_{}", i));
   if (s.contact) add_ball(scene, *s.contact, "contact_point");

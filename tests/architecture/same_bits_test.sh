@@ -2,12 +2,14 @@
 # Runs in double and in float128 give the same bits from the program, and from the core alone as other compilers, optimisations and
 # processors make it: regression/reference/bits.tsv. Foreign programs run under qemu-user, WebAssembly in node; what is not
 # installed is told and left out.
-# usage: same_bits_test.sh PROGRAM FOLDER MACHINE...
+# usage: same_bits_test.sh PROGRAM FOLDER [--every N] MACHINE...    N: one log in N from the core alone
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 program=$1
 builds=$2
 shift 2
+every=1
+[ "$1" != --every ] || { every=$2 && shift 2; }
 # Foreign programs that need no libraries of their machine.
 foreign=(-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_EXE_LINKER_FLAGS=-static -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER)
 
@@ -48,6 +50,6 @@ for machine in "$@"; do
     different=1
     continue
   }
-  tests/architecture/published_bits.sh "$builds/$machine" "${runner[@]}" "$builds/$machine/edmill-core$suffix" || different=1
+  tests/architecture/published_bits.sh --every "$every" "$builds/$machine" "${runner[@]}" "$builds/$machine/edmill-core$suffix" || different=1
 done
 exit $different

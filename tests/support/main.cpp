@@ -8,11 +8,13 @@
 
 namespace {
 
-bool selected(const testing::TestInfo& test, std::string_view file, std::string_view part) {
+bool selected(const testing::TestSuite& suite, const testing::TestInfo& test, std::string_view file,
+              std::string_view part) {
   if (!std::string_view(test.file()).ends_with(file)) {
     return false;
   }
-  const bool is_long = std::string_view(test.name()).find("Long") != std::string_view::npos;
+  // A test with parameters has the name of its list in that of the suite: "LongAll/Names".
+  const bool is_long = (std::string(suite.name()) + test.name()).find("Long") != std::string::npos;
   return part.empty() || is_long == (part == "long");
 }
 
@@ -23,7 +25,7 @@ std::string names_of(std::string_view file, std::string_view part) {
     const testing::TestSuite& suite = *all.GetTestSuite(i);
     for (int j = 0; j < suite.total_test_count(); ++j) {
       const testing::TestInfo& test = *suite.GetTestInfo(j);
-      if (selected(test, file, part)) {
+      if (selected(suite, test, file, part)) {
         names += std::string(suite.name()) + "." + test.name() + ":";
       }
     }
