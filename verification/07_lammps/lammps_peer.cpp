@@ -232,8 +232,8 @@ TEST_F(LammpsPeer, Long10LargeBalls) { agree_in_the_limit({10, 12.7, 0.5}, 120, 
 /// The less they fill of the vial, the nearer are the two.
 TEST_F(LammpsPeer, Long10BallsOf12Mm) { agree({10, 12, 0.5}, 60, 300, 0.02, 25e-6); }
 TEST_F(LammpsPeer, Long10BallsOf11Mm) { agree({10, 11, 0.5}, 60, 300, 0.02, 25e-6); }
-/// Three of them are longer than the vial is wide: now and then LAMMPS's hold each other for a second.
-TEST_F(LammpsPeer, Long10LargeBallsHoldEachOther) {
+/// Three of them are longer than the vial is wide: now and then LAMMPS's dose rate falls for a second.
+TEST_F(LammpsPeer, Long10LargeBallsHaveLowBatches) {
   const WardCase ward{10, 12.7, 0.5};
   auto lammps = lammps_rates(ward, 12.5e-6, 40), edmill = edmill_rates(ward, 300);
   const auto middle = [](std::vector<double>& rates) {
