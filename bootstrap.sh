@@ -13,12 +13,12 @@ cd "$(dirname "$0")"
 program_packages=(
   g++ cmake ninja-build git ca-certificates
   "libboost1.81-dev|libboost-dev" libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
-  libmpfr-dev libgmp-dev "libflint-arb-dev|libflint-dev" libgsl-dev libtbb-dev libhdf5-dev libpugixml-dev zlib1g-dev libzstd-dev libopenmpi-dev openmpi-bin
+  libmpfr-dev libgmp-dev "libflint-arb-dev|libflint-dev" libtbb-dev libhdf5-dev libpugixml-dev zlib1g-dev libzstd-dev libopenmpi-dev openmpi-bin
   nlohmann-json3-dev libjs-three
 )
 
 test_packages=(
-  libgtest-dev librapidcheck-dev libudunits2-dev libglpk-dev zstd
+  libgtest-dev librapidcheck-dev libudunits2-dev libglpk-dev libgsl-dev zstd
   libbenchmark-dev clang "libclang-rt-14-dev|libclang-rt-19-dev|libclang-rt-18-dev" clang-format patch valgrind
   python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-h5py python3-vtk9 view3dscene libxml2-utils
   chromium chromium-driver python3-selenium g++-s390x-linux-gnu qemu-user

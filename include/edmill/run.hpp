@@ -3,10 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "edmill/case.hpp"
 #include "edmill/contact_law.hpp"
+#include "edmill/motion.hpp"
 #include "edmill/observer.hpp"
 #include "edmill/summary.hpp"
 #include "edmill/version.hpp"
@@ -22,6 +24,15 @@ struct Laws {
   std::shared_ptr<const CustomLaw<Real>> ball_ball, ball_wall;
 };
 
+/// What a program brings along in place of the case's; empty parts leave those of the case.
+template <class Real>
+struct OwnParts {
+  Planes<Real> planes{};                       ///< of the vessel
+  std::optional<CurvedVessel<Real>> vessel{};  ///< in place of planes
+  Joints<Real> joints{};                       ///< that move the vessel
+  Laws<Real> laws{};
+};
+
 /// A case from its initial state on, in one scalar: double, float128, mpfr50, mpfr100 or mpfr200.
 template <class Real>
 class Run {
@@ -31,6 +42,10 @@ class Run {
   /// @throws UndecidedError when no scalar can decide about a first contact
   /// @throws InputError when the planes close no vessel about the origin
   explicit Run(const Case& the_case, const Laws<Real>& laws = {}, const Planes<Real>& vessel = {});
+  /// The same with any parts of the program's own.
+  /// @throws InputError also when the walls of a curved vessel leave no room in its box, or leave it open,
+  /// and when a joint has no axis
+  Run(const Case& the_case, const OwnParts<Real>& own);
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;

@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
+#include "casefile/joints.hpp"
 #include "edmill/run.hpp"
 #include "io/final_state.hpp"
 #include "io/summary_impl.hpp"
@@ -44,18 +45,55 @@ Impact<Real> to_public(const engine::Impact<Real>& i, const Real& time) {
           o.wall_work};
 }
 
+/// Numbers of turns are exact until the scalar is chosen.
+template <class Real>
+model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) {
+  using casefile::Quantity;
+  const auto exactly = [](const TurnsPerPeriod& t) {
+    if (t.of < 1)
+      throw InputError("joint: found turns per " + std::to_string(t.of) + " periods, expected 1 or more");
+    return Quantity{boost::multiprecision::cpp_rational(t.turns, t.of)};
+  };
+  model::Joints<Quantity> phases{{}, Quantity{1}};
+  model::Joints<Real> joints{{}, period};
+  for (const auto& j : given) {
+    model::Joint<Quantity> phase;
+    phase.rotates = j.rotates, phase.speed = exactly(j.speed);
+    model::Joint<Real> joint{j.rotates, j.axis, j.shift, j.angle, Real(0)};
+    for (const auto& h : j.harmonics) {
+      phase.swings.push_back({Quantity{1}, exactly(h.frequency), Quantity{0}});
+      joint.swings.push_back({h.amplitude, Real(0), h.phase});
+    }
+    if (!j.rotates && j.speed.turns != 0)
+      throw InputError("joint: found a translation with turns per period, expected harmonics");
+    if ((j.rotates || !joint.swings.empty()) && j.axis == std::array<Real, 3>{})
+      throw InputError("joint: found an axis of no length");
+    phases.list.push_back(std::move(phase)), joints.list.push_back(std::move(joint));
+  }
+  phases = casefile::with_phases(std::move(phases));
+  for (std::size_t k = 0; k < joints.list.size(); ++k) {
+    joints.list[k].per_period = phases.list[k].per_period;
+    for (std::size_t s = 0; s < joints.list[k].swings.size(); ++s)
+      joints.list[k].swings[s].per_period = phases.list[k].swings[s].per_period;
+  }
+  return model::ChainMotion<Real>(joints);
+}
+
 /// The case with the parts that the user gives.
 template <class Real>
-casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const Laws<Real>& laws,
-                                  const Planes<Real>& vessel) {
+casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts<Real>& own) {
   auto mill = casefile::build_mill<Real>(spec);
-  if (laws.ball_ball) mill.ball_ball.law = model::LawOfProgram<Real>{laws.ball_ball};
-  if (laws.ball_wall) mill.ball_wall.law = model::LawOfProgram<Real>{laws.ball_wall};
-  if (!vessel.empty()) {
+  if (own.laws.ball_ball) mill.ball_ball.law = model::LawOfProgram<Real>{own.laws.ball_ball};
+  if (own.laws.ball_wall) mill.ball_wall.law = model::LawOfProgram<Real>{own.laws.ball_wall};
+  if (!own.planes.empty()) {
     std::vector<typename model::PolyhedronVessel<Real>::Plane> planes;
-    for (const auto& [n, distance] : vessel) planes.push_back({{n[0], n[1], n[2]}, distance});
+    for (const auto& [n, distance] : own.planes) planes.push_back({{n[0], n[1], n[2]}, distance});
     mill.vessel = model::PolyhedronVessel<Real>(planes);
+  } else if (own.vessel) {
+    const auto& half = own.vessel->half_sizes;
+    mill.vessel = model::AlgebraicVessel<Real>(own.vessel->walls, {half[0], half[1], half[2]});
   }
+  if (!own.joints.empty()) mill.motion = to_motion<Real>(own.joints, mill.motion.period());
   return casefile::build_case_in<Real>(mill, spec);
 }
 
@@ -64,12 +102,12 @@ casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const Laws<Rea
 template <class Real>
 class Run<Real>::Implementation : public engine::Observer<Real> {
  public:
-  Implementation(const Case& the_case, const Laws<Real>& laws, const Planes<Real>& vessel, Run& run)
+  Implementation(const Case& the_case, const OwnParts<Real>& own, Run& run)
       : run_(run),
         case_(the_case),
-        built_(detail::build(*the_case.spec_, laws, vessel)),
+        built_(detail::build(*the_case.spec_, own)),
         guests_{{this}, nullptr},
-        own_laws_(laws.ball_ball || laws.ball_wall),
+        own_laws_(own.laws.ball_ball || own.laws.ball_wall),
         driver_(built_, guests_) {}
 
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
@@ -95,7 +133,8 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
     EDMILL_REQUIRE(!advanced_ && !outputs_, "write_to is called once, before the run advances");
     folder_.emplace(folder, *case_.spec_);
     try {
-      outputs_.emplace(*case_.spec_, folder_->place(), driver_.simulation().clock().seconds(built_.start));
+      outputs_.emplace(*case_.spec_, built_.the_case.mill.vessel, folder_->place(),
+                       driver_.simulation().clock().seconds(built_.start));
     } catch (...) {
       folder_.reset();  // free for others
       throw;
@@ -178,7 +217,10 @@ class Run<Real>::Implementation : public engine::Observer<Real> {
 
 template <class Real>
 Run<Real>::Run(const Case& the_case, const Laws<Real>& laws, const Planes<Real>& vessel)
-    : implementation_(std::make_unique<Implementation>(the_case, laws, vessel, *this)) {}
+    : Run(the_case, OwnParts<Real>{vessel, {}, {}, laws}) {}
+template <class Real>
+Run<Real>::Run(const Case& the_case, const OwnParts<Real>& own)
+    : implementation_(std::make_unique<Implementation>(the_case, own, *this)) {}
 template <class Real>
 Run<Real>::~Run() = default;
 

@@ -17,7 +17,7 @@ RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options,
   if (!folder.locked()) options.without_locks(folder.place());
   const DriveClock<Real> clock(built.the_case.mill.motion.period());
   options.begun();
-  output::Outputs<Real> outputs(spec, folder.place(), clock.seconds(built.start));
+  output::Outputs<Real> outputs(spec, built.the_case.mill.vessel, folder.place(), clock.seconds(built.start));
 
   run::Guests<Real> guests;
   guests.interrupt = options.interrupt;

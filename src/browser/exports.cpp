@@ -9,6 +9,7 @@
 #include "browser/session.hpp"
 #include "casefile/build_case.hpp"
 #include "compare/comparison.hpp"
+#include "identify/identify.hpp"
 #include "io/json_text.hpp"
 
 namespace edmill {
@@ -51,6 +52,11 @@ std::vector<std::string> lines_of(const char* text) {
   return lines;
 }
 
+/// The page shows what is searched while it goes on.
+void tell_stage(const std::string& stage) {
+  EM_ASM({ postMessage({what: 'stage', stage: UTF8ToString($0)}); }, stage.c_str());
+}
+
 }  // namespace
 
 extern "C" {
@@ -86,7 +92,8 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(const char* text, const ch
 
 /// The log is the file /log of the page's own memory.
 /// @param settings  over the case, among them those of its section [audit]
-EMSCRIPTEN_KEEPALIVE const char* edmill_audit(const char* text, const char* settings) {
+/// @param identify  whether the mistake behind violations is looked for
+EMSCRIPTEN_KEEPALIVE const char* edmill_audit(const char* text, const char* settings, int identify) {
   return answer([&] {
     const auto spec = edmill::casefile::parse_case(text, "case.toml", lines_of(settings));
     auto options = edmill::audit::options_of(spec);
@@ -96,7 +103,10 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_audit(const char* text, const char* sett
     audited.case_name = spec.file, audited.log_name = "log";
     JsonText json;
     json.text("verdict", edmill::audit::name_of(audited.verdict));
-    json.text("table", edmill::audit::table(audited));
+    std::string table = edmill::audit::table(audited);
+    if (identify != 0 && audited.verdict == edmill::audit::Verdict::violations)
+      table += edmill::identify::table(edmill::identify::identify(spec, options, tell_stage));
+    json.text("table", table);
     return json.finish();
   });
 }

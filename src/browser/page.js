@@ -29,7 +29,10 @@ async function start_engine() {
   if (worker) worker.terminate();
   waiting = [];
   worker = new Worker(URL.createObjectURL(new Blob([read('worker')], {type: 'text/javascript'})));
-  worker.onmessage = ({data}) => waiting.shift()(data);
+  worker.onmessage = ({data}) => {
+    if (data.what === 'stage') $('verdict').textContent = `Searching: ${data.stage}.`;
+    else waiting.shift()(data);
+  };
   worker.onerror = event => problems([`the engine does not start: ${event.message}`]);
   await ask({what: 'engine', engine: await engine_bytes()});
 }
@@ -295,7 +298,8 @@ async function judge(what) {
   try {
     const log = await bytes_of('log', 'a collision log');
     const message = what === 'audit'
-      ? {what, log, text: new TextDecoder().decode(await bytes_of('judged-case', 'the case')), settings: $('settings').value.split('\n')}
+      ? {what, log, text: new TextDecoder().decode(await bytes_of('judged-case', 'the case')), settings: $('settings').value.split('\n'),
+         identify: $('identify').checked}
       : {what, log, reference: await bytes_of('reference', 'a reference log')};
     const {answer} = await ask(message);
     const bad = answer.problems;

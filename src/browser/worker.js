@@ -1,5 +1,5 @@
 
-// The engine in a worker: the page never waits for it. Each message is answered by one of the same `what`.
+// The engine in a worker: the page never waits for it. Each message is answered by one of the same `what`; a `stage` may come before.
 let engine;
 
 function call(name, types = [], values = []) {
@@ -11,9 +11,9 @@ const answers = {
   advance: ({time}) => call('edmill_advance', ['number'], [time]),
   first_impacts: ({text, settings, most}) => call('edmill_first_impacts', ['string', 'string', 'number'], [text, settings.join('\n'), most]),
   finish: () => call('edmill_finish'),
-  audit: ({text, settings, log}) => {
+  audit: ({text, settings, log, identify}) => {
     engine.FS.writeFile('/log', log);
-    return call('edmill_audit', ['string', 'string'], [text, settings.join('\n')]);
+    return call('edmill_audit', ['string', 'string', 'number'], [text, settings.join('\n'), identify ? 1 : 0]);
   },
   compare: ({reference, log}) => {
     engine.FS.writeFile('/reference', reference);

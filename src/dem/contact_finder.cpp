@@ -147,16 +147,21 @@ bool ContactFinder::come_near(const Stretch& one, const Stretch& other) const {
     fastest = std::max(fastest, norm<double>(Vector(i.velocity - j.velocity)));
   }
   if (nearest <= touch) return true;
-  const double step = frame(high).time - frame(low).time;
-  if (high - low > 2 || nearest > touch + 2 * fastest * step) return false;
+  const double whole = frame(high).time - frame(low).time;
+  if ((high - low > 2 && resolved()) || nearest > touch + 2 * fastest * whole) return false;
   // A contact between two frames: flights out of the one and back from the other.
-  for (const std::size_t from : {low, high}) {
+  const auto meet = [&](std::size_t from, double step) {
     const auto &i = frame(from).balls[one.ball], &j = frame(from).balls[other.ball];
     for (int k = 0; k <= tried; ++k) {
-      const double t = (from == low ? 1 : -1) * step * k / tried;
-      const Vector apart = i.position - j.position + (i.velocity - j.velocity) * t;
+      const Vector apart = i.position - j.position + (i.velocity - j.velocity) * (step * k / tried);
       if (norm<double>(apart) <= touch) return true;
     }
+    return false;
+  };
+  if (high - low <= 2 && (meet(low, whole) || meet(high, -whole))) return true;
+  for (std::size_t k = low; k < high; ++k) {
+    const double step = frame(k + 1).time - frame(k).time;
+    if (meet(k, step) || meet(k + 1, -step)) return true;
   }
   return false;
 }
@@ -193,11 +198,7 @@ std::vector<ContactFinder::Touch> ContactFinder::touches_of(const Stretch& s) co
       inside[wall] = under;
     }
   };
-  const auto &from = frame(s.first), &to = frame(s.last);
-  if (s.last - s.first > 2) {
-    for (std::size_t k = s.first; k <= s.last; ++k)
-      see(vessel_.gaps(vessel_.at(frame(k).time), s.ball, frame(k).balls[s.ball].position));
-  } else {
+  const auto see_flights = [&](const Frame& from, const Frame& to) {
     for (int k = 0; k <= tried; ++k) {
       const double t = from.time + (to.time - from.time) * k / tried;
       const auto pose = vessel_.at(t);
@@ -208,7 +209,14 @@ std::vector<ContactFinder::Touch> ContactFinder::touches_of(const Stretch& s) co
       for (std::size_t wall = 0; wall < gaps.size(); ++wall) gaps[wall] = std::min(gaps[wall], back[wall]);
       see(gaps);
     }
-  }
+  };
+  if (s.last - s.first <= 2)
+    see_flights(frame(s.first), frame(s.last));
+  else if (resolved())
+    for (std::size_t k = s.first; k <= s.last; ++k)
+      see(vessel_.gaps(vessel_.at(frame(k).time), s.ball, frame(k).balls[s.ball].position));
+  else
+    for (std::size_t k = s.first; k < s.last; ++k) see_flights(frame(k), frame(k + 1));
   std::vector<Touch> touches;
   for (std::size_t wall = 0; wall < spells.size(); ++wall)
     if (spells[wall] > 0) touches.push_back({static_cast<int>(wall), spells[wall]});

@@ -68,6 +68,8 @@ class ContactFinder {
   };
 
   const Frame& frame(std::size_t number) const { return window_[number - first_]; }
+  /// Whether a usual contact has frames within it.
+  bool resolved() const { return frames_.contact_time >= 3 * frames_.interval; }
   bool flies(const Frame& from, const Frame& to, std::size_t ball) const;
   void close(std::size_t stretch);
   void join(Stretch& one, Stretch& other);

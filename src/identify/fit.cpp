@@ -1,15 +1,10 @@
 #include "identify/fit.hpp"
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_multifit_nlinear.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
-
-#include "base/errors.hpp"
+#include <unsupported/Eigen/NonLinearOptimization>
 
 namespace edmill::identify {
 
@@ -45,46 +40,53 @@ double possible_step(Assumptions assumed, const Parameter& p, double value, doub
   return assumed.built() ? step : -step;
 }
 
-/// What GSL asks for the rows through.
+/// What Eigen asks for weighted rows and their derivatives through.
 struct Problem {
+  using Scalar = double;
+  using InputType = Eigen::VectorXd;
+  using ValueType = Eigen::VectorXd;
+  using JacobianType = Eigen::MatrixXd;
+  enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
+
   const Residuals& residuals;
   const Model& model;
+  Eigen::VectorXd roots{};  ///< of the weights
 
-  std::vector<double> values_at(const gsl_vector* x) const {
+  int inputs() const { return static_cast<int>(model.free.size()); }
+  int values() const { return static_cast<int>(residuals.count()); }
+  std::vector<double> values_at(const Eigen::VectorXd& x) const {
     std::vector<double> values;
     for (std::size_t k = 0; k < model.free.size(); ++k)
-      values.push_back(gsl_vector_get(x, k) * model.free[k]->change);
+      values.push_back(x[static_cast<Eigen::Index>(k)] * model.free[k]->change);
     return values;
   }
-  static int rows(const gsl_vector* x, void* self, gsl_vector* out) {
-    const auto& problem = *static_cast<const Problem*>(self);
-    const auto rows = problem.residuals.rows(problem.model.with(problem.values_at(x)));
-    for (std::size_t k = 0; k < rows.size(); ++k) gsl_vector_set(out, k, rows[k]);
-    return GSL_SUCCESS;
+  Eigen::VectorXd rows_of(const std::vector<double>& values) const {
+    const auto rows = residuals.rows(model.with(values));
+    return Eigen::Map<const Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size()));
+  }
+  int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
+    out = roots.cwiseProduct(rows_of(values_at(x)));
+    return 0;
+  }
+  int df(const Eigen::VectorXd& x, Eigen::MatrixXd& out) const {
+    out = roots.asDiagonal() * derivatives(x);
+    return 0;
   }
   /// Differences of a step that neither rounding nor curvature spoils.
-  static int derivatives(const gsl_vector* x, void* self, gsl_matrix* out) {
-    const auto& problem = *static_cast<const Problem*>(self);
-    auto values = problem.values_at(x);
-    const auto here = problem.residuals.rows(problem.model.with(values));
+  Eigen::MatrixXd derivatives(const Eigen::VectorXd& x) const {
+    Eigen::MatrixXd columns(values(), inputs());
+    const auto values = values_at(x);
+    const auto here = rows_of(values);
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const Parameter& free = *problem.model.free[k];
-      const double step = possible_step(problem.model.with(values), free, values[k], 1e-7);
+      const Parameter& free = *model.free[k];
+      const double step = possible_step(model.with(values), free, values[k], 1e-7);
       auto moved = values;
       moved[k] += step * free.change;
-      const auto there = problem.residuals.rows(problem.model.with(moved));
-      for (std::size_t i = 0; i < here.size(); ++i) gsl_matrix_set(out, i, k, (there[i] - here[i]) / step);
+      columns.col(static_cast<Eigen::Index>(k)) = (rows_of(moved) - here) / step;
     }
-    return GSL_SUCCESS;
+    return columns;
   }
 };
-
-using Vector = std::unique_ptr<gsl_vector, void (*)(gsl_vector*)>;
-Vector vector_of(const std::vector<double>& values) {
-  Vector v(gsl_vector_alloc(values.size()), gsl_vector_free);
-  for (std::size_t k = 0; k < values.size(); ++k) gsl_vector_set(v.get(), k, values[k]);
-  return v;
-}
 
 std::vector<double> weights_of(const std::vector<double>& rows, double scale) {
   std::vector<double> weights;
@@ -94,22 +96,16 @@ std::vector<double> weights_of(const std::vector<double>& rows, double scale) {
 
 /// Intervals: what noise of the rows' own size leaves open, and what a shift of all rows by that size, each
 /// in the worst direction, would do; rounding of a log does shift rows of a kind together.
-std::vector<double> half_widths_of(const gsl_matrix* jacobian, const std::vector<double>& rows,
+std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const std::vector<double>& rows,
                                    const std::vector<double>& weights, const Model& model,
                                    const std::vector<double>& values) {
   const auto n = static_cast<Eigen::Index>(rows.size()), p = static_cast<Eigen::Index>(model.free.size());
-  Eigen::MatrixXd j(n, p);
   Eigen::VectorXd w(n);
   double sum = 0, total = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    double reach = 0;
-    for (Eigen::Index c = 0; c < p; ++c) {
-      j(i, c) = gsl_matrix_get(jacobian, k, static_cast<std::size_t>(c));
-      reach = std::max(reach, std::abs(j(i, c)));
-    }
     w[i] = weights[k];
-    if (reach == 0) continue;  // tells nothing of the parameters, nor of their noise
+    if (j.row(i).isZero(0)) continue;  // tells nothing of the parameters, nor of their noise
     sum += weights[k] * rows[k] * rows[k];
     total += weights[k];
   }
@@ -151,51 +147,37 @@ double misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds
 }
 
 Fit fit(const Residuals& residuals, const Model& model, std::vector<double> start) {
-  gsl_set_error_handler_off();
-  const std::size_t n = residuals.count(), p = model.free.size();
+  const auto p = static_cast<Eigen::Index>(model.free.size());
   Problem problem{residuals, model};
-  gsl_multifit_nlinear_fdf fdf{};
-  fdf.f = &Problem::rows, fdf.df = &Problem::derivatives, fdf.n = n, fdf.p = p, fdf.params = &problem;
-  auto settings = gsl_multifit_nlinear_default_parameters();
-  settings.scale = gsl_multifit_nlinear_scale_marquardt;  // columns differ by orders of magnitude
-  const std::unique_ptr<gsl_multifit_nlinear_workspace, void (*)(gsl_multifit_nlinear_workspace*)> work(
-      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, p), gsl_multifit_nlinear_free);
-  EDMILL_REQUIRE(work, "room for a fit");
-
-  std::vector<double> x;
-  for (std::size_t k = 0; k < p; ++k) x.push_back(start[k] / model.free[k]->change);
-  const auto rows_at = [&](const std::vector<double>& at) { return residuals.rows(model.with(at)); };
-  const auto in_units = [&] {
-    auto values = x;
-    for (std::size_t k = 0; k < p; ++k) values[k] *= model.free[k]->change;
-    return values;
-  };
-  auto rows = rows_at(start);
-  std::vector<double> weights;
+  Eigen::VectorXd x(p);
+  for (Eigen::Index k = 0; k < p; ++k)
+    x[k] = start[static_cast<std::size_t>(k)] / model.free[static_cast<std::size_t>(k)]->change;
+  auto rows = residuals.rows(model.with(start));
   const auto scales = scales_for(rows);
   constexpr std::size_t most_rounds = 25;
   for (std::size_t round = 0; round < scales.size() + most_rounds; ++round) {
-    weights = weights_of(rows, scales[std::min(round, scales.size() - 1)]);
-    const auto from = vector_of(x), w = vector_of(weights);
-    if (gsl_multifit_nlinear_winit(from.get(), w.get(), &fdf, work.get()) != GSL_SUCCESS) break;
-    int info = 0;
-    gsl_multifit_nlinear_driver(3, 1e-15, 1e-15, 0, nullptr, nullptr, &info, work.get());
-    const gsl_vector* found = gsl_multifit_nlinear_position(work.get());
+    const auto weights = weights_of(rows, scales[std::min(round, scales.size() - 1)]);
+    problem.roots =
+        Eigen::Map<const Eigen::ArrayXd>(weights.data(), static_cast<Eigen::Index>(weights.size())).sqrt();
+    Eigen::LevenbergMarquardt<Problem> solver(problem);
+    solver.parameters.xtol = solver.parameters.ftol = 1e-15;
+    Eigen::VectorXd now = x;
+    auto status = solver.minimizeInit(now);
+    for (int step = 0; step < 3 && status <= Eigen::LevenbergMarquardtSpace::Running; ++step)
+      status = solver.minimizeOneStep(now);
     double moved = 0;
-    for (std::size_t k = 0; k < p; ++k) {
-      const double now = gsl_vector_get(found, k);
-      if (!std::isfinite(now)) continue;
-      moved = std::max(moved, std::abs(now - x[k]) / std::max(1.0, std::abs(now)));
-      x[k] = now;
+    for (Eigen::Index k = 0; k < p; ++k) {
+      if (!std::isfinite(now[k])) continue;
+      moved = std::max(moved, std::abs(now[k] - x[k]) / std::max(1.0, std::abs(now[k])));
+      x[k] = now[k];
     }
-    rows = rows_at(in_units());
+    rows = residuals.rows(model.with(problem.values_at(x)));
     if (round >= scales.size() && moved < 1e-13) break;
   }
   Fit result;
-  result.values = in_units();
-  const std::unique_ptr<gsl_matrix, void (*)(gsl_matrix*)> jacobian(gsl_matrix_alloc(n, p), gsl_matrix_free);
-  Problem::derivatives(vector_of(x).get(), &problem, jacobian.get());
-  result.half_widths = half_widths_of(jacobian.get(), rows, weights_of(rows, 1), model, result.values);
+  result.values = problem.values_at(x);
+  result.half_widths =
+      half_widths_of(problem.derivatives(x), rows, weights_of(rows, 1), model, result.values);
   result.cost = misfit(rows, residuals.kinds());
   return result;
 }

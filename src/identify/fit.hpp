@@ -28,8 +28,9 @@ struct Fit {
 /// much.
 double misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds);
 
-/// Least squares by GSL (Levenberg and Marquardt), repeated with Cauchy weights whose scale shrinks from the
-/// misfits of the start down to the tolerance, so that rows with other causes lose their say.
+/// Least squares by Eigen's Levenberg and Marquardt (that of MINPACK), repeated with Cauchy weights whose
+/// scale shrinks from the misfits of the start down to the tolerance, so that rows with other causes lose
+/// their say.
 /// @param start  values to begin with
 Fit fit(const Residuals& residuals, const Model& model, std::vector<double> start);
 

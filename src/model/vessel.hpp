@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "base/errors.hpp"
+#include "model/vessels/algebraic.hpp"
 #include "model/vessels/box.hpp"
 #include "model/vessels/cylinder.hpp"
 #include "model/vessels/piston.hpp"
@@ -21,8 +22,8 @@ namespace edmill::model {
 /// functions of the place of a ball's centre: positive inside, zero at contact. They need not be lengths. The
 /// centre of a ball of radius R is in the vessel that is `inset(R)`, whose gaps are the ball's.
 ///
-/// - `wall_count()`; `walls()`: their names; `surfaces()`: for maps and pictures; `PerWall<T>`: one T for
-/// each, `per_wall(value)` with all alike
+/// - `wall_count()`; `walls()`: their names; `surfaces()`: for maps and pictures, none where there are no
+/// such; `PerWall<T>`: one T for each, `per_wall(value)` with all alike
 /// - `reach()` [m]: from the centre to the farthest point; `extent()`, no less and without a root;
 ///   `half_sizes()`: bounds on the coordinates; `volume()` [m3]; `widest_ball()`: diameter of the largest
 ///   that fits [m]
@@ -87,11 +88,12 @@ using NamedVessels = std::variant<Cylinder<Number>,         //
                                   Polyhedron<Number>>;
 
 template <class Real>
-using VesselVariant = std::variant<CylinderVessel<Real>,  //
-                                   BoxVessel<Real>,       //
-                                   SphereVessel<Real>,    //
-                                   RoundedVessel<Real>,   //
-                                   PolyhedronVessel<Real>>;
+using VesselVariant = std::variant<CylinderVessel<Real>,    //
+                                   BoxVessel<Real>,         //
+                                   SphereVessel<Real>,      //
+                                   RoundedVessel<Real>,     //
+                                   PolyhedronVessel<Real>,  //
+                                   AlgebraicVessel<Real>>;
 
 /// A vessel whose gap functions hold in regions.
 template <class V>
@@ -230,6 +232,7 @@ class AnyVessel {
 };
 
 static_assert(Vessel<CylinderVessel<double>> && Vessel<BoxVessel<double>> && Vessel<SphereVessel<double>> &&
-              Vessel<RoundedVessel<double>> && Vessel<PolyhedronVessel<double>> && Vessel<AnyVessel<double>>);
+              Vessel<RoundedVessel<double>> && Vessel<PolyhedronVessel<double>> &&
+              Vessel<AlgebraicVessel<double>> && Vessel<AnyVessel<double>>);
 
 }  // namespace edmill::model

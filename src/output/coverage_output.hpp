@@ -14,7 +14,7 @@ class CoverageOutput : public TableOutput<Real> {
   CoverageOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                  const RunContext<Real>& run)
       : TableOutput<Real>(spec, folder, run),
-        walls_(run.surfaces, spec.own_keys<CoverageKeys>()),
+        walls_(run.surfaces(spec), spec.own_keys<CoverageKeys>()),
         cells_(walls_.count()) {
     for (std::size_t k = 0; k < model::coordinate_infos.size(); ++k) {
       const auto c = static_cast<model::Coordinate>(k);

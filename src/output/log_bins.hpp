@@ -1,4 +1,4 @@
-// Bins of equal ratio, in every scalar: GSL's histograms know double alone.
+// Bins of equal ratio, in every scalar.
 #pragma once
 
 #include <algorithm>

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/batches.hpp"
+#include "casefile/output_columns.hpp"
 #include "io/summary.hpp"
 #include "output/table_output.hpp"
 #include "tangent/spectrum.hpp"
@@ -26,23 +28,47 @@ struct LyapunovKeys {
   }
 };
 
+inline constexpr casefile::KeyText lyapunov_keys[] = {
+    {"interval", "time", "the whole record",
+     "finite-time exponents: a row for the growth in each such interval, in place of the table of exponents"},
+    casefile::max_rows_key};
+
+inline void read_lyapunov(casefile::Section& s, const casefile::CaseSpec& spec,
+                          casefile::OutputSpec& output) {
+  casefile::read_interval(s, output.timer);
+  casefile::read_own<LyapunovKeys>(s, spec, output);
+}
+
 /// Directions are carried along in double whatever the run's scalar: exponents need few digits.
 template <class Real>
 class LyapunovOutput : public TableOutput<Real> {
  public:
   LyapunovOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                  const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run), wanted_(spec.own_keys<LyapunovKeys>().exponents) {}
+      : TableOutput<Real>(spec, folder, run),
+        ball_count_(run.ball_colours.size()),
+        wanted_(std::min(spec.own_keys<LyapunovKeys>().exponents, 9 * ball_count_)),
+        finite_time_(spec.timer.interval),
+        intervals_(spec.timer) {
+    if (!finite_time_) return;
+    std::vector<Column> columns{{"time", Column::Type::number, "s", "end of the interval"}};
+    for (std::uint64_t k = 1; k <= wanted_; ++k)
+      columns.push_back({"exponent_" + std::to_string(k), Column::Type::number, "1/s",
+                         "growth of ln of the distance of motions nearby, over the interval"});
+    this->begin(std::move(columns));
+  }
 
  protected:
   void archive_record(Archive& a) override {
     if (spectrum_) saved_ = spectrum_->state();
-    a(saved_, before_, batches_, collisions_, of_balls_, touched_, begun_);
+    a(saved_, before_, batches_, intervals_, collisions_, of_balls_, touched_, touched_before_, begun_,
+      ended_);
     if (a.loading()) spectrum_.reset();
   }
 
-  /// Directions turn before the record begins, too.
+  /// Directions turn before the record begins, too, and no more when it has ended.
   void every(const ImpactFacts<Real>& f) override {
+    if (ended_) return;
     const auto& simulation = f.simulation;
     const auto& impact = f.impact;
     if (!spectrum_)
@@ -56,7 +82,12 @@ class LyapunovOutput : public TableOutput<Real> {
           ball, vector_cast<double>(flight.position), vector_cast<double>(impact.velocity_before[place]),
           vector_cast<double>(impact.spin_before[place]), vector_cast<double>(flight.velocity)};
     };
-    if (begun_ && !(at.time < batches_.next_period())) end_period(at.time);
+    begin_record(simulation, f.time);
+    if (begun_) {
+      if (const Real until = this->timer().until(f.time); until < f.time)
+        return end_record(simulation, until);
+      end_intervals(simulation, f.time);
+    }
     if (impact.with_wall)
       spectrum_->with_wall(at, impact.partner, body(0, impact.ball));
     else
@@ -64,13 +95,22 @@ class LyapunovOutput : public TableOutput<Real> {
   }
 
   void record(const ImpactFacts<Real>& f) override {
-    if (!begun_) begin_record(in_double(f.impact.time));
     ++collisions_;
     of_balls_ += f.impact.with_wall ? 1 : 2;
     touched_ += f.outcome.least_separation;
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+    if (begun_ && !ended_) {
+      if (!spectrum_) make_spectrum(simulation, in_double(simulation.now()));
+      end_record(simulation, until);
+    }
+    if (!finite_time_) put_exponents(simulation, until);
+  }
+
+ private:
+  /// The exponents of the record.
+  void put_exponents(const engine::Simulation<Real>& simulation, const Real& until) {
     using enum Column::Type;
     this->begin({{"exponent", integer, "", "the largest is 1"},
                  {"per_second", number, "1/s", "growth of ln of the distance of motions nearby"},
@@ -80,15 +120,13 @@ class LyapunovOutput : public TableOutput<Real> {
                   "decimal digits that an impact of the run costs in this direction"}},
                 {this->window(until), std::to_string(collisions_) + " impacts, of which " +
                                           std::to_string(touched_) + " at the least separation speed"});
-    if (!spectrum_ || !begun_) return;
-    const auto now = in_double(simulation.now());
-    const double per_ball = static_cast<double>(of_balls_) / static_cast<double>(simulation.ball_count());
-    end_period(now);
+    if (!begun_) return;
+    const double per_ball = static_cast<double>(of_balls_) / static_cast<double>(ball_count_);
     const double period = static_cast<double>(simulation.clock().period());
     const double duration = static_cast<double>(batches_.elapsed()) * period;
     if (!(duration > 0)) return;
-    for (std::size_t k = 0; k < spectrum_->directions(); ++k) {
-      const bool lost = touched_ > 0 && k + 1 == spectrum_->dimensions();
+    for (std::size_t k = 0; k < wanted_; ++k) {
+      const bool lost = touched_ > 0 && is_last(k);
       const double growth = lost ? -std::numeric_limits<double>::infinity() : batches_.total(k);
       const double rate = growth / duration;
       const auto batches = batches_.amounts(k);
@@ -103,7 +141,6 @@ class LyapunovOutput : public TableOutput<Real> {
     }
   }
 
- private:
   static Instant<double> in_double(const Instant<Real>& t) {
     return {t.period, static_cast<double>(t.offset)};
   }
@@ -119,11 +156,25 @@ class LyapunovOutput : public TableOutput<Real> {
                       static_cast<std::size_t>(wanted_));
     if (!saved_.tangents.empty()) spectrum_->restore(saved_);
   }
-  void begin_record(const Instant<double>& now) {
-    spectrum_->orthonormalise(now);
+  /// Before the first impact behind the start of the record turns the directions.
+  void begin_record(const engine::Simulation<Real>& simulation, const Real& time) {
+    if (begun_ || !this->timer().is_open() || time < this->timer().from()) return;
+    const auto start = in_double(simulation.instant_of(this->timer().from()));
+    spectrum_->orthonormalise(start);
     before_ = spectrum_->growth();
-    batches_.begin(now);
+    batches_.begin(start);
     begun_ = true;
+  }
+  void end_intervals(const engine::Simulation<Real>& simulation, const Real& time) {
+    if (finite_time_)
+      intervals_.pass(this->timer(), time, row_of(simulation));
+    else
+      end_period(in_double(simulation.instant_of(time)));
+  }
+  void end_record(const engine::Simulation<Real>& simulation, const Real& until) {
+    end_intervals(simulation, until);
+    if (finite_time_) intervals_.finish(this->timer().from(), until, row_of(simulation));
+    ended_ = true;
   }
   void end_period(const Instant<double>& now) {
     if (now < batches_.next_period()) return;
@@ -132,14 +183,34 @@ class LyapunovOutput : public TableOutput<Real> {
     for (std::size_t k = 0; k < growth.size(); ++k) growth[k] -= before_[k];
     batches_.pass(now, growth);
   }
+  auto row_of(const engine::Simulation<Real>& simulation) {
+    return [this, &simulation](const Real& begin, const Real& end) { put_interval(simulation, begin, end); };
+  }
+  void put_interval(const engine::Simulation<Real>& simulation, const Real& begin, const Real& end) {
+    spectrum_->orthonormalise(in_double(simulation.instant_of(end)));
+    const auto& growth = spectrum_->growth();
+    this->put(end);
+    for (std::size_t k = 0; k < growth.size(); ++k) {
+      const bool lost = std::isinf(growth[k]) || (touched_ > touched_before_ && is_last(k));
+      this->put(Real(lost ? -std::numeric_limits<double>::infinity()
+                          : (growth[k] - before_[k]) / static_cast<double>(end - begin)));
+    }
+    before_ = growth;
+    touched_before_ = touched_;
+  }
 
-  std::uint64_t wanted_;
+  /// Whether it is the last direction of all, the one that impacts at the least separation speed lose.
+  bool is_last(std::size_t k) const { return k + 1 == 9 * ball_count_; }
+
+  std::uint64_t ball_count_, wanted_;
+  bool finite_time_;
+  IntervalClock<Real> intervals_;              ///< of finite-time exponents
   std::optional<tangent::Spectrum> spectrum_;  ///< from the first impact on
   tangent::Spectrum::State saved_;             ///< of a checkpoint
   std::vector<double> before_;                 ///< growth up to the record
   numerics::Batches<double> batches_;
-  std::uint64_t collisions_ = 0, of_balls_ = 0, touched_ = 0;
-  bool begun_ = false;
+  std::uint64_t collisions_ = 0, of_balls_ = 0, touched_ = 0, touched_before_ = 0;
+  bool begun_ = false, ended_ = false;
 };
 
 }  // namespace edmill::output

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
 #include "engine/simulation.hpp"
 #include "io/file_note.hpp"
@@ -21,9 +22,19 @@ struct RunContext {
   model::Partners partners;         ///< of the balls
   std::optional<Real> powder_mass;  ///< [kg]
   casefile::Colour vessel_colour{};
-  std::vector<casefile::Colour> ball_colours;      ///< of each ball
-  std::vector<model::WallSurface<Real>> surfaces;  ///< of the walls by id, in the vessel frame
-  std::vector<io::FileNote> notes;                 ///< where the run comes from
+  std::vector<casefile::Colour> ball_colours;   ///< of each ball
+  std::vector<model::WallSurface<Real>> walls;  ///< by id, in the vessel frame; none of a curved one's own
+  std::vector<io::FileNote> notes;              ///< where the run comes from
+
+  /// For outputs that map walls or draw them.
+  /// @throws InputError when the vessel's walls have no coordinates
+  const std::vector<model::WallSurface<Real>>& surfaces(const casefile::OutputSpec& spec) const {
+    if (walls.empty())
+      throw InputError("output of type '" + spec.type +
+                       "': found a vessel of the program's own with curved walls, " +
+                       "expected one whose walls have coordinates");
+    return walls;
+  }
 };
 
 /// The vessel at the impact.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "base/version.hpp"
-#include "casefile/build_case.hpp"
 #include "output/outputs.hpp"
 #include "output/registry.hpp"
 
@@ -30,9 +29,9 @@ std::vector<io::FileNote> notes_of(const casefile::CaseSpec& spec) {
 }  // namespace detail
 
 template <class Real>
-Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const std::filesystem::path& folder, const Real& start)
+Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const model::AnyVessel<Real>& vessel,
+                       const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
-  const auto vessel = casefile::build_mill<Real>(spec).vessel;
   RunContext<Real> run{start,
                        model::partners_of(vessel),
                        std::nullopt,

@@ -20,7 +20,7 @@ class SceneOutput : public Output<Real> {
         place_(folder / spec.folder / spec.file),
         contact_(spec.contact_point),
         run_(run) {
-    for (const auto& surface : run.surfaces) walls_.push_back(model::mesh_of(surface));
+    for (const auto& surface : run.surfaces(spec)) walls_.push_back(model::mesh_of(surface));
   }
 
  protected:

@@ -53,7 +53,7 @@ class TreatmentOutput : public TableOutput<Real> {
         most_(spec.own_keys<TreatmentKeys>().most),
         share_(spec.own_keys<TreatmentKeys>().share.template to<Real>()),
         threshold_(spec.own_keys<TreatmentKeys>().threshold.template to<Real>()),
-        walls_(run.surfaces, spec.own_keys<TreatmentKeys>().cells),
+        walls_(run.surfaces(spec), spec.own_keys<TreatmentKeys>().cells),
         on_walls_(walls_.count()),
         on_balls_(run.ball_colours.size()) {}
 

@@ -20,33 +20,6 @@ namespace {
 
 constexpr std::size_t most_points = 120;
 
-/// A chart over the time of the run, with the start of statistics marked unless it is the beginning.
-plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
-                      const std::string& y_title) {
-  plot::Chart chart;
-  chart.id = id, chart.title = title;
-  chart.x = {"time [s]", run.spec.initial_time.to<double>(), run.facts.end_time, false};
-  chart.y.title = y_title;
-  if (run.facts.start_time > chart.x.low)
-    chart.marks.push_back({run.facts.start_time, "statistics from here"});
-  return chart;
-}
-
-/// From 0, or the least value, to a little above the highest.
-void fit_heights(plot::Chart& chart) {
-  double low = 0, high = 0;
-  const auto see = [&](double y) {
-    if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
-  };
-  for (const auto& curve : chart.curves)
-    for (const auto& [x, y] : curve.points) see(y);
-  for (const auto& band : chart.bands)
-    for (const double y : band.high) see(y);
-  const double room = high > low ? 0.1 * (high - low) : 1;
-  chart.y.low = low < 0 ? low - room : 0;
-  chart.y.high = high + room;
-}
-
 void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
   const auto series = rate_of(run, "milling_dose");
   if (!series)
@@ -227,6 +200,31 @@ void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
 }
 
 }  // namespace
+
+plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
+                      const std::string& y_title) {
+  plot::Chart chart;
+  chart.id = id, chart.title = title;
+  chart.x = {"time [s]", run.spec.initial_time.to<double>(), run.facts.end_time, false};
+  chart.y.title = y_title;
+  if (run.facts.start_time > chart.x.low)
+    chart.marks.push_back({run.facts.start_time, "statistics from here"});
+  return chart;
+}
+
+void fit_heights(plot::Chart& chart) {
+  double low = 0, high = 0;
+  const auto see = [&](double y) {
+    if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
+  };
+  for (const auto& curve : chart.curves)
+    for (const auto& [x, y] : curve.points) see(y);
+  for (const auto& band : chart.bands)
+    for (const double y : band.high) see(y);
+  const double room = high > low ? 0.1 * (high - low) : 1;
+  chart.y.low = low < 0 ? low - room : 0;
+  chart.y.high = high + room;
+}
 
 void add_rates(pugi::xml_node main, const RunFolder& run) {
   auto section = add_section(main, "rates", "Rates");

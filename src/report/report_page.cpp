@@ -98,6 +98,7 @@ std::string report_page(const RunFolder& run) {
   add_vessel(main, run);
   add_treatment(main, run);
   add_ball_speeds(main, run);
+  add_exponents(main, run);
   add_energy(main, run);
   add_case(main, run);
   const bool plays = static_cast<bool>(main.select_node("//div[@id='player']"));

@@ -1,6 +1,7 @@
 // The parts of a report. Each adds a <section>, or one line that names the missing output.
 #pragma once
 
+#include "plot/chart.hpp"
 #include "plot/markup.hpp"
 #include "report/rate_of.hpp"
 #include "report/run_folder.hpp"
@@ -21,6 +22,8 @@ void add_spectra(pugi::xml_node main, const RunFolder& run);
 void add_vessel(pugi::xml_node main, const RunFolder& run);
 /// How often powder has been hit, where the case has such an output.
 void add_treatment(pugi::xml_node main, const RunFolder& run);
+/// How fast motions nearby part from the run's, where the case has such an output.
+void add_exponents(pugi::xml_node main, const RunFolder& run);
 void add_ball_speeds(pugi::xml_node main, const RunFolder& run);
 void add_energy(pugi::xml_node main, const RunFolder& run);
 void add_case(pugi::xml_node main, const RunFolder& run);
@@ -49,6 +52,12 @@ void add_missing(pugi::xml_node section, const std::string& what, const std::str
 /// A table under a heading with this id, and a row of headings; the first cell of each row is its heading.
 void add_table(pugi::xml_node section, const std::string& id, const std::string& caption,
                const std::vector<std::string>& headings, const Rows& rows);
+
+/// A chart over the time of the run, with the start of statistics marked unless it is the beginning.
+plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
+                      const std::string& y_title);
+/// From 0, or the least value, to a little above the highest.
+void fit_heights(plot::Chart& chart);
 
 /// Rate of a variable of all impacts, or of those with one partner; nothing when no table has it.
 std::optional<Series> rate_of(const RunFolder& run, const char* variable, int partner = -1);

@@ -37,6 +37,7 @@ expect "^milling dose ${dose//./\\.} J in 2 s$" "$folder/build/own_observer" $de
 expect "^viscoelastic: [0-9.]+ W$" "$folder/build/own_contact_law" $demo
 expect "^stopped at [0-9.]+ s$" "$folder/build/own_stop_rule" $demo
 expect "^hexagonal jar: [0-9.]+ W, 9 kinds of partners$" "$folder/build/own_vessel" $demo
+expect "^conical jar: [0-9.]+ W, 4 kinds of partners$" "$folder/build/own_mill" $demo
 expect "^e 0.9: [0-9.]+ W$" "$folder/build/own_study" $demo
 # From an empty folder, into a folder of it.
 root=$PWD
@@ -45,7 +46,7 @@ cd "$folder/empty"
 expect "^until 3 s with e 0.3[0-9]+: [0-9.]+ J$" "$folder/build/own_coupling" "$root/$demo" coupling
 [ -f coupling/3/summary.json ]
 cd "$root"
-for example in own_observer own_contact_law own_stop_rule own_vessel own_study own_coupling; do
+for example in own_observer own_contact_law own_stop_rule own_vessel own_mill own_study own_coupling; do
   code=0
   "$folder/build/$example" no_such_case.toml $([ $example != own_coupling ] || echo "$folder/coupling") 2>/dev/null || code=$?
   [ $code = 2 ] || {

@@ -36,7 +36,7 @@ declare -A allowed=(
   [python]="base model machines api casefile compare dem io prove report app run instances" # a program like those of users, and the commands
   [python/edmill]=""
   [core_alone]="base casefile dynamics io model output" # a program of the core for any machine, and what stands for libraries
-  [browser]="base model model/parts io casefile output audit compare api" # the mill in a browser
+  [browser]="base model model/parts io casefile output audit compare identify api" # the mill in a browser
 )
 
 status=0

@@ -133,6 +133,41 @@ TEST_F(Outputs, EventsInHdf5AreThoseOfTheLog) {
   }
 }
 
+/// Growth of directions adds up over intervals, whatever their lengths and wherever the record ends.
+TEST_F(Outputs, FiniteTimeExponentsAddUpToThoseOfTheRecord) {
+  const std::string lyapunov = "[[output]]\ntype = \"lyapunov\"\nexponents = 3\nstart_time = \"0.1 s\"\n";
+  write("case.toml", std::string(small_case) + lyapunov + lyapunov +
+                         "interval = \"50 ms\"\nfile = \"fine.csv\"\n" + lyapunov +
+                         "interval = \"250 ms\"\nfile = \"coarse.csv\"\n" + lyapunov +
+                         "interval = \"50 ms\"\nfile = \"part.csv\"\nend_time = \"0.3 s\"\n");
+  const auto outcome = edmill(
+      "run case.toml --quiet --out out --set run.end_time='\"0.6 s\"' --set mill.speed='\"1200 rpm\"'");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto whole = read("lyapunov.csv"), fine = read("fine.csv"), coarse = read("coarse.csv"),
+             part = read("part.csv");
+  ASSERT_EQ(whole.size(), 3u);
+  ASSERT_EQ(fine.size(), 10u);
+  ASSERT_EQ(coarse.size(), 2u);
+  ASSERT_EQ(part.size(), 4u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto column = "exponent_" + std::to_string(k + 1) + " [1/s]";
+    double sum = 0;
+    for (std::size_t row = 0; row < 10; ++row) {
+      sum += 0.05 * number(fine[row], column);
+      if (row % 5 == 4) {
+        EXPECT_NEAR(0.25 * (number(coarse[0], column) + (row > 5 ? number(coarse[1], column) : 0)), sum,
+                    1e-8 * std::abs(sum));
+      }
+      if (row < 4) {
+        EXPECT_NEAR(number(part[row], column), number(fine[row], column), 1e-6) << row;
+      }
+    }
+    // Ten drive periods of 50 ms.
+    EXPECT_NEAR(0.5 * number(whole[k], "per_second [1/s]"), sum, 1e-8 * std::abs(sum));
+  }
+  EXPECT_GT(number(whole[0], "per_second [1/s]"), 0);
+}
+
 TEST(VariablesPage, IsWhatTheProgramLists) {
   std::ifstream in(EDMILL_SOURCE_DIR "/docs/variables.md");
   std::stringstream page;

@@ -40,7 +40,7 @@ class OutputRegistry : public ProgramTest {
  protected:
   template <class Real>
   void commit_all(const casefile::CaseSpec& spec) const {
-    output::Outputs<Real>(spec, scratch, Real(0)).commit(false);
+    output::Outputs<Real>(spec, casefile::build_mill<Real>(spec).vessel, scratch, Real(0)).commit(false);
   }
 };
 

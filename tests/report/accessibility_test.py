@@ -37,7 +37,8 @@ def pages(edmill, folder):
         subprocess.run([edmill, *map(str, words)], check=True, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 
     demo = f'"{ROOT / "docs/examples/demo.toml"}"'
-    outputs = 'output=[{type="treatment",share_per_impact=1e-4}]'
+    outputs = ('output=[{type="treatment",share_per_impact=1e-4},{type="lyapunov",exponents=3},'
+               '{type="lyapunov",exponents=2,interval="20 ms",file="growth.csv"}]')
     call("run", ROOT / "docs/examples/demo.toml", "--report", "--quiet", "--out", "run", "--target-dose", "10 kJ/g",
          "--set", "run.end_time=3 s", "--set", outputs)
     call("run", ROOT / "docs/examples/planetary.toml", "--report", "--quiet", "--out", "planetary", "--set", "run.end_time=2 s")

@@ -91,6 +91,28 @@ TEST_F(Report, EachSectionExplainsTheTermsThatItUses) {
   EXPECT_FALSE(has("animation", "dose"));
 }
 
+TEST_F(Report, ShowsHowErrorsGrow) {
+  run("--report --set 'balls.0.count=1' --set 'output=[{type=\"lyapunov\", exponents=9}, {type=\"lyapunov\", "
+      "exponents=2, interval=\"10 ms\", start_time=\"0.5 s\", file=\"growth.csv\"}]'");
+  const auto main = body();
+  const auto section = main.select_node("//section[@id='errors']").node();
+  ASSERT_TRUE(section);
+  std::vector<std::string> digits;
+  for (const auto& row : section.select_nodes(".//tbody/tr"))
+    digits.push_back(row.node().last_child().text().as_string());
+  ASSERT_EQ(digits.size(), 9u);
+  EXPECT_EQ(digits.back().find_first_of("0123456789"), std::string::npos);  // its direction is lost
+  EXPECT_NE(digits.front().find_first_of("0123456789"), std::string::npos);
+  Ids figures;
+  for (const auto& found : section.select_nodes(".//figure"))
+    figures.push_back(found.node().attribute("id").as_string());
+  EXPECT_EQ(figures, (Ids{"exponents-over-time", "exponents-histogram"}));
+  EXPECT_FALSE(terms_of(main, "errors").empty());
+  std::ostringstream drawings;
+  for (const auto& path : section.select_nodes(".//path")) drawings << path.node().attribute("d").as_string();
+  EXPECT_EQ(drawings.str().find_first_of("nai"), std::string::npos);  // nan, inf
+}
+
 TEST_F(Report, WarningsHaveASectionOfTheirOwn) {
   run("--report --set 'contact.least_separation=0.5 m/s'");
   const auto sections = ids(body(), "//section");

@@ -10,9 +10,12 @@
 
 namespace edmill::testing {
 
+/// Vessels that no case file gives.
+enum class OwnVessel { none, hexagon, cone, lens };
+
 struct MillText {
   const char *name, *mill, *vessel, *gravity;
-  bool hexagonal = false;  ///< a jar with six sides about the y axis in place of the vessel
+  OwnVessel own = OwnVessel::none;  ///< in place of the vessel
 };
 /// Speeds without a common period about axes that are skew, and swings of both kinds.
 inline constexpr const char* skew_chain =
@@ -37,7 +40,7 @@ inline constexpr const char* sliding_chain =
     "speed = \"6 mm/s\"\nswing = [{amplitude = \"2 mm\", speed = \"600 rpm\"}]\n[[mill.joint]]\n"
     "rotate = \"z\"\nspeed = \"-90 rpm\"";
 
-inline constexpr std::array<MillText, 25> all_mills = {{
+inline constexpr std::array<MillText, 27> all_mills = {{
     {"spex_cylinder", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = \"9.8 m/s2\""},
     {"spex_2d_cylinder", "type = \"spex_2d\"",
@@ -53,10 +56,11 @@ inline constexpr std::array<MillText, 25> all_mills = {{
     {"still_box", "type = \"still\"", "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
      "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]"},
     {"spex_hexagon", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
-     "gravity = \"9.8 m/s2\"", true},
+     "gravity = \"9.8 m/s2\"", OwnVessel::hexagon},
     {"vibrated_hexagon",
      "type = \"vibratory\"\namplitude = [\"3 mm\", \"11 mm\", \"-2 mm\"]\nspeed = \"900 rpm\"",
-     "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"", "gravity = \"9.8 m/s2\"", true},
+     "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"", "gravity = \"9.8 m/s2\"",
+     OwnVessel::hexagon},
     {"circled_box",
      "type = \"vibratory\"\namplitude = [\"3 mm\", 0, 0]\namplitude_quarter = [0, \"4 mm\", 0]\nspeed = "
      "\"1500 rpm\"",
@@ -71,7 +75,7 @@ inline constexpr std::array<MillText, 25> all_mills = {{
      "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]"},
     {"drum_hexagon", "type = \"drum\"\nspeed = \"180 rpm\"",
      "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
-     "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]", true},
+     "gravity = [\"1 m/s2\", \"-9 m/s2\", \"2 m/s2\"]", OwnVessel::hexagon},
     {"chain_cylinder", skew_chain, "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
      "gravity = \"9.8 m/s2\""},
     {"spex_sphere", "type = \"spex8000\"", "type = \"sphere\"\ndiameter = \"46 mm\"",
@@ -114,6 +118,11 @@ inline constexpr std::array<MillText, 25> all_mills = {{
      "gravity = \"9.8 m/s2\""},
     {"sliding_box", sliding_chain, "type = \"box\"\nsize = [\"33 mm\", \"57 mm\", \"36 mm\"]",
      "gravity = \"9.8 m/s2\""},
+    {"spex_cone", "type = \"spex8000\"", "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"",
+     "gravity = \"9.8 m/s2\"", OwnVessel::cone},
+    {"planetary_lens", "type = \"planetary\"\nradius = \"75 mm\"\nspeed = \"400 rpm\"\nratio = -2.18",
+     "type = \"cylinder\"\ndiameter = \"38 mm\"\nheight = \"57 mm\"", "gravity = \"9.8 m/s2\"",
+     OwnVessel::lens},
 }};
 
 inline const MillText& mill_named(std::string_view name) {
@@ -134,6 +143,23 @@ inline model::PolyhedronVessel<double> hexagonal_jar() {
   return model::PolyhedronVessel<double>(planes);
 }
 
+using Quadric = Polynomial<double>;
+inline Quadric square(const Quadric& form) { return form * form; }
+/// A jar that narrows upwards by a fifth, between two planes.
+inline model::AlgebraicVessel<double> conical_jar() {
+  const auto x = Quadric::x(), y = Quadric::y(), z = Quadric::z(), r = Quadric::r();
+  const double apex = 0.095, growth = 0.2, secant = 1.0198039027185569;
+  return {{square(growth * (apex - y) - secant * r) - square(x) - square(z), 0.025 + y - r, 0.025 - y - r},
+          {0.0241, 0.0251, 0.0241}};
+}
+/// What two cylinders about axes 12 mm apart have in common, between two planes.
+inline model::AlgebraicVessel<double> lens_jar() {
+  const auto x = Quadric::x(), y = Quadric::y(), z = Quadric::z(), r = Quadric::r();
+  return {{square(0.025 - r) - square(x - 0.006) - square(z),
+           square(0.025 - r) - square(x + 0.006) - square(z), 0.025 + y - r, 0.025 - y - r},
+          {0.0191, 0.0251, 0.0251}};
+}
+
 inline casefile::CaseSpec spec_of(
     const MillText& text, const std::string& run,
     const std::string& balls = "[[balls]]\ncount = 28\ndiameter = \"4.76 mm\"\n",
@@ -146,7 +172,9 @@ inline casefile::CaseSpec spec_of(
 
 inline model::Mill<double> mill_of(const MillText& text, const casefile::CaseSpec& spec) {
   auto mill = casefile::build_mill<double>(spec);
-  if (text.hexagonal) mill.vessel = hexagonal_jar();
+  if (text.own == OwnVessel::hexagon) mill.vessel = hexagonal_jar();
+  if (text.own == OwnVessel::cone) mill.vessel = conical_jar();
+  if (text.own == OwnVessel::lens) mill.vessel = lens_jar();
   return mill;
 }
 inline model::Mill<double> mill_of(const MillText& text) {

@@ -36,6 +36,12 @@ struct OraclePiston {
   std::vector<OracleSwing> swings;
 };
 
+/// factor x^i y^j z^k r^l.
+struct OracleTerm {
+  double factor;
+  std::array<int, 4> powers;
+};
+
 /// A mill, a flight and a window as plain doubles, all taken exactly.
 struct OracleQuestion {
   double arm, theta_max, gamma_max, period;       ///< of the nested motion
@@ -45,11 +51,13 @@ struct OracleQuestion {
   std::optional<double> sphere;                   ///< its radius, in place of a cylinder
   std::optional<std::array<double, 3>> rounded;   ///< core radius, half height of the core, rounding
   std::vector<std::array<double, 4>> planes;      ///< outward normals and distances, in place of a cylinder
+  std::vector<std::vector<OracleTerm>> polynomials;  ///< by wall, in place of a cylinder
   std::vector<OraclePiston> pistons;
   int wall_count() const {
     if (box) return 6;
     if (sphere) return 1;
     if (rounded) return (*rounded)[0] > 0 ? 5 : 3;
+    if (!polynomials.empty()) return static_cast<int>(polynomials.size());
     return planes.empty() ? 3 : static_cast<int>(planes.size());
   }
   std::array<double, 3> gravity;

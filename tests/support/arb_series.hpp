@@ -93,6 +93,8 @@ class Problem {
     if (q_.sphere) return gap_to_centre(t, h, n, prec);
     if (q_.rounded) return gap_to_rounded(wall, t, h, n, prec);
     if (!q_.planes.empty()) return gap_to_plane(q_.planes[static_cast<std::size_t>(wall)], t, h, n, prec);
+    if (!q_.polynomials.empty())
+      return gap_of_polynomial(q_.polynomials[static_cast<std::size_t>(wall)], t, h, n, prec);
     if (q_.box || wall < 2) {
       const int axis = q_.box ? wall / 2 : 1;
       Series result = coordinate(axis, t, h, n, prec);
@@ -170,6 +172,26 @@ class Problem {
       for (slong k = 0; k < n; ++k) arb_submul(result[k], x[k], normal.v, prec);
     }
     return result;
+  }
+
+  Series gap_of_polynomial(const std::vector<OracleTerm>& terms, const Ball& t, const Ball& h, slong n,
+                           slong prec) const {
+    const auto place = coordinates(t, h, n, prec);
+    Series sum(n);
+    for (const auto& term : terms) {
+      const Ball radius(q_.radius);
+      Series product(n);
+      arb_set_d(product[0], term.factor);
+      for (int k = 0; k < term.powers[3]; ++k) arb_mul(product[0], product[0], radius.v, prec);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        for (int k = 0; k < term.powers[axis]; ++k) {
+          Series next(n);
+          add_product(next, 1, product, place[axis], prec);
+          product = next;
+        }
+      for (slong k = 0; k < n; ++k) arb_add(sum[k], sum[k], product[k], prec);
+    }
+    return sum;
   }
 
   bool edges_unreachable() const { return q_.rounded && q_.radius > (*q_.rounded)[2]; }

@@ -64,6 +64,8 @@ inline std::string text_of(const model::Mill<double>& mill) {
         << rounded->rounding();
   else if (const auto* polyhedron = mill.vessel.get_if<model::PolyhedronVessel<double>>())
     for (const auto& [n, d] : polyhedron->planes()) out << ", plane " << n.transpose() << " at " << d;
+  else if (mill.vessel.get_if<model::AlgebraicVessel<double>>())
+    out << ", " << mill.vessel.wall_count() << " curved walls";
   else
     out << " R_v " << cylinder(mill).radius << " h/2 " << cylinder(mill).half_height;
   return out.str();

@@ -40,6 +40,11 @@ inline OracleQuestion question_of(const model::Mill<double>& mill, const dynamic
     question.rounded = {rounded->core_radius(), rounded->core_half(), rounded->rounding()};
   else if (const auto* polyhedron = mill.vessel.get_if<model::PolyhedronVessel<double>>())
     for (const auto& [n, d] : polyhedron->planes()) question.planes.push_back({n[0], n[1], n[2], d});
+  else if (const auto* curved = mill.vessel.get_if<model::AlgebraicVessel<double>>())
+    for (int wall = 0; wall < curved->wall_count(); ++wall) {
+      auto& polynomial = question.polynomials.emplace_back();
+      for (const auto& t : curved->form(wall).terms) polynomial.push_back({t.factor, t.powers});
+    }
   else
     question.vessel_radius = cylinder(mill).radius, question.half_height = cylinder(mill).half_height;
   if (const auto* pistons = mill.vessel.pistons())
