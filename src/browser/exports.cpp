@@ -54,7 +54,7 @@ std::vector<std::string> lines_of(const char* text) {
 
 /// The page shows what is searched while it goes on.
 void tell_stage(const std::string& stage) {
-  EM_ASM({ postMessage({what: 'stage', stage: UTF8ToString($0)}); }, stage.c_str());
+  EM_ASM({ postMessage({what : 'stage', stage : UTF8ToString($0)}); }, stage.c_str());
 }
 
 }  // namespace
