@@ -63,6 +63,7 @@ if(EMSCRIPTEN)
   add_executable(edmill_page)
   target_link_libraries(edmill_page PRIVATE edmill_core)
   edmill_take_rooms(edmill_page browser audit compare identify)
+  target_compile_options(edmill_page PRIVATE -Oz)  # the file is to stay small
   target_link_options(edmill_page PRIVATE -sMODULARIZE=1 -sEXPORT_NAME=Edmill -sENVIRONMENT=web,worker,node
                       -sEXPORTED_RUNTIME_METHODS=ccall,FS -sEXPORTED_FUNCTIONS=_malloc,_free)
   set(page ${CMAKE_BINARY_DIR}/edmill.html)

@@ -27,7 +27,8 @@ std::string choices_of_precision() {
 }
 
 bool is_precision(const std::string& name) {
-  return chosen_digits_of(name) > 0 || std::ranges::find(precisions(), name) != precisions().end();
+  const auto& all = precisions();
+  return chosen_digits_of(name) > 0 || std::find(all.begin(), all.end(), name) != all.end();
 }
 
 double digits_of(const std::string& precision) {

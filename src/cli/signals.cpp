@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "cli/exit_codes.hpp"
+#include "io/input_file.hpp"
 
 namespace edmill::cli {
 
@@ -46,6 +47,7 @@ void end_by_pipe_signal() {
 std::atomic<bool>& interrupt_flag() { return flag; }
 
 void listen_for_signals() {
+  io::end_waits_by(flag);
   for (const int signal : {SIGINT, SIGTERM, SIGXCPU, SIGUSR1}) std::signal(signal, on_signal);
   if (!is_ignored(SIGHUP)) std::signal(SIGHUP, on_signal);
 }

@@ -81,8 +81,8 @@ std::optional<model::Case<double>> Assumptions::built() const {
   result.mill = casefile::build_mill<double>(spec);
   result.balls = balls;
   const auto& vessel = result.mill.vessel;
-  const bool room =
-      std::ranges::none_of(balls, [&](const auto& ball) { return vessel.inset(ball.radius).is_empty(); });
+  const bool room = std::none_of(balls.begin(), balls.end(),
+                                 [&](const auto& ball) { return vessel.inset(ball.radius).is_empty(); });
   if (!room || vessel.wall_count() != walls) return std::nullopt;
   return result;
 }

@@ -12,6 +12,11 @@ namespace edmill::identify {
 
 namespace {
 
+template <class List, class Key>
+void sort_by(List& list, const Key& key) {
+  std::stable_sort(list.begin(), list.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+}
+
 double misfit_of(const Residuals& sample, const Assumptions& assumed) {
   return misfit(sample.rows(assumed), sample.kinds());
 }
@@ -39,7 +44,9 @@ std::set<std::string> Candidate::names() const {
   return all;
 }
 
-void sort(std::vector<Candidate>& list) { std::ranges::stable_sort(list, {}, &Candidate::rank); }
+void sort(std::vector<Candidate>& list) {
+  sort_by(list, [](const auto& c) { return c.rank(); });
+}
 
 double Candidate::evidence() const {
   double choices = 0;
@@ -116,7 +123,8 @@ Candidate Candidates::fitted(const Model& model, const std::vector<std::string>&
                              const std::vector<double>& start) const {
   Candidate c{model, mistakes, start, {}, 0, 0, 0};
   const auto& windows = samples_.windows();
-  const bool staged = std::ranges::any_of(model.free, [](const auto* p) { return p->is_speed; });
+  const bool staged =
+      std::any_of(model.free.begin(), model.free.end(), [](const auto* p) { return p->is_speed; });
   for (std::size_t w = staged ? 0 : windows.size() - 1; w < windows.size(); ++w) {
     const auto sample = residuals_.on(windows[w]);
     if (sample.count() < 12 && w + 1 < windows.size()) continue;
@@ -217,7 +225,7 @@ std::vector<Tried> Candidates::promising(const Assumptions& base, const std::vec
     const double now = misfit_of(sample, assumed);
     if (now < before - strong_evidence) better.push_back({now, mistake});
   }
-  std::ranges::stable_sort(better, {}, &Tried::misfit);
+  sort_by(better, [](const auto& t) { return t.misfit; });
   if (better.size() > most) better.resize(most);
   return better;
 }
@@ -225,7 +233,7 @@ std::vector<Tried> Candidates::promising(const Assumptions& base, const std::vec
 Residuals Candidates::telling(const Assumptions& base) const {
   auto early = residuals_.on(samples_.early());
   const auto rows = early.rows(base);
-  const auto off = std::ranges::count_if(rows, [](double r) { return std::abs(r) > 1; });
+  const auto off = std::count_if(rows.begin(), rows.end(), [](double r) { return std::abs(r) > 1; });
   return off > 12 ? early : residuals_.on(samples_.whole());
 }
 
@@ -241,12 +249,12 @@ std::vector<const Parameter*> Candidates::ranked(const Assumptions& base,
     std::vector<double> change;
     order.emplace_back(linear_misfit(rows, sample.kinds(), {&slopes[k]}, change), &parameters[k]);
   }
-  std::ranges::stable_sort(order, {}, [](const auto& row) { return row.first; });
+  sort_by(order, [](const auto& row) { return row.first; });
   std::vector<const Parameter*> best;
   for (std::size_t k = 0; k < order.size(); ++k)
     if (k < most || order[k].second->is_speed || order[k].second->is_phase) best.push_back(order[k].second);
   for (const auto* p : telling_from_afar(base, parameters, most / 2))
-    if (std::ranges::find(best, p) == best.end()) best.push_back(p);
+    if (std::find(best.begin(), best.end(), p) == best.end()) best.push_back(p);
   return best;
 }
 
@@ -266,7 +274,7 @@ std::vector<const Parameter*> Candidates::telling_from_afar(const Assumptions& b
     }
     if (best < here - strong_evidence) order.emplace_back(best, &p);
   }
-  std::ranges::stable_sort(order, {}, [](const auto& row) { return row.first; });
+  sort_by(order, [](const auto& row) { return row.first; });
   std::vector<const Parameter*> list;
   for (std::size_t k = 0; k < std::min(most, order.size()); ++k) list.push_back(order[k].second);
   return list;
@@ -279,11 +287,13 @@ std::vector<Parameter> of_parts(const std::vector<Parameter>& parameters) {
   std::set<std::string> common;
   const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
   for (const auto& p : parameters)
-    if (p.key.starts_with("contact.") && std::ranges::count(p.key, '.') == 1) common.insert(last(p.key));
+    if (p.key.starts_with("contact.") && std::count(p.key.begin(), p.key.end(), '.') == 1)
+      common.insert(last(p.key));
   std::vector<Parameter> list;
   for (const auto& p : parameters) {
     const bool of_law = p.key.starts_with("contact.");
-    const bool again = of_law && std::ranges::count(p.key, '.') > 1 && common.contains(last(p.key));
+    const bool again =
+        of_law && std::count(p.key.begin(), p.key.end(), '.') > 1 && common.contains(last(p.key));
     if (!p.equation.empty() || (of_law && !again)) list.push_back(p);
   }
   return list;
@@ -303,8 +313,8 @@ std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, cons
   };
   std::vector<Ranked> order;
   std::vector<std::size_t> holding;  // parts with so much of what is off
-  const std::uint64_t off =
-      static_cast<std::uint64_t>(std::ranges::count_if(rows, [](double r) { return std::abs(r) > 1; }));
+  const std::uint64_t off = static_cast<std::uint64_t>(
+      std::count_if(rows.begin(), rows.end(), [](double r) { return std::abs(r) > 1; }));
   for (std::size_t s = 0; s < parts_.size(); ++s) {
     std::vector<bool> inside;
     std::uint64_t off_inside = 0;
@@ -330,7 +340,7 @@ std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, cons
       order.push_back({linear_misfit(rows, sample.kinds(), {&slope}, change), p, s});
     }
   }
-  std::ranges::stable_sort(order, {}, &Ranked::misfit);
+  sort_by(order, [](const auto& r) { return r.misfit; });
   std::vector<Parameter> best;
   for (std::size_t k = 0; k < std::min(most, order.size()); ++k)
     best.push_back(restricted_to(parts_[order[k].part], parameters[order[k].parameter], parts_.size()));
@@ -361,7 +371,7 @@ std::vector<Parameter> Candidates::telling_from_afar_in_parts(const Assumptions&
       }
       if (best < here - strong_evidence) order.emplace_back(best, std::move(restricted));
     }
-  std::ranges::stable_sort(order, {}, [](const auto& row) { return row.first; });
+  sort_by(order, [](const auto& row) { return row.first; });
   std::vector<Parameter> list;
   for (std::size_t k = 0; k < std::min(most, order.size()); ++k) list.push_back(std::move(order[k].second));
   return list;
@@ -379,7 +389,7 @@ auto Candidates::ranked_pairs(const std::vector<Parameter>& parameters) const ->
       const double left = linear_misfit(rows, sample.kinds(), {&slopes[i], &slopes[j]}, change);
       if (change.size() == 2) order.push_back({left, i, j, change});
     }
-  std::ranges::stable_sort(order, {}, &Pair::misfit);
+  sort_by(order, [](const auto& p) { return p.misfit; });
   return order;
 }
 

@@ -181,7 +181,7 @@ void add_frames(const audit::Available& has, std::vector<Mistake>& list) {
 void add_equal_balls(const Assumptions& nominal, std::vector<Mistake>& list) {
   using Form = Terms::EqualBalls;
   const auto alike = [&](const auto& ball) { return ball == nominal.balls.front(); };
-  if (std::ranges::all_of(nominal.balls, alike)) return;
+  if (std::all_of(nominal.balls.begin(), nominal.balls.end(), alike)) return;
   const auto add = [&](const char* text, Form form) {
     list.push_back({"impacts of balls that are not alike (2.24')", text,
                     [form](Assumptions& a) { a.terms.equal_balls = form; }});

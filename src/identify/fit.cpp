@@ -191,7 +191,7 @@ std::vector<std::vector<double>> slopes_of(const Residuals& residuals, const Ass
     p.set(moved, p.value + step * p.change);
     auto column = residuals.rows(moved);
     for (std::size_t i = 0; i < column.size(); ++i) column[i] = (column[i] - rows[i]) / step;
-    const bool any = std::ranges::any_of(column, [](double slope) { return slope != 0; });
+    const bool any = std::any_of(column.begin(), column.end(), [](double slope) { return slope != 0; });
     return any ? column : std::vector<double>{};
   };
   std::vector<std::vector<double>> list;

@@ -54,7 +54,8 @@ class Search {
     result.violations = audited.findings.total();
     result.noted = audited.findings.explained();
     if (result.violations == 0) return result;
-    result.too_few = std::ranges::count_if(log_.events, [](const auto& e) { return e.problem.empty(); }) < 12;
+    result.too_few = std::count_if(log_.events.begin(), log_.events.end(),
+                                   [](const auto& e) { return e.problem.empty(); }) < 12;
     if (result.too_few) return result;
     candidates_.emplace(log_, options_, the_case_, nominal_, result.violations);
     if ((result.too_few = !candidates_->suffice())) return result;

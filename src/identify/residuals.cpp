@@ -152,7 +152,7 @@ std::vector<double> Residuals::rows(const Assumptions& assumed) const {
     for (std::size_t k = 0; k < count(); ++k)
       if (assumed.restricted[r].part->holds(places_[k])) set_of[k] |= std::size_t{1} << r;
   for (std::size_t set = 1; set < sets; ++set) {
-    if (std::ranges::find(set_of, set) == set_of.end()) continue;
+    if (std::find(set_of.begin(), set_of.end(), set) == set_of.end()) continue;
     Assumptions here = whole;
     for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
       if (set >> r & 1) assumed.restricted[r].make(here);

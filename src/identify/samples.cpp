@@ -14,7 +14,8 @@ auto Samples::every() const -> Places {
 
 void Samples::choose() {
   const auto& events = *events_;
-  const auto known = std::ranges::find_if(events, [](const auto& e) { return std::isfinite(e.time); });
+  const auto known =
+      std::find_if(events.begin(), events.end(), [](const auto& e) { return std::isfinite(e.time); });
   const double begin = known == events.end() ? 0 : known->time, end = events.back().time, span = end - begin;
   const double first = std::max(period_, events[std::min<std::size_t>(79, events.size() - 1)].time - begin);
   windows_.clear();

@@ -1,6 +1,8 @@
 #include "io/input_file.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -26,7 +28,25 @@ std::optional<int> descriptor_of(const std::string& path) {
   return path == "-" ? std::optional(STDIN_FILENO) : descriptor_named(path);
 }
 
+std::atomic<const std::atomic<bool>*> waits_end{nullptr};
+
+struct WaitInterrupted : InterruptedError {
+  const char* what() const noexcept override { return "interrupted while it waited for input"; }
+};
+
+/// Until there is something to read, or nothing will follow.
+void wait_for_input(int descriptor) {
+  const auto* interrupted = waits_end.load();
+  pollfd waiting{descriptor, POLLIN, 0};
+  constexpr int milliseconds = 100;
+  for (int ready = 0; interrupted && (ready == 0 || (ready < 0 && errno == EINTR));) {
+    if (interrupted->load(std::memory_order_relaxed)) throw WaitInterrupted();
+    ready = ::poll(&waiting, 1, milliseconds);
+  }
+}
+
 ssize_t read_some(int descriptor, char* bytes, std::size_t size, std::optional<std::uint64_t> from) {
+  if (!from) wait_for_input(descriptor);
   for (;;) {
     const auto count =
         from ? ::pread(descriptor, bytes, size, static_cast<off_t>(*from)) : ::read(descriptor, bytes, size);
@@ -38,7 +58,13 @@ ssize_t read_some(int descriptor, char* bytes, std::size_t size, std::optional<s
 int open_for_reading(const std::string& path) {
   // A descriptor that is open goes on where it stands; a socket could not be opened by its name.
   if (const auto number = descriptor_of(path)) return ::fcntl(*number, F_DUPFD_CLOEXEC, 3);
-  return ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  struct stat file {};
+  const bool fifo = ::stat(path.c_str(), &file) == 0 && S_ISFIFO(file.st_mode);
+  // Without waiting for a writer: that is done where it can be interrupted.
+  const bool waits = fifo && waits_end.load();
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (waits ? O_NONBLOCK : 0));
+  if (descriptor >= 0 && waits) ::fcntl(descriptor, F_SETFL, O_RDONLY);
+  return descriptor;
 }
 
 /// What streams held, by their paths.
@@ -116,6 +142,8 @@ bool is_readable(const std::string& path) {
 fs::path folder_of(const std::string& path) {
   return is_stream(path) ? fs::path() : fs::path(path).parent_path();
 }
+
+void end_waits_by(const std::atomic<bool>& flag) { waits_end = &flag; }
 
 Spool::Spool() { Spooled::all().begin(); }
 Spool::~Spool() { Spooled::all().end(); }

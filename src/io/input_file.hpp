@@ -1,6 +1,7 @@
 // Files that are read: from a disk, a pipe or standard input; compressed ones as what they hold.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <istream>
@@ -16,6 +17,9 @@ bool is_stream(const std::string& path);
 bool is_readable(const std::string& path);
 /// The folder from which relative paths in a file count: its own, or the working directory for a stream.
 std::filesystem::path folder_of(const std::string& path);
+
+/// Reading that waits for a pipe or a terminal ends with an InterruptedError when this becomes true.
+void end_waits_by(const std::atomic<bool>& flag);
 
 /// While one lives, streams can be read more than once: what they hold goes to a temporary file.
 class Spool {

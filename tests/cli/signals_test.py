@@ -66,6 +66,30 @@ def other_commands(t):
     t.no_partials("other commands")
 
 
+def waits_for_input(t):
+    """A log that nobody writes, or goes on writing: one request ends the wait."""
+    os.mkfifo("silent")
+    log = pathlib.Path("whole/collisions.csv").read_text()
+    for command in ("audit case.toml LOG", "compare LOG whole", "compare whole LOG", "import LOG --case case.toml"):
+        for source in ("silent", "-"):
+            for beginning in ("", log[:3000]) if source == "-" else ("",):
+                process = subprocess.Popen([EDMILL, *command.replace("LOG", source).split(), "--quiet"], stdin=subprocess.PIPE,
+                                           stderr=subprocess.PIPE, text=True)
+                process.stdin.write(beginning)
+                process.stdin.flush()
+                time.sleep(0.3)
+                begin = time.time()
+                process.send_signal(signal.SIGTERM)
+                try:
+                    code = process.wait(timeout=10)
+                except subprocess.TimeoutExpired:
+                    process.kill()
+                    code = None
+                t.check(code in (128 + signal.SIGTERM, -signal.SIGTERM), f"{command} from {source}: exit code {code}")
+                t.check(time.time() - begin < 5, f"{command} from {source}: ends at once")
+                t.no_partials(command)
+
+
 with Trials() as t:
     pathlib.Path("case.toml").write_text(case(*OUTPUTS, end="6 s"))
     t.check(edmill("run", "case.toml", "--quiet", "--out", "whole").returncode == 0, "the whole run")
@@ -102,4 +126,6 @@ with Trials() as t:
             done = edmill("run", "case.toml", "--quiet", "--out", f"limit-{name}", "--set", setting, preexec_fn=limit)
             t.refused(done, f"a file size limit and {name}", "could not be written: the file size limit is reached", code=1)
     other_commands(t)
+    pathlib.Path("case.toml").write_text(case(*OUTPUTS, end="6 s"))
+    waits_for_input(t)
 print(f"{t.checks} checks of signals")

@@ -297,7 +297,8 @@ class AlgebraicVessel {
 
   /// Whether the centre of a ball of this radius may be here.
   bool has_room(const Vec3<Real>& p, const Real& r) const {
-    return std::ranges::all_of(shape_->walls, [&](const Wall& wall) { return wall.gap.at(p, r) > 0; });
+    return std::all_of(shape_->walls.begin(), shape_->walls.end(),
+                       [&](const Wall& wall) { return wall.gap.at(p, r) > 0; });
   }
   /// Whether a face of the box has a place of the vessel, by a lattice.
   bool reaches_out() const {
