@@ -63,8 +63,12 @@ if(EMSCRIPTEN)
   add_executable(edmill_page)
   target_link_libraries(edmill_page PRIVATE edmill_core)
   edmill_take_rooms(edmill_page browser audit compare identify)
-  target_compile_options(edmill_page PRIVATE -Oz)  # the file is to stay small
-  target_link_options(edmill_page PRIVATE -sMODULARIZE=1 -sEXPORT_NAME=Edmill -sENVIRONMENT=web,worker,node
+  # The file is to stay small; wide scalars decide seldom.
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/instances/float128.cpp ${CMAKE_SOURCE_DIR}/src/core_alone/rung.cpp
+                              PROPERTIES COMPILE_OPTIONS -Os SKIP_PRECOMPILE_HEADERS ON)
+  target_compile_options(edmill_page PRIVATE -Os)
+  target_link_options(edmill_page PRIVATE -sMALLOC=emmalloc)
+  target_link_options(edmill_page PRIVATE -sMODULARIZE=1 -sEXPORT_NAME=Edmill -sENVIRONMENT=web,worker
                       -sEXPORTED_RUNTIME_METHODS=ccall,FS -sEXPORTED_FUNCTIONS=_malloc,_free)
   set(page ${CMAKE_BINARY_DIR}/edmill.html)
   find_program(PYTHON3 python3 NO_CMAKE_FIND_ROOT_PATH REQUIRED)

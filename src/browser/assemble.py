@@ -19,6 +19,11 @@ def main(engine, place):
     def read(name):
         return (HERE / name).read_text(encoding="utf-8")
 
+    def script(name):
+        """Without comments and indentation: the file is to stay small."""
+        lines = (line.strip() for line in read(name).splitlines())
+        return "\n".join(line for line in lines if not line.startswith("//")) + "\n"
+
     compressed = gzip.compress(pathlib.Path(engine + ".wasm").read_bytes(), 9, mtime=0)
     cases = {name: (EXAMPLES / file).read_text(encoding="utf-8") for name, file in CASES.items()}
     reference = HERE.parents[1] / "regression/reference"
@@ -26,8 +31,8 @@ def main(engine, place):
             if not line.startswith("#")]
     proven = {"case": (reference / "three_balls.toml").read_text(encoding="utf-8"),
               "events": [[row[1], int(row[2]), int(row[4]) if row[3] == "ball" else -1 - int(row[4])] for row in rows[1:201]]}
-    worker = pathlib.Path(engine + ".js").read_text(encoding="utf-8") + read("worker.js")
-    parts = {"style": read("page.css"), "script": read("page.js") + read("lessons.js"), "worker": json.dumps(worker).replace("</", "<\\/"),
+    worker = pathlib.Path(engine + ".js").read_text(encoding="utf-8") + script("worker.js")
+    parts = {"style": read("page.css"), "script": script("page.js") + script("lessons.js"), "worker": json.dumps(worker).replace("</", "<\\/"),
              "cases": json.dumps(cases).replace("</", "<\\/"), "proven": json.dumps(proven),
              "engine": base64.b64encode(compressed).decode()}
     page = read("page.html")
