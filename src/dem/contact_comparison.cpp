@@ -25,11 +25,15 @@ struct Window {
   double from, until;
 };
 
-ContactRates rates_of_contacts(const std::string& file, const Window& window) {
+/// @param transient  until when a run that it is compared with takes no statistics, which a log leaves out,
+/// too, if it is long enough [s]
+ContactRates rates_of_contacts(const std::string& file, const Window& window, double transient = 0) {
   ContactLogReader log(file);
   log.need_frames();
   ContactRates r{.log = file};
-  r.first = std::max(window.from, log.facts().first), r.last = std::min(window.until, log.facts().last);
+  if (log.facts().last < 2 * transient) transient = 0;
+  r.first = std::max({window.from, log.facts().first, transient}),
+  r.last = std::min(window.until, log.facts().last);
   if (!(r.last > r.first))
     throw InputError(file + ": found no frames in the time that is compared, expected some");
   DoseRate rate(r.first, r.last);
@@ -85,7 +89,8 @@ ContactComparison compare_contacts(const std::string& a, const std::string& b, d
   ContactComparison c;
   const Window window{from, until};
   c.a = is_contact_log(a) ? rates_of_contacts(a, window) : rates_of_impacts(a, window);
-  c.b = is_contact_log(b) ? rates_of_contacts(b, window) : rates_of_impacts(b, window);
+  c.b = is_contact_log(b) ? rates_of_contacts(b, window, is_contact_log(a) ? 0 : c.a.first)
+                          : rates_of_impacts(b, window);
   c.known = c.a.dose_rate > 0 && c.b.dose_rate > 0;
   if (!c.known) return c;
   const double ratio = c.b.dose_rate / c.a.dose_rate;

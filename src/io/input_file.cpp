@@ -34,14 +34,15 @@ struct WaitInterrupted : InterruptedError {
   const char* what() const noexcept override { return "interrupted while it waited for input"; }
 };
 
-/// Until there is something to read, or nothing will follow.
+/// Until there is something to read, which files always have, or nothing will follow.
 void wait_for_input(int descriptor) {
   const auto* interrupted = waits_end.load();
+  if (!interrupted) return;
   pollfd waiting{descriptor, POLLIN, 0};
-  constexpr int milliseconds = 100;
-  for (int ready = 0; interrupted && (ready == 0 || (ready < 0 && errno == EINTR));) {
+  for (int milliseconds = 0;; milliseconds = 100) {
+    const int ready = ::poll(&waiting, 1, milliseconds);
+    if (ready > 0 || (ready < 0 && errno != EINTR)) return;
     if (interrupted->load(std::memory_order_relaxed)) throw WaitInterrupted();
-    ready = ::poll(&waiting, 1, milliseconds);
   }
 }
 
