@@ -26,12 +26,12 @@ using Planes = std::vector<Plane<Real>>;
 template <class Real>
 struct CurvedVessel {
   /// Of each wall a polynomial of at most degree 8 that is positive where the centre of a ball of radius r is
-  /// inside, and zero where the ball touches the wall. That of a cone with its apex at y = a whose radius
-  /// grows by t with each metre downwards: (t (a - y) - sqrt(1 + t^2) r)^2 - x^2 - z^2. The gradient of a
-  /// wall must not vanish where a ball touches it.
+  /// inside, falls as r grows, and is zero where the ball touches the wall. That of a cone with its apex at y
+  /// = a whose radius grows by t with each metre downwards: (t (a - y) - sqrt(1 + t^2) r)^2 - x^2 - z^2. The
+  /// gradient of a wall must not vanish where a ball touches it.
   std::vector<Polynomial<Real>> walls;
-  /// Half the edges of a box about the origin that has the vessel inside [m]; the origin need not be in the
-  /// vessel.
+  /// Half the edges of a box about the origin that has the vessel inside [m], and is not much larger; the
+  /// origin need not be in the vessel.
   std::array<Real, 3> half_sizes;
 };
 

@@ -1,6 +1,7 @@
 // Implementation of Run; included by the instantiation files only.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -79,6 +80,20 @@ model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) 
   return model::ChainMotion<Real>(joints);
 }
 
+/// What a case says of the walls of its own vessel.
+/// @throws InputError when the program's vessel would have it
+template <class Real>
+void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
+  auto& of_walls = mill.pairs.of_walls;
+  if (mill.vessel.pistons() ||
+      std::any_of(of_walls.begin(), of_walls.end(), [](int law) { return law >= 0; }))
+    throw InputError(
+        "vessel of the program: found a case whose walls move or have materials, expected a case without");
+  if (!mill.pairs.empty())
+    of_walls.assign(mill.pairs.materials * static_cast<std::size_t>(own.wall_count()), -1);
+  mill.vessel = own;
+}
+
 /// The case with the parts that the user gives.
 template <class Real>
 casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts<Real>& own) {
@@ -88,10 +103,10 @@ casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts
   if (!own.planes.empty()) {
     std::vector<typename model::PolyhedronVessel<Real>::Plane> planes;
     for (const auto& [n, distance] : own.planes) planes.push_back({{n[0], n[1], n[2]}, distance});
-    mill.vessel = model::PolyhedronVessel<Real>(planes);
+    forget_walls<Real>(mill, model::PolyhedronVessel<Real>(planes));
   } else if (own.vessel) {
     const auto& half = own.vessel->half_sizes;
-    mill.vessel = model::AlgebraicVessel<Real>(own.vessel->walls, {half[0], half[1], half[2]});
+    forget_walls<Real>(mill, model::AlgebraicVessel<Real>(own.vessel->walls, {half[0], half[1], half[2]}));
   }
   if (!own.joints.empty()) mill.motion = to_motion<Real>(own.joints, mill.motion.period());
   return casefile::build_case_in<Real>(mill, spec);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What the sources of src/ have in common: no header includes itself by way of others; no file is longer than 400 lines, no function
-than 60; no two places share six lines; a room has its own namespace, and adds to others only what it declares of them.
+than 60; no two places share six lines; a room has its own namespace, and adds to others only what it declares of them;
+rooms of the page in the browser keep to the library that it is built with.
 
 usage: source_test.py SOURCE"""
 import collections
@@ -49,6 +50,13 @@ def find_long(name, lines):
             problems.append(f"{name}:{begin + 1}: a function of {end - begin + 1} lines, at most 60")
 
 
+def find_ranges(name, text):
+    """The page of the browser has these rooms, and Emscripten's library of Debian 12 no algorithms of std::ranges."""
+    if name.split("/")[0] in {"base", "model", "dynamics", "engine", "casefile", "io", "run", "tangent", "output", "api", "core_alone",
+                              "browser", "audit", "compare", "identify"} and "std::ranges::" in text:
+        problems.append(f"{name}: std::ranges, which the page cannot have")
+
+
 # The declarations of instances that two sources need, each by itself; and two lists of names that are alike by chance.
 SHARED = {"namespace edmill {", "spin_change,"}
 
@@ -86,6 +94,7 @@ find_twice()
 for name, text in files.items():
     find_long(name, text.splitlines())
     find_foreign_namespaces(name, text)
+    find_ranges(name, text)
 if len(files) < 100:
     problems.append(f"{len(files)} files found in {source}, expected those of the project")
 print("\n".join(problems) or f"{len(files)} files: one way of includes, no place twice, short functions and files, a namespace for each room")

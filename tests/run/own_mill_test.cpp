@@ -155,6 +155,74 @@ TEST(OwnMill, WhatIsNoVesselOrMotionIsRefused) {
   expect(own, "periods");
 }
 
+/// The squares of a cone and a cylinder are positive again for balls that are wider than they are.
+TEST(OwnMill, LargeBallsArePlacedWhereTheyFitOrRefused) {
+  const auto with_ball = [](double diameter, int seed) {
+    return Case::parse("[run]\nend_time = \"0.1 s\"\ngravity = \"9.8 m/s2\"\nseed = " + std::to_string(seed) +
+                       "\n[mill]\ntype = \"still\"\n[vessel]\ndiameter = \"80 mm\"\nheight = \"80 mm\"\n"
+                       "[contact]\nrestitution = 0.5\nfriction = 0.4\n[[balls]]\ncount = 1\ndiameter = \"" +
+                       std::to_string(diameter) + " m\"\n");
+  };
+  OwnParts<double> own;
+  own.vessel = cone();
+  own.joints = {Joint<double>{false, {0, 1, 0}}};         // at rest, with its axes along those of the ground
+  const double radius = 0.019, secant = std::sqrt(1.04);  // the largest ball has 19.7 mm
+  for (int seed = 1; seed <= 20; ++seed) {
+    edmill::Run<double> run(with_ball(2 * radius, seed), own);
+    const auto expect_inside = [&] {
+      const auto p = run.ball(0).position;
+      EXPECT_GE(0.2 * (0.095 - p[1]) - std::hypot(p[0], p[2]), secant * radius - 1e-12) << seed;
+      EXPECT_LE(std::abs(p[1]), 0.025 - radius + 1e-12) << seed;
+    };
+    expect_inside();
+    run.finish();
+    expect_inside();
+  }
+  const auto refuses = [&](double diameter) {
+    try {
+      edmill::Run<double> run(with_ball(diameter, 1), own);
+    } catch (const InputError&) {
+      return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(refuses(0.04));
+  own.vessel = cylinder<double>(0.01, 0.06);
+  own.vessel->half_sizes = {0.03, 0.07, 0.03};
+  EXPECT_FALSE(refuses(0.019));
+  for (const double diameter : {0.0201, 0.03, 0.04, 0.05}) EXPECT_TRUE(refuses(diameter)) << diameter;
+}
+
+/// What a case says of its own walls has no meaning for others.
+TEST(OwnMill, CasesWhoseWallsMoveOrHaveMaterialsAreRefused) {
+  const std::string pistons = "[[vessel.piston]]\nwall = \"cap +y\"\ndistance = \"2 mm\"\n";
+  const std::string materials =
+      "[[material]]\nname = \"steel\"\ndensity = \"7.8 g/cm3\"\n[[material]]\nname = \"rubber\"\n";
+  const auto pair = [](const std::string& other) {
+    return "[[contact.pair]]\nmaterials = [\"steel\", \"" + other +
+           "\"]\nrestitution = 0.2\nfriction = 0.3\n";
+  };
+  const std::string lid = "[vessel.materials]\n\"cap +y\" = \"rubber\"\n";
+  const std::string steel_ball = "[[balls]]\ncount = 1\ndiameter = \"7 mm\"\nmaterial = \"steel\"\n";
+  OwnParts<double> own;
+  own.vessel = cone();
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      edmill::Run<double> run(case_of(spex, text), own);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal(pistons).find("walls move"), std::string::npos) << refusal(pistons);
+  const auto of_a_lid = refusal(lid + materials + pair("rubber") + steel_ball);
+  EXPECT_NE(of_a_lid.find("materials"), std::string::npos) << of_a_lid;
+  // Between balls they go on.
+  edmill::Run<double> run(case_of(spex, materials + pair("steel") + steel_ball), own);
+  run.finish();
+  EXPECT_GT(run.summary().milling_dose, 0);
+}
+
 class OwnMillFiles : public ProgramTest {};
 
 /// Outputs ask the vessel that the run has.

@@ -140,9 +140,7 @@ class AlgebraicVessel {
     const Vec3<Real> half = half_sizes();
     for (int axis = 0; axis < 3; ++axis)
       if (p[axis] > half[axis] || -p[axis] > half[axis]) return false;
-    for (int wall = 0; wall < wall_count(); ++wall)
-      if (!(gap(wall, p) >= 0)) return false;
-    return !is_empty();
+    return !is_empty() && has_room(p, radius_);
   }
   std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
     const Vec3<Real> half = half_sizes(), p{drawn[0] * half[0], drawn[1] * half[1], drawn[2] * half[2]};
@@ -272,11 +270,11 @@ class AlgebraicVessel {
       : shape_(std::move(shape)), radius_(radius) {}
 
   /// The radius of the ball about p that touches the wall, by Newton's method: inside, the gap falls with the
-  /// radius, and less and less.
+  /// radius, and less and less. Where it rises the ball is larger than the vessel is wide there.
   Real touching(int index, const Vec3<Real>& p) const {
     const auto& wall = of(index);
     const Real sharp = 8 * epsilon<Real>() * shape_->half_sizes.maxCoeff();
-    Real r = radius_;
+    Real r = wall.by_radius.at(p, radius_) < 0 ? radius_ : Real(0);
     for (int step = 0; step < 2 * binary_digits<Real>(); ++step) {
       const Real fall = wall.by_radius.at(p, r);
       if (!(fall < 0)) break;
@@ -295,15 +293,18 @@ class AlgebraicVessel {
     return values;
   }
 
-  /// Whether the centre of a ball of this radius may be here.
+  /// Whether the centre of a ball of this radius may be here. Beyond the ball that touches, a square such as
+  /// (R - r)^2 - x^2 - z^2 becomes positive again; there it rises with the radius.
   bool has_room(const Vec3<Real>& p, const Real& r) const {
-    return std::all_of(shape_->walls.begin(), shape_->walls.end(),
-                       [&](const Wall& wall) { return wall.gap.at(p, r) > 0; });
+    return std::all_of(shape_->walls.begin(), shape_->walls.end(), [&](const Wall& wall) {
+      return wall.gap.at(p, r) >= 0 && wall.by_radius.at(p, r) < 0;
+    });
   }
   /// Whether a face of the box has a place of the vessel, by a lattice.
   bool reaches_out() const {
     constexpr int steps = 24;
     const auto& half = shape_->half_sizes;
+    const Real beyond_touching = half.minCoeff() / 1000000000;
     for (int axis = 0; axis < 3; ++axis)
       for (const int side : {-1, 1})
         for (int i = 0; i <= steps; ++i)
@@ -312,7 +313,7 @@ class AlgebraicVessel {
             p[axis] = half[axis] * side;
             p[(axis + 1) % 3] = half[(axis + 1) % 3] * Real(2 * i - steps) / Real(steps);
             p[(axis + 2) % 3] = half[(axis + 2) % 3] * Real(2 * j - steps) / Real(steps);
-            if (has_room(p, Real(0))) return true;
+            if (has_room(p, beyond_touching)) return true;
           }
     return false;
   }
