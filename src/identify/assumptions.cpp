@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "audit/mechanics.hpp"
@@ -11,6 +12,7 @@
 namespace edmill::casefile {
 extern template model::Mill<double> build_mill<double>(const CaseSpec&);
 extern template InitialCase<double> build_case<double>(const CaseSpec&, bool);
+extern template double Quantity::to<double>() const;
 }  // namespace edmill::casefile
 
 namespace edmill::identify {
@@ -75,10 +77,24 @@ void LogChange::apply(audit::LoggedEvent& event, const model::Mill<double>& mill
   if (!event.with_wall) renamed(event.partner);
 }
 
+casefile::CaseSpec Assumptions::case_file() const {
+  if (phases.empty() || !casefile::problems_of(spec).empty()) return spec;
+  auto joints = casefile::joints_of(spec.mill);
+  for (const auto& [place, more] : phases) {
+    auto& joint = joints.at(place[0]);
+    auto& angle = place[1] < joint.swings.size() ? joint.swings[place[1]].phase : joint.angle;
+    angle = exactly(angle.to<double>() + more / (2 * std::numbers::pi));
+  }
+  casefile::CaseSpec changed = spec;
+  changed.mill = model::Chain<casefile::Quantity>{{std::move(joints), casefile::period_of(spec.mill)}};
+  return changed;
+}
+
 std::optional<model::Case<double>> Assumptions::built() const {
-  if (!casefile::problems_of(spec).empty()) return std::nullopt;
+  const auto file = case_file();
+  if (!casefile::problems_of(file).empty()) return std::nullopt;
   model::Case<double> result;
-  result.mill = casefile::build_mill<double>(spec);
+  result.mill = casefile::build_mill<double>(file);
   result.balls = balls;
   const auto& vessel = result.mill.vessel;
   const bool room = std::none_of(balls.begin(), balls.end(),

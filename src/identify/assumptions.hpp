@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -56,11 +57,16 @@ struct Assumptions {
   LogChange log;
   int walls;  ///< of the case, which the log's walls are
   Terms terms = {};
+  /// What the phases of the mill's joints have more than the case's [rad], by joint and swing; a rotation's
+  /// own angle has the place after its swings.
+  std::map<std::array<std::size_t, 2>, double> phases = {};
   std::vector<Restricted> restricted = {};  ///< what holds in a part of the log only
 
   /// The case of these values; none where its file would be refused, a ball has no room in the vessel, or the
   /// vessel has other walls: a log cannot be of such a mill.
   std::optional<model::Case<double>> built() const;
+  /// The case's file with these values.
+  casefile::CaseSpec case_file() const;
   /// Whether a case alone says all of it, so that an audit can be made with it.
   bool is_case() const { return restricted.empty() && terms == Terms{}; }
 };

@@ -29,7 +29,8 @@ double penalty(const Residuals& sample, const Model& model) {
 
 /// Values over decades at which a number that is far off, or a term that is reversed or left out, shows.
 std::vector<double> values_from_afar(const Parameter& p) {
-  if (p.is_speed || p.is_phase) return {};  // of a periodic motion: Candidates::starts
+  if (!p.is_of_case()) return p.first_values;
+  if (p.is_speed || p.cycle > 0) return {};  // of a periodic motion: Candidates::starts
   if (p.value == 0) return {0.1 * p.change, p.change, 10 * p.change, -p.change};
   std::vector<double> values;
   for (const double factor : {-1.0, 0.0, 0.1, 0.5, 0.75, 1.3, 2.0, 10.0}) values.push_back(factor * p.value);
@@ -60,10 +61,9 @@ Candidates::Candidates(const audit::EventsAtHand& log, const audit::Options& opt
     : log_(log),
       options_(options),
       nominal_(nominal),
-      period_(the_case.mill.motion.period()),
       residuals_(log, audit::tolerances_of(the_case, options), the_case),
       parts_(subsets_of(the_case, log.events, residuals_.branches())),
-      samples_(log.events, period_),
+      samples_(log.events, the_case.mill.motion.period()),
       violations_(violations) {
   draw_samples({nominal});
 }
@@ -136,7 +136,7 @@ Candidate Candidates::fitted(const Model& model, const std::vector<std::string>&
 }
 
 std::vector<double> Candidates::starts(const Assumptions& base, const Parameter& p) const {
-  if (!p.is_speed && !p.is_phase) {
+  if (!p.is_speed && p.cycle == 0) {
     const auto few = residuals_.on(samples_.few());
     double best = misfit_of(few, base) - strong_evidence, far = p.value;
     for (const double value : values_from_afar(p)) {
@@ -144,6 +144,7 @@ std::vector<double> Candidates::starts(const Assumptions& base, const Parameter&
       p.set(moved, value);
       if (const double now = misfit_of(few, moved); now < best) best = now, far = value;
     }
+    if (!p.is_of_case()) return {std::isfinite(far) ? far : p.first_values.front()};
     return far == p.value ? std::vector{p.value} : std::vector{p.value, far};
   }
   const auto sample = residuals_.on(samples_.early());
@@ -154,8 +155,8 @@ std::vector<double> Candidates::starts(const Assumptions& base, const Parameter&
     tried.emplace_back(misfit_of(sample, moved), value);
   };
   add(p.value);
-  if (p.is_phase) {
-    for (int k = 1; k < 16; ++k) add(period_ * (k <= 8 ? k : k - 16) / 16);
+  if (p.cycle > 0) {
+    for (int k = 1; k < 16; ++k) add(p.value + p.cycle * (k <= 8 ? k : k - 16) / 16);
   } else {
     const double turns =
         std::abs(log_.events[samples_.early().back()].time * p.value) / (2 * std::numbers::pi);
@@ -181,7 +182,8 @@ bool Candidates::accept(Candidate& c) const {
   for (std::size_t k = 0; k < c.values.size(); ++k) {
     if (c.model.free[k]->dimension == Dimension::time)  // times are rounded
       c.half_widths[k] += 1e-15 * std::abs(log_.events.back().time);
-    if (!(std::abs(c.values[k] - c.model.free[k]->value) > c.half_widths[k])) return false;
+    const auto& free = *c.model.free[k];
+    if (free.is_of_case() && !(std::abs(c.values[k] - free.value) > c.half_widths[k])) return false;
     const bool is_factor = !c.model.free[k]->equation.empty() && c.model.free[k]->value == 1;
     if (is_factor && !word_for(c.values[k], c.half_widths[k]).empty()) c.plainness += 3;
     widen(c, k);
@@ -252,7 +254,7 @@ std::vector<const Parameter*> Candidates::ranked(const Assumptions& base,
   sort_by(order, [](const auto& row) { return row.first; });
   std::vector<const Parameter*> best;
   for (std::size_t k = 0; k < order.size(); ++k)
-    if (k < most || order[k].second->is_speed || order[k].second->is_phase) best.push_back(order[k].second);
+    if (k < most || order[k].second->is_speed || order[k].second->cycle > 0) best.push_back(order[k].second);
   for (const auto* p : telling_from_afar(base, parameters, most / 2))
     if (std::find(best.begin(), best.end(), p) == best.end()) best.push_back(p);
   return best;
@@ -291,7 +293,7 @@ std::vector<Parameter> of_parts(const std::vector<Parameter>& parameters) {
       common.insert(last(p.key));
   std::vector<Parameter> list;
   for (const auto& p : parameters) {
-    const bool of_law = p.key.starts_with("contact.");
+    const bool of_law = p.key.starts_with("contact");
     const bool again =
         of_law && std::count(p.key.begin(), p.key.end(), '.') > 1 && common.contains(last(p.key));
     if (!p.equation.empty() || (of_law && !again)) list.push_back(p);

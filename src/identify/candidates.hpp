@@ -109,7 +109,6 @@ class Candidates {
   const audit::EventsAtHand& log_;
   const audit::Options& options_;
   const Assumptions& nominal_;
-  double period_;  ///< of the drive [s]
   LogResiduals residuals_;
   std::vector<SharedSubset> parts_;
   Samples samples_;

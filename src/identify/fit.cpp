@@ -196,7 +196,7 @@ std::vector<std::vector<double>> slopes_of(const Residuals& residuals, const Ass
   };
   std::vector<std::vector<double>> list;
   for (const auto& p : parameters) {
-    list.push_back(slopes(p, 1e-6));
+    list.push_back(p.is_of_case() ? slopes(p, 1e-6) : std::vector<double>{});
     // A restitution of 0, or no least separation speed, shows nothing until it is large enough for some
     // impact.
     if (list.back().empty() && p.value == 0) list.back() = slopes(p, 1);

@@ -92,7 +92,7 @@ class Search {
     // A run of a case has the terms of the equations as they are.
     std::vector<Parameter> numbers;
     for (const auto& p : parameters_)
-      if (p.equation.empty()) numbers.push_back(p);
+      if (p.equation.empty() && p.is_of_case()) numbers.push_back(p);
     auto mistakes = mistakes_of(nominal_, numbers, log_);
     std::erase_if(mistakes, [&](const Mistake& m) {
       Assumptions assumed = nominal_;
@@ -260,10 +260,14 @@ class Search {
       const auto* first = single.model.free[0];
       for (const auto* p : candidates_->ranked(single.assumed(), parameters_, 3))
         if (p != first)
-          tried.push_back(candidates_->fitted({nominal_, {first, p}}, {}, {single.values[0], p->value}));
+          tried.push_back(candidates_->fitted({nominal_, {first, p}}, {}, {single.values[0], first_value(single, *p)}));
     }
     pairs_ = tried;
     return accepted_of(std::move(tried));
+  }
+
+  double first_value(const Candidate& base, const Parameter& p) const {
+    return p.is_of_case() ? p.value : candidates_->starts(base.assumed(), p).front();
   }
 
   std::vector<Candidate> two_numbers() {
@@ -292,7 +296,8 @@ class Search {
     Cause cause;
     for (std::size_t k = 0; k < c.values.size(); ++k) {
       const auto& p = *c.model.free[k];
-      cause.values.push_back({p.key, p.dimension, c.values[k], c.half_widths[k], p.value, p.equation});
+      cause.values.push_back(
+          {p.key, p.dimension, c.values[k], c.half_widths[k], p.value, p.equation, p.in_place_of});
     }
     cause.mistakes = c.mistakes;
     cause.of = c.of;

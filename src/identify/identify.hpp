@@ -18,6 +18,7 @@ struct Found {
   Dimension dimension;
   double value, half_width, nominal;  ///< SI
   std::string equation = {};          ///< of a term
+  std::string in_place_of = {};       ///< of a number that the case has not; `nominal` is none then
 };
 
 /// One to three values or mistakes that explain nine tenths of the violations or more.

@@ -14,7 +14,8 @@ std::string Cause::text() const {
     const auto word = is_factor ? word_for(v.value, v.half_width) : "";
     const auto equation = v.equation.empty() ? "" : " " + v.equation;
     join(fmt::format("{}{}{} = {} in place of {}{}", v.key, equation, is_factor ? ": factor" : "",
-                     value_text(v.dimension, v.value, v.half_width), value_text(v.dimension, v.nominal),
+                     value_text(v.dimension, v.value, v.half_width),
+                     v.in_place_of.empty() ? value_text(v.dimension, v.nominal) : v.in_place_of,
                      word.empty() ? "" : ", " + word));
   }
   return text;
@@ -49,7 +50,7 @@ std::string table(const Identification& found) {
                      *found.follows)
                : fmt::format("  no cause found: a run of the case reproduces the first {} impacts\n",
                              *found.follows);
-  else if (found.noted > 0)
+  else if (found.noted > 0 && !found.stepping.found())
     out += fmt::format("  no other cause: the notes explain {} of {} violations\n", found.noted,
                        found.violations);
   else if (found.violations > 0 && !found.stepping.found())
@@ -74,6 +75,7 @@ void put_stepping(io::JsonText& json, const TimeStepping& stepping) {
   put_optional(json, "step", stepping.step);
   put_optional(json, "step_by_depth", stepping.step_by_depth);
   put_optional(json, "first_order_step", stepping.first_order_step);
+  put_optional(json, "jitter", stepping.jitter);
   if (stepping.second_order) json.integer("order", 2);
   if (const auto& soft = stepping.soft) {
     json.begin("soft_contacts");
@@ -127,6 +129,7 @@ void put_json(io::JsonText& json, const Identification& found) {
       json.number("value", v.value);
       json.number("half_width", v.half_width);
       json.number("nominal", v.nominal);
+      if (!v.in_place_of.empty()) json.text("in_place_of", v.in_place_of);
       if (!v.equation.empty()) json.text("equation", v.equation);
       json.end();
     }

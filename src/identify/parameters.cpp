@@ -32,17 +32,6 @@ void each_number(Part& part, F&& f) {
   std::visit([&](auto& own) { own.parameters(own, visit); }, part);
 }
 
-std::string with_axis(const std::string& key, int axis) {
-  return axis < 0 ? key : key + "." + std::string(1, "xyz"[axis]);
-}
-
-Parameter number(std::string key, std::string meaning, Dimension dimension, double value,
-                 std::function<void(Assumptions&, double)> set) {
-  const double size = std::abs(value);
-  return {std::move(key),        std::move(meaning), dimension, value,
-          size > 0 ? size : 1.0, std::move(set),     size > 0};
-}
-
 template <class Member>
 void add_numbers(const std::string& section, const Assumptions& nominal, Member member,
                  std::vector<Parameter>& list) {
@@ -67,45 +56,6 @@ void add_numbers(const std::string& section, const Assumptions& nominal, Member 
     parameter.is_diameter = parameter.key == "vessel.diameter";
     list.push_back(std::move(parameter));
   });
-}
-
-/// The joints of a chain, each number by itself.
-void add_joints(const Assumptions& nominal, std::vector<Parameter>& list) {
-  const auto& joints = std::get<model::Chain<Quantity>>(nominal.spec.mill).given.list;
-  const auto add = [&](const std::string& key, Dimension dimension, double unit, const Quantity& value,
-                       auto member) {
-    if (value.zero()) return;
-    list.push_back(
-        number(key, "", dimension, unit * value.to<double>(), [member, unit](Assumptions& a, double x) {
-          member(std::get<model::Chain<Quantity>>(a.spec.mill).given.list) = exactly(x / unit);
-        }));
-  };
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const std::string key = fmt::format("mill.joint.{}", j);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      add(
-          with_axis(key + ".translate", static_cast<int>(axis)), Dimension::length, 1,
-          joints[j].shift[axis], [=](auto& l) -> auto& { return l[j].shift[axis]; });
-    add(
-        key + ".angle", Dimension::angle, 2 * pi,
-        joints[j].angle, [=](auto& l) -> auto& { return l[j].angle; });
-    add(
-        key + ".speed", joints[j].rotates ? Dimension::angular_speed : Dimension::speed,
-        joints[j].rotates ? 2 * pi : 1, joints[j].speed, [=](auto& l) -> auto& { return l[j].speed; });
-    if (joints[j].rotates && !joints[j].speed.zero()) list.back().is_speed = true;
-    for (std::size_t s = 0; s < joints[j].swings.size(); ++s) {
-      const std::string swing = fmt::format("{}.swing.{}", key, s);
-      const auto& own = joints[j].swings[s];
-      add(
-          swing + ".amplitude", joints[j].rotates ? Dimension::angle : Dimension::length,
-          joints[j].rotates ? 2 * pi : 1,
-          own.amplitude, [=](auto& l) -> auto& { return l[j].swings[s].amplitude; });
-      add(
-          swing + ".speed", Dimension::angular_speed, 2 * pi,
-          own.frequency, [=](auto& l) -> auto& { return l[j].swings[s].frequency; });
-      list.back().is_speed = true;
-    }
-  }
 }
 
 void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
@@ -151,74 +101,6 @@ void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
     list.push_back(std::move(p));
   }
 }
-
-/// Numbers of contact laws: those of both kinds of contact together where they are equal, and of each.
-class Laws {
- public:
-  explicit Laws(const Assumptions& nominal, std::vector<Parameter>& list) : nominal_(nominal), list_(list) {}
-
-  void add() {
-    const auto& spec = nominal_.spec;
-    if (!spec.pairs_only) add_both(spec.ball_ball, spec.ball_wall);
-    for (std::size_t k = 0; k < spec.pairs.size(); ++k)
-      add_law(fmt::format("contact.pair.{}", k), spec.pairs[k].law,
-              [k](Assumptions& a) -> casefile::ContactSpec& { return a.spec.pairs[k].law; });
-  }
-
- private:
-  using Law = casefile::ContactSpec;
-  struct Entry {
-    std::string key, meaning;
-    Dimension dimension;
-    double value;
-  };
-  /// The single numbers of a law; tables of numbers are left out.
-  template <class L, class F>
-  static void each(L& law, F&& f) {
-    const auto visit = [&]<class Value>(const auto& p, Value& value) {
-      if constexpr (std::is_same_v<Value, Quantity>) f(p.key, p.meaning, p.dimension, value);
-    };
-    std::visit([&](auto& own) { own.parameters(own, visit); }, law.law);
-    f("least_separation", "v_s", Dimension::speed, law.least_separation);
-  }
-  static std::vector<Entry> entries(Law law) {
-    std::vector<Entry> list;
-    each(law, [&](const char* key, const char* meaning, Dimension dimension, Quantity& q) {
-      list.push_back({key, meaning, dimension, q.to<double>()});
-    });
-    return list;
-  }
-  static void put(Law& law, std::size_t place, double value) {
-    std::size_t k = 0;
-    each(law, [&](const char*, const char*, Dimension, Quantity& q) {
-      if (k++ == place) q = exactly(value);
-    });
-  }
-  void push(const Entry& e, const std::string& section, std::function<void(Assumptions&, double)> set) {
-    auto p = number(section + "." + e.key, e.meaning, e.dimension, e.value, std::move(set));
-    if (e.value == 0) p.change = e.dimension == Dimension::speed ? 0.01 : 0.1;
-    list_.push_back(std::move(p));
-  }
-  template <class Find>
-  void add_law(const std::string& section, const Law& law, Find find) {
-    const auto own = entries(law);
-    for (std::size_t k = 0; k < own.size(); ++k)
-      push(own[k], section, [find, k](Assumptions& a, double x) { put(find(a), k, x); });
-  }
-  void add_both(const Law& balls, const Law& walls) {
-    const auto one = entries(balls), two = entries(walls);
-    const bool alike = balls.law.index() == walls.law.index();
-    for (std::size_t k = 0; alike && k < one.size(); ++k)
-      if (one[k].value == two[k].value)
-        push(one[k], "contact",
-             [k](Assumptions& a, double x) { put(a.spec.ball_ball, k, x), put(a.spec.ball_wall, k, x); });
-    add_law("contact.ball_ball", balls, [](Assumptions& a) -> Law& { return a.spec.ball_ball; });
-    add_law("contact.ball_wall", walls, [](Assumptions& a) -> Law& { return a.spec.ball_wall; });
-  }
-
-  const Assumptions& nominal_;
-  std::vector<Parameter>& list_;
-};
 
 /// Adds the parameters of the balls [first, last), whose numbers are all scaled alike.
 void add_balls(const std::string& key, std::size_t first, std::size_t last, const casefile::BallSpec& spec,
@@ -269,6 +151,13 @@ void add_all_balls(const Assumptions& nominal, std::vector<Parameter>& list) {
 
 }  // namespace
 
+Parameter number(std::string key, std::string meaning, Dimension dimension, double value,
+                 std::function<void(Assumptions&, double)> set) {
+  const double size = std::abs(value);
+  return {std::move(key),        std::move(meaning), dimension, value,
+          size > 0 ? size : 1.0, std::move(set),     size > 0};
+}
+
 std::vector<Parameter> parameters_of(const Assumptions& nominal) {
   std::vector<Parameter> list;
   if (std::holds_alternative<model::Chain<Quantity>>(nominal.spec.mill))
@@ -280,13 +169,14 @@ std::vector<Parameter> parameters_of(const Assumptions& nominal) {
     auto phase = number("phase of the drive", "as a time that the log's clock is behind", Dimension::time, 0,
                         [](Assumptions& a, double x) { a.log.delay = x; });
     phase.change = period / 10;
-    phase.is_phase = true;
+    phase.cycle = period;
     list.push_back(std::move(phase));
+    add_phases(nominal, list);
   }
   if (!std::holds_alternative<model::Polyhedron<Quantity>>(nominal.spec.vessel))
     add_numbers("vessel", nominal, &casefile::CaseSpec::vessel, list);
   add_gravity(nominal, list);
-  Laws(nominal, list).add();
+  add_laws(nominal, list);
   add_all_balls(nominal, list);
   for (auto& term : term_parameters()) list.push_back(std::move(term));
   return list;

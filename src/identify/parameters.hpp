@@ -19,16 +19,36 @@ struct Parameter {
   std::function<void(Assumptions&, double)> set;
   /// A wrong unit (1e3, pi/180) or a diameter in place of a radius changes it by a factor.
   bool has_unit = false, is_diameter = false;
-  /// A periodic motion's speed or phase: a fit from afar may go to a wrong period.
-  bool is_speed = false, is_phase = false;
+  /// A periodic motion's speed: a fit from afar may go to a wrong period.
+  bool is_speed = false;
+  double cycle = 0;            ///< of a phase, after which the motion is the same [its unit]; else 0
   std::string equation = {};  ///< of docs/theory.md that a term belongs to; empty for a number of the case
   bool of_impacts = true,
        of_flights = true;  ///< the rows that depend on it, which a part of the log may restrict
   double prior = 0;        ///< what the choice among parts of the log costs in Schwarz's criterion
+  /// Of a number of another contact law: what the case has in its place, and values to begin with. `value` is
+  /// not a number.
+  std::string in_place_of = {};
+  std::vector<double> first_values = {};
+
+  bool is_of_case() const { return in_place_of.empty(); }
 };
 
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.
 std::vector<Parameter> parameters_of(const Assumptions& nominal);
+
+/// Those of the joints of a chain, and the phases of the joints of any mill that moves.
+void add_joints(const Assumptions& nominal, std::vector<Parameter>& list);
+void add_phases(const Assumptions& nominal, std::vector<Parameter>& list);
+/// Those of the contact laws, and one number of each other law that may stand in their place.
+void add_laws(const Assumptions& nominal, std::vector<Parameter>& list);
+/// "vessel.x" of the first of three numbers along axes; the key itself for axis -1.
+inline std::string with_axis(const std::string& key, int axis) {
+  return axis < 0 ? key : key + "." + std::string(1, "xyz"[axis]);
+}
+/// With the unit of a fit that its size suggests.
+Parameter number(std::string key, std::string meaning, Dimension dimension, double value,
+                 std::function<void(Assumptions&, double)> set);
 
 /// The factors and shifts of the terms of the equations.
 std::vector<Parameter> term_parameters();

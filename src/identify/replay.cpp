@@ -46,7 +46,7 @@ class Replay {
 
   /// The first impacts of the case with these values, from the initial state of the nominal one.
   std::vector<Impact> impacts(const Assumptions& assumed, std::size_t count) const {
-    casefile::CaseSpec spec = assumed.spec;
+    casefile::CaseSpec spec = assumed.case_file();
     spec.batches.clear(), spec.balls.clear();
     if (!spec.initial_state.empty()) spec.initial_time = exactly(start_);
     spec.initial_state.clear();

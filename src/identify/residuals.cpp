@@ -241,7 +241,7 @@ void LogResiduals::event_rows(std::size_t k, const Given& given, Writer& out) co
     else
       gap = audit::size(Vec(event.body[0].position - event.body[1].position)) - impact.ball[0].radius -
             impact.ball[1].radius;
-    out.add(RowKind::touch, gap, tolerances_.touch(event.time, event.with_wall));
+    out.add(RowKind::touch, gap - given.terms.contact_gap, tolerances_.touch(event.time, event.with_wall));
   }
   const auto& law = law_of(model.mill, impact);
   if (placed && log_.available.velocities_before(event.with_wall))

@@ -9,11 +9,13 @@ namespace edmill::identify {
 std::vector<Parameter> term_parameters() {
   std::vector<Parameter> list;
   for (const auto& row : term_rows()) {
+    const bool is_factor = row.shift == Dimension::none;
+    const double change = is_factor ? 1.0 : row.shift == Dimension::time ? 1e-5 : 1e-4;
     Parameter p{row.name,
                 "",
-                row.is_shift ? Dimension::time : Dimension::none,
-                row.is_shift ? 0.0 : 1.0,
-                row.is_shift ? 1e-5 : 1.0,
+                row.shift,
+                is_factor ? 1.0 : 0.0,
+                change,
                 [member = row.member](Assumptions& a, double x) { a.terms.*member = x; }};
     p.equation = row.equation;
     p.prior = 1;  // of two that fit alike, a number of the case comes first

@@ -14,7 +14,7 @@ std::span<const TermRow> term_rows() {
       {"c - 1 in the impulse of the friction", "(2.28')", &Terms::compliance_in_impulse},
       {"lever arm R in the velocity of the contact point", "(2.27)", &Terms::arm},
       {"velocity of the wall", "(2.27)", &Terms::wall_velocity},
-      {"delay of the wall's velocity", "(2.27)", &Terms::wall_velocity_delay, true},
+      {"delay of the wall's velocity", "(2.27)", &Terms::wall_velocity_delay, Dimension::time},
       {"work of the wall, column wall_work", "(A.82)", &Terms::wall_work},
       {"dose, column milling_dose", "(2.36')", &Terms::dose},
       {"energy of the spin in the dose", "(2.36')", &Terms::spin_in_dose},
@@ -22,12 +22,13 @@ std::span<const TermRow> term_rows() {
       {"supplied energy in the dose", "(2.36')", &Terms::supply_in_dose},
       {"column approach_speed", "(2.27)", &Terms::approach_speed},
       {"column slip_speed", "(2.27)", &Terms::slip_speed},
-      {"gravity in flights", "(2.1)", &Terms::gravity, false, true},
-      {"gravity in the places of flights", "(2.1)", &Terms::gravity_in_places, false, true},
-      {"gravity in the velocities of flights", "(2.1)", &Terms::gravity_in_velocities, false, true},
-      {"spin in flights", "(2.1)", &Terms::spin_in_flight, false, true},
-      {"time of flight, too long by", "(2.1)", &Terms::time_of_flight, true, true},
-      {"age of the velocities before impacts", "(2.1)", &Terms::age_of_velocities, true, true}};
+      {"gap at which bodies meet", "(2.17')", &Terms::contact_gap, Dimension::length},
+      {"gravity in flights", "(2.1)", &Terms::gravity, Dimension::none, true},
+      {"gravity in the places of flights", "(2.1)", &Terms::gravity_in_places, Dimension::none, true},
+      {"gravity in the velocities of flights", "(2.1)", &Terms::gravity_in_velocities, Dimension::none, true},
+      {"spin in flights", "(2.1)", &Terms::spin_in_flight, Dimension::none, true},
+      {"time of flight, too long by", "(2.1)", &Terms::time_of_flight, Dimension::time, true},
+      {"age of the velocities before impacts", "(2.1)", &Terms::age_of_velocities, Dimension::time, true}};
   return rows;
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "casefile/quantity.hpp"
+#include "base/dimension.hpp"
 
 namespace edmill::identify {
 
@@ -25,6 +25,7 @@ struct Terms {
   int wall_velocity_formula = 0;                      ///< audit::WallVelocity
   double wall_work = 1, dose = 1, spin_in_dose = 1, work_in_dose = 1, supply_in_dose = 1;
   double approach_speed = 1, slip_speed = 1;
+  double contact_gap = 0;  ///< at which bodies meet [m]
   // flights
   double gravity = 1, gravity_in_places = 1, gravity_in_velocities = 1, spin_in_flight = 1;
   double time_of_flight = 0, age_of_velocities = 0;  ///< [s]
@@ -43,7 +44,7 @@ struct TermRow {
   const char* name;      ///< "torque of the friction"
   const char* equation;  ///< of docs/theory.md
   double Terms::*member;
-  bool is_shift = false;    ///< a time, 0 if right; else a factor, 1 if right
+  Dimension shift = Dimension::none;  ///< of what is 0 if right; else a factor, 1 if right
   bool of_flights = false;  ///< else of impacts
 };
 std::span<const TermRow> term_rows();

@@ -109,6 +109,8 @@ class Measured {
   const std::vector<Contact>& contacts() const { return contacts_; }
   audit::DelaysByPartner delays;
   std::vector<double> first_order;  ///< the step that each flight implies [s]
+  /// By how much longer than its path each flight took that is off, where it is off along its path alone [s].
+  std::vector<double> surplus;
 
  private:
   /// Geometry of an impact and its depth.
@@ -179,6 +181,9 @@ class Measured {
     if (large && std::abs(leaving) > 0.05)
       contacts_[from].duration_from_begin = duration(left, normal_a, leaving);
     if (large && std::abs(coming) > 0.05) contacts_[to].duration_from_end = duration(came, normal_b, coming);
+    if (large && !is_along(came.velocity_before, Vec(came.velocity_after - came.velocity_before)) &&
+        !is_along(came.velocity_before, Vec(left.velocity_after - left.velocity_before)))
+      surplus.push_back(surplus_of(off, came.velocity_before, g, noise));
     // Steps of first order leave the velocity right, and off the parabola along gravity alone.
     const double g_size = audit::size(g);
     if (!(g_size > 0)) return;
@@ -186,6 +191,21 @@ class Measured {
     const double fall = audit::dot(off, g) / g_size;
     const double rest = std::max(audit::size(Vec(off - g * (fall / g_size))), audit::size(gained) * dt);
     first_order.push_back(!large || 10 * rest <= std::abs(fall) ? 2 * fall / (g_size * dt) : audit::unknown);
+  }
+
+  /// Along an impulse contacts that last and steps put a ball off its path, too.
+  static bool is_along(const Vec& one, const Vec& two) {
+    return std::abs(audit::dot(one, two)) > 0.99 * audit::size(one) * audit::size(two);
+  }
+  /// A ball comes late by this time at its velocity then, and is nowhere else.
+  static double surplus_of(const Vec& off, const Vec& velocity, const Vec& g, double noise) {
+    const auto along = [&](const Vec& way) {
+      return -audit::dot(way, velocity) / audit::dot(velocity, velocity);
+    };
+    double time = along(off);
+    time = along(Vec(off + g * (time * time / 2)));
+    const double rest = audit::size(Vec(off + (velocity + g * (time / 2)) * time));
+    return audit::vanishes(audit::size(off), rest, noise) ? time : audit::unknown;
   }
 
   const audit::EventsAtHand& log_;
@@ -235,6 +255,18 @@ std::optional<SoftContacts> soft_contacts(const std::vector<Contact>& contacts, 
                       quantile(springs, 0.5),    moduli.empty() ? audit::unknown : quantile(moduli, 0.5)};
 }
 
+/// What single times are off by if that alone puts flights off their paths: as many flights are too short as
+/// too long. Between two times that are off by e each the flight is off by the square root of 2 times e.
+std::optional<double> jitter_of(std::vector<double> surplus) {
+  const auto flights = surplus.size();
+  std::erase_if(surplus, [](double time) { return !std::isfinite(time); });
+  if (surplus.size() < least_number || !audit::accounts_for(surplus.size(), flights)) return std::nullopt;
+  if (!(quantile(surplus, 0.25) < 0 && quantile(surplus, 0.75) > 0)) return std::nullopt;
+  double squares = 0;
+  for (const double time : surplus) squares += time * time;
+  return std::sqrt(squares / (2 * static_cast<double>(surplus.size())));
+}
+
 }  // namespace
 
 TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<double>& the_case,
@@ -252,6 +284,9 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
   else
     result.soft = begin ? begin : end;
   if (const double step = measured.delays.step(); step > 0) result.step_by_depth = step;
+  // Rounding to a step is off by up to half of it.
+  const auto jitter = jitter_of(measured.surplus);
+  if (jitter && !(result.step && *jitter < *result.step)) result.jitter = jitter;
   auto& orders = measured.first_order;
   const auto flights = orders.size();
   std::erase_if(orders, [](double order) { return !std::isfinite(order); });
@@ -293,6 +328,11 @@ std::string table(const TimeStepping& found) {
         "  looks like   an integrator of first order with steps of {:.3g} s: flights leave the parabola by "
         "g h t/2, h the step\n",
         *found.first_order_step);
+  if (found.jitter)
+    out += fmt::format(
+        "  looks like   times that are off by {:.3g} s (root mean square), early and late alike: flights are "
+        "off along their paths alone\n",
+        *found.jitter);
   if (found.second_order) out += "    flights under gravity have no error of first order in the step\n";
   return out;
 }

@@ -28,9 +28,10 @@ struct TimeStepping {
   std::optional<SoftContacts> soft;
   std::optional<double>
       first_order_step;       ///< of an integrator of first order, from flights under gravity [s]
+  std::optional<double> jitter;  ///< root mean square by which single times are off, early and late [s]
   bool second_order = false;  ///< flights under gravity show no error of first order
 
-  bool found() const { return step || step_by_depth || soft || first_order_step; }
+  bool found() const { return step || step_by_depth || soft || first_order_step || jitter; }
 };
 
 /// @param log  in the case's order of times

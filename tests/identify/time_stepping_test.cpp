@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "instances/instances.hpp"
 
@@ -46,6 +47,13 @@ class Bounces : public testing::Test {
       const double flight = 2 * up / g - slip;  // 0 = up t - g t (t + slip)/2
       time += duration(speed) + flight;
       speed = g * flight - up;
+    }
+  }
+  /// The ball drifts across the floor.
+  void drift() {
+    for (auto& e : log.events) {
+      auto& b = e.body[0];
+      b.position[0] = 0.3 * e.time, b.velocity_before[0] = b.velocity_after[0] = 0.3;
     }
   }
   TimeStepping found() const { return time_stepping(log, built.the_case, audit::Options{}); }
@@ -92,6 +100,36 @@ TEST_F(Bounces, StepsShowInTimesAndDepths) {
   ASSERT_TRUE(result.step_by_depth);
   EXPECT_NEAR(*result.step_by_depth, 3e-6, 0.3e-6);
   EXPECT_FALSE(result.first_order_step);
+}
+
+TEST_F(Bounces, TimesThatAreOffMoveBallsAlongTheirPathsAlone) {
+  write(200, at_once, 0, 0);
+  drift();
+  constexpr unsigned seed = 20261127;
+  std::mt19937 random(seed);
+  std::normal_distribution<double> off(0, 2e-6);
+  for (auto& e : log.events) e.time += off(random);
+  const auto result = found();
+  ASSERT_TRUE(result.jitter) << "seed " << seed << table(result);
+  EXPECT_NEAR(*result.jitter, 2e-6, 0.4e-6) << "seed " << seed;
+  EXPECT_FALSE(result.step || result.soft || result.first_order_step) << table(result);
+}
+
+TEST_F(Bounces, NothingElseIsCalledJitter) {
+  for (const double late : {3e-6, 0.0})
+    for (const double slip : {2e-5, 0.0}) {
+      log.events.clear();
+      write(200, at_once, late, slip);
+      drift();
+      EXPECT_FALSE(found().jitter) << late << " " << slip << table(found());
+    }
+  log.events.clear();
+  write(
+      200, [](double) { return 50e-6; }, 0, 0);
+  drift();
+  EXPECT_FALSE(found().jitter) << table(found());
+  for (auto& e : log.events) e.time *= 1.001;  // a clock that runs fast
+  EXPECT_FALSE(found().jitter) << table(found());
 }
 
 TEST_F(Bounces, AnIntegratorOfFirstOrderLeavesTheParabola) {

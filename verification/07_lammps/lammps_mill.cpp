@@ -78,7 +78,7 @@ LammpsMill::LammpsMill(const LammpsSetting& s, const std::vector<LammpsBall>& ba
             << s.stiffness * 2 / 7;
   else
     contact << " hertz/material " << s.modulus << " " << (elastic ? 0 : s.damping) << " " << s.poisson
-            << " tangential mindlin NULL";
+            << " tangential " << (s.without_springs ? "linear_nohistory" : "mindlin NULL");
   contact << " " << s.tangential_damping << " " << s.friction << " damping "
           << (elastic ? "velocity" : "tsuji") << " limit_damping ";
   say("pair_style granular");

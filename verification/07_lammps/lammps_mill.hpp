@@ -46,7 +46,8 @@ struct LammpsSetting {
   double stiffness = 0;  ///< [N/m]: linear springs in the place of Hertz's and Mindlin's
   double damping = 1;    ///< the number that `damping tsuji` takes for the restitution; 1: elastic
   double friction = 0, tangential_damping = 0;  ///< mu; the latter as a share of the normal damping
-  double time_step = 0;                         ///< [s]
+  bool without_springs = false;  ///< along the surface: the damping alone holds it, up to mu times the force
+  double time_step = 0;          ///< [s]
 };
 
 /// Hertz, Mindlin and Coulomb between balls and with the walls of a region. Fictitious forces and torques

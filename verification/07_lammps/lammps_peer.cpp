@@ -33,11 +33,21 @@ struct WardCase {
   int count;
   double diameter;  ///< [mm]
   double restitution;
+  double friction = 0.4;
+  /// What holds the surfaces in LAMMPS: Mindlin's springs, or a damper alone, with which contacts that stick
+  /// have e_t = 0.
+  enum class Along { springs, damper } along = Along::springs;
 
+  LammpsSetting setting(double contact_duration) const {
+    LammpsSetting s = setting_of(diameter * 1e-3, contact_duration, friction);
+    if (along == Along::damper) s.without_springs = true, s.tangential_damping = 8;
+    s.damping = damping_for(restitution, s);
+    return s;
+  }
   casefile::CaseSpec spec(const std::vector<std::string>& more) const {
-    std::vector<std::string> changes{"balls.0.count=" + std::to_string(count),
-                                     "balls.0.diameter=" + Claim::text(diameter) + " mm",
-                                     "contact.restitution=" + Claim::text(restitution)};
+    std::vector<std::string> changes{
+        "balls.0.count=" + std::to_string(count), "balls.0.diameter=" + Claim::text(diameter) + " mm",
+        "contact.restitution=" + Claim::text(restitution), "contact.friction=" + Claim::text(friction)};
     changes.insert(changes.end(), more.begin(), more.end());
     return casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/ward.toml", changes);
   }
@@ -47,8 +57,8 @@ struct WardCase {
 /// Dose rates of batches of half a second each [W], the first left out.
 std::vector<double> lammps_rates(const WardCase& ward, double contact_duration, int batches,
                                  bool calibrated = true) {
-  LammpsSetting s = setting_of(ward.diameter * 1e-3, contact_duration);
-  s.damping = calibrated ? damping_for(ward.restitution, s) : ward.restitution;
+  LammpsSetting s = ward.setting(contact_duration);
+  if (!calibrated) s.damping = ward.restitution;
   s.motion = spex;
   const auto steps = static_cast<std::int64_t>(std::ceil(spex.period / s.time_step));
   s.time_step = spex.period / static_cast<double>(steps);
@@ -73,8 +83,7 @@ std::vector<double> edmill_rates(const WardCase& ward, int batches, Slip slip = 
       ward.spec({"run.start_time=0 s", "run.end_time=" + Claim::text(batch * (batches + 1), 15) + " s"});
   auto initial = casefile::build_case<double>(spec);
   if (slip == Slip::as_lammps) {
-    LammpsSetting s = setting_of(ward.diameter * 1e-3, brief);
-    s.damping = damping_for(ward.restitution, s);
+    const LammpsSetting s = ward.setting(brief);
     auto& mill = initial.the_case.mill;
     mill.ball_ball.law = law_of_contacts(s, true), mill.ball_wall.law = law_of_contacts(s, false);
   }
@@ -229,6 +238,14 @@ void agree_in_the_limit(const WardCase& ward, int lammps_batches, int edmill_bat
 TEST_F(LammpsPeer, Long7Balls) { agree_in_the_limit({7, 9.52, 0.52}, 60, 300); }
 /// Wedges of large balls, where edmill's friction rests in stalls and LAMMPS has no such rule.
 TEST_F(LammpsPeer, Long10LargeBalls) { agree_in_the_limit({10, 12.7, 0.5}, 120, 400); }
+/// What remains between the two is of friction where several bodies touch at once: without it there is none,
+/// and neither a damper in the place of springs nor bouncier balls change it.
+TEST_F(LammpsPeer, Long10LargeSmoothBalls) { agree_in_the_limit({10, 12.7, 0.5, 0}, 120, 400); }
+TEST_F(LammpsPeer, Long10LargeBallsWithDampers) {
+  agree({10, 12.7, 0.5, 0.4, WardCase::Along::damper}, 60, 300, 0.05, 25e-6);
+}
+TEST_F(LammpsPeer, Long10LargeBouncyBalls) { agree({10, 12.7, 0.8}, 60, 300, 0.05, 25e-6); }
+TEST_F(LammpsPeer, Long10BallsOf9Mm) { agree({10, 9.52, 0.5}, 60, 300, 0.01, 25e-6); }
 /// The less they fill of the vial, the nearer are the two.
 TEST_F(LammpsPeer, Long10BallsOf12Mm) { agree({10, 12, 0.5}, 60, 300, 0.02, 25e-6); }
 TEST_F(LammpsPeer, Long10BallsOf11Mm) { agree({10, 11, 0.5}, 60, 300, 0.02, 25e-6); }

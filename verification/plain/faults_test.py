@@ -45,6 +45,8 @@ NAMES = {"torque": "torque of the friction", "torque_of_partner": "torque of the
          "spin_in_dose": "energy of the spin in the dose", "work_in_dose": "work of the wall in the dose",
          "supply_in_dose": "supplied energy in the dose", "wall_work": "work of the wall, column wall_work",
          "approach_speed": "column approach_speed", "slip_speed": "column slip_speed", "restitution": "contact.restitution",
+         "contact_gap": "gap at which bodies meet", "gamma_phase": "mill, phase of joint 2, a swing about x",
+         "constant_e_t": 'contact, law "constant": restitution_tangential',
          "friction": "contact.friction", "least_separation": "contact.least_separation", "min_tangential": "contact.min_tangential"}
 PLACES = {"all": "", "wall0": ", at the cap at -y", "wall1": ", at the cap at +y", "wall2": ", at the cylinder", "ball": ", between balls",
           "wall": ", with walls", "slide": ", where contacts slide", "ball0": ", in impacts of ball 0", "ball3": ", in impacts of ball 3"}
@@ -58,7 +60,8 @@ restitution 0.5 ball3|restitution 0 all|restitution 1 wall|friction 0.3 all|fric
 least_separation 0.02 all|least_separation 0 all|least_separation 0.1 ball|min_tangential -1 all|min_tangential 0 wall|gravity 0 all
 gravity 0 ball0|gravity 2 all|gravity -1 all|gravity_in_places 0 all|gravity_in_velocities 0 all|gravity_in_places 2 ball0|dose 2 all
 dose 0.5 ball|spin_in_dose 0 all|work_in_dose 0 wall|supply_in_dose 0 all|wall_work -1 all|wall_work 0.5 wall2|approach_speed -1 all
-approach_speed 2 ball|slip_speed 0.5 all'''.strip().replace("\n", "|").split("|")]
+approach_speed 2 ball|slip_speed 0.5 all|contact_gap 5e-5 wall1|contact_gap -3e-5 wall2|contact_gap 2e-5 ball|contact_gap -1e-4 wall0
+gamma_phase 0.05 all|gamma_phase 1.5707963 all|constant_e_t 0.3 all|constant_e_t -0.5 ball|constant_e_t 0.5 wall'''.strip().replace("\n", "|").split("|")]
 PAIRS = [line.split() for line in '''
 torque,dose -1,2 all,all|restitution,friction 0.6,0.3 all,all|torque,restitution 2,0.6 all,all|gravity,wall_work 0,-1 all,all
 friction_impulse,slip_speed 2,0.5 ball,all|restitution,gravity 0.6,2 wall0,all|arm,dose 0,0.5 all,ball|torque,torque -1,2 wall0,ball
@@ -70,15 +73,15 @@ THREES = [line.split() for line in '''
 torque,dose,approach_speed -1,2,2 all,all,all|restitution,friction,wall_work 0.6,0.3,-1 all,all,all
 arm,gravity,slip_speed 0,2,0.5 all,all,all|restitution,friction,dose 0.7,0.2,0.5 ball,wall,all'''.strip().replace("\n", "|").split("|")]
 #: The same in other words: both hold of such a log.
-SAME = {"friction 0 all": "impulse of the friction", "wall_velocity 0 all": "a wall at rest", "wall_velocity -1 all": "the wall's velocity with the opposite sign"}
+SAME = {"friction 0 all": "impulse of the friction", "wall_velocity 0 all": "a wall at rest", "contact_gap -3e-5 wall2": "vessel.diameter", "wall_velocity -1 all": "the wall's velocity with the opposite sign"}
 failures = []
 
 
 def key_of(term, place):
     """The name that edmill gives to a fault."""
     name = NAMES[term]
-    if name.startswith("contact.") and place in ("ball", "wall"):
-        return f"contact.ball_{place}.{name.split('.')[1]}"
+    if name.startswith("contact") and place in ("ball", "wall"):
+        return name.replace("contact", f"contact.ball_{place}", 1)
     if term == "torque_of_partner":
         return name + ", on the partner"
     if term.startswith("gravity") and place.startswith("ball"):

@@ -35,12 +35,17 @@ Vec<S> cross(const Vec<S>& a, const Vec<S>& b) {
 template <class S>
 struct Mill {
   S turns_per_second, arm, theta_max, gamma_max, radius, half_height, gravity, ball_radius;
+  // Of a faulty code: gaps at which bodies meet, and gamma's phase.
+  std::array<S, 3> wall_gap{};
+  S pair_gap{}, gamma_phase{};
 };
 template <class T>
 Mill<double> in_double(const Mill<T>& m) {
   auto d = [](const T& s) { return static_cast<double>(s); };
-  return {d(m.turns_per_second), d(m.arm),         d(m.theta_max), d(m.gamma_max),
-          d(m.radius),           d(m.half_height), d(m.gravity),   d(m.ball_radius)};
+  return {d(m.turns_per_second), d(m.arm),         d(m.theta_max),
+          d(m.gamma_max),        d(m.radius),      d(m.half_height),
+          d(m.gravity),          d(m.ball_radius), {d(m.wall_gap[0]), d(m.wall_gap[1]), d(m.wall_gap[2])},
+          d(m.pair_gap),         d(m.gamma_phase)};
 }
 
 // Section 1: P = R_z(theta) [ (l, 0, 0) + R_x(gamma) p ].
@@ -53,9 +58,10 @@ struct Pose {
     const S pi = boost::math::constants::pi<S>();
     turns -= floor(turns);
     const S c = cos(2 * pi * turns), s = sin(2 * pi * turns), w = 2 * pi * m.turns_per_second;
-    const S theta = m.theta_max * c + pi / 2, gamma = m.gamma_max * s;
+    const S late = 2 * pi * turns + m.gamma_phase;
+    const S theta = m.theta_max * c + pi / 2, gamma = m.gamma_max * sin(late);
     theta_rate = -m.theta_max * w * s;
-    gamma_rate = m.gamma_max * w * c;
+    gamma_rate = m.gamma_max * w * cos(late);
     ct = cos(theta), st = sin(theta), cg = cos(gamma), sg = sin(gamma);
   }
   // A direction of the vessel in the inertial frame, and back.
@@ -107,9 +113,9 @@ std::array<Gap<S>, 3> gaps(const Mill<S>& m, const Flight<S>& flight, const S& t
   const Vec<S> P = flight.position(m, tau);
   const Vec<S> p = pose.inward(P - pose.centre());
   const Vec<S> u = pose.inward(flight.rate(m, tau) - pose.velocity(P));
-  const S free_height = m.half_height - m.ball_radius, free_radius = m.radius - m.ball_radius;
-  return {{{free_height + p.y, u.y},
-           {free_height - p.y, -u.y},
+  const S free_height = m.half_height - m.ball_radius, free_radius = m.radius - m.ball_radius - m.wall_gap[2];
+  return {{{free_height - m.wall_gap[0] + p.y, u.y},
+           {free_height - m.wall_gap[1] - p.y, -u.y},
            {free_radius * free_radius - p.x * p.x - p.z * p.z, -2 * (p.x * u.x + p.z * u.z)}}};
 }
 

@@ -30,6 +30,12 @@ class PlainMill {
     inertia_ = number("reduced-inertia"), least_separation_ = number("least-separation");
     restitution_ = number("restitution"), friction_ = number("friction");
     min_tangential_ = number("min-tangential");
+    for (unsigned wall = 0; wall < 3; ++wall) {
+      fault_.meets({"wall", "wall" + std::to_string(wall)});
+      mill_.wall_gap[wall] = fault_.of("contact_gap", T(0));
+    }
+    fault_.meets({"ball"});
+    mill_.pair_gap = fault_.of("contact_gap", T(0)), mill_.gamma_phase = fault_.of("gamma_phase", T(0));
     std::string line, cell;
     std::getline(states, line);
     while (std::getline(states, line)) {
@@ -133,7 +139,7 @@ class PlainMill {
   void predict(unsigned i) {
     Ball& b = balls_[i];
     b.next = {b.wall_time, wall, b.wall_id, 0};
-    const T contact = 4 * mill_.ball_radius * mill_.ball_radius;
+    const T reach = 2 * mill_.ball_radius + mill_.pair_gap, contact = reach * reach;
     for (unsigned j = 0; j < balls_.size(); ++j) {
       if (j == i) continue;
       if (b.flight.in_place != balls_[j].flight.in_place) {
@@ -153,7 +159,8 @@ class PlainMill {
     const auto gap = [&](const T& time) {
       const Vec<T> apart =
           a.flight.position(mill_, time - a.start) - b.flight.position(mill_, time - b.start);
-      return T(dot(apart, apart) - 4 * mill_.ball_radius * mill_.ball_radius);
+      const T reach = 2 * mill_.ball_radius + mill_.pair_gap;
+      return T(dot(apart, apart) - reach * reach);
     };
     const T end = std::min(a.wall_time, b.wall_time), step = T(2e-5);
     T last = gap(now_);
@@ -224,7 +231,9 @@ class PlainMill {
     T et = least_et;
     const T c_limit = 1 + (c - 1) * fault_.of("c_in_limit"),
             c_impulse = 1 + (c - 1) * fault_.of("c_in_impulse");
+    const T constant = fault_.of("constant_e_t", T(2));
     if (slip > 0) et = std::max(et, T(1 - mu * c_limit * jump / slip));
+    if (constant <= 1) et = constant;
     fault_.also(et > least_et ? "slide" : "stick");
     const T impulse = fault_.of("friction_impulse"), mass_share = share * fault_.of("share");
     const Vec<T> along = gt * ((1 - et) / c_impulse * impulse);
