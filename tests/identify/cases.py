@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """`edmill audit --identify` where there is little to go by: few lines, lines that cannot be read, balls that come to rest, a log that
-begins at a saved state, and a signal.
+begins at a saved state, other laws, joints that are ahead of others, and a signal.
 
 usage: cases.py EDMILL [EVERY]    EVERY: one pair of a mill and a vessel in so many, all unless given"""
 import csv
 import itertools
+import json
+import math
 import pathlib
+import random
 import signal
 import subprocess
 import sys
@@ -149,6 +152,86 @@ diameter = "6 mm"
     assert right > 0.8 * tried, (right, tried)
 
 
+def causes_of(folder):
+    done = subprocess.run([EDMILL, "audit", "case.toml", "out", "--identify", "--quiet", "--json", "found.json"], cwd=folder, text=True,
+                          capture_output=True, check=False)
+    assert done.returncode == 6, (done.returncode, done.stdout, done.stderr)
+    return json.loads((folder / "found.json").read_text(encoding="utf-8"))["identified"]["causes"]
+
+
+def is_named(causes, key, value):
+    found = causes["1"]["values"] if causes else {}
+    return list(found) == [key] and abs(found[key]["value"] - value) <= found[key]["half_width"]
+
+
+def other_laws(folder):
+    """Logs made with another contact law than the case's, of all contacts or of one kind, with random numbers: the law and its number."""
+    seed = 20261127
+    numbers = random.Random(seed)
+    laws = {"constant": ("restitution_tangential", "", lambda: numbers.uniform(-0.9, 0.9), "restitution = 0.53"),
+            "viscoelastic": ("dissipative_time", " s", lambda: 10 ** numbers.uniform(-7.5, -5.5), 'effective_modulus = "113 GPa"\nfriction = 0.4'),
+            "elastic-plastic": ("yield_pressure", " Pa", lambda: 10 ** numbers.uniform(8.7, 10), 'effective_modulus = "113 GPa"\nfriction = 0.4')}
+    mills = ('type = "spex8000"', 'type = "planetary"\nradius = "75 mm"\nspeed = "300 rpm"\nratio = -2')
+    walton = "restitution = 0.53\nfriction = 0.4"
+    case = """[run]
+end_time = "20 s"
+max_collisions = 600
+[mill]
+{}
+[vessel]
+type = "cylinder"
+diameter = "38 mm"
+height = "57 mm"
+[[balls]]
+count = 8
+diameter = "6 mm"
+[contact]
+{}
+[contact.ball_ball]
+{}
+[contact.ball_wall]
+{}
+"""
+    for mill, (law, (key, unit, draw, rest)), section in list(itertools.product(mills, laws.items(), ("", ".ball_ball", ".ball_wall")))[::EVERY]:
+        value = draw()
+        number = f"{value!r}" if not unit else f'"{value!r}{unit}"'
+        other = f'model = "{law}"\n{key} = {number}\n{rest}'
+        run(folder, case.format(mill, "", other if section != ".ball_wall" else walton, other if section != ".ball_ball" else walton))
+        (folder / "case.toml").write_text(case.format(mill, "", walton, walton), encoding="utf-8")
+        causes = causes_of(folder)
+        name = f'contact{section}, law "{law}": {key}'
+        assert is_named(causes, name, value), (seed, mill, section, law, value, causes["1"]["text"] if causes else "no cause")
+
+
+def joint_phases(folder):
+    """A swing or a rotation that is ahead of the others, of a chain and of a SPEX 8000."""
+    joints = """[mill]
+type = "chain"
+[[mill.joint]]
+rotate = "y"
+speed = "300 rpm"
+[[mill.joint]]
+translate = ["75 mm", "0 m", "0 m"]
+[[mill.joint]]
+rotate = "y"
+angle = "{} deg"
+speed = "-600 rpm"
+"""
+    box = '[vessel]\ntype = "box"\nsize = ["40 mm", "50 mm", "60 mm"]\n'
+    case = DEMO.replace('[mill]\ntype = "spex8000"\narm = "100 mm"\n', "{}").replace("count = 28", "count = 8")
+    chain = case.replace(case[case.index("[vessel]"):case.index("[contact]")], box)
+    swing = '[[mill.joint.swing]]\namplitude = "15 deg"\nspeed = "1054 rpm"\nphase = "{} deg"\n'
+    spex = ('[mill]\ntype = "chain"\n[[mill.joint]]\nrotate = "z"\nangle = "90 deg"\n' + swing.format(90) +
+            '[[mill.joint]]\ntranslate = ["100 mm", "0 m", "0 m"]\n[[mill.joint]]\nrotate = "x"\n' + swing)
+    for theirs, ours, key, degrees in ((chain.format(joints.format(20)), chain.format(joints.format(0)), "mill.joint.2.angle", 20),
+                                       (case.format(spex.format(-100)), case.format('[mill]\ntype = "spex8000"\nspeed = "1054 rpm"\n'),
+                                        "mill, phase of joint 2, a swing about x", -100)):
+        run(folder, theirs, "run.max_collisions=600")
+        (folder / "case.toml").write_text(ours, encoding="utf-8")
+        causes = causes_of(folder)
+        assert is_named(causes, key, math.radians(degrees)), (key, causes["1"]["text"] if causes else "no cause")
+
+
 def interrupted(folder):
     rows = run(folder, DEMO, "run.max_collisions=20000", 'mill.arm="100.5 mm"', "contact.restitution=0.55")
     write(folder, rows)
@@ -160,7 +243,7 @@ def interrupted(folder):
     assert "interrupted before a cause was found" in said and "looks like" not in said, said
 
 
-for test in (few_lines, unreadable_lines, balls_at_rest, saved_state, other_vessels, interrupted):
+for test in (few_lines, unreadable_lines, balls_at_rest, saved_state, other_vessels, other_laws, joint_phases, interrupted):
     with tempfile.TemporaryDirectory() as place:
         test(pathlib.Path(place))
     print(f"{test.__name__}: right")

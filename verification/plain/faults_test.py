@@ -114,12 +114,15 @@ class Trials:
             writer.writeheader()
             writer.writerows(rows)
 
-    def causes(self, *options):
+    def identified(self, *options):
         done = subprocess.run([self.edmill, "audit", self.folder / "case.toml", self.folder / "log.csv", "--identify", "--quiet", "--json",
                                self.folder / "found.json", *options], capture_output=True, text=True)
         if done.returncode not in (0, 6):
             sys.exit(done.stderr)
-        return json.loads((self.folder / "found.json").read_text())["identified"]["causes"]
+        return json.loads((self.folder / "found.json").read_text())["identified"]
+
+    def causes(self, *options):
+        return self.identified(*options)["causes"]
 
 
 def check(good, name, text):
@@ -214,7 +217,12 @@ def main():
             text = causes["1"]["text"] if causes else "no cause"
             check(text.startswith(wanted), fault, text)
         numbers = random.Random(20261126)
-        print("seed of the rounding: 20261126")
+        print("seed of the rounding and of the times: 20261126")
+        for off in (1e-8, 1e-6):
+            trials.write([{**row, "time": repr(float(row["time"]) + numbers.gauss(0, off))} for row in rows])
+            found = trials.identified()
+            jitter = found["time_stepping"].get("jitter", 0)
+            check(not found["causes"] and abs(jitter / off - 1) < 0.15, f"times off by {off} s", f"{jitter} s")
         for seed in range(2, 2 + args.clean):
             trials.start(seed)
             rows = trials.log()
