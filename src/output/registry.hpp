@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "casefile/output_entry.hpp"
 #include "output/animation_output.hpp"
+#include "output/bodies_output.hpp"
 #include "output/collisions_output.hpp"
 #include "output/coverage_output.hpp"
 #include "output/events_output.hpp"
@@ -87,6 +88,7 @@ inline constexpr std::tuple output_registry{
         {"vessel_load", ".csv",
          "impulse, force and torque on the vessel, and the power draw, of each interval", read_vessel_load,
          vessel_load_keys}},
+    OutputRow<BodiesOutput>{{"bodies", ".csv", "dose of each ball and of each wall", read_bodies}},
     OutputRow<TreatmentOutput>{{"treatment",
                                 ".csv",
                                 "how often powder has been hit, if it is mixed and if it stays in place",

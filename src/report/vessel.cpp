@@ -122,10 +122,7 @@ std::string share_scales(std::vector<WallMap>& walls) {
   return note;
 }
 
-}  // namespace
-
-void add_vessel(pugi::xml_node main, const RunFolder& run) {
-  auto section = add_section(main, "vessel", "Where the dose lands");
+void add_maps(pugi::xml_node section, const RunFolder& run) {
   const auto* output = run.output("coverage", [](const auto& o) { return o.only.empty(); });
   if (!output) return add_missing(section, "dose on the vessel's walls", "type = \"coverage\"");
   const auto table = read_table(run.file_of(*output), "a table of coverage");
@@ -161,6 +158,14 @@ void add_vessel(pugi::xml_node main, const RunFolder& run) {
            ? "Angles are measured from the direction along the arm, away from the fulcrum. "
            : "Angles are measured about the vessel\u2019s y axis, from x to z. ") +
           ("Cells of one wall have equal areas." + shared));
+}
+
+}  // namespace
+
+void add_vessel(pugi::xml_node main, const RunFolder& run) {
+  auto section = add_section(main, "vessel", "Where the dose lands");
+  add_maps(section, run);
+  add_bodies(section, run);
 }
 
 }  // namespace edmill::report

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -217,6 +218,32 @@ TEST_F(MillOutputs, RatesAboveNothingAreThoseOfTheSummary) {
   for (const auto& part : partners)
     EXPECT_NEAR(number(row, part + " rate [1/s]"), summary()["collision_rate"][part], 1e-9);
   EXPECT_NEAR(number(row, "total dose_rate [W]"), summary()["milling_dose_rate"], 1e-12);
+}
+
+TEST_F(MillOutputs, EitherBodyOfAnImpactGetsHalfOfItsDose) {
+  run("[[output]]\ntype = \"bodies\"\n");
+  std::map<std::string, double> doses, impacts;
+  for (const auto& impact : log) {
+    const double half = number(impact, "milling_dose") / 2;
+    for (const auto& body :
+         {"ball " + impact.at("ball"), impact.at("partner_kind") + " " + impact.at("partner")})
+      doses[body] += half, ++impacts[body];
+  }
+  double sum = 0, area = 0;
+  const auto rows = read("bodies.csv");
+  for (const auto& row : rows) {
+    const std::string body = row.at("kind") + " " + row.at("body");
+    EXPECT_NEAR(number(row, "dose [J]"), doses[body], 1e-13) << body;
+    EXPECT_EQ(number(row, "impacts [1]"), impacts[body]) << body;
+    EXPECT_NEAR(number(row, "dose_rate [W]") * 0.2, doses[body], 1e-13) << body;
+    sum += number(row, "dose [J]");
+    if (row.at("kind") == "wall") area += number(row, "area [m2]");
+  }
+  EXPECT_EQ(rows.size(), doses.size());
+  const double expected = summary()["milling_dose"];
+  EXPECT_NEAR(sum, expected, 1e-12 * expected);
+  // A cylinder of 38 mm by 57 mm.
+  EXPECT_NEAR(area, 3.14159265358979323846 * 0.038 * (0.057 + 0.019), 1e-15);
 }
 
 TEST_F(MillOutputs, PowerTimesIntervalsIsTheWallWork) {

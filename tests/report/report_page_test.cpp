@@ -55,7 +55,7 @@ TEST_F(Report, OfARunWithReportHasEverySection) {
   const auto main = body();
   EXPECT_EQ(ids(main, "//section"), (Ids{"results", "animation", "thesis", "rates", "spectra", "vessel",
                                          "speeds", "energy", "case"}));
-  EXPECT_EQ(ids(main, "//figure").size(), 11u);
+  EXPECT_EQ(ids(main, "//figure").size(), 12u);
   EXPECT_TRUE(main.select_nodes("//*[@class='missing']").empty());
   EXPECT_LT(page().size(), 6000000u);
   EXPECT_NE(page().find(edmill::report::three_licence), std::string::npos);  // it asks for that
@@ -130,7 +130,7 @@ TEST_F(Report, OfAnyRunSaysWhichOutputsItMisses) {
   for (const auto& found : main.select_nodes("//*[@class='missing']/code"))
     missing += found.node().text().as_string();
   for (const char* type :
-       {"trends", "trends_balls", "frequency", "spectra", "rates_above", "coverage", "animation"})
+       {"trends", "trends_balls", "frequency", "spectra", "rates_above", "coverage", "bodies", "animation"})
     EXPECT_NE(missing.find("type = \"" + std::string(type) + "\""), std::string::npos) << type;
   EXPECT_LT(page().size(), 100000u);  // without the player
 }
@@ -331,6 +331,19 @@ TEST_F(Report, UsesTablesThatTheCaseAskedFor) {
   const auto main = body();
   EXPECT_EQ(ids(main, "//figure"), (Ids{"cylinder", "cap-0", "cap-1"}));
   EXPECT_EQ(main.select_nodes("//svg[@class='still']//circle").size(), 28u);
+}
+
+TEST_F(Report, HasTheDoseOfBallsAndWalls) {
+  run("--set 'balls=[{count=28,diameter=\"4.76 mm\"},{count=2,diameter=\"9.52 mm\"}]' --set "
+      "'output=[{type=\"bodies\"}]'");
+  ASSERT_EQ(edmill("report " + folder.string()).code, 0);
+  const auto main = body();
+  std::vector<std::string> named;
+  for (const auto& row : main.select_nodes("//table//tr/th[@scope='row']"))
+    named.push_back(row.node().text().as_string());
+  for (const char* name : {"28 of 4.76 mm", "2 of 9.52 mm"})
+    EXPECT_NE(std::find(named.begin(), named.end(), name), named.end()) << name;
+  EXPECT_EQ(ids(main, "//figure"), Ids{"dose-by-ball"});
 }
 
 TEST_F(Report, ReadsTablesWhoseHeadersHoldCommasAndQuotes) {

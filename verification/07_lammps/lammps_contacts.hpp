@@ -104,7 +104,7 @@ class MindlinLaw : public CustomLaw<double> {
   MindlinLaw(LammpsSetting s, bool pair) : restitution_(impact(s, pair, 1).normal) {
     for (double slip = 0.125; slip <= 8; slip += slip < 3 ? 0.125 : 0.5) {
       slips_.push_back(slip);
-      left_.push_back(impact(s, pair, 1, slip).tangential);
+      left_.push_back(std::min(1.0, impact(s, pair, 1, slip).tangential));  // 1 + 4e-5 without friction
     }
   }
 

@@ -36,7 +36,7 @@ struct LawOfProgram {
     if (!(e >= -1.5 && e <= 1))
       throw InputError("contact law of the program: restitution_of_slip(" + to_text<Real>(normal_change) +
                        ", " + to_text<Real>(slip_speed) + ", " + to_text<Real>(compliance) + "): found " +
-                       to_text<Real>(e) + ", expected -1 to 1");
+                       to_text<Real>(e) + ", expected -1.5 to 1");
     return e;
   }
 };
