@@ -260,7 +260,8 @@ class Search {
       const auto* first = single.model.free[0];
       for (const auto* p : candidates_->ranked(single.assumed(), parameters_, 3))
         if (p != first)
-          tried.push_back(candidates_->fitted({nominal_, {first, p}}, {}, {single.values[0], first_value(single, *p)}));
+          tried.push_back(
+              candidates_->fitted({nominal_, {first, p}}, {}, {single.values[0], first_value(single, *p)}));
     }
     pairs_ = tried;
     return accepted_of(std::move(tried));

@@ -76,8 +76,9 @@ void add_phases(const Assumptions& nominal, std::vector<Parameter>& list) {
   std::vector<Parameter> phases;
   const auto add = [&](std::size_t j, std::size_t place, std::string key, const Quantity& turns) {
     const double value = chain ? 2 * pi * turns.to<double>() : 0;
-    auto p = number(std::move(key), "", Dimension::angle, value,
-                    [=](Assumptions& a, double x) { a.phases[{j, place}] = x - value; });
+    auto p = number(std::move(key), "", Dimension::angle, value, [=](Assumptions& a, double x) {
+      a.phases[{j, place}] = x - value;
+    });
     p.change = 0.1, p.cycle = 2 * pi, p.has_unit = false;
     p.prior = 1;  // of two that fit alike, the phase of the drive comes first
     phases.push_back(std::move(p));

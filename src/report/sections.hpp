@@ -20,8 +20,8 @@ void add_animation(pugi::xml_node main, const RunFolder& run);
 void add_rates(pugi::xml_node main, const RunFolder& run);
 void add_spectra(pugi::xml_node main, const RunFolder& run);
 void add_vessel(pugi::xml_node main, const RunFolder& run);
-/// The dose of each ball and of each wall, in a section.
-void add_bodies(pugi::xml_node section, const RunFolder& run);
+/// The dose of each ball, in a section.
+void add_balls(pugi::xml_node section, const RunFolder& run);
 /// How often powder has been hit, where the case has such an output.
 void add_treatment(pugi::xml_node main, const RunFolder& run);
 /// How fast motions nearby part from the run's, where the case has such an output.

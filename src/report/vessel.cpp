@@ -165,7 +165,7 @@ void add_maps(pugi::xml_node section, const RunFolder& run) {
 void add_vessel(pugi::xml_node main, const RunFolder& run) {
   auto section = add_section(main, "vessel", "Where the dose lands");
   add_maps(section, run);
-  add_bodies(section, run);
+  add_balls(section, run);
 }
 
 }  // namespace edmill::report

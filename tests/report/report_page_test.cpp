@@ -333,7 +333,7 @@ TEST_F(Report, UsesTablesThatTheCaseAskedFor) {
   EXPECT_EQ(main.select_nodes("//svg[@class='still']//circle").size(), 28u);
 }
 
-TEST_F(Report, HasTheDoseOfBallsAndWalls) {
+TEST_F(Report, HasTheDoseOfEachBall) {
   run("--set 'balls=[{count=28,diameter=\"4.76 mm\"},{count=2,diameter=\"9.52 mm\"}]' --set "
       "'output=[{type=\"bodies\"}]'");
   ASSERT_EQ(edmill("report " + folder.string()).code, 0);
