@@ -21,7 +21,7 @@ struct Parameter {
   bool has_unit = false, is_diameter = false;
   /// A periodic motion's speed: a fit from afar may go to a wrong period.
   bool is_speed = false;
-  double cycle = 0;            ///< of a phase, after which the motion is the same [its unit]; else 0
+  double cycle = 0;           ///< of a phase, after which the motion is the same [its unit]; else 0
   std::string equation = {};  ///< of docs/theory.md that a term belongs to; empty for a number of the case
   bool of_impacts = true,
        of_flights = true;  ///< the rows that depend on it, which a part of the log may restrict

@@ -45,7 +45,7 @@ struct TermRow {
   const char* equation;  ///< of docs/theory.md
   double Terms::*member;
   Dimension shift = Dimension::none;  ///< of what is 0 if right; else a factor, 1 if right
-  bool of_flights = false;  ///< else of impacts
+  bool of_flights = false;            ///< else of impacts
 };
 std::span<const TermRow> term_rows();
 

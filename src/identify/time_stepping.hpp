@@ -27,9 +27,9 @@ struct TimeStepping {
   std::optional<double> step_by_depth;  ///< from the overlaps: a contact is seen up to a step late [s]
   std::optional<SoftContacts> soft;
   std::optional<double>
-      first_order_step;       ///< of an integrator of first order, from flights under gravity [s]
+      first_order_step;          ///< of an integrator of first order, from flights under gravity [s]
   std::optional<double> jitter;  ///< root mean square by which single times are off, early and late [s]
-  bool second_order = false;  ///< flights under gravity show no error of first order
+  bool second_order = false;     ///< flights under gravity show no error of first order
 
   bool found() const { return step || step_by_depth || soft || first_order_step || jitter; }
 };
