@@ -210,12 +210,12 @@ class Report(unittest.TestCase):
                 named: !!f.querySelector('svg > title') && !!f.querySelector('svg > desc')}))""")
         self.assertEqual({chart["id"] for chart in charts},
                          {"dose-rate", "collision-rates", "approach-speeds", "slip-speeds", "energy-spectrum", "energy-parts",
-                          "ball-speeds-over-time", "ball-speeds"})
+                          "ball-speeds-over-time", "ball-speeds", "dose-by-ball"})
         for chart in charts:
             with self.subTest(chart["id"]):
                 self.assertEqual(len(chart["titles"]), 2)
                 for title in chart["titles"]:
-                    self.assertRegex(title, r"\[.+\]$")
+                    self.assertRegex(title, r"\[.+\]$|^number of the ball$")
                 self.assertGreaterEqual(chart["x"], 2)
                 self.assertGreaterEqual(chart["y"], 2)
                 self.assertTrue(chart["named"])

@@ -243,7 +243,7 @@ TEST_F(LammpsPeer, Long7Balls) { agree_in_the_limit({7, 9.52, 0.52}, 60, 300); }
 /// Wedges of large balls, where edmill's friction rests in stalls and LAMMPS has no such rule.
 TEST_F(LammpsPeer, Long10LargeBalls) { agree_in_the_limit({10, 12.7, 0.5}, 120, 400); }
 /// Bouncier balls have few contacts that last, and the two agree.
-TEST_F(LammpsPeer, Long10LargeBouncyBalls) { agree_in_the_limit({10, 12.7, 0.8}, 120, 400); }
+TEST_F(LammpsPeer, Long10LargeBouncyBalls) { agree_in_the_limit({10, 12.7, 0.8}, 240, 800); }
 /// What holds surfaces together makes no difference: a damper in the place of springs.
 TEST_F(LammpsPeer, Long10LargeBallsWithDampers) {
   agree({10, 12.7, 0.5, 0.4, WardCase::Along::damper}, 60, 300, 0.05, 25e-6);
