@@ -27,16 +27,6 @@ double penalty(const Residuals& sample, const Model& model) {
   return sum;
 }
 
-/// Values over decades at which a number that is far off, or a term that is reversed or left out, shows.
-std::vector<double> values_from_afar(const Parameter& p) {
-  if (!p.is_of_case()) return p.first_values;
-  if (p.is_speed || p.cycle > 0) return {};  // of a periodic motion: Candidates::starts
-  if (p.value == 0) return {0.1 * p.change, p.change, 10 * p.change, -p.change};
-  std::vector<double> values;
-  for (const double factor : {-1.0, 0.0, 0.1, 0.5, 0.75, 1.3, 2.0, 10.0}) values.push_back(factor * p.value);
-  return values;
-}
-
 }  // namespace
 
 std::set<std::string> Candidate::names() const {
@@ -139,7 +129,7 @@ std::vector<double> Candidates::starts(const Assumptions& base, const Parameter&
   if (!p.is_speed && p.cycle == 0) {
     const auto few = residuals_.on(samples_.few());
     double best = misfit_of(few, base) - strong_evidence, far = p.value;
-    for (const double value : values_from_afar(p)) {
+    for (const double value : p.values_from_afar()) {
       Assumptions moved = base;
       p.set(moved, value);
       if (const double now = misfit_of(few, moved); now < best) best = now, far = value;
@@ -163,6 +153,12 @@ std::vector<double> Candidates::starts(const Assumptions& base, const Parameter&
     const int steps = std::clamp(static_cast<int>(std::ceil(0.12 * turns * 10)), 1, 400);
     for (int k = -steps; k <= steps; ++k)
       if (k != 0) add(p.value * (1 + 0.12 * k / steps));
+    // Far off, where the log begins so early that steps of a tenth of a turn are few.
+    for (const double factor : {-1.0, 0.5, 2.0}) add(factor * p.value);
+    constexpr double most_turns = 15, farthest = 2.5;
+    const int far_steps = turns < most_turns ? static_cast<int>(std::ceil(farthest * turns * 10)) : 0;
+    for (int k = -far_steps; k <= far_steps; ++k)
+      if (k != 0) add(p.value * farthest * k / far_steps);
   }
   const double here = tried.front().second;
   std::sort(tried.begin(), tried.end());
@@ -269,7 +265,7 @@ std::vector<const Parameter*> Candidates::telling_from_afar(const Assumptions& b
   std::vector<std::pair<double, const Parameter*>> order;
   for (const auto& p : parameters) {
     double best = here;
-    for (const double value : values_from_afar(p)) {
+    for (const double value : p.values_from_afar()) {
       Assumptions moved = base;
       p.set(moved, value);
       best = std::min(best, misfit_of(sample, moved));
@@ -366,7 +362,7 @@ std::vector<Parameter> Candidates::telling_from_afar_in_parts(const Assumptions&
       if (!fits) continue;
       auto restricted = restricted_to(parts_[part], *p, parts_.size());
       double best = here - strong_evidence;
-      for (const double value : values_from_afar(restricted)) {
+      for (const double value : restricted.values_from_afar()) {
         Assumptions moved = base;
         restricted.set(moved, value);
         best = std::min(best, misfit_of(few, moved));

@@ -151,6 +151,15 @@ void add_all_balls(const Assumptions& nominal, std::vector<Parameter>& list) {
 
 }  // namespace
 
+std::vector<double> Parameter::values_from_afar() const {
+  if (!is_of_case()) return first_values;
+  if (is_speed || cycle > 0) return {};  // of a periodic motion: Candidates::starts
+  if (value == 0) return {0.1 * change, change, 10 * change, -change};
+  std::vector<double> values;
+  for (const double factor : {-1.0, 0.0, 0.1, 0.5, 0.75, 1.3, 2.0, 10.0}) values.push_back(factor * value);
+  return values;
+}
+
 Parameter number(std::string key, std::string meaning, Dimension dimension, double value,
                  std::function<void(Assumptions&, double)> set) {
   const double size = std::abs(value);

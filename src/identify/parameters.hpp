@@ -32,6 +32,8 @@ struct Parameter {
   std::vector<double> first_values = {};
 
   bool is_of_case() const { return in_place_of.empty(); }
+  /// Values over decades at which a number that is far off, or a term that is reversed or left out, shows.
+  std::vector<double> values_from_afar() const;
 };
 
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.

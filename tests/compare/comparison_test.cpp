@@ -40,7 +40,7 @@ class Comparing : public ProgramTest {
       if (q.verdict == Verdict::differ) names.push_back(q.name);
     return names;
   }
-  static const Quantity& quantity(const Comparison& c, const std::string& name) {
+  static const Quantity& quantity(const Comparison& c, std::string_view name) {
     const auto q = std::find_if(c.quantities.begin(), c.quantities.end(),
                                 [&](const Quantity& q) { return q.name == name; });
     EXPECT_NE(q, c.quantities.end()) << name;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """`edmill audit --identify` where there is little to go by: few lines, lines that cannot be read, balls that come to rest, a log that
-begins at a saved state, other laws, joints that are ahead of others, and a signal.
+begins at a saved state, numbers far off, other laws, joints that are ahead of others, and a signal.
 
 usage: cases.py EDMILL [EVERY]    EVERY: one pair of a mill and a vessel in so many, all unless given"""
 import csv
@@ -152,8 +152,8 @@ diameter = "6 mm"
     assert right > 0.8 * tried, (right, tried)
 
 
-def causes_of(folder):
-    done = subprocess.run([EDMILL, "audit", "case.toml", "out", "--identify", "--quiet", "--json", "found.json"], cwd=folder, text=True,
+def causes_of(folder, *options):
+    done = subprocess.run([EDMILL, "audit", "case.toml", "out", "--identify", "--quiet", "--json", "found.json", *options], cwd=folder, text=True,
                           capture_output=True, check=False)
     assert done.returncode == 6, (done.returncode, done.stdout, done.stderr)
     return json.loads((folder / "found.json").read_text(encoding="utf-8"))["identified"]["causes"]
@@ -162,6 +162,21 @@ def causes_of(folder):
 def is_named(causes, key, value):
     found = causes["1"]["values"] if causes else {}
     return list(found) == [key] and abs(found[key]["value"] - value) <= found[key]["half_width"]
+
+
+def numbers_far_off(folder):
+    """A number of the log that the case has far from it, or not at all: (setting of the log, of the case, key, value in SI)."""
+    rpm = math.pi / 30
+    wrong = (('mill.arm="130 mm"', None, "mill.arm", 0.13), ('mill.speed="2108 rpm"', None, "mill.speed", 2108 * rpm),
+             ('mill.speed="600 rpm"', None, "mill.speed", 600 * rpm), ('mill.speed="1500 rpm"', None, "mill.speed", 1500 * rpm),
+             ('contact.least_separation="2 cm/s"', None, "contact.least_separation", 0.02),
+             (None, "contact.restitution=0", "contact.restitution", 0.53),
+             (None, 'contact.least_separation="0 m/s"', "contact.least_separation", 0.01), ("contact.friction=4", None, "contact.friction", 4))
+    for theirs, ours, key, value in wrong[::EVERY]:
+        case = DEMO.replace('type = "spex8000"', 'type = "spex8000"\nspeed = "1054 rpm"')
+        run(folder, case, "run.max_collisions=800", *([theirs] if theirs else []))
+        causes = causes_of(folder, *(["--set", ours] if ours else []))
+        assert is_named(causes, key, value), (theirs, ours, causes["1"]["text"] if causes else "no cause")
 
 
 def other_laws(folder):
@@ -243,7 +258,7 @@ def interrupted(folder):
     assert "interrupted before a cause was found" in said and "looks like" not in said, said
 
 
-for test in (few_lines, unreadable_lines, balls_at_rest, saved_state, other_vessels, other_laws, joint_phases, interrupted):
+for test in (few_lines, unreadable_lines, balls_at_rest, saved_state, other_vessels, numbers_far_off, other_laws, joint_phases, interrupted):
     with tempfile.TemporaryDirectory() as place:
         test(pathlib.Path(place))
     print(f"{test.__name__}: right")
