@@ -111,7 +111,7 @@ class CommandLine {
 int main(int argc, char** argv) {
   cli::throw_for_lack_of_memory();
   cli::open_standard_descriptors();
-  cli::ignore_write_signals();
+  cli::begin_with_signals();
   const io::Spool pipes;
   return cli::after_output(cli::exit_code_of([&] { return CommandLine().run(argc, argv); }));
 }

@@ -30,9 +30,17 @@ bool is_ignored(int signal) {
   return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
+/// Libraries may take signals before `main`, as UCX does, which comes with Debian 13's MPI: what the program
+/// was started with is noted before they are initialised.
+bool hangup_is_ignored = false;
+void note_hangup(int, char**, char**) { hangup_is_ignored = is_ignored(SIGHUP); }
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
+                                                                             char**) = note_hangup;
+
 }  // namespace
 
-void ignore_write_signals() {
+void begin_with_signals() {
+  if (hangup_is_ignored) std::signal(SIGHUP, SIG_IGN);
   pipes_end_us = !is_ignored(SIGPIPE);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
@@ -49,7 +57,7 @@ std::atomic<bool>& interrupt_flag() { return flag; }
 void listen_for_signals() {
   io::end_waits_by(flag);
   for (const int signal : {SIGINT, SIGTERM, SIGXCPU, SIGUSR1}) std::signal(signal, on_signal);
-  if (!is_ignored(SIGHUP)) std::signal(SIGHUP, on_signal);
+  if (!hangup_is_ignored) std::signal(SIGHUP, on_signal);
 }
 
 int with_signal(int exit_code) { return exit_code == interrupted ? exit_code + received : exit_code; }

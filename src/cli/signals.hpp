@@ -6,8 +6,9 @@
 namespace edmill::cli {
 
 /// At the start of the program: a write to a file that is too large, or to a pipe that nobody reads, fails in
-/// place of killing.
-void ignore_write_signals();
+/// place of killing; a SIGHUP that the program was started with ignored, as by nohup, stays so, whatever
+/// libraries do.
+void begin_with_signals();
 /// Ends the program as a pipe that nobody reads ends others; returns where that signal was ignored at the
 /// start.
 void end_by_pipe_signal();
