@@ -47,7 +47,13 @@ struct LogChange {
   void apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const;
 };
 
-struct Restricted;
+struct Assumptions;
+
+/// What holds in a part of a log only.
+struct Restricted {
+  SharedSubset part;
+  std::function<void(Assumptions&)> make;
+};
 
 /// Values that may explain a log. The balls are those of the built case; the mill follows from the file's
 /// exact quantities, so that every mill, vessel and law is varied by its own parameters.
@@ -69,11 +75,6 @@ struct Assumptions {
   casefile::CaseSpec case_file() const;
   /// Whether a case alone says all of it, so that an audit can be made with it.
   bool is_case() const { return restricted.empty() && terms == Terms{}; }
-};
-
-struct Restricted {
-  SharedSubset part;
-  std::function<void(Assumptions&)> make;
 };
 
 /// @pre the spec can be built
