@@ -250,6 +250,7 @@ TEST_F(LammpsPeer, Long10LargeBallsWithDampers) {
 }
 TEST_F(LammpsPeer, Long10LargeSmoothBalls) { agree({10, 12.7, 0.5, 0}, 60, 300, 0.05, 25e-6); }
 TEST_F(LammpsPeer, Long80Balls) { agree({80, 6.35, 0.5, 0.4, WardCase::Along::damper}, 12, 40, 0.01, 50e-6); }
+TEST_F(LammpsPeer, Long10BallsOf9Mm) { agree({10, 9.52, 0.5}, 60, 300, 0.01, 25e-6); }
 /// The less they fill of the vial, the nearer are the two.
 TEST_F(LammpsPeer, Long10BallsOf12Mm) { agree({10, 12, 0.5}, 60, 300, 0.02, 25e-6); }
 TEST_F(LammpsPeer, Long10BallsOf11Mm) { agree({10, 11, 0.5}, 60, 300, 0.02, 25e-6); }
