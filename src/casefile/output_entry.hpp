@@ -22,6 +22,8 @@ struct OutputType {
   void (*see)(const SeeKey& see) = nullptr;  ///< shows those of a struct that lists them
 };
 
+/// Of outputs without keys of their own.
+inline void read_no_keys(Section&, const CaseSpec&, OutputSpec&) {}
 /// Reads keys that a struct lists, into OutputSpec::own.
 template <class Keys>
 void read_own(Section& entry, const CaseSpec&, OutputSpec& output) {

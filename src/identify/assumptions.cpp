@@ -80,6 +80,7 @@ void LogChange::apply(audit::LoggedEvent& event, const model::Mill<double>& mill
 casefile::CaseSpec Assumptions::case_file() const {
   if (phases.empty() || !casefile::problems_of(spec).empty()) return spec;
   auto joints = casefile::joints_of(spec.mill);
+  if (joints.size() != this->joints) return spec;  // another mill, by a mistake
   for (const auto& [place, more] : phases) {
     auto& joint = joints.at(place[0]);
     auto& angle = place[1] < joint.swings.size() ? joint.swings[place[1]].phase : joint.angle;
@@ -105,7 +106,7 @@ std::optional<model::Case<double>> Assumptions::built() const {
 
 Assumptions assumptions_of(const casefile::CaseSpec& spec) {
   const auto built = casefile::build_case<double>(spec).the_case;
-  return {spec, built.balls, {}, built.mill.vessel.wall_count()};
+  return {spec, built.balls, {}, built.mill.vessel.wall_count(), casefile::joints_of(spec.mill).size()};
 }
 
 casefile::Quantity exactly(double value) {

@@ -61,7 +61,8 @@ struct Assumptions {
   casefile::CaseSpec spec;
   std::vector<model::BallProperties<double>> balls;
   LogChange log;
-  int walls;  ///< of the case, which the log's walls are
+  int walls;               ///< of the case, which the log's walls are
+  std::size_t joints = 0;  ///< of the case's mill, which `phases` are of
   Terms terms = {};
   /// What the phases of the mill's joints have more than the case's [rad], by joint and swing; a rotation's
   /// own angle has the place after its swings.

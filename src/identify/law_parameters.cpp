@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -38,13 +39,16 @@ struct OtherLaw {
 const OtherLaw other_laws[] = {
     {"constant", "restitution_tangential", Dimension::none, 0.1, {-0.9, -0.6, -0.3, 0, 0.3, 0.6, 0.9}},
     {"walton-braun", "friction", Dimension::none, 0.1, {0.03, 0.1, 0.2, 0.4, 0.8}},
+    {"walton-braun", "restitution", Dimension::none, 0.1, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}},
     {"viscoelastic", "dissipative_time", Dimension::time, 1e-7, decades(1e-8, 1e-4)},
     {"elastic-plastic", "yield_pressure", Dimension::pressure, 1e9, decades(1e8, 1e11)}};
 
 /// What another law has where the case's says nothing: all sticks, and E* of steel, on which the restitution
-/// depends together with the fitted number alone.
-double otherwise(std::string_view key) {
-  return key == "min_tangential" ? -1 : key == "effective_modulus" ? 113e9 : 0;
+/// depends together with the fitted number alone. None of a number without which there is no such law.
+std::optional<double> otherwise(std::string_view key) {
+  if (key == "min_tangential") return -1;
+  if (key == "effective_modulus") return 113e9;
+  return std::nullopt;
 }
 
 template <std::size_t k = 0>
@@ -94,11 +98,18 @@ class Laws {
     });
     return list;
   }
-  static void put(Law& law, std::size_t place, double value) {
+  /// The number of this name; another law may not have it. Points of tables have one name, and are told apart
+  /// by their place.
+  static void put(Law& law, const std::string& key, std::size_t which, double value) {
     std::size_t k = 0;
-    each(law, [&](const char*, const char*, Dimension, Quantity& q) {
-      if (k++ == place) q = exactly(value);
+    each(law, [&](const char* own, const char*, Dimension, Quantity& q) {
+      if (own == key && k++ == which) q = exactly(value);
     });
+  }
+  static std::size_t which(const std::vector<Entry>& list, std::size_t place) {
+    return static_cast<std::size_t>(std::count_if(list.begin(),
+                                                  list.begin() + static_cast<std::ptrdiff_t>(place),
+                                                  [&](const Entry& e) { return e.key == list[place].key; }));
   }
   void push(const Entry& e, const std::string& section, std::function<void(Assumptions&, double)> set) {
     auto p = number(section + "." + e.key, e.meaning, e.dimension, e.value, std::move(set));
@@ -106,18 +117,24 @@ class Laws {
     list_.push_back(std::move(p));
   }
   /// The law with one number of another: its others are the law's own where they have the same name.
-  static void replace(Law& law, const OtherLaw& other, double value) {
+  /// @return whether it has all numbers that such a law needs
+  static bool replace(Law& law, const OtherLaw& other, double value) {
     const auto own = entries(law);
+    bool complete = true;
     law.law = law_named(other.model);
     each(law, [&](const char* key, const char*, Dimension, Quantity& q) {
       const auto same = std::find_if(own.begin(), own.end(), [&](const Entry& e) { return e.key == key; });
-      q = exactly(key == other.number ? value : same != own.end() ? same->value : otherwise(key));
+      const auto value_there = key == other.number ? value : same != own.end() ? same->value : otherwise(key);
+      complete = complete && value_there;
+      q = exactly(value_there.value_or(0));
     });
+    return complete;
   }
   template <class Find>
   void add_others(const std::string& section, const Law& law, Find find) {
     for (const auto& other : other_laws) {
-      if (law.name() == other.model) continue;
+      Law tried = law;
+      if (law.name() == other.model || !replace(tried, other, other.first_values.front())) continue;
       Parameter p{fmt::format("{}, law \"{}\": {}", section, other.model, other.number),
                   "",
                   other.dimension,
@@ -137,15 +154,18 @@ class Laws {
   void add_law(const std::string& section, const Law& law, Find find) {
     const auto own = entries(law);
     for (std::size_t k = 0; k < own.size(); ++k)
-      push(own[k], section, [find, k](Assumptions& a, double x) { put(find(a), k, x); });
+      push(own[k], section, [find, key = own[k].key, n = which(own, k)](Assumptions& a, double x) {
+        put(find(a), key, n, x);
+      });
   }
   void add_both(const Law& balls, const Law& walls) {
     const auto one = entries(balls), two = entries(walls);
     const bool alike = balls.law.index() == walls.law.index();
     for (std::size_t k = 0; alike && k < one.size(); ++k)
       if (one[k].value == two[k].value)
-        push(one[k], "contact",
-             [k](Assumptions& a, double x) { put(a.spec.ball_ball, k, x), put(a.spec.ball_wall, k, x); });
+        push(one[k], "contact", [key = one[k].key, n = which(one, k)](Assumptions& a, double x) {
+          put(a.spec.ball_ball, key, n, x), put(a.spec.ball_wall, key, n, x);
+        });
     if (alike)
       add_others("contact", balls, [](Assumptions& a) -> std::vector<Law*> {
         return {&a.spec.ball_ball, &a.spec.ball_wall};

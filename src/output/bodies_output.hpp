@@ -8,8 +8,6 @@
 
 namespace edmill::output {
 
-inline void read_bodies(casefile::Section&, const casefile::CaseSpec&, casefile::OutputSpec&) {}
-
 /// Half of the dose of an impact is on either body.
 template <class Real>
 class BodiesOutput : public TableOutput<Real> {

@@ -7,8 +7,6 @@
 
 namespace edmill::output {
 
-inline void read_iterations(casefile::Section&, const casefile::CaseSpec&, casefile::OutputSpec&) {}
-
 template <class Real>
 class IterationsOutput : public TableOutput<Real> {
  public:

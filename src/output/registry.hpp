@@ -69,7 +69,8 @@ inline constexpr std::tuple output_registry{
     OutputRow<TraceOutput>{{"trace", ".csv",
                             "position of one ball at each of its impacts, or at the end of each interval",
                             read_trace, trace_keys, casefile::see_keys<TraceKeys>}},
-    OutputRow<IterationsOutput>{{"iterations", ".csv", "all variables of each impact", read_iterations}},
+    OutputRow<IterationsOutput>{
+        {"iterations", ".csv", "all variables of each impact", casefile::read_no_keys}},
     OutputRow<EventsOutput>{{"events",
                              ".h5",
                              "the log as HDF5: `/events` with one dataset per column, and the final state of "
@@ -88,7 +89,7 @@ inline constexpr std::tuple output_registry{
         {"vessel_load", ".csv",
          "impulse, force and torque on the vessel, and the power draw, of each interval", read_vessel_load,
          vessel_load_keys}},
-    OutputRow<BodiesOutput>{{"bodies", ".csv", "dose of each ball and of each wall", read_bodies}},
+    OutputRow<BodiesOutput>{{"bodies", ".csv", "dose of each ball and of each wall", casefile::read_no_keys}},
     OutputRow<TreatmentOutput>{{"treatment",
                                 ".csv",
                                 "how often powder has been hit, if it is mixed and if it stays in place",

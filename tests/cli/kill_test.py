@@ -120,6 +120,8 @@ interval = "0.1 s"
 [[output]]
 type = "coverage"
 [[output]]
+type = "bodies"
+[[output]]
 type = "trends"
 file = "trends.h5"
 interval = "0.05 s"

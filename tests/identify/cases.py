@@ -216,6 +216,19 @@ diameter = "6 mm"
         causes = causes_of(folder)
         name = f'contact{section}, law "{law}": {key}'
         assert is_named(causes, name, value), (seed, mill, section, law, value, causes["1"]["text"] if causes else "no cause")
+    # The other way round, and together with a number that both laws have.
+    of_case = 'model = "viscoelastic"\neffective_modulus = "113 GPa"\ndissipative_time = "1 us"\nfriction = 0.4'
+    run(folder, case.format(mills[0], "", walton, walton))
+    (folder / "case.toml").write_text(case.format(mills[0], "", of_case, of_case), encoding="utf-8")
+    causes = causes_of(folder)
+    assert is_named(causes, 'contact, law "walton-braun": restitution', 0.53), causes["1"]["text"] if causes else "no cause"
+    constant = 'model = "constant"\nrestitution = 0.53\nrestitution_tangential = 0.2\nleast_separation = "2 cm/s"'
+    run(folder, case.format(mills[0], "", constant, constant))
+    (folder / "case.toml").write_text(case.format(mills[0], "", walton, walton), encoding="utf-8")
+    found = causes_of(folder)["1"]["values"]
+    wanted = {'contact, law "constant": restitution_tangential': 0.2, "contact.least_separation": 0.02}
+    assert set(found) == set(wanted), found
+    assert all(abs(found[key]["value"] - value) <= found[key]["half_width"] for key, value in wanted.items()), found
 
 
 def joint_phases(folder):
