@@ -250,7 +250,7 @@ TEST_F(LammpsPeer, Long10LargeBallsWithDampers) {
 }
 TEST_F(LammpsPeer, Long10LargeSmoothBalls) { agree({10, 12.7, 0.5, 0}, 60, 300, 0.05, 25e-6); }
 TEST_F(LammpsPeer, Long80Balls) { agree({80, 6.35, 0.5, 0.4, WardCase::Along::damper}, 12, 40, 0.01, 50e-6); }
-/// One ball alone has more in LAMMPS with Mindlin's springs, for a reason that is not known; four have not.
+/// One ball alone may settle on one of several periodic motions, of other dose rates; four do not.
 TEST_F(LammpsPeer, LongOneLargeBall) {
   agree({1, 12.7, 0.8}, 80, 2000, 0.12, 25e-6);
   agree({1, 12.7, 0.8, 0.4, WardCase::Along::damper}, 40, 1000, 0.05, 25e-6);
