@@ -32,8 +32,7 @@ struct Hit {
 
 Eigen::Vector3d direction(casefile::Random& random) {
   Eigen::Vector3d d;
-  do
-    d = Eigen::Vector3d(random.symmetric<double>(), random.symmetric<double>(), random.symmetric<double>());
+  do d = Eigen::Vector3d(random.symmetric<double>(), random.symmetric<double>(), random.symmetric<double>());
   while (d.squaredNorm() > 1 || d.squaredNorm() < 0.01);
   return d.normalized();
 }
@@ -65,8 +64,8 @@ class HardBalls {
   explicit HardBalls(const LammpsSetting& s)
       : spec_(casefile::read_case(
             EDMILL_SOURCE_DIR "/docs/examples/ward.toml",
-            {"balls.0.count=2", "balls.0.diameter=12.7 mm", "vessel.diameter=200 mm", "mill.speed=1e-6 rpm", "run.gravity=0 m/s2",
-             "run.start_time=0 s", "run.end_time=" + Claim::text(duration) + " s",
+            {"balls.0.count=2", "balls.0.diameter=12.7 mm", "vessel.diameter=200 mm", "mill.speed=1e-6 rpm",
+             "run.gravity=0 m/s2", "run.start_time=0 s", "run.end_time=" + Claim::text(duration) + " s",
              "contact.least_separation=1e-6 m/s"})),
         of_pairs_(law_of_contacts(s, true)),
         of_walls_(law_of_contacts(s, false)) {}
