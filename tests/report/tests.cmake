@@ -1,4 +1,4 @@
-foreach(name series_test ward_test mill_drawing_test report_page_test embedded_test)
+foreach(name series_test ward_test mill_drawing_test report_page_test report_animation_test embedded_test)
   edmill_test(${name} report/${name}.cpp LIBRARIES pugixml::pugixml nlohmann_json::nlohmann_json)
 endforeach()
 # The page in Debian's chromium: chromium-driver, python3-selenium.
