@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets edmill up on Debian 12 and 13 and runs it. Every command can be repeated.
+# Sets edmill up on Debian 12 and 13 and on Ubuntu 24.04, and runs it. Every command can be repeated.
 #
 #   ./bootstrap.sh demo    install what is missing, build, run the demo case
 #   ./bootstrap.sh test    install what is missing, build with tests, run all but the long studies
@@ -9,7 +9,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 
-# "a|b": the first of these that the release has.
+# "a|b": the first of these that the release has. "a?": left out where the release has none; tests that need it are skipped.
 program_packages=(
   g++ cmake ninja-build git ca-certificates
   "libboost1.81-dev|libboost-dev" libeigen3-dev libfmt-dev libcli11-dev libtomlplusplus-dev
@@ -21,34 +21,35 @@ test_packages=(
   libgtest-dev librapidcheck-dev libudunits2-dev libglpk-dev libgsl-dev zstd
   libbenchmark-dev clang "libclang-rt-14-dev|libclang-rt-19-dev|libclang-rt-18-dev" clang-format patch valgrind
   python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-h5py python3-vtk9 view3dscene libxml2-utils
-  chromium chromium-driver python3-selenium g++-s390x-linux-gnu qemu-user
+  "chromium?" "chromium-driver?" python3-selenium g++-s390x-linux-gnu qemu-user
   doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-nbclient python3-ipykernel python3-matplotlib python3-pandas python3-xarray
 )
 
-long_packages=(lammps python3-lammps liggghts yade debootstrap dpkg-dev python3-venv python3-pip patchelf
+long_packages=(lammps python3-lammps liggghts "yade?" debootstrap dpkg-dev python3-venv python3-pip patchelf
   g++-aarch64-linux-gnu g++-riscv64-linux-gnu emscripten nodejs node-acorn)
 
 say() { printf '\n== %s\n' "$*"; }
 
 is_installed() { dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }
 
-# Of alternatives that are all missing: the first that the release has.
+# Of alternatives that are all missing: the first that the release has; else the first, or nothing for "a?".
 available() {
   local names one
-  IFS='|' read -ra names <<<"$1"
+  IFS='|' read -ra names <<<"${1%\?}"
   for one in "${names[@]}"; do
     if [[ $(apt-cache policy "$one" 2>/dev/null) =~ Candidate:\ [0-9] ]]; then
       echo "$one"
       return
     fi
   done
-  echo "${names[0]}"
+  [[ $1 == *\? ]] || echo "${names[0]}"
 }
 
 install_missing() {
-  local missing=() package one
+  local missing=() package one alternatives
   for package in "$@"; do
-    for one in ${package//|/ }; do
+    alternatives=${package%\?}
+    for one in ${alternatives//|/ }; do
       is_installed "$one" && continue 2
     done
     missing+=("$package")
@@ -60,7 +61,11 @@ install_missing() {
   local root=() chosen=()
   [ "$(id -u)" = 0 ] || root=(sudo)
   "${root[@]}" apt-get update -qq
-  for package in "${missing[@]}"; do chosen+=("$(available "$package")"); done
+  for package in "${missing[@]}"; do
+    one=$(available "$package")
+    if [ -n "$one" ]; then chosen+=("$one"); else say "this release has no ${package%\?}: what needs it is left out"; fi
+  done
+  [ ${#chosen[@]} != 0 ] || return 0
   say "installing ${chosen[*]}"
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${chosen[@]}"
 }

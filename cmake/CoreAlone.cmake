@@ -51,7 +51,8 @@ set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/core_alone/toml.cpp PROPERTY SKIP_PR
 foreach(instance double double_other float128)
   target_sources(edmill_core PRIVATE ${CMAKE_SOURCE_DIR}/src/instances/${instance}.cpp)
 endforeach()
-add_executable(edmill_core_alone ${CMAKE_SOURCE_DIR}/src/core_alone/main.cpp)
+add_executable(edmill_core_alone ${CMAKE_SOURCE_DIR}/src/core_alone/main.cpp ${CMAKE_SOURCE_DIR}/src/app/run.cpp
+               ${CMAKE_SOURCE_DIR}/src/instances/tools/double.cpp ${CMAKE_SOURCE_DIR}/src/instances/tools/float128.cpp)
 set_target_properties(edmill_core_alone PROPERTIES OUTPUT_NAME edmill-core)
 target_link_libraries(edmill_core_alone PRIVATE edmill_core)
 

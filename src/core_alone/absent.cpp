@@ -5,6 +5,7 @@
 #include "io/table_hdf5.hpp"
 #include "output/event_file.hpp"
 #include "output/scene.hpp"
+#include "report/report_page.hpp"
 
 namespace edmill {
 
@@ -53,5 +54,10 @@ std::string pvd_text(const std::vector<std::pair<double, std::vector<std::string
   refuse("a file for ParaView", "pugixml");
 }
 }  // namespace output
+
+namespace report {
+void add_report_outputs(casefile::CaseSpec&) { refuse("a report", "pugixml"); }
+std::filesystem::path put_report(const std::filesystem::path&) { refuse("a report", "pugixml"); }
+}  // namespace report
 
 }  // namespace edmill

@@ -1,10 +1,20 @@
 #!/usr/bin/env bash
-# The README's commands on a fresh Debian: its base system, a clone, and nothing else. Needs root, debootstrap and a mirror.
+# The README's commands on a fresh Debian or Ubuntu: its base system, a clone, and nothing else. Needs root, debootstrap and a mirror.
 # usage: debian_test.sh RELEASE FOLDER COMMAND...   e.g. debian_test.sh trixie /tmp/trixie demo test
+#        RELEASE: bookworm, trixie, or noble (Ubuntu 24.04)
 set -euo pipefail
 release=$1
 folder=$2
-mirror=${EDMILL_DEBIAN_MIRROR:-http://deb.debian.org/debian}
+mirror=http://deb.debian.org/debian
+options=()
+script=()
+if [ "$release" = noble ]; then
+  # Debian's debootstrap has neither Ubuntu's keys nor a name for this release.
+  mirror=http://archive.ubuntu.com/ubuntu
+  options=(--components=main,universe --no-check-gpg)
+  script=(/usr/share/debootstrap/scripts/gutsy)
+fi
+mirror=${EDMILL_DEBIAN_MIRROR:-$mirror}
 source_folder=$(cd "$(dirname "$0")/../.." && pwd)
 if [ "$(id -u)" != 0 ] || ! command -v debootstrap >/dev/null; then
   echo "skipped: needs root and debootstrap"
@@ -12,7 +22,7 @@ if [ "$(id -u)" != 0 ] || ! command -v debootstrap >/dev/null; then
 fi
 rm -rf "$folder"
 mkdir -p "$folder"
-debootstrap --variant=minbase "$release" "$folder/root" "$mirror" >"$folder/debootstrap.log"
+debootstrap --variant=minbase "${options[@]}" "$release" "$folder/root" "$mirror" "${script[@]}" >"$folder/debootstrap.log"
 git clone -q "$source_folder" "$folder/root/root/edmill"
 trap 'umount "$folder/root/proc"' EXIT
 mount -t proc proc "$folder/root/proc"

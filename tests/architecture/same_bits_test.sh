@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs in double and in float128 give the same bits from the program, and from the core alone as other compilers, optimisations and
 # processors make it: regression/reference/bits.tsv. Foreign programs run under qemu-user, WebAssembly in node; what is not
-# installed is told and left out.
+# installed is told and left out. Runs also move from each of them to the program and back (moved_run.sh).
 # usage: same_bits_test.sh PROGRAM FOLDER [--every N] MACHINE...    N: one log in N from the core alone
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -51,5 +51,6 @@ for machine in "$@"; do
     continue
   }
   tests/architecture/published_bits.sh --every "$every" "$builds/$machine" "${runner[@]}" "$builds/$machine/edmill-core$suffix" || different=1
+  tests/architecture/moved_run.sh "$builds/$machine/moved" "$program" "${runner[@]}" "$builds/$machine/edmill-core$suffix" || different=1
 done
 exit $different

@@ -19,7 +19,7 @@ import xml.etree.ElementTree as ElementTree
 
 from mills import MILLS, SOME, WITHOUT_DOSE
 from page_checks import BAD_LABELS, FARTHEST
-from report_in_browser import OpenReport, browser, discs
+from report_in_browser import OpenReport, browser, discs, is_installed
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
@@ -342,6 +342,9 @@ replicas = 2
 
 
 if __name__ == "__main__":
+    if not is_installed():
+        print("skipped: needs chromium and chromium-driver")
+        sys.exit(77)
     long = "--long" in sys.argv
     if len(sys.argv) > 2 + long:
         FOLDER = sys.argv[2]

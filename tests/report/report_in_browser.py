@@ -2,6 +2,7 @@
 import base64
 import bisect
 import math
+import pathlib
 import time
 import unittest
 import xml.etree.ElementTree as ElementTree
@@ -11,15 +12,20 @@ from selenium.webdriver.chrome.service import Service
 
 FLAGS = ("--headless --no-sandbox --disable-gpu --use-angle=swiftshader --enable-unsafe-swiftshader --disable-quic --no-first-run "
          "--disable-background-networking --disable-component-update --disable-sync --hide-scrollbars").split()
+CHROMIUM, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
+
+
+def is_installed():
+    return pathlib.Path(CHROMIUM).exists() and pathlib.Path(DRIVER).exists()
 
 
 def browser(profile):
     options = webdriver.ChromeOptions()
-    options.binary_location = "/usr/bin/chromium"
+    options.binary_location = CHROMIUM
     for flag in (*FLAGS, f"--user-data-dir={profile}"):
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+    return webdriver.Chrome(service=Service(DRIVER), options=options)
 
 
 def floats(text):

@@ -11,6 +11,6 @@ set(EDMILL_AXE ${CMAKE_BINARY_DIR}/axe.min.js CACHE FILEPATH "axe-core, which ju
 add_test(NAME accessibility_long COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/report/accessibility_test.py
                                          $<TARGET_FILE:edmill_cli> ${EDMILL_AXE} ${CMAKE_BINARY_DIR}/accessibility)
 set_tests_properties(accessibility_long PROPERTIES LABELS long TIMEOUT 600 SKIP_RETURN_CODE 77)
-set_tests_properties(report_browser_long PROPERTIES LABELS long TIMEOUT 1800 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
-set_tests_properties(report_browser_test PROPERTIES TIMEOUT 300 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+set_tests_properties(report_browser_long PROPERTIES LABELS long TIMEOUT 1800 SKIP_RETURN_CODE 77 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+set_tests_properties(report_browser_test PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 target_compile_definitions(report_tests PRIVATE EDMILL_THREE_JS="${THREE_JS}" EDMILL_THREE_ORBIT_JS="${THREE_ORBIT_JS}")
