@@ -64,6 +64,12 @@ if(EMSCRIPTEN)
   add_executable(edmill_page)
   target_link_libraries(edmill_page PRIVATE edmill_core)
   edmill_take_rooms(edmill_page browser audit compare identify)
+  # The checker of certificates, which has no code of edmill.
+  file(GLOB checker CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/verification/checker/*.cpp)
+  list(FILTER checker EXCLUDE REGEX "/main.cpp$")
+  target_sources(edmill_page PRIVATE ${checker})
+  set_source_files_properties(${checker} PROPERTIES UNITY_GROUP checker COMPILE_DEFINITIONS CHECKER_WITHOUT_ARB)
+  target_include_directories(edmill_page PRIVATE ${CMAKE_SOURCE_DIR}/verification/checker)
   # The file is to stay small; wide scalars decide seldom.
   set_source_files_properties(${CMAKE_SOURCE_DIR}/src/instances/float128.cpp ${CMAKE_SOURCE_DIR}/src/core_alone/rung.cpp
                               PROPERTIES COMPILE_OPTIONS -Os SKIP_PRECOMPILE_HEADERS ON)

@@ -34,6 +34,7 @@ def main(engine, place):
     worker = pathlib.Path(engine + ".js").read_text(encoding="utf-8") + script("worker.js")
     parts = {"style": read("page.css"), "script": script("page.js") + script("lessons.js"), "worker": json.dumps(worker).replace("</", "<\\/"),
              "cases": json.dumps(cases).replace("</", "<\\/"), "proven": json.dumps(proven),
+             "certificate": json.dumps(read("three_balls.certificate")),
              "engine": base64.b64encode(compressed).decode()}
     page = read("page.html")
     for name, text in parts.items():

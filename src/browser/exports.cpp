@@ -2,12 +2,14 @@
 #include <emscripten.h>
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <sstream>
 
 #include "audit/audit.hpp"
 #include "browser/session.hpp"
 #include "casefile/build_case.hpp"
+#include "check.hpp"
 #include "compare/comparison.hpp"
 #include "identify/identify.hpp"
 #include "io/json_text.hpp"
@@ -107,6 +109,20 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_audit(const char* text, const char* sett
     if (identify != 0 && audited.verdict == edmill::audit::Verdict::violations)
       table += edmill::identify::table(edmill::identify::identify(spec, options, tell_stage));
     json.text("table", table);
+    return json.finish();
+  });
+}
+
+/// The certificate is the file /certificate.
+EMSCRIPTEN_KEEPALIVE const char* edmill_check() {
+  return answer([&] {
+    std::ifstream in("/certificate");
+    JsonText json;
+    try {
+      json.text("verdict", checker::check(in));
+    } catch (const checker::Rejected& why) {
+      json.text("verdict", std::string("rejected: ") + why.what());
+    }
     return json.finish();
   });
 }

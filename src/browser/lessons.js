@@ -95,6 +95,30 @@ async function check_proof() {
   $('prove-said').textContent = `${right} of ${events.length} impacts are those that are proven, in their order. Times are right to ${digits(0).toFixed(1)} digits at first, and to ${worst.toFixed(1)} at worst.`;
 }
 
+async function check_certificate(certificate) {
+  $('certificate-said').textContent = 'Checking.';
+  const {answer, milliseconds} = await ask({what: 'check', certificate});
+  $('certificate-said').textContent = answer.problems ? `No certificate: ${answer.problems.join(' ')}` : `${answer.verdict} (${number(milliseconds / 1000, 2)} s)`;
+}
+
+/// The same with another last digit in the time of its eighth impact.
+function forged(certificate) {
+  const lines = certificate.split('\n');
+  lines[8] = lines[8].replace(/"time":"([0-9a-f]+)/, (all, digits) => all.slice(0, -1) + (digits.endsWith('1') ? '2' : '1'));
+  return lines.join('\n');
+}
+
+async function check_own_certificate() {
+  try {
+    await check_certificate(await bytes_of('own-certificate', 'a certificate'));
+  } catch (error) {
+    $('certificate-said').textContent = error.message;
+  }
+}
+
+$('certificate').addEventListener('click', () => check_certificate(read('certificate-text')));
+$('forged').addEventListener('click', () => check_certificate(forged(read('certificate-text'))));
+$('own-certificate').addEventListener('change', check_own_certificate);
 $('flight-time').addEventListener('input', show_flight);
 $('gap-step').addEventListener('click', search_step);
 $('gap-again').addEventListener('click', begin_search);

@@ -15,6 +15,10 @@ const answers = {
     engine.FS.writeFile('/log', log);
     return call('edmill_audit', ['string', 'string', 'number'], [text, settings.join('\n'), identify ? 1 : 0]);
   },
+  check: ({certificate}) => {
+    engine.FS.writeFile('/certificate', certificate);
+    return call('edmill_check');
+  },
   compare: ({reference, log}) => {
     engine.FS.writeFile('/reference', reference);
     engine.FS.writeFile('/log', log);

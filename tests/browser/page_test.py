@@ -221,6 +221,24 @@ class Page(unittest.TestCase):
         self.wait(lambda: "are those" in self.text("prove-said"), 30)
         self.assertIn("200 of 200 impacts", self.text("prove-said"))
 
+    def test_certificates_are_checked(self):
+        shipped = ROOT / "src/browser/three_balls.certificate"
+        told = subprocess.run([EDMILL, "check", ROOT / "regression/reference/three_balls.toml"], text=True, capture_output=True, check=True)
+        self.assertIn(json.loads(shipped.open().readline())["digest"], told.stdout)
+        checked = lambda: self.wait(lambda: self.text("certificate-said") not in ("", "Checking."), 60) or self.text("certificate-said")
+        self.element("certificate").click()
+        self.assertRegex(checked(), r"^accepted: 40 events of 3 balls in 224 bits \([\d.]+ s\)$")
+        self.element("forged").click()
+        self.wait(lambda: "accepted" not in self.text("certificate-said"), 60)
+        self.assertRegex(checked(), r"^rejected: event \d+: rule \d: ")
+        for name, text, said in (("good", shipped.read_text(), "accepted: 40 events"), ("cut", shipped.read_text()[:20000], "No certificate|rejected"),
+                                 ("other", "time,ball\n", "No certificate: ")):
+            own = FOLDER / name
+            own.write_text(text)
+            self.browser.execute_script("document.getElementById('certificate-said').textContent = ''")
+            self.element("own-certificate").send_keys(str(own))
+            self.assertRegex(checked(), said)
+
     def test_it_asks_no_server(self):
         self.element("run").click()
         self.wait(lambda: "impacts" in self.facts(), 30)

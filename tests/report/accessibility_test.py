@@ -6,6 +6,7 @@ usage: accessibility_test.py EDMILL AXE.MIN.JS [FOLDER]
 FOLDER keeps the pages and a screenshot of each. Without axe.min.js the exit code is 77.
 """
 import base64
+import os
 import pathlib
 import subprocess
 import sys
@@ -66,8 +67,10 @@ low = "4 mm"
 high = "9 mm"
 """)
     call("optimize", "optimum.toml", "--quiet", "--out", "optimum")
-    return {"run": "run/report.html", "planetary": "planetary/report.html", "comparison": "comparison.html",
+    pages = {"run": "run/report.html", "planetary": "planetary/report.html", "comparison": "comparison.html",
             "sweep": "sweep/sweep.html", "optimum": "optimum/optimize.html"}
+    mill = os.environ.get("EDMILL_PAGE")
+    return dict(pages, mill=pathlib.Path(mill).resolve()) if mill else pages
 
 
 def main():

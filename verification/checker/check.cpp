@@ -1,5 +1,6 @@
 #include "check.hpp"
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "induction.hpp"
@@ -32,11 +33,11 @@ void take_lines(std::istream& in, Index events, Induction& induction) {
 std::string check(std::istream& in) {
   const Json header = read_header(in);
   const Index bits = index(header.at("bits"), 65537);
-  const Index events = index(header.at("events"), Index(1) << 40);
+  const Index events = index(header.at("events"), std::numeric_limits<long>::max());
   if (header.at("format") != "edmill certificate" || header.at("version") != 1 || bits < 64 || events < 1)
     throw std::invalid_argument("another format");
-  const WithPrecision scope(static_cast<slong>(bits) + 64);
-  Induction induction(header, static_cast<slong>(bits));
+  const WithPrecision scope(static_cast<Bits>(bits) + more_bits);
+  Induction induction(header, static_cast<Bits>(bits));
   take_lines(in, events, induction);
   return "accepted: " + std::to_string(events) + " events of " + std::to_string(induction.balls()) +
          " balls in " + std::to_string(bits) + " bits";

@@ -12,7 +12,7 @@ namespace checker {
 namespace {
 
 /// "At the start": each component, but a velocity or spin of zero, has the radius 2^-bits.
-State state_at_start(const Ball& ball, const Pose& pose, slong bits) {
+State state_at_start(const Ball& ball, const Pose& pose, Bits bits) {
   State state{ball.in_vessel ? pose.origin + pose.to_inertial(ball.position) : ball.position, ball.velocity,
               ball.spin};
   for (Real& component : state.position) widen(component, bits);
@@ -50,7 +50,7 @@ State require_within(const Json& given, const State& computed) {
 
 }  // namespace
 
-Induction::Induction(const Json& header, slong bits)
+Induction::Induction(const Json& header, Bits bits)
     : motion_{read_mill(header), {}}, stalls_(motion_.mill.balls.size()) {
   const Pose pose = pose_of(motion_.mill, 0);
   for (const Ball& ball : motion_.mill.balls)

@@ -14,7 +14,7 @@ namespace checker {
 class Induction {
  public:
   /// The balls at the start.
-  Induction(const Json& header, slong bits);
+  Induction(const Json& header, Bits bits);
 
   Index balls() const { return motion_.flights.size(); }
 

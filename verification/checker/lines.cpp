@@ -35,8 +35,8 @@ const Json& list(const Json& json, Index most) {
   return json;
 }
 
-Index index(const Json& json, Index count) {
-  if (!json.is_number_unsigned() || json.get<Index>() >= count)
+Index index(const Json& json, std::uint64_t count) {
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() >= count)
     throw std::invalid_argument("a number too large");
   return json.get<Index>();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <istream>
 #include <nlohmann/json_fwd.hpp>
 #include <set>
@@ -27,7 +28,7 @@ const Json& with_keys(const Json& object, const Keys& keys);
 const Json& list(const Json& json, Index most);
 
 /// An integer below `count`.
-Index index(const Json& json, Index count);
+Index index(const Json& json, std::uint64_t count);
 
 /// The exact number under this key.
 Real number(const Json& object, const char* key);

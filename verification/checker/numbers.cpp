@@ -1,7 +1,5 @@
 #include "numbers.hpp"
 
-#include <flint/fmpq.h>
-
 #include <cstdlib>
 #include <optional>
 #include <sstream>
@@ -14,17 +12,6 @@ constexpr auto none = std::string::npos;
 
 [[noreturn]] void refuse(const std::string& text) {
   throw std::invalid_argument("no number: " + text.substr(0, 60));
-}
-
-/// "119/25000" or "-2"
-std::optional<Real> rational(const std::string& text) {
-  fmpq_t fraction;
-  fmpq_init(fraction);
-  std::optional<Real> value;
-  if (fmpq_set_str(fraction, text.c_str(), 10) == 0 && !fmpz_is_zero(fmpq_denref(fraction)))
-    value = result_of(arb_set_fmpq, fraction, precision);
-  fmpq_clear(fraction);
-  return value;
 }
 
 /// Whether a word is an integer in hexadecimal of at most so many digits.
@@ -42,7 +29,7 @@ bool writes_zero_as_zero(const std::string& mantissa, const std::string& exponen
 
 }  // namespace
 
-slong small_integer(const std::string& text) {
+long small_integer(const std::string& text) {
   const bool digits = text.find_first_not_of("0123456789", text[0] == '-') == none;
   if (text.empty() || text == "-" || text.size() > 7 || !digits) refuse(text);
   return std::stol(text);
@@ -52,12 +39,12 @@ Real exact_number(const std::string& text) {
   if (text.size() > 100000 || text.find_first_not_of("-0123456789/*pi^") != none) refuse(text);
   const auto star = text.find("*pi");
   const std::string power = star == none ? "^0" : text.substr(star + 3);
-  const std::optional<Real> factor = rational(text.substr(0, star));
+  const std::optional<Real> factor = fraction(text.substr(0, star));
   if (!factor || (!power.empty() && power[0] != '^')) refuse(text);
-  const slong exponent = power.empty() ? 1 : small_integer(power.substr(1));
+  const long exponent = power.empty() ? 1 : small_integer(power.substr(1));
   if (std::abs(exponent) > 16) refuse(text);
   Real value = *factor;
-  for (slong k = 0; k < std::abs(exponent); ++k) value = exponent > 0 ? value * pi() : value / pi();
+  for (long k = 0; k < std::abs(exponent); ++k) value = exponent > 0 ? value * pi() : value / pi();
   return value;
 }
 
@@ -70,9 +57,9 @@ Real enclosure(const std::string& text) {
       four_words && is_hexadecimal(midpoint, true, 25000) && is_hexadecimal(midpoint_exponent, true, 6) &&
       is_hexadecimal(radius, false, 7) && is_hexadecimal(radius_exponent, true, 6) &&
       writes_zero_as_zero(midpoint, midpoint_exponent) && writes_zero_as_zero(radius, radius_exponent);
-  Real value;
-  if (!good || arb_load_str(value.arb, text.c_str()) != 0) refuse(text);
-  return value;
+  const std::optional<Real> value = good ? midpoint_and_radius(text) : std::nullopt;
+  if (!value) refuse(text);
+  return *value;
 }
 
 }  // namespace checker

@@ -10,7 +10,7 @@ namespace checker {
 // The functions here throw std::invalid_argument for any other text.
 
 /// An integer of at most seven characters.
-slong small_integer(const std::string& text);
+long small_integer(const std::string& text);
 
 /// A rational times a power of pi: "119/25000", "-2", "1/12*pi", "55*pi^-1".
 Real exact_number(const std::string& text);

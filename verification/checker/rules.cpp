@@ -9,7 +9,7 @@ namespace checker {
 namespace {
 
 /// Places on a flight are counted in parts of 2^-24 of its length.
-constexpr slong finest_depth = 24, whole_flight = 1L << finest_depth;
+constexpr long finest_depth = 24, whole_flight = 1L << finest_depth;
 
 /// A window is bisected so often in search of a proof.
 constexpr int most_bisections = 10;
@@ -17,15 +17,15 @@ constexpr int most_bisections = 10;
 /// A letter of rule 4 and its interval.
 struct Window {
   char letter;
-  slong begin, end;
+  long begin, end;
 };
 
 /// The window of a letter and a depth, as "p2", which begins at this place.
-Window read_window(const std::string& text, slong begin) {
-  const slong depth = small_integer(text.substr(1));
+Window read_window(const std::string& text, long begin) {
+  const long depth = small_integer(text.substr(1));
   if (depth < 0 || depth > finest_depth) throw Violation("rule 4: a window of another depth");
-  const slong length = whole_flight >> depth;
-  const slong end = begin + length;
+  const long length = whole_flight >> depth;
+  const long end = begin + length;
   if (begin % length != 0 || end > whole_flight) throw Violation("rule 4: windows that are no bisection");
   return {text[0], begin, end};
 }
@@ -47,7 +47,7 @@ bool holds(char letter, const Motion& motion, const Contact& contact, const Real
 /// Whether the claim of a window is proven for a flight that ends at a time.
 bool holds(const Window& window, const Motion& motion, const Contact& contact, const Real& until) {
   const Real& begin = motion.flights[contact.ball].begin;
-  const auto time = [&](slong place) { return begin + (until - begin) * Real(place) / whole_flight; };
+  const auto time = [&](long place) { return begin + (until - begin) * Real(place) / whole_flight; };
   return holds(window.letter, motion, contact, time(window.begin), time(window.end), most_bisections);
 }
 
@@ -81,14 +81,14 @@ void require_no_wall(const Motion& motion, Index ball, Index wall, const std::st
                      const Real& until, bool at_end) {
   const bool at_start = motion.flights[ball].wall == wall;
   const Contact contact{ball, true, wall};
-  slong place = 0;
+  long place = 0;
   for (Index first = 0, next; first < windows.size(); first = next) {
     next = std::min(windows.find_first_of("prf", first + 1), windows.size());
     const Window window = read_window(windows.substr(first, next - first), place);
     const bool allowed = window.letter == 'p' || (window.letter == 'r' && at_start && window.begin == 0) ||
                          (window.letter == 'f' && at_end && window.end == whole_flight);
     if (!allowed) throw Violation("rule 4: a letter in the wrong place");
-    const auto holds_in = [&](slong bits) {
+    const auto holds_in = [&](long bits) {
       const WithPrecision scope(bits);
       return holds(window, motion, contact, until);
     };
