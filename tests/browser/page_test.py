@@ -224,7 +224,7 @@ class Page(unittest.TestCase):
     def test_certificates_are_checked(self):
         shipped = ROOT / "src/browser/three_balls.certificate"
         told = subprocess.run([EDMILL, "check", ROOT / "regression/reference/three_balls.toml"], text=True, capture_output=True, check=True)
-        self.assertIn(json.loads(shipped.open().readline())["digest"], told.stdout)
+        self.assertIn(json.loads(shipped.read_text().splitlines()[0])["digest"], told.stdout)
         checked = lambda: self.wait(lambda: self.text("certificate-said") not in ("", "Checking."), 60) or self.text("certificate-said")
         self.element("certificate").click()
         self.assertRegex(checked(), r"^accepted: 40 events of 3 balls in 224 bits \([\d.]+ s\)$")
