@@ -235,7 +235,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   for (const auto& entry : top.sections("ball")) read_ball(entry, spec);
   for (const auto& entry : top.sections("balls")) read_batch(entry, spec);
   read_contact(top.section("contact"), spec);
-  for (const auto& entry : top.sections("output")) read_output(entry, spec);
+  for (const auto& entry : top.sections("output", true)) read_output(entry, spec);
   read_audit(top.section("audit"), spec.audit);
   if (!top.has("ball") && !top.has("balls"))
     top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
@@ -306,7 +306,7 @@ void add_outputs(const std::string& text, const std::string& name, CaseSpec& spe
   document.name = name;
   const toml::table root = parse_toml(text, "entries [[output]]", document);
   Section top(document, &root, "");
-  for (const auto& entry : top.sections("output")) read_output(entry, spec);
+  for (const auto& entry : top.sections("output", true)) read_output(entry, spec);
   top.reject_unknown_keys();
   if (!document.problems.empty()) throw InputError(document.problems);
 }

@@ -86,11 +86,12 @@ Section Section::section(const std::string& key) {
   return {*document_, node ? node->as_table() : nullptr, full(key), node ? node : place_};
 }
 
-std::vector<Section> Section::sections(const std::string& key) {
+std::vector<Section> Section::sections(const std::string& key, bool may_be_empty) {
   std::vector<Section> entries;
   const auto* node = find(key);
   if (!node) return entries;
   const auto* array = node->as_array();
+  if (may_be_empty && array && array->empty()) return entries;
   if (!array || !array->is_array_of_tables()) {
     document_->report(node, full(key), kind_of(*node), "entries [[" + full(key) + "]]");
     return entries;

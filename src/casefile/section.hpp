@@ -67,7 +67,8 @@ class Section {
   /// A sub-section; a key of another kind is reported.
   Section section(const std::string& key);
   /// Entries of an array of tables.
-  std::vector<Section> sections(const std::string& key);
+  /// @param may_be_empty  whether `key = []` is none of them, as for `--set output=[]`
+  std::vector<Section> sections(const std::string& key, bool may_be_empty = false);
 
   std::optional<Quantity> quantity(const std::string& key, Dimension dimension);
   Quantity quantity(const std::string& key, Dimension dimension, const Quantity& fallback);

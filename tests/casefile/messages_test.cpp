@@ -149,6 +149,13 @@ TEST(Messages, AValueThatIsWrongIsNamedByItsKeyAndNoKeyThatIsNotGiven) {
   EXPECT_GT(refused, 200);
 }
 
+TEST(Messages, AnEmptyListIsNoOutputAndElseAMistake) {
+  const std::string demo = cases().front();
+  EXPECT_EQ(problems_of("output = []\n" + demo), std::vector<std::string>{});
+  for (const char* key : {"ball", "material"})
+    EXPECT_EQ(problems_of(key + std::string(" = []\n") + demo).size(), 1u) << key;
+}
+
 TEST(Messages, ALateBeginningIsNamedByTheInitialTimeAlone) {
   const auto problems = problems_of(
       "[run]\ninitial_time = \"1e15 s\"\nmax_collisions = 5\n[vessel]\ndiameter = \"38 mm\"\nheight = \"57 "
