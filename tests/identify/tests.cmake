@@ -6,6 +6,7 @@ add_test(NAME identify_long COMMAND ${trials} ${CMAKE_BINARY_DIR}/identify-long 
 set_tests_properties(identify_long PROPERTIES TIMEOUT 36000 LABELS long)
 add_test(NAME identify_cases_test COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/identify/cases.py $<TARGET_FILE:edmill_cli> 4)
 add_test(NAME identify_cases_long COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/identify/cases.py $<TARGET_FILE:edmill_cli>)
-set_tests_properties(identify_cases_test identify_cases_long PROPERTIES TIMEOUT 300)
+set_tests_properties(identify_cases_test PROPERTIES TIMEOUT 600)
+set_tests_properties(identify_cases_long PROPERTIES TIMEOUT 3600)
 set_tests_properties(identify_cases_long PROPERTIES LABELS long)
 edmill_test(time_stepping_test identify/time_stepping_test.cpp)
