@@ -30,14 +30,21 @@ long_packages=(lammps python3-lammps liggghts "yade?" debootstrap dpkg-dev pytho
 
 say() { printf '\n== %s\n' "$*"; }
 
-is_installed() { dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }
+is_installed() { dpkg-query -W -f='${db:Status-Status}\n' "$1" 2>/dev/null | grep -qx installed; }
+
+# Whether the release has it; of clang's run-time libraries those of the clang that it installs.
+has() {
+  [[ $(LC_ALL=C apt-cache policy "$1" 2>/dev/null) =~ Candidate:\ [0-9] ]] || return 1
+  [[ $1 =~ ^libclang-rt-([0-9]+)-dev$ ]] || return 0
+  LC_ALL=C apt-cache depends clang 2>/dev/null | grep -q "clang-${BASH_REMATCH[1]}$"
+}
 
 # Of alternatives that are all missing: the first that the release has; else the first, or nothing for "a?".
 available() {
   local names one
   IFS='|' read -ra names <<<"${1%\?}"
   for one in "${names[@]}"; do
-    if [[ $(apt-cache policy "$one" 2>/dev/null) =~ Candidate:\ [0-9] ]]; then
+    if has "$one"; then
       echo "$one"
       return
     fi
@@ -54,7 +61,11 @@ install_missing() {
     done
     missing+=("$package")
   done
-  if [ ${#missing[@]} = 0 ]; then
+  local needed=
+  for package in "${missing[@]}"; do
+    if [[ $package != *\? ]] || [ -n "$(available "$package")" ]; then needed=1; fi
+  done
+  if [ -z "$needed" ]; then
     say "all packages are installed"
     return
   fi

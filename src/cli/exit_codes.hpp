@@ -3,6 +3,8 @@
 
 #include <string_view>
 
+#include "model/end_reason.hpp"
+
 namespace edmill::cli {
 
 enum ExitCode : int {
@@ -17,6 +19,22 @@ enum ExitCode : int {
   stalled = 8,
   interrupted = 128,  ///< plus the number of the signal, which the caller adds
 };
+
+/// Of a run that ended so.
+constexpr ExitCode code_of(model::EndReason reason) {
+  switch (reason) {
+    case model::EndReason::undecided:
+      return undecided;
+    case model::EndReason::stalled:
+      return stalled;
+    case model::EndReason::interrupted:
+      return interrupted;
+    case model::EndReason::inelastic_collapse:
+      return inelastic_collapse;
+    default:
+      return ok;
+  }
+}
 
 struct ExitCodeText {
   std::string_view code, meaning;

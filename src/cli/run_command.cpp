@@ -37,21 +37,6 @@ app::RunOptions options_of(const RunCommand& command) {
   return options;
 }
 
-int code_of(model::EndReason reason) {
-  switch (reason) {
-    case model::EndReason::undecided:
-      return undecided;
-    case model::EndReason::stalled:
-      return stalled;
-    case model::EndReason::interrupted:
-      return interrupted;
-    case model::EndReason::inelastic_collapse:
-      return inelastic_collapse;
-    default:
-      return ok;
-  }
-}
-
 int tell(const app::RunResult& result, const RunCommand& command) {
   if (!command.quiet) {
     io::print("{}\nResults are in {}\n", result.table, command.folder);

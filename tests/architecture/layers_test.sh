@@ -35,7 +35,7 @@ declare -A allowed=(
   [instances/tools]="base io casefile report app instances" # and what is around it
   [python]="base model machines api casefile compare dem io prove report app run instances" # a program like those of users, and the commands
   [python/edmill]=""
-  [core_alone]="app base casefile dynamics io model output report" # a program of the core for any machine, and what stands for libraries
+  [core_alone]="app base casefile cli dynamics io model output report run" # a program of the core for any machine, and what stands for libraries
   [browser]="base model model/parts io casefile output audit compare identify api" # the mill in a browser
 )
 

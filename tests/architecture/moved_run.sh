@@ -3,11 +3,11 @@
 # usage: moved_run.sh FOLDER PROGRAM COMMAND...
 # PROGRAM is edmill; COMMAND is edmill-core behind what runs it: qemu-s390x edmill-core. Each begins what the other ends.
 set -euo pipefail
-folder=$1
-program=$2
-core=("${@:3}")
+mkdir -p "$1"
+folder=$(realpath "$1")
+program=$(realpath "$2")
+core=("${@:3:$#-3}" "$(realpath "${@: -1}")")
 cd "$(dirname "$0")/../.."
-mkdir -p "$folder"
 settings=("run.start_time=0 s" 'output=[{type="collisions"}]')
 every="0.001 s simulated"
 

@@ -279,6 +279,17 @@ def check_sliding(events):
     print(f"claim sliding: {events} events proven and accepted")
 
 
+def check_hostile():
+    """Lines on which a parser would spend minutes, or the stack."""
+    header = pathlib.Path("one_ball.cert").read_text().splitlines()[0]
+    for what, line in (("deep", '{"event":' + "[" * 100000 + "]" * 100000 + "}"),
+                       ("deep in objects", '{"event":' + '{"a":' * 100000 + "0" + "}" * 100001),
+                       ("wide", '{"event":[' + "{}," * 400000 + "{}]}")):
+        code, said = verdict([header, line])
+        if code != 2 or "too much" not in said:
+            fail(f"a {what} line: exit code {code}: {said[:200]}")
+
+
 def check_shipped(name, events, again):
     packed = (REFERENCE / f"{name}.certificate.xz").read_bytes()
     digest = hashlib.sha256(packed).hexdigest()
@@ -308,6 +319,7 @@ def main():
     if "--all" not in sys.argv:
         check_sliding(40)
         kinds = max(check_short(name, events) for name, events in SHORT.items())
+        check_hostile()
         if kinds < 20:
             fail(f"{kinds} kinds of tampering were tried")
     for name, events in SHIPPED.items():

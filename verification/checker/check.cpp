@@ -33,6 +33,9 @@ void take_lines(std::istream& in, Index events, Induction& induction) {
 std::string check(std::istream& in) {
   const Json header = read_header(in);
   const Index bits = index(header.at("bits"), 65537);
+  if (bits > most_bits)
+    throw std::invalid_argument("more than " + std::to_string(most_bits) +
+                                " bits, which take the checker with Arb");
   const Index events = index(header.at("events"), std::numeric_limits<long>::max());
   if (header.at("format") != "edmill certificate" || header.at("version") != 1 || bits < 64 || events < 1)
     throw std::invalid_argument("another format");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -201,15 +202,13 @@ inline Integer arctangent_of_inverse(unsigned n) {
   return sum;
 }
 
-/// By Machin's formula.
+/// By Machin's formula, once for each precision.
 inline const Integer& pi() {
-  static Exponent known = 0;
-  static Integer value;
-  if (known != bits()) {
-    value = 16 * arctangent_of_inverse(5) - 4 * arctangent_of_inverse(239);
-    known = bits();
-  }
-  return value;
+  static std::map<Exponent, Integer> known;
+  const auto found = known.find(bits());
+  if (found != known.end()) return found->second;
+  Integer value = 16 * arctangent_of_inverse(5) - 4 * arctangent_of_inverse(239);
+  return known.emplace(bits(), std::move(value)).first->second;
 }
 
 /// Of an angle of at most pi/4, by Taylor's series.

@@ -8,14 +8,23 @@
 #include "verdict.hpp"
 
 namespace checker {
+namespace {
+
+constexpr int deepest = 16;
+constexpr Index most_objects = 20000;
+
+}  // namespace
 
 Json next_line(std::istream& in) {
   std::string line;
   if (!std::getline(in, line) || line.find('\\') != std::string::npos)
     throw Rejected("rule 6: no line, or one with escapes");
   std::vector<Keys> open;  // keys of the objects that have begun and not ended
-  return Json::parse(line, [&](int, Json::parse_event_t event, Json& key) {
-    if (event == Json::parse_event_t::object_start) open.emplace_back();
+  Index objects = 0;
+  return Json::parse(line, [&](int depth, Json::parse_event_t event, Json& key) {
+    // The parser takes a time that grows with their square, and copies of deep values fill the stack.
+    if (depth > deepest || objects > most_objects) throw std::invalid_argument("a line with too much in it");
+    if (event == Json::parse_event_t::object_start) open.emplace_back(), ++objects;
     if (event == Json::parse_event_t::object_end) open.pop_back();
     if (event == Json::parse_event_t::key && !open.back().insert(key).second)
       throw Rejected("rule 6: twice the key " + key.dump());
