@@ -25,7 +25,6 @@ constexpr const char* usage =
     "       edmill-core resume FOLDER\n";
 
 std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);  // else a signal handler may not set it
 volatile std::sig_atomic_t last_signal = 0;
 
 using Words = std::vector<std::string>;
