@@ -125,9 +125,12 @@ void Archive::one(T& value) {
     raw(&byte, 1);
     if (byte > 1) throw InputError("found neither true nor false in a saved state");
     value = byte == 1;
+  } else if constexpr (std::is_same_v<T, long> || std::is_same_v<T, unsigned long>) {
+    // Of a length that depends on the machine, as std::size_t is.
+    std::conditional_t<std::is_signed_v<T>, long long, unsigned long long> wide = value;
+    (*this)(wide);
+    value = static_cast<T>(wide);
   } else if constexpr (std::is_arithmetic_v<T>) {
-    // Of a length that depends on the machine: a member of another type says what it needs.
-    static_assert(!std::is_same_v<T, long> || sizeof(long) == 8);
     T ordered = in_file_order(value);
     raw(&ordered, sizeof ordered);
     value = in_file_order(ordered);
