@@ -41,18 +41,19 @@ function(edmill_take_rooms target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${EDMILL_UNITY} UNITY_BUILD_MODE GROUP)
 endfunction()
 
-add_library(edmill_core OBJECT ${EDMILL_VERSION_SOURCE})
+# Linkers keep the first copy of an inline function: that of double comes before those of wide scalars, which WebAssembly compiles
+# for size (functions of double that they share took three times as long).
+set(instances ${CMAKE_SOURCE_DIR}/src/instances)
+add_library(edmill_core OBJECT ${instances}/double.cpp ${instances}/double_other.cpp ${EDMILL_VERSION_SOURCE})
 target_link_libraries(edmill_core PUBLIC edmill_core_settings)
 target_precompile_headers(edmill_core PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <sstream>
   <string> <variant> <vector> <boost/container/static_vector.hpp> <boost/multiprecision/cpp_int.hpp> <boost/multiprecision/cpp_bin_float.hpp>
   <boost/multiprecision/eigen.hpp> <Eigen/Geometry> <fmt/format.h> <toml++/toml.h>)
 edmill_take_rooms(edmill_core base model dynamics engine casefile io run tangent output api core_alone)
 set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/core_alone/toml.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
-foreach(instance double double_other float128)
-  target_sources(edmill_core PRIVATE ${CMAKE_SOURCE_DIR}/src/instances/${instance}.cpp)
-endforeach()
+target_sources(edmill_core PRIVATE ${instances}/float128.cpp)
 add_executable(edmill_core_alone ${CMAKE_SOURCE_DIR}/src/core_alone/main.cpp ${CMAKE_SOURCE_DIR}/src/app/run.cpp
-               ${CMAKE_SOURCE_DIR}/src/instances/tools/double.cpp ${CMAKE_SOURCE_DIR}/src/instances/tools/float128.cpp)
+               ${instances}/tools/double.cpp ${instances}/tools/float128.cpp)
 set_target_properties(edmill_core_alone PROPERTIES OUTPUT_NAME edmill-core)
 target_link_libraries(edmill_core_alone PRIVATE edmill_core)
 
@@ -71,7 +72,7 @@ if(EMSCRIPTEN)
   set_source_files_properties(${checker} PROPERTIES UNITY_GROUP checker COMPILE_DEFINITIONS CHECKER_WITHOUT_ARB)
   target_include_directories(edmill_page PRIVATE ${CMAKE_SOURCE_DIR}/verification/checker)
   # The file is to stay small; wide scalars decide seldom.
-  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/instances/float128.cpp ${CMAKE_SOURCE_DIR}/src/core_alone/rung.cpp
+  set_source_files_properties(${instances}/float128.cpp ${CMAKE_SOURCE_DIR}/src/core_alone/rung.cpp
                               PROPERTIES COMPILE_OPTIONS -Os SKIP_PRECOMPILE_HEADERS ON)
   target_compile_options(edmill_page PRIVATE -Os)
   target_link_options(edmill_page PRIVATE -sMALLOC=emmalloc)
