@@ -56,7 +56,7 @@ class Run {
   /// unfinished run has left its checkpoint there
   void write_to(const std::string& folder);
   /// Puts these files in place, and removes those that an earlier run has left there and this one has not; to
-  /// be called once, behind the run's last advance.
+  /// be called once, after the run's last advance.
   void commit();
 
   /// Observers receive every impact, in the order of attachment; they must outlive the run.

@@ -41,7 +41,7 @@ struct RunEstimate {
 RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
                          const DigitsOptions& options);
 
-/// A precision in which a case has so many right digits to its end.
+/// A precision in which a case has a given number of correct digits to its end.
 struct FoundDigits {
   std::string precision;     ///< of the run; empty where there is none
   std::string narrow;        ///< that agrees with it

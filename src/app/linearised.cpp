@@ -10,7 +10,7 @@ namespace {
 
 using Vector = Vec3<mpfr>;
 
-/// Two bodies, or one and a wall, at an impact and behind it.
+/// Two bodies, or one and a wall, at an impact and after it.
 struct Collision {
   std::array<Vector, 2> position, velocity, spin;
   dynamics::ImpactOutcome<mpfr> outcome{};

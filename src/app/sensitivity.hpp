@@ -17,7 +17,7 @@ struct SensitivityOptions {
   std::vector<std::string> by;
   std::size_t events = 0;
   unsigned digits = 17;  ///< of each derivative that are right
-  bool states = false;   ///< the file has the derivatives of the balls' states behind each impact, too
+  bool states = false;   ///< the file has the derivatives of the balls' states after each impact, too
   std::string file;      ///< CSV; none when empty
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(const std::string& precision, std::size_t events)> progress = [](const auto&, auto) {};

@@ -9,7 +9,7 @@
 namespace edmill::numerics {
 
 /// Batches of whole drive periods, so that each has all phases of the drive. When there are too many they are
-/// joined in pairs: a run of any length has 20 to 39 whole ones behind its first 20 periods.
+/// joined in pairs: a run of any length has 20 to 39 whole ones after its first 20 periods.
 template <class Real>
 class Batches {
  public:
@@ -32,7 +32,7 @@ class Batches {
 
   /// Where the open drive period ends.
   Instant<Real> next_period() const { return {start_.period + elapsed_ + 1, start_.offset}; }
-  /// To be called with the totals before the first event at or behind the end of a period.
+  /// To be called with the totals before the first event at or after the end of a period.
   void pass(const Instant<Real>& time, const std::vector<double>& totals) {
     elapsed_ = time.period - start_.period - (time.offset < start_.offset ? 1 : 0);
     latest_ = totals;

@@ -25,7 +25,7 @@ constexpr std::uint32_t root(std::uint64_t n) {
   return static_cast<std::uint32_t>(low);
 }
 
-/// The first 32 bits behind the point of the roots of the first primes: square roots of 8, cube roots of 64.
+/// The first 32 bits after the point of the roots of the first primes: square roots of 8, cube roots of 64.
 struct Constants {
   std::array<std::uint32_t, 8> begin{};
   std::array<std::uint32_t, 64> rounds{};

@@ -18,7 +18,7 @@ namespace edmill {
 struct TurnFraction {
   static constexpr std::size_t words = 16;
   std::array<std::uint64_t, words> bits{};  ///< the most significant word first; [0, 1) turns
-  std::vector<std::uint64_t> further{};     ///< the words behind these
+  std::vector<std::uint64_t> further{};     ///< the words after these
   std::int64_t whole = 0;                   ///< turns beside them
 
   /// Words that `times` takes for a scalar of so many binary digits.
@@ -34,7 +34,7 @@ struct TurnFraction {
   }
 
   /// What `count` times the fraction leaves over whole turns, from -1/2 to 1/2. Error: the rounding of the
-  /// result, and |count| units of a bit that is 64 places and more behind those of the scalar.
+  /// result, and |count| units of a bit that is 64 places and more beyond those of the scalar.
   template <class Real>
   Real times(std::int64_t count) const {
     if constexpr (std::numeric_limits<Real>::digits > 0) {

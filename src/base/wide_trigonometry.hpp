@@ -29,7 +29,7 @@ struct Trigonometry<float128> {
   }
 
  private:
-  /// pi 2^62, and 128 bits behind the point.
+  /// pi 2^62, and 128 bits after the point.
   static constexpr std::uint64_t pi_words[] = {0xc90f'daa2'2168'c234, 0xc4c6'628b'80dc'1cd1,
                                                0x2902'4e08'8a67'cc74};
   static float128 bits(std::uint64_t word, double unit) { return float128(word) * float128(unit); }

@@ -116,7 +116,7 @@ std::string Session::scene() const {
     std::vector<double> points;
     for (const auto& point : mesh.points) put_vector(points, point);
     json.numbers("points", points);
-    std::vector<int> corners;  // of each face, behind their number
+    std::vector<int> corners;  // of each face, after their number
     for (const auto& face : mesh.faces) {
       corners.push_back(static_cast<int>(face.size()));
       corners.insert(corners.end(), face.begin(), face.end());

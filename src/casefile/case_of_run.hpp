@@ -8,7 +8,7 @@
 
 namespace edmill::casefile {
 
-/// The text of a case file, and behind it the settings over it as comments, for readers.
+/// The text of a case file, followed by the settings over it as comments, for readers.
 std::string text_with_settings(const CaseSpec& spec);
 
 /// The case that a run left in its folder: `text_with_settings` as a file. The file that the run began from

@@ -213,7 +213,7 @@ struct CaseSpec {
     row(Parameter{"seed", Dimension::none, "of the random placement", Range::any, "1"}, c.seed);
     row(Parameter{"digits",
                   Dimension::none,
-                  "every event in its true order and every number of the logs right to so many digits: the "
+                  "every event in its true order and every number of the logs correct to this many digits: the "
                   "precision is "
                   "chosen for it",
                   {1, 100000},

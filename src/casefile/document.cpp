@@ -11,7 +11,7 @@ namespace edmill::casefile {
 
 namespace {
 
-/// What is behind an error of TOML's grammar in a line, where that is known.
+/// What is after an error of TOML's grammar in a line, where that is known.
 std::string hint_of(const Document& document, std::size_t line) {
   if (line == 0 || line > document.lines.size()) return "";
   const std::string& text = document.lines[line - 1];

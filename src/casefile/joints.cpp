@@ -154,7 +154,7 @@ std::string axis_name(const std::array<Quantity, 3>& axis) {
   return fmt::format("({:g}, {:g}, {:g})", axis[0].to<double>(), axis[1].to<double>(), axis[2].to<double>());
 }
 
-/// With its sign, behind other terms.
+/// With its sign, after other terms.
 std::string term(double value) { return fmt::format(" {} {:g}", value < 0 ? '-' : '+', std::abs(value)); }
 
 /// Terms that may begin with a sign.

@@ -55,7 +55,7 @@ inline constexpr ExitCodeText exit_codes[] = {
      "the physics of the case. prove --check: the certificate is of another case"},
     {"7", "compare: too few data to decide. audit: no events, or no columns that could be checked"},
     {"8",
-     "the run has stalled: bodies that no motion parts hit each other while the clock stands still; its "
+     "the run has stalled: bodies that cannot separate hit each other while the clock stands still; its "
      "results are on disk"},
     {"129, 130, 138, 143, 152",
      "interrupted by SIGHUP, SIGINT, SIGUSR1, SIGTERM or SIGXCPU: 128 and its number; the results so far are "

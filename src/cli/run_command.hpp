@@ -15,7 +15,7 @@ struct RunCommand {
   std::string checkpoint;  ///< how often to save the state; when empty, never, or as before
   std::vector<std::string> overrides;
   bool report = false, quiet = false;
-  bool estimate = false;  ///< tell what the run will take, and do not run
+  bool estimate = false;  ///< estimate the cost of the run, and do not run
 };
 
 /// @return an exit code

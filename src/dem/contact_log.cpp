@@ -36,7 +36,7 @@ void put(std::string& line, const BallState& state, bool given) {
     for (Eigen::Index k = 0; k < 3; ++k) line += given ? fmt::format(",{}", (*v)[k]) : ",";
 }
 
-/// Numbers behind a name in a comment of the head; what is none is left out, so that one is missing.
+/// Numbers after a name in a comment of the head; what is none is left out, so that one is missing.
 std::vector<double> numbers_of(const std::string& line) {
   std::istringstream in(line);
   std::string mark, name;

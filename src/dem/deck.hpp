@@ -60,7 +60,7 @@ struct DeckCase {
   bool translates() const;
 };
 
-/// The first lines of every deck, behind its mark of comments: of which case it is, and with which contacts.
+/// The first lines of every deck, after its mark of comments: of which case it is, and with which contacts.
 std::string header_of(const DeckCase& c, const DeckOptions& options, const std::string& comment);
 
 // One file each.

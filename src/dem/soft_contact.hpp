@@ -18,7 +18,7 @@ double restitution_of(double damping, int steps, Separation separation = Separat
 /// @pre 0.05 <= restitution <= 1
 double damping_for(double restitution, int steps, Separation separation = Separation::free);
 
-/// The number that LAMMPS of 2022 wants behind `damping tsuji`: its polynomial of this number is the damping.
+/// The number that LAMMPS of 2022 wants after `damping tsuji`: its polynomial of this number is the damping.
 /// Nothing when no number gives it.
 /// @pre damping >= 0
 double lammps_restitution(double damping);

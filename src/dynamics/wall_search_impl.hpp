@@ -148,7 +148,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
     if constexpr (rounded)
       *rough = RoughAnswer::contact(wall, found.left.t, found.right.t, root->t, own_errors.gap[wall]);
     if (!any_from(reachable, wall + 1)) break;
-    // Later walls matter up to a little behind this root.
+    // Later walls matter up to a little past this root.
     const Real behind = root->t + root->time_error + longest_window() * rounding_margin<Real>();
     if (behind < end) {
       end = behind;
@@ -192,7 +192,7 @@ auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Point& start
 }
 
 /// A ball that has just left, and whose gap is proven to bend downwards all along the window: the gap rises
-/// to one peak and has one root behind it.
+/// to one peak and has one root after it.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
                                    const Point& right) const -> std::optional<Bracket> {

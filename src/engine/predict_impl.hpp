@@ -80,7 +80,7 @@ void Simulation<Real>::predict_crossing(int ball, const DoubleState& state) {
       crossing.delay < Crossing::never ? clock_.after(now_, Real(crossing.delay)) : Instant<Real>::never();
 }
 
-/// How far a wall search from `begin` need look: to a little behind the ball's nearest pair contact, so that
+/// How far a wall search from `begin` need look: to a little past the ball's nearest pair contact, so that
 /// a wall contact which may be first is known.
 template <class Real>
 Real Simulation<Real>::search_length(int ball, const Instant<Real>& begin) const {

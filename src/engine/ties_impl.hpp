@@ -24,7 +24,7 @@ bool Simulation<Real>::has_rivals(const Event<Real>& event) const {
 /// and marked.
 template <class Real>
 auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
-  std::vector<Event<Real>> passed;  // that went behind another one
+  std::vector<Event<Real>> passed;  // that went after another one
   for (;;) {
     const Instant<Real> limit = clock_.after(event.time, ladder_.tie_window());
     finish_wall_searches(event, limit);

@@ -162,7 +162,7 @@ void AtomicFile::go_on_from(const std::string& name, std::uint64_t size, const s
   std::error_code ignored;
   kept_ = fs::exists(temporary_, ignored);  // a copy of a committed file can be made again
   if (append_ && fs::equivalent(temporary_, destination_.place, ignored)) {
-    // Killed behind the commit: the rows are in place, and those of this process are dropped.
+    // Killed after the commit: the rows are in place, and those of this process are dropped.
     temporary_ = fresh;
     kept_ = false;
     dropped_ = true;

@@ -101,7 +101,7 @@ void AtomicFolder::go_on_from(const std::string& name, const std::vector<std::st
     throw InputError(named_.string() +
                      ": found other frames than the checkpoint was made with, expected the files as the run "
                      "left them");
-  // Those that were added behind the checkpoint come again.
+  // Those that were added after the checkpoint come again.
   std::vector<fs::path> later;
   for (const auto& entry : fs::directory_iterator(temporary_))
     if (std::find(names_.begin(), names_.end(), entry.path().filename().string()) == names_.end())

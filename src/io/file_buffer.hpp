@@ -36,7 +36,7 @@ class FileBuffer : public std::streambuf {
   /// Closes; what is left in the buffer is lost.
   ~FileBuffer() override;
 
-  /// Takes over a descriptor that stands behind `size` bytes with this digest.
+  /// Takes over a descriptor that stands after `size` bytes with this digest.
   void open(int descriptor, std::uint64_t size = 0, Sha256 digest = {});
   bool is_open() const { return descriptor_ >= 0; }
   /// @return whether everything was written

@@ -237,7 +237,7 @@ std::string stall_message(const Summary<Real>& s) {
     add("wall " + std::to_string(wall) + " (" + s.partners[wall].label + ")");
   return "the run has stalled at " + to_text<Real>(s.stall->time) + " s: " + bodies + " hit each other " +
          std::to_string(s.stall->impacts) +
-         " times while the clock stood still, and no motion parts them; give them room (fewer or smaller "
+         " times while the clock stood still, and no motion separates them; give them room (fewer or smaller "
          "balls, a piston that ends its way earlier), or let the run end before";
 }
 

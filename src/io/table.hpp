@@ -51,7 +51,7 @@ class Table {
   }
 
   /// Adds cells to the row from left to right: texts, integers, and numbers, which may be absent. The next
-  /// row begins behind the last column.
+  /// row begins after the last column.
   /// @throws std::bad_variant_access when a cell has not the type of its column
   template <class... Cell>
   void put(const Cell&... cells) {
@@ -70,7 +70,7 @@ class Table {
     return cells_.empty() ? 0 : std::visit([](const auto& values) { return values.size(); }, cells_.back());
   }
 
-  /// Comments behind "# " and the header; texts are quoted where they need it. (RFC 4180)
+  /// Comments after "# " and the header; texts are quoted where they need it. (RFC 4180)
   std::string csv_head() const {
     std::string text;
     for (const auto& comment : comments_) text += "# " + comment + "\n";

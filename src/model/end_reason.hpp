@@ -13,7 +13,7 @@ enum class EndReason {
   end_time,
   max_cpu_time,        ///< of a run in a study
   inelastic_collapse,  ///< a Zeno point of the exact model
-  stalled,             ///< the clock stands still: no motion parts bodies that are pressed together
+  stalled,             ///< the clock stands still: no motion separates bodies that are pressed together
   undecided,           ///< no scalar could make a decision
   interrupted,
   stopped,         ///< by an observer

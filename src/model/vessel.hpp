@@ -38,7 +38,7 @@ namespace edmill::model {
 /// - `is_flat(wall)`: the gap is a coordinate up to sign and offset, and as sharp as one; of other walls
 ///   `curved_errors` bounds the rounding from that of a coordinate, the speed and acceleration in the vessel
 ///   frame, and how far outside the ball may be [m]
-/// - where a wall's gap function holds in a region of places only, `function_count()`: the functions behind
+/// - where a wall's gap function holds in a region of places only, `function_count()`: the functions after
 ///   those of the walls are the borders of the regions; `active(p)`: those to be watched from p on;
 ///   `is_valid(wall, p)`: whether that wall's gap counts at p, to within rounding; `smooth_way(p)`: how far a
 ///   ball at p may move while all active functions are smooth, or nothing for any way [m]

@@ -156,7 +156,7 @@ class LyapunovOutput : public TableOutput<Real> {
                       static_cast<std::size_t>(wanted_));
     if (!saved_.tangents.empty()) spectrum_->restore(saved_);
   }
-  /// Before the first impact behind the start of the record turns the directions.
+  /// Before the first impact after the start of the record turns the directions.
   void begin_record(const engine::Simulation<Real>& simulation, const Real& time) {
     if (begun_ || !this->timer().is_open() || time < this->timer().from()) return;
     const auto start = in_double(simulation.instant_of(this->timer().from()));

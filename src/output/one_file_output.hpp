@@ -12,7 +12,7 @@ namespace edmill::output {
 template <class Real, class File>
 class OneFileOutput : public Output<Real> {
  public:
-  /// @param arguments  of the file's constructor, behind its place
+  /// @param arguments  of the file's constructor, after its place
   template <class... Arguments>
   OneFileOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
                 const RunContext<Real>& run, Arguments&&... arguments)

@@ -83,7 +83,7 @@ class Output {
     a(timer_);
     archive_record(a);
   }
-  /// Whether its rows go behind those of other runs.
+  /// Whether its rows go after those of other runs.
   bool appends() const { return appends_; }
 
  protected:

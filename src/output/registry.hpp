@@ -97,7 +97,7 @@ inline constexpr std::tuple output_registry{
                                 {},
                                 casefile::see_keys<TreatmentKeys>}},
     OutputRow<LyapunovOutput>{{"lyapunov", ".csv",
-                               "Lyapunov exponents: how fast motions nearby part from that of the run",
+                               "Lyapunov exponents: how fast neighbouring motions diverge from that of the run",
                                read_lyapunov, lyapunov_keys, casefile::see_keys<LyapunovKeys>}},
     OutputRow<CoverageOutput>{{"coverage",
                                ".csv",

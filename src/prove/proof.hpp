@@ -32,7 +32,7 @@ struct Proof {
   slong bits = 0;
   std::vector<ProvenEvent> events;
   std::vector<std::vector<std::string>> open_windows;  ///< of the flights at the end, by ball and wall
-  slong accuracy = 0;  ///< bits behind the point of the least known velocity at the end
+  slong accuracy = 0;  ///< bits after the point of the least known velocity at the end
   std::vector<Attempt> attempts;
   bool interrupted = false;
   std::string impossible;  ///< why the model itself cannot say what comes next, or no scalar knows where to

@@ -215,7 +215,7 @@ class CallingLaw : public CustomLaw<Real> {
   }
 
  private:
-  /// An impact needs an answer: after Ctrl-C the law is asked again, and the run ends behind the impact.
+  /// An impact needs an answer: after Ctrl-C the law is asked again, and the run ends after the impact.
   template <class Ask>
   Real ask(const char* what, const Ask& of_law) const {
     try {

@@ -24,7 +24,7 @@ void add_vessel(pugi::xml_node main, const RunFolder& run);
 void add_balls(pugi::xml_node section, const RunFolder& run);
 /// How often powder has been hit, where the case has such an output.
 void add_treatment(pugi::xml_node main, const RunFolder& run);
-/// How fast motions nearby part from the run's, where the case has such an output.
+/// How fast neighbouring motions diverge from the run's, where the case has such an output.
 void add_exponents(pugi::xml_node main, const RunFolder& run);
 void add_ball_speeds(pugi::xml_node main, const RunFolder& run);
 void add_energy(pugi::xml_node main, const RunFolder& run);

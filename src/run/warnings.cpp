@@ -25,7 +25,7 @@ void check_end(const Measures& m, std::vector<io::Warning>& list) {
     warn("The run ended in inelastic collapse: a ball met another body infinitely often in a finite time.");
   if (m.end_reason == EndReason::stalled)
     warn(
-        "The run has stalled: bodies that no motion parts hit each other while the clock stood still. The "
+        "The run has stalled: bodies that cannot separate hit each other while the clock stood still. The "
         "results cover the time up to then.");
   if (m.end_reason == EndReason::undecided)
     warn("The run ended at a decision that no scalar could make; the results cover the time up to then.");

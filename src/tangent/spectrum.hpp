@@ -1,4 +1,4 @@
-// Lyapunov exponents: how fast motions nearby part from a run's, direction by direction (Benettin et al.
+// Lyapunov exponents: how fast neighbouring motions diverge from a run's, direction by direction (Benettin et al.
 // 1980). docs/theory.md, "Tangent dynamics"
 #pragma once
 

@@ -21,7 +21,7 @@ struct Tangent {
   void archive(Archive& a) { a(position, velocity, spin); }
 };
 
-/// One body of an impact just before it, and its velocity behind it.
+/// One body of an impact just before it, and its velocity after it.
 template <class Real>
 struct Struck {
   const model::BallProperties<Real>& ball;
@@ -45,7 +45,7 @@ class TangentMap {
   explicit TangentMap(const model::Mill<double>& mill);
   ~TangentMap();
 
-  /// @param directions  of the ball at the impact; they become those behind it
+  /// @param directions  of the ball at the impact; they become those after it
   void with_wall(const ImpactAt<double>& impact, int wall, const Struck<double>& ball,
                  std::span<Tangent<double>> directions) const;
   /// @param of_one, of_two  directions of either ball, in the same order

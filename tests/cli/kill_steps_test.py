@@ -34,7 +34,7 @@ def folder(name):
 
 
 def go_on(place):
-    """What a user runs next: nothing behind a run that has ended."""
+    """What a user runs next: nothing after a run that has ended."""
     if os.path.exists(f"{place}/checkpoint"):
         return ["resume", place, "--quiet"]
     return None if os.path.exists(f"{place}/summary.json") else [*RUN, "--out", place]

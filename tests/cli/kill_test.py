@@ -252,11 +252,11 @@ while interrupts < 6:
             summary = json.loads(results(place)["summary.json"])
             check(summary["end_reason"] == "interrupted", summary["end_reason"])
             got = results(place)
-            # Whole lines of the undisturbed run, up to the interrupt; nothing yet behind another run's rows.
+            # Whole lines of the undisturbed run, up to the interrupt; nothing yet after another run's rows.
             check(len(got["collisions.csv"]) > 0 and expected["collisions.csv"].startswith(got["collisions.csv"]) and
                   got["collisions.csv"].endswith(b"\n"), "collisions.csv of an interrupted run")
             check(got["collisions.csv"].count(b"\n") == summary["impacts_since_start"] + 1, "rows of an interrupted run")
-            check(got["all_runs.csv"] == b"rows of another run\n", "rows of an interrupted run behind those of another")
+            check(got["all_runs.csv"] == b"rows of another run\n", "rows of an interrupted run after those of another")
             check({name for name in expected if "snapshot" not in name and not name.startswith("paraview/")} <= set(got),
                   f"missing after an interrupt: {set(expected) - set(got)}")
             interrupts += 1

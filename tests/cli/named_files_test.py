@@ -70,7 +70,7 @@ def one_command(t, name, command):
             os.symlink("pipe", place)
         done, got = into_fifo(command, place)
         t.check(done.returncode == 0 and got == expected, f"{name} to {place}: {done.stderr}")
-    # Standard output, as a pipe and as a file, behind and in front of what else is printed there.
+    # Standard output, as a pipe and as a file, after and in front of what else is printed there.
     for place in ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
         t.check(expected.decode() in write(place, place).stdout, f"{name} to {place} in a pipe")
         shell(f"{{ echo first; edmill {command} {place}; echo last; }} > all")

@@ -97,7 +97,7 @@ with Trials() as t:
         kind="optimize", rest='objective = "milling_dose_rate"\nruns_max = 4\nreplicas_first = 2\nreplicas_max = 2\npoints = 2\n'
         'refinements = 0\n[[optimize.variable]]\nkey = "contact.restitution"\nlow = 0.4\nhigh = 0.6'))
     t.check(edmill("run", "case.toml", "--quiet", "--out", "done").returncode == 0, "the case runs")
-    # A file size limit ends it behind its first checkpoints.
+    # A file size limit ends it after its first checkpoints.
     import resource
     edmill("run", "long.toml", "--quiet", "--out", "interrupted", "--checkpoint", "0.1 s simulated",
            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000)))

@@ -72,7 +72,7 @@ def tamper(place, other):
 
 
 def unfinished(place, killed, run_seed):
-    """A run that was killed behind a checkpoint, or interrupted."""
+    """A run that was killed after a checkpoint, or interrupted."""
     os.makedirs(place)
     pathlib.Path(place, "all.csv").write_text(OTHERS)
     process = subprocess.Popen([EDMILL, "run", "case.toml", "--quiet", "--out", place, "--checkpoint", "0.1 s simulated",
@@ -129,7 +129,7 @@ with Trials() as t:
         for killed in (True, False):
             shutil.copytree(f"left-{killed}", "run", symlinks=True)
             file = [p for p in files_of("run") if name in str(p)][0]
-            if name == "events.h5":  # of a block, behind the names and the units
+            if name == "events.h5":  # of a block, after the names and the units
                 flip(file, 60_000)
             else:
                 flip(file, rng.randrange(min(200, file.stat().st_size)))

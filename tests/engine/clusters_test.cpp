@@ -59,7 +59,7 @@ class Clusters {
   /// Draws a radius; the masses of two balls differ by a factor of at most 100.
   double draw_radius() { return 0.005 * std::pow(100, uniform() / 3); }
 
-  /// Balls in a row between opposite walls: no motion parts them all.
+  /// Balls in a row between opposite walls: no motion separates them all.
   void draw_row(Cluster& c) {
     const int count = 2 + static_cast<int>(uniform() * 3);
     double length = 0;
@@ -203,7 +203,7 @@ double margin_of(const std::vector<Contact>& contacts, int balls) {
   return program.solve() ? program.value() : std::nan("");
 }
 
-/// Contacts that no motion parts which lets no other pair approach.
+/// Contacts that no motion separates which lets no other pair approach.
 std::vector<Contact> jammed_among(const std::vector<Contact>& contacts, int balls) {
   std::vector<Contact> jammed;
   for (const auto& contact : contacts) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the code blocks of a page of the manual, in their order, in an empty folder.
 
-    console     lines behind "$ " are commands, the others what they print; "..." stands for anything, in a line of its own for any lines
+    console     lines after "$ " are commands, the others what they print; "..." stands for anything, in a line of its own for any lines
     sh          commands; they must succeed
     sh setup    commands that prepare a machine: other tests run them (see SETUP)
     sh long     commands of long studies: run with --long only

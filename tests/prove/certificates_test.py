@@ -149,7 +149,7 @@ def tamperings(lines):
     yield changed("a key of the header that no page names", put("note", "1"), 0)
     yield changed("a key of an event that no page names", put("note", "1"), wall)
     yield changed("last line left out", lambda new: new.pop())
-    yield changed("a line behind the last one", lambda new: new.append(new[1]))
+    yield changed("a line after the last one", lambda new: new.append(new[1]))
 
 
 def check_headers(name, case, text):

@@ -14,7 +14,7 @@ struct Start {
   const char* name;
 };
 
-/// Derivatives of the states behind the first impacts, as `app::sensitivity` has them.
+/// Derivatives of the states after the first impacts, as `app::sensitivity` has them.
 std::vector<std::vector<double>> by_dual_numbers(const casefile::CaseSpec& spec, std::size_t impacts,
                                                  const Start& start) {
   const auto built = casefile::build_case<double>(spec);

@@ -134,7 +134,7 @@ class Derivatives(unittest.TestCase):
         return rows(self.folder / "run" / "collisions.csv")
 
     def case_from_state(self, text):
-        """The case from a state behind its 6th impact: numbers of the case do not move it, nor, in the first drive period, its
+        """The case from a state after its 6th impact: numbers of the case do not move it, nor, in the first drive period, its
         instant."""
         first = self.folder / "first.toml"
         first.write_text(text + BALLS)
@@ -217,7 +217,7 @@ class Table(unittest.TestCase):
         u = g * t / 2 * (1 - e) / (1 + e)
         amplitude = u / (w * cosine)
         a = -amplitude * w * w * sine
-        # At the top of its flight, half a period behind an impact.
+        # At the top of its flight, half a period after an impact.
         height = -self.SIZE / 2 + self.RADIUS + amplitude * sine + g * t * t / 8
         start = phase / w + t / 2
         with tempfile.TemporaryDirectory() as place:

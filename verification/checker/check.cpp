@@ -16,7 +16,7 @@ Json read_header(std::istream& in) {
   return header;
 }
 
-/// Takes all lines behind the header.
+/// Takes all lines after the header.
 void take_lines(std::istream& in, Index events, Induction& induction) {
   try {
     for (Index k = 0; k < events; ++k) induction.take_event(next_line(in));
@@ -25,7 +25,7 @@ void take_lines(std::istream& in, Index events, Induction& induction) {
     throw Rejected("event " + std::to_string(induction.events()) + ": " + why.what());
   }
   if (in.peek() != std::istream::traits_type::eof())
-    throw Rejected("rule 6: there is more behind the last line");
+    throw Rejected("rule 6: there is more after the last line");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace edmill::cli {
 
 struct Bifurcation {
   static constexpr const char* name = "bifurcation";
-  static constexpr const char* what = "draw the phases of a ball's impacts over a number of the case";
+  static constexpr const char* what = "plot the phases of a ball's impacts against a case parameter";
 
   void add_options(CLI::App& command) {
     given_.add_to(command);

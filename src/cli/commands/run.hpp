@@ -32,11 +32,11 @@ struct Run {
     command
         .add_option(
             "--digits", digits_,
-            "every event and number right to so many digits: the precision is chosen for it, and verified")
+            "every event and number correct to this many digits: the precision is chosen for it, and verified")
         ->check(CLI::Range(1, 100000))
         ->excludes("--precision");
     command.add_flag("--estimate", run_.estimate,
-                     "tell what the run will take (events, digits, time, memory), and do not run");
+                     "estimate events, digits, time and memory of the run, and do not run");
     command.add_option("--checkpoint", run_.checkpoint, every + "; never unless given")->excludes(shadow);
     command.add_flag("--report", run_.report, "write report.html, and the tables that it shows");
     command.add_flag("--quiet", run_.quiet, quiet_run);

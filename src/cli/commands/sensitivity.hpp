@@ -26,7 +26,7 @@ struct Sensitivity {
     command.add_option("--events", options_.events, "how many")->required()->check(CLI::Range(1, 1000000));
     command.add_option("--digits", options_.digits, "of each derivative; 17 unless given")
         ->check(CLI::Range(1, 1000));
-    command.add_flag("--states", options_.states, "also those of the balls' states behind each impact");
+    command.add_flag("--states", options_.states, "also those of the balls' states after each impact");
     command.add_option("--out", options_.file, "file (CSV); out/<case name>.sensitivity.csv unless given");
     command.add_flag("--quiet", quiet_, "no progress and no report");
   }

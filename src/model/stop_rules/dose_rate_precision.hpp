@@ -17,7 +17,7 @@ struct DoseRatePrecision {
                                  "this part of it; tried first after 40 drive periods of statistics",
                                  {0.0001, 1}};
 
-  /// Few looks at the interval, each behind a time that the one before predicts, so that a run does not end
+  /// Few looks at the interval, each after a time that the one before predicts, so that a run does not end
   /// because its interval is narrow by chance. (docs/theory.md, section 8)
   template <class Real>
   struct Watch {

@@ -20,7 +20,7 @@ namespace edmill::model {
 /// All points within `rounding` of a core: a cylinder about y of radius a and half height b, a segment when a
 /// is zero. The surface is smooth, but each gap function is that of one wall, and holds in the region of the
 /// places whose nearest point of the core is on that part of it. A search watches the walls of the region
-/// where a ball is, and the borders of the region, which are functions behind those of the walls. A border is
+/// where a ball is, and the borders of the region, which are functions after those of the walls. A border is
 /// a little beyond the plane or cylinder between two regions, where the two gap functions differ by less than
 /// their rounding: a ball that crosses it is well inside the next region. theory.md, section 2
 template <class Real>

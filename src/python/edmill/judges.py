@@ -95,7 +95,7 @@ class Proof:
     """The first events of a case, proven in ball arithmetic."""
     events: list[ProvenEvent]
     bits: int  #: of the arithmetic
-    bits_left: int  #: of the least known velocity behind the point
+    bits_left: int  #: of the least known velocity after the point
 
 
 @dataclasses.dataclass(frozen=True)
@@ -151,7 +151,7 @@ class Derivative:
     by: str
     unit: str  #: of the number as the case has it, "rpm"; empty for a ratio
     quantities: dict[str, np.ndarray]  #: of time, approach_speed, slip_speed, milling_dose and wall_work, by event
-    states: np.ndarray  #: events x 2 bodies x 9: position, velocity and spin behind the impact; 0 of a wall
+    states: np.ndarray  #: events x 2 bodies x 9: position, velocity and spin after the impact; 0 of a wall
 
 
 @dataclasses.dataclass(frozen=True)

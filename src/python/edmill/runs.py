@@ -242,7 +242,7 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     until_precision
                    ends the run when the 95 % interval of the dose rate is this part of it, 0.01 or "1%"; `until` is the limit,
                    100 times the case's end_time unless given
-    digits         every event and number right to so many digits: the precision is chosen for it, and verified by a wider run
+    digits         every event and number correct to this many digits: the precision is chosen for it, and verified by a wider run
     checkpoint     how often to save the state in `folder`, "10 min" or "2 s simulated", so that `resume(folder)` can go on; such
                    a run has no events, observers or laws of Python
     progress       True for a bar of tqdm, or a line of text without it; or a callable of time [s] and number of collisions,
