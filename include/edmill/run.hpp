@@ -38,11 +38,11 @@ template <class Real>
 class Run {
  public:
   /// Places the balls and predicts their first contacts.
-  /// @throws InputError when the balls find no place or the scalar cannot resolve the case
+  /// @throws InputError when the balls find no room or the scalar cannot resolve the case
   /// @throws UndecidedError when no scalar can decide about a first contact
   /// @throws InputError when the planes close no vessel about the origin
   explicit Run(const Case& the_case, const Laws<Real>& laws = {}, const Planes<Real>& vessel = {});
-  /// The same with any parts of the program's own.
+  /// The same with any parts that the program defines.
   /// @throws InputError also when the walls of a curved vessel leave no room in its box, or leave it open,
   /// and when a joint has no axis
   Run(const Case& the_case, const OwnParts<Real>& own);

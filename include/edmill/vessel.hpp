@@ -8,8 +8,8 @@
 
 namespace edmill {
 
-/// A flat wall: inside is where the normal's component of a place is below `distance`, in the vessel frame,
-/// whose origin is inside.
+/// A flat wall: inside is where a position's component along the normal is below `distance`, in the vessel
+/// frame, whose origin is inside.
 template <class Real>
 struct Plane {
   std::array<Real, 3> normal;  ///< outwards, of any length

@@ -1,4 +1,4 @@
-// The phases of one ball's impacts over a number of the case.
+// The phases of one ball's impacts against a parameter of the case.
 #pragma once
 
 #include <atomic>

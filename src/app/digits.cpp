@@ -56,6 +56,27 @@ double lost_per_event(const casefile::CaseSpec& spec, const DigitsOptions& optio
   return std::max(0.0, digits - left) / static_cast<double>(agreement.events());
 }
 
+/// The part of an estimate that a run in right digits needs: how many.
+RunEstimate estimate_digits(const casefile::CaseSpec& spec, const std::string& precision,
+                            const DigitsOptions& options) {
+  if (!spec.end_time)
+    throw InputError(spec.file +
+                     ": key 'run.end_time': found nothing, expected the time to which a run is estimated");
+  RunEstimate e;
+  const std::clock_t begin = std::clock();
+  e.precision = precision;
+  e.events = count_events(spec, options);
+  e.lost_per_event = lost_per_event(spec, options);
+  if (precision.empty()) {
+    e.digits = *spec.digits;
+    // A twentieth more, since events differ, and the first bits are lost at once.
+    e.precision = chosen(static_cast<double>(e.digits) + 1.05 * e.lost_per_event * e.events + 15);
+  }
+  e.right_events = e.lost_per_event > 0 ? casefile::digits_of(e.precision) / e.lost_per_event : 1e300;
+  e.trials = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return e;
+}
+
 /// Processor time of an event [s], when the balls have begun to collide.
 double time_per_event(const std::string& precision, const casefile::CaseSpec& spec,
                       const DigitsOptions& options) {
@@ -78,6 +99,16 @@ double time_per_event(const std::string& precision, const casefile::CaseSpec& sp
   return events == 0 ? 0 : took / static_cast<double>(events);
 }
 
+/// Processor time of a run that drops the digits that it has lost, over that of one that keeps all: by
+/// Simpson's rule.
+double share_of_verifying(const RunEstimate& e, const casefile::CaseSpec& spec,
+                          const DigitsOptions& options) {
+  const double first = casefile::digits_of(e.precision), last = first - e.lost_per_event * e.events;
+  const auto time_with = [&](double digits) { return time_per_event(chosen(digits), spec, options); };
+  return (e.seconds_per_event + 4 * time_with((first + last) / 2) + time_with(last)) /
+         (6 * e.seconds_per_event);
+}
+
 std::uint64_t most_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -94,24 +125,10 @@ std::string duration(double seconds) {
 
 RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
                          const DigitsOptions& options) {
-  if (!spec.end_time)
-    throw InputError(spec.file +
-                     ": key 'run.end_time': found nothing, expected the time to which a run is estimated");
-  RunEstimate e;
-  const std::clock_t begin = std::clock();
-  e.precision = precision;
-  e.events = count_events(spec, options);
-  e.lost_per_event = lost_per_event(spec, options);
-  if (precision.empty()) {
-    e.digits = *spec.digits;
-    // A twentieth more, since events differ, and the first bits are lost at once.
-    e.precision = chosen(static_cast<double>(e.digits) + 1.05 * e.lost_per_event * e.events + 15);
-    e.verifying = 2;
-  }
-  e.right_events = e.lost_per_event > 0 ? casefile::digits_of(e.precision) / e.lost_per_event : 1e300;
+  RunEstimate e = estimate_digits(spec, precision, options);
   e.seconds_per_event = time_per_event(e.precision, spec, options);
+  if (precision.empty() && e.seconds_per_event > 0) e.verifying = 2 * share_of_verifying(e, spec, options);
   e.bytes = most_memory();
-  e.trials = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   e.interrupted = stop_asked(options);
   return e;
 }
@@ -149,7 +166,7 @@ std::string FoundDigits::text() const {
 FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   FoundDigits found;
-  const auto estimate = estimate_run(spec, "", options);
+  const auto estimate = estimate_digits(spec, "", options);
   const double asked = static_cast<double>(*spec.digits);
   for (double digits = casefile::digits_of(estimate.precision); digits < most_digits;) {
     found.narrow = chosen(digits), found.precision = chosen(wider_than(static_cast<unsigned>(digits)));

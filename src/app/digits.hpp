@@ -1,4 +1,4 @@
-// How many digits a run needs that is to end with so many right ones.
+// How many digits a run needs to end with a given number of correct ones.
 #pragma once
 
 #include <atomic>

@@ -1,7 +1,6 @@
 #include "app/side_by_side.hpp"
 
 #include <algorithm>
-#include <array>
 #include <future>
 
 #include "base/with_scalar.hpp"
@@ -27,7 +26,8 @@ std::unique_ptr<run::EventSource> source_in(const std::string& precision, const 
 }
 
 SideBySide::SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide,
-                       bool to_end) {
+                       bool to_end)
+    : digits_{chosen_digits_of(narrow), chosen_digits_of(wide)} {
   std::tie(narrow_, wide_) = together([&] { return source_in(narrow, spec, to_end); },
                                       [&] { return source_in(wide, spec, to_end); });
 }
@@ -43,7 +43,20 @@ std::vector<run::Event> SideBySide::next(std::size_t count) {
   else
     uneven_ = one.size() != two.size();
   two.resize(same);
+  drop_lost_digits();
   return std::move(two);
+}
+
+void SideBySide::drop_lost_digits() {
+  constexpr double kept = 20;          // beyond those that are right
+  constexpr double least = 50;         // in which the engine is tested most
+  constexpr unsigned worthwhile = 20;  // about one limb of MPFR
+  if (digits_[0] == 0 || digits_[1] == 0 || diverged_ || uneven_) return;
+  const double needed = std::max(agreement_.least_digits() + kept, least);
+  if (digits_[0] - needed < dropped_ + std::max(worthwhile, digits_[0] / 32)) return;
+  dropped_ = static_cast<unsigned>(digits_[0] - needed);
+  together([&] { return narrow_->continue_in(digits_[0] - dropped_), 0; },
+           [&] { return wide_->continue_in(digits_[1] - dropped_), 0; });
 }
 
 double SideBySide::digits_of_states() const {

@@ -1,6 +1,7 @@
 // One case in two scalars, event by event.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,7 +18,9 @@ namespace edmill::app {
 std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
                                             bool to_end);
 
-/// Two runs that advance together, each on a thread of its own.
+/// Two runs that advance together, each on a thread of its own. Where their digits are chosen, both keep as
+/// many as the narrower one has right, by their agreement so far, and some more: the error that this adds to
+/// it is small beside its own.
 class SideBySide {
  public:
   /// @pre `wide` is wider than `narrow`
@@ -32,11 +35,17 @@ class SideBySide {
   const std::optional<std::pair<run::Event, run::Event>>& diverged() const { return diverged_; }
   /// One run has an event more before its end.
   bool uneven() const { return uneven_; }
+  /// Digits that both have dropped since the start.
+  unsigned dropped_digits() const { return dropped_; }
   /// Digits to which positions, velocities and spins agree now, each of the largest of its kind.
   double digits_of_states() const;
 
  private:
+  void drop_lost_digits();
+
   std::unique_ptr<run::EventSource> narrow_, wide_;
+  std::array<unsigned, 2> digits_;  ///< of both at the start; 0 where they are fixed
+  unsigned dropped_ = 0;
   run::Agreement agreement_;
   std::optional<std::pair<run::Event, run::Event>> diverged_;
   bool uneven_ = false;

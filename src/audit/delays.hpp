@@ -1,4 +1,4 @@
-// By how much events are late: evenly, as a time step makes them, or otherwise. docs/audit.md, "Names"
+// How late events are: evenly, as with time steps, or otherwise. docs/audit.md, "What a log looks like"
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// When a mistake may be named, in one place. docs/audit.md, "Names"
+// When a mistake may be named, in one place. docs/audit.md, "What a log looks like"
 #pragma once
 
 #include <algorithm>

@@ -92,7 +92,7 @@ async function check_proof() {
   // Decimals to 17 digits are doubles, so that the difference is that of the run.
   const digits = k => Math.min(16, -Math.log10(Math.abs(answer.time[k] - Number(events[k][0])) / Number(events[k][0])));
   const worst = Math.min(...Array.from({length: right}, (_, k) => digits(k)));
-  $('prove-said').textContent = `${right} of ${events.length} impacts are those that are proven, in their order. Times are right to ${digits(0).toFixed(1)} digits at first, and to ${worst.toFixed(1)} at worst.`;
+  $('prove-said').textContent = `${right} of ${events.length} impacts are those that are proven, in their order. Times are correct to ${digits(0).toFixed(1)} digits at first, and to ${worst.toFixed(1)} at worst.`;
 }
 
 async function check_certificate(certificate) {

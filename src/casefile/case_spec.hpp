@@ -76,7 +76,7 @@ struct BallBatch : BallSpec {
         b.mass);
     row(diameter_key, b.diameter);
     row(Parameter{"diameter_spread", Dimension::length,
-                  "diameters are uniform within so much of `diameter`, on either side", Range::not_negative,
+                  "diameters are uniform within this much of `diameter`, on either side", Range::not_negative,
                   "0 m"},
         b.diameter_spread);
     row(density_key, b.density);
@@ -166,7 +166,7 @@ struct TargetSpec {
 
   static void keys(auto& t, auto&& row) {
     row(Parameter{"target_dose", Dimension::specific_energy,
-                  "milling dose per mass that the powder is to get, \"10 kJ/g\": the milling time follows",
+                  "target milling dose per mass of powder, \"10 kJ/g\": the milling time follows",
                   Range::positive, nullptr, "none"},
         t.dose);
     row(Parameter{"counts_above", Dimension::energy,
@@ -211,15 +211,17 @@ struct CaseSpec {
   /// Of [run], but for precision, gravity and the stop rules.
   static void keys(auto& c, auto&& row) {
     row(Parameter{"seed", Dimension::none, "of the random placement", Range::any, "1"}, c.seed);
-    row(Parameter{"digits",
-                  Dimension::none,
-                  "every event in its true order and every number of the logs correct to this many digits: the "
-                  "precision is "
-                  "chosen for it",
-                  {1, 100000},
-                  nullptr,
-                  nullptr,
-                  Parameter::Digest::none},
+    row(
+        Parameter{
+            "digits",
+            Dimension::none,
+            "every event in its true order and every number of the logs correct to this many digits: the "
+            "precision is "
+            "chosen for it",
+            {1, 100000},
+            nullptr,
+            nullptr,
+            Parameter::Digest::none},
         c.digits);
     row(Parameter{"initial_time", Dimension::time, "instant of the initial state", Range::not_negative,
                   "0 s"},

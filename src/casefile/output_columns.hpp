@@ -12,7 +12,7 @@ inline constexpr KeyText column_keys[] = {columns_key};
 inline constexpr KeyText interval_of_30_s{"interval", "time", "`\"30 s\"`", "length of an interval"};
 inline constexpr KeyText interval_of_10_ms{"interval", "time", "`\"10 ms\"`", "length of an interval"};
 inline constexpr KeyText interval_if_given{"interval", "time", "each impact", "length of an interval"};
-inline constexpr KeyText max_rows_key{"max_rows", "count", "32000", "the record ends after so many rows"};
+inline constexpr KeyText max_rows_key{"max_rows", "count", "32000", "the record ends after this many rows"};
 inline constexpr KeyText contact_point_key{"contact_point", "table", "none",
                                            "a sphere where the bodies touch"};
 

@@ -52,7 +52,7 @@ inline constexpr ExitCodeText exit_codes[] = {
     {"5", "some runs of a sweep or an optimisation failed; the tables say which and why"},
     {"6",
      "compare: a quantity differs, or fewer events agree than --events requires. audit: the log violates "
-     "the physics of the case. prove --check: the certificate is of another case"},
+     "the physics of the case. prove --check: the certificate belongs to another case"},
     {"7", "compare: too few data to decide. audit: no events, or no columns that could be checked"},
     {"8",
      "the run has stalled: bodies that cannot separate hit each other while the clock stands still; its "

@@ -1,4 +1,4 @@
-// What an observer of a run is told.
+// What an observer of a run receives.
 #pragma once
 
 #include <cstdint>

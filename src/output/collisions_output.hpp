@@ -14,7 +14,7 @@ struct StatesKey {
 
   static void keys(auto& k, auto&& row) {
     row(casefile::Parameter{"states", Dimension::none,
-                            "also the places and velocities before and after each impact",
+                            "also the positions and velocities before and after each impact",
                             casefile::Range::any, "false"},
         k.states);
   }

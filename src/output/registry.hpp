@@ -96,9 +96,9 @@ inline constexpr std::tuple output_registry{
                                 casefile::read_own<TreatmentKeys>,
                                 {},
                                 casefile::see_keys<TreatmentKeys>}},
-    OutputRow<LyapunovOutput>{{"lyapunov", ".csv",
-                               "Lyapunov exponents: how fast neighbouring motions diverge from that of the run",
-                               read_lyapunov, lyapunov_keys, casefile::see_keys<LyapunovKeys>}},
+    OutputRow<LyapunovOutput>{
+        {"lyapunov", ".csv", "Lyapunov exponents: how fast neighbouring motions diverge from that of the run",
+         read_lyapunov, lyapunov_keys, casefile::see_keys<LyapunovKeys>}},
     OutputRow<CoverageOutput>{{"coverage",
                                ".csv",
                                "dose and impacts by position on the vessel's walls",

@@ -17,7 +17,7 @@ struct TreatmentKeys {
   static void keys(auto& t, auto&& row) {
     row(casefile::Parameter{"share_per_impact",
                             Dimension::none,
-                            "part of the powder that one impact works: its volume over that of the powder",
+                            "fraction of the powder's volume that one impact works",
                             {1e-12, 1}},
         t.share);
     row(casefile::Parameter{"threshold", Dimension::energy, "impacts that dissipate less work no powder",

@@ -30,6 +30,9 @@ class EventSource {
   virtual std::vector<Event> next(std::size_t count) = 0;
   /// Positions, velocities and spins of all balls, ball by ball, at the instant up to which it has come.
   virtual std::vector<Number> states() const = 0;
+  /// Continues in fewer digits, from the states that it has with all their digits. Nothing for scalars of a
+  /// fixed number of digits.
+  virtual void continue_in(unsigned digits) = 0;
 };
 
 /// @param spec     the balls are placed in this scalar, from the exact quantities of the case

@@ -1,5 +1,5 @@
-// Lyapunov exponents: how fast neighbouring motions diverge from a run's, direction by direction (Benettin et al.
-// 1980). docs/theory.md, "Tangent dynamics"
+// Lyapunov exponents: how fast neighbouring motions diverge from a run's, direction by direction (Benettin et
+// al. 1980). docs/theory.md, "Tangent dynamics"
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What an impact does to motions that are infinitely close to a run's.
+// What an impact does to motions infinitesimally close to a run's.
 // docs/theory.md, "Tangent dynamics"
 #pragma once
 

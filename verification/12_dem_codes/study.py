@@ -113,7 +113,7 @@ def page():
              "`edmill compare`. This page is written by", "", "    python3 verification/12_dem_codes/study.py build/release/edmill docs/dem_study.md", "",
              f"Versions: {versions}.",
              f"Contacts last {CONTACT_TIME} at 1 m/s, with 50 steps in each; one core, beside other work, so that processor times hold within a factor of",
-             "two. Dose rates count from 0.5 s on, when the charge has forgotten its start. What contacts of this duration do to a dose rate is told by `edmill limit`: with LAMMPS in the vibrated box, see",
+             "two. Dose rates count from 0.5 s on, when the charge has forgotten its start. What contacts of this duration do to a dose rate is shown by `edmill limit`: with LAMMPS in the vibrated box, see",
              "[DEM codes](dem.md); here it is within the intervals.", ""]
     for title, (text, own, by_code) in CASES.items():
         lines += rows_of(title, text, (own, by_code))

@@ -18,7 +18,7 @@ struct Bifurcation {
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
-    command.add_option("--over", options_.over, "key of a number in the case file, \"contact.restitution\"")
+    command.add_option("--over", options_.over, "key of a parameter of the case, \"contact.restitution\"")
         ->required();
     command.add_option("--from", options_.from, "first value, in the unit of the case file")->required();
     command.add_option("--to", options_.to, "last value")->required();
@@ -28,7 +28,7 @@ struct Bifurcation {
         .add_option("--skip", options_.skip,
                     "impacts of ball 0 with walls before the first phase; 1000 unless given")
         ->check(CLI::Range(0, 100000000));
-    command.add_option("--keep", options_.keep, "of which phases are drawn; 100 unless given")
+    command.add_option("--keep", options_.keep, "number of phases drawn after these; 100 unless given")
         ->check(CLI::Range(1, 100000));
     command.add_option("--above", above_,
                        "slower impacts do not count, such as the hops of a ball that rests: \"2 cm/s\"");

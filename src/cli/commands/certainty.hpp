@@ -1,4 +1,4 @@
-// The commands that tell what is certain about a case.
+// The commands that show what is certain about a case.
 #pragma once
 
 #include "cli/commands/case_argument.hpp"
@@ -39,7 +39,7 @@ struct Prove {
     given_.add_to(command);
     auto* check = command.add_option(
         "--check", options_.checked,
-        "prove nothing, but tell whether the header of this certificate is that of the case");
+        "prove nothing, but check whether the header of this certificate is that of the case");
     command.add_option("--collisions", options_.collisions, "how many events")
         ->check(CLI::Range(1, 10000000))
         ->excludes(check);
@@ -49,10 +49,10 @@ struct Prove {
         .add_option("--certificate", options_.certificate,
                     "file for a certificate that can be checked without edmill")
         ->excludes(check);
-    command.add_option("--most-bits", options_.most_bits, "give up beyond so many; 16384 unless given")
+    command.add_option("--most-bits", options_.most_bits, "largest number of bits; 16384 unless given")
         ->check(CLI::Range(128, 1048576))
         ->excludes(check);
-    command.add_flag("--compare", options_.compare, "also tell how many events each precision gets right")
+    command.add_flag("--compare", options_.compare, "also report how many events each precision gets right")
         ->excludes(check);
     command.add_flag("--quiet", options_.quiet, "no progress and no report");
   }

@@ -54,12 +54,12 @@ struct Export {
                  "simulated; to the end of the case unless given");
     add_quantity(command, "--frames", options_.frame_interval, Dimension::time,
                  "time between frames of the dump; a fifth of the contact time unless given");
-    command.add_option("--steps", options_.steps, "of time in a contact; 50 unless given")
+    command.add_option("--steps", options_.steps, "time steps in a contact; 50 unless given")
         ->check(CLI::Range(10, 10000));
     command
         .add_option(
             "--facets", options_.facets,
-            "of a cylinder where the code has triangles alone; 128 in LIGGGHTS and 24 in YADE unless given")
+            "of a cylinder where the code has only triangles; 128 in LIGGGHTS and 24 in YADE unless given")
         ->check(CLI::Range(8, 4096));
     command.add_flag("--quiet", options_.quiet, "print nothing");
   }
@@ -87,12 +87,12 @@ struct Import {
         ->take_all()
         ->expected(1);
     command.add_option("--out", options_.out, "log of contacts (CSV); contacts.csv unless given");
-    command.add_option("--deck", options_.deck, "input of the code, which tells time step, units and frame");
+    command.add_option("--deck", options_.deck, "input of the code, which gives time step, units and frame");
     add_quantity(command, "--timestep", options_.time_step, casefile::Dimension::time,
                  "of a dump that has no times");
-    command.add_option("--units", options_.units, "of the dump; si unless it or the deck tells")
+    command.add_option("--units", options_.units, "of the dump; si unless the dump or the deck names them")
         ->check(CLI::IsMember({"si", "cgs", "micro", "nano"}));
-    command.add_option("--frame", options_.frame, "frame of the dump; laboratory unless the deck tells")
+    command.add_option("--frame", options_.frame, "frame of the dump; laboratory unless the deck names it")
         ->check(CLI::IsMember({"laboratory", "vessel"}));
     command.add_flag("--quiet", options_.quiet, "no progress line and no table");
   }

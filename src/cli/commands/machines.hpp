@@ -40,7 +40,7 @@ struct New {
         ->take_all()
         ->expected(1);
     command.add_option("--powder", wanted_.powder, "mass of the powder, \"5g\"; none unless given");
-    command.add_option("--target-dose", wanted_.target_dose, "dose that the powder is to get, \"10 kJ/g\"");
+    command.add_option("--target-dose", wanted_.target_dose, "target dose of the powder, \"10 kJ/g\"");
     command.add_option("--speed", wanted_.speed, "of the drive; the mill's usual one unless given");
     command.add_option("--restitution", wanted_.restitution,
                        "of all contacts; by powder and balls unless given");

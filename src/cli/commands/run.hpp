@@ -30,9 +30,9 @@ struct Run {
                                    "also run in this wider scalar and report when the two diverge")
                        ->check(precisions);
     command
-        .add_option(
-            "--digits", digits_,
-            "every event and number correct to this many digits: the precision is chosen for it, and verified")
+        .add_option("--digits", digits_,
+                    "every event and number correct to this many digits: the precision is chosen for it, and "
+                    "verified")
         ->check(CLI::Range(1, 100000))
         ->excludes("--precision");
     command.add_flag("--estimate", run_.estimate,
@@ -45,7 +45,7 @@ struct Run {
         "run until the 95 % interval of the dose rate is this part of it, \"1%\" or 0.01: up to "
         "100 times the case's end time, or to the run.end_time of --set");
     command.add_option("--target-dose", target_,
-                       "dose that the powder is to get, \"10 kJ/g\": tells the milling time");
+                       "target dose of the powder, \"10 kJ/g\": also report the milling time");
   }
   int run() {
     auto spec = given_.read();

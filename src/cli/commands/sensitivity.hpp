@@ -13,13 +13,13 @@ namespace edmill::cli {
 struct Sensitivity {
   static constexpr const char* name = "sensitivity";
   static constexpr const char* what =
-      "derivatives of the first events with respect to numbers of the case and the initial state";
+      "derivatives of the first events with respect to parameters of the case and the initial state";
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
     command
         .add_option("--by", options_.by,
-                    "key of a number in the case file, \"contact.restitution\", or \"initial.3.vx\", of ball "
+                    "key of a parameter of the case, \"contact.restitution\", or \"initial.3.vx\", of ball "
                     "3 at the "
                     "start; can be repeated")
         ->required();

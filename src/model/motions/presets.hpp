@@ -95,7 +95,7 @@ struct Vibratory {
 
   template <class Part, class Visit>
   static void parameters(Part& part, Visit&& visit) {
-    visit(Parameter{"amplitude", Dimension::length, "A of A sin(w t) + B cos(w t), the place of the centre"},
+    visit(Parameter{"amplitude", Dimension::length, "A of the centre's position, A sin(w t) + B cos(w t)"},
           part.amplitude);
     visit(Parameter{"amplitude_quarter", Dimension::length, "B of it", Range::any, "0 m"}, part.quarter);
     visit(Parameter{"speed", Dimension::angular_speed, "of the drive", Range::drive}, part.period);

@@ -7,7 +7,7 @@
 namespace edmill::model {
 
 struct MaxCollisions {
-  static constexpr Parameter key{"max_collisions", Dimension::none, "the run ends after so many impacts",
+  static constexpr Parameter key{"max_collisions", Dimension::none, "the run ends after this many impacts",
                                  Range::count};
 
   template <class Real>

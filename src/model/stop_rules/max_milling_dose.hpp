@@ -9,7 +9,7 @@ namespace edmill::model {
 
 struct MaxMillingDose {
   static constexpr Parameter key{"max_milling_dose", Dimension::energy,
-                                 "the run ends when so much has been dissipated since it began",
+                                 "the run ends when this much has been dissipated since it began",
                                  Range::positive};
 
   template <class Real>

@@ -136,7 +136,7 @@ def _certified(row: Mapping[str, Any]) -> CertifiedEvent:
 def certify(case: Case | Mapping | str | os.PathLike, collisions: int | None = None, *, digits: int = 25,
             file: str | os.PathLike | None = None) -> Certification:
     """As `edmill certify`: raises the precision until two scalars agree on the first events, all of the case unless
-    `collisions` are given, to so many digits. `file` gets
+    `collisions` are given, to `digits` digits. `file` gets
     the sequence as the command writes it. Raises UndecidedError where no two scalars agree."""
     case = case_of(case)
     collisions = 0 if collisions is None else whole("collisions", collisions, 1, LARGEST)
@@ -163,7 +163,7 @@ class Sensitivities:
 
 
 def sensitivity(case: Case | Mapping | str | os.PathLike, by: Iterable[str], events: int, *, digits: int = 17) -> Sensitivities:
-    """As `edmill sensitivity`: derivatives of the first events with respect to numbers that the case gives, such as
+    """As `edmill sensitivity`: derivatives of the first events with respect to parameters of the case, such as
     "contact.restitution", and of the initial state, "initial.3.vx". Raises UndecidedError where a rule orders two contacts."""
     case = case_of(case)
     require("by", by, isinstance(by, Iterable) and not isinstance(by, str), 'a list of keys, ["contact.restitution"]')
@@ -224,5 +224,5 @@ def prove(case: Case | Mapping | str | os.PathLike, collisions: int, *, certific
 
 
 def check_certificate(case: Case | Mapping | str | os.PathLike, certificate: str | os.PathLike) -> list[str]:
-    """As `edmill prove --check`: what the header of a certificate tells otherwise than the case, a line each."""
+    """As `edmill prove --check`: where the header of a certificate differs from the case, a line each."""
     return _edmill.check_certificate(case_of(case)._case, place("certificate", certificate))
