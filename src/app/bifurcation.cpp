@@ -22,7 +22,7 @@ namespace {
 bool add_phases(const casefile::CaseSpec& spec, const BifurcationOptions& options, double value,
                 Bifurcation& found) {
   const double period = casefile::period_of(spec.mill).to<double>();
-  const auto source = source_in("double", spec, false);
+  const auto source = source_in("double", spec, false, options.interrupt);
   constexpr std::size_t most = 10'000'000;  // of a ball that rests, and hops more slowly than what counts
   std::size_t all = 0;
   for (std::size_t seen = 0; seen < options.skip + options.keep;) {
@@ -82,19 +82,19 @@ Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions
   found.unit = casefile::value_of_key(spec, options.over).unit;
   io::NamedFile drawing(options.file);
   const std::filesystem::path place(options.file);
-  if (place.extension() == ".csv")
+  if (place.has_extension() && place.extension() != ".svg")
     throw InputError("--out: found \"" + options.file +
-                     "\", expected the drawing's name: its points stand beside it as .csv");
+                     "\", expected the name of a drawing, .svg: its points stand beside it as .csv");
   std::optional<io::NamedFile> table;
   if (place.has_extension()) table.emplace(std::filesystem::path(place).replace_extension(".csv").string());
   for (std::size_t step = 0; step < options.steps; ++step) {
-    found.interrupted = options.interrupt && *options.interrupt;
-    if (found.interrupted) return found;
     const double share =
         static_cast<double>(step) / static_cast<double>(std::max<std::size_t>(options.steps - 1, 1));
     const double value = options.from + share * (options.to - options.from);
     const auto text = fmt::format("{}{}{}", value, found.unit.empty() ? "" : " ", found.unit);
     if (!add_phases(casefile::with_value(spec, options.over, text), options, value, found)) ++found.ended;
+    found.interrupted = options.interrupt && *options.interrupt;
+    if (found.interrupted) return found;
     options.progress(step + 1);
   }
   drawing.write([&](std::ostream& out) { write_drawing(out, options, found); });

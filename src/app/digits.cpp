@@ -28,45 +28,62 @@ std::string chosen(double digits) {
 /// Events to the end of the case: a run in double has about as many as the true motion.
 double count_events(const casefile::CaseSpec& spec, const DigitsOptions& options) {
   constexpr double longest = 5;  // [s] of processor time
-  const auto source = source_in("double", spec, true);
-  const double begin = run::cpu_seconds(), first = spec.initial_time.to<double>(),
-               end = spec.end_time->to<double>();
-  double events = 0, reached = first;
+  const auto source = source_in("double", spec, true, options.interrupt);
+  const double begin = run::cpu_seconds(), first = source->reached();
+  double events = 0;
   while (!stop_asked(options)) {
-    const auto more = source->next(1024);
-    if (more.empty()) return events;
-    events += static_cast<double>(more.size());
-    reached = static_cast<double>(more.back().time);
-    if (run::cpu_seconds() - begin > longest) return events * (end - first) / (reached - first);
+    const auto more = source->pass(1024);
+    if (more == 0) return events;
+    events += static_cast<double>(more);
+    if (spec.end_time && run::cpu_seconds() - begin > longest)
+      return events * (spec.end_time->to<double>() - first) / (source->reached() - first);
     options.progress("double", static_cast<std::size_t>(events), events);
   }
   return events;
 }
 
-/// Decimal digits that an event costs, by two runs with many digits to where they part.
-double lost_per_event(const casefile::CaseSpec& spec, const DigitsOptions& options) {
+std::string by_rule(const run::Event& event) {
+  return fmt::format(
+      "a rule and not the equations orders two contacts of ball {} at {} s: no number of digits decides it",
+      event.ball, event.time.str(17));
+}
+
+/// Finds the decimal digits that an event costs, by two runs with many digits: up to where they are lost, or
+/// where `enough` of them are.
+void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& spec,
+                      const DigitsOptions& options) try {
   constexpr unsigned digits = 200;
-  constexpr std::size_t enough = 30000;
-  SideBySide runs(spec, chosen(digits), chosen(wider_than(digits)), true);
+  constexpr std::size_t most = 30000;
+  SideBySide runs(spec, chosen(digits), chosen(wider_than(digits)), true, options.interrupt);
   const auto& agreement = runs.agreement();
-  while (!stop_asked(options) && agreement.events() < enough && !runs.next(256).empty())
-    options.progress(chosen(digits), agreement.events(), double{enough});
-  if (agreement.events() == 0) return 0;
-  const double left = runs.diverged() ? 0 : agreement.least_digits();
-  return std::max(0.0, digits - left) / static_cast<double>(agreement.events());
+  const auto lost = [&] {
+    return runs.diverged() ? digits : std::max(0.0, digits - agreement.least_digits());
+  };
+  while (!stop_asked(options) && agreement.events() < most && lost() < enough) {
+    const auto events = runs.next(256);
+    if (events.empty()) break;
+    for (const auto& event : events)
+      if (event.by_rule && e.undecided.empty()) e.undecided = by_rule(event);
+    options.progress(chosen(digits), agreement.events(), double{most});
+  }
+  if (agreement.events() > 0) e.lost_per_event = lost() / static_cast<double>(agreement.events());
+} catch (const UndecidedError& error) {
+  e.undecided = error.what();
 }
 
 /// The part of an estimate that a run in right digits needs: how many.
 RunEstimate estimate_digits(const casefile::CaseSpec& spec, const std::string& precision,
                             const DigitsOptions& options) {
-  if (!spec.end_time)
+  const bool ends = spec.end_time || std::ranges::any_of(spec.stop_limits,
+                                                         [](const auto& limit) { return limit.has_value(); });
+  if (!ends)
     throw InputError(spec.file +
                      ": key 'run.end_time': found nothing, expected the time to which a run is estimated");
   RunEstimate e;
   const std::clock_t begin = std::clock();
   e.precision = precision;
   e.events = count_events(spec, options);
-  e.lost_per_event = lost_per_event(spec, options);
+  find_lost_digits(e, precision.empty() ? 200 : 40, spec, options);
   if (precision.empty()) {
     e.digits = *spec.digits;
     // A twentieth more, since events differ, and the first bits are lost at once.
@@ -81,25 +98,25 @@ RunEstimate estimate_digits(const casefile::CaseSpec& spec, const std::string& p
 double time_per_event(const std::string& precision, const casefile::CaseSpec& spec,
                       const DigitsOptions& options) {
   constexpr double longest = 2;  // [s] of processor time
-  const auto source = source_in(precision, spec, true);
+  const auto source = source_in(precision, spec, true, options.interrupt);
   double begin = run::cpu_seconds(), took = 0;
   std::size_t events = 0;
   bool warm = false;
   while (took < longest && !stop_asked(options)) {
-    const auto more = source->next(64);
-    if (more.empty()) break;
+    const auto more = source->pass(64);
+    if (more == 0) break;
     if (!warm) {
       warm = true, begin = run::cpu_seconds();
       continue;
     }
-    events += more.size();
+    events += more;
     took = run::cpu_seconds() - begin;
     options.progress(precision, events, static_cast<double>(events));
   }
   return events == 0 ? 0 : took / static_cast<double>(events);
 }
 
-/// Processor time of a run that drops the digits that it has lost, over that of one that keeps all: by
+/// Processor time of a run that drops the digits that it has lost, relative to one that keeps all: by
 /// Simpson's rule.
 double share_of_verifying(const RunEstimate& e, const casefile::CaseSpec& spec,
                           const DigitsOptions& options) {
@@ -124,12 +141,17 @@ std::string duration(double seconds) {
 }  // namespace
 
 RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
-                         const DigitsOptions& options) {
+                         const DigitsOptions& options) try {
   RunEstimate e = estimate_digits(spec, precision, options);
   e.seconds_per_event = time_per_event(e.precision, spec, options);
   if (precision.empty() && e.seconds_per_event > 0) e.verifying = 2 * share_of_verifying(e, spec, options);
   e.bytes = most_memory();
+  e.outputs = !spec.outputs.empty();
   e.interrupted = stop_asked(options);
+  return e;
+} catch (const InterruptedError&) {
+  RunEstimate e;
+  e.interrupted = true;
   return e;
 }
 
@@ -147,11 +169,13 @@ std::string RunEstimate::text() const {
                                       ? ", which lasts to the end"
                                       : fmt::format(", used up after about {:.0f} events", right_events)));
   row("processor time",
-      duration(cpu_seconds()) +
-          (verifying > 0 ? fmt::format(" for the run, and {} before it to find the digits and verify them",
+      duration(cpu_seconds()) + (verifying > 0 || outputs ? " for the run" : "") +
+          (outputs ? " without its outputs" : "") +
+          (verifying > 0 ? fmt::format(", and {} before it to find the digits and verify them",
                                        duration(trials + verifying * cpu_seconds()))
                          : ""));
   row("memory", fmt::format("{:.0f} MB", static_cast<double>(bytes) / 1e6));
+  if (!undecided.empty()) row("undecided", undecided);
   return out;
 }
 
@@ -163,23 +187,21 @@ std::string FoundDigits::text() const {
       precision, agreement.events(), std::min(left(), casefile::digits_of(narrow)), seconds);
 }
 
-FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options) {
+FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options) try {
   const auto begin = std::chrono::steady_clock::now();
   FoundDigits found;
   const auto estimate = estimate_digits(spec, "", options);
+  found.undecided = estimate.undecided;
   const double asked = static_cast<double>(*spec.digits);
-  for (double digits = casefile::digits_of(estimate.precision); digits < most_digits;) {
+  for (double digits = casefile::digits_of(estimate.precision);
+       digits < most_digits && found.undecided.empty();) {
     found.narrow = chosen(digits), found.precision = chosen(wider_than(static_cast<unsigned>(digits)));
-    SideBySide runs(spec, found.narrow, found.precision, true);
+    SideBySide runs(spec, found.narrow, found.precision, true, options.interrupt);
     for (bool more = true; more && !(found.interrupted = stop_asked(options));) {
       const auto events = runs.next(256);
       more = !events.empty();
       for (const auto& event : events)
-        if (event.by_rule && found.undecided.empty())
-          found.undecided = fmt::format(
-              "a rule and not the equations orders two contacts of ball {} at {} s: no number of digits "
-              "decides it",
-              event.ball, event.time.str(17));
+        if (event.by_rule && found.undecided.empty()) found.undecided = by_rule(event);
       more = more && found.undecided.empty();
       options.progress(found.precision, runs.agreement().events(), estimate.events);
     }
@@ -197,6 +219,10 @@ FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& opt
   if (!found.interrupted && found.undecided.empty())
     found.undecided = fmt::format("{} digits do not suffice", most_digits);
   found.precision.clear();
+  return found;
+} catch (const InterruptedError&) {
+  FoundDigits found;
+  found.interrupted = true;
   return found;
 }
 

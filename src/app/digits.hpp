@@ -29,6 +29,8 @@ struct RunEstimate {
   double trials = 0;             ///< processor time that the trials took [s]
   std::uint64_t bytes = 0;       ///< of memory
   std::uint64_t digits = 0;      ///< that are asked for; 0 where a precision is
+  std::string undecided;         ///< why no number of digits suffices, as far as the trials went
+  bool outputs = false;          ///< of the case, whose time is not in here
   bool interrupted = false;
 
   double cpu_seconds() const { return events * seconds_per_event; }
@@ -37,7 +39,7 @@ struct RunEstimate {
 
 /// Short trials say how many digits the case loses per event, how many events it has, and what one costs.
 /// @param precision  of the run; empty to find that which `spec.digits` needs
-/// @pre the case has an end time
+/// @throws InputError when the case has no end
 RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
                          const DigitsOptions& options);
 

@@ -63,16 +63,17 @@ struct Linearised::Body {
   mpfr flight_time{0};
 };
 
-Linearised::Linearised(Perturbation base, std::vector<Perturbation> others, const mpfr& step, unsigned digits)
-    : base_(std::move(base)), others_(std::move(others)), step_(step), digits_(digits) {
+Linearised::Linearised(Perturbation base, std::vector<Perturbation> others, unsigned digits)
+    : base_(std::move(base)), others_(std::move(others)), digits_(digits) {
   for (const auto& other : others_) tangents_.push_back(other.initial);
 }
 
 EventDerivative Linearised::derivative(const engine::Impact<mpfr>& impact, const std::array<Body, 2>& bodies,
                                        std::size_t which) {
   const auto& other = others_[which];
+  const mpfr& step = other.step;
   const auto& gravity = base_.mill.gravity;
-  const Vector gravity_rate = (other.mill.gravity - gravity) / step_;
+  const Vector gravity_rate = (other.mill.gravity - gravity) / step;
   const std::size_t count = impact.with_wall ? 1 : 2;
   std::array<tangent::Tangent<mpfr>*, 2> t{};
   for (std::size_t k = 0; k < count; ++k) {
@@ -92,11 +93,11 @@ EventDerivative Linearised::derivative(const engine::Impact<mpfr>& impact, const
       return gap_of(in.mill, radius(in, 0), impact.partner, on_clock_of(in.mill, period, impact.time, 0),
                     position);
     };
-    const Vector moved = bodies[0].position + t[0]->position * step_;
-    gap = (at(other, moved) - at(base_, bodies[0].position)) / step_;
+    const Vector moved = bodies[0].position + t[0]->position * step;
+    gap = (at(other, moved) - at(base_, bodies[0].position)) / step;
   } else {
     gap = dot<mpfr>(impact.normal, Vector(t[0]->position - t[1]->position)) -
-          (radius(other, 0) + radius(other, 1) - radius(base_, 0) - radius(base_, 1)) / step_;
+          (radius(other, 0) + radius(other, 1) - radius(base_, 0) - radius(base_, 1)) / step;
   }
   const mpfr& approach = impact.outcome.approach_speed;
   const mpfr later = approach > 0 ? mpfr(gap / approach) : mpfr(0);
@@ -105,22 +106,22 @@ EventDerivative Linearised::derivative(const engine::Impact<mpfr>& impact, const
   for (std::size_t k = 0; k < count; ++k) {
     const auto& b = bodies[k];
     run.position[k] = b.position, run.velocity[k] = b.velocity, run.spin[k] = b.spin;
-    nearby.position[k] = b.position + (t[k]->position + b.velocity * later) * step_;
-    nearby.velocity[k] = b.velocity + (t[k]->velocity + gravity * later) * step_;
-    nearby.spin[k] = b.spin + t[k]->spin * step_;
+    nearby.position[k] = b.position + (t[k]->position + b.velocity * later) * step;
+    nearby.velocity[k] = b.velocity + (t[k]->velocity + gravity * later) * step;
+    nearby.spin[k] = b.spin + t[k]->spin * step;
   }
   collide(base_, impact, impact.time, run);
-  collide(other, impact, on_clock_of(other.mill, period, impact.time, later * step_), nearby);
+  collide(other, impact, on_clock_of(other.mill, period, impact.time, later * step), nearby);
 
   EventDerivative d;
-  const auto rate = [&](const mpfr& a, const mpfr& b) { return mpfr((b - a) / step_); };
+  const auto rate = [&](const mpfr& a, const mpfr& b) { return mpfr((b - a) / step); };
   const auto &o = run.outcome, &p = nearby.outcome;
   d.values = {later, rate(o.approach_speed, p.approach_speed), rate(o.slip_speed, p.slip_speed),
               rate(o.milling_dose, p.milling_dose), rate(o.wall_work, p.wall_work)};
   for (std::size_t k = 0; k < count; ++k) {
     t[k]->position += (bodies[k].velocity - run.velocity[k]) * later;
-    t[k]->velocity = (nearby.velocity[k] - run.velocity[k]) / step_ - gravity * later;
-    t[k]->spin = (nearby.spin[k] - run.spin[k]) / step_;
+    t[k]->velocity = (nearby.velocity[k] - run.velocity[k]) / step - gravity * later;
+    t[k]->spin = (nearby.spin[k] - run.spin[k]) / step;
     d.states_after[k] = *t[k];
   }
   return d;

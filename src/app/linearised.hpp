@@ -12,11 +12,12 @@
 
 namespace edmill::app {
 
-/// What a number of the case, or of the initial state, changes.
+/// What a parameter of the case, or a number of the initial state, changes.
 struct Perturbation {
-  model::Mill<mpfr> mill;  ///< with the number larger by `step`
+  model::Mill<mpfr> mill;  ///< with the parameter larger by `step`
   std::vector<model::BallProperties<mpfr>> balls;
   std::vector<tangent::Tangent<mpfr>> initial;  ///< derivative of the balls' states at the start
+  mpfr step{0};                                 ///< negative where no larger value is allowed
 };
 
 /// The derivatives of one impact.
@@ -26,13 +27,13 @@ struct EventDerivative {
 };
 
 /// Observes a run, and carries the states of motions that are infinitely close to it from impact to impact.
-/// The map of an impact is taken for the run and for the motion nearby, `step` away, in three times the run's
-/// digits: the difference over the step is the derivative to the digits of the run.
+/// The map of an impact is taken for the run and for the neighbouring motion, `step` away, in three times the
+/// run's digits: the difference divided by the step is the derivative to the digits of the run.
 class Linearised : public engine::Observer<mpfr> {
  public:
   /// @param base    the mill in these digits, and balls without `initial`
   /// @param digits  of the evaluation
-  Linearised(Perturbation base, std::vector<Perturbation> others, const mpfr& step, unsigned digits);
+  Linearised(Perturbation base, std::vector<Perturbation> others, unsigned digits);
 
   void on_impact(const engine::Impact<mpfr>& impact, engine::Simulation<mpfr>& simulation) override;
 
@@ -46,7 +47,6 @@ class Linearised : public engine::Observer<mpfr> {
 
   Perturbation base_;
   std::vector<Perturbation> others_;
-  mpfr step_;
   unsigned digits_;
   std::vector<std::vector<tangent::Tangent<mpfr>>>
       tangents_;  ///< by perturbation and ball, at its last impact

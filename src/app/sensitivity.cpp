@@ -89,10 +89,10 @@ class Differentiator {
     std::unique_ptr<Linearised> linearised;
     {
       const mpfr::Digits wide(evaluation);
-      const mpfr step = mpfr(1) / mpfr(std::string("1e") + std::to_string(step_digits));
+      const auto base = casefile::build_case<mpfr>(spec_);
       std::vector<Perturbation> others;
-      for (const auto& number : numbers_) others.push_back(perturbed(number, step_digits));
-      linearised = std::make_unique<Linearised>(made(spec_), std::move(others), step, evaluation);
+      for (const auto& number : numbers_) others.push_back(perturbed(number, base, step_digits));
+      linearised = std::make_unique<Linearised>(without_change(base), std::move(others), evaluation);
     }
     const mpfr::Digits of_run(digits);
     result.precision = fmt::format("mpfr:{}", digits);
@@ -124,21 +124,56 @@ class Differentiator {
   Sensitivities result;
 
  private:
-  static Perturbation made(const casefile::CaseSpec& spec) {
-    auto built = casefile::build_case<mpfr>(spec);
-    return {std::move(built.the_case.mill), std::move(built.the_case.balls),
+  using Built = casefile::InitialCase<mpfr>;
+
+  static Perturbation without_change(const Built& built) {
+    return {built.the_case.mill, built.the_case.balls,
             std::vector<tangent::Tangent<mpfr>>(built.states.size())};
   }
-  Perturbation perturbed(const Number& number, unsigned step_digits) const {
-    if (number.ball < 0)
-      return made(casefile::with_value(spec_, number.key,
-                                       casefile::value_of_key(spec_, number.key).plus(step_digits)));
-    auto same = made(spec_);
+  Perturbation perturbed(const Number& number, const Built& base, unsigned step_digits) const {
+    const mpfr step = mpfr(1) / mpfr(std::string("1e") + std::to_string(step_digits));
+    if (number.ball < 0) return with_parameter(number.key, base, step, step_digits);
+    auto same = without_change(base);
+    same.step = step;
     auto& start = same.initial[static_cast<std::size_t>(number.ball)];
     std::array{&start.position, &start.velocity, &start.spin}[static_cast<std::size_t>(number.coordinate / 3)]
         ->
         operator[](number.coordinate % 3) = 1;
     return same;
+  }
+  /// A parameter at an end of its range, a restitution of 1, is changed to the other side.
+  Perturbation with_parameter(const std::string& key, const Built& base, const mpfr& step,
+                              unsigned step_digits) const {
+    const auto value = casefile::value_of_key(spec_, key);
+    for (const int sign : {1, -1}) try {
+        const auto built =
+            casefile::build_case<mpfr>(casefile::with_close_value(spec_, key, value.plus(sign, step_digits)));
+        auto changed = without_change(built);
+        changed.step = step * sign;
+        changed.initial = change_of_start(base, built, changed.step);
+        return changed;
+      } catch (const InputError&) {
+      }
+    throw InputError(fmt::format(
+        "--by: found \"{}\", whose value {} can be neither a little larger nor a little smaller, expected a "
+        "parameter that varies continuously",
+        key, value.number));
+  }
+  /// Balls are placed, and a run begins, by the parameters of the case.
+  static std::vector<tangent::Tangent<mpfr>> change_of_start(const Built& base, const Built& other,
+                                                             const mpfr& step) {
+    const auto begin = [](const Built& built) {
+      return DriveClock<mpfr>(built.the_case.mill.motion.period()).seconds(built.start);
+    };
+    const mpfr later = (begin(other) - begin(base)) / step;
+    std::vector<tangent::Tangent<mpfr>> change(base.states.size());
+    for (std::size_t k = 0; k < change.size(); ++k) {
+      const auto &one = base.states[k], &two = other.states[k];
+      change[k].position = (two.position - one.position) / step - one.velocity * later;
+      change[k].velocity = (two.velocity - one.velocity) / step - base.the_case.mill.gravity * later;
+      change[k].spin = (two.spin - one.spin) / step;
+    }
+    return change;
   }
 
   /// Of two balls the lower number comes first, as in other lists of events.
@@ -204,6 +239,10 @@ void write(std::ostream& out, const casefile::CaseSpec& spec, const SensitivityO
 }  // namespace
 
 Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptions& options) {
+  constexpr unsigned most_digits = most_digits_of_step - 20;
+  if (options.digits > most_digits)
+    throw InputError(fmt::format("--digits: found {}, expected at most {}: a derivative has no more",
+                                 options.digits, most_digits));
   std::optional<io::NamedFile> file;
   if (!options.file.empty()) file.emplace(options.file);
   Differentiator differentiator(spec, options);

@@ -21,20 +21,22 @@ auto together(const One& one, const Two& two) {
 }  // namespace
 
 std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
-                                            bool to_end) {
-  return with_scalar(precision, [&]<class Real>() { return run::make_source<Real>(spec, to_end); });
+                                            bool to_end, const std::atomic<bool>* interrupt) {
+  return with_scalar(precision,
+                     [&]<class Real>() { return run::make_source<Real>(spec, to_end, interrupt); });
 }
 
 SideBySide::SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide,
-                       bool to_end)
-    : digits_{chosen_digits_of(narrow), chosen_digits_of(wide)} {
-  std::tie(narrow_, wide_) = together([&] { return source_in(narrow, spec, to_end); },
-                                      [&] { return source_in(wide, spec, to_end); });
+                       bool to_end, const std::atomic<bool>* interrupt)
+    : interrupt_(interrupt), digits_{chosen_digits_of(narrow), chosen_digits_of(wide)} {
+  std::tie(narrow_, wide_) = together([&] { return source_in(narrow, spec, to_end, interrupt); },
+                                      [&] { return source_in(wide, spec, to_end, interrupt); });
 }
 
 std::vector<run::Event> SideBySide::next(std::size_t count) {
   if (diverged_ || uneven_) return {};
   auto [one, two] = together([&] { return narrow_->next(count); }, [&] { return wide_->next(count); });
+  if (interrupt_ && *interrupt_) return {};
   const std::size_t shared = std::min(one.size(), two.size());
   std::size_t same = 0;
   while (same < shared && agreement_.take(one[same], two[same])) ++same;

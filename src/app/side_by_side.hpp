@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,9 +15,9 @@
 namespace edmill::app {
 
 /// The events of a case in the scalar of this name.
-/// @param to_end  whether they end at the case's end time
+/// @param to_end  whether they end where the case does
 std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
-                                            bool to_end);
+                                            bool to_end, const std::atomic<bool>* interrupt = nullptr);
 
 /// Two runs that advance together, each on a thread of its own. Where their digits are chosen, both keep as
 /// many as the narrower one has right, by their agreement so far, and some more: the error that this adds to
@@ -24,10 +25,13 @@ std::unique_ptr<run::EventSource> source_in(const std::string& precision, const 
 class SideBySide {
  public:
   /// @pre `wide` is wider than `narrow`
-  SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide, bool to_end);
+  /// @throws InterruptedError when `interrupt` becomes true at the start; later it ends both
+  SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide, bool to_end,
+             const std::atomic<bool>* interrupt = nullptr);
 
   /// Takes up to `count` further events of both.
-  /// @return those of the wider run that have the same bodies in both; none when there are no more
+  /// @return those of the wider run that have the same bodies in both; none when there are no more, or after
+  /// an interrupt
   std::vector<run::Event> next(std::size_t count);
 
   const run::Agreement& agreement() const { return agreement_; }
@@ -43,6 +47,7 @@ class SideBySide {
  private:
   void drop_lost_digits();
 
+  const std::atomic<bool>* interrupt_;
   std::unique_ptr<run::EventSource> narrow_, wide_;
   std::array<unsigned, 2> digits_;  ///< of both at the start; 0 where they are fixed
   unsigned dropped_ = 0;

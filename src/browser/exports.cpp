@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "audit/audit.hpp"
@@ -46,12 +47,26 @@ const char* answer(const Work& work) {
   }
 }
 
-std::vector<std::string> lines_of(const char* text) {
+std::string content_of(const char* file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// The case is the file /case of the page's own memory, settings over it are the lines of /settings.
+std::string case_text() { return content_of("/case"); }
+std::vector<std::string> settings() {
   std::vector<std::string> lines;
-  std::istringstream in(text);
+  std::istringstream in(content_of("/settings"));
   for (std::string line; std::getline(in, line);)
     if (!line.empty()) lines.push_back(line);
   return lines;
+}
+
+edmill::browser::Session& running() {
+  if (!session) throw edmill::InputError("found no run, expected one that has begun");
+  return *session;
 }
 
 /// The page shows what is searched while it goes on.
@@ -63,12 +78,12 @@ void tell_stage(const std::string& stage) {
 
 extern "C" {
 
-/// @param settings  "section.key=value", one on each line
-EMSCRIPTEN_KEEPALIVE const char* edmill_begin(const char* text, const char* settings, int log) {
+/// @param log  whether collisions.csv is written, for its digest
+EMSCRIPTEN_KEEPALIVE const char* edmill_begin(int log) {
   return answer([&] {
     session.reset();
     std::filesystem::remove_all("/run");
-    session = std::make_unique<edmill::browser::Session>(text, lines_of(settings), log != 0);
+    session = std::make_unique<edmill::browser::Session>(case_text(), settings(), log != 0);
     return session->scene();
   });
 }
@@ -77,27 +92,34 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_begin(const char* text, const char* sett
 EMSCRIPTEN_KEEPALIVE const char* edmill_advance(double time) {
   return answer([&] {
     if (time < 0)
-      session->advance_one_impact();
+      running().advance_one_impact();
     else
-      session->advance_to(time);
+      running().advance_to(time);
     return session->frame();
   });
 }
 
-EMSCRIPTEN_KEEPALIVE const char* edmill_finish() {
-  return answer([&] { return session->finish(); });
-}
-
-EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(const char* text, const char* settings, int most) {
-  return answer([&] { return edmill::browser::first_impacts(text, lines_of(settings), most); });
-}
-
-/// The log is the file /log of the page's own memory.
-/// @param settings  over the case, among them those of its section [audit]
-/// @param identify  whether the mistake behind violations is looked for
-EMSCRIPTEN_KEEPALIVE const char* edmill_audit(const char* text, const char* settings, int identify) {
+EMSCRIPTEN_KEEPALIVE const char* edmill_case() {
   return answer([&] {
-    const auto spec = edmill::casefile::parse_case(text, "case.toml", lines_of(settings));
+    JsonText json;
+    json.text("case", running().case_text());
+    return json.finish();
+  });
+}
+
+EMSCRIPTEN_KEEPALIVE const char* edmill_finish() {
+  return answer([&] { return running().finish(); });
+}
+
+EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(int most) {
+  return answer([&] { return edmill::browser::first_impacts(case_text(), settings(), most); });
+}
+
+/// The log is the file /log.
+/// @param identify  whether the mistake behind violations is looked for
+EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
+  return answer([&] {
+    const auto spec = edmill::casefile::parse_case(case_text(), "case.toml", settings());
     auto options = edmill::audit::options_of(spec);
     options.log = "/log";
     const auto built = edmill::casefile::build_case<double>(spec);
@@ -122,6 +144,9 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_check() {
       json.text("verdict", checker::check(in));
     } catch (const checker::Rejected& why) {
       json.text("verdict", std::string("rejected: ") + why.what());
+    } catch (const nlohmann::json::exception&) {
+      throw edmill::InputError(
+          "found a line that is not JSON, expected a file of `edmill prove --certificate`");
     }
     return json.finish();
   });

@@ -67,8 +67,10 @@ function show_law() {
 async function diverge() {
   const most = 2000;
   $('divergence-said').textContent = 'Running.';
-  const one = (await ask({what: 'first_impacts', text: cases[Object.keys(cases)[0]], settings: [], most})).answer;
-  const other = (await ask({what: 'first_impacts', text: cases[Object.keys(cases)[0]], settings: ['contact.restitution=0.5300000000001'], most})).answer;
+  const one = (await judging.ask({what: 'first_impacts', text: cases[Object.keys(cases)[0]], settings: [], most})).answer;
+  const other = (await judging.ask({what: 'first_impacts', text: cases[Object.keys(cases)[0]], settings: ['contact.restitution=0.5300000000001'], most})).answer;
+  const failed = one.problems ?? other.problems;
+  if (failed) return void ($('divergence-said').textContent = failed.join(' '));
   const same = k => one.ball[k] === other.ball[k] && one.partner[k] === other.partner[k];
   let common = 0;
   while (common < most && same(common)) ++common;
@@ -84,7 +86,8 @@ async function diverge() {
 async function check_proof() {
   const {case: text, events} = read('proven');
   $('prove-said').textContent = 'Running.';
-  const {answer} = await ask({what: 'first_impacts', text, settings: [], most: events.length});
+  const {answer} = await judging.ask({what: 'first_impacts', text, settings: [], most: events.length});
+  if (answer.problems) return void ($('prove-said').textContent = answer.problems.join(' '));
   const pair = (a, b) => b < 0 ? `${a} ${b}` : `${Math.min(a, b)} ${Math.max(a, b)}`;
   const agrees = k => pair(answer.ball[k], answer.partner[k]) === pair(events[k][1], events[k][2]);
   let right = 0;
@@ -97,7 +100,7 @@ async function check_proof() {
 
 async function check_certificate(certificate) {
   $('certificate-said').textContent = 'Checking.';
-  const {answer, milliseconds} = await ask({what: 'check', certificate});
+  const {answer, milliseconds} = await judging.ask({what: 'check', certificate});
   $('certificate-said').textContent = answer.problems ? `No certificate: ${answer.problems.join(' ')}` : `${answer.verdict} (${number(milliseconds / 1000, 2)} s)`;
 }
 

@@ -4,42 +4,74 @@
 const $ = id => document.getElementById(id);
 const read = id => JSON.parse($(id).textContent);
 const cases = read('cases');
-const most_balls = 5000, most_bytes = 4e8;
+const most_bytes = 4e8, most_of_case = 1e6;
 
-// ---- The engine, in a worker. Its answers come in the order of the questions.
+// ---- Engines, each in a worker of its own: the mill goes on while a log is judged. Answers come in the order of the questions.
 
-let worker = null, waiting = [];
+let compressed = null;
 
 async function engine_bytes() {
-  const compressed = Uint8Array.from(atob($('engine').textContent.trim()), letter => letter.charCodeAt(0));
+  compressed ??= Uint8Array.from(atob($('engine').textContent.trim()), letter => letter.charCodeAt(0));
   const stream = new Blob([compressed]).stream().pipeThrough(new DecompressionStream('gzip'));
   return new Response(stream).arrayBuffer();
 }
 
-function ask(message, transfer = []) {
-  return new Promise(resolve => {
-    waiting.push(resolve);
-    worker.postMessage(message, transfer);
-  });
+class Engine {
+  waiting = [];
+  ready = null;
+
+  /// Loads it, the first time. @throws Error when this browser cannot
+  start() {
+    this.ready ??= this.load();
+    return this.ready;
+  }
+  async load() {
+    if (typeof WebAssembly !== 'object' || typeof DecompressionStream !== 'function')
+      throw new Error('This browser has no WebAssembly or cannot decompress: one of 2023 or later is needed.');
+    this.worker = new Worker(URL.createObjectURL(new Blob([read('worker')], {type: 'text/javascript'})));
+    this.worker.onmessage = ({data}) => {
+      if (data.what === 'stage') return this.stage?.(data.stage);
+      this.waiting.shift()?.(data);
+      if (data.what === 'trap') this.stop();
+    };
+    const failed = new Promise((_, reject) => {
+      this.worker.onerror = event => reject(new Error(`the engine does not start: ${event.message}`));
+    });
+    await Promise.race([failed, this.question({what: 'engine', engine: await engine_bytes()})]);
+  }
+  question(message) {
+    return new Promise(resolve => {
+      this.waiting.push(resolve);
+      this.worker.postMessage(message);
+    });
+  }
+  /// The answer, with `problems` where there is none.
+  async ask(message) {
+    const none = problem => ({answer: {problems: [problem]}, milliseconds: 0});
+    const ready = this.start();
+    try {
+      await ready;
+    } catch (error) {
+      return none(error.message);
+    }
+    return this.ready === ready ? this.question(message) : none('stopped');
+  }
+  /// Ends what it does; the next question begins with a new one.
+  stop() {
+    this.worker?.terminate();
+    this.ready = null;
+    for (const resolve of this.waiting.splice(0)) resolve({answer: {problems: ['stopped']}, milliseconds: 0});
+  }
 }
 
-async function start_engine() {
-  if (typeof WebAssembly !== 'object' || typeof DecompressionStream !== 'function')
-    throw new Error('This browser has no WebAssembly or cannot decompress: one of 2023 or later is needed.');
-  if (worker) worker.terminate();
-  waiting = [];
-  worker = new Worker(URL.createObjectURL(new Blob([read('worker')], {type: 'text/javascript'})));
-  worker.onmessage = ({data}) => {
-    if (data.what === 'stage') $('verdict').textContent = `Searching: ${data.stage}.`;
-    else waiting.shift()(data);
-  };
-  worker.onerror = event => problems([`the engine does not start: ${event.message}`]);
-  await ask({what: 'engine', engine: await engine_bytes()});
-}
+const mill = new Engine(), judging = new Engine();
+judging.stage = stage => { $('verdict').textContent = `Searching: ${stage}.`; };
+const ask = message => mill.ask(message);
 
 function problems(list) {
   $('problems').hidden = list.length === 0;
-  $('problems').replaceChildren(...list.map(text => Object.assign(document.createElement('li'), {textContent: text})));
+  const lines = list.map(text => text.replace(/^--set /, 'Setting '));
+  $('problems').replaceChildren(...lines.map(text => Object.assign(document.createElement('li'), {textContent: text})));
 }
 
 // ---- Choices
@@ -49,14 +81,25 @@ const fields = {
   most: 'run.max_collisions',
 };
 const units = {diameter: ' mm', speed: ' rpm'};
+const kinds = {
+  mill: {
+    'as in the case': '', 'SPEX 8000': '{type="spex8000"}', 'vibratory, 11 mm along y': '{type="vibratory",amplitude=["0 mm","11 mm","0 mm"],speed="1500 rpm"}',
+    'planetary': '{type="planetary",radius="75 mm",speed="300 rpm",ratio=-2}', 'drum': '{type="drum",speed="120 rpm"}',
+  },
+  vessel: {
+    'as in the case': '', 'cylinder': '{type="cylinder",diameter="38 mm",height="57 mm"}',
+    'rounded cylinder': '{type="rounded_cylinder",diameter="38 mm",height="57 mm",edge_radius="8 mm"}', 'capsule': '{type="capsule",diameter="38 mm",height="57 mm"}',
+    'sphere': '{type="sphere",diameter="50 mm"}', 'box': '{type="box",size=["34 mm","57 mm","34 mm"]}',
+  },
+};
 let text = '';  // of the case
 
-/// Empty fields leave what the case says.
+/// What is not chosen stays as the case has it.
 function settings() {
-  const list = [];
+  const list = Object.entries(kinds).filter(([key]) => $(`${key}-kind`).value).map(([key]) => `${key}=${$(`${key}-kind`).value}`);
   for (const [field, key] of Object.entries(fields)) {
     const value = $(field).value.trim();
-    if (value === '') continue;
+    if (value === '' || $(field).disabled) continue;
     list.push(units[field] ? `${key}="${value}${units[field]}"` : `${key}=${value}`);
   }
   return list;
@@ -64,7 +107,15 @@ function settings() {
 
 function choose(name) {
   text = cases[name];
+  $('case').value = name;
   for (const field in fields) $(field).value = '';
+  for (const key in kinds) $(`${key}-kind`).value = '';
+  // Laws by materials go before those of all contacts.
+  const by_materials = /^\s*\[\[\s*contact\.pair/m.test(text);
+  for (const field of ['restitution', 'friction']) {
+    $(field).disabled = by_materials;
+    $(field).placeholder = by_materials ? 'by material' : 'case';
+  }
 }
 
 // ---- The picture
@@ -131,8 +182,12 @@ function turn(azimuth, elevation) {
 const number = (value, digits = 4) => String(Number(Number(value).toPrecision(digits)));
 let rates = [];
 
-function line(svg, points, low, high, unit) {
+function line(svg, points, low, high, unit, none = '') {
   const [left, right, top, bottom] = [45, 392, 10, 175];
+  if (points.length === 0) {
+    svg.innerHTML = `<path class="axis" d="M${left} ${top}V${bottom}H${right}"/><text x="${(left + right) / 2}" y="${(top + bottom) / 2}" text-anchor="middle">${none}</text>`;
+    return;
+  }
   const first = points.length ? points[0][0] : 0, last = points.length ? points[points.length - 1][0] : 1;
   const place = ([t, value]) => [left + (right - left) * (t - first) / Math.max(last - first, 1e-12), bottom - (bottom - top) * (value - low) / (high - low)];
   svg.innerHTML = `<path class="axis" d="M${left} ${top}V${bottom}H${right}"/><text x="${left - 4}" y="${top + 8}" text-anchor="end">${number(high, 3)}</text>
@@ -188,38 +243,46 @@ function take(answer) {
   draw();
   show_facts();
   const high = Math.max(1e-9, ...rates.map(r => r[1])) * 1.1;
-  line($('rate'), rates, 0, high, 's');
+  line($('rate'), rates, 0, high, 's', frame.time < scene.start ? `statistics begin at ${number(scene.start)} s` : '');
   bars($('spectrum'), frame.speeds);
 }
 
 // ---- Running
 
-let going = false, run_number = 0, result = null, chunk = 0.03;
+let going = false, run_number = 0, ended = false, chunk = 0.03;
 
-function enable(running) {
-  for (const id of ['pause', 'step', 'end']) $(id).disabled = !running;
+function enable() {
+  const runs = scene !== null && !ended;
+  for (const id of ['pause', 'step', 'end']) $(id).disabled = !runs;
+  $('stop').disabled = !runs && $('said').textContent !== placing;
   $('save').disabled = scene === null;
-  $('pause').textContent = going ? 'Pause' : 'Go on';
+  $('pause').textContent = going || !runs ? 'Pause' : 'Go on';
+}
+
+const placing = 'Placing the balls.';
+
+function say(what) {
+  $('said').textContent = what;
+  enable();
+}
+
+/// Ends what goes on, without a result.
+function give_up(what, list = []) {
+  ++run_number;
+  going = false;
+  scene = frame = null;
+  draw();
+  say(what);
+  problems(list);
 }
 
 async function begin() {
-  const own = ++run_number;
-  going = false;
-  problems([]);
-  const said = settings();
-  $('said').textContent = 'Placing the balls.';
-  const {answer} = await ask({what: 'begin', text, settings: said, log: $('keep').checked});
+  if ($('said').textContent === placing) mill.stop();
+  give_up(placing);
+  const own = run_number;
+  const {answer} = await ask({what: 'begin', text, settings: settings(), log: $('keep').checked});
   if (own !== run_number) return;
-  if (answer.problems) {
-    scene = null;
-    $('said').textContent = 'The case has problems.';
-    return problems(answer.problems);
-  }
-  if (answer.balls > most_balls) {
-    scene = null;
-    $('said').textContent = '';
-    return problems([`${answer.balls} balls are too many to be drawn: this page takes up to ${most_balls}; the command line takes any number.`]);
-  }
+  if (answer.problems) return give_up('The case has problems.', answer.problems);
   scene = answer;
   scene.size = 0;
   scene.meshes = Object.values(scene.walls).map(({points, faces}) => {
@@ -227,12 +290,14 @@ async function begin() {
     for (let k = 0; k < faces.length; k += faces[k] + 1) list.push(faces.slice(k + 1, k + 1 + faces[k]));
     return {points: Array.from({length: points.length / 3}, (_, k) => points.slice(3 * k, 3 * k + 3)), faces: list};
   });
-  rates = [], last_dose = [0, 0], result = null, chunk = 0.03;
-  take((await ask({what: 'advance', time: 0})).answer);
+  rates = [], last_dose = [0, 0], ended = false, chunk = 0.03;
+  const first = (await ask({what: 'advance', time: 0})).answer;
+  if (own !== run_number) return;
+  if (first.problems) return give_up('The run has stopped.', first.problems);
+  take(first);
   $('version').textContent = scene.version;
   going = true;
-  enable(true);
-  $('said').textContent = 'Running.';
+  say('Running.');
   play(own);
 }
 
@@ -241,11 +306,12 @@ async function advance(time, own) {
   const {answer, milliseconds} = await ask({what: 'advance', time});
   if (own !== run_number) return false;
   if (answer.problems) {
-    going = false;
-    problems(answer.problems);
+    give_up('The run has stopped.', answer.problems);
     return false;
   }
+  const before = frame.impacts;
   take(answer);
+  if (time < 0 && answer.impacts === before && !answer.ended) say('No impact in the next hundred drive periods.');
   chunk *= milliseconds > 100 ? 0.5 : milliseconds < 40 ? 2 : 1;
   if (answer.ended) await finish(own);
   return !answer.ended;
@@ -267,11 +333,10 @@ async function finish(own) {
   going = false;
   const {answer} = await ask({what: 'finish'});
   if (own !== run_number) return;
-  if (answer.problems) return problems(answer.problems);
-  result = answer;
+  if (answer.problems) return give_up('The run has stopped.', answer.problems);
+  ended = true;
   show_facts({'ended by': frame.end_reason, ...(answer.digest ? {'SHA-256 of collisions.csv': answer.digest} : {})});
-  $('said').textContent = 'The run has ended.';
-  enable(false);
+  say('The run has ended.');
 }
 
 function save(name, content) {
@@ -292,16 +357,26 @@ async function bytes_of(id, what) {
   return new Uint8Array(await file.arrayBuffer());
 }
 
+async function case_of(file) {
+  if (!file) throw new Error('choose the case');
+  if (file.size > most_of_case) throw new Error(`${file.name} has ${number(file.size / 1e6, 2)} MB: a case file (TOML) is shorter`);
+  return file.text();
+}
+
 async function judge(what) {
+  const busy = yes => {
+    for (const id of ['audit', 'compare']) $(id).disabled = yes;
+    $('judge-stop').disabled = !yes;
+  };
   $('table').hidden = true;
   $('verdict').textContent = 'Reading.';
+  busy(true);
   try {
     const log = await bytes_of('log', 'a collision log');
     const message = what === 'audit'
-      ? {what, log, text: new TextDecoder().decode(await bytes_of('judged-case', 'the case')), settings: $('settings').value.split('\n'),
-         identify: $('identify').checked}
+      ? {what, log, text: await case_of($('judged-case').files[0]), settings: $('settings').value.split('\n'), identify: $('identify').checked}
       : {what, log, reference: await bytes_of('reference', 'a reference log')};
-    const {answer} = await ask(message);
+    const {answer} = await judging.ask(message);
     const bad = answer.problems;
     $('verdict').textContent = bad ? 'No verdict:' : `Verdict: ${answer.verdict.replace('_', ' ')}`;
     $('table').textContent = bad ? bad.join('\n') : answer.table;
@@ -309,11 +384,21 @@ async function judge(what) {
   } catch (error) {
     $('verdict').textContent = `No verdict: ${error.message}.`;
   }
+  busy(false);
+}
+
+/// A file that was dropped on the page goes where one of its kind is expected.
+function give(input, file) {
+  const list = new DataTransfer();
+  list.items.add(file);
+  $(input).files = list.files;
+  $(input).dispatchEvent(new Event('change'));
 }
 
 // ---- Events
 
 $('case').append(...Object.keys(cases).map(name => new Option(name, name)));
+for (const [key, list] of Object.entries(kinds)) $(`${key}-kind`).append(...Object.entries(list).map(([name, value]) => new Option(name, value)));
 $('case').addEventListener('change', () => choose($('case').value));
 $('choices').addEventListener('submit', event => {
   event.preventDefault();
@@ -321,32 +406,49 @@ $('choices').addEventListener('submit', event => {
 });
 $('pause').addEventListener('click', () => {
   going = !going;
-  enable(true);
+  say(going ? 'Running.' : 'Paused.');
   if (going) play(run_number);
 });
 $('step').addEventListener('click', () => {
   going = false;
-  enable(true);
+  say('Paused.');
   advance(-1, run_number);
 });
 $('end').addEventListener('click', () => {
   $('pace').value = '0';
   if (!going) $('pause').click();
 });
+$('stop').addEventListener('click', () => {
+  mill.stop();
+  give_up('Stopped.');
+});
 $('save').addEventListener('click', async () => {
-  if (!result) {
-    going = false;
-    await finish(run_number);
-  }
-  if (result) save('case.toml', result.case);
+  const {answer} = await ask({what: 'case'});
+  if (answer.problems) problems(answer.problems);
+  else save('case.toml', answer.case);
 });
 $('open').addEventListener('change', async () => {
   const file = $('open').files[0];
   if (!file) return;
-  choose($('case').value);
-  text = await file.text();
-  begin();
+  try {
+    const content = await case_of(file);
+    if (!(file.name in cases)) $('case').append(new Option(file.name, file.name));
+    cases[file.name] = content;
+    choose(file.name);
+    begin();
+  } catch (error) {
+    problems([`${error.message}.`]);
+  }
 });
+for (const what of ['dragover', 'drop'])
+  document.addEventListener(what, event => {
+    if (!event.dataTransfer?.types.includes('Files')) return;
+    event.preventDefault();
+    if (what === 'dragover') return;
+    const see = event.target.closest?.('#see');
+    for (const file of event.dataTransfer.files)
+      give(!file.name.endsWith('.toml') ? 'log' : see ? 'open' : 'judged-case', file);
+  });
 $('mill').addEventListener('keydown', event => {
   const turns = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1]}[event.key];
   if (!turns) return;
@@ -361,8 +463,9 @@ $('judge').addEventListener('submit', event => {
   judge('audit');
 });
 $('compare').addEventListener('click', () => judge('compare'));
+$('judge-stop').addEventListener('click', () => judging.stop());
 
 choose(Object.keys(cases)[0]);
-start_engine().then(
-  () => { $('said').textContent = 'Choose and press Run.'; $('run').disabled = false; },
-  error => { $('said').textContent = ''; problems([error.message]); });
+mill.start().then(
+  () => { say('Choose and press Run.'); $('run').disabled = false; },
+  error => { say(''); problems([error.message]); });

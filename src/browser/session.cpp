@@ -7,9 +7,10 @@
 
 #include "api/case_access.hpp"
 #include "base/digest.hpp"
+#include "base/errors.hpp"
 #include "base/version.hpp"
+#include "browser/case_with_values.hpp"
 #include "casefile/build_case.hpp"
-#include "casefile/case_of_run.hpp"
 #include "io/json_text.hpp"
 #include "model/parts/surface.hpp"
 #include "output/vessel_frame.hpp"
@@ -31,7 +32,16 @@ void put_vector(std::vector<double>& list, const auto& v) {
 }
 
 casefile::CaseSpec read(const std::string& text, const std::vector<std::string>& settings, bool log) {
+  constexpr std::size_t most_balls = 5000;
   auto spec = casefile::parse_case(text, "case.toml", settings);
+  if (spec.precision != "double" || spec.digits)
+    throw InputError("case.toml: found " +
+                     (spec.digits ? "run.digits" : "run.precision = \"" + spec.precision + "\"") +
+                     ", expected a run in double: this page has no other numbers; the command line has");
+  if (spec.ball_count() > most_balls)
+    throw InputError(std::to_string(spec.ball_count()) +
+                     " balls are too many to be drawn: this page takes up to " + std::to_string(most_balls) +
+                     "; the command line takes any number.");
   spec.outputs.clear();
   if (log) casefile::add_outputs("[[output]]\ntype = \"collisions\"\n", "the page's output", spec);
   return spec;
@@ -83,7 +93,8 @@ void SpeedClasses::add(double speed) {
 Session::Session(const std::string& text, const std::vector<std::string>& settings, bool log)
     : spec_(read(text, settings, log)),
       mill_(casefile::build_mill<double>(spec_)),
-      run_(CaseAccess::make(spec_)) {
+      run_(CaseAccess::make(spec_)),
+      log_(log) {
   run_.write_to(folder);
   run_.attach(*this);
 }
@@ -142,8 +153,12 @@ void Session::advance_one_impact() {
   const auto before = impacts_;
   const double now = run_.time();
   double step = impacts_ > 0 ? now / static_cast<double>(impacts_) / 1000 : 1e-6;
-  for (double time = now; going_on_ && impacts_ == before; step *= 1.1) advance_to(time += step);
+  const double latest = now + 100 * mill_.motion.period();
+  for (double time = now; going_on_ && impacts_ == before && time < latest; step *= 1.1)
+    advance_to(time += step);
 }
+
+std::string Session::case_text() const { return text_with_values(spec_, log_); }
 
 std::string Session::frame() {
   io::JsonText json;
@@ -190,7 +205,6 @@ std::string Session::finish() {
   finished_ = true;
   const auto log = content_of(std::string(folder) + "/collisions.csv");
   io::JsonText json;
-  json.text("case", casefile::text_with_settings(spec_));
   if (!log.empty()) json.text("digest", sha256(log));
   json.text("summary", content_of(std::string(folder) + "/summary.json"));
   return json.finish();

@@ -33,14 +33,16 @@ class Session : private Observer<double> {
 
   /// What stands still, as JSON: radii, walls as meshes, names of partners, digest of the case, the period.
   std::string scene() const;
-  /// Simulates up to a time [s], or one impact.
+  /// Simulates up to a time [s], or to the next impact, but for no longer than a hundred drive periods.
   void advance_to(double time);
   void advance_one_impact();
   /// The present state as JSON: places, the vessel's frame, rates with intervals, counts by approach speed.
   std::string frame();
   bool ended() const { return !going_on_; }
-  /// The case as a run with its settings leaves it, and the SHA-256 of collisions.csv as the command line
-  /// writes it. Nothing can follow.
+  /// The case with the settings in it, as a file that the command line runs: with the same log, if one is
+  /// written.
+  std::string case_text() const;
+  /// The summary, and the SHA-256 of collisions.csv as the command line writes it. Nothing can follow.
   std::string finish();
 
  private:
@@ -52,7 +54,7 @@ class Session : private Observer<double> {
   SpeedClasses classes_;
   std::uint64_t impacts_ = 0;
   Impact<double> last_{};
-  bool one_only_ = false, going_on_ = true, finished_ = false;
+  bool log_, going_on_ = true, finished_ = false;
 };
 
 }  // namespace edmill::browser

@@ -2,28 +2,23 @@
 // The engine in a worker: the page never waits for it. Each message is answered by one of the same `what`; a `stage` may come before.
 let engine;
 
-function call(name, types = [], values = []) {
-  return JSON.parse(engine.ccall(name, 'string', types, values));
+/// Texts of any length are files of the engine's own memory: its stack is short.
+function call(name, number, files = {}) {
+  for (const [file, content] of Object.entries(files)) engine.FS.writeFile(`/${file}`, content);
+  const types = number === undefined ? [] : ['number'];
+  return JSON.parse(engine.ccall(name, 'string', types, types.length ? [Number(number)] : []));
 }
 
+const of_case = ({text, settings}) => ({case: text, settings: settings.join('\n')});
 const answers = {
-  begin: ({text, settings, log}) => call('edmill_begin', ['string', 'string', 'number'], [text, settings.join('\n'), log ? 1 : 0]),
-  advance: ({time}) => call('edmill_advance', ['number'], [time]),
-  first_impacts: ({text, settings, most}) => call('edmill_first_impacts', ['string', 'string', 'number'], [text, settings.join('\n'), most]),
+  begin: message => call('edmill_begin', message.log, of_case(message)),
+  advance: ({time}) => call('edmill_advance', time),
+  first_impacts: message => call('edmill_first_impacts', message.most, of_case(message)),
+  case: () => call('edmill_case'),
   finish: () => call('edmill_finish'),
-  audit: ({text, settings, log, identify}) => {
-    engine.FS.writeFile('/log', log);
-    return call('edmill_audit', ['string', 'string', 'number'], [text, settings.join('\n'), identify ? 1 : 0]);
-  },
-  check: ({certificate}) => {
-    engine.FS.writeFile('/certificate', certificate);
-    return call('edmill_check');
-  },
-  compare: ({reference, log}) => {
-    engine.FS.writeFile('/reference', reference);
-    engine.FS.writeFile('/log', log);
-    return call('edmill_compare');
-  },
+  audit: message => call('edmill_audit', message.identify, {...of_case(message), log: message.log}),
+  check: ({certificate}) => call('edmill_check', undefined, {certificate}),
+  compare: ({reference, log}) => call('edmill_compare', undefined, {reference, log}),
 };
 
 onmessage = async ({data}) => {
@@ -37,6 +32,6 @@ onmessage = async ({data}) => {
     const answer = answers[data.what](data);
     postMessage({what: data.what, answer, milliseconds: performance.now() - begin});
   } catch (error) {
-    postMessage({what: data.what, answer: {problems: [`the engine stopped: ${error.message || error}`]}, milliseconds: 0});
+    postMessage({what: 'trap', answer: {problems: [`the engine stopped: ${error.message || error}`]}, milliseconds: 0});
   }
 };

@@ -17,6 +17,7 @@
 #include "casefile/output_entry.hpp"
 #include "casefile/precisions.hpp"
 #include "casefile/section.hpp"
+#include "casefile/value_of_key.hpp"
 #include "io/input_file.hpp"
 
 namespace edmill::casefile {
@@ -132,48 +133,6 @@ std::string canonical_text(const CaseSpec& c) {
   return out.str();
 }
 
-/// Puts "section.key=value" into the table; indices pick entries of arrays of tables.
-void apply_override(toml::table& root, Document& document, const std::string& text) {
-  const auto equals = text.find('=');
-  const auto complain = [&](const std::string& found) {
-    document.problems.push_back("--set " + text + ": found " + found + ", expected section.key=value");
-  };
-  if (equals == std::string::npos) return complain("no '='");
-  if (equals == 0) return complain("no key");
-  const std::string value = text.substr(equals + 1);
-  toml::table* table = &root;
-  std::istringstream parts(text.substr(0, equals));
-  std::vector<std::string> keys;
-  for (std::string key; std::getline(parts, key, '.');) keys.push_back(key);
-  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
-    toml::node* next = table->get(keys[k]);
-    if (!next) next = &table->insert(keys[k], toml::table{}).first->second;
-    if (auto* array = next->as_array(); array && k + 2 < keys.size()) {
-      auto& index = keys[++k];
-      if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos ||
-          std::stoul(index) >= array->size())
-        return complain("no entry '" + index + "' of '" + keys[k - 1] + "'");
-      index = std::to_string(std::stoul(index));  // "00" is entry 0
-      next = array->get(std::stoul(index));
-    }
-    table = next->as_table();
-    if (!table) return complain("'" + keys[k] + "', which is no section");
-  }
-  std::string path;
-  for (const auto& key : keys) path += (path.empty() ? "" : ".") + key;
-  std::erase_if(document.overrides, [&](const auto& o) { return o.first.starts_with(path + "."); });
-  document.overrides[path] = value;
-  toml::table parsed;
-  try {
-    parsed = toml::parse("value = " + value);
-  } catch (const toml::parse_error&) {
-  }
-  if (parsed.size() == 1)
-    table->insert_or_assign(keys.back(), std::move(*parsed.get("value")));
-  else
-    table->insert_or_assign(keys.back(), value);
-}
-
 }  // namespace
 
 std::vector<Colour> CaseSpec::ball_colours() const {
@@ -203,11 +162,11 @@ namespace {
 
 /// @param finished  a run of it is over: the file that it began from is not looked for
 CaseSpec parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
-               bool finished) {
+               bool finished, SizeLimit sizes = SizeLimit::physical) {
   Document document;
   document.name = name;
-  toml::table root = parse_toml(text, "a case file", document);
-  for (const auto& override_text : overrides) apply_override(root, document, override_text);
+  document.sizes = sizes;
+  toml::table root = parse_toml(text, "a case file", overrides, document);
 
   CaseSpec spec;
   spec.file = name;
@@ -281,6 +240,10 @@ std::vector<std::string> problems_of(const CaseSpec& spec) {
 CaseSpec parse_case(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides) {
   return parse(text, name, overrides, false);
+}
+
+CaseSpec parse_close_case(const CaseSpec& spec, const std::vector<std::string>& settings) {
+  return parse(spec.text, spec.file, settings, false, SizeLimit::none);
 }
 
 std::string text_with_settings(const CaseSpec& spec) {

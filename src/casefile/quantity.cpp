@@ -160,14 +160,14 @@ std::size_t number_length(std::string_view text) {
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// So that squares and cubes neither overflow nor vanish in double.
-bool of_physical_size(const cpp_rational& value) {
+bool of_physical_size(const cpp_rational& value, SizeLimit limit) {
+  if (limit == SizeLimit::none) return true;
   static const cpp_rational largest(boost::multiprecision::pow(cpp_int(10), 30));
   const cpp_rational size = abs(value);
   return size == 0 || (size <= largest && size * largest >= 1);
 }
 
-QuantityResult parse(std::string_view text, Dimension dimension, bool unit_needed) {
+QuantityResult parse(std::string_view text, Dimension dimension, bool unit_needed, SizeLimit limit) {
   const std::string quoted = "\"" + std::string(text) + "\"";
   const std::string beyond = " (its size is beyond 1e-30 to 1e30 in SI units)";
   const std::string_view body = trimmed(text);
@@ -180,12 +180,12 @@ QuantityResult parse(std::string_view text, Dimension dimension, bool unit_neede
   const std::string unit = plain_unit(trimmed(body.substr(length)));
   if (unit.empty()) {
     if (unit_needed && dimension != Dimension::none) return QuantityProblem{quoted + " (no unit)"};
-    if (!of_physical_size(*number)) return QuantityProblem{quoted + beyond};
+    if (!of_physical_size(*number, limit)) return QuantityProblem{quoted + beyond};
     return Quantity{*number, 0};
   }
   if (const Unit* known = find_unit(unit, dimension)) {
     const cpp_rational value = *number * known->factor;
-    if (!of_physical_size(value)) return QuantityProblem{quoted + beyond};
+    if (!of_physical_size(value, limit)) return QuantityProblem{quoted + beyond};
     return Quantity{value, known->pi_power};
   }
   for (const auto& other : units())
@@ -266,12 +266,12 @@ std::optional<cpp_rational> parse_decimal(std::string_view text) {
   return negative ? cpp_rational(-value) : value;
 }
 
-QuantityResult parse_quantity(std::string_view text, Dimension dimension) {
-  return parse(text, dimension, true);
+QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLimit limit) {
+  return parse(text, dimension, true, limit);
 }
 
-QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension) {
-  return parse(text, dimension, false);
+QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension, SizeLimit limit) {
+  return parse(text, dimension, false, limit);
 }
 
 }  // namespace edmill::casefile

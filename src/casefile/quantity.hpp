@@ -62,12 +62,18 @@ struct QuantityProblem {
 
 using QuantityResult = std::variant<Quantity, QuantityProblem>;
 
+/// Whether sizes beyond 1e-30 to 1e30 in SI units are refused: squares and cubes of others overflow or vanish
+/// in double.
+enum class SizeLimit { physical, none };
+
 /// Number and unit, e.g. "1054 rpm", "8 g/cm^3", "-9.8 m/s²". A unit is needed unless the dimension is
 /// `none`.
-QuantityResult parse_quantity(std::string_view text, Dimension dimension);
+QuantityResult parse_quantity(std::string_view text, Dimension dimension,
+                              SizeLimit limit = SizeLimit::physical);
 
 /// Reads a quantity where a plain number is taken as SI.
-QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension);
+QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension,
+                                    SizeLimit limit = SizeLimit::physical);
 
 /// Whether a text begins with a number that has a comma between its digits, where a point is expected.
 bool has_comma(std::string_view text);

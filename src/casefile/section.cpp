@@ -108,7 +108,7 @@ std::optional<Quantity> Section::quantity(const std::string& key, Dimension dime
     document_->report(node, full(key), kind_of(*node), describe(dimension));
     return std::nullopt;
   }
-  const auto result = parse_quantity(document_->raw(*node, full(key)), dimension);
+  const auto result = parse_quantity(document_->raw(*node, full(key)), dimension, document_->sizes);
   if (const auto* problem = std::get_if<QuantityProblem>(&result)) {
     document_->report(node, full(key), problem->found, describe(dimension));
     return std::nullopt;
@@ -134,7 +134,7 @@ std::optional<Quantity> Section::item(const toml::array& array, const std::strin
     document_->report(&node, item_path, kind_of(node), describe(dimension));
     return std::nullopt;
   }
-  const auto result = parse_quantity_or_si(document_->raw(node, item_path), dimension);
+  const auto result = parse_quantity_or_si(document_->raw(node, item_path), dimension, document_->sizes);
   if (const auto* problem = std::get_if<QuantityProblem>(&result)) {
     document_->report(&node, item_path, problem->found, describe(dimension));
     return std::nullopt;

@@ -22,6 +22,7 @@ struct Document {
   std::string name;
   std::vector<std::string> lines;
   std::map<std::string, std::string> overrides;  ///< path -> text as given
+  SizeLimit sizes = SizeLimit::physical;         ///< of quantities
   std::vector<std::string> problems;
   std::set<std::string> problem_keys;
 
@@ -50,6 +51,11 @@ std::string read_file(const std::string& path, const std::string& kind);
 /// Parses the text of the file `document.name` and keeps its lines.
 /// @throws InputError when it is no TOML
 toml::table parse_toml(const std::string& text, const std::string& kind, Document& document);
+
+/// The same with settings over it, "section.key=value"; indices pick entries of arrays. What is wrong with a
+/// setting is a problem of the document.
+toml::table parse_toml(const std::string& text, const std::string& kind,
+                       const std::vector<std::string>& settings, Document& document);
 
 /// "an array", for messages.
 std::string kind_of(const toml::node& node);

@@ -14,6 +14,14 @@ namespace edmill::casefile {
 
 namespace {
 
+bool asks_for_digits(const std::string& case_file) {
+  try {
+    return read_case(case_file).digits.has_value();
+  } catch (const InputError&) {  // told for each run
+    return false;
+  }
+}
+
 void read_study(Section& s, StudySpec& spec) {
   if (const auto name = s.text("case")) {
     const std::filesystem::path given(*name);
@@ -21,6 +29,9 @@ void read_study(Section& s, StudySpec& spec) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(spec.case_file, ignored))
       s.problem("case", "no file '" + spec.case_file + "'", "a case file");
+    else if (asks_for_digits(spec.case_file))
+      s.problem("case", "run.digits in '" + spec.case_file + "'",
+                "a case with run.precision: a study makes all its runs in one");
   } else if (!s.has("case")) {
     s.problem("case", "nothing", "a case file");
   }
@@ -37,7 +48,8 @@ constexpr std::string_view charge_lists[] = {"balls", "ball"};
 
 /// Seeds and precision belong to the whole study; other keys of a case have a section.
 std::string problem_of_key(const std::string& key) {
-  if (key == "run.seed" || key == "run.precision") return "a key other than run.seed and run.precision";
+  if (key == "run.seed" || key == "run.precision" || key == "run.digits")
+    return "a key other than run.seed, run.precision and run.digits";
   if (key != charge_ratio_key && key.find('.') == std::string::npos)
     return "section.key of the case, or charge_ratio";
   return "";

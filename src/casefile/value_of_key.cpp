@@ -12,16 +12,11 @@ namespace {
 
 using boost::multiprecision::cpp_int;
 
-/// The text of a key; empty where there is none.
+/// The text of a key as the file or a setting gives it; empty where there is none.
 std::string written(const CaseSpec& spec, const std::string& key) {
-  for (auto setting = spec.settings.rbegin(); setting != spec.settings.rend(); ++setting)
-    if (setting->starts_with(key + "=")) {
-      auto text = setting->substr(key.size() + 1);
-      std::erase(text, '"');
-      return text;
-    }
-  Document document{spec.file, {}, {}, {}, {}};
-  const auto table = parse_toml(spec.text, "a case file", document);
+  Document document;
+  document.name = spec.file;
+  const auto table = parse_toml(spec.text, "a case file", spec.settings, document);
   const toml::node* node = &table;
   for (std::size_t begin = 0; node && begin <= key.size();) {
     const auto end = std::min(key.find('.', begin), key.size());
@@ -51,13 +46,13 @@ std::pair<cpp_int, int> in_decimals(const std::string& number) {
 
 }  // namespace
 
-std::string WrittenNumber::plus(unsigned digits) const {
+std::string WrittenNumber::plus(int sign, unsigned digits) const {
   auto [mantissa, exponent] = in_decimals(number);
   const int last = std::min(exponent, -static_cast<int>(digits));
   const auto in_last = [&](const cpp_int& m, int e) {
     return cpp_int(m * boost::multiprecision::pow(cpp_int(10), static_cast<unsigned>(e - last)));
   };
-  const cpp_int sum = in_last(mantissa, exponent) + in_last(1, -static_cast<int>(digits));
+  const cpp_int sum = in_last(mantissa, exponent) + in_last(sign, -static_cast<int>(digits));
   const std::string text = sum.str() + "e" + std::to_string(last);
   return unit.empty() ? text : text + " " + unit;
 }
@@ -75,11 +70,24 @@ WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key) {
   return found;
 }
 
-CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value) {
+namespace {
+
+std::vector<std::string> settings_with(const CaseSpec& spec, const std::string& key,
+                                       const std::string& value) {
   auto settings = spec.settings;
   const bool plain = value.find(' ') == std::string::npos;  // a number without a unit
   settings.push_back(key + "=" + (plain ? value : "\"" + value + "\""));
-  return parse_case(spec.text, spec.file, settings);
+  return settings;
+}
+
+}  // namespace
+
+CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value) {
+  return parse_case(spec.text, spec.file, settings_with(spec, key, value));
+}
+
+CaseSpec with_close_value(const CaseSpec& spec, const std::string& key, const std::string& value) {
+  return parse_close_case(spec, settings_with(spec, key, value));
 }
 
 }  // namespace edmill::casefile

@@ -11,8 +11,8 @@ namespace edmill::casefile {
 struct WrittenNumber {
   std::string number, unit;
 
-  /// The number and 10^-digits more, exactly, with its unit.
-  std::string plus(unsigned digits) const;
+  /// The number and sign 10^-digits more, exactly, with its unit.
+  std::string plus(int sign, unsigned digits) const;
 };
 
 /// @param key  "contact.restitution", "balls.0.diameter"
@@ -21,5 +21,11 @@ WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key);
 
 /// The case with another value of a key, read anew.
 CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value);
+
+/// The same where the value may be of any size, 1e-380 too: a case close to this one, to derive by.
+CaseSpec with_close_value(const CaseSpec& spec, const std::string& key, const std::string& value);
+
+/// Reads a case with other settings whose quantities may be of any size.
+CaseSpec parse_close_case(const CaseSpec& spec, const std::vector<std::string>& settings);
 
 }  // namespace edmill::casefile

@@ -79,15 +79,19 @@ int run_estimate(const casefile::CaseSpec& spec, const std::string& precision, b
   const auto estimate = casefile::with_memory_for(
       spec, [&] { return app::estimate_run(spec, precision, options_of_trials(quiet)); });
   if (shows_progress(quiet)) io::tell("{}", no_line);
-  if (!estimate.interrupted) io::print("{}", estimate.text());
-  return after_signals(ok);
+  if (estimate.interrupted) return after_signals(interrupted);
+  io::print("{}", estimate.text());
+  return after_signals(precision.empty() && !estimate.undecided.empty() ? undecided : ok);
 }
 
 int choose_digits(const casefile::CaseSpec& spec, bool quiet, std::string& precision) {
   const auto found =
       casefile::with_memory_for(spec, [&] { return app::find_digits(spec, options_of_trials(quiet)); });
   if (shows_progress(quiet)) io::tell("{}", no_line);
-  if (found.interrupted) return after_signals(interrupted);
+  if (found.interrupted) {
+    io::tell("edmill: interrupted before the digits were found; nothing is written\n");
+    return after_signals(interrupted);
+  }
   if (!found.undecided.empty()) {
     io::tell("edmill: {}; nothing is written\n", found.undecided);
     return undecided;

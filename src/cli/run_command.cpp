@@ -86,17 +86,53 @@ void until_precision(const std::string& precision, const casefile::CaseSpec& spe
     settings.push_back(fmt::format("run.end_time=\"{} s\"", 100 * spec.end_time->to<double>()));
 }
 
+namespace {
+
+/// Keeps a folder for a run whose digits are sought first: what would refuse it is told before. Leaves no
+/// empty folders.
+class ReservedFolder {
+ public:
+  ReservedFolder(const RunCommand& command, const casefile::CaseSpec& spec) {
+    std::error_code error;
+    for (auto place = std::filesystem::absolute(command.folder); !std::filesystem::exists(place, error);
+         place = place.parent_path())
+      made_.push_back(place);
+    std::optional<io::Checkpoint> checkpoint;
+    if (!command.checkpoint.empty()) checkpoint.emplace();
+    folder_.emplace(command.folder, spec, checkpoint);
+  }
+  ~ReservedFolder() {
+    folder_.reset();
+    std::error_code error;
+    for (const auto& place : made_) std::filesystem::remove(place, error);
+  }
+  ReservedFolder(const ReservedFolder&) = delete;
+  ReservedFolder& operator=(const ReservedFolder&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< the innermost first
+  std::optional<run::RunFolder> folder_;
+};
+
+}  // namespace
+
 int run_case(const casefile::CaseSpec& spec, const RunCommand& given) {
   auto command = given;
   if (command.folder.empty()) command.folder = "out/" + name_of(spec.file);
   const bool by_digits = spec.digits && command.precision.empty();
   auto scalar = command.precision.empty() ? spec.precision : command.precision;
   if (command.estimate) return run_estimate(spec, by_digits ? "" : scalar, command.quiet);
+  if (by_digits && !command.shadow.empty())
+    throw InputError(
+        "--shadow: found digits that are asked for, expected a run in one precision: they are "
+        "verified by a wider run anyway");
   if (!command.shadow.empty()) app::require_wider(scalar, command.shadow, "option '--shadow'");
   auto options = options_of(command);
   if (!command.checkpoint.empty()) run::parse_checkpoint_interval(command.checkpoint);
-  if (by_digits)
+  if (by_digits) {
+    const ReservedFolder folder(command, spec);
     if (const int code = choose_digits(spec, command.quiet, scalar); code != ok) return code;
+  }
   if (!command.checkpoint.empty()) {
     options.checkpoint =
         app::first_checkpoint(spec, command.overrides, scalar, command.report, command.checkpoint);

@@ -8,7 +8,8 @@
 #include "run/event_source.hpp"
 
 namespace edmill::run {
-extern template std::unique_ptr<EventSource> make_source<double>(const casefile::CaseSpec&, bool);
+extern template std::unique_ptr<EventSource> make_source<double>(const casefile::CaseSpec&, bool,
+                                                                 const std::atomic<bool>*);
 }
 namespace edmill::casefile {
 extern template InitialCase<double> build_case<double>(const CaseSpec&, bool);

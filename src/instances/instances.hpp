@@ -37,7 +37,8 @@
   prefix run::Result<Real> run::simulate<Real>(const casefile::CaseSpec&,                            \
                                                const casefile::InitialCase<Real>&,                   \
                                                const run::Guests<Real>&);                            \
-  prefix std::unique_ptr<run::EventSource> run::make_source<Real>(const casefile::CaseSpec&, bool);  \
+  prefix std::unique_ptr<run::EventSource> run::make_source<Real>(const casefile::CaseSpec&, bool,   \
+                                                                  const std::atomic<bool>*);         \
   prefix class output::Outputs<Real>;                                                                \
   prefix class Run<Real>;                                                                            \
   }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "base/batches.hpp"
 #include "casefile/output_columns.hpp"
@@ -36,6 +38,7 @@ inline constexpr casefile::KeyText lyapunov_keys[] = {
 inline void read_lyapunov(casefile::Section& s, const casefile::CaseSpec& spec,
                           casefile::OutputSpec& output) {
   casefile::read_interval(s, output.timer);
+  s.require(output.only.empty(), "only", "none: exponents belong to the whole motion");
   casefile::read_own<LyapunovKeys>(s, spec, output);
 }
 
@@ -61,8 +64,7 @@ class LyapunovOutput : public TableOutput<Real> {
  protected:
   void archive_record(Archive& a) override {
     if (spectrum_) saved_ = spectrum_->state();
-    a(saved_, before_, batches_, intervals_, collisions_, of_balls_, touched_, touched_before_, begun_,
-      ended_);
+    a(saved_, before_, batches_, intervals_, collisions_, of_balls_, touched_, begun_, ended_);
     if (a.loading()) spectrum_.reset();
   }
 
@@ -112,29 +114,35 @@ class LyapunovOutput : public TableOutput<Real> {
   /// The exponents of the record.
   void put_exponents(const engine::Simulation<Real>& simulation, const Real& until) {
     using enum Column::Type;
+    const double period = static_cast<double>(simulation.clock().period());
+    const double duration = begun_ ? static_cast<double>(batches_.elapsed()) * period : 0;
+    std::vector<std::string> comments{
+        this->window(until), std::to_string(collisions_) + " impacts, of which " + std::to_string(touched_) +
+                                 " at the least separation speed"};
+    if (!(duration > 0)) comments.push_back("no exponents: the record is shorter than a drive period");
     this->begin({{"exponent", integer, "", "the largest is 1"},
                  {"per_second", number, "1/s", "growth of ln of the distance of motions nearby"},
                  {"half_width", number, "1/s", "of the 95 % interval, from batches of whole drive periods"},
                  {"per_collision", number, "1", "the same for each collision of a ball"},
                  {"digits_per_impact", number, "1",
                   "decimal digits that an impact of the run costs in this direction"}},
-                {this->window(until), std::to_string(collisions_) + " impacts, of which " +
-                                          std::to_string(touched_) + " at the least separation speed"});
-    if (!begun_) return;
-    const double per_ball = static_cast<double>(of_balls_) / static_cast<double>(ball_count_);
-    const double period = static_cast<double>(simulation.clock().period());
-    const double duration = static_cast<double>(batches_.elapsed()) * period;
+                std::move(comments));
     if (!(duration > 0)) return;
-    for (std::size_t k = 0; k < wanted_; ++k) {
-      const bool lost = touched_ > 0 && is_last(k);
-      const double growth = lost ? -std::numeric_limits<double>::infinity() : batches_.total(k);
-      const double rate = growth / duration;
+    if (!spectrum_) make_spectrum(simulation, in_double(simulation.now()));
+    const double per_ball = static_cast<double>(of_balls_) / static_cast<double>(ball_count_);
+    const double share = duration / static_cast<double>(until - this->timer().from());  // of the impacts
+    const double length = static_cast<double>(batches_.periods()) * period;
+    std::vector<std::size_t> order(wanted_);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto total = [&](std::size_t k) { return is_lost(k) ? none : batches_.total(k); };
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return total(a) > total(b); });
+    std::uint64_t place = 0;
+    for (const auto k : order) {
+      const double growth = total(k);
       const auto batches = batches_.amounts(k);
-      const double length = static_cast<double>(batches_.periods()) * period;
-      const bool known = !lost && batches.size() >= io::Intervals::fewest;
-      const double share = duration / static_cast<double>(until - this->timer().from());  // of the impacts
+      const bool known = !is_lost(k) && batches.size() >= io::Intervals::fewest;
       this->put(
-          static_cast<std::uint64_t>(k + 1), std::optional<Real>(Real(rate)),
+          ++place, std::optional<Real>(Real(growth / duration)),
           io::value_if(known, [&] { return Real(io::Intervals::of(batches, length).half_width); }),
           std::optional<Real>(Real(growth / (share * per_ball))),
           std::optional<Real>(Real(growth / (share * static_cast<double>(collisions_)) / 2.302585092994046)));
@@ -180,7 +188,7 @@ class LyapunovOutput : public TableOutput<Real> {
     if (now < batches_.next_period()) return;
     spectrum_->orthonormalise(now);
     auto growth = spectrum_->growth();
-    for (std::size_t k = 0; k < growth.size(); ++k) growth[k] -= before_[k];
+    for (std::size_t k = 0; k < growth.size(); ++k) growth[k] = is_lost(k) ? 0 : growth[k] - before_[k];
     batches_.pass(now, growth);
   }
   auto row_of(const engine::Simulation<Real>& simulation) {
@@ -190,17 +198,14 @@ class LyapunovOutput : public TableOutput<Real> {
     spectrum_->orthonormalise(in_double(simulation.instant_of(end)));
     const auto& growth = spectrum_->growth();
     this->put(end);
-    for (std::size_t k = 0; k < growth.size(); ++k) {
-      const bool lost = std::isinf(growth[k]) || (touched_ > touched_before_ && is_last(k));
-      this->put(Real(lost ? -std::numeric_limits<double>::infinity()
-                          : (growth[k] - before_[k]) / static_cast<double>(end - begin)));
-    }
+    for (std::size_t k = 0; k < growth.size(); ++k)
+      this->put(Real(is_lost(k) ? none : (growth[k] - before_[k]) / static_cast<double>(end - begin)));
     before_ = growth;
-    touched_before_ = touched_;
   }
 
-  /// Whether it is the last direction of all, the one that impacts at the least separation speed lose.
-  bool is_last(std::size_t k) const { return k + 1 == 9 * ball_count_; }
+  /// Whether impacts at the least separation speed have taken it away.
+  bool is_lost(std::size_t k) const { return std::isinf(spectrum_->growth()[k]); }
+  static constexpr double none = -std::numeric_limits<double>::infinity();
 
   std::uint64_t ball_count_, wanted_;
   bool finite_time_;
@@ -209,7 +214,7 @@ class LyapunovOutput : public TableOutput<Real> {
   tangent::Spectrum::State saved_;             ///< of a checkpoint
   std::vector<double> before_;                 ///< growth up to the record
   numerics::Batches<double> batches_;
-  std::uint64_t collisions_ = 0, of_balls_ = 0, touched_ = 0, touched_before_ = 0;
+  std::uint64_t collisions_ = 0, of_balls_ = 0, touched_ = 0;
   bool begun_ = false, ended_ = false;
 };
 

@@ -139,8 +139,8 @@ py::dict shadow(const Case& the_case, const std::string& precision, const std::s
   return result;
 }
 
-/// @return the precision, the units, the events, and the derivatives by number: of their quantities, and of
-/// both balls' states
+/// @return the precision, the units, the events, and the derivatives by number, event after event: of their
+/// quantities, and of both balls' states, as texts
 py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, std::size_t events,
                       unsigned digits) {
   std::atomic<bool> interrupt{false};
@@ -150,22 +150,16 @@ py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, 
       interruptible(interrupt, [&] { return app::sensitivity(CaseAccess::spec(the_case), options); });
   py::list of_numbers;
   for (std::size_t k = 0; k < by.size(); ++k) {
-    std::vector<std::array<double, model::logged_count>> quantities;
-    std::vector<std::array<std::array<double, 9>, 2>> states;
+    std::vector<std::string> quantities, states;
+    const auto put = [&](std::vector<std::string>& list, const mpfr& x) {
+      list.push_back(x.str(static_cast<int>(digits)));
+    };
     for (const auto& event : found.derivatives) {
       const auto& d = event[k];
-      auto& row = quantities.emplace_back();
-      for (std::size_t q = 0; q < row.size(); ++q) row[q] = static_cast<double>(d.values[q]);
-      auto& both = states.emplace_back();
-      for (std::size_t body = 0; body < 2; ++body) {
-        const auto& t = d.states_after[body];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const auto i = static_cast<int>(axis);
-          both[body][axis] = static_cast<double>(t.position[i]);
-          both[body][axis + 3] = static_cast<double>(t.velocity[i]);
-          both[body][axis + 6] = static_cast<double>(t.spin[i]);
-        }
-      }
+      for (const auto& value : d.values) put(quantities, value);
+      for (const auto& t : d.states_after)
+        for (const auto* vector : {&t.position, &t.velocity, &t.spin})
+          for (int axis = 0; axis < 3; ++axis) put(states, (*vector)[axis]);
     }
     of_numbers.append(py::make_tuple(quantities, states));
   }

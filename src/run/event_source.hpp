@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -25,9 +26,14 @@ using Event = model::ImpactRecord<Number>;
 class EventSource {
  public:
   virtual ~EventSource() = default;
-  /// The next `count` events; fewer at the end of the run.
+  /// The next `count` events; fewer at the end of the run, or when it is interrupted.
   /// @throws UndecidedError
   virtual std::vector<Event> next(std::size_t count) = 0;
+  /// Goes on for about `count` events that are not wanted. @return how many; 0 at the end of the run
+  /// @pre `next` was not called
+  virtual std::size_t pass(std::size_t count) = 0;
+  /// The time up to which it has come [s].
+  virtual double reached() const = 0;
   /// Positions, velocities and spins of all balls, ball by ball, at the instant up to which it has come.
   virtual std::vector<Number> states() const = 0;
   /// Continues in fewer digits, from the states that it has with all their digits. Nothing for scalars of a
@@ -35,9 +41,12 @@ class EventSource {
   virtual void continue_in(unsigned digits) = 0;
 };
 
-/// @param spec     the balls are placed in this scalar, from the exact quantities of the case
-/// @param to_end   whether the run ends at the case's end time; otherwise it continues on request
+/// @param spec       the balls are placed in this scalar, from the exact quantities of the case
+/// @param to_end     whether the run ends where the case does; otherwise it continues on request
+/// @param interrupt  ends it when it becomes true
+/// @throws InterruptedError when it becomes true at the start
 template <class Real>
-std::unique_ptr<EventSource> make_source(const casefile::CaseSpec& spec, bool to_end);
+std::unique_ptr<EventSource> make_source(const casefile::CaseSpec& spec, bool to_end,
+                                         const std::atomic<bool>* interrupt = nullptr);
 
 }  // namespace edmill::run

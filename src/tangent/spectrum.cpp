@@ -47,7 +47,8 @@ Spectrum::Spectrum(const model::Mill<double>& mill, Balls balls, const Instant<d
       speed_(length_ / clock_.period()),
       spin_(1 / clock_.period()),
       state_{std::vector<Tangent<double>>(count_ * balls_.size()),
-             std::vector<Instant<double>>(balls_.size(), start), std::vector<double>(count_, 0.0)} {
+             std::vector<Instant<double>>(balls_.size(), start), std::vector<double>(count_, 0.0), 0,
+             std::vector<std::int64_t>(balls_.size(), 0)} {
   Mixer mixer;
   for (auto& t : state_.tangents) t = {mixer.vector(length_), mixer.vector(speed_), mixer.vector(spin_)};
   orthonormalise(start);
@@ -67,7 +68,7 @@ void Spectrum::with_wall(const ImpactAt<double>& impact, int wall, const Body& b
                  {balls_[static_cast<std::size_t>(body.ball)], body.position, body.velocity, body.spin,
                   body.velocity_after},
                  of_ball(body.ball));
-  count_impact(impact.time);
+  count_impact(impact.time, body.ball, body.ball);
 }
 
 void Spectrum::of_pair(const ImpactAt<double>& impact, const Body& one, const Body& two) {
@@ -78,13 +79,18 @@ void Spectrum::of_pair(const ImpactAt<double>& impact, const Body& one, const Bo
                           b.velocity_after};
   };
   map_.of_pair(impact, struck(one), struck(two), of_ball(one.ball), of_ball(two.ball));
-  count_impact(impact.time);
+  count_impact(impact.time, one.ball, two.ball);
 }
 
-/// Directions turn into the first one by a factor of about e per collision of a ball: sixteen digits last for
-/// many.
-void Spectrum::count_impact(const Instant<double>& now) {
-  if (++state_.since_orthonormal >= balls_.size()) orthonormalise(now);
+/// Directions turn into the first one by a factor of about e per collision of a ball, and those that impacts
+/// take away shrink by the restitution: sixteen digits last for many, but not for a ball that hops.
+void Spectrum::count_impact(const Instant<double>& now, int ball, int partner) {
+  constexpr std::int64_t most_of_ball = 8;
+  auto& of_one = ++state_.of_ball[static_cast<std::size_t>(ball)];
+  auto& of_other = state_.of_ball[static_cast<std::size_t>(partner)];
+  if (partner != ball) ++of_other;
+  if (++state_.since_orthonormal >= balls_.size() || std::max(of_one, of_other) >= most_of_ball)
+    orthonormalise(now);
 }
 
 double Spectrum::product(std::size_t a, std::size_t b) const {
@@ -99,7 +105,9 @@ double Spectrum::product(std::size_t a, std::size_t b) const {
 }
 
 void Spectrum::orthonormalise(const Instant<double>& now) {
+  constexpr double rounding = 1e-13;  // of a sum of many numbers, relative to the largest
   state_.since_orthonormal = 0;
+  state_.of_ball.assign(balls_.size(), 0);
   for (std::size_t ball = 0; ball < balls_.size(); ++ball) fly(static_cast<int>(ball), now);
   const auto add = [this](std::size_t to, std::size_t from, double factor) {
     for (std::size_t ball = 0; ball < balls_.size(); ++ball) {
@@ -109,11 +117,13 @@ void Spectrum::orthonormalise(const Instant<double>& now) {
     }
   };
   for (std::size_t k = 0; k < count_; ++k) {
+    const double before_size = std::sqrt(product(k, k));
     for (int pass = 0; pass < 2; ++pass)  // the second one takes off what rounding has left
       for (std::size_t before = 0; before < k; ++before) add(k, before, -product(k, before));
     const double size = std::sqrt(product(k, k));
-    if (!(size > 0)) {  // nothing is left of it
+    if (!(size > rounding * before_size)) {  // nothing is left of it
       state_.growth[k] = -std::numeric_limits<double>::infinity();
+      add(k, k, -1);
       continue;
     }
     state_.growth[k] += logarithm(size);

@@ -30,7 +30,8 @@ class Spectrum {
 
   /// Makes the directions orthonormal as they are at this instant, and adds to the sums what they grew by.
   void orthonormalise(const Instant<double>& now);
-  /// Natural logarithms of the growth, direction by direction, up to the last call of `orthonormalise`.
+  /// Natural logarithms of the growth, direction by direction, up to the last call of `orthonormalise`; minus
+  /// infinity of directions that impacts at the least separation speed have taken away.
   const std::vector<double>& growth() const { return state_.growth; }
 
   std::size_t directions() const { return count_; }
@@ -43,8 +44,9 @@ class Spectrum {
     std::vector<Instant<double>> since;     ///< instants at which they are known, by ball
     std::vector<double> growth;
     std::uint64_t since_orthonormal = 0;  ///< impacts
+    std::vector<std::int64_t> of_ball{};  ///< of these, by ball
 
-    void archive(Archive& a) { a(tangents, since, growth, since_orthonormal); }
+    void archive(Archive& a) { a(tangents, since, growth, since_orthonormal, of_ball); }
   };
   const State& state() const { return state_; }
   void restore(State state) { state_ = std::move(state); }
@@ -55,7 +57,7 @@ class Spectrum {
   }
   void fly(int ball, const Instant<double>& now);
   double product(std::size_t a, std::size_t b) const;
-  void count_impact(const Instant<double>& now);
+  void count_impact(const Instant<double>& now, int ball, int partner);
 
   TangentMap map_;
   Balls balls_;

@@ -9,6 +9,7 @@ FOLDER keeps the build, the page edmill.html and screenshots
 import base64
 import csv
 import gzip
+import hashlib
 import json
 import math
 import os
@@ -90,7 +91,7 @@ class Page(unittest.TestCase):
 
     def fill(self, **values):
         for name, value in values.items():
-            if name in ("case", "pace"):
+            if name in ("case", "pace", "mill-kind", "vessel-kind"):
                 Select(self.element(name)).select_by_visible_text(value)
             else:
                 self.element(name).clear()
@@ -161,6 +162,114 @@ class Page(unittest.TestCase):
         picture = self.element("mill").screenshot_as_png
         self.element("mill").send_keys(Keys.ARROW_LEFT)
         self.assertNotEqual(self.element("mill").screenshot_as_png, picture)
+
+    def run_to_the_end(self):
+        self.element("run").click()
+        self.wait(lambda: self.text("said") != "The run has ended.", 10)
+        self.wait(lambda: self.text("said") == "The run has ended.", 60)
+
+    def test_a_saved_case_is_the_run_of_the_page(self):
+        for mill, vessel in (("as in the case", "as in the case"), ("vibratory, 11 mm along y", "box"), ("drum", "sphere"), ("SPEX 8000", "rounded cylinder")):
+            for case in ("SPEX 8000, 28 balls", "shaken box"):
+                with self.subTest(f"{case}, {mill}, {vessel}"):
+                    self.fill(case=case, pace="as fast as it can")
+                    self.fill(**{"mill-kind": mill, "vessel-kind": vessel}, count=15, diameter=5, restitution=0.6, friction=0.1, most=400)
+                    if "vibratory" in mill:
+                        self.fill(speed=900)
+                    self.run_to_the_end()
+                    text = self.browser.execute_async_script("const done = arguments[0]; ask({what: 'case'}).then(done)")["answer"]["case"]
+                    self.assertNotIn("# --set", text)
+                    saved = FOLDER / "saved.toml"
+                    saved.write_text(text)
+                    subprocess.run([EDMILL, "run", saved, "--quiet", "--out", FOLDER / "saved"], check=True, stderr=subprocess.DEVNULL)
+                    content = (FOLDER / "saved/collisions.csv").read_bytes()
+                    self.assertEqual(hashlib.sha256(content).hexdigest(), self.facts()["SHA-256 of collisions.csv"])
+                    self.assertIn("count = 15", text)
+
+    def test_saving_does_not_end_a_run(self):
+        self.browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(FOLDER)})
+        (FOLDER / "case.toml").unlink(missing_ok=True)
+        self.element("run").click()
+        self.wait(lambda: int(self.facts().get("impacts", 0)) > 0, 30)
+        self.element("pause").click()
+        self.element("save").click()
+        self.wait(lambda: (FOLDER / "case.toml").exists(), 20)
+        self.assertEqual(self.text("said"), "Paused.")
+        before = int(self.facts()["impacts"])
+        self.element("pause").click()
+        self.wait(lambda: int(self.facts()["impacts"]) > before, 20)
+        # A wrong value ends it, and nothing can go on.
+        self.fill(restitution=1.5)
+        self.element("run").click()
+        self.wait(lambda: self.element("problems").is_displayed(), 20)
+        self.assertFalse(any(self.element(name).is_enabled() for name in ("pause", "step", "end", "save", "stop")))
+        self.fill(restitution=0.5)
+        self.element("run").click()
+        self.wait(lambda: self.text("said") == "Running.", 20)
+
+    def test_files_in_the_wrong_place(self):
+        log = FOLDER / "long.csv"
+        for rows, said in ((40_000, "found no valid TOML"), (200_000, "a case file (TOML) is shorter")):
+            log.write_text("time,ball,partner_kind,partner\n" + "0.001,1,wall,0\n" * rows)
+            for name in ("judged-case", "log"):
+                self.element(name).send_keys(str(log))
+            self.element("audit").click()
+            self.wait(lambda: self.text("verdict").startswith("No verdict"), 30)
+            self.assertIn(said, self.text("verdict") + self.text("table"))
+            self.element("open").send_keys(str(log))
+            self.wait(lambda: said in self.text("problems"), 30)
+        self.fill(case="SPEX 8000, 28 balls", most=100, pace="as fast as it can")
+        self.run_to_the_end()
+        wide = FOLDER / "wide.toml"
+        for key in ('precision = "float128"', "digits = 12"):
+            wide.write_text((ROOT / "docs/examples/demo.toml").read_text().replace("[run]", f"[run]\n{key}"))
+            self.element("open").send_keys(str(wide))
+            self.wait(lambda: "expected a run in double" in self.text("problems"), 30)
+            self.browser.execute_script("problems([])")
+
+    def test_no_impact_comes(self):
+        lone = FOLDER / "lone.toml"
+        lone.write_text('[run]\nmax_collisions = 5\n[mill]\ntype = "still"\n[vessel]\ntype = "sphere"\ndiameter = "50 mm"\n[contact]\nrestitution = 0.5\n'
+                        'friction = 0.1\n[[ball]]\ndiameter = "5 mm"\nposition = [0, 0, 0]\n')
+        lone.write_text(lone.read_text().replace("[run]", '[run]\ngravity = "0 m/s2"'))
+        self.element("open").send_keys(str(lone))
+        self.wait(lambda: self.text("said") == "Running.", 30)
+        self.element("step").click()
+        self.wait(lambda: self.text("said") == "No impact in the next hundred drive periods.", 30)
+        self.fill(case="SPEX 8000, 28 balls", most=100, pace="as fast as it can")
+        self.run_to_the_end()
+
+    def test_what_takes_long_can_be_stopped(self):
+        self.fill(count=100_000, diameter=0.1)
+        self.element("run").click()
+        self.wait(lambda: "too many" in self.text("problems"), 10)
+        self.fill(count=820, diameter=4.76)
+        self.element("run").click()
+        self.wait(lambda: self.text("said") == "Placing the balls.", 10)
+        self.element("stop").click()
+        self.assertEqual(self.text("said"), "Stopped.")
+        self.fill(count="", diameter="", most=100, pace="as fast as it can")
+        self.run_to_the_end()
+        # The mill goes on while a log is judged.
+        case = ROOT / "docs/examples/demo.toml"
+        subprocess.run([EDMILL, "run", case, "--quiet", "--out", FOLDER / "long", "--set", "run.max_collisions=3000", "--set", "contact.restitution=0.6",
+                        "--set", "contact.friction=0.3", "--set", 'output=[{type="collisions",states=true}]'], check=True)
+        self.element("judged-case").send_keys(str(case))
+        self.element("log").send_keys(str(FOLDER / "long/collisions.csv"))
+        self.element("identify").click()
+        self.element("audit").click()
+        self.wait(lambda: "Searching" in self.text("verdict"), 60)
+        self.fill(most="", pace="ten times slower")
+        self.element("run").click()
+        self.wait(lambda: int(self.facts().get("impacts", 0)) > 200, 30)
+        self.element("judge-stop").click()
+        self.wait(lambda: self.text("verdict") == "No verdict:", 10)
+
+    def test_laws_by_materials_are_not_overridden(self):
+        self.fill(case="steel and alumina, with a piston")
+        self.assertFalse(self.element("restitution").is_enabled() or self.element("friction").is_enabled())
+        self.fill(case="shaken box")
+        self.assertTrue(self.element("restitution").is_enabled() and self.element("friction").is_enabled())
 
     def test_each_case_runs_with_other_balls(self):
         for case in ("planetary mill", "shaken box", "steel and alumina, with a piston"):

@@ -6,10 +6,13 @@ usage: digits_test.py EDMILL [whole]
 import csv
 import pathlib
 import re
+import signal
+import subprocess
 import sys
+import time
 from decimal import Decimal, getcontext
 
-from trials import SOURCE, Trials, case, edmill
+from trials import EDMILL, SOURCE, Trials, case, edmill
 
 getcontext().prec = 400
 WHOLE = len(sys.argv) > 2
@@ -122,12 +125,15 @@ def test_refusals(t):
     t.refused(edmill("run", "demo.toml", "--digits", "0"), "no digits", "--digits")
     t.refused(edmill("run", "demo.toml", "--digits", "12", "--precision", "double"), "both", "--digits")
     t.refused(edmill("run", "demo.toml", "--set", "run.digits=12", "--set", 'run.precision="mpfr50"'), "both keys", "run.digits")
-    pathlib.Path("endless.toml").write_text(re.sub(r"end_time.*", "max_collisions = 100", CASES["demo"], count=1))
-    t.refused(edmill("run", "endless.toml", "--digits", "12"), "without an end", "run.end_time")
-    t.refused(edmill("run", "endless.toml", "--estimate"), "without an end", "run.end_time")
+    t.refused(edmill("run", "demo.toml", "--digits", "12", "--shadow", "mpfr100"), "a shadow", "--shadow")
+    pathlib.Path("asking.toml").write_text(CASES["demo"].replace("[run]", "[run]\ndigits = 12"))
+    pathlib.Path("sweep.toml").write_text('[study]\ncase = "asking.toml"\nseeds = 2\n[sweep.grid]\n"contact.friction" = [0.1, 0.2]\n')
+    t.refused(edmill("sweep", "sweep.toml", "--out", "sweep"), "a study of a run in right digits", "run.digits")
     pathlib.Path("corner.toml").write_text(CORNER)
     t.refused(edmill("run", "corner.toml", "--digits", "12", "--out", "corner"), "a corner", "a rule and not the equations", code=4)
     t.check(not pathlib.Path("corner").exists(), "nothing is written")
+    estimate = edmill("run", "corner.toml", "--digits", "12", "--estimate")
+    t.check(estimate.returncode == 4 and "a rule and not the equations" in estimate.stdout, f"estimate of a corner: {estimate.stdout}")
     t.refused(edmill("sensitivity", "corner.toml", "--by", "initial.0.x", "--events", "3"), "a corner", "a rule", code=4)
     for by in ("contact.nothing", "vessel.type", "initial.99.x", "initial.0.q", "initial.x"):
         t.refused(edmill("sensitivity", "demo.toml", "--by", by, "--events", "3"), by, by)
@@ -168,6 +174,36 @@ def test_bifurcation(t):
     t.check("<svg" in pathlib.Path("b.svg").read_text(), "a drawing")
 
 
+def test_other_ends(t):
+    """What ends a run ends those that find its digits; a folder that cannot be used is told before they begin."""
+    long = re.sub(r"end_time.*", 'end_time = "1000 s"', CASES["demo"], count=1)
+    for name, rule, events in (("collisions", "max_collisions = 300", 300), ("dose", 'max_milling_dose = "20 mJ"', None)):
+        for end in (long, long.replace('end_time = "1000 s"', "")):
+            pathlib.Path("other.toml").write_text(end.replace("[run]", f"[run]\n{rule}"))
+            log, _, said = log_of(t, "other", "--digits", "12")
+            found = re.search(r"all (\d+) events", said)
+            t.check(found and int(found[1]) == len(log) and events in (None, len(log)), f"{name}: {len(log)} events, {said[:200]!r}")
+            estimate = edmill("run", "other.toml", "--digits", "12", "--estimate").stdout
+            t.check(re.search(r"events +about (\d+)", estimate)[1] == str(len(log)), f"{name}: {estimate}")
+    pathlib.Path("a_file").write_text("mine")
+    t.refused(edmill("run", "demo.toml", "--digits", "12", "--set", 'run.end_time="9 s"', "--out", "a_file", timeout=20), "a file as folder", "a_file")
+    child = subprocess.Popen([EDMILL, "run", "demo.toml", "--digits", "12", "--set", 'run.end_time="9 s"', "--out", "interrupted"],
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    time.sleep(1.5)
+    child.send_signal(signal.SIGINT)
+    out, err = child.communicate(timeout=20)
+    t.check(child.returncode in (130, -signal.SIGINT) and "interrupted before the digits were found" in err, f"{child.returncode}: {err!r}")
+    t.check(not pathlib.Path("interrupted").exists(), "no folder of an interrupted search")
+
+
+def test_many_digits(t):
+    """No more digits are taken than an estimate says, whatever is asked for."""
+    for digits in (60, 150, 400):
+        done = edmill("run", "demo.toml", "--digits", digits, "--set", 'run.end_time="0.01 s"', "--out", "many")
+        found = re.search(r"mpfr:(\d+) and .* agree to (\d+) digits", done.stdout)
+        t.check(found and int(found[1]) <= digits + 30 and int(found[2]) >= digits, f"{digits} digits: {done.stdout[:200]!r}")
+
+
 with Trials() as t:
     for name in CASES:
         test_digits(t, name)
@@ -175,6 +211,8 @@ with Trials() as t:
         test_any_number(t)
         test_resume(t)
         test_refusals(t)
+        test_other_ends(t)
+        test_many_digits(t)
         test_estimate(t)
         test_certify_to_the_end(t)
         test_bifurcation(t)

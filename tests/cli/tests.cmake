@@ -15,7 +15,7 @@ set_tests_properties(packages_test PROPERTIES LABELS long TIMEOUT 3600 SKIP_RETU
 # Files, streams and signals: a script for each promise of docs/files.md and docs/usage.md.
 add_library(no_locks MODULE cli/no_locks.c)
 add_library(dies_at MODULE cli/dies_at.c)
-foreach(name digits charges one_writer kill_steps left_behind named_files tampered standard_streams signals inputs missing_memory)
+foreach(name digits sensitivity charges one_writer kill_steps left_behind named_files tampered standard_streams signals inputs missing_memory)
   set(more)
   if(name STREQUAL one_writer)
     set(more $<TARGET_FILE:no_locks>)
@@ -26,7 +26,8 @@ foreach(name digits charges one_writer kill_steps left_behind named_files tamper
   set_tests_properties(${name}_test PROPERTIES TIMEOUT 600 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 endforeach()
 add_test(NAME digits_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/digits_test.py $<TARGET_FILE:edmill_cli> whole)
-set_tests_properties(digits_long PROPERTIES LABELS long TIMEOUT 3600 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+add_test(NAME sensitivity_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/sensitivity_test.py $<TARGET_FILE:edmill_cli> whole)
+set_tests_properties(digits_long sensitivity_long PROPERTIES LABELS long TIMEOUT 86400 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 add_test(NAME one_writer_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/one_writer_test.py $<TARGET_FILE:edmill_cli>
                                       $<TARGET_FILE:no_locks> 100)
 add_test(NAME left_behind_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/left_behind_test.py $<TARGET_FILE:edmill_cli> 200)

@@ -60,6 +60,27 @@ TEST(Spectrum, SumsToTheDeterminantsOfTheImpacts) {
     }
 }
 
+/// An impact at the least separation speed takes a direction away. Balls that do not meet each other lose one
+/// each; what is left of a lost one is rounding, and no exponent.
+TEST(Spectrum, LosesADirectionOfEachBallThatHopsByItself) {
+  for (const int balls : {1, 2, 3}) {
+    std::string text =
+        "[run]\nend_time = \"99 s\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = \"box\"\nsize = [\"100 mm\", "
+        "\"40 mm\", \"40 mm\"]\n[contact]\nrestitution = 0.5\nfriction = 0.2\nleast_separation = \"1 "
+        "cm/s\"\n";
+    for (int k = 0; k < balls; ++k)
+      text += "[[ball]]\ndiameter = \"8 mm\"\nposition = [\"" + std::to_string(30 * k - 30) +
+              " mm\", \"0 mm\", \"" + std::to_string(3 * k) +
+              " mm\"]\nspin = [\"1 rad/s\", \"0 rad/s\", \"2 rad/s\"]\n";
+    const auto growth = growth_of(casefile::parse_case(text, "hops.toml"), 300, 0.5, -1);
+    EXPECT_GT(growth.touched, 100);
+    int lost = 0;
+    for (const double g : growth.of_directions) lost += std::isinf(g);
+    EXPECT_EQ(lost, balls);
+    for (const double g : growth.of_directions) EXPECT_TRUE(std::isinf(g) || g > -300 * 5) << g;
+  }
+}
+
 /// Impacts of elastic, smooth balls of one mass keep the symplectic form of places and velocities: the growth
 /// factors of any stretch of a run, the singular values of its derivative, are pairs of numbers and their
 /// inverses.

@@ -147,9 +147,10 @@ def certify(case: Case | Mapping | str | os.PathLike, collisions: int | None = N
 
 @dataclasses.dataclass(frozen=True)
 class Derivative:
-    """With respect to one number of a case, or of the initial state; SI per unit of the number."""
+    """With respect to one parameter of a case, or one number of the initial state; SI per unit of it. Numbers are
+    `decimal.Decimal` where more than 17 digits were asked for."""
     by: str
-    unit: str  #: of the number as the case has it, "rpm"; empty for a ratio
+    unit: str  #: of the parameter as the case has it, "rpm"; empty for a ratio
     quantities: dict[str, np.ndarray]  #: of time, approach_speed, slip_speed, milling_dose and wall_work, by event
     states: np.ndarray  #: events x 2 bodies x 9: position, velocity and spin after the impact; 0 of a wall
 
@@ -169,12 +170,14 @@ def sensitivity(case: Case | Mapping | str | os.PathLike, by: Iterable[str], eve
     require("by", by, isinstance(by, Iterable) and not isinstance(by, str), 'a list of keys, ["contact.restitution"]')
     keys = [text("by", key) for key in by]
     precision, units, rows, found = _edmill.sensitivity(case._case, keys, whole("events", events, 1, LARGEST),
-                                                        whole("digits", digits, 1, 1000))
+                                                        whole("digits", digits, 1, 360))
     names = _edmill.logged_quantities
+    number = np.vectorize(float if digits <= 17 else Decimal, otypes=[float if digits <= 17 else object])
     derivatives = {}
     for key, unit, (quantities, states) in zip(keys, units, found):
-        columns = np.array(quantities, dtype=float).reshape(len(rows), len(names))
-        derivatives[key] = Derivative(key, unit, dict(zip(names, columns.T)), np.array(states, dtype=float))
+        columns = number(np.array(quantities, dtype=object).reshape(len(rows), len(names)))
+        derivatives[key] = Derivative(key, unit, dict(zip(names, columns.T)),
+                                      number(np.array(states, dtype=object).reshape(len(rows), 2, 9)))
     return Sensitivities([_certified(row) for row in rows], derivatives, precision)
 
 

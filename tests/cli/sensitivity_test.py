@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""The derivative with respect to any number of a case is the difference of two runs divided by that of the number, for numbers of every
+kind: of tables and lists, set by an option, zero, at an end of their range, and those that place the balls or begin the run.
+
+usage: sensitivity_test.py EDMILL [whole]
+"""
+import csv
+import pathlib
+import re
+import sys
+import tomllib
+from decimal import Decimal, getcontext
+
+from trials import SOURCE, Trials, edmill
+
+getcontext().prec = 60
+EVERY = 1 if len(sys.argv) > 2 else 3  # of the keys of each case
+EVENTS = 4
+CASES = {name: (SOURCE / "docs" / "examples" / f"{name}.toml").read_text()
+         for name in ("demo", "planetary", "shaken_box", "vibrated_box", "materials", "oscillating_table", "ward")}
+CASES["ends"] = """[run]
+end_time = "1 s"
+gravity = ["0 m/s2", "-9.81 m/s2", "0 m/s2"]
+[mill]
+type = "chain"
+[[mill.joint]]
+translate = "y"
+swing = [{ amplitude = "5 mm", speed = "1500 rpm" }, { amplitude = "1 mm", speed = "3000 rpm", phase = "20 deg" }]
+[vessel]
+type = "box"
+size = ["40 mm", "50 mm", "40 mm"]
+[contact]
+restitution = 1
+friction = 0
+[[ball]]
+diameter = "10 mm"
+position = ["0 mm", "-19 mm", "1 mm"]
+velocity = ["10 cm/s", "0 m/s", "0 m/s"]
+spin = ["0 rad/s", "3 rad/s", "0 rad/s"]
+[[ball]]
+diameter = "8 mm"
+position = ["2 mm", "5 mm", "0 mm"]
+"""
+# Settings of whole tables go before the file's.
+SET = {"demo": [[], ["contact={restitution=0.6, friction=0.1}", 'balls=[{count=10, diameter="6 mm"}]'], ["run.gravity='9.7 m/s2'"]],
+       "ends": [[], ["ball.0.position.1=\"-18 mm\"", 'mill.joint.0.swing.0={amplitude="4 mm", speed="1400 rpm"}']]}
+PLAIN = {"run.seed", "run.max_collisions", "run.dose_rate_precision"}
+
+
+def numbers(node, path=""):
+    """Keys of all numbers, with number and unit."""
+    if isinstance(node, dict):
+        for key, value in node.items():
+            yield from numbers(value, f"{path}.{key}" if path else key)
+    elif isinstance(node, list):
+        for k, value in enumerate(node):
+            yield from numbers(value, f"{path}.{k}")
+    elif not isinstance(node, bool):
+        found = re.fullmatch(r"([-+0-9.eE]+) *(.*)", str(node))
+        if found and any(c.isdigit() for c in found[1]):
+            yield path, Decimal(found[1]), found[2], isinstance(node, int)
+
+
+def value_of(key, tables):
+    for part in key.split("."):
+        tables = tables[int(part) if isinstance(tables, list) else part]
+    return tables
+
+
+def with_settings(text, settings):
+    tables = tomllib.loads(text)
+    for setting in settings:
+        key, value = setting.split("=", 1)
+        *path, last = key.split(".")
+        place = value_of(".".join(path), tables) if path else tables
+        place[int(last) if isinstance(place, list) else last] = tomllib.loads("value = " + value)["value"]
+    return tables
+
+
+def rows(file):
+    with open(file, encoding="utf-8") as stream:
+        return list(csv.DictReader(line for line in stream if not line.startswith("#")))
+
+
+QUANTITIES = ("time", "approach_speed", "slip_speed", "milling_dose", "wall_work")
+
+
+def events(t, name, settings, key, value, unit):
+    text = f'{key}="{value} {unit}"' if unit else f"{key}={value:f}"
+    arguments = [word for s in (*settings, text, f"run.max_collisions={EVENTS}", 'output=[{type="collisions"}]', 'run.start_time="0 s"') for word in ("--set", s)]
+    done = edmill("run", f"{name}.toml", "--quiet", "--out", "out", "--precision", "mpfr50", *arguments)
+    return rows("out/collisions.csv")[:EVENTS] if done.returncode == 0 else None
+
+
+def compare(t, name, settings, key, value, unit):
+    what = f"{name} {settings}: {key}"
+    done = edmill("sensitivity", f"{name}.toml", "--by", key, "--events", EVENTS, "--out", "d.csv", "--digits", "15",
+                  *[word for s in settings for word in ("--set", s)])
+    t.check(done.returncode == 0, f"{what}: {done.stderr}")
+    found = rows("d.csv")
+    step = max(abs(value), Decimal(1)) * Decimal("1e-17")
+    before, after = (events(t, name, settings, key, value + sign * step, unit) for sign in (-1, 1))
+    middle = events(t, name, settings, key, value, unit) if before is None or after is None else None
+    t.check(middle or before and after, f"{what}: no run with other values")
+    before, after, width = (middle, after, step) if before is None else (before, middle, step) if after is None else (before, after, 2 * step)
+    for quantity in QUANTITIES:
+        slopes = [(Decimal(b[quantity]) - Decimal(a[quantity])) / width for a, b in zip(before, after)]
+        derivatives = [Decimal(row[f"d_{quantity}_0"]) for row in found]
+        size = max(map(abs, slopes + derivatives))
+        off = max(abs(a - b) for a, b in zip(slopes, derivatives))
+        t.check(off <= Decimal("1e-9") * size + Decimal("1e-25"), f"{what}: {quantity}: {derivatives}, runs have {slopes}")
+
+
+def begins_late(t):
+    """Where a run begins from a file, the drive's period moves its start."""
+    done = edmill("run", "planetary.toml", "--quiet", "--out", "first", "--set", 'run.end_time="0.31 s"', "--precision", "mpfr50")
+    t.check(done.returncode == 0, done.stderr)
+    state = ['run.initial_state="first/final_state.csv"']
+    for key, unit in (("mill.speed", "rpm"), ("mill.ratio", "")):
+        compare(t, "planetary", state, key, Decimal(300) if unit else Decimal(-2), unit)
+
+
+with Trials() as t:
+    kept = 0
+    for name, text in CASES.items():
+        pathlib.Path(f"{name}.toml").write_text(text)
+        for settings in SET.get(name, [[]]):
+            for key, value, unit, whole in numbers(with_settings(text, settings)):
+                if key.split(".")[0] in ("output", "audit", "powder") or key in ("run.end_time", "run.start_time", "run.target_dose"):
+                    continue
+                kept += 1
+                if key in PLAIN or key.endswith("count"):
+                    done = edmill("sensitivity", f"{name}.toml", "--by", key, "--events", EVENTS)
+                    t.refused(done, f"{name}: {key}", key, "a parameter that varies continuously")
+                elif kept % EVERY == 0 or settings:
+                    compare(t, name, settings, key, value, unit)
+    begins_late(t)
+    t.refused(edmill("sensitivity", "demo.toml", "--by", "contact.friction", "--events", "3", "--digits", "1000"), "digits", "--digits", "1000", "360")
+print(f"{t.checks} checks of derivatives")
