@@ -323,6 +323,7 @@ async function play(own) {
   let before = await next_picture();
   while (going && own === run_number) {
     const now = await next_picture(), pace = Number($('pace').value);
+    if (!going || own !== run_number) return;
     const step = pace > 0 ? Math.min(pace * (now - before) / 1000, 0.05) : chunk;
     before = now;
     if (!await advance(frame.time + step, own)) return;
@@ -430,6 +431,7 @@ $('save').addEventListener('click', async () => {
 $('open').addEventListener('change', async () => {
   const file = $('open').files[0];
   if (!file) return;
+  $('open').value = '';  // so that it can be opened again, when it has changed
   try {
     const content = await case_of(file);
     if (!(file.name in cases)) $('case').append(new Option(file.name, file.name));

@@ -31,7 +31,6 @@ void read_run(Section run, CaseSpec& spec) {
   spec.precision = read_precision(run);
   read_keys(run, spec);
   run.require(!spec.digits || !run.has("precision"), "digits", "digits or a precision, not both");
-  run.require(!spec.digits || run.has("end_time"), "digits", "a run.end_time beside it");
   if (!run.has("start_time")) spec.statistics_start = spec.initial_time;
   run.require(spec.statistics_start.value >= spec.initial_time.value, "start_time",
               "a time not before the initial time");
