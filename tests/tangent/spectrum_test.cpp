@@ -65,8 +65,9 @@ TEST(Spectrum, SumsToTheDeterminantsOfTheImpacts) {
 TEST(Spectrum, LosesADirectionOfEachBallThatHopsByItself) {
   for (const int balls : {1, 2, 3}) {
     std::string text =
-        "[run]\nend_time = \"99 s\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = \"box\"\nsize = [\"100 mm\", "
-        "\"40 mm\", \"40 mm\"]\n[contact]\nrestitution = 0.5\nfriction = 0.2\nleast_separation = \"1 "
+        "[run]\nend_time = \"99 s\"\ngravity = \"9.81 m/s2\"\n[mill]\ntype = \"still\"\n[vessel]\ntype = "
+        "\"box\"\nsize = [\"40 mm\", "
+        "\"100 mm\", \"40 mm\"]\n[contact]\nrestitution = 0.5\nfriction = 0.2\nleast_separation = \"1 "
         "cm/s\"\n";
     for (int k = 0; k < balls; ++k)
       text += "[[ball]]\ndiameter = \"8 mm\"\nposition = [\"" + std::to_string(30 * k - 30) +
