@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <optional>
 
 #include "app/certify.hpp"
 #include "app/side_by_side.hpp"
@@ -59,14 +60,31 @@ void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& s
   const auto lost = [&] {
     return runs.diverged() ? digits : std::max(0.0, digits - agreement.least_digits());
   };
+  bool all = false;
+  std::optional<double> first;
+  double reached = 0;
   while (!stop_asked(options) && agreement.events() < most && lost() < enough) {
     const auto events = runs.next(256);
+    all = events.empty() && !runs.diverged();
     if (events.empty()) break;
     for (const auto& event : events)
       if (event.by_rule && e.undecided.empty()) e.undecided = by_rule(event);
+    if (!first) first = static_cast<double>(events.front().time);
+    reached = static_cast<double>(events.back().time);
     options.progress(chosen(digits), agreement.events(), double{most});
   }
-  if (agreement.events() > 0) e.lost_per_event = lost() / static_cast<double>(agreement.events());
+  const auto events = static_cast<double>(agreement.events());
+  if (!(events > 0)) return;
+  e.lost_per_event = lost() / events;
+  if (e.precision == "double") return;
+  // Few balls can rest longer, and hop more often, in the true motion than in double.
+  if (all)
+    e.events = events;
+  else if (spec.end_time && reached > *first) {
+    const double end = spec.end_time->to<double>();
+    const double rate = std::max(events / (reached - *first), e.events / (end - *first));
+    e.events = events + rate * std::max(0.0, end - reached);
+  }
 } catch (const UndecidedError& error) {
   e.undecided = error.what();
 }
