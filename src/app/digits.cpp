@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <optional>
+#include <vector>
 
 #include "app/certify.hpp"
 #include "app/side_by_side.hpp"
@@ -61,28 +61,30 @@ void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& s
     return runs.diverged() ? digits : std::max(0.0, digits - agreement.least_digits());
   };
   bool all = false;
-  std::optional<double> first;
-  double reached = 0;
+  std::vector<double> times;
   while (!stop_asked(options) && agreement.events() < most && lost() < enough) {
     const auto events = runs.next(256);
     all = events.empty() && !runs.diverged();
     if (events.empty()) break;
-    for (const auto& event : events)
+    for (const auto& event : events) {
       if (event.by_rule && e.undecided.empty()) e.undecided = by_rule(event);
-    if (!first) first = static_cast<double>(events.front().time);
-    reached = static_cast<double>(events.back().time);
+      times.push_back(static_cast<double>(event.time));
+    }
     options.progress(chosen(digits), agreement.events(), double{most});
   }
   const auto events = static_cast<double>(agreement.events());
   if (!(events > 0)) return;
   e.lost_per_event = lost() / events;
   if (e.precision == "double") return;
-  // Few balls can rest longer, and hop more often, in the true motion than in double.
-  if (all)
+  // Few balls can rest longer, and hop more often, in the true motion than in double: it goes on as in the
+  // later half of the time so far.
+  const double first = times.front(), reached = times.back(), half = (first + reached) / 2;
+  if (all) {
     e.events = events;
-  else if (spec.end_time && reached > *first) {
+  } else if (spec.end_time && reached > first) {
     const double end = spec.end_time->to<double>();
-    const double rate = std::max(events / (reached - *first), e.events / (end - *first));
+    const auto later = times.end() - std::upper_bound(times.begin(), times.end(), half);
+    const double rate = std::max(static_cast<double>(later) / (reached - half), e.events / (end - first));
     e.events = events + rate * std::max(0.0, end - reached);
   }
 } catch (const UndecidedError& error) {
@@ -161,7 +163,11 @@ std::string duration(double seconds) {
 RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
                          const DigitsOptions& options) try {
   RunEstimate e = estimate_digits(spec, precision, options);
-  e.seconds_per_event = time_per_event(e.precision, spec, options);
+  // A run in right digits is made in the wider of the two that agree.
+  const auto made_in = precision.empty()
+                           ? chosen(wider_than(static_cast<unsigned>(casefile::digits_of(e.precision))))
+                           : precision;
+  e.seconds_per_event = time_per_event(made_in, spec, options);
   if (precision.empty() && e.seconds_per_event > 0) e.verifying = 2 * share_of_verifying(e, spec, options);
   e.bytes = most_memory();
   e.outputs = !spec.outputs.empty();
