@@ -51,14 +51,18 @@ void apply(toml::table& root, Document& document, const std::string& text) {
     auto* next = table ? table->get(keys[k]) : parent->as_array()->get(std::stoul(keys[k]));
     parent = next ? next : &table->insert(keys[k], toml::table{}).first->second;
   }
-  std::erase_if(document.overrides, [&](const auto& o) { return o.first.starts_with(path + "."); });
-  document.overrides[path] = value;
   toml::table parsed;
   try {
     parsed = toml::parse("value = " + value);
   } catch (const toml::parse_error&) {
   }
-  if (parsed.size() == 1)
+  const auto* read = parsed.size() == 1 ? parsed.get("value") : nullptr;
+  const auto* list = parent->as_array();
+  if (list && list->get(std::stoul(keys.back()))->is_table() && !(read && read->is_table()))
+    return complain("a value for '" + path + "', which is a section");
+  std::erase_if(document.overrides, [&](const auto& o) { return o.first.starts_with(path + "."); });
+  document.overrides[path] = value;
+  if (read)
     put(*parent, keys.back(), std::move(*parsed.get("value")));
   else
     put(*parent, keys.back(), value);
