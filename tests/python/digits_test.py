@@ -12,7 +12,8 @@ CASE = edmill.Case.spex8000(balls=3, diameter="9.52 mm", start_time="0 s", end_t
 
 def test_a_run_has_the_digits_that_it_is_asked_for():
     run = edmill.run(CASE, digits=15)
-    assert run.precision.startswith("mpfr:")
+    assert run.precision.startswith("mpfr:") and run.right_digits >= 15
+    assert edmill.run(CASE, events=False).right_digits is None
     wide = edmill.run(CASE, f"mpfr:{2 * int(run.precision[5:])}")
     assert len(run.events) == len(wide.events)
     for name in ("time", "approach_speed", "milling_dose"):
@@ -46,6 +47,17 @@ def test_derivatives_are_those_of_differing_runs():
     for name, values in derivative.quantities.items():
         exact = np.array([float((a - b) / (2 * step)) for a, b in zip(up[name], down[name])])
         assert np.allclose(values, exact, rtol=1e-12, atol=1e-14 * np.abs(exact).max()), name
+    wide = edmill.sensitivity(case, by=["contact.restitution"], events=20, digits=40).derivatives["contact.restitution"]
+    assert isinstance(wide.quantities["time"][-1], Decimal) and len(wide.quantities["time"][-1].as_tuple().digits) > 30
+    assert abs(wide.quantities["time"][-1] - (up["time"][-1] - down["time"][-1]) / (2 * step)) < Decimal("1e-30")
+    assert np.allclose(wide.states.astype(float), derivative.states, rtol=1e-14)
+    with pytest.raises(edmill.InputError, match="digits"):
+        edmill.sensitivity(CASE, by=["contact.restitution"], events=3, digits=400)
+    # Settings of whole tables go before what the file has.
+    edited = CASE.edit({"contact": {"restitution": 0.7, "friction": 0.2}})
+    first = edmill.sensitivity(edited, by=["contact.restitution"], events=20).derivatives["contact.restitution"].quantities["time"]
+    up, down = (edmill.run(CASE.edit({"contact": {"restitution": 0.7 + sign * 1e-6, "friction": 0.2}}), "mpfr50").events[:20]["time"] for sign in (1, -1))
+    assert np.allclose(first, [float(a - b) / 2e-6 for a, b in zip(up, down)], rtol=1e-4, atol=1e-7)
     with pytest.raises(edmill.InputError, match="contact.nothing"):
         edmill.sensitivity(CASE, by=["contact.nothing"], events=3)
     with pytest.raises(edmill.InputError, match="by"):
