@@ -23,6 +23,8 @@ fi
 rm -rf "$folder"
 mkdir -p "$folder"
 debootstrap --variant=minbase "${options[@]}" "$release" "$folder/root" "$mirror" "${script[@]}" >"$folder/debootstrap.log"
+# Machines and containers have it; a bare base system does not.
+echo "127.0.0.1 localhost" >"$folder/root/etc/hosts"
 git clone -q "$source_folder" "$folder/root/root/edmill"
 trap 'umount "$folder/root/proc"' EXIT
 mount -t proc proc "$folder/root/proc"
