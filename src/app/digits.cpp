@@ -94,11 +94,6 @@ void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& s
 /// The part of an estimate that a run in right digits needs: how many.
 RunEstimate estimate_digits(const casefile::CaseSpec& spec, const std::string& precision,
                             const DigitsOptions& options) {
-  const bool ends = spec.end_time || std::ranges::any_of(spec.stop_limits,
-                                                         [](const auto& limit) { return limit.has_value(); });
-  if (!ends)
-    throw InputError(spec.file +
-                     ": key 'run.end_time': found nothing, expected the time to which a run is estimated");
   RunEstimate e;
   const std::clock_t begin = std::clock();
   e.precision = precision;

@@ -39,7 +39,6 @@ struct RunEstimate {
 
 /// Short trials say how many digits the case loses per event, how many events it has, and what one costs.
 /// @param precision  of the run; empty to find that which `spec.digits` needs
-/// @throws InputError when the case has no end
 RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
                          const DigitsOptions& options);
 

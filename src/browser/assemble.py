@@ -32,7 +32,7 @@ def main(engine, place):
     proven = {"case": (reference / "three_balls.toml").read_text(encoding="utf-8"),
               "events": [[row[1], int(row[2]), int(row[4]) if row[3] == "ball" else -1 - int(row[4])] for row in rows[1:201]]}
     worker = pathlib.Path(engine + ".js").read_text(encoding="utf-8") + script("worker.js")
-    parts = {"style": read("page.css"), "script": script("page.js") + script("lessons.js"), "worker": json.dumps(worker).replace("</", "<\\/"),
+    parts = {"style": read("page.css"), "script": "".join(map(script, ("engine.js", "picture.js", "page.js", "lessons.js"))), "worker": json.dumps(worker).replace("</", "<\\/"),
              "cases": json.dumps(cases).replace("</", "<\\/"), "proven": json.dumps(proven),
              "certificate": json.dumps(read("three_balls.certificate")),
              "engine": base64.b64encode(compressed).decode()}

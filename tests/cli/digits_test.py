@@ -3,7 +3,6 @@
 
 usage: digits_test.py EDMILL [whole]
 """
-import csv
 import pathlib
 import re
 import signal
@@ -12,7 +11,7 @@ import sys
 import time
 from decimal import Decimal, getcontext
 
-from trials import EDMILL, SOURCE, Trials, case, edmill
+from trials import EDMILL, SOURCE, Trials, case, edmill, rows
 
 getcontext().prec = 400
 WHOLE = len(sys.argv) > 2
@@ -39,11 +38,6 @@ diameter = "10 mm"
 position = [0, 0, 0]
 velocity = ["1 m/s", "1 m/s", "1 m/s"]
 """
-
-
-def rows(file):
-    with open(file, encoding="utf-8") as stream:
-        return list(csv.DictReader(line for line in stream if not line.startswith("#")))
 
 
 def impacts(file):

@@ -4,14 +4,13 @@ kind: of tables and lists, set by an option, zero, at an end of their range, and
 
 usage: sensitivity_test.py EDMILL [whole]
 """
-import csv
 import pathlib
 import re
 import sys
 import tomllib
 from decimal import Decimal, getcontext
 
-from trials import SOURCE, Trials, edmill
+from trials import SOURCE, Trials, edmill, rows
 
 getcontext().prec = 60
 EVERY = 1 if len(sys.argv) > 2 else 3  # of the keys of each case
@@ -75,11 +74,6 @@ def with_settings(text, settings):
         place = value_of(".".join(path), tables) if path else tables
         place[int(last) if isinstance(place, list) else last] = tomllib.loads("value = " + value)["value"]
     return tables
-
-
-def rows(file):
-    with open(file, encoding="utf-8") as stream:
-        return list(csv.DictReader(line for line in stream if not line.startswith("#")))
 
 
 QUANTITIES = ("time", "approach_speed", "slip_speed", "milling_dose", "wall_work")

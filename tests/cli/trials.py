@@ -1,4 +1,5 @@
 """What tests of the program's files share: a folder of their own, small cases, and calls of the program."""
+import csv
 import json
 import os
 import pathlib
@@ -106,6 +107,12 @@ def results(place):
             content = re.sub(rb">[^<>]+ s for (?=[^<>]+ impacts<)", b">", content)
         found[str(path.relative_to(place))] = content
     return found
+
+
+def rows(file):
+    """Of a CSV file, without its comments."""
+    with open(file, encoding="utf-8") as stream:
+        return list(csv.DictReader(line for line in stream if not line.startswith("#")))
 
 
 def same(a, b):
