@@ -200,10 +200,13 @@ std::string RunEstimate::text() const {
 
 double FoundDigits::left() const { return std::min(agreement.least_digits(), states); }
 
+std::uint64_t FoundDigits::right() const {
+  return static_cast<std::uint64_t>(std::min(left(), casefile::digits_of(narrow)));
+}
+
 std::string FoundDigits::text() const {
-  return fmt::format(
-      "{} and {}: all {} events and the states at their end agree to {:.0f} digits ({:.1f} s)\n", narrow,
-      precision, agreement.events(), std::min(left(), casefile::digits_of(narrow)), seconds);
+  return fmt::format("{} and {}: all {} events and the states at their end agree to {} digits ({:.1f} s)\n",
+                     narrow, precision, agreement.events(), right(), seconds);
 }
 
 FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options) try {

@@ -52,8 +52,10 @@ struct FoundDigits {
   std::string undecided;     ///< why there is none
   bool interrupted = false;
 
-  /// Right digits at the end.
+  /// Digits that both runs have in common to the end.
   double left() const;
+  /// Digits of the run that are right to its end, rounded down.
+  std::uint64_t right() const;
   std::string text() const;
 };
 

@@ -34,6 +34,7 @@ io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vecto
   if (!spec.initial_state.empty()) c.initial_state = std::filesystem::absolute(spec.initial_state).string();
   c.overrides = overrides;
   c.precision = precision;
+  c.right_digits = spec.right_digits;
   c.report = report;
   c.interval = interval;
   return c;
@@ -57,6 +58,7 @@ RunResult resume(const std::string& interval, RunOptions options) {
     overrides.push_back("run.initial_state='" + checkpoint.initial_state + "'");
   auto spec = casefile::parse_case(checkpoint.case_text, checkpoint.case_file, overrides);
   spec.settings = checkpoint.overrides;
+  spec.right_digits = checkpoint.right_digits;
   if (spec.digest != checkpoint.case_digest)
     throw InputError(options.folder + ": found another initial state in " + spec.initial_state +
                      " than the run had, expected the unchanged file");

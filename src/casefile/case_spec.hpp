@@ -186,6 +186,7 @@ struct CaseSpec {
   std::string digest;                 ///< SHA-256 of the case's canonical text
   std::string precision = "double";
   std::optional<std::uint64_t> digits;  ///< that are to be right to the end; the precision is chosen for them
+  std::optional<std::uint64_t> right_digits;  ///< that two runs have shown to be right
   std::uint64_t seed = 1;
   Quantity initial_time, statistics_start;
   std::optional<Quantity> end_time;

@@ -84,7 +84,7 @@ int run_estimate(const casefile::CaseSpec& spec, const std::string& precision, b
   return after_signals(precision.empty() && !estimate.undecided.empty() ? undecided : ok);
 }
 
-int choose_digits(const casefile::CaseSpec& spec, bool quiet, std::string& precision) {
+int choose_digits(casefile::CaseSpec& spec, bool quiet, std::string& precision) {
   const auto found =
       casefile::with_memory_for(spec, [&] { return app::find_digits(spec, options_of_trials(quiet)); });
   if (shows_progress(quiet)) io::tell("{}", no_line);
@@ -98,6 +98,7 @@ int choose_digits(const casefile::CaseSpec& spec, bool quiet, std::string& preci
   }
   if (!quiet) io::print("{}", found.text());
   precision = found.precision;
+  spec.right_digits = found.right();
   return ok;
 }
 

@@ -25,7 +25,7 @@ int run_estimate(const casefile::CaseSpec& spec, const std::string& precision, b
 
 /// Finds the precision of a case that asks for digits, and prints the evidence.
 /// @return an exit code; `undecided` when no number of digits suffices
-int choose_digits(const casefile::CaseSpec& spec, bool quiet, std::string& precision);
+int choose_digits(casefile::CaseSpec& spec, bool quiet, std::string& precision);
 
 struct ProveOptions : app::ProveOptions {
   bool compare = false;  ///< also print how many events each scalar gets right

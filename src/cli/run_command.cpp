@@ -116,7 +116,7 @@ class ReservedFolder {
 
 }  // namespace
 
-int run_case(const casefile::CaseSpec& spec, const RunCommand& given) {
+int run_case(casefile::CaseSpec spec, const RunCommand& given) {
   auto command = given;
   if (command.folder.empty()) command.folder = "out/" + name_of(spec.file);
   const bool by_digits = spec.digits && command.precision.empty();

@@ -19,7 +19,7 @@ struct RunCommand {
 };
 
 /// @return an exit code
-int run_case(const casefile::CaseSpec& spec, const RunCommand& command);
+int run_case(casefile::CaseSpec spec, const RunCommand& command);
 int run_resume(const RunCommand& command);
 
 /// Adds the settings of --until-precision: the stop rule, and an end time far off unless one is set.

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // The first line; its number changes with the format. Then a line with the SHA-256 of all bytes after it.
-const std::string magic = "edmill checkpoint 3\n";
+const std::string magic = "edmill checkpoint 4\n";
 constexpr std::size_t digest_size = 64;
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The file `checkpoint`: everything that is needed to continue an unfinished run. docs/files.md
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,14 +15,15 @@ struct Checkpoint {
   std::string case_file, case_text, initial_state;  ///< of the case: name, text, path of its initial state
   std::vector<std::string> overrides;               ///< "section.key=value"
   std::string case_digest, precision;
-  bool report = false;   ///< whether the page was requested
-  std::string interval;  ///< between checkpoints, as given
-  std::string state;     ///< of the run
-  std::string result;    ///< of a run whose results are in place: only its temporary files are left to remove
+  std::optional<std::uint64_t> right_digits;  ///< of a run in digits that were asked for
+  bool report = false;                        ///< whether the page was requested
+  std::string interval;                       ///< between checkpoints, as given
+  std::string state;                          ///< of the run
+  std::string result;  ///< of a run whose results are in place: only its temporary files are left to remove
 
   void archive(Archive& a) {
-    a(case_file, case_text, initial_state, overrides, case_digest, precision, report, interval, state,
-      result);
+    a(case_file, case_text, initial_state, overrides, case_digest, precision, right_digits, report, interval,
+      state, result);
   }
 };
 

@@ -21,6 +21,7 @@ struct Provenance {
   bool reported = false;              ///< with the outputs of the report
   std::string precision, version, commit, compiler;
   std::uint64_t seed = 0;
+  std::optional<std::uint64_t> right_digits;  ///< to the end, where digits were asked for
 };
 
 /// 95 % intervals of the rates of one run, by Student's t over batches of whole drive periods. Half-widths in

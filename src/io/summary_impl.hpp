@@ -45,6 +45,7 @@ class SummaryWriter {
     json.flag("reported", p.reported);
     json.integer("seed", p.seed);
     json.text("precision", p.precision);
+    if (p.right_digits) json.integer("right_digits", *p.right_digits);
     json.text("end_reason", std::string(model::name(s.end_reason)));
     if (!s.error.empty()) json.text("error", s.error);
     json.number("start_time", s.start_time);

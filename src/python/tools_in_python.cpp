@@ -166,7 +166,7 @@ py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, 
   return py::make_tuple(found.precision, found.units, bodies_of(found.events), of_numbers);
 }
 
-/// @return the precision in which the case has these right digits, and the digits at its end
+/// @return the precision in which the case has the digits that it asks for, and the case with those found
 /// @throws UndecidedError when no number of digits suffices
 py::tuple find_digits(const Case& the_case) {
   std::atomic<bool> interrupt{false};
@@ -175,7 +175,9 @@ py::tuple find_digits(const Case& the_case) {
   const auto found =
       interruptible(interrupt, [&] { return app::find_digits(CaseAccess::spec(the_case), options); });
   if (!found.undecided.empty()) throw UndecidedError(found.undecided);
-  return py::make_tuple(found.precision, found.left());
+  auto spec = CaseAccess::spec(the_case);
+  spec.right_digits = found.right();
+  return py::make_tuple(found.precision, CaseAccess::make(std::move(spec)));
 }
 
 py::dict estimate(const Case& the_case, const std::string& precision) {

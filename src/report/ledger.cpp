@@ -81,6 +81,8 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time, 12),
                                             brief(f.end_time, 12), model::name(f.end_reason))});
   rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.seed, f.precision)});
+  if (f.right_digits)
+    rows.push_back({"right digits", fmt::format("{:.0f}, of every impact to the end", *f.right_digits)});
   rows.push_back({"least separation speed", fmt::format("{} % of the impacts, {} % of the dose",
                                                         readable(100 * f.touched_impact_share, 3),
                                                         readable(100 * f.touched_dose_share, 2))});

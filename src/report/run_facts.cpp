@@ -141,6 +141,7 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
     reader.number("/milling_dose_by_partner/" + model::partner_key(k, walls), f.dose.emplace_back());
   }
   read_intervals(reader, f);
+  if (reader.has("/right_digits")) reader.number("/right_digits", f.right_digits.emplace());
   if (reader.has("/powder_mass")) reader.number("/powder_mass", f.powder_mass.emplace());
   reader.throw_problems();
   return f;

@@ -21,6 +21,7 @@ struct RunFacts {
   double start_time = 0, end_time = 0;     ///< of the statistics [s]
   std::vector<double> collisions, dose;    ///< with each partner [1], [J]
   double milling_dose = 0, wall_work = 0;  ///< [J]
+  std::optional<double> right_digits;      ///< where digits were asked for
   std::optional<double> powder_mass;       ///< [kg]
   double kinetic_start = 0, potential_start = 0, kinetic_end = 0, potential_end = 0;  ///< [J]
   double closure = 0;                                                                 ///< [J]

@@ -47,7 +47,7 @@ io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::
   for (const auto& ball : built.the_case.balls) ball_mass += ball.mass;
   summary.ball_mass = ball_mass;
   summary.provenance = {spec.file, spec.digest, spec.settings, spec.reported, scalar_name<Real>(),
-                        version(), commit(),    compiler(),    spec.seed};
+                        version(), commit(),    compiler(),    spec.seed,     spec.right_digits};
   return summary;
 }
 

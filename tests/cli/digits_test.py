@@ -3,6 +3,7 @@
 
 usage: digits_test.py EDMILL [whole]
 """
+import json
 import pathlib
 import re
 import signal
@@ -49,6 +50,10 @@ def impacts(file):
     return log
 
 
+def right_digits(folder):
+    return json.loads(pathlib.Path(folder, "summary.json").read_text()).get("right_digits")
+
+
 def log_of(t, name, *options):
     done = edmill("run", f"{name}.toml", "--out", "out", "--set", LOG, *options)
     t.check(done.returncode == 0, f"{name} {options}: {done.stderr}")
@@ -73,10 +78,12 @@ def test_digits(t, name):
     pathlib.Path(f"{name}.toml").write_text(CASES[name])
     digits = 12
     log, state, said = log_of(t, name, "--digits", str(digits))
-    found = re.search(r"mpfr:(\d+) and mpfr:(\d+): all (\d+) events", said)
+    found = re.search(r"mpfr:(\d+) and mpfr:(\d+): all (\d+) events .* agree to (\d+) digits", said)
     t.check(found and int(found[3]) == len(log), f"{name}: {said[:300]!r}")
+    t.check(right_digits("out") == int(found[4]) >= digits, f"{name}: {right_digits('out')} in the summary")
     exact, exact_state, _ = log_of(t, name, "--quiet", "--precision", f"mpfr:{2 * int(found[2])}")
     bodies = [[(r["ball"], r["partner_kind"], r["partner"]) for r in rows] for rows in (log, exact)]
+    t.check(right_digits("out") is None, f"{name}: right digits of a run in a precision")
     t.check(bodies[0] == bodies[1], f"{name}: the events in order")
     for what, one, other in (("log", log, exact), ("state", state, exact_state)):
         t.check(agreement(one, other) >= digits, f"{name}: {what} to {agreement(one, other)} digits")
@@ -114,6 +121,18 @@ def test_resume(t):
     t.check(impacts("parts/collisions.csv") == whole and rows("parts/final_state.csv") == state, "the same log and state")
     t.check(len(parts) > 0, "it was ended in between")
     print("resumed", len(parts), "times")
+
+
+def test_resume_in_right_digits(t):
+    child = subprocess.Popen([EDMILL, "run", "demo.toml", "--digits", "12", "--set", 'run.end_time="0.3 s"', "--out", "right",
+                              "--checkpoint", "0.01 s simulated"], stdout=subprocess.PIPE, text=True)
+    while child.poll() is None and not pathlib.Path("right", "checkpoint").exists():
+        time.sleep(0.01)
+    child.send_signal(signal.SIGINT)
+    found = re.search(r"agree to (\d+) digits", child.communicate()[0])
+    t.check(child.returncode in (130, -signal.SIGINT), f"interrupted after it began: {child.returncode}")
+    done = edmill("resume", "right", "--quiet")
+    t.check(done.returncode == 0 and found and right_digits("right") == int(found[1]), f"{right_digits('right')}: {done.stderr}")
 
 
 def limit_of_cpu():
@@ -213,6 +232,7 @@ with Trials() as t:
     if not WHOLE:
         test_any_number(t)
         test_resume(t)
+        test_resume_in_right_digits(t)
         test_refusals(t)
         test_other_ends(t)
         test_many_digits(t)

@@ -20,6 +20,7 @@ class CheckpointFile : public ProgramTest {
     checkpoint.case_text = "[run]\n";
     checkpoint.overrides = {"run.seed=2", "run.end_time=\"1 s\""};
     checkpoint.precision = "mpfr50";
+    checkpoint.right_digits = 12;
     for (int k = 0; k < 3000; ++k) checkpoint.state += static_cast<char>(k * k % 251);
     write_checkpoint(scratch, checkpoint);
     bytes = contents(scratch / "checkpoint");
@@ -42,6 +43,7 @@ TEST_F(CheckpointFile, IsReadAsItWasWritten) {
   EXPECT_EQ(read.case_text, checkpoint.case_text);
   EXPECT_EQ(read.overrides, checkpoint.overrides);
   EXPECT_EQ(read.precision, checkpoint.precision);
+  EXPECT_EQ(read.right_digits, checkpoint.right_digits);
   EXPECT_EQ(read.state, checkpoint.state);
 }
 
@@ -61,7 +63,7 @@ TEST_F(CheckpointFile, IsRefusedWhenItEndsEarlyOrLate) {
 }
 
 TEST_F(CheckpointFile, OfAnotherCommitIsRefusedByName) {
-  const std::string begin = "edmill checkpoint 3\n";
+  const std::string begin = "edmill checkpoint 4\n";
   ASSERT_TRUE(bytes.starts_with(begin));
   Archive archive;
   std::string program = version(), another = "0123456";

@@ -13,6 +13,7 @@ CASE = edmill.Case.spex8000(balls=3, diameter="9.52 mm", start_time="0 s", end_t
 def test_a_run_has_the_digits_that_it_is_asked_for():
     run = edmill.run(CASE, digits=15)
     assert run.precision.startswith("mpfr:") and run.right_digits >= 15
+    assert run.summary["right_digits"] == run.right_digits
     assert edmill.run(CASE, events=False).right_digits is None
     wide = edmill.run(CASE, f"mpfr:{2 * int(run.precision[5:])}")
     assert len(run.events) == len(wide.events)

@@ -45,13 +45,13 @@ class Run:
     states: Records  #: position [m], velocity [m/s] and spin [rad/s] of each ball at the end
     time: float | decimal.Decimal  #: at the end [s]
     folder: pathlib.Path | None  #: of its files
-    right_digits: float | None  #: to which a wider run agrees in all events and at the end, where digits were asked for
+    right_digits: int | None  #: of all events and of the state at the end, where digits were asked for
 
     def __init__(self, case: Case, precision: str, folder: pathlib.Path | None, result: Mapping[str, Any]):
         self.case, self.precision, self.folder = case, precision, folder
-        self.right_digits = None
         number = float if precision == "double" else decimal.Decimal
         self.summary = json.loads(result["summary"], parse_float=number)
+        self.right_digits = self.summary.get("right_digits")
         self.time = result["time"]
         self.events = _array(result["events"], _edmill.event_dtype).view(Records)
         self.states = _array(result["states"], _edmill.state_dtype).view(Records)
@@ -260,9 +260,9 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
     if digits is not None:
         require("precision", precision, precision is None, "none beside digits")
         case = case.with_settings(f"run.digits={checks.whole('digits', digits, 1, 100_000)}")
-    right_digits = None
-    if precision is None and case._case.digits is not None:
-        precision, right_digits = _edmill.find_digits(case._case)
+    the_case = case._case
+    if precision is None and the_case.digits is not None:
+        precision, the_case = _edmill.find_digits(the_case)
     precision = case.precision if precision is None else checks.scalar("precision", precision)
     folder = None if folder is None else checks.place("folder", folder)
     events, report = checks.flag("events", events), checks.flag("report", report)
@@ -279,18 +279,15 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
         require("folder", folder, folder is not None, "one for the checkpoints")
         require("observers", observers, not observers and ball_ball_law is None and ball_wall_law is None,
                 "none, and no laws of Python, in a run with checkpoints")
-        _edmill.run_with_checkpoints(case._case, precision, folder, report, checkpoint)
-        done = read_run(folder)
-        done.right_digits = right_digits
-        return done
+        _edmill.run_with_checkpoints(the_case, precision, folder, report, checkpoint)
+        return read_run(folder)
     show = _Progress(case.end_time) if progress is True else progress or None
     try:
-        result = _edmill.run(case._case, precision, folder or "", events, report, observers, ball_ball_law, ball_wall_law, show)
+        result = _edmill.run(the_case, precision, folder or "", events, report, observers, ball_ball_law, ball_wall_law, show)
     finally:
         if isinstance(show, _Progress):
             show.close()
     done = Run(case, precision, None if folder is None else pathlib.Path(folder), result)
-    done.right_digits = right_digits
     laws = {"ball_ball_law": ball_ball_law, "ball_wall_law": ball_wall_law}
     done._laws = {name: law for name, law in laws.items() if law is not None}
     if result["interrupted"]:
