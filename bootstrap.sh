@@ -19,13 +19,13 @@ program_packages=(
 
 test_packages=(
   libgtest-dev librapidcheck-dev libudunits2-dev libglpk-dev libgsl-dev zstd
-  libbenchmark-dev clang "libclang-rt-14-dev|libclang-rt-19-dev|libclang-rt-18-dev" clang-format patch valgrind
+  libbenchmark-dev clang "libclang-rt-14-dev|libclang-rt-19-dev|libclang-rt-18-dev" clang-format patch valgrind dpkg-dev file
   python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-h5py python3-vtk9 view3dscene libxml2-utils
   "chromium?" "chromium-driver?" python3-selenium g++-s390x-linux-gnu qemu-user
   doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-nbclient python3-ipykernel python3-matplotlib python3-pandas python3-xarray
 )
 
-long_packages=(lammps python3-lammps liggghts "yade?" debootstrap dpkg-dev python3-venv python3-pip patchelf
+long_packages=(lammps python3-lammps liggghts "yade?" debootstrap python3-venv python3-pip patchelf
   g++-aarch64-linux-gnu g++-riscv64-linux-gnu emscripten nodejs node-acorn)
 
 say() { printf '\n== %s\n' "$*"; }

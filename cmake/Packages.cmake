@@ -1,4 +1,4 @@
-# `cpack` in the build makes edmill, libedmill-dev, python3-edmill and edmill-doc for Debian 12.
+# `cpack` in the build makes edmill, libedmill-dev, python3-edmill and edmill-doc, for the release of Debian that it runs on.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME edmill)
 set(CPACK_PACKAGE_VENDOR edmill)
@@ -29,6 +29,9 @@ if(EDMILL_PYTHON)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "event-driven simulation of ball mills (Python)\n The package edmill for Python.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-edmill)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+  # The extension module is for one version of Python.
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
 endif()
 include(CPack)

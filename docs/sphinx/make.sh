@@ -3,7 +3,7 @@
 # usage: make.sh FOLDER
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
-folder=$1
+folder=$(realpath -m "$1")
 rm -rf "$folder"
 mkdir -p "$folder/doxygen"
 (

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# The packages for Debian install and run in a Debian 12 that has nothing else. Needs root, debootstrap and a mirror.
+# The packages install and run in a Debian that has nothing else, of the release on which they are made. Needs root, debootstrap
+# and a mirror.
 # usage: packages_test.sh BUILD FOLDER
 set -euo pipefail
-build=$1
-folder=$2
+build=$(realpath "$1")
+folder=$(realpath -m "$2")
 mirror=${EDMILL_DEBIAN_MIRROR:-http://deb.debian.org/debian}
 if [ "$(id -u)" != 0 ] || ! command -v debootstrap >/dev/null; then
   echo "skipped: needs root and debootstrap"
@@ -13,7 +14,10 @@ rm -rf "$folder"
 mkdir -p "$folder/packages"
 "$(dirname "$0")/../../docs/sphinx/make.sh" "$build/manual" >"$folder/manual.log"
 (cd "$build" && cpack -B "$folder/packages" >"$folder/cpack.log")
-debootstrap --variant=minbase bookworm "$folder/root" "$mirror" >"$folder/debootstrap.log"
+release=$(. /etc/os-release && echo "$VERSION_CODENAME")
+debootstrap --variant=minbase "$release" "$folder/root" "$mirror" >"$folder/debootstrap.log"
+trap 'umount "$folder/root/proc"' EXIT
+mount -t proc proc "$folder/root/proc"
 mkdir "$folder/root/packages"
 cp "$folder"/packages/*.deb "$folder/root/packages"
 inside() { chroot "$folder/root" "$@"; }
