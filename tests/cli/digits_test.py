@@ -221,9 +221,11 @@ def test_other_ends(t):
 def test_many_digits(t):
     """No more digits are taken than an estimate says, whatever is asked for."""
     for digits in (60, 150, 400):
-        done = edmill("run", "demo.toml", "--digits", digits, "--set", 'run.end_time="0.01 s"', "--out", "many")
+        done = edmill("run", "demo.toml", "--digits", digits, "--set", 'run.end_time="0.01 s"', "--report", "--out", "many")
         found = re.search(r"mpfr:(\d+) and .* agree to (\d+) digits", done.stdout)
         t.check(found and int(found[1]) <= digits + 30 and int(found[2]) >= digits, f"{digits} digits: {done.stdout[:200]!r}")
+        page = pathlib.Path("many", "report.html").read_text()
+        t.check(f"right digits</th><td>{found[2]}," in page and right_digits("many") == int(found[2]), f"{digits} digits: the report")
 
 
 with Trials() as t:
