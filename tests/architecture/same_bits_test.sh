@@ -42,7 +42,7 @@ for machine in "$@"; do
   for tool in "$compiler" ${runner[0]:-}; do
     command -v "$tool" >/dev/null || { echo "$machine: $tool is not installed" && continue 2; }
   done
-  cmake -S . -B "$builds/$machine" -G Ninja -DEDMILL_CORE_ALONE=ON -DCMAKE_BUILD_TYPE=None "-DCMAKE_CXX_COMPILER=$compiler" \
+  cmake -S . -B "$builds/$machine" -G Ninja -DEDMILL_CORE_ALONE=ON -DEDMILL_WERROR=ON -DCMAKE_BUILD_TYPE=None "-DCMAKE_CXX_COMPILER=$compiler" \
     "-DCMAKE_CXX_FLAGS=-DNDEBUG $flags" "${options[@]}" >"$builds/$machine.log" 2>&1 &&
     cmake --build "$builds/$machine" --parallel 2 --target edmill_core_alone >>"$builds/$machine.log" 2>&1 || {
     grep -E "error|FAILED" "$builds/$machine.log" | head -20
