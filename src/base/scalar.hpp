@@ -98,4 +98,11 @@ struct ChosenDigits {
   Scope use() const { return {}; }
 };
 
+/// In its scope nothing of a number is lost in sums with narrower ones, though the thread may have chosen
+/// fewer digits since it was made.
+template <class Real>
+typename ChosenDigits<Real>::Scope with_all_digits_of(const Real&) {
+  return {};
+}
+
 }  // namespace edmill

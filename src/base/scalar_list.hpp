@@ -104,6 +104,9 @@ struct ChosenDigits<mpfr> {
   unsigned digits = mpfr::digits(), shown = mpfr::shown();
   mpfr::Digits use() const { return mpfr::Digits(digits, shown); }
 };
+inline mpfr::Digits with_all_digits_of(const mpfr& x) {
+  return mpfr::Digits(static_cast<unsigned>(mpfr_get_prec(x.data()) / 3 + 20));
+}
 #endif
 
 template <>

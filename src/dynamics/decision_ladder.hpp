@@ -19,6 +19,7 @@ struct Contact {
   Flight<Real> partner;  ///< of a pair
   Real radius;           ///< of the ball, or the sum of both radii
   Instant<Real> time;    ///< as predicted
+  int wall = -1;
 };
 
 /// The searches of one mill in one scalar, with the rung above them.
@@ -39,6 +40,7 @@ class DecisionLadder {
   }
   WallAnswer<Real> wall(const WallQuery<Real>& query) {
     const auto answer = walls_(query);
+    if constexpr (std::is_void_v<Wider<Real>>) passed_up_.wall += answer.by_rule;
     return is_settled(answer) ? answer : wall_above(query);
   }
 
@@ -54,8 +56,8 @@ class DecisionLadder {
     return is_settled(answer) ? answer : pair_above(i, j, now, radius_sum);
   }
 
-  /// Which of two contacts that share a ball comes first: negative `a`, positive `b`, zero when no rung of
-  /// the ladder can tell them apart.
+  /// Which of two contacts that share a ball comes first: negative `a`, positive `b`, zero when they come at
+  /// one time, or no rung of the ladder separates them.
   int order(const Contact<Real>& a, const Contact<Real>& b);
 
   /// Contacts closer in time than this [s] are handed to `order`. Far more than rounding puts between most;
@@ -68,7 +70,7 @@ class DecisionLadder {
   AnyWallSearch<Real>& walls() { return walls_; }
   const PairSearch<Real>& pairs() const { return pairs_; }
 
-  /// One entry for each wider scalar, narrowest first.
+  /// One entry for each wider scalar, narrowest first, and one for what a rule decides.
   std::vector<Escalations> escalations() const;
 
   /// What it has counted. The rest follows from the mill and the top speed, which is the owner's.
@@ -92,6 +94,7 @@ class DecisionLadder {
     Real time_error;  ///< [s]
   };
   Timed time_of(const Contact<Real>& contact);
+  int order_by_exact_times(const Contact<Real>& a, const Contact<Real>& b);
 
   struct Above;  // the next rung
   Above& above();

@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "base/scalar_list.hpp"
 #include "dynamics/decision_ladder.hpp"
+#include "dynamics/exact_contact_impl.hpp"
 
 namespace edmill::dynamics {
 
@@ -98,7 +99,7 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
     Real searched = static_cast<Real>(proven);
     if (Wide(searched) > proven) searched -= searched * epsilon<Real>();
     return {wide.verdict, wide.wall, time,
-            wide.tie,     searched,  static_cast<Real>(wide.time_error) + rounding()};
+            wide.by_rule, searched,  static_cast<Real>(wide.time_error) + rounding()};
   }
 }
 
@@ -106,9 +107,11 @@ template <class Real>
 PairAnswer<Real> DecisionLadder<Real>::pair_above(const Flight<Real>& i, const Flight<Real>& j,
                                                   const Instant<Real>& now, const Real& radius_sum) {
   if constexpr (std::is_void_v<Wider<Real>>) {
-    throw UndecidedError("ball-ball contact undecided in the widest scalar: sum of radii " +
-                         to_text(radius_sum) + " m, now (period " + std::to_string(now.period) + ", offset " +
-                         to_text(now.offset) + " s); " + detail::text(i) + "; " + detail::text(j));
+    const Real& period = pairs_.clock().period();
+    const auto time = exact_contact_time(exact_gap(i, j, now, radius_sum, mill_.gravity, period));
+    if (!time) return {};
+    const Real delay = time->template rounded_down<Real>();
+    return {Verdict::contact, delay, 4 * epsilon<Real>() * (delay + period)};
   } else {
     using Wide = Wider<Real>;
     ++passed_up_.pair;
@@ -147,22 +150,40 @@ int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) 
   if (difference > error) return -1;
   if (difference < -error) return 1;
   if constexpr (std::is_void_v<Wider<Real>>) {
-    return 0;
+    const int order = order_by_exact_times(a, b);
+    passed_up_.order += order == 0;
+    return order;
   } else {
     using Wide = Wider<Real>;
     ++passed_up_.order;
     const auto widened = [](const Contact<Real>& c) {
-      return Contact<Wide>{c.with_wall, flight_cast<Wide>(c.flight), flight_cast<Wide>(c.partner),
-                           Wide(c.radius), instant_cast<Wide>(c.time)};
+      return Contact<Wide>{c.with_wall,    flight_cast<Wide>(c.flight), flight_cast<Wide>(c.partner),
+                           Wide(c.radius), instant_cast<Wide>(c.time),  c.wall};
     };
     return above().ladder.order(widened(a), widened(b));
   }
 }
 
+/// Zero also where a gap is no polynomial, so that no exact time is known.
+template <class Real>
+int DecisionLadder<Real>::order_by_exact_times(const Contact<Real>& a, const Contact<Real>& b) {
+  const Real& period = pairs_.clock().period();
+  const auto time_of = [&](const Contact<Real>& c) -> std::optional<ExactTime> {
+    const auto& begin = c.flight.start;
+    if (!c.with_wall)
+      return exact_contact_time(exact_gap(c.flight, c.partner, begin, c.radius, mill_.gravity, period));
+    const auto gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity,
+                               WallQuery<Real>{c.flight, c.radius, begin, period}, c.wall);
+    return gap ? exact_contact_time(*gap) : std::nullopt;
+  };
+  const auto first = time_of(a), second = time_of(b);
+  return first && second ? first->compare(*second, exact_elapsed(a.flight.start, b.flight.start, period)) : 0;
+}
+
 template <class Real>
 std::vector<Escalations> DecisionLadder<Real>::escalations() const {
   if constexpr (std::is_void_v<Wider<Real>>) {
-    return {};
+    return {{"rule", passed_up_.wall, 0, passed_up_.order}};
   } else {
     std::vector<Escalations> rows{passed_up_};
     if (above_) {
@@ -172,6 +193,7 @@ std::vector<Escalations> DecisionLadder<Real>::escalations() const {
       // Rungs that were never needed still stand in the report.
       using Wide = Wider<Real>;
       if constexpr (!std::is_void_v<Wider<Wide>>) rows.push_back({scalar_name<Wider<Wide>>()});
+      rows.push_back({"rule"});
     }
     return rows;
   }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "dynamics/gap_functions.hpp"
@@ -38,6 +40,8 @@ template <class M, class V>
 class BoundsTable {
  public:
   using Real = typename M::Scalar;
+  using Row = std::conditional_t<std::is_same_v<Real, double>, DerivativeBounds<V>,
+                                 std::optional<DerivativeBounds<V>>>;
 
   explicit BoundsTable(const MovingVessel<M, V>& mill) : mill_(mill), longest_(mill.motion.longest_window()) {
     if constexpr (model::HasPistons<V>)
@@ -46,10 +50,9 @@ class BoundsTable {
     const Real wall_speed = mill.motion.speed_within(mill.motion.reach(mill.vessel.extent()));
     speed_step_ = wall_speed > 0 ? Real(wall_speed / 16) : Real(1) / 4;
     per_speed_ = 1 / speed_step_;
-    rows_.reserve(speeds * lengths);
-    for (int i = 0; i < speeds; ++i)
-      for (int j = 0; j < lengths; ++j)
-        rows_.push_back(derivative_bounds(mill_, Real((i + 1) * speed_step_), Real(longest_ / (1 << j))));
+    rows_.resize(speeds * lengths);
+    if constexpr (std::is_same_v<Real, double>)
+      for (int row = 0; row < speeds * lengths; ++row) rows_[row] = made(row);
   }
 
   /// Longest window [s] that the bounds serve.
@@ -61,15 +64,27 @@ class BoundsTable {
     const int row = static_cast<int>(place);
     int column = 0;  // counted without branches: windows are of any length
     for (int j = 1; j < lengths; ++j) column += length <= longest_ / (1 << j);
-    return rows_[row * lengths + column];
+    auto& bounds = rows_[row * lengths + column];
+    // Wide scalars, which decide seldom, need few of them.
+    if constexpr (!std::is_same_v<Real, double>)
+      if (!bounds) bounds = made(row * lengths + column);
+    return value_of(bounds);
   }
 
  private:
   static constexpr int speeds = 64;
   static constexpr int lengths = 5;
+
+  static const DerivativeBounds<V>& value_of(const DerivativeBounds<V>& row) { return row; }
+  static const DerivativeBounds<V>& value_of(const std::optional<DerivativeBounds<V>>& row) { return *row; }
+  DerivativeBounds<V> made(int row) const {
+    return derivative_bounds(mill_, Real((row / lengths + 1) * speed_step_),
+                             Real(longest_ / (1 << row % lengths)));
+  }
+
   MovingVessel<M, V> mill_;
   Real longest_, speed_step_, per_speed_;
-  std::vector<DerivativeBounds<V>> rows_;
+  mutable std::vector<Row> rows_;
 };
 
 }  // namespace edmill::dynamics

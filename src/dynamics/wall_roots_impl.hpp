@@ -11,12 +11,14 @@ namespace edmill::dynamics {
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const -> std::optional<Root> {
   const Point &left = bracket.left, &right = bracket.right;
-  if (bracket.time_error > 0) return Root{left.t, bracket.time_error};
+  if (bracket.at_once) return Root{.t = left.t, .time_error = Real(0), .at_once = true};
+  if (bracket.time_error > 0) return Root{.t = left.t, .time_error = bracket.time_error};
   const auto time_error_at = [&](const Real& slope) {
     return resolution() + (slope < 0 ? Real(-4 * curve.bounds.value_error / slope) : Real(0));
   };
   const bool hop = bracket.guess > 0;
-  if (!hop && (left.t == right.t || left.value <= 0)) return Root{left.t, time_error_at(left.slope)};
+  if (!hop && (left.t == right.t || left.value <= 0))
+    return Root{.t = left.t, .time_error = time_error_at(left.slope)};
   if (hop || (left.slope < 0 && right.slope < 0)) {
     const Real width = right.t - left.t;
     const auto root =

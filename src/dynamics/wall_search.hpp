@@ -77,6 +77,7 @@ class WallSearch {
 
  private:
   static constexpr bool is_wide = !std::is_same_v<Real, double>;
+  static constexpr bool is_widest = std::is_void_v<Wider<Real>>;
   using Point = numerics::Point<Real>;
   using Bounds = numerics::CurveBounds<Real>;
 
@@ -92,9 +93,16 @@ class WallSearch {
   struct Bracket {
     Verdict verdict;
     Point left{}, right{};
-    Real time_error{0};  ///< of a contact at once whose time the gap's slope does not tell [s]
+    Real time_error{0};  ///< of a contact at once whose time does not follow from the gap's slope [s]
     Real guess{0};  ///< of the one root where the gap rises at first and bends downwards all along, else zero
+    bool at_once = false;  ///< certainly at the begin of the window
+    bool by_rule = false;  ///< no precision decides; see isolate_by_rule
   };
+  [[gnu::noinline]] Bracket isolate_exactly(const Curve& curve, const WallQuery<Real>& query,
+                                            const Real& end) const;
+  [[gnu::noinline]] std::optional<int> exact_order(const WallQuery<Real>& query, int one, bool one_at_once,
+                                                   int other, bool other_at_once) const;
+  [[gnu::noinline]] bool has_exact_gap(int wall) const;
 
   /// With `rounded` every bound covers the rounding of the flight and the mill, and `rough` is filled.
   template <bool rounded>
@@ -113,11 +121,14 @@ class WallSearch {
   template <bool rounded>
   Bracket isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
                              const Point& right) const;
-  Bracket isolate(const Curve& curve, Point left, const Point& right) const;
+  /// @param most_steps  after which it is undecided
+  Bracket isolate(const Curve& curve, Point left, const Point& right, int most_steps = 80) const;
   std::optional<Bracket> isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
                                      const Point& right) const;
-  Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
+  Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing,
+                          int most_steps = 80) const;
   Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
+  Bracket isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const;
   Bracket isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
                           const Point& right) const;
   Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;
@@ -128,6 +139,7 @@ class WallSearch {
     Real t;
     Real time_error;
     [[no_unique_address]] ContactPose<Real> pose{};
+    bool at_once = false;  ///< see Bracket
   };
   /// What is known of a falling gap beside its root.
   struct Approach {

@@ -5,7 +5,9 @@
 #include <type_traits>
 
 #include "base/errors.hpp"
+#include "base/interruption.hpp"
 #include "dynamics/any_wall_search.hpp"
+#include "dynamics/exact_contact_impl.hpp"
 #include "dynamics/rough_search_impl.hpp"
 #include "dynamics/wall_roots_impl.hpp"
 
@@ -125,7 +127,18 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
     const Point start = curve.of(first);
-    const Bracket found = isolate_from_start<rounded>(curve, start, first.curvature[wall], curve.of(last));
+    Bracket found{Verdict::undecided};
+    if constexpr (is_widest)  // what exact arithmetic knows needs no rule for what is zero within rounding
+      if (start.value <= curve.bounds.value_error) found = isolate_exactly(curve, query, end);
+    if (!is_widest || found.verdict == Verdict::undecided)
+      found = isolate_from_start<rounded>(curve, start, first.curvature[wall], curve.of(last));
+    if constexpr (!rounded) {
+      if (found.verdict == Verdict::undecided) [[unlikely]]
+        found = isolate_exactly(curve, query, end);
+      if constexpr (is_widest)
+        if (found.verdict == Verdict::undecided) found = isolate_by_rule(curve, start, curve.of(last));
+      answer.by_rule |= found.by_rule;
+    }
     if (found.verdict == Verdict::none) continue;
     if (found.verdict == Verdict::undecided) return {Verdict::undecided};
     // Only a start that is outside for certain makes the bracket hold the wide root too.
@@ -136,15 +149,22 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
       const Real later = root->t - best.t, error = root->time_error + best.time_error;
       if (later > error) continue;
       if (later >= -error) {
-        // Two walls at one time within rounding: a wider scalar decides; at the top the lower id comes first.
-        if constexpr (!std::is_void_v<Wider<Real>>) return {Verdict::undecided};
-        answer.tie = wall < mill_.vessel.wall_count();
-        continue;
+        // Two walls at one time within rounding: exact arithmetic decides, or a wider scalar. The lower id
+        // comes first where they are equal, and where the widest scalar does not separate them.
+        std::optional<int> order;
+        if constexpr (!rounded) order = exact_order(query, answer.wall, best.at_once, wall, root->at_once);
+        if (!order && !is_widest) return {Verdict::undecided};
+        if (!order || *order <= 0) {
+          answer.by_rule |= (!order || *order == 0) && wall < mill_.vessel.wall_count();
+          continue;
+        }
       }
     }
     best = *root;
+    const bool by_rule = found.by_rule;
     answer =
         WallAnswer<Real>::contact(wall, mill_.clock.instant(query.begin.period, best.t), best.time_error);
+    answer.by_rule = by_rule;
     if constexpr (rounded)
       *rough = RoughAnswer::contact(wall, found.left.t, found.right.t, root->t, own_errors.gap[wall]);
     if (!any_from(reachable, wall + 1)) break;
@@ -162,18 +182,27 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
 }
 
 /// The gaps at the end of a window. A gap that is zero within rounding there would leave the window
-/// undecided in every scalar: the end is moved towards `from`, and what is left is for the next window.
+/// undecided in every scalar: the end is moved towards `from`, and what is left is for the next window. A gap
+/// that is zero at two ends in a row is zero for long: a shorter window does not help.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
                                      const Real& from, Real& end) const -> Sample {
+  const Real whole = end;
+  auto before = reachable;
   for (int tries = 0;; ++tries) {
     const auto sample = functions(end);
-    bool touched = false;
-    for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall)
-      touched |=
+    bool touched = false, lasting = tries > 0;
+    auto touching = reachable;
+    for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
+      touching[wall] =
           reachable[wall] & (sample.gap[wall] <= errors.gap[wall]) & (sample.gap[wall] >= -errors.gap[wall]);
+      touched |= touching[wall];
+      lasting &= before[wall] | !touching[wall];
+    }
     if (!touched || tries == 8) return sample;
+    if (lasting) return functions(end = whole);
     end = from + (end - from) * 3 / 4;
+    before = touching;
   }
 }
 
@@ -207,36 +236,45 @@ auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& left, const 
 }
 
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& right) const -> Bracket {
+auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& right, int most_steps) const
+    -> Bracket {
   const Bounds& b = curve.bounds;
   if (left.value > b.value_error) {
     if (numerics::proven_positive(left, right, b)) return {Verdict::none};
-    return isolate_outside(curve, left, right, false);
+    return isolate_outside(curve, left, right, false, most_steps);
   }
   if (left.value < -b.value_error) {
-    if (left.slope < -b.slope_error) return {Verdict::contact, left, left};
+    if (left.slope < -b.slope_error)
+      return {.verdict = Verdict::contact, .left = left, .right = left, .at_once = true};
     if (left.slope > b.slope_error) return follow_overlap(curve, left, right);
     return {Verdict::undecided};
   }
   if (numerics::can_depart(left, b)) {
     if (numerics::proven_departure(left, right, b)) return {Verdict::none};
-    return isolate_outside(curve, left, right, true);
+    // A window that another wall has cut short may end before the gap is seen to open.
+    if (numerics::proven_increasing(left, right, b)) return {Verdict::none};
+    return isolate_outside(curve, left, right, true, most_steps);
   }
   if (left.slope < -2 * b.slope_error) return isolate_touching(curve, left, right);
-  return {Verdict::undecided};
+  return {numerics::proven_increasing(left, right, b) ? Verdict::none : Verdict::undecided};
 }
 
 /// Walks the window from the left over intervals that are proven free of contact, splitting where the proof
 /// fails, up to one that holds exactly one sign change.
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Point& right,
-                                       bool departing) const -> Bracket {
+auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Point& right, bool departing,
+                                       int most_steps) const -> Bracket {
   constexpr int deepest = 64;
   std::array<Point, deepest> ends;  // right ends of intervals still to be looked at, nearest last
   int count = 0;
   ends[count++] = right;
   const Bounds& b = curve.bounds;
-  while (count > 0) {
+  for (int steps = 1; count > 0; ++steps) {
+    if (steps % 32 == 0) {
+      Interruption::check();
+      // A gap that hardly changes is excluded on short windows only.
+      if (steps >= most_steps || (steps == 64 && has_exact_gap(curve.wall))) return {Verdict::undecided};
+    }
     const Point& end = ends[count - 1];
     if (departing ? numerics::proven_departure(left, end, b) : numerics::proven_positive(left, end, b)) {
       left = end;
@@ -279,13 +317,18 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
 /// once the gap is seen to become negative while it falls.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, Point right) const -> Bracket {
-  while (!numerics::proven_decreasing(left, right, curve.bounds)) {
+  const Bounds& b = curve.bounds;
+  // Where another wall has cut the window short, behind the time at which this gap is certainly negative.
+  if (const Real s = 16 * resolution() - 8 * b.value_error / left.slope; right.t - left.t < s)
+    right = curve.at(left.t + s);
+  while (!numerics::proven_decreasing(left, right, b)) {
     const Real s = (right.t - left.t) / 2;
     if (s < 16 * resolution()) return {Verdict::undecided};
     right = curve.at(left.t + s);
   }
-  if (!(right.value < -curve.bounds.value_error)) return {Verdict::undecided};
-  if (left.value <= 0) return {Verdict::contact, left, left};
+  if (!(right.value < -b.value_error)) return {Verdict::undecided};
+  // The widest scalar takes what is zero within its rounding for zero.
+  if (is_widest || left.value <= 0) return {Verdict::contact, left, left};
   return {Verdict::contact, left, right};
 }
 
@@ -303,11 +346,14 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& left, co
   const Real bend = (size(curvature) - b.curvature_error) / 2;
   if (!(bend > 0)) return {Verdict::undecided};
   // While |f''| > bend, bend s^2/2 exceeds what value and slope may be by rounding from this time on.
-  const Real slope = size(left.slope) + b.slope_error, value = size(left.value) + b.value_error;
+  const bool overlaps = left.value < -b.value_error;
+  const Real slope = size(left.slope) + b.slope_error,
+             value = overlaps ? Real(0) : Real(size(left.value) + b.value_error);
   const Real until = (slope + sqrt(slope * slope + 4 * bend * value)) / bend;
   if (!(b.third * (2 * until) <= bend)) return {Verdict::undecided};
   if (curvature < 0) return {Verdict::contact, left, left, until + resolution()};
-  if constexpr (!std::is_void_v<Wider<Real>>) return {Verdict::undecided};
+  if constexpr (!is_widest)
+    if (!overlaps) return {Verdict::undecided};
   const Real later = left.t + 2 * until;
   if (!(later < right.t)) return {Verdict::undecided};
   return isolate(curve, curve.at(later), right);
@@ -323,19 +369,25 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
   const Real sharp = sqrt(epsilon<Real>()) * mill_.clock.period() / 8;  // see PairSearch::tie_window
   Point left = start;
   Real step = left.slope / (2 * b.second);
-  for (int k = 0; k < 400; ++k) {
+  bool rose = false;
+  int setbacks = 0;  // of a gap that hardly changes, steps do not grow
+  for (int k = 0; k < 400 && setbacks < 32; ++k) {
+    if constexpr (is_wide) Interruption::check();
     Real t = left.t + step;
     const bool last = !(t < right.t);
     const Point next = last ? right : curve.at(t);
     const bool rising = numerics::proven_increasing(left, next, b);
     if (rising) {
-      if (next.value > b.value_error) return last ? Bracket{Verdict::none} : isolate(curve, next, right);
-      if (last) return {next.value < -b.value_error ? Verdict::none : Verdict::undecided};
-      if (!(next.value < -b.value_error) || !(next.t > left.t)) return {Verdict::undecided};
+      if (last) return {Verdict::none};
+      if (!(next.value < -b.value_error)) return isolate(curve, next, right);
+      if (!(next.t > left.t)) return {Verdict::undecided};
       left = next;
       step = 2 * step;
+      rose = true;
       continue;
     }
+    setbacks += rose;
+    rose = false;
     const bool turned = next.slope < -b.slope_error && next.value < -b.value_error;
     if (turned && step * 65536 < next.t - start.t && step < sharp)
       return {Verdict::contact, next, next, step + resolution()};
@@ -344,6 +396,79 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
     step = step / 2;
   }
   return {Verdict::undecided};
+}
+
+/// The widest scalar does not decide, nor is the gap a polynomial, that exact arithmetic would: it is zero
+/// within rounding, or changes too little to be excluded. The rule: what is not seen to fall does not fall.
+/// The gap is seen at times that double their distance from the start; where it falls without having opened,
+/// the contact was when it was seen last.
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const
+    -> Bracket {
+  const Bounds& b = curve.bounds;
+  Point last = start;
+  int looks = 0;
+  for (Real step = 16 * resolution(); last.t < right.t; step = 2 * step) {
+    Interruption::check();
+    const Real t = start.t + step;
+    const Point next = t < right.t ? curve.at(t) : right;
+    const bool opens = next.value > b.value_error || next.slope > 2 * b.slope_error;
+    if (next.slope < -2 * b.slope_error && !opens) {
+      auto found = last.value > b.value_error ? isolate(curve, last, next) : Bracket{Verdict::undecided};
+      if (found.verdict == Verdict::undecided)
+        found = {.verdict = Verdict::contact, .left = last, .right = last, .time_error = next.t - last.t};
+      found.by_rule = true;
+      return found;
+    }
+    if (opens && next.t < right.t && looks++ % 16 == 0) {  // whether the rest of the window can be decided
+      auto found = isolate(curve, next, right, 32);
+      found.by_rule = true;
+      if (found.verdict != Verdict::undecided) return found;
+    }
+    last = next;
+  }
+  return {.verdict = Verdict::none, .by_rule = true};
+}
+
+template <model::Motion M, model::Vessel V>
+bool WallSearch<M, V>::has_exact_gap(int wall) const {
+  return exact_gap(mill_.motion, mill_.vessel, mill_.gravity, WallQuery<Real>{}, wall).has_value();
+}
+
+/// Up to `end`, in exact arithmetic. Undecided where the gap is no polynomial.
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::isolate_exactly(const Curve& curve, const WallQuery<Real>& query,
+                                       const Real& end) const -> Bracket {
+  if (curve.wall >= mill_.vessel.wall_count()) return {Verdict::undecided};
+  const auto gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity, query, curve.wall);
+  if (!gap) return {Verdict::undecided};
+  const auto time = exact_contact_time(*gap);
+  if (!time) return {Verdict::none};
+  const Real delay = time->template rounded_down<Real>();
+  const Point at{query.begin.offset + delay, Real(0), Real(0)};
+  if (at.t > end) return {Verdict::none};
+  return {.verdict = Verdict::contact,
+          .left = at,
+          .right = at,
+          .time_error = resolution(),
+          .at_once = time->compare({}) == 0};
+}
+
+/// Which of two walls is hit first, by exact arithmetic: negative `one`, positive `other`, zero at one time.
+/// Nothing where it does not know the time of one of them.
+template <model::Motion M, model::Vessel V>
+std::optional<int> WallSearch<M, V>::exact_order(const WallQuery<Real>& query, int one, bool one_at_once,
+                                                 int other, bool other_at_once) const {
+  const auto time_of = [&](int wall, bool at_once) -> std::optional<ExactTime> {
+    if (at_once) return ExactTime{};
+    if (wall >= mill_.vessel.wall_count()) return std::nullopt;
+    const auto gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity, query, wall);
+    return gap ? exact_contact_time(*gap) : std::nullopt;
+  };
+  const auto first = time_of(one, one_at_once);
+  if (!first) return std::nullopt;
+  const auto second = time_of(other, other_at_once);
+  return second ? std::optional(first->compare(*second)) : std::nullopt;
 }
 
 }  // namespace edmill::dynamics

@@ -1,13 +1,15 @@
 // Implementation of Simulation: the loop; included by the instantiation files only.
 #pragma once
 
+#include "base/interruption.hpp"
 #include "engine/simulation.hpp"
 
 namespace edmill::engine {
 
 /// Processes every event up to `end`.
 template <class Real>
-EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt) {
+EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomic<bool>* interrupt) try {
+  const Interruption scope(interrupt);
   stop_.reset();
   for (int next = queue_.top(); queue_.time(next) <= end; next = queue_.top()) {
     if (interrupt && interrupt->load(std::memory_order_relaxed)) return EndReason::interrupted;
@@ -35,6 +37,8 @@ EndReason Simulation<Real>::run_until(const Instant<Real>& end, const std::atomi
   }
   now_ = end;
   return EndReason::end_time;
+} catch (const InterruptedError&) {  // from a search before an event
+  return EndReason::interrupted;
 }
 
 /// What happens next, where `ball` is the first in the queue: what was queued for it, unless that is a

@@ -97,10 +97,16 @@ void Simulation<Real>::predict_wall(int ball, const model::AnyPose<Real>& pose) 
   const Real length = search_length(ball, now_);
   const auto& flight = flights_[ball];
   const dynamics::WallQuery<Real> query{flight, properties(ball).radius, now_, length};
-  if constexpr (std::is_same_v<Real, double>) {
-    take_wall_answer(ball, ladder_.wall(pose, query), now_);
-  } else {
-    take_wall_answer(ball, ladder_.wall(query), now_);  // which begins in double
+  try {
+    if constexpr (std::is_same_v<Real, double>) {
+      take_wall_answer(ball, ladder_.wall(pose, query), now_);
+    } else {
+      take_wall_answer(ball, ladder_.wall(query), now_);  // which begins in double
+    }
+  } catch (
+      const InterruptedError&) {  // the impact has happened: when the run goes on, it begins by searching
+    take_wall_answer(ball, dynamics::WallAnswer<Real>::none(Real(0)), now_);
+    stop_ = EndReason::interrupted;
   }
 }
 
@@ -117,14 +123,14 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
                                         const Instant<Real>& begin) {
   Agenda<Real>& a = agendas_[ball];
   if (answer.verdict == dynamics::Verdict::contact) {
-    a.wall = static_cast<std::int8_t>(answer.wall + (answer.tie ? Agenda<Real>::tied : 0));
+    a.wall = static_cast<std::int8_t>(answer.wall + (answer.by_rule ? Agenda<Real>::tied : 0));
     a.times[Agenda<Real>::wall_entry] = answer.time;
     a.wall_pose = answer.pose;
   } else {
     // The next search begins where this one's proof still holds, whatever the sum is rounded to.
     a.wall = -1;
-    a.times[Agenda<Real>::wall_entry] =
-        clock_.after(begin, answer.searched - 4 * epsilon<Real>() * clock_.period());
+    const Real proven = answer.searched - 4 * epsilon<Real>() * clock_.period();
+    a.times[Agenda<Real>::wall_entry] = proven > 0 ? clock_.after(begin, proven) : begin;
   }
 }
 

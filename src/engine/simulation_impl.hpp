@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/errors.hpp"
+#include "base/interruption.hpp"
 #include "engine/ball_bounds.hpp"
 #include "engine/candidates_impl.hpp"
 #include "engine/collide_impl.hpp"
@@ -42,8 +43,9 @@ Simulation<Real>::Simulation(const model::Case<Real>& the_case,
   for (int i = 0; i < ball_count(); ++i) bodies_[i].cell = candidates_.insert(i);
   prefetch(ball_count() > Prefetcher<Real>::worthwhile);
   update_pose();
+  const Interruption scope(interrupt);
   for (int i = 0; i < ball_count(); ++i) {
-    if (interrupt && interrupt->load(std::memory_order_relaxed)) throw InterruptedError();
+    Interruption::check();
     find_neighbours(i, near_);
     predict_all(i, -1, pose_, near_);
   }

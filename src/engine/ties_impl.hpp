@@ -133,7 +133,7 @@ template <class Real>
 dynamics::Contact<Real> Simulation<Real>::contact_of(const Event<Real>& event) const {
   const auto& flight = flights_[event.ball];
   if (event.kind == EventKind::wall_contact)
-    return {true, flight, flight, properties(event.ball).radius, event.time};
+    return {true, flight, flight, properties(event.ball).radius, event.time, event.partner};
   const auto& partner = flights_[event.partner];
   const Real sum = properties(event.ball).radius + properties(event.partner).radius;
   if (flight.start < partner.start) return {false, partner, flight, sum, event.time};
