@@ -68,6 +68,18 @@ TurnFraction fraction_of(const Quantity& turns) {
   return fraction;
 }
 
+/// A constant angle or phase less its whole turns: a scalar knows what is left to its last digit. One of less
+/// than a turn stays as it is given.
+Quantity without_whole_turns(const Quantity& turns) {
+  const auto fraction = fraction_of(turns);
+  if (fraction.whole == 0 || fraction.whole == -1) return turns;
+  if (turns.pi_power == 0) return {turns.value - fraction.whole};
+  cpp_int bits = 0;
+  const std::size_t words = TurnFraction::words + fraction.further.size();
+  for (std::size_t k = 0; k < words; ++k) bits = (bits << 64) + fraction.word(k);
+  return {boost::multiprecision::cpp_rational(bits, cpp_int(1) << (64 * words))};
+}
+
 /// A frequency [1/s] for an angular speed [rad/s], turns for an angle [rad].
 Quantity in_turns(const Quantity& radians) { return {radians.value / 2, radians.pi_power - 1}; }
 
@@ -218,13 +230,17 @@ std::string equation_of(const std::vector<Swing<Quantity>>& swings, bool rotate)
 }
 
 std::vector<Swing<Quantity>> with_phases(std::vector<Swing<Quantity>> swings, const Quantity& period) {
-  for (auto& swing : swings) swing.per_period = fraction_of(swing.frequency * period);
+  for (auto& swing : swings) {
+    swing.per_period = fraction_of(swing.frequency * period);
+    swing.phase = without_whole_turns(swing.phase);
+  }
   return swings;
 }
 
 Joints<Quantity> with_phases(Joints<Quantity> joints) {
   for (auto& joint : joints.list) {
     if (joint.rotates) joint.per_period = fraction_of(joint.speed * joints.period);
+    joint.angle = without_whole_turns(joint.angle);
     joint.swings = with_phases(std::move(joint.swings), joints.period);
   }
   return joints;

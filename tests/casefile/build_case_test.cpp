@@ -133,5 +133,54 @@ TEST(Instants, ATimeOfWholePeriodsHasNoOffset) {
   EXPECT_EQ(start.offset, 0);
 }
 
+/// A chain of a turn and a swing, each with a constant part [deg or rad].
+std::string turned(const std::string& angle, const std::string& phase) {
+  return "[mill]\ntype = \"chain\"\n[[mill.joint]]\nrotate = \"y\"\nangle = \"" + angle +
+         "\"\nspeed = \"300 rpm\"\n[[mill.joint]]\nrotate = \"x\"\nangle = \"" + angle +
+         "\"\n[[mill.joint]]\ntranslate = \"x\"\nswing = [{amplitude = \"3 mm\", speed = \"700 rpm\", phase "
+         "= \"" +
+         phase +
+         "\"}]\n[vessel]\ntype = \"box\"\nsize = [\"40 mm\", \"40 mm\", \"40 mm\"]\n"
+         "[run]\nend_time = \"1 s\"\n[contact]\nrestitution = 0.5\nfriction = 0.4\n[[balls]]\ncount = 1\n"
+         "diameter = \"4 mm\"\n";
+}
+template <class Real>
+void expect_same_poses(const std::string& one, const std::string& other) {
+  const auto pose = [](const std::string& text, const Instant<Real>& when) {
+    const auto mill = build_mill<Real>(parse_case(text, "turned.toml"));
+    return *std::get_if<model::ChainPose<Real>>(&std::as_const(mill.motion).pose(when));
+  };
+  for (const int eighth : {0, 3, 7}) {
+    const Instant<Real> when{eighth, Real(eighth) / 100};
+    const auto a = pose(one, when), b = pose(other, when);
+    EXPECT_EQ(a.x, b.x) << one;
+    EXPECT_EQ(a.y, b.y) << one;
+    EXPECT_EQ(a.centre, b.centre) << one;
+    EXPECT_EQ(a.velocity, b.velocity) << one;
+  }
+}
+
+/// 1e9 turns and more, of either sign.
+TEST(BuildCase, WholeTurnsOfConstantAnglesAndPhasesAreDroppedExactly) {
+  const auto same = [](const std::string& angle, const std::string& phase, const std::string& less,
+                       const std::string& less_phase) {
+    expect_same_poses<double>(turned(angle, phase), turned(less, less_phase));
+    expect_same_poses<float128>(turned(angle, phase), turned(less, less_phase));
+    expect_same_poses<mpfr200>(turned(angle, phase), turned(less, less_phase));
+  };
+  same("240278471 deg", "720000000324 deg", "71 deg", "324 deg");
+  same("360000000000030.5 deg", "-719 deg", "30.5 deg", "1 deg");
+  same("-240278471 deg", "1080 deg", "289 deg", "0 deg");
+}
+
+/// 1e9 rad are no rational part of a turn: 1e9 - 159154943 * 2 pi rad.
+TEST(BuildCase, WholeTurnsOfRadiansAreDroppedToTheLastDigit) {
+  const auto mill = build_mill<double>(parse_case(turned("1e9 rad", "0 deg"), "turned.toml"));
+  const mpfr200 turns = mpfr200(1000000000) / (2 * numerics::pi<mpfr200>());
+  const auto* chain = mill.motion.get_if<model::ChainMotion<double>>();
+  ASSERT_TRUE(chain);
+  EXPECT_EQ(chain->joints().list[1].angle, static_cast<double>(mpfr200(turns - floor(turns))));
+}
+
 }  // namespace
 }  // namespace edmill::casefile

@@ -93,11 +93,16 @@ struct ChainBounds {
     const auto of_phase = [&](const Real& frequency) {
       return Real(7 * (4 + 3 * magnitude<Real>(frequency * period)));
     };
-    Real most(0);
+    // Of constant angles and phases as well, where they are more than the turn that this leaves for them.
+    const auto of_turns = [](const Real& turns) {
+      const Real size = magnitude(turns);
+      return size > 1 ? Real(14 * size) : Real(0);
+    };
+    Real most = of_turns(joint.angle);
     if (!(joint.speed == 0)) most += joint.rotates ? of_phase(joint.speed) : Real(8);
     for (const auto& swing : joint.swings) {
       const Real size = joint.rotates ? Real(7 * magnitude<Real>(swing.amplitude)) : Real(1);
-      most += (size > 1 ? size : Real(1)) * of_phase(swing.frequency);
+      most += (size > 1 ? size : Real(1)) * (of_phase(swing.frequency) + of_turns(swing.phase));
     }
     return most + 10;
   }
