@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/standard_arithmetic.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/joints.hpp"
 #include "edmill/run.hpp"
@@ -235,7 +236,10 @@ Run<Real>::Run(const Case& the_case, const Laws<Real>& laws, const Planes<Real>&
     : Run(the_case, OwnParts<Real>{vessel, {}, {}, laws}) {}
 template <class Real>
 Run<Real>::Run(const Case& the_case, const OwnParts<Real>& own)
-    : implementation_(std::make_unique<Implementation>(the_case, own, *this)) {}
+    : implementation_([&] {
+        const StandardArithmetic scope;
+        return std::make_unique<Implementation>(the_case, own, *this);
+      }()) {}
 template <class Real>
 Run<Real>::~Run() = default;
 
@@ -245,22 +249,27 @@ void Run<Real>::attach(Observer<Real>& observer) {
 }
 template <class Real>
 void Run<Real>::write_to(const std::string& folder) {
+  const StandardArithmetic scope;
   implementation_->write_to(folder);
 }
 template <class Real>
 void Run<Real>::commit() {
+  const StandardArithmetic scope;
   implementation_->commit([] {});
 }
 template <class Real>
 void Run<Real>::commit(const std::function<void()>& when_written) {
+  const StandardArithmetic scope;
   implementation_->commit(when_written);
 }
 template <class Real>
 bool Run<Real>::advance_to(const Real& time) {
+  const StandardArithmetic scope;
   return implementation_->advance(time);
 }
 template <class Real>
 void Run<Real>::finish() {
+  const StandardArithmetic scope;
   implementation_->advance(std::nullopt);
 }
 template <class Real>
@@ -273,6 +282,7 @@ void Run<Real>::interrupt() {
 }
 template <class Real>
 Real Run<Real>::time() const {
+  const StandardArithmetic scope;
   return implementation_->time();
 }
 template <class Real>
@@ -281,6 +291,7 @@ int Run<Real>::ball_count() const {
 }
 template <class Real>
 BallState<Real> Run<Real>::ball(int i) const {
+  const StandardArithmetic scope;
   const auto& simulation = implementation_->simulation();
   EDMILL_REQUIRE(i >= 0 && i < simulation.ball_count(), "the number of a ball");
   const auto state = simulation.state_at(i, simulation.now());
@@ -289,6 +300,7 @@ BallState<Real> Run<Real>::ball(int i) const {
 }
 template <class Real>
 Summary<Real> Run<Real>::summary() const {
+  const StandardArithmetic scope;
   return implementation_->summary();
 }
 

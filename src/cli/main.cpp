@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/standard_arithmetic.hpp"
 #include "base/version.hpp"
 #include "casefile/precisions.hpp"
 #include "cli/commands/bifurcation.hpp"
@@ -109,6 +110,7 @@ class CommandLine {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const StandardArithmetic scope;
   cli::throw_for_lack_of_memory();
   cli::open_standard_descriptors();
   cli::begin_with_signals();

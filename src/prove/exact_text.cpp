@@ -1,7 +1,8 @@
 #include "prove/exact_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 namespace edmill::prove {
@@ -73,11 +74,9 @@ DecimalText decimal_of(const Enclosure& value, int digits) {
   arb_get_mag(bound, difference.arb());
   arf_t radius;
   arf_init_set_mag_shallow(radius, bound);
-  char text[64];
   const double size = arf_get_d(radius, ARF_RND_UP);
-  std::snprintf(text, sizeof text, "%.1e", size * 1.05);
   mag_clear(bound);
-  return {middle.get(), text};
+  return {middle.get(), fmt::format("{:.1e}", size * 1.05)};
 }
 
 }  // namespace edmill::prove

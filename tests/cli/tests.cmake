@@ -15,12 +15,16 @@ set_tests_properties(packages_test PROPERTIES LABELS long TIMEOUT 3600 SKIP_RETU
 # Files, streams and signals: a script for each promise of docs/files.md and docs/usage.md.
 add_library(no_locks MODULE cli/no_locks.c)
 add_library(dies_at MODULE cli/dies_at.c)
-foreach(name digits sensitivity charges one_writer kill_steps left_behind named_files tampered standard_streams signals inputs missing_memory)
+add_library(host_arithmetic MODULE cli/host_arithmetic.c)
+foreach(name digits sensitivity charges one_writer kill_steps left_behind named_files tampered standard_streams signals inputs missing_memory
+             host_arithmetic)
   set(more)
   if(name STREQUAL one_writer)
     set(more $<TARGET_FILE:no_locks>)
   elseif(name STREQUAL kill_steps)
     set(more $<TARGET_FILE:dies_at>)
+  elseif(name STREQUAL host_arithmetic)
+    set(more $<TARGET_FILE:host_arithmetic>)
   endif()
   add_test(NAME ${name}_test COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/${name}_test.py $<TARGET_FILE:edmill_cli> ${more})
   set_tests_properties(${name}_test PROPERTIES TIMEOUT 600 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)

@@ -19,3 +19,6 @@ set_tests_properties(near_ties_long PROPERTIES LABELS long TIMEOUT 3600 ENVIRONM
 add_test(NAME any_run_long COMMAND engine_tests --gtest_filter=*NoBallLeaves*)
 set_tests_properties(any_run_long PROPERTIES LABELS long TIMEOUT 7200 ENVIRONMENT EDMILL_ANY_COLLISIONS=350000)
 edmill_test(large_balls_test engine/large_balls_test.cpp)
+edmill_test(corners_test engine/corners_test.cpp TIMEOUT 300)
+add_test(NAME corners_long COMMAND engine_tests --gtest_filter=CornersTest*)
+set_tests_properties(corners_long PROPERTIES LABELS long TIMEOUT 14400 ENVIRONMENT EDMILL_CORNERS=100000)
