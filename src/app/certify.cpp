@@ -29,14 +29,15 @@ struct Sequence {
   std::string precision;
   std::vector<Event> events;
   double seconds = 0;
+  bool collapsed = false;  ///< the run has ended in inelastic collapse
 };
 
 Sequence first_events(const std::string& precision, const casefile::CaseSpec& spec,
                       const CertifyOptions& options) {
-  Sequence sequence{precision, {}, 0};
+  Sequence sequence{precision, {}};
   const auto begin = std::chrono::steady_clock::now();
   const bool to_end = options.collisions == 0;
-  const auto source = source_in(precision, spec, to_end);
+  const auto source = source_in(precision, spec, to_end, options.interrupt);
   while ((to_end || sequence.events.size() < options.collisions) && !stop_asked(options.interrupt)) {
     const auto more =
         source->next(to_end ? 64 : std::min<std::size_t>(64, options.collisions - sequence.events.size()));
@@ -44,6 +45,7 @@ Sequence first_events(const std::string& precision, const casefile::CaseSpec& sp
     sequence.events.insert(sequence.events.end(), more.begin(), more.end());
     options.progress(precision, sequence.events.size());
   }
+  sequence.collapsed = source->has_collapsed();
   sequence.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return sequence;
 }
@@ -113,9 +115,14 @@ class Certifier {
       if (is_interrupted()) return true;
       const Agreement agreement = compare(narrow, wide);
       tell({narrow.precision, wide.precision, agreement, narrow.seconds + wide.seconds});
-      const bool all = agreement.events() == wide.events.size() && narrow.events.size() == wide.events.size();
-      expected_ = wide.events.size();
-      if (settles(all, agreement, wide.events)) return true;
+      // A wider scalar follows a collapse for some events more.
+      const bool collapsed = narrow.collapsed || wide.collapsed;
+      auto events = wide.events;
+      if (collapsed) events.resize(std::min(narrow.events.size(), events.size()));
+      const bool all =
+          agreement.events() == events.size() && (collapsed || narrow.events.size() == events.size());
+      expected_ = events.size();
+      if (settles(all, agreement, events)) return true;
       narrow = std::move(wide);
     }
     return false;
@@ -157,7 +164,7 @@ class Certifier {
   bool side_by_side(unsigned digits, unsigned more) {
     const auto name = [](unsigned n) { return fmt::format("mpfr:{}", n); };
     const auto begin = std::chrono::steady_clock::now();
-    SideBySide runs(spec_, name(digits), name(more), options_.collisions == 0);
+    SideBySide runs(spec_, name(digits), name(more), options_.collisions == 0, options_.interrupt);
     std::vector<Event> events;
     // The sequence is written with so many; each number of a long one with all its digits would fill the
     // memory.
@@ -211,7 +218,7 @@ class Certifier {
 unsigned wider_than(unsigned digits) { return digits + std::max(20u, digits / 20); }
 
 Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options,
-                      const std::function<void(const Evidence&)>& found) {
+                      const std::function<void(const Evidence&)>& found) try {
   if (options.collisions == 0 && !spec.end_time)
     throw InputError(spec.file + ": found no run.end_time, expected one, or a number of collisions");
   std::optional<io::NamedFile> file;
@@ -222,6 +229,8 @@ Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& opti
   if (file && !result.events.empty())
     file->write([&](std::ostream& out) { write_reference(out, spec, options, result); });
   return result;
+} catch (const InterruptedError&) {
+  return {.interrupted = true};
 }
 
 void require_wider(const std::string& precision, const std::string& wider, const std::string& what) {
@@ -232,7 +241,7 @@ void require_wider(const std::string& precision, const std::string& wider, const
 
 Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,
               const std::atomic<bool>* interrupt) {
-  SideBySide runs(spec, precision, wider, true);
+  SideBySide runs(spec, precision, wider, true, interrupt);
   while (!stop_asked(interrupt) && !runs.next(64).empty()) {
   }
   return {precision,        wider, runs.agreement(), runs.diverged(), runs.uneven(), stop_asked(interrupt),

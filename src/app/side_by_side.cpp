@@ -42,8 +42,8 @@ std::vector<run::Event> SideBySide::next(std::size_t count) {
   while (same < shared && agreement_.take(one[same], two[same])) ++same;
   if (same < shared)
     diverged_ = {one[same], two[same]};
-  else
-    uneven_ = one.size() != two.size();
+  else  // a wider scalar follows a collapse for some events more
+    uneven_ = one.size() != two.size() && !narrow_->has_collapsed() && !wide_->has_collapsed();
   two.resize(same);
   drop_lost_digits();
   return std::move(two);
@@ -72,8 +72,7 @@ double SideBySide::digits_of_states() const {
   }
   double least = run::Agreement::most;
   for (std::size_t kind = 0; kind < kinds; ++kind)
-    if (difference[kind] > 0)
-      least = std::min(least, -static_cast<double>(log10(difference[kind] / size[kind])));
+    least = std::min(least, run::digits_of(difference[kind], size[kind]));
   return least;
 }
 

@@ -21,9 +21,14 @@ bool Agreement::take(const Event& one, const Event& two) {
   return true;
 }
 
+double digits_of(const Number& difference, const Number& size) {
+  constexpr double zero = 1e-20;  // [SI]
+  if (!(difference > 0)) return Agreement::most;
+  return -static_cast<double>(log10(size > zero ? Number(difference / size) : difference));
+}
+
 double Agreement::digits(std::size_t quantity) const {
-  if (!(largest_difference_[quantity] > 0)) return most;
-  return -static_cast<double>(log10(largest_difference_[quantity] / largest_size_[quantity]));
+  return digits_of(largest_difference_[quantity], largest_size_[quantity]);
 }
 
 double Agreement::least_digits() const {

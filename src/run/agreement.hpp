@@ -8,6 +8,10 @@
 
 namespace edmill::run {
 
+/// Decimal digits to which numbers agree that differ by so much: of their largest size, or decimals in SI
+/// units where they are zero but for rounding. @return Agreement::most when there is no difference
+double digits_of(const Number& difference, const Number& size);
+
 /// Agreement of two sequences of events. Digits of a quantity are -log10 of the largest difference over the
 /// largest magnitude of that quantity so far, so that values near zero do not count as disagreement.
 class Agreement {

@@ -32,6 +32,8 @@ class EventSource {
   /// Goes on for about `count` events that are not wanted. @return how many; 0 at the end of the run
   /// @pre `next` was not called
   virtual std::size_t pass(std::size_t count) = 0;
+  /// Whether the run has ended in inelastic collapse.
+  virtual bool has_collapsed() const = 0;
   /// The time up to which it has come [s].
   virtual double reached() const = 0;
   /// Positions, velocities and spins of all balls, ball by ball, at the instant up to which it has come.

@@ -44,6 +44,7 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
     wanted_ = true;
     return impacts_ - before;
   }
+  bool has_collapsed() const override { return simulation_->collapse().has_value(); }
   double reached() const override { return static_cast<double>(simulation_->seconds()); }
 
   std::vector<Number> states() const override {
