@@ -4,6 +4,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 
+#include "base/errors.hpp"
 #include "base/scalar.hpp"
 
 namespace edmill {
@@ -13,11 +14,13 @@ class Dyadic {
  public:
   Dyadic() = default;
   Dyadic(int whole) : n_(whole) {}  // NOLINT(google-explicit-constructor): exact
-  /// @pre x is finite
+  /// @throws ContractError when x is not finite
   template <class Real>
   static Dyadic of(const Real& x) {
     using std::frexp;
+    using std::isfinite;
     using std::ldexp;
+    EDMILL_REQUIRE(isfinite(x), "a finite number");
     constexpr int bits = 30;
     [[maybe_unused]] const auto scope = with_all_digits_of(x);
     Dyadic exact;

@@ -432,7 +432,9 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, c
 
 template <model::Motion M, model::Vessel V>
 bool WallSearch<M, V>::has_exact_gap(int wall) const {
-  return exact_gap(mill_.motion, mill_.vessel, mill_.gravity, WallQuery<Real>{}, wall).has_value();
+  const Vec3<Real> zero = Vec3<Real>::Zero();
+  const WallQuery<Real> any{{zero, zero, {}}, Real(0), {}, Real(0)};
+  return exact_gap(mill_.motion, mill_.vessel, mill_.gravity, any, wall).has_value();
 }
 
 /// Up to `end`, in exact arithmetic. Undecided where the gap is no polynomial.
