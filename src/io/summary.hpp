@@ -111,6 +111,12 @@ struct Summary {
     for (const auto c : collisions) sum += c;
     return sum;
   }
+  /// What errors of energies are measured against: the larger of the dose and the balls' kinetic energy [J].
+  Real energy_scale() const {
+    const Real& moving =
+        energy_at_start.kinetic > energy_at_end.kinetic ? energy_at_start.kinetic : energy_at_end.kinetic;
+    return milling_dose < moving ? moving : milling_dose;
+  }
   /// sum WE - sum MD + supplied energy - change of (KE + PE) [J]; zero up to rounding.
   Real energy_closure() const {
     return wall_work - milling_dose + supplied_energy -

@@ -77,8 +77,10 @@ std::string result_table(const io::Summary<Real>& s) {
   collisions("total", s.total_collisions(), s.milling_dose, of.any() ? &of.collision_rate : nullptr);
   out += rate_rows(s);
   if (s.target) out += target_rows(s);
-  if (s.milling_dose > 0)
-    row("energy closure / dose", fmt::format("{:.2e}", real(s.energy_closure()) / real(s.milling_dose)));
+  const bool by_dose = s.milling_dose == s.energy_scale();
+  if (s.energy_scale() > 0)
+    row(by_dose ? "energy closure / dose" : "energy closure / energy",
+        fmt::format("{:.2e}", real(s.energy_closure()) / real(s.energy_scale())));
   const auto total = s.total_collisions();
   const auto of_dose = [&](const Real& energy) {
     return s.milling_dose > 0 ? 100 * real(energy) / real(s.milling_dose) : 0.0;
@@ -87,8 +89,10 @@ std::string result_table(const io::Summary<Real>& s) {
     return total > 0 ? 100.0 * static_cast<double>(impacts) / static_cast<double>(total) : 0.0;
   };
   row("least separation speed",
-      fmt::format("{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of the dose",
-                  of_impacts(s.touched_impacts), of_dose(s.touched_dose), of_dose(s.supplied_energy)));
+      fmt::format("{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of {}",
+                  of_impacts(s.touched_impacts), of_dose(s.touched_dose),
+                  s.energy_scale() > 0 ? 100 * real(s.supplied_energy) / real(s.energy_scale()) : 0.0,
+                  by_dose ? "the dose" : "the balls' energy"));
   if (s.stall_impacts > 0)
     row("stalls, without friction", fmt::format("{:.2g} % of impacts, {:.2g} % of the dose",
                                                 of_impacts(s.stall_impacts), of_dose(s.stall_dose)));
@@ -96,6 +100,10 @@ std::string result_table(const io::Summary<Real>& s) {
     row("inelastic collapse", fmt::format("ball {} with {} {} at {:.12g} s", s.collapse->ball,
                                           s.collapse->with_wall ? "wall" : "ball", s.collapse->partner,
                                           real(s.collapse->accumulation_time)));
+  if (s.simultaneous_contacts > 0)
+    row("simultaneous, by a rule", fmt::format("{} impacts, {:.2g} %", s.simultaneous_contacts,
+                                               100.0 * static_cast<double>(s.simultaneous_contacts) /
+                                                   static_cast<double>(s.total_impacts)));
   for (const auto& e : s.escalations)
     row("decided by " + e.scalar, fmt::format("{} wall, {} pair, {} order", e.wall, e.pair, e.order));
   row("deepest overlap", fmt::format("{:.2e} m", real(s.deepest_overlap)));

@@ -124,4 +124,33 @@ TEST(Warnings, ARunThatDidNotReachItsEndIsTold) {
   }
 }
 
+TEST(Warnings, WithoutADoseTheShareOfImpactsCounts) {
+  auto f = good_facts();
+  f.has_dose = false;
+  f.touched_dose_share = 0.06;
+  const auto list = warnings_of(f, steady());
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_NE(list[0].text.find("6 % of the impacts"), std::string::npos) << list[0].text;
+}
+
+/// Slow balls of an elastic gas have no dose, and most of their energy from the least separation speed at
+/// last.
+TEST(Warnings, EnergiesAreMeasuredAgainstTheLargerOfDoseAndKineticEnergy) {
+  edmill::io::Summary<double> s(model::Partners{});
+  s.energy_at_start.kinetic = 1e-6, s.energy_at_end.kinetic = 1e-5, s.supplied_energy = 9e-6;
+  EXPECT_DOUBLE_EQ(measures_of(s).supplied_share, 0.9);
+  s.milling_dose = 1;
+  EXPECT_DOUBLE_EQ(measures_of(s).supplied_share, 9e-6);
+  s.wall_work = 1, s.supplied_energy = 0;  // closes to 9e-6 J
+  EXPECT_NEAR(measures_of(s).closure_share, -9e-6, 1e-12);
+}
+
+TEST(Warnings, ManyContactsInTheOrderOfARuleAreSaid) {
+  auto f = good_facts();
+  f.by_rule_share = 0.009;
+  EXPECT_EQ(kinds(f, steady()), Kinds{});
+  f.by_rule_share = 0.011;
+  EXPECT_EQ(kinds(f, steady()), Kinds{"by_rule"});
+}
+
 }  // namespace
