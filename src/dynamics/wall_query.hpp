@@ -28,8 +28,8 @@ struct WallAnswer {
   Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
   bool by_rule = false;  ///< no precision decides it: two walls at one time, of which the lower id was taken,
                          ///< or a gap that cannot be told from zero
-  Real searched{0};    ///< of none: proven from begin for this long [s]
-  Real time_error{0};  ///< of a contact: how far off rounding may put its time [s]
+  Real searched{0};      ///< of none: proven from begin for this long [s]
+  Real time_error{0};    ///< of a contact: how far off rounding may put its time [s]
   [[no_unique_address]] ContactPose<Real> pose{};  ///< of a contact, where the search knows it
 
   static WallAnswer none(const Real& searched) { return {Verdict::none, -1, {}, false, searched}; }

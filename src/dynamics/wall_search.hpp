@@ -119,6 +119,9 @@ class WallSearch {
     return norm<Real>(velocity) + mill_.gravity_size * length;
   }
   template <bool rounded>
+  Bracket isolate_wall(const Curve& curve, const Start& first, const Sample& last,
+                       const WallQuery<Real>& query, const Real& end) const;
+  template <bool rounded>
   Bracket isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
                              const Point& right) const;
   /// @param most_steps  after which it is undecided
@@ -146,6 +149,9 @@ class WallSearch {
     Real guess;  ///< of the root
     double curvature, curvature_error, third;
   };
+  template <bool rounded>
+  std::optional<bool> comes_first(const WallQuery<Real>& query, int wall, const Root& root, int other,
+                                  const Root& other_root, bool& by_rule) const;
   std::optional<Root> polish(const Curve& curve, const Bracket& bracket) const;
   std::optional<Root> close_in(const Functions& functions, int wall, const Real& from, const Real& to,
                                const Approach& approach, const Real& value_error) const;

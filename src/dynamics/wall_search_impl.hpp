@@ -7,7 +7,7 @@
 #include "base/errors.hpp"
 #include "base/interruption.hpp"
 #include "dynamics/any_wall_search.hpp"
-#include "dynamics/exact_contact_impl.hpp"
+#include "dynamics/exact_walls_impl.hpp"
 #include "dynamics/rough_search_impl.hpp"
 #include "dynamics/wall_roots_impl.hpp"
 
@@ -123,48 +123,27 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   Sample last = sample_of_end(functions, reachable, errors, begin, end);
   auto answer = WallAnswer<Real>::none(end - begin);
   Root best{};
+  bool by_rule = false;
   for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
-    const Point start = curve.of(first);
-    Bracket found{Verdict::undecided};
-    if constexpr (is_widest)  // what exact arithmetic knows needs no rule for what is zero within rounding
-      if (start.value <= curve.bounds.value_error) found = isolate_exactly(curve, query, end);
-    if (!is_widest || found.verdict == Verdict::undecided)
-      found = isolate_from_start<rounded>(curve, start, first.curvature[wall], curve.of(last));
-    if constexpr (!rounded) {
-      if (found.verdict == Verdict::undecided) [[unlikely]]
-        found = isolate_exactly(curve, query, end);
-      if constexpr (is_widest)
-        if (found.verdict == Verdict::undecided) found = isolate_by_rule(curve, start, curve.of(last));
-      answer.by_rule |= found.by_rule;
-    }
+    const Bracket found = isolate_wall<rounded>(curve, first, last, query, end);
+    by_rule |= found.by_rule;
     if (found.verdict == Verdict::none) continue;
     if (found.verdict == Verdict::undecided) return {Verdict::undecided};
     // Only a start that is outside for certain makes the bracket hold the wide root too.
     if (rounded && !(found.left.value > curve.bounds.value_error)) return {Verdict::undecided};
-    const auto root = polish(curve, found);
+    auto root = polish(curve, found);
+    if (is_widest && !root) root = Root{found.left.t, found.right.t - found.left.t}, by_rule = true;
     if (!root) return {Verdict::undecided};
     if (answer.verdict == Verdict::contact) {
-      const Real later = root->t - best.t, error = root->time_error + best.time_error;
-      if (later > error) continue;
-      if (later >= -error) {
-        // Two walls at one time within rounding: exact arithmetic decides, or a wider scalar. The lower id
-        // comes first where they are equal, and where the widest scalar does not separate them.
-        std::optional<int> order;
-        if constexpr (!rounded) order = exact_order(query, answer.wall, best.at_once, wall, root->at_once);
-        if (!order && !is_widest) return {Verdict::undecided};
-        if (!order || *order <= 0) {
-          answer.by_rule |= (!order || *order == 0) && wall < mill_.vessel.wall_count();
-          continue;
-        }
-      }
+      const auto first_of_two = comes_first<rounded>(query, wall, *root, answer.wall, best, by_rule);
+      if (!first_of_two) return {Verdict::undecided};
+      if (!*first_of_two) continue;
     }
     best = *root;
-    const bool by_rule = found.by_rule;
     answer =
         WallAnswer<Real>::contact(wall, mill_.clock.instant(query.begin.period, best.t), best.time_error);
-    answer.by_rule = by_rule;
     if constexpr (rounded)
       *rough = RoughAnswer::contact(wall, found.left.t, found.right.t, root->t, own_errors.gap[wall]);
     if (!any_from(reachable, wall + 1)) break;
@@ -175,6 +154,7 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
       last = sample_of_end(functions, reachable, errors, root->t, end);
     }
   }
+  answer.by_rule = by_rule;
   if constexpr (model::HasRegions<V>)
     if (answer.verdict == Verdict::contact && answer.wall >= mill_.vessel.wall_count())
       return WallAnswer<Real>::none(best.t - begin);  // another region: to be asked again
@@ -396,81 +376,6 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
     step = step / 2;
   }
   return {Verdict::undecided};
-}
-
-/// The widest scalar does not decide, nor is the gap a polynomial, that exact arithmetic would: it is zero
-/// within rounding, or changes too little to be excluded. The rule: what is not seen to fall does not fall.
-/// The gap is seen at times that double their distance from the start; where it falls without having opened,
-/// the contact was when it was seen last.
-template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const
-    -> Bracket {
-  const Bounds& b = curve.bounds;
-  Point last = start;
-  int looks = 0;
-  for (Real step = 16 * resolution(); last.t < right.t; step = 2 * step) {
-    Interruption::check();
-    const Real t = start.t + step;
-    const Point next = t < right.t ? curve.at(t) : right;
-    const bool opens = next.value > b.value_error || next.slope > 2 * b.slope_error;
-    if (next.slope < -2 * b.slope_error && !opens) {
-      auto found = last.value > b.value_error ? isolate(curve, last, next) : Bracket{Verdict::undecided};
-      if (found.verdict == Verdict::undecided)
-        found = {.verdict = Verdict::contact, .left = last, .right = last, .time_error = next.t - last.t};
-      found.by_rule = true;
-      return found;
-    }
-    if (opens && next.t < right.t && looks++ % 16 == 0) {  // whether the rest of the window can be decided
-      auto found = isolate(curve, next, right, 32);
-      found.by_rule = true;
-      if (found.verdict != Verdict::undecided) return found;
-    }
-    last = next;
-  }
-  return {.verdict = Verdict::none, .by_rule = true};
-}
-
-template <model::Motion M, model::Vessel V>
-bool WallSearch<M, V>::has_exact_gap(int wall) const {
-  const Vec3<Real> zero = Vec3<Real>::Zero();
-  const WallQuery<Real> any{{zero, zero, {}}, Real(0), {}, Real(0)};
-  return exact_gap(mill_.motion, mill_.vessel, mill_.gravity, any, wall).has_value();
-}
-
-/// Up to `end`, in exact arithmetic. Undecided where the gap is no polynomial.
-template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_exactly(const Curve& curve, const WallQuery<Real>& query,
-                                       const Real& end) const -> Bracket {
-  if (curve.wall >= mill_.vessel.wall_count()) return {Verdict::undecided};
-  const auto gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity, query, curve.wall);
-  if (!gap) return {Verdict::undecided};
-  const auto time = exact_contact_time(*gap);
-  if (!time) return {Verdict::none};
-  const Real delay = time->template rounded_down<Real>();
-  const Point at{query.begin.offset + delay, Real(0), Real(0)};
-  if (at.t > end) return {Verdict::none};
-  return {.verdict = Verdict::contact,
-          .left = at,
-          .right = at,
-          .time_error = resolution(),
-          .at_once = time->compare({}) == 0};
-}
-
-/// Which of two walls is hit first, by exact arithmetic: negative `one`, positive `other`, zero at one time.
-/// Nothing where it does not know the time of one of them.
-template <model::Motion M, model::Vessel V>
-std::optional<int> WallSearch<M, V>::exact_order(const WallQuery<Real>& query, int one, bool one_at_once,
-                                                 int other, bool other_at_once) const {
-  const auto time_of = [&](int wall, bool at_once) -> std::optional<ExactTime> {
-    if (at_once) return ExactTime{};
-    if (wall >= mill_.vessel.wall_count()) return std::nullopt;
-    const auto gap = exact_gap(mill_.motion, mill_.vessel, mill_.gravity, query, wall);
-    return gap ? exact_contact_time(*gap) : std::nullopt;
-  };
-  const auto first = time_of(one, one_at_once);
-  if (!first) return std::nullopt;
-  const auto second = time_of(other, other_at_once);
-  return second ? std::optional(first->compare(*second)) : std::nullopt;
 }
 
 }  // namespace edmill::dynamics

@@ -48,6 +48,22 @@ std::string rate_rows(const io::Summary<Real>& s) {
   return out;
 }
 
+/// What wider scalars and rules decided.
+template <class Real>
+std::string decision_rows(const io::Summary<Real>& s) {
+  std::string out;
+  const auto row = [&](const std::string& name, const std::string& value) {
+    out += fmt::format("  {:<28}{}\n", name, value);
+  };
+  if (s.simultaneous_contacts > 0)
+    row("simultaneous, by a rule", fmt::format("{} impacts, {:.2g} %", s.simultaneous_contacts,
+                                               100.0 * static_cast<double>(s.simultaneous_contacts) /
+                                                   static_cast<double>(s.total_impacts)));
+  for (const auto& e : s.escalations)
+    row("decided by " + e.scalar, fmt::format("{} wall, {} pair, {} order", e.wall, e.pair, e.order));
+  return out;
+}
+
 template <class Real>
 std::string result_table(const io::Summary<Real>& s) {
   const auto real = [](const Real& x) { return static_cast<double>(x); };
@@ -100,12 +116,7 @@ std::string result_table(const io::Summary<Real>& s) {
     row("inelastic collapse", fmt::format("ball {} with {} {} at {:.12g} s", s.collapse->ball,
                                           s.collapse->with_wall ? "wall" : "ball", s.collapse->partner,
                                           real(s.collapse->accumulation_time)));
-  if (s.simultaneous_contacts > 0)
-    row("simultaneous, by a rule", fmt::format("{} impacts, {:.2g} %", s.simultaneous_contacts,
-                                               100.0 * static_cast<double>(s.simultaneous_contacts) /
-                                                   static_cast<double>(s.total_impacts)));
-  for (const auto& e : s.escalations)
-    row("decided by " + e.scalar, fmt::format("{} wall, {} pair, {} order", e.wall, e.pair, e.order));
+  out += decision_rows(s);
   row("deepest overlap", fmt::format("{:.2e} m", real(s.deepest_overlap)));
   row("CPU time",
       fmt::format("{:.3g} s, {:.3g} collisions/s", s.cpu_seconds,

@@ -17,7 +17,7 @@ add_library(no_locks MODULE cli/no_locks.c)
 add_library(dies_at MODULE cli/dies_at.c)
 add_library(host_arithmetic MODULE cli/host_arithmetic.c)
 foreach(name digits sensitivity charges one_writer kill_steps left_behind named_files tampered standard_streams signals inputs missing_memory
-             host_arithmetic)
+             host_arithmetic ordinary_charges)
   set(more)
   if(name STREQUAL one_writer)
     set(more $<TARGET_FILE:no_locks>)
@@ -34,6 +34,9 @@ add_test(NAME sensitivity_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_
 set_tests_properties(digits_long sensitivity_long PROPERTIES LABELS long TIMEOUT 86400 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 add_test(NAME one_writer_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/one_writer_test.py $<TARGET_FILE:edmill_cli>
                                       $<TARGET_FILE:no_locks> 100)
+add_test(NAME ordinary_charges_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/ordinary_charges_test.py
+                                            $<TARGET_FILE:edmill_cli> 1000)
+set_tests_properties(ordinary_charges_long PROPERTIES LABELS long TIMEOUT 14400 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 add_test(NAME left_behind_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/left_behind_test.py $<TARGET_FILE:edmill_cli> 200)
 add_test(NAME tampered_long COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/cli/tampered_test.py $<TARGET_FILE:edmill_cli> 1000)
 add_test(NAME kill_long COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/kill_test.py $<TARGET_FILE:edmill_cli> 100)
