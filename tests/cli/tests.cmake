@@ -15,10 +15,12 @@ set_tests_properties(packages_test PROPERTIES LABELS long TIMEOUT 3600 SKIP_RETU
 # Files, streams and signals: a script for each promise of docs/files.md and docs/usage.md.
 add_library(no_locks MODULE cli/no_locks.c)
 add_library(dies_at MODULE cli/dies_at.c)
-foreach(name digits sensitivity charges one_writer kill_steps left_behind named_files tampered standard_streams signals inputs missing_memory)
+foreach(name digits sensitivity charges one_writer kill_steps left_behind named_files any_names tampered standard_streams signals inputs missing_memory)
   set(more)
   if(name STREQUAL one_writer)
     set(more $<TARGET_FILE:no_locks>)
+  elseif(name STREQUAL any_names)
+    set(more $<TARGET_FILE:small_dem_dump>)
   elseif(name STREQUAL kill_steps)
     set(more $<TARGET_FILE:dies_at>)
   endif()
