@@ -1,6 +1,7 @@
 // summary.json: the result of a run. Keys and units: docs/files.md.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -117,6 +118,14 @@ struct Summary {
            ((energy_at_end.kinetic + energy_at_end.potential) -
             (energy_at_start.kinetic + energy_at_start.potential));
   }
+  /// What supplied energy and closure are measured against [J]: the dose, or the kinetic energy of the balls
+  /// at an end of the record where that is larger.
+  Real energy_scale() const {
+    return std::max({milling_dose, energy_at_start.kinetic, energy_at_end.kinetic});
+  }
+  const char* energy_scale_name() const { return milling_dose < energy_scale() ? "kinetic energy" : "dose"; }
+  /// False where the dose is the rounding of elastic impacts.
+  bool has_dose() const { return milling_dose * Real(1000000000) > energy_scale(); }
 };
 
 /// When a run stalled, which bodies, and what helps.

@@ -77,8 +77,10 @@ std::string result_table(const io::Summary<Real>& s) {
   collisions("total", s.total_collisions(), s.milling_dose, of.any() ? &of.collision_rate : nullptr);
   out += rate_rows(s);
   if (s.target) out += target_rows(s);
-  if (s.milling_dose > 0)
-    row("energy closure / dose", fmt::format("{:.2e}", real(s.energy_closure()) / real(s.milling_dose)));
+  const double scale = real(s.energy_scale());
+  if (scale > 0)
+    row(s.milling_dose < s.energy_scale() ? "energy closure / kinetic" : "energy closure / dose",
+        fmt::format("{:.2e}", real(s.energy_closure()) / scale));
   const auto total = s.total_collisions();
   const auto of_dose = [&](const Real& energy) {
     return s.milling_dose > 0 ? 100 * real(energy) / real(s.milling_dose) : 0.0;
@@ -87,8 +89,9 @@ std::string result_table(const io::Summary<Real>& s) {
     return total > 0 ? 100.0 * static_cast<double>(impacts) / static_cast<double>(total) : 0.0;
   };
   row("least separation speed",
-      fmt::format("{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of the dose",
-                  of_impacts(s.touched_impacts), of_dose(s.touched_dose), of_dose(s.supplied_energy)));
+      fmt::format("{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of the {}",
+                  of_impacts(s.touched_impacts), of_dose(s.touched_dose),
+                  scale > 0 ? 100 * real(s.supplied_energy) / scale : 0.0, s.energy_scale_name()));
   if (s.stall_impacts > 0)
     row("stalls, without friction", fmt::format("{:.2g} % of impacts, {:.2g} % of the dose",
                                                 of_impacts(s.stall_impacts), of_dose(s.stall_dose)));

@@ -77,23 +77,23 @@ std::vector<io::Warning> warnings_of(const Measures& m) {
          fmt::format("Only {:g} collisions were counted; below {:g} the rates are not reliable.",
                      m.collisions, fewest_collisions));
   check_dose_rate(m, list);
-  if (m.touched_dose_share > touched_share_limit)
+  if (m.touched_share > touched_share_limit)
     warn("separation_share",
-         fmt::format(
-             "{} of the dose comes from impacts that the least separation speed decides: run also with "
-             "half of contact.least_separation.",
-             percent(m.touched_dose_share)));
+         fmt::format("{} of the {} that the least separation speed decides: run also with half of "
+                     "contact.least_separation.",
+                     percent(m.touched_share),
+                     m.has_dose ? "dose comes from impacts" : "impacts are among those"));
   if (m.stall_dose_share > stall_share_limit)
     warn("stall_share", fmt::format("{} of the dose comes from impacts without friction, in stalls of bodies "
                                     "that touch: friction acts less than the case says.",
                                     percent(m.stall_dose_share)));
   if (m.supplied_share > supplied_share_limit)
-    warn("supplied_energy",
-         fmt::format("The least separation speed supplies {} of the dose as kinetic energy: "
-                     "run with a smaller contact.least_separation.",
-                     percent(m.supplied_share)));
+    warn("supplied_energy", fmt::format("The least separation speed supplies energy, {} of the {}: "
+                                        "run with a smaller contact.least_separation.",
+                                        percent(m.supplied_share), m.energy_scale));
   if (std::abs(m.closure_share) > closure_limit)
-    warn("energy", fmt::format("Energy closes only to {:.2g} of the dose.", std::abs(m.closure_share)));
+    warn("energy",
+         fmt::format("Energy closes only to {:.2g} of the {}.", std::abs(m.closure_share), m.energy_scale));
   return list;
 }
 
