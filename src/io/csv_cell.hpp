@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/clean_text.hpp"
+#include "base/clean_text.hpp"
 
 namespace edmill::io {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/clean_text.hpp"
 #include "base/scalar.hpp"
-#include "io/clean_text.hpp"
 
 namespace edmill::io {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/clean_text.hpp"
+#include "base/clean_text.hpp"
 
 namespace edmill::io {
 

@@ -45,8 +45,6 @@ auto call_python(const Call& call) {
 class Unlocked {
  public:
   Unlocked() : state_(PyEval_SaveThread()) {}
-  Unlocked(const Unlocked&) = delete;
-  Unlocked& operator=(const Unlocked&) = delete;
   ~Unlocked() {
     call_python([this] { return PyEval_RestoreThread(state_), 0; });
   }
@@ -59,8 +57,6 @@ class Unlocked {
 class Locked {
  public:
   Locked() : state_(call_python(PyGILState_Ensure)) {}
-  Locked(const Locked&) = delete;
-  Locked& operator=(const Locked&) = delete;
   ~Locked() { PyGILState_Release(state_); }
 
  private:

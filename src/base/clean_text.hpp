@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace edmill::io {
+namespace edmill {
 
 /// The text in valid UTF-8 and characters of XML 1.0: U+FFFD replaces each byte of anything else.
 std::string clean_text(std::string_view text);
@@ -12,4 +12,4 @@ std::string clean_text(std::string_view text);
 /// A clean text in one line, for comments: blanks replace line ends.
 std::string one_line(std::string_view text);
 
-}  // namespace edmill::io
+}  // namespace edmill

@@ -1,8 +1,8 @@
-#include "io/clean_text.hpp"
+#include "base/clean_text.hpp"
 
 #include <algorithm>
 
-namespace edmill::io {
+namespace edmill {
 
 namespace {
 
@@ -40,4 +40,4 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-}  // namespace edmill::io
+}  // namespace edmill
