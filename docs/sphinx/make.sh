@@ -4,6 +4,20 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$(realpath -m "$1")
+missing=()
+need() { # package command...
+  "${@:2}" >/dev/null 2>&1 || missing+=("$1")
+}
+need doxygen doxygen --version
+need python3-sphinx sphinx-build --version
+python=$(head -1 "$(command -v sphinx-build)" 2>/dev/null | sed -n 's/^#! *\(.*python[0-9.]*\).*/\1/p' || true)
+for package in python3-myst-parser:myst_parser python3-breathe:breathe furo:furo; do
+  need "${package%:*}" ${python:-python3} -c "import ${package#*:}"
+done
+if [ ${#missing[@]} -gt 0 ]; then
+  echo "The manual needs ${missing[*]}: apt-get install ${missing[*]}" >&2
+  exit 1
+fi
 rm -rf "$folder"
 mkdir -p "$folder/doxygen"
 (

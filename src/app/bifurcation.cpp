@@ -58,19 +58,7 @@ void write_drawing(std::ostream& out, const BifurcationOptions& options, const B
                                                  {point.value, std::numeric_limits<double>::quiet_NaN()}});
     chart.curves.push_back(std::move(curve));
   }
-  pugi::xml_document page, document;
-  plot::draw(page, chart);
-  auto svg = document.append_copy(page.first_element_by_path("figure/svg"));
-  svg.append_attribute("xmlns") = "http://www.w3.org/2000/svg";
-  for (auto group : svg.children("g"))
-    for (auto path : group.children("path")) path.remove_attribute("data-points");
-  svg.append_child("style").text() =
-      "text { font: 11px sans-serif; fill: #333; } .axis text { text-anchor: middle; } .y-axis .label { "
-      "text-anchor: end; } "
-      "path, line { fill: none; stroke: currentColor; stroke-width: 1.2; stroke-linecap: round; } .axis { "
-      "color: #999; } "
-      ".c0 { color: #1f4e79; } .c1 { color: #b0472a; } .c2 { color: #2f8f4e; } .c3 { color: #7a4fa0; }";
-  document.save(out, " ");
+  plot::save(out, chart);
 }
 
 }  // namespace
@@ -88,9 +76,8 @@ Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions
   std::optional<io::NamedFile> table;
   if (place.has_extension()) table.emplace(std::filesystem::path(place).replace_extension(".csv").string());
   for (std::size_t step = 0; step < options.steps; ++step) {
-    const double share =
-        static_cast<double>(step) / static_cast<double>(std::max<std::size_t>(options.steps - 1, 1));
-    const double value = options.from + share * (options.to - options.from);
+    const double last = static_cast<double>(std::max<std::size_t>(options.steps - 1, 1));
+    const double value = std::lerp(options.from, options.to, static_cast<double>(step) / last);  // exact ends
     const auto text = fmt::format("{}{}{}", value, found.unit.empty() ? "" : " ", found.unit);
     if (!add_phases(casefile::with_value(spec, options.over, text), options, value, found)) ++found.ended;
     found.interrupted = options.interrupt && *options.interrupt;

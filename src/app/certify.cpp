@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
 #include "casefile/precisions.hpp"
@@ -66,7 +67,7 @@ std::string digits_text(double digits) {
 void write_reference(std::ostream& out, const casefile::CaseSpec& spec, const CertifyOptions& options,
                      const Certification& found) {
   out << "# edmill certified events 1\n"
-      << fmt::format("# case {}, digest {}\n", std::filesystem::path(spec.file).filename().string(),
+      << fmt::format("# case {}, digest {}\n", one_line(std::filesystem::path(spec.file).filename().string()),
                      spec.digest)
       << fmt::format("# edmill {} ({}), {}\n", version(), commit(), compiler())
       << fmt::format("# {} events, each value correct to {} digits of the quantity's largest size\n",

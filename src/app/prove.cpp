@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/certify.hpp"
+#include "base/clean_text.hpp"
 #include "io/input_file.hpp"
 #include "io/named_file.hpp"
 #include "prove/certificate.hpp"
@@ -33,6 +34,7 @@ Proven prove(const casefile::CaseSpec& spec, const ProveOptions& options) {
   if (!options.certificate.empty()) certificate.emplace(options.certificate);
   const auto begin = std::chrono::steady_clock::now();
   Proven result{prove::prove(spec, options)};
+  result.proof.exact.name = one_line(result.proof.exact.name);
   const auto& proof = result.proof;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (proof.interrupted || !proof.impossible.empty()) return result;

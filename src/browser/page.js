@@ -107,8 +107,8 @@ async function begin() {
   play(own);
 }
 
-/// The next state at a time, or after one impact; whether the run has gone on.
-async function advance(time, own) {
+/// The next state at a time, or after one impact; whether the run has gone on. A chunk that it was sets the size of the next one.
+async function advance(time, own, of_chunk = false) {
   const {answer, milliseconds} = await ask({what: 'advance', time});
   if (own !== run_number) return false;
   if (answer.problems) {
@@ -118,7 +118,7 @@ async function advance(time, own) {
   const before = frame.impacts;
   take(answer);
   if (time < 0 && answer.impacts === before && !answer.ended) say('No impact in the next hundred drive periods.');
-  chunk *= milliseconds > 100 ? 0.5 : milliseconds < 40 ? 2 : 1;
+  if (of_chunk) chunk *= milliseconds > 100 ? 0.5 : milliseconds < 40 ? 2 : 1;
   if (answer.ended) await finish(own);
   return !answer.ended;
 }
@@ -130,9 +130,9 @@ async function play(own) {
   while (going && own === run_number) {
     const now = await next_picture(), pace = Number($('pace').value);
     if (!going || own !== run_number) return;
-    const step = pace > 0 ? Math.min(pace * (now - before) / 1000, 0.05) : chunk;
+    const paced = pace > 0, step = paced ? Math.min(pace * (now - before) / 1000, 0.05) : chunk;
     before = now;
-    if (!await advance(frame.time + step, own)) return;
+    if (!await advance(frame.time + step, own, !paced)) return;
   }
 }
 

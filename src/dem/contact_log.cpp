@@ -8,6 +8,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "io/input_file.hpp"
 
@@ -137,9 +138,9 @@ void ContactLogWriter::write(std::ostream& out, const ContactLogFacts& f) {
   out << fmt::format(
       "{}\n# dump {}\n# frames {} {} {} {} {}\n# gravity {} {} {} {} {} {}\n# contact_time {} {}\n"
       "# factors {} {}\n# facets {}\n# doses",
-      first_line, f.dump, f.frames, f.contacts, f.first, f.last, s.interval, s.gravity[0], s.gravity[1],
-      s.gravity[2], s.gravity_half_width[0], s.gravity_half_width[1], s.gravity_half_width[2], s.contact_time,
-      s.kick, f.mass_factor, f.radius_factor, f.facets);
+      first_line, one_line(f.dump), f.frames, f.contacts, f.first, f.last, s.interval, s.gravity[0],
+      s.gravity[1], s.gravity[2], s.gravity_half_width[0], s.gravity_half_width[1], s.gravity_half_width[2],
+      s.contact_time, s.kick, f.mass_factor, f.radius_factor, f.facets);
   for (const double dose : f.doses) out << fmt::format(" {}", dose);
   out << "\n" << header() << "\n";
   const auto check = [&](bool good) {

@@ -60,9 +60,9 @@ constexpr Needed needed[count] = {{{"id", "ball"}},
                                   {{"zs", "zsu"}, false},
                                   {{"time", "t"}, false}};
 
-/// Apart by spaces, tabs, commas or semicolons.
+/// Apart by spaces, tabs, commas or semicolons, in quotes or without.
 std::vector<std::string> words(const std::string& line) {
-  constexpr const char* separators = " \t,;";
+  constexpr const char* separators = " \t,;\"";
   std::vector<std::string> list;
   for (std::size_t begin = line.find_first_not_of(separators); begin != std::string::npos;) {
     const auto end = std::min(line.find_first_of(separators, begin), line.size());

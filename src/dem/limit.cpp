@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <pugixml.hpp>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -151,19 +150,8 @@ std::string to_svg(const Limit& limit) {
   bar({"", 0.004 * last, limit.value, limit.half_width}, "c0", "limit");
   if (limit.edmill)
     bar({"", 0.012 * last, limit.edmill->dose_rate, limit.edmill->half_width}, "c2", "edmill");
-  pugi::xml_document page, document;
-  plot::draw(page, chart);
-  // The drawing alone, with the colours that it has on a page of a report.
-  auto svg = document.append_copy(page.first_element_by_path("figure/svg"));
-  svg.append_attribute("xmlns") = "http://www.w3.org/2000/svg";
-  svg.append_child("style").text() =
-      "text { font: 11px sans-serif; fill: #333; } .axis text { text-anchor: middle; } .y-axis .label { "
-      "text-anchor: end; } "
-      "path, line { fill: none; stroke: currentColor; stroke-width: 1.5; } .axis { color: #999; } .c0 { "
-      "color: #2a6fb0; } "
-      ".c1 { color: #b0472a; } .c2 { color: #2f8f4e; }";
   std::ostringstream out;
-  document.save(out, " ");
+  plot::save(out, chart);
   return out.str();
 }
 

@@ -50,13 +50,7 @@ std::optional<double> number_in(std::string_view text) {
   return error == std::errc::result_out_of_range ? std::strtod(std::string(text).c_str(), nullptr) : value;
 }
 
-}  // namespace
-
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t longest = 40;
-  return text.size() <= longest ? fmt::format("'{}'", text) : fmt::format("'{}...'", text.substr(0, longest));
-}
-
+/// The character that separates the fields of a header: a comma, unless there are more semicolons or tabs.
 char separator_of(std::string_view header) {
   char best = ',';
   std::size_t most = 0;
@@ -72,12 +66,20 @@ char separator_of(std::string_view header) {
   return best;
 }
 
+/// Whether a text is a number with a comma where the point should be, which is no separator there.
 bool has_decimal_comma(std::string_view text, char separator) {
   std::string with_point(text);
   const auto comma = with_point.find(',');
   if (separator == ',' || comma == std::string::npos) return false;
   with_point[comma] = '.';
   return number_in(with_point).has_value();
+}
+
+}  // namespace
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  return text.size() <= longest ? fmt::format("'{}'", text) : fmt::format("'{}...'", text.substr(0, longest));
 }
 
 CsvReader::CsvReader(const std::filesystem::path& file, const std::string& expected)
@@ -89,7 +91,7 @@ CsvReader::CsvReader(const std::filesystem::path& file, const std::string& expec
     if (++line_number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // a byte order mark
   } while (line_.starts_with('#'));
   separator_ = separator_of(line_);
-  split();
+  if (!read_row()) throw_problems();
   header_.assign(fields_.begin(), fields_.end());
 }
 
@@ -110,9 +112,10 @@ std::optional<std::size_t> CsvReader::needed_column(std::string_view name) {
 
 bool CsvReader::next_row() {
   while (problems_.size() < problems_told && std::getline(in_, line_)) {
-    ++line_number_;
+    line_number_ += 1 + further_lines_;
+    further_lines_ = 0;
     if (trimmed(line_).empty()) continue;
-    split();
+    if (!read_row()) continue;
     if (fields_.size() == header_.size()) return true;
     bad_line(fmt::format("found {} fields, expected {}", fields_.size(), header_.size()));
   }
@@ -143,21 +146,46 @@ std::optional<int> CsvReader::whole(std::size_t column, const std::string& expec
   return std::nullopt;
 }
 
-void CsvReader::split() {
-  fields_.clear();
-  std::string_view rest = line_;
-  // A field in quotes can hold separators; two quotes in it mean one (RFC 4180).
-  const auto end_of_field = [this, &rest] {
-    auto from = rest.starts_with('"') ? rest.find('"', 1) : 0;
-    while (from != std::string_view::npos && rest.substr(from).starts_with("\"\""))
-      from = rest.find('"', from + 2);
-    return rest.find(separator_, from == std::string_view::npos ? 0 : from);
-  };
-  for (auto end = end_of_field(); end != std::string_view::npos; end = end_of_field()) {
-    fields_.push_back(trimmed(rest.substr(0, end)));
-    rest.remove_prefix(end + 1);
+/// The fields of the row that begins in line_; lines after line ends in quotes are appended.
+bool CsvReader::read_row() {
+  constexpr std::size_t longest = 1 << 20;
+  for (std::string more; !split(); ++further_lines_) {
+    if (line_.size() > longest || !std::getline(in_, more)) {
+      bad_line("found a quote that is not closed, expected another one");
+      return false;
+    }
+    line_ += '\n' + more;
   }
-  fields_.push_back(trimmed(rest));
+  for (auto& field : fields_) {
+    if (field.size() < 2 || !field.starts_with('"') || !field.ends_with('"')) continue;
+    char* const text = line_.data() + (field.data() - line_.data());
+    std::size_t size = 0;
+    for (std::size_t k = 1; k + 1 < field.size(); ++k) {
+      text[size++] = field[k];
+      if (field[k] == '"' && field[k + 1] == '"') ++k;
+    }
+    field = {text, size};
+  }
+  return true;
+}
+
+/// @return false when a quote is open at the end of line_
+bool CsvReader::split() {
+  fields_.clear();
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+    auto from = line_.find_first_not_of(' ', begin);
+    if (from != std::string::npos && line_[from] == '"') {
+      from = line_.find('"', from + 1);
+      while (from != std::string::npos && line_.compare(from + 1, 1, "\"") == 0)
+        from = line_.find('"', from + 2);
+      if (from == std::string::npos) return false;
+    } else {
+      from = begin;
+    }
+    end = line_.find(separator_, from);
+    fields_.push_back(trimmed(std::string_view(line_).substr(begin, end - begin)));
+  }
+  return true;
 }
 
 void CsvReader::bad_line(const std::string& problem) {

@@ -16,15 +16,9 @@ namespace edmill::io {
 /// Text between quotes for a message, cut when long.
 std::string in_quotes(std::string_view text);
 
-/// The character that separates the fields of a header: a comma, unless there are more semicolons or tabs.
-char separator_of(std::string_view header);
-
-/// Whether a text is a number with a comma where the point should be, which is no separator there.
-bool has_decimal_comma(std::string_view text, char separator);
-
-/// Fields are separated by commas, or by semicolons or tabs where the header is. Numbers have a decimal
-/// point. Comments (#) may precede the header; blank lines are skipped. Problems are collected; reading ends
-/// when there are ten of them.
+/// Fields are separated by commas, or by semicolons or tabs where the header is, and may be in quotes
+/// (RFC 4180). Numbers have a decimal point. Comments (#) may precede the header; blank lines are skipped.
+/// Problems are collected; reading ends when there are ten of them.
 class CsvReader {
  public:
   /// @throws InputError when `file` is not readable or has no header
@@ -58,7 +52,8 @@ class CsvReader {
   void throw_problems() const;
 
  private:
-  void split();
+  bool read_row();
+  bool split();
 
   std::string file_;
   InputFile in_;
@@ -66,7 +61,8 @@ class CsvReader {
   std::string line_;
   std::vector<std::string_view> fields_;  ///< of line_
   std::vector<std::string> header_;
-  std::uint64_t line_number_ = 0;
+  std::uint64_t line_number_ = 0;    ///< of the first line of the row
+  std::uint64_t further_lines_ = 0;  ///< of the row, after line ends in quotes
   std::vector<std::string> problems_;
 };
 

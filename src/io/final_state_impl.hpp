@@ -32,51 +32,42 @@ void write_final_state(std::ostream& out, const SavedState<Real>& saved, const D
 
 template <class Real>
 SavedState<Real> read_final_state(const std::string& path) {
-  InputFile in(path, "a final_state.csv");
-  const auto fail = [&](std::size_t line, const std::string& found, const std::string& expected) {
-    throw InputError(path + ":" + std::to_string(line) + ": found " + found + ", expected " + expected);
+  CsvReader csv(path, "a final_state.csv");
+  const auto fail = [&](const std::string& found, const std::string& expected) {
+    csv.bad_line("found " + found + ", expected " + expected);
+    csv.throw_problems();
   };
-  std::string line;
-  if (!std::getline(in, line)) fail(1, "no readable text", "the header of a final_state.csv");
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  const char separator = separator_of(line);
-  std::string header = line;
-  std::replace(header.begin(), header.end(), separator, ',');
+  std::string header;
+  for (const auto& name : csv.header()) header += (header.empty() ? "" : ",") + name;
   if (header != final_state_header)
-    fail(1, "'" + line.substr(0, 120) + "'", std::string("'") + final_state_header + "'");
+    fail("'" + header.substr(0, 120) + "'", std::string("'") + final_state_header + "'");
   SavedState<Real> saved;
-  for (std::size_t number = 2; std::getline(in, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty()) continue;
-    std::vector<std::string> fields;
-    std::istringstream parts(line);
-    for (std::string field; std::getline(parts, field, separator);) fields.push_back(field);
-    if (fields.size() != 13) fail(number, std::to_string(fields.size()) + " fields", "13");
-    if (fields[0] != std::to_string(saved.states.size()))
-      fail(number, "ball '" + fields[0] + "'", "ball " + std::to_string(saved.states.size()));
+  while (csv.next_row()) {
+    const auto ball = csv.field(0), period = csv.field(11);
+    if (ball != std::to_string(saved.states.size()))
+      fail("ball " + in_quotes(ball), "ball " + std::to_string(saved.states.size()));
     const auto real = [&](std::size_t k) {
       try {
-        const Real value = from_text<Real>(fields[k]);
+        const Real value = from_text<Real>(std::string(csv.field(k)));
         using std::isfinite;
         if (isfinite(value)) return value;
       } catch (const std::invalid_argument&) {
       }
-      fail(number, "'" + fields[k] + "' in field " + std::to_string(k + 1),
-           has_decimal_comma(fields[k], separator) ? "a decimal point in place of the comma"
-                                                   : "a finite number");
+      csv.bad_field(k, "a finite number");
+      csv.throw_problems();
       return Real(0);
     };
     const auto vector = [&](std::size_t k) { return Vec3<Real>(real(k), real(k + 1), real(k + 2)); };
-    const bool whole = !fields[11].empty() && fields[11].size() < 16 &&
-                       fields[11].find_first_not_of("0123456789") == std::string::npos;
-    if (!whole) fail(number, "'" + fields[11] + "' as drive_period", "a whole number");
-    const Instant<Real> time{std::stoll(fields[11]), real(12)};
-    if (time.offset < 0) fail(number, "'" + fields[12] + "' as drive_offset", "a time of 0 or more");
+    if (period.empty() || period.size() > 15 || period.find_first_not_of("0123456789") != period.npos)
+      fail(in_quotes(period) + " as drive_period", "a whole number");
+    const Instant<Real> time{std::stoll(std::string(period)), real(12)};
+    if (time.offset < 0) fail(in_quotes(csv.field(12)) + " as drive_offset", "a time of 0 or more");
     if (saved.states.empty()) saved.time = time;
-    if (!(time == saved.time)) fail(number, "another time than in line 2", "one time for all balls");
+    if (!(time == saved.time)) fail("another time than in line 2", "one time for all balls");
     saved.states.push_back({vector(1), vector(4), vector(7)});
   }
-  if (saved.states.empty()) fail(2, "no balls", "a line for each ball");
+  csv.throw_problems();
+  if (saved.states.empty()) fail("no balls", "a line for each ball");
   return saved;
 }
 

@@ -72,7 +72,10 @@ inline void append(hid_t set, hid_t memory_type, std::size_t width, hsize_t befo
 inline hid_t make_file(const std::filesystem::path& place) {
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   hdf5_check(H5Pset_obj_track_times(creation, false));
-  return H5Fcreate(place.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  // No lock of HDF5: nobody else knows the temporary file, and not every file system has locks.
+  hdf5_check(H5Pset_file_locking(access, false, true));
+  return H5Fcreate(place.c_str(), H5F_ACC_TRUNC, creation, access);
 }
 
 inline hid_t make_group(hid_t file, const char* name) {

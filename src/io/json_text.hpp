@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/clean_text.hpp"
 #include "base/scalar.hpp"
 
 namespace edmill::io {
@@ -68,7 +69,7 @@ class JsonText {
  private:
   static std::string quoted(std::string_view value) {
     std::string out = "\"";
-    for (const char c : value) {
+    for (const char c : clean_text(value)) {
       if (c == '"' || c == '\\') out += '\\';
       if (static_cast<unsigned char>(c) < 0x20) {
         constexpr char digits[] = "0123456789abcdef";

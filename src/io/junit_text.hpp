@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/clean_text.hpp"
+
 namespace edmill::io {
 
 class JunitText {
@@ -30,11 +32,12 @@ class JunitText {
  private:
   static std::string escaped(std::string_view text) {
     std::string out;
-    for (const char c : text)
+    for (const char c : clean_text(text))
       out += c == '<'    ? "&lt;"
              : c == '&'  ? "&amp;"
              : c == '"'  ? "&quot;"
              : c == '\n' ? "&#10;"
+             : c == '\r' ? "&#13;"
                          : std::string(1, c);
     return out;
   }

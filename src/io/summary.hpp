@@ -1,6 +1,7 @@
 // summary.json: the result of a run. Keys and units: docs/files.md.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -111,18 +112,20 @@ struct Summary {
     for (const auto c : collisions) sum += c;
     return sum;
   }
-  /// What errors of energies are measured against: the larger of the dose and the balls' kinetic energy [J].
-  Real energy_scale() const {
-    const Real& moving =
-        energy_at_start.kinetic > energy_at_end.kinetic ? energy_at_start.kinetic : energy_at_end.kinetic;
-    return milling_dose < moving ? moving : milling_dose;
-  }
   /// sum WE - sum MD + supplied energy - change of (KE + PE) [J]; zero up to rounding.
   Real energy_closure() const {
     return wall_work - milling_dose + supplied_energy -
            ((energy_at_end.kinetic + energy_at_end.potential) -
             (energy_at_start.kinetic + energy_at_start.potential));
   }
+  /// What supplied energy and closure are measured against [J]: the dose, or the kinetic energy of the balls
+  /// at an end of the record where that is larger.
+  Real energy_scale() const {
+    return std::max({milling_dose, energy_at_start.kinetic, energy_at_end.kinetic});
+  }
+  const char* energy_scale_name() const { return milling_dose < energy_scale() ? "kinetic energy" : "dose"; }
+  /// False where the dose is the rounding of elastic impacts.
+  bool has_dose() const { return milling_dose * Real(1000000000) > energy_scale(); }
 };
 
 /// When a run stalled, which bodies, and what helps.

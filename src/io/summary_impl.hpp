@@ -91,10 +91,7 @@ class SummaryWriter {
     json.number("kinetic_end", s.energy_at_end.kinetic);
     json.number("potential_end", s.energy_at_end.potential);
     json.number("closure", s.energy_closure());
-    if (s.milling_dose > 0)
-      json.number("closure_relative", Real(s.energy_closure() / s.milling_dose));
-    else
-      json.null("closure_relative");
+    json.number("closure_relative", Real(s.energy_closure() / s.energy_scale()));
     json.end();
   }
 
@@ -102,7 +99,8 @@ class SummaryWriter {
     json.begin("least_separation");
     add_shares(s.touched_impacts, s.touched_dose);
     json.number("supplied_energy", s.supplied_energy);
-    json.number("supplied_energy_share", share_of_dose(s.supplied_energy));
+    json.number("supplied_energy_share",
+                s.energy_scale() > 0 ? Real(s.supplied_energy / s.energy_scale()) : Real(0));
     json.end();
   }
 

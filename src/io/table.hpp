@@ -73,7 +73,7 @@ class Table {
   /// Comments after "# " and the header; texts are quoted where they need it. (RFC 4180)
   std::string csv_head() const {
     std::string text;
-    for (const auto& comment : comments_) text += "# " + comment + "\n";
+    for (const auto& comment : comments_) text += "# " + one_line(comment) + "\n";
     for (const auto& column : columns_)
       text += (&column == columns_.data() ? "" : ",") + csv_cell(column.title());
     return text + "\n";

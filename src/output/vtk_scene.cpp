@@ -3,6 +3,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "base/clean_text.hpp"
 #include "output/scene.hpp"
 
 namespace edmill::output {
@@ -130,7 +131,7 @@ std::string pvd_text(const std::vector<std::pair<double, std::vector<std::string
       auto set = file.body.append_child("DataSet");
       set.append_attribute("timestep") = fmt::format("{}", time).c_str();
       set.append_attribute("part") = part;
-      set.append_attribute("file") = parts[part].c_str();
+      set.append_attribute("file") = clean_text(parts[part]).c_str();
     }
   return file.text();
 }

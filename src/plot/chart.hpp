@@ -64,6 +64,9 @@ double fraction(const Axis& axis, double value);
 /// A figure with caption, legend and drawing.
 void draw(pugi::xml_node parent, const Chart& chart);
 
+/// The drawing alone as a file (SVG), in the colours that it has on a page of a report.
+void save(std::ostream& out, const Chart& chart);
+
 /// An <svg> with title and description, for readers who cannot see it.
 pugi::xml_node add_drawing(pugi::xml_node parent, const std::string& id, const std::string& title,
                            const std::string& description, double width, double height);

@@ -2,12 +2,14 @@
 
 #include <sstream>
 
+#include "base/clean_text.hpp"
+
 namespace edmill::plot {
 
 pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes, std::string_view text) {
   auto node = parent.append_child(name);
-  for (const auto& [key, value] : attributes) node.append_attribute(key) = value.c_str();
-  if (!text.empty()) node.append_child(pugi::node_pcdata).set_value(std::string(text).c_str());
+  for (const auto& [key, value] : attributes) node.append_attribute(key) = clean_text(value).c_str();
+  if (!text.empty()) node.append_child(pugi::node_pcdata).set_value(clean_text(text).c_str());
   return node;
 }
 

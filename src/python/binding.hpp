@@ -1,7 +1,11 @@
-// How a source adds functions and classes to the module.
+// How a source adds functions and classes to the module, and how its functions release and take Python's
+// lock.
 #pragma once
 
 #include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <thread>
 
 namespace edmill::python {
 
@@ -24,5 +28,54 @@ class Binding {
   void (*add_)(pybind11::module_&);
   const Binding* next_;
 };
+
+/// Calls Python from where no lock or object of Python is left to destroy. Python ends a daemon thread that
+/// waits for its lock when the interpreter ends, by unwinding the stack (pthread_exit), which the destructors
+/// of C++ do not permit: the thread sleeps instead until the process has ended, as in Python 3.14.
+template <class Call>
+auto call_python(const Call& call) {
+  try {
+    return call();
+  } catch (...) {  // never an exception of C++: `call` calls functions of C
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+}
+
+/// Other threads of Python run in its scope.
+class Unlocked {
+ public:
+  Unlocked() : state_(PyEval_SaveThread()) {}
+  ~Unlocked() {
+    call_python([this] { return PyEval_RestoreThread(state_), 0; });
+  }
+
+ private:
+  PyThreadState* state_;
+};
+
+/// Python can be called in its scope.
+class Locked {
+ public:
+  Locked() : state_(call_python(PyGILState_Ensure)) {}
+  ~Locked() { PyGILState_Release(state_); }
+
+ private:
+  PyGILState_STATE state_;
+};
+
+/// The new object that a function of C returns. @throws py::error_already_set
+template <class Make>
+pybind11::object made_by(const Make& make) {
+  PyObject* made = call_python(make);
+  if (!made) throw pybind11::error_already_set();
+  return pybind11::reinterpret_steal<pybind11::object>(made);
+}
+
+/// What a callable of Python returns. @throws py::error_already_set
+template <class... Argument>
+pybind11::object call(const pybind11::object& callable, Argument&&... argument) {
+  const auto arguments = pybind11::make_tuple(std::forward<Argument>(argument)...);
+  return made_by([&] { return PyObject_CallObject(callable.ptr(), arguments.ptr()); });
+}
 
 }  // namespace edmill::python

@@ -56,7 +56,7 @@ const Binding dem_codes([](py::module_& m) {
   m.def("deck", &deck_of);
   m.def("import_dump", &import_dump);
   m.def("limit", [](const std::vector<std::string>& logs, const std::string& run, double from) {
-    const py::gil_scoped_release others;
+    const Unlocked others;
     return dem::to_json(dem::limit_of(logs, run, from));
   });
 });

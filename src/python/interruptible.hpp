@@ -8,6 +8,8 @@
 #include <future>
 #include <type_traits>
 
+#include "python/binding.hpp"
+
 namespace edmill::python {
 
 /// Work on a thread of its own, while this one lets Python's signal handlers run: Ctrl-C sets the flag, which
@@ -18,10 +20,10 @@ std::invoke_result_t<Work> interruptible(std::atomic<bool>& interrupt, const Wor
   bool raised = false;
   for (;;) {
     {
-      const pybind11::gil_scoped_release others;
+      const Unlocked others;
       if (done.wait_for(std::chrono::milliseconds(100)) == std::future_status::ready) break;
     }
-    if (PyErr_CheckSignals() != 0) {
+    if (call_python(PyErr_CheckSignals) != 0) {
       PyErr_Clear();
       raised = interrupt = true;
     }

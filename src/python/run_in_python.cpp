@@ -43,18 +43,19 @@ template <class Real>
 Real from_python(const py::handle& x, const char* what) {
   if (PyNumber_Check(x.ptr()) != 0) {
     if constexpr (std::is_same_v<Real, double>) {
-      const double value = PyFloat_AsDouble(x.ptr());
+      const double value = call_python([&] { return PyFloat_AsDouble(x.ptr()); });
       if (!PyErr_Occurred()) return value;
       PyErr_Clear();
     } else {
       try {
-        return from_text<Real>(py::str(x));
+        return from_text<Real>(py::str(made_by([&] { return PyObject_Str(x.ptr()); })));
       } catch (const std::exception&) {  // told below
       }
     }
   }
   throw InputError(std::string("contact law of the program: ") + what + ": found " +
-                   std::string(py::str(py::repr(x))) + ", expected a number");
+                   std::string(py::str(made_by([&] { return PyObject_Repr(x.ptr()); }))) +
+                   ", expected a number");
 }
 
 /// Ctrl-C while Python code runs in a callback.
@@ -140,14 +141,14 @@ class Pulse : public Observer<Real> {
     const auto now = Clock::now();
     if (now - last_ < std::chrono::milliseconds(100)) return;
     last_ = now;
-    const py::gil_scoped_acquire python;
-    if (PyErr_CheckSignals() != 0) {
+    const Locked python;
+    if (call_python(PyErr_CheckSignals) != 0) {
       PyErr_Clear();
       interrupted_ = true;
       run.interrupt();
     } else if (!progress_.is_none()) {
       try {
-        progress_(static_cast<double>(impact.time), impact.index + 1);
+        call(progress_, static_cast<double>(impact.time), impact.index + 1);
       } catch (const py::error_already_set& error) {
         if (!is_control_c(error)) throw;
         interrupted_ = true;
@@ -172,9 +173,9 @@ class CallingObserver : public Observer<Real> {
   CallingObserver(py::object callable, bool& interrupted)
       : callable_(std::move(callable)), interrupted_(interrupted) {}
   void on_impact(const Impact<Real>& impact, Run<Real>& run) override {
-    const py::gil_scoped_acquire python;
+    const Locked python;
     try {
-      callable_(impact, py::cast(&run, py::return_value_policy::reference));
+      call(callable_, impact, py::cast(&run, py::return_value_policy::reference));
     } catch (const py::error_already_set& error) {
       if (!is_control_c(error)) throw;
       interrupted_ = true;
@@ -197,20 +198,20 @@ class CallingLaw : public CustomLaw<Real> {
         interrupted_(interrupted) {}
   /// A run may let go of it without Python's lock.
   ~CallingLaw() override {
-    const py::gil_scoped_acquire python;
+    const Locked python;
     restitution_ = py::none();
     of_slip_ = py::none();
   }
   Real restitution(const Real& approach_speed) const override {
-    const py::gil_scoped_acquire python;
-    return ask("restitution", [&] { return restitution_(to_python<Real>(approach_speed)); });
+    const Locked python;
+    return ask("restitution", [&] { return call(restitution_, to_python<Real>(approach_speed)); });
   }
   Real restitution_of_slip(const Real& normal_change, const Real& slip_speed,
                            const Real& compliance) const override {
-    const py::gil_scoped_acquire python;
+    const Locked python;
     return ask("restitution_of_slip", [&] {
-      return of_slip_(to_python<Real>(normal_change), to_python<Real>(slip_speed),
-                      to_python<Real>(compliance));
+      return call(of_slip_, to_python<Real>(normal_change), to_python<Real>(slip_speed),
+                  to_python<Real>(compliance));
     });
   }
 
@@ -262,7 +263,7 @@ py::dict run_in(Case the_case, const Wishes& wishes) {
 
   std::unique_ptr<Run<Real>> run;
   {
-    const py::gil_scoped_release others;
+    const Unlocked others;
     run = std::make_unique<Run<Real>>(the_case, laws);
     if (!wishes.folder.empty()) run->write_to(wishes.folder);
     if (wishes.events) run->attach(collector);

@@ -54,7 +54,7 @@ std::string compare(const std::string& a, const std::string& b, double tolerance
   compare::Options options;
   options.a = a, options.b = b, options.tolerance = tolerance, options.events = events;
   options.limits.from = from, options.limits.until = until, options.batch = batch;
-  const py::gil_scoped_release others;
+  const Unlocked others;
   const io::Spool pipes;
   if (dem::is_contact_log(a) || dem::is_contact_log(b))
     return dem::to_json(dem::compare_contacts(a, b, from.value_or(0),
@@ -198,7 +198,7 @@ py::dict estimate(const Case& the_case, const std::string& precision) {
 
 py::list check(const Case& the_case) {
   const auto checked = [&] {
-    const py::gil_scoped_release others;
+    const Unlocked others;
     return app::check(CaseAccess::spec(the_case));
   }();
   py::list facts;
@@ -223,12 +223,12 @@ py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
 }
 
 std::vector<std::string> check_certificate(const Case& the_case, const std::string& certificate) {
-  const py::gil_scoped_release others;
+  const Unlocked others;
   return app::check_certificate(CaseAccess::spec(the_case), certificate);
 }
 
 std::string report(const std::string& folder) {
-  const py::gil_scoped_release others;
+  const Unlocked others;
   return report::write_report(folder).string();
 }
 
@@ -295,7 +295,7 @@ const Binding tools([](py::module_& m) {
   m.def("estimate", &estimate);
   m.def("report", &report);
   m.def("report_of_runs", [](const std::vector<std::string>& folders, const std::string& file) {
-    const py::gil_scoped_release others;
+    const Unlocked others;
     report::write_comparison(folders, file);
   });
   m.def("run_with_checkpoints", &run_with_checkpoints);

@@ -27,9 +27,11 @@ void add_energy(pugi::xml_node main, const RunFolder& run) {
   rows.push_back(row("supplied by the least separation speed", f.supplied_energy));
   rows.push_back(row("stored as kinetic energy of the balls", kinetic == 0 ? 0 : -kinetic));
   rows.push_back(row("stored as potential energy", potential == 0 ? 0 : -potential));
-  rows.push_back(
-      {"closure error, by rounding", readable(f.closure, 2),
-       f.milling_dose > 0 ? readable(std::abs(f.closure) / f.milling_dose, 2) + " of the dose" : "\u2013"});
+  const double scale = std::max({f.milling_dose, f.kinetic_start, f.kinetic_end});
+  rows.push_back({"closure error, by rounding", readable(f.closure, 2),
+                  scale > 0 ? readable(std::abs(f.closure) / scale, 2) + " of the " +
+                                  (f.milling_dose < scale ? "kinetic energy" : "dose")
+                            : "\u2013"});
   add_table(section, "ledger", "From the start of statistics to their end",
             {"part", "energy [J]", "rate [W]"}, rows);
 }

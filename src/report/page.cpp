@@ -5,6 +5,7 @@
 #include <map>
 #include <string_view>
 
+#include "base/clean_text.hpp"
 #include "plot/markup.hpp"
 #include "report/embedded.hpp"
 #include "report/terms.hpp"
@@ -28,7 +29,7 @@ std::string filled(std::string_view text, const std::map<std::string, std::strin
 
 std::string escaped(const std::string& text) {
   pugi::xml_document document;
-  document.append_child(pugi::node_pcdata).set_value(text.c_str());
+  document.append_child(pugi::node_pcdata).set_value(clean_text(text).c_str());
   return plot::html_of(document);
 }
 

@@ -93,10 +93,10 @@ std::string result_table(const io::Summary<Real>& s) {
   collisions("total", s.total_collisions(), s.milling_dose, of.any() ? &of.collision_rate : nullptr);
   out += rate_rows(s);
   if (s.target) out += target_rows(s);
-  const bool by_dose = s.milling_dose == s.energy_scale();
-  if (s.energy_scale() > 0)
-    row(by_dose ? "energy closure / dose" : "energy closure / energy",
-        fmt::format("{:.2e}", real(s.energy_closure()) / real(s.energy_scale())));
+  const double scale = real(s.energy_scale());
+  if (scale > 0)
+    row(s.milling_dose < s.energy_scale() ? "energy closure / kinetic" : "energy closure / dose",
+        fmt::format("{:.2e}", real(s.energy_closure()) / scale));
   const auto total = s.total_collisions();
   const auto of_dose = [&](const Real& energy) {
     return s.milling_dose > 0 ? 100 * real(energy) / real(s.milling_dose) : 0.0;
@@ -105,10 +105,9 @@ std::string result_table(const io::Summary<Real>& s) {
     return total > 0 ? 100.0 * static_cast<double>(impacts) / static_cast<double>(total) : 0.0;
   };
   row("least separation speed",
-      fmt::format("{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of {}",
+      fmt::format("{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of the {}",
                   of_impacts(s.touched_impacts), of_dose(s.touched_dose),
-                  s.energy_scale() > 0 ? 100 * real(s.supplied_energy) / real(s.energy_scale()) : 0.0,
-                  by_dose ? "the dose" : "the balls' energy"));
+                  scale > 0 ? 100 * real(s.supplied_energy) / scale : 0.0, s.energy_scale_name()));
   if (s.stall_impacts > 0)
     row("stalls, without friction", fmt::format("{:.2g} % of impacts, {:.2g} % of the dose",
                                                 of_impacts(s.stall_impacts), of_dose(s.stall_dose)));

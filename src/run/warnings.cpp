@@ -13,7 +13,7 @@ namespace {
 std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
 constexpr double touched_share_limit = 0.05, supplied_share_limit = 0.01, stall_share_limit = 0.01,
-                 by_rule_share_limit = 0.01, closure_limit = 1e-9, interval_limit = 0.05;
+                 closure_limit = 1e-9, interval_limit = 0.05, by_rule_share_limit = 0.01;
 constexpr double fewest_collisions = 1000;
 
 void check_end(const Measures& m, std::vector<io::Warning>& list) {
@@ -77,31 +77,27 @@ std::vector<io::Warning> warnings_of(const Measures& m) {
          fmt::format("Only {:g} collisions were counted; below {:g} the rates are not reliable.",
                      m.collisions, fewest_collisions));
   check_dose_rate(m, list);
-  const char* all = m.has_dose ? "dose" : "impacts";
-  if (m.touched_dose_share > touched_share_limit)
+  if (m.touched_share > touched_share_limit)
     warn("separation_share",
-         fmt::format("{} of the {} comes from impacts that the least separation speed decides: run also with "
-                     "half of contact.least_separation.",
-                     percent(m.touched_dose_share), all));
+         fmt::format("{} of the {} that the least separation speed decides: run also with half of "
+                     "contact.least_separation.",
+                     percent(m.touched_share),
+                     m.has_dose ? "dose comes from impacts" : "impacts are among those"));
   if (m.stall_dose_share > stall_share_limit)
-    warn("stall_share", fmt::format("{} of the {} comes from impacts without friction, in stalls of bodies "
+    warn("stall_share", fmt::format("{} of the dose comes from impacts without friction, in stalls of bodies "
                                     "that touch: friction acts less than the case says.",
-                                    percent(m.stall_dose_share), all));
+                                    percent(m.stall_dose_share)));
   if (m.supplied_share > supplied_share_limit)
-    warn("supplied_energy",
-         fmt::format(
-             "The least separation speed supplies {} of the dose, or of the balls' energy where that is "
-             "larger, as kinetic energy: run with a smaller contact.least_separation.",
-             percent(m.supplied_share)));
+    warn("supplied_energy", fmt::format("The least separation speed supplies energy, {} of the {}: "
+                                        "run with a smaller contact.least_separation.",
+                                        percent(m.supplied_share), m.energy_scale));
   if (m.by_rule_share > by_rule_share_limit)
     warn("by_rule", fmt::format("{} of the impacts come at the same time as another one of their ball, in an "
                                 "order that a rule decides: compare with other seeds or another precision.",
                                 percent(m.by_rule_share)));
   if (std::abs(m.closure_share) > closure_limit)
-    warn(
-        "energy",
-        fmt::format("Energy closes only to {:.2g} of the dose, or of the balls' energy where that is larger.",
-                    std::abs(m.closure_share)));
+    warn("energy",
+         fmt::format("Energy closes only to {:.2g} of the {}.", std::abs(m.closure_share), m.energy_scale));
   return list;
 }
 

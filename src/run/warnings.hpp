@@ -1,6 +1,7 @@
 // What of a run is not to be trusted, and why.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "io/summary.hpp"
@@ -11,37 +12,39 @@ namespace edmill::run {
 struct Measures {
   model::EndReason end_reason{};
   double collisions = 0;
-  double touched_dose_share = 0, stall_dose_share = 0;  ///< of the dose; without a dose, of the impacts
+  double touched_share = 0;     ///< of the dose, or of the impacts where there is no dose
+  double stall_dose_share = 0;  ///< of the dose
+  double supplied_share = 0, closure_share = 0;
+  std::string energy_scale = "dose";  ///< of which these are shares
   bool has_dose = true;
-  double supplied_share = 0, closure_share = 0;  ///< of io::Summary::energy_scale
-  double by_rule_share = 0;                      ///< of the impacts
-  double duration = 0;                           ///< of the statistics [s]
-  std::vector<double> dose_rates;                ///< of batches of the run [W]
-  std::optional<double> wanted_precision;        ///< of the dose rate
+  double by_rule_share = 0;                ///< of the impacts
+  double duration = 0;                     ///< of the statistics [s]
+  std::vector<double> dose_rates;          ///< of batches of the run [W]
+  std::optional<double> wanted_precision;  ///< of the dose rate
 };
 
 std::vector<io::Warning> warnings_of(const Measures& of);
 
 template <class Real>
 Measures measures_of(const io::Summary<Real>& s) {
-  const auto part = [](const auto& some, const auto& all) {
-    return all > 0 ? static_cast<double>(some) / static_cast<double>(all) : 0.0;
+  const auto share = [](const Real& energy, const Real& of) {
+    return of > 0 ? static_cast<double>(energy / of) : 0.0;
   };
-  const bool has_dose = s.milling_dose > 0;
-  const auto share = [&](const Real& dose, std::uint64_t impacts) {
-    return has_dose ? part(dose, s.milling_dose) : part(impacts, s.total_collisions());
-  };
-  return {.end_reason = s.end_reason,
-          .collisions = static_cast<double>(s.total_collisions()),
-          .touched_dose_share = share(s.touched_dose, s.touched_impacts),
-          .stall_dose_share = share(s.stall_dose, s.stall_impacts),
-          .has_dose = has_dose,
-          .supplied_share = part(s.supplied_energy, s.energy_scale()),
-          .closure_share = part(s.energy_closure(), s.energy_scale()),
-          .by_rule_share = part(s.simultaneous_contacts, s.total_impacts),
-          .duration = static_cast<double>(s.duration()),
-          .dose_rates = s.intervals.dose_rate.means,
-          .wanted_precision = s.wanted_precision};
+  return {s.end_reason,
+          static_cast<double>(s.total_collisions()),
+          s.has_dose() ? share(s.touched_dose, s.milling_dose)
+                       : share(Real(s.touched_impacts), Real(s.total_collisions())),
+          share(s.stall_dose, s.milling_dose),
+          share(s.supplied_energy, s.energy_scale()),
+          share(s.energy_closure(), s.energy_scale()),
+          s.energy_scale_name(),
+          s.has_dose(),
+          s.total_impacts > 0
+              ? static_cast<double>(s.simultaneous_contacts) / static_cast<double>(s.total_impacts)
+              : 0.0,
+          static_cast<double>(s.duration()),
+          s.intervals.dose_rate.means,
+          s.wanted_precision};
 }
 
 }  // namespace edmill::run

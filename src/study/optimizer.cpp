@@ -66,7 +66,8 @@ class Search {
   }
 
   std::string text_of(const OptimizeVariable& v, double x) const {
-    return v.values.empty() ? fmt::format("{:.6g}", x) + v.unit : v.values[static_cast<std::size_t>(x)];
+    if (!v.values.empty()) return v.values[static_cast<std::size_t>(x)];
+    return (x == v.low || x == v.high ? fmt::format("{}", x) : fmt::format("{:.6g}", x)) + v.unit;
   }
 
   /// A new point, within bounds and the budget.
@@ -110,8 +111,8 @@ class Search {
       const auto count = v.values.empty() ? spec_.points : v.values.size();
       Coordinates list;
       for (std::size_t i = 0; i < count; ++i) {
-        const double index = static_cast<double>(i);
-        list.push_back(v.values.empty() ? v.low + index * steps_[k] : index);
+        const double index = static_cast<double>(i), last = static_cast<double>(count - 1);
+        list.push_back(v.values.empty() ? std::lerp(v.low, v.high, index / last) : index);  // exact ends
       }
       lists.push_back(list);
     }

@@ -163,6 +163,19 @@ class Page(unittest.TestCase):
         self.element("mill").send_keys(Keys.ARROW_LEFT)
         self.assertNotEqual(self.element("mill").screenshot_as_png, picture)
 
+    def test_to_the_end_after_a_while(self):
+        """The chart has a point for each small step, whatever pace the run had before."""
+        self.element("run").click()
+        self.wait(lambda: "impacts" in self.facts(), 30)
+        time.sleep(3)
+        before = self.browser.execute_script("return frame.time")
+        self.element("end").click()
+        self.wait(lambda: self.text("said") == "The run has ended.", 120)
+        points, end, finite = self.browser.execute_script("return [rates.length, frame.time, rates.flat().every(Number.isFinite)]")
+        self.assertGreater(end, before)
+        self.assertGreater(points, 20)
+        self.assertTrue(finite)
+
     def run_to_the_end(self):
         self.browser.execute_script("$('said').textContent = ''")  # of an earlier run
         self.element("run").click()

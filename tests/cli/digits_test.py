@@ -182,6 +182,11 @@ def test_certify_to_the_end(t):
 def test_bifurcation(t):
     """A ball that a table throws once a period has one phase up to where its period doubles: e = 0.46551 for 1 mm."""
     table = SOURCE / "docs" / "examples" / "oscillating_table.toml"
+    for low, high in (("0.06", "0.9"), ("0.1", "0.7"), ("0.3", "0.8"), ("1e-3", "0.123456789012")):
+        done = edmill("bifurcation", table, "--over", "contact.restitution", "--from", low, "--to", high, "--steps", "3", "--skip", "0", "--keep", "1",
+                      "--out", "ends.svg")
+        values = [float(row["value"]) for row in rows("ends.csv")]
+        t.check(done.returncode == 0 and (values[0], values[-1]) == (float(low), float(high)), f"from {low} to {high}: {values} {done.stderr}")
     done = edmill("bifurcation", table, "--over", "contact.restitution", "--from", "0.4", "--to", "0.5", "--steps", "21", "--skip",
                   "3000", "--keep", "8", "--out", "b.svg")
     t.check(done.returncode == 0, done.stderr)

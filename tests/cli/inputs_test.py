@@ -21,6 +21,12 @@ def zstd(content):
     return subprocess.run(["zstd", "-q", "-c"], input=content, stdout=subprocess.PIPE, check=True).stdout
 
 
+def quoted(content):
+    """As R and pandas write tables with quotes, here around numbers, too."""
+    lines = content.decode().splitlines()
+    return "".join((",".join(f'"{cell}"' for cell in line.split(",")) if line[0] != "#" else line) + "\r\n" for line in lines).encode()
+
+
 def cases(t):
     plain = edmill("check", "case.toml").stdout.replace("case.toml", "NAME")
     for command in ("edmill check - < case.toml", "cat case.toml | edmill check -", "cat case.toml | edmill check /dev/stdin",
@@ -66,7 +72,8 @@ def states(t):
     pathlib.Path("state.zst").write_bytes(zstd(content))
     pathlib.Path("state.semicolons").write_bytes(content.replace(b",", b";"))
     pathlib.Path("state.tabs").write_bytes(content.replace(b",", b"\t"))
-    for source in ("state.gz", "state.zst", "state.semicolons", "state.tabs", "<(cat done/final_state.csv)", "/dev/stdin"):
+    pathlib.Path("state.quoted").write_bytes(quoted(content))
+    for source in ("state.gz", "state.zst", "state.semicolons", "state.tabs", "state.quoted", "<(cat done/final_state.csv)", "/dev/stdin"):
         name = "'\"'\"" + source + "\"'\"'" if not source.startswith("<") else None
         setting = f"run.initial_state=\"'{source}'\"" if not source.startswith("<") else None
         command = (f"edmill run next.toml --quiet --out again --set {setting} < done/final_state.csv" if setting else
@@ -88,7 +95,7 @@ def logs(t):
     packed = {"log.gz": gzip.compress(content), "log.zst": zstd(content), "misnamed.csv": zstd(content),
               "members.gz": gzip.compress(content[:1000]) + gzip.compress(content[1000:]) + bytes(512),
               "frames.zst": zstd(content[:1000]) + zstd(content[1000:]), "semicolons.csv": content.replace(b",", b";"),
-              "tabs.csv": content.replace(b",", b"\t"), "tabs.gz": gzip.compress(content.replace(b",", b"\t"))}
+              "quoted.csv": quoted(content), "quoted.gz": gzip.compress(quoted(content).replace(b'","', b'"; "')), "tabs.csv": content.replace(b",", b"\t"), "tabs.gz": gzip.compress(content.replace(b",", b"\t"))}
     for name, bytes_ in packed.items():
         pathlib.Path(name).write_bytes(bytes_)
     os.mkdir("packed")

@@ -87,6 +87,15 @@ def file_systems_without_locks(t):
     t.check(done.returncode == 0 and done.stderr == "", f"NFS: {done.stderr}")
     done = limited("all", "run", "case.toml", "--quiet", "--out", "none")
     t.check(done.returncode == 0 and "none: this file system has no locks" in done.stderr, f"no locks: {done.stderr}")
+    # HDF5 locks what it writes, unless it is told not to.
+    pathlib.Path("hdf5.toml").write_text(case("events", "spectra", "milling_dose"))
+    pathlib.Path("hdf5.sweep.toml").write_text('[sweep]\ncase = "hdf5.toml"\n[sweep.grid]\n"contact.restitution" = [0.5]\n')
+    for what in ("folders", "all"):
+        done = limited(what, "run", "hdf5.toml", "--quiet", "--out", f"hdf5-{what}")
+        t.check(done.returncode == 0 and done.stderr.count("\n") == (what == "all"), f"HDF5 without locks: {done.stderr}")
+        t.check(pathlib.Path(f"hdf5-{what}/events.h5").stat().st_size > 1000, "the events")
+        done = limited(what, "sweep", "hdf5.sweep.toml", "--quiet", "--out", f"sweep-{what}")
+        t.check(done.returncode == 0, f"a sweep without locks: {done.stderr}")
 
 
 with Trials() as t:

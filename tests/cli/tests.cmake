@@ -16,11 +16,13 @@ set_tests_properties(packages_test PROPERTIES LABELS long TIMEOUT 3600 SKIP_RETU
 add_library(no_locks MODULE cli/no_locks.c)
 add_library(dies_at MODULE cli/dies_at.c)
 add_library(host_arithmetic MODULE cli/host_arithmetic.c)
-foreach(name digits sensitivity charges one_writer kill_steps left_behind named_files tampered standard_streams signals inputs missing_memory
+foreach(name digits sensitivity charges one_writer kill_steps left_behind named_files any_names tampered standard_streams signals inputs missing_memory
              host_arithmetic ordinary_charges)
   set(more)
   if(name STREQUAL one_writer)
     set(more $<TARGET_FILE:no_locks>)
+  elseif(name STREQUAL any_names)
+    set(more $<TARGET_FILE:small_dem_dump>)
   elseif(name STREQUAL kill_steps)
     set(more $<TARGET_FILE:dies_at>)
   elseif(name STREQUAL host_arithmetic)

@@ -5,22 +5,27 @@
     sh          commands; they must succeed
     sh setup    commands that prepare a machine: other tests run them (see SETUP)
     sh long     commands of long studies: run with --long only
-    python      Python, with the package edmill; blocks of a page share their variables
+    python      Python, with the package edmill; blocks of a page share their variables. A comment with a number behind what prints, up to a
+                colon, is what it prints: "# 5.8 ± 0.1: with its interval"
     toml        with "# NAME.toml" as first line, a file; otherwise sections of a case, which must be valid
     cmake, diff, text, {directive}   not run here: an own test reads them, or they are no code
 
 usage: pages_test.py EDMILL PYTHON_PACKAGE SOURCES FOLDER PAGE [--long] [--update]
 --update writes what the commands print into the console blocks of the page."""
 import argparse
+import ast
 import contextlib
+import decimal
 import fnmatch
 import io
+import itertools
 import os
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import tokenize
 import tomllib
 
 SETUP = {  # commands that this test does not run: which test does
@@ -159,12 +164,26 @@ class Page:
 
     def python(self, text, place):
         self.ran += 1
-        out = io.StringIO()
-        try:
-            with contextlib.redirect_stdout(out):
-                exec(compile("\n" * place + text, self.a.page, "exec"), self.variables)
-        except Exception as error:  # noqa: BLE001: whatever a block raises is a finding
-            self.problem(place, f"{type(error).__name__}: {error}")
+        tokens = tokenize.generate_tokens(io.StringIO("\n" * place + text + "\n").readline)
+        shown = {token.start[0]: token.string for token in tokens if token.type == tokenize.COMMENT}
+        for statement in ast.parse("\n" * place + text).body:
+            out = io.StringIO()
+            try:
+                with contextlib.redirect_stdout(out):
+                    exec(compile(ast.Module([statement], []), self.a.page, "exec"), self.variables)
+            except Exception as error:  # noqa: BLE001: whatever a block raises is a finding
+                return self.problem(statement.lineno - 1, f"{type(error).__name__}: {error}")
+            comment = shown.get(statement.end_lineno, "").lstrip("# ").split(": ")[0]
+            if out.getvalue() and re.search(r"\d", comment) and not self.is_output(comment, out.getvalue()):
+                self.problem(statement.end_lineno - 1, f"prints {out.getvalue()!r}, where the page has {comment!r}")
+
+    @staticmethod
+    def is_output(comment, printed):
+        """Whether a comment with numbers, up to a colon, is what the line prints: the same words, and numbers to the comment's digits."""
+        pairs = list(itertools.zip_longest(comment.split(), printed.split(), fillvalue=""))
+        number = re.compile(r"-?\d+(\.\d*)?(e-?\d+)?")
+        return all(abs(float(a) - float(b)) <= 0.501 * 10 ** decimal.Decimal(a).as_tuple().exponent if number.fullmatch(a) and number.fullmatch(b) else a == b
+                   for a, b in pairs)
 
     def toml(self, lines, place):
         self.ran += 1

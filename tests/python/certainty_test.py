@@ -28,6 +28,16 @@ def test_certify_is_that_of_the_program(program, tmp_path):
     assert last.events == 30 and all(digits is None or digits >= 25 for digits in last.digits.values())
 
 
+@pytest.mark.parametrize("name", ["a\u2028b\x85c", "a\n#b\rc", "#\ufffe"])
+def test_a_case_can_have_any_name(name, tmp_path):
+    file = tmp_path / f"{name}.toml"
+    file.write_bytes(THREE.read_bytes())
+    proof = edmill.prove(file, 3, certificate=tmp_path / "certificate")
+    assert [event.ball for event in proof.events] == [event.ball for event in edmill.prove(THREE, 3).events]
+    assert edmill.check_certificate(file, tmp_path / "certificate") == []
+    assert edmill.certify(file, 3, file=tmp_path / "certified.csv").events and len(rows_of(tmp_path / "certified.csv")) == 3
+
+
 def test_counts_and_digits_have_bounds():
     for collisions, digits in ((0, 25), (3, 100_001), (3.5, 25)):
         with pytest.raises(edmill.InputError):

@@ -1,6 +1,6 @@
 # The Python package as it stands in the build.
 if(EDMILL_PYTHON)
-  foreach(name rates_test run_test ends_test arguments_test studies_test notebooks_test certainty_test digits_test)
+  foreach(name rates_test run_test ends_test daemon_test arguments_test studies_test notebooks_test certainty_test digits_test)
     add_test(NAME python_${name} COMMAND ${Python_EXECUTABLE} -m pytest -q -p no:cacheprovider ${CMAKE_CURRENT_SOURCE_DIR}/python/${name}.py)
     set_tests_properties(python_${name} PROPERTIES ENVIRONMENT
       "EDMILL=$<TARGET_FILE:edmill_cli>;PYTHONPATH=${CMAKE_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1")

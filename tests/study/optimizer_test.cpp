@@ -74,6 +74,18 @@ TEST_F(Optimizer, FindsThePeakBetweenThePointsOfTheFirstGrid) {
   EXPECT_TRUE(found.optimum.contenders.empty());
 }
 
+TEST_F(Optimizer, EndsOfRangesAreExact) {
+  for (const auto& [low, high] : {std::pair{"0.06", "0.9"}, {"0.1", "0.7"}, {"0.123456789", "0.987654321"}})
+    for (const auto* points : {"2", "3", "8"}) {
+      const auto s =
+          spec(std::string("runs_max = 100\nreplicas_first = 2\nrefinements = 0\npoints = ") + points +
+               "\n[[optimize.variable]]\nkey = \"contact.restitution\"\nlow = " + low + "\nhigh = " + high);
+      const auto found = search(s, 5, 5, 1).points;
+      EXPECT_EQ(found.front().settings[0].second, low) << points;
+      EXPECT_EQ(found.back().settings[0].second, high) << points;
+    }
+}
+
 TEST_F(Optimizer, PointsThatNoiseHidesAreContendersAndGetMoreRuns) {
   const auto s = spec("runs_max = 200\npoints = 4\nrefinements = 0\nreplicas_max = 12\n" + diameter);
   const auto found = search(s, 5.0, 20, 2);  // 4 mm and 6 mm are equal

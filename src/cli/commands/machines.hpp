@@ -5,6 +5,7 @@
 
 #include "app/check_case.hpp"
 #include "cli/exit_codes.hpp"
+#include "io/named_file.hpp"
 #include "io/terminal.hpp"
 #include "machines/machines.hpp"
 
@@ -46,16 +47,22 @@ struct New {
                        "of all contacts; by powder and balls unless given");
     command.add_option("--friction", wanted_.friction, "of all contacts; 0.4 unless given");
     command.add_option("--time", wanted_.time, "simulated; \"10 s\" unless given");
+    command.add_option("--out", file_,
+                       "file of the case, written whole or not at all; standard output unless given");
   }
   int run() {
     const auto text = machines::new_case(wanted_);
     app::check(casefile::parse_case(text, "the new case"));  // the balls have room
-    io::print("{}", text);
+    if (file_.empty())
+      io::print("{}", text);
+    else
+      io::NamedFile(file_).write([&](std::ostream& out) { out << text; });
     return ok;
   }
 
  private:
   machines::Wanted wanted_;
+  std::string file_;
 };
 
 }  // namespace edmill::cli

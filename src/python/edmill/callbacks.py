@@ -2,9 +2,9 @@
 from __future__ import annotations
 
 import decimal
-from typing import Protocol
+from typing import Protocol, Union
 
-Number = float | decimal.Decimal  #: float in double, with all digits a Decimal in the wider precisions
+Number = Union[float, decimal.Decimal]  #: float in double, with all digits a Decimal in the wider precisions
 Vector = tuple[Number, Number, Number]
 
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import itertools
 import json
 import os
 from collections.abc import Iterable, Mapping
@@ -220,7 +221,7 @@ def prove(case: Case | Mapping | str | os.PathLike, collisions: int, *, certific
     file = "" if certificate is None else place("certificate", certificate)
     rows, bits, left = _edmill.prove(case._case, collisions, most_bits, file)
     counts = {"index", "ball", "partner"}
-    rows = csv.DictReader(line for line in rows.splitlines() if not line.startswith("#"))
+    rows = csv.DictReader(itertools.dropwhile(lambda line: line.startswith("#"), rows.split("\n")))
     events = [ProvenEvent(**{k: int(v) if k in counts else v if k == "partner_kind" else Decimal(v) for k, v in row.items()})
               for row in rows]
     return Proof(events, bits, left)

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import csv
+import itertools
 import pathlib
 from collections.abc import Iterator, Mapping
 
@@ -52,7 +53,7 @@ def read_table(file: str | pathlib.Path) -> Records:
     """A CSV file of edmill: its columns have the names of the header without units, which `dtype.fields` keep as titles.
     Empty cells are NaN."""
     with open(file, newline="", encoding="utf-8") as stream:
-        rows = list(csv.reader(line for line in stream if not line.startswith("#")))
+        rows = list(csv.reader(itertools.dropwhile(lambda line: line.startswith("#"), stream)))
     header, cells = rows[0], rows[1:]
     fields, columns = [], []
     for k, title in enumerate(header):

@@ -1,0 +1,43 @@
+#include "base/clean_text.hpp"
+
+#include <algorithm>
+
+namespace edmill {
+
+namespace {
+
+/// Bytes of the first character; 0 when XML cannot have it.
+std::size_t character_size(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text.front());
+  if (lead < 0x80) return lead >= 0x20 || lead == '\t' || lead == '\n' || lead == '\r' ? 1 : 0;
+  const std::size_t size = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+  unsigned code = lead & (0x7fu >> size);
+  for (std::size_t k = 1; k < size; ++k) {
+    if (k >= text.size() || (text[k] & 0xc0) != 0x80) return 0;
+    code = code << 6u | (text[k] & 0x3fu);
+  }
+  const bool short_enough = code >= (size == 2 ? 0x80u : size == 3 ? 0x800u : 0x10000u);
+  const bool surrogate = code >= 0xd800 && code <= 0xdfff, last = code == 0xfffe || code == 0xffff;
+  return lead < 0xf8 && code <= 0x10ffff && short_enough && !surrogate && !last ? size : 0;
+}
+
+}  // namespace
+
+std::string clean_text(std::string_view text) {
+  std::string clean;
+  while (!text.empty()) {
+    const auto size = character_size(text);
+    clean += size > 0 ? text.substr(0, size) : "\xef\xbf\xbd";
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return clean;
+}
+
+std::string one_line(std::string_view text) {
+  auto line = clean_text(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return line;
+}
+
+}  // namespace edmill
