@@ -231,7 +231,9 @@ Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& opti
     file->write([&](std::ostream& out) { write_reference(out, spec, options, result); });
   return result;
 } catch (const InterruptedError&) {
-  return {.interrupted = true};
+  Certification none;
+  none.interrupted = true;
+  return none;
 }
 
 void require_wider(const std::string& precision, const std::string& wider, const std::string& what) {
