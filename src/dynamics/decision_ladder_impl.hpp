@@ -98,8 +98,11 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
     if (wide.verdict == Verdict::contact && time < query.begin) time = query.begin;
     Real searched = static_cast<Real>(proven);
     if (Wide(searched) > proven) searched -= searched * epsilon<Real>();
-    return {wide.verdict, wide.wall, time,
-            wide.by_rule, searched,  static_cast<Real>(wide.time_error) + rounding()};
+    // What is certainly at the begin of the window is at the same instant in both scalars.
+    const bool at_once = wide.time_error == 0 && time == query.begin;
+    return {wide.verdict, wide.wall,
+            time,         wide.by_rule,
+            searched,     at_once ? Real(0) : Real(static_cast<Real>(wide.time_error) + rounding())};
   }
 }
 
@@ -145,6 +148,8 @@ auto DecisionLadder<Real>::time_of(const Contact<Real>& contact) -> Timed {
 template <class Real>
 int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) {
   const Timed first = time_of(a), second = time_of(b);
+  const bool both_at_once = first.time_error == 0 && second.time_error == 0;
+  if (both_at_once && first.time == second.time) return 0;
   const Real difference = pairs_.clock().elapsed(first.time, second.time);
   const Real error = first.time_error + second.time_error + 16 * epsilon<Real>() * pairs_.clock().period();
   if (difference > error) return -1;
