@@ -18,7 +18,7 @@ std::size_t character_size(std::string_view text) {
   }
   const bool short_enough = code >= (size == 2 ? 0x80u : size == 3 ? 0x800u : 0x10000u);
   const bool surrogate = code >= 0xd800 && code <= 0xdfff, last = code == 0xfffe || code == 0xffff;
-  return lead < 0xf8 && code <= 0x10ffff && short_enough && !surrogate && !last ? size : 0;
+  return lead >= 0xc0 && lead < 0xf8 && code <= 0x10ffff && short_enough && !surrogate && !last ? size : 0;
 }
 
 }  // namespace

@@ -268,8 +268,8 @@ struct FirstImpact : Observer<Real> {
 };
 
 template <class Real>
-class CornersTest : public testing::Test {};
-using Scalars = testing::Types<double, float128, mpfr50>;
+class CornersTest : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float128, mpfr50>;
 TYPED_TEST_SUITE(CornersTest, Scalars);
 
 TYPED_TEST(CornersTest, AreDecidedAsTheirExactStatesSay) {

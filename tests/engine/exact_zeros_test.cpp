@@ -140,8 +140,8 @@ struct FewImpacts : Observer<Real> {
 };
 
 template <class Real>
-class ExactZeros : public testing::Test {};
-using Scalars = testing::Types<double, float128, mpfr50>;
+class ExactZeros : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float128, mpfr50>;
 TYPED_TEST_SUITE(ExactZeros, Scalars);
 
 TYPED_TEST(ExactZeros, AreDecidedAsWholeNumbersSay) {

@@ -23,7 +23,7 @@ struct Times : Observer<Real> {
   }
 };
 
-class InterruptedSearch : public testing::Test {
+class InterruptedSearch : public ::testing::Test {
  protected:
   casefile::InitialCase<double> built = casefile::build_case<double>(casefile::parse_case(
       testing::spex_text("end_time = \"1 s\"", "restitution = 0.5", testing::batch(12, "6 mm")),
