@@ -33,7 +33,8 @@ class DecisionLadder {
   DecisionLadder(DecisionLadder&&) noexcept;
 
   /// Certified answer for a wall query; `pose` is the vessel's at its begin, where the caller knows it.
-  /// @throws UndecidedError when the widest scalar cannot decide; its text reproduces the state
+  /// @throws UndecidedError for a fault of the search: the widest scalar decides all; its text reproduces the
+  /// state
   WallAnswer<Real> wall(const model::AnyPose<Real>& pose, const WallQuery<Real>& query) {
     const auto answer = walls_.search(pose, query);
     return is_settled(answer) ? answer : wall_above(query);
@@ -45,7 +46,6 @@ class DecisionLadder {
   }
 
   /// Certified answer for two balls from `now` on; see PairSearch.
-  /// @throws UndecidedError as above
   PairAnswer<Real> pair(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
                         const Real& radius_sum) {
     return pair(pairs_.state(i, now), i, j, now, radius_sum);

@@ -14,7 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from trials import EDMILL, Trials
 
-COUNT = int(sys.argv[2]) if len(sys.argv) > 2 else 36
+COUNT = int(sys.argv[2]) if len(sys.argv) > 2 else 24
 SEED = 20261128
 
 MOTIONS = [

@@ -22,7 +22,7 @@ using Exact = mpfr_of<200>;
 
 int clusters_of_each_scalar() {
   const char* number = std::getenv("EDMILL_EXACT_ZEROS");
-  return number ? std::atoi(number) : 2000;
+  return number ? std::atoi(number) : 800;
 }
 
 constexpr double unit = 1.0 / 1024, room = 64 * unit;  // [m], half an edge of the box
