@@ -6,16 +6,30 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
+
+#include "base/standard_arithmetic.hpp"
 
 namespace edmill::python {
 
-/// Each source has one at namespace scope, `const Binding functions([](py::module_& m) { ... });`, and no
+/// The module. Its functions run with the standard arithmetic, whatever the host has chosen.
+class Module : public pybind11::module_ {
+ public:
+  explicit Module(const pybind11::module_& m) : module_(m) {}
+  template <class Function>
+  void def(const char* name, Function&& function) {
+    module_::def(name, std::forward<Function>(function), pybind11::call_guard<StandardArithmetic>());
+  }
+};
+
+/// Each source has one at namespace scope, `const Binding functions([](Module& m) { ... });`, and no
 /// list names it. The class Case and the exceptions are in the module before.
 class Binding {
  public:
-  explicit Binding(void (*add)(pybind11::module_&)) : add_(add), next_(first()) { first() = this; }
+  explicit Binding(void (*add)(Module&)) : add_(add), next_(first()) { first() = this; }
 
-  static void add_all(pybind11::module_& m) {
+  static void add_all(const pybind11::module_& all) {
+    Module m(all);
     for (const Binding* b = first(); b; b = b->next_) b->add_(m);
   }
 
@@ -25,7 +39,7 @@ class Binding {
     return binding;
   }
 
-  void (*add_)(pybind11::module_&);
+  void (*add_)(Module&);
   const Binding* next_;
 };
 

@@ -52,7 +52,7 @@ py::dict import_dump(const Case& the_case, const std::string& dump, const std::s
   return result;
 }
 
-const Binding dem_codes([](py::module_& m) {
+const Binding dem_codes([](Module& m) {
   m.def("deck", &deck_of);
   m.def("import_dump", &import_dump);
   m.def("limit", [](const std::vector<std::string>& logs, const std::string& run, double from) {

@@ -289,7 +289,7 @@ py::dict run_in(Case the_case, const Wishes& wishes) {
 }
 
 template <class Real>
-void add_scalar(py::module_& m, const std::string& name) {
+void add_scalar(Module& m, const std::string& name) {
   auto impact = py::class_<Impact<Real>>(m, ("Impact_" + name).c_str());
   for_each_member<Real>([&](const char* title, const auto& which) {
     impact.def_property_readonly(title, [which](const Impact<Real>& i) { return member<Real>(i, which); });
@@ -318,7 +318,7 @@ py::dict run(const Case& the_case, const std::string& precision, const std::stri
   });
 }
 
-const Binding runs([](py::module_& m) {
+const Binding runs([](Module& m) {
   PYBIND11_NUMPY_DTYPE(Impact<double>, index, time, ball, with_wall, partner, normal, approach_speed,
                        slip_speed, separation_speed, restitution_tangential, normal_impulse,
                        tangential_impulse, milling_dose, supplied_energy, wall_work);

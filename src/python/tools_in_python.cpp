@@ -273,7 +273,7 @@ std::string new_case(const std::string& machine, const std::vector<std::string>&
   return machines::new_case({machine, balls, powder, speed, restitution, friction, target_dose, time});
 }
 
-const Binding tools([](py::module_& m) {
+const Binding tools([](Module& m) {
   m.def("sweep", [](const std::string& file, const std::string& folder, int jobs) {
     return study(file, folder, jobs, app::sweep);
   });
