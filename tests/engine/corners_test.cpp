@@ -15,7 +15,7 @@
 namespace edmill::engine {
 namespace {
 
-using Exact = mpfr_of<200>;
+using Sharp = mpfr_of<200>;
 constexpr double soon = 1e-6;  // [s]
 
 /// States of each scalar; the long test sets another number.
@@ -27,42 +27,42 @@ int states_of_each_scalar() {
 /// The first impact with a wall, by the Taylor polynomial of second degree of its gap.
 struct Expected {
   int wall;
-  Exact time;  ///< after the start [s]
+  Sharp time;  ///< after the start [s]
   bool moves;
 };
 
 /// A gap and its rate, at a time after the start.
 struct Gap {
-  Exact value, rate;
+  Sharp value, rate;
 };
 
 /// The first time at which the gap is zero or negative while it falls, up to `soon`. Where the first two
 /// derivatives tell it they do; else the gap is followed, from a time on at which it has hardly changed.
 /// @param d, r, c  the gap and its derivatives at the start
 template <class F>
-std::optional<Exact> contact_time(const Exact& d, const Exact& r, const Exact& c, const Exact& zero,
+std::optional<Sharp> contact_time(const Sharp& d, const Sharp& r, const Sharp& c, const Sharp& zero,
                                   const F& gap) {
-  if (d <= 0 && (r < -zero || (abs(r) <= zero && c < -zero))) return Exact(0);
+  if (d <= 0 && (r < -zero || (abs(r) <= zero && c < -zero))) return Sharp(0);
   if (zero == 0 || abs(c) > 0.01) {
-    const Exact square = r * r - 2 * d * c;
+    const Sharp square = r * r - 2 * d * c;
     if (d <= 0 && r <= zero) return std::nullopt;
-    if (d <= 0 && c < 0 && square <= 0) return Exact(-r / c);
+    if (d <= 0 && c < 0 && square <= 0) return Sharp(-r / c);
     if (square < 0 || (r >= 0 && c >= 0)) return std::nullopt;
-    const Exact root = sqrt(square);
-    return r < 0 ? Exact(2 * d / (root - r)) : Exact((r + root) / -c);
+    const Sharp root = sqrt(square);
+    return r < 0 ? Sharp(2 * d / (root - r)) : Sharp((r + root) / -c);
   }
-  const Exact rounding(zero > 0 ? 1e-47 : 0);
-  Exact low = 0;
-  for (Exact t = 1e-45; t < soon; low = t, t *= 2) {
+  const Sharp rounding(zero > 0 ? 1e-47 : 0);
+  Sharp low = 0;
+  for (Sharp t = 1e-45; t < soon; low = t, t *= 2) {
     const auto at = gap(t);
     if (at.value > rounding || !(at.rate < -zero)) continue;
-    Exact high = t;
+    Sharp high = t;
     for (int k = 0; k < 60; ++k) {
-      const Exact middle = (low + high) / 2;
+      const Sharp middle = (low + high) / 2;
       const auto half = gap(middle);
       (half.value > rounding || !(half.rate < -zero) ? low : high) = middle;
     }
-    return t == 1e-45 ? Exact(0) : high;
+    return t == 1e-45 ? Sharp(0) : high;
   }
   return std::nullopt;
 }
@@ -110,49 +110,49 @@ class Corners {
 
   void draw_motion(model::Mill<Real>& mill, const Real& period) {
     model::Joints<Real> joints{{}, period};
-    amplitude_ = {Exact(0), Exact(0), Exact(0)};
+    amplitude_ = {Sharp(0), Sharp(0), Sharp(0)};
     const double kind = uniform();
     const int only = static_cast<int>(3 * uniform());
     phase_ = coin(0.5) ? Real(static_cast<int>(4 * uniform())) / 4 : real(0, 1);
-    period_ = Exact(period);
+    period_ = Sharp(period);
     for (int k = 0; k < 3; ++k) {
       auto joint = model::axis_joint<Real>(false, static_cast<std::size_t>(k));
       const bool moves = kind > 0.1 && (kind > 0.8 || k == only);
       const Real amplitude = moves ? real(0.001, 0.005) : Real(0);
-      amplitude_[k] = Exact(amplitude);
+      amplitude_[k] = Sharp(amplitude);
       joint.swings.push_back({amplitude, 1 / period, phase_, TurnFraction{.whole = 1}});
       joints.list.push_back(joint);
     }
     mill.motion = model::ChainMotion<Real>(joints);
   }
   /// Of the vessel's centre at the start, along an axis.
-  Exact place(int k) const { return amplitude_[k] * sine(); }
-  Exact speed(int k) const { return amplitude_[k] * turn() / period_ * cosine(); }
+  Sharp place(int k) const { return amplitude_[k] * sine(); }
+  Sharp speed(int k) const { return amplitude_[k] * turn() / period_ * cosine(); }
   /// The ball's coordinate in the vessel and its rate, at a time after the start.
-  Gap seen(const Corner<Real>& corner, int k, const Exact& t) const {
-    const Exact g(corner.the_case.mill.gravity[k]), v(corner.ball.velocity[k]);
-    Exact away = t * (v + t * g / 2), rate = v + t * g;
+  Gap seen(const Corner<Real>& corner, int k, const Sharp& t) const {
+    const Sharp g(corner.the_case.mill.gravity[k]), v(corner.ball.velocity[k]);
+    Sharp away = t * (v + t * g / 2), rate = v + t * g;
     if (amplitude_[k] != 0) {
-      const Exact phase = turn() * t / period_;  // of the time since the start
-      const Exact sine_then = sine() * cos(phase) + cosine() * sin(phase),
+      const Sharp phase = turn() * t / period_;  // of the time since the start
+      const Sharp sine_then = sine() * cos(phase) + cosine() * sin(phase),
                   cosine_then = cosine() * cos(phase) - sine() * sin(phase);
       away -= amplitude_[k] * (sine_then - sine()), rate -= amplitude_[k] * turn() / period_ * cosine_then;
     }
-    return {Exact(corner.ball.position[k]) - place(k) + away, rate};
+    return {Sharp(corner.ball.position[k]) - place(k) + away, rate};
   }
-  Exact acceleration(int k) const { return -amplitude_[k] * turn() / period_ * turn() / period_ * sine(); }
-  static Exact turn() { return 2 * boost::math::constants::pi<Exact>(); }
-  Exact sine() const {
-    return quarter() ? Exact(quarters() % 2 == 0 ? 0 : 2 - quarters()) : sin(turn() * Exact(phase_));
+  Sharp acceleration(int k) const { return -amplitude_[k] * turn() / period_ * turn() / period_ * sine(); }
+  static Sharp turn() { return 2 * boost::math::constants::pi<Sharp>(); }
+  Sharp sine() const {
+    return quarter() ? Sharp(quarters() % 2 == 0 ? 0 : 2 - quarters()) : sin(turn() * Sharp(phase_));
   }
-  Exact cosine() const {
-    return quarter() ? Exact(quarters() % 2 == 1 ? 0 : 1 - quarters()) : cos(turn() * Exact(phase_));
+  Sharp cosine() const {
+    return quarter() ? Sharp(quarters() % 2 == 1 ? 0 : 1 - quarters()) : cos(turn() * Sharp(phase_));
   }
   bool quarter() const { return Real(quarters()) == 4 * phase_; }
   int quarters() const { return static_cast<int>(static_cast<double>(Real(4 * phase_))); }
 
   /// A few units of the last place away, or not.
-  Real near(const Exact& value) {
+  Real near(const Sharp& value) {
     Real x(value);
     if (coin(0.4)) return x;
     return x + x * epsilon<Real>() * Real(static_cast<int>(7 * uniform()) - 3);
@@ -180,14 +180,14 @@ class Corners {
         continue;
       }
       const int side = coin(0.5) ? 1 : -1;
-      const Exact room = Exact(half[k]) - Exact(radius);
+      const Sharp room = Sharp(half[k]) - Sharp(radius);
       corner.ball.position[k] = near(place(k) + side * room);
       corner.ball.velocity[k] = Real(speed(k)) + Real(side) * draw_approach();
-      const Exact gap = room - side * (Exact(corner.ball.position[k]) - place(k));
-      const Exact rate = -side * (Exact(corner.ball.velocity[k]) - speed(k));
-      const Exact bend = -side * (Exact(corner.the_case.mill.gravity[k]) - acceleration(k));
+      const Sharp gap = room - side * (Sharp(corner.ball.position[k]) - place(k));
+      const Sharp rate = -side * (Sharp(corner.ball.velocity[k]) - speed(k));
+      const Sharp bend = -side * (Sharp(corner.the_case.mill.gravity[k]) - acceleration(k));
       expect(corner, 2 * k + (side > 0), amplitude_[k] != 0, gap, rate, bend,
-             [=, this, ball = corner](const Exact& t) {
+             [=, this, ball = corner](const Sharp& t) {
                const auto p = seen(ball, k, t);
                return Gap{room - side * p.value, -side * p.rate};
              });
@@ -207,12 +207,12 @@ class Corners {
     velocity = {real(-1, 1), real(-1, 1), real(-1, 1)};
     if (at_cap) {
       const int side = coin(0.5) ? 1 : -1;
-      const Exact room = Exact(half) - Exact(radius);
+      const Sharp room = Sharp(half) - Sharp(radius);
       position[1] = near(place(1) + side * room);
       velocity[1] = Real(speed(1)) + Real(side) * draw_approach();
-      expect(corner, side > 0, amplitude_[1] != 0, room - side * (Exact(position[1]) - place(1)),
-             -side * (Exact(velocity[1]) - speed(1)), -side * (Exact(gravity[1]) - acceleration(1)),
-             [=, this, ball = corner](const Exact& t) {
+      expect(corner, side > 0, amplitude_[1] != 0, room - side * (Sharp(position[1]) - place(1)),
+             -side * (Sharp(velocity[1]) - speed(1)), -side * (Sharp(gravity[1]) - acceleration(1)),
+             [=, this, ball = corner](const Sharp& t) {
                const auto p = seen(ball, 1, t);
                return Gap{room - side * p.value, -side * p.rate};
              });
@@ -220,18 +220,18 @@ class Corners {
     if (!at_side) return;
     // On the x or z axis, so that what is along the normal can be zero exactly.
     const int k = coin(0.5) ? 0 : 2, other = 2 - k, side = coin(0.5) ? 1 : -1;
-    const Exact room = Exact(wide) - Exact(radius);
+    const Sharp room = Sharp(wide) - Sharp(radius);
     position[other] = Real(place(other)), velocity[other] = coin(0.5) ? Real(speed(other)) : real(-0.5, 0.5);
     position[k] = near(place(k) + side * room);
     velocity[k] = Real(speed(k)) + Real(side) * draw_approach();
-    Exact gap = room * room, rate = 0, bend = 0;
+    Sharp gap = room * room, rate = 0, bend = 0;
     for (const int axis : {0, 2}) {
-      const Exact p = Exact(position[axis]) - place(axis), u = Exact(velocity[axis]) - speed(axis);
+      const Sharp p = Sharp(position[axis]) - place(axis), u = Sharp(velocity[axis]) - speed(axis);
       gap -= p * p, rate -= 2 * p * u;
-      bend -= 2 * (u * u + p * (Exact(gravity[axis]) - acceleration(axis)));
+      bend -= 2 * (u * u + p * (Sharp(gravity[axis]) - acceleration(axis)));
     }
     expect(corner, 2, amplitude_[0] != 0 || amplitude_[2] != 0, gap, rate, bend,
-           [=, this, ball = corner](const Exact& t) {
+           [=, this, ball = corner](const Sharp& t) {
              const auto x = seen(ball, 0, t), z = seen(ball, 2, t);
              return Gap{room * room - x.value * x.value - z.value * z.value,
                         -2 * (x.value * x.rate + z.value * z.rate)};
@@ -241,19 +241,19 @@ class Corners {
   /// @param moves  the wall does, along its normal: of its sines 50 digits are known at most, and what
   /// vanishes in them is zero by the rule
   template <class F>
-  void expect(Corner<Real>& corner, int wall, bool moves, const Exact& gap, const Exact& rate,
-              const Exact& bend, const F& later) {
+  void expect(Corner<Real>& corner, int wall, bool moves, const Sharp& gap, const Sharp& rate,
+              const Sharp& bend, const F& later) {
     corner.moves = corner.moves || moves;
     const bool touches = moves && abs(gap) < 1e-47;
-    const Exact zero(moves ? 1e-44 : 0);
-    const auto time = contact_time(touches ? Exact(0) : gap, rate, bend, zero, later);
+    const Sharp zero(moves ? 1e-44 : 0);
+    const auto time = contact_time(touches ? Sharp(0) : gap, rate, bend, zero, later);
     if (time && *time < soon) corner.expected.push_back({wall, *time, moves});
   }
 
   casefile::Random random_;
-  std::array<Exact, 3> amplitude_;
+  std::array<Sharp, 3> amplitude_;
   Real phase_{};
-  Exact period_;
+  Sharp period_;
 };
 
 template <class Real>
@@ -269,8 +269,8 @@ struct FirstImpact : Observer<Real> {
 
 template <class Real>
 class CornersTest : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float128, mpfr50>;
-TYPED_TEST_SUITE(CornersTest, Scalars);
+using CornerScalars = ::testing::Types<double, float128, mpfr50>;
+TYPED_TEST_SUITE(CornersTest, CornerScalars);
 
 TYPED_TEST(CornersTest, AreDecidedAsTheirExactStatesSay) {
   using Real = TypeParam;
@@ -306,7 +306,7 @@ TYPED_TEST(CornersTest, AreDecidedAsTheirExactStatesSay) {
                       << watch.time << " s, where none comes";
       continue;
     }
-    const Exact margin = first->time / 100;
+    const Sharp margin = first->time / 100;
     bool right = false, tie = false;
     for (const auto& e : corner.expected) {
       // No scalar knows better than 50 digits when a ball that is pressed on a moving wall touches it.

@@ -18,7 +18,7 @@
 namespace edmill::engine {
 namespace {
 
-using Exact = mpfr_of<200>;
+using Sharp = mpfr_of<200>;
 
 int clusters_of_each_scalar() {
   const char* number = std::getenv("EDMILL_EXACT_ZEROS");
@@ -94,26 +94,26 @@ class WholeClusters {
 
 /// The time of each contact of the first flights that comes at all [s], by the bodies: ball and partner,
 /// walls from -1 downwards.
-std::map<std::pair<int, int>, Exact> contacts_of(const WholeCluster& c) {
-  std::map<std::pair<int, int>, Exact> times;
-  const auto add = [&](int ball, int partner, const Exact& gap, const Exact& rate, const Exact& bend) {
+std::map<std::pair<int, int>, Sharp> contacts_of(const WholeCluster& c) {
+  std::map<std::pair<int, int>, Sharp> times;
+  const auto add = [&](int ball, int partner, const Sharp& gap, const Sharp& rate, const Sharp& bend) {
     // gap + rate t + bend t^2
     if (gap <= 0 && (rate < 0 || (rate == 0 && bend < 0))) {
       times[{ball, partner}] = 0;
       return;
     }
     if (rate >= 0 && bend >= 0) return;
-    const Exact square = rate * rate - 4 * gap * bend;
+    const Sharp square = rate * rate - 4 * gap * bend;
     if (square < 0 || (square == 0 && gap > 0)) return;
-    const Exact root = sqrt(square);
-    times[{ball, partner}] = rate < 0 ? Exact(2 * gap / (root - rate)) : Exact((rate + root) / (-2 * bend));
+    const Sharp root = sqrt(square);
+    times[{ball, partner}] = rate < 0 ? Sharp(2 * gap / (root - rate)) : Sharp((rate + root) / (-2 * bend));
   };
   for (int i = 0; i < static_cast<int>(c.balls.size()); ++i) {
     const auto& ball = c.balls[static_cast<std::size_t>(i)];
     for (std::size_t k = 0; k < 3; ++k)
       for (const int side : {-1, 1})
         add(i, -1 - static_cast<int>(2 * k) - (side > 0), 64 - ball.radius - side * ball.place[k],
-            -side * ball.velocity[k], k == 1 ? Exact(side * c.gravity) / 2 : Exact(0));
+            -side * ball.velocity[k], k == 1 ? Sharp(side * c.gravity) / 2 : Sharp(0));
     for (int j = 0; j < i; ++j) {
       const auto& other = c.balls[static_cast<std::size_t>(j)];
       long long r2 = 0, rv = 0, v2 = 0;
@@ -122,8 +122,8 @@ std::map<std::pair<int, int>, Exact> contacts_of(const WholeCluster& c) {
         r2 += r * r, rv += r * v, v2 += v * v;
       }
       if (rv < 0)
-        add(i, j, Exact(static_cast<double>(r2 - 100)), Exact(static_cast<double>(2 * rv)),
-            Exact(static_cast<double>(v2)));
+        add(i, j, Sharp(static_cast<double>(r2 - 100)), Sharp(static_cast<double>(2 * rv)),
+            Sharp(static_cast<double>(v2)));
     }
   }
   return times;
@@ -141,8 +141,8 @@ struct FewImpacts : Observer<Real> {
 
 template <class Real>
 class ExactZeros : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float128, mpfr50>;
-TYPED_TEST_SUITE(ExactZeros, Scalars);
+using ZeroScalars = ::testing::Types<double, float128, mpfr50>;
+TYPED_TEST_SUITE(ExactZeros, ZeroScalars);
 
 TYPED_TEST(ExactZeros, AreDecidedAsWholeNumbersSay) {
   using Real = TypeParam;
@@ -179,7 +179,7 @@ TYPED_TEST(ExactZeros, AreDecidedAsWholeNumbersSay) {
       continue;
     }
     const auto times = contacts_of(cluster);
-    std::optional<Exact> first;
+    std::optional<Sharp> first;
     for (const auto& [bodies, time] : times)
       if (!first || time < *first) first = time;
     if (!first || *first > 0.9) {
