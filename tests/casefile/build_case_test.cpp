@@ -148,7 +148,8 @@ template <class Real>
 void expect_same_poses(const std::string& one, const std::string& other) {
   const auto pose = [](const std::string& text, const Instant<Real>& when) {
     const auto mill = build_mill<Real>(parse_case(text, "turned.toml"));
-    return *std::get_if<model::ChainPose<Real>>(&std::as_const(mill.motion).pose(when));
+    const auto pose_then = mill.motion.pose(when);
+    return *std::get_if<model::ChainPose<Real>>(&pose_then);
   };
   for (const int eighth : {0, 3, 7}) {
     const Instant<Real> when{eighth, Real(eighth) / 100};
