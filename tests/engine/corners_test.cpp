@@ -21,7 +21,7 @@ constexpr double soon = 1e-6;  // [s]
 /// States of each scalar; the long test sets another number.
 int states_of_each_scalar() {
   const char* number = std::getenv("EDMILL_CORNERS");
-  return number ? std::atoi(number) : 800;
+  return number ? std::atoi(number) : 400;
 }
 
 /// The first impact with a wall, by the Taylor polynomial of second degree of its gap.
