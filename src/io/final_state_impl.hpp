@@ -43,6 +43,7 @@ SavedState<Real> read_final_state(const std::string& path) {
     fail("'" + header.substr(0, 120) + "'", std::string("'") + final_state_header + "'");
   SavedState<Real> saved;
   while (csv.next_row()) {
+    csv.throw_problems();
     const auto ball = csv.field(0), period = csv.field(11);
     if (ball != std::to_string(saved.states.size()))
       fail("ball " + in_quotes(ball), "ball " + std::to_string(saved.states.size()));

@@ -60,8 +60,9 @@ Tally compared(const char* mill, const WallQuery<double>& query) {
   return tally;
 }
 
-// The ball crosses into the next region sooner after its window begins than double can resolve:
-// float128, which decides here, has to go on into the next region before double asks again.
+// The ball crosses into the next region sooner after its window begins than double can resolve. A wider
+// scalar that decides this has to go on into the next region before double asks again; double decides it by
+// itself, since it excludes what it leaves however short the window is.
 TEST(AnyMillStates, ASearchGetsAheadOfABorderThatDoubleCannotTellFromItsBegin) {
   WallQuery<double> query{};
   query.flight = {{0x1.544ddbb6d5966p-6, -0x1.552f86aa59e6ap-6, 0x1.b7327914f8987p-5},
@@ -72,7 +73,6 @@ TEST(AnyMillStates, ASearchGetsAheadOfABorderThatDoubleCannotTellFromItsBegin) {
   query.length = 0x1.08cdb66eb178cp-11;
   const auto tally = compared("planetary_rounded", query);
   EXPECT_EQ(tally.bad(), 0);
-  EXPECT_EQ(tally.by_float128 + tally.by_mpfr50, 1);
 }
 
 // The gap is zero to within the rounding of 50 digits, and falls slowly: the window that is looked at first
