@@ -44,7 +44,8 @@ def said(name, mode):
 
 
 with Trials() as t:
-    subprocess.run([EDMILL, "run", THREE, "--quiet", "--out", "log", "--set", "run.end_time=0.3 s"], check=True,
+    subprocess.run([EDMILL, "run", THREE, "--quiet", "--out", "log", "--set", "run.end_time=0.3 s",
+                    "--set", 'output=[{type="collisions", states=true}]'], check=True,
                    capture_output=True)
     for name in COMMANDS:
         expected = said(name, "nearest")

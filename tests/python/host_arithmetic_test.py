@@ -15,7 +15,7 @@ digest = hashlib.sha256()
 def take(data):
     assert mode() == before
     digest.update(data if isinstance(data, bytes) else repr(data).encode())
-case = edmill.Case.read(sys.argv[1], settings=['run.end_time="0.2 s"', 'output=[{type="collisions", states=true}]'])
+case = edmill.Case(sys.argv[1], settings=['run.end_time="0.2 s"', 'output=[{type="collisions", states=true}]'])
 take(case.digest)
 place = pathlib.Path(sys.argv[2])
 run = edmill.run(case, folder=place / "run")
