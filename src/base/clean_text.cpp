@@ -35,8 +35,9 @@ std::string clean_text(std::string_view text) {
 
 std::string one_line(std::string_view text) {
   auto line = clean_text(text);
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  // The last three are U+0085, U+2028 and U+2029, which Python's splitlines() takes for line ends, too.
+  for (const std::string_view end : {"\n", "\r", "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"})
+    for (auto at = line.find(end); at != line.npos; at = line.find(end)) line.replace(at, end.size(), " ");
   return line;
 }
 

@@ -110,6 +110,10 @@ TEST(CleanText, ReplacesWhatXmlCannotHave) {
   EXPECT_EQ(clean_text("\xf4\x90\x80\x80"), bad + bad + bad + bad);  // beyond U+10FFFF
   EXPECT_EQ(clean_text("\xef\xbf\xbe"), bad + bad + bad);            // U+FFFE
   EXPECT_EQ(one_line("a\r\nb"), "a  b");
+  EXPECT_EQ(one_line("a\xe2\x80\xa8"
+                     "b\xc2\x85"
+                     "c"),
+            "a b c");
 }
 
 }  // namespace
