@@ -351,7 +351,7 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
   Real step = left.slope / (2 * b.second);
   bool rose = false;
   int setbacks = 0;  // of a gap that hardly changes, steps neither grow nor shrink
-  Real least = step;
+  Real before = step;
   for (int k = 0; k < 400 && setbacks < 32; ++k) {
     if constexpr (is_wide) Interruption::check();
     Real t = left.t + step;
@@ -369,7 +369,8 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
     }
     setbacks += rose;
     rose = false;
-    if (step < least * 3 / 4) least = step, setbacks = 0;
+    if (step < before * 3 / 4 || step > before * 4 / 3) setbacks = 0;
+    before = step;
     const bool turned = next.slope < -b.slope_error && next.value < -b.value_error;
     if (turned && step * 65536 < next.t - start.t && step < sharp)
       return {Verdict::contact, next, next, step + resolution()};
