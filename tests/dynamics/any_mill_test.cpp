@@ -162,7 +162,8 @@ TEST_P(AnyMill, RoundingErrorsOfManyConstantTurnsStayBelowTheirBounds) {
   }
   auto turned = mill;
   turned.motion = model::ChainMotion<double>(joints);
-  expect_rounding_below_bounds(turned, 0.0003);
+  // A number of double is exact in both, and whole quarters of a turn are dropped exactly: the bound is far.
+  expect_rounding_below_bounds(turned, 0);
 }
 
 TEST_P(AnyMill, DerivativesOfTheGapsStayBelowTheirBounds) {
