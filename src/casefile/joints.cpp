@@ -68,7 +68,7 @@ TurnFraction fraction_of(const Quantity& turns) {
   return fraction;
 }
 
-/// A constant angle or phase less its whole turns: a scalar knows what is left to its last digit. One of less
+/// A constant angle or phase less its whole turns: a scalar has the rest to its last digit. One of less
 /// than a turn stays as it is given.
 Quantity without_whole_turns(const Quantity& turns) {
   const auto fraction = fraction_of(turns);

@@ -27,7 +27,7 @@ struct WallAnswer {
   int wall = -1;         ///< of a contact
   Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
   bool by_rule = false;  ///< no precision decides it: two walls at one time, of which the lower id was taken,
-                         ///< or a gap that cannot be told from zero
+                         ///< or a gap that cannot be distinguished from zero
   Real searched{0};      ///< of none: proven from begin for this long [s]
   Real time_error{0};    ///< of a contact: how far off rounding may put its time [s]
   [[no_unique_address]] ContactPose<Real> pose{};  ///< of a contact, where the search knows it

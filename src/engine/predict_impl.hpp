@@ -103,8 +103,7 @@ void Simulation<Real>::predict_wall(int ball, const model::AnyPose<Real>& pose) 
     } else {
       take_wall_answer(ball, ladder_.wall(query), now_);  // which begins in double
     }
-  } catch (
-      const InterruptedError&) {  // the impact has happened: when the run goes on, it begins by searching
+  } catch (const InterruptedError&) {  // the impact has happened; a continued run begins by searching
     take_wall_answer(ball, dynamics::WallAnswer<Real>::none(Real(0)), now_);
     stop_ = EndReason::interrupted;
   }

@@ -48,7 +48,7 @@ struct New {
     command.add_option("--friction", wanted_.friction, "of all contacts; 0.4 unless given");
     command.add_option("--time", wanted_.time, "simulated; \"10 s\" unless given");
     command.add_option("--out", file_,
-                       "file of the case, written whole or not at all; standard output unless given");
+                       "file of the case, written whole or not at all; standard output by default");
   }
   int run() {
     const auto text = machines::new_case(wanted_);
