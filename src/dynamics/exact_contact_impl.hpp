@@ -133,22 +133,18 @@ std::optional<StillCoordinate> still_coordinate(const model::Joints<Real>& joint
   return seen;
 }
 
-}  // namespace detail
-
-template <model::Motion M, model::Vessel V, class Real>
-std::optional<ExactGap> exact_gap(const M& motion, const V& vessel, const Vec3<Real>& gravity,
-                                  const WallQuery<Real>& query, int wall) {
-  const auto shape = detail::shape_of(vessel, wall);
-  if (shape.kind == detail::Shape<Real>::other) return std::nullopt;
-  const bool round = shape.kind == detail::Shape<Real>::round;
-  const auto joints = detail::joints_of(motion);
+/// One function for all mills of a scalar.
+template <class Real>
+std::optional<ExactGap> exact_gap(const model::Joints<Real>& joints, const Shape<Real>& shape,
+                                  const Vec3<Real>& gravity, const WallQuery<Real>& query) {
+  const bool round = shape.kind == Shape<Real>::round;
   const auto& flight = query.flight;
-  const Dyadic age = exact_elapsed(flight.start, query.begin, motion.period());
+  const Dyadic age = exact_elapsed(flight.start, query.begin, joints.period);
   const Dyadic room = Dyadic::of(shape.distance) - Dyadic::of(query.radius);
   ExactGap gap{round ? room * room : room, {}, {}};
   for (int k = 0; k < 3; ++k) {
     if (shape.axes[k] == 0) continue;
-    const auto seen = detail::still_coordinate(joints, k);
+    const auto seen = still_coordinate(joints, k);
     if (!seen || (round && gravity[seen->axis] != 0)) return std::nullopt;
     const Dyadic side(seen->sign), g = side * Dyadic::of(gravity[seen->axis]);
     const Dyadic begun = side * Dyadic::of(flight.velocity[seen->axis]), v = begun + age * g;
@@ -160,6 +156,16 @@ std::optional<ExactGap> exact_gap(const M& motion, const V& vessel, const Vec3<R
     gap.bend = gap.bend + (round ? -(v * v) : n * g.half());
   }
   return gap;
+}
+
+}  // namespace detail
+
+template <model::Motion M, model::Vessel V, class Real>
+std::optional<ExactGap> exact_gap(const M& motion, const V& vessel, const Vec3<Real>& gravity,
+                                  const WallQuery<Real>& query, int wall) {
+  const auto shape = detail::shape_of(vessel, wall);
+  if (shape.kind == detail::Shape<Real>::other) return std::nullopt;
+  return detail::exact_gap(detail::joints_of(motion), shape, gravity, query);
 }
 
 }  // namespace edmill::dynamics

@@ -8,28 +8,23 @@
 
 namespace edmill::dynamics {
 
-/// The first contact with one wall up to `end`: by bounds, in exact arithmetic, in the widest scalar by a
-/// rule.
+/// The first contact with one wall up to `end` where bounds do not decide, and in the widest scalar where the
+/// ball touches: in exact arithmetic, else in the widest scalar by a rule.
+/// @param found  by bounds
 template <model::Motion M, model::Vessel V>
-template <bool rounded>
-auto WallSearch<M, V>::isolate_wall(const Curve& curve, const Start& first, const Sample& last,
-                                    const WallQuery<Real>& query, const Real& end) const -> Bracket {
+auto WallSearch<M, V>::isolate_further(const Curve& curve, const Start& first, const Sample& last,
+                                       const WallQuery<Real>& query, const Real& end,
+                                       const Bracket& found) const -> Bracket {
   const Point start = curve.of(first);
-  const Real& curvature = first.curvature[curve.wall];
-  if constexpr (rounded) {
-    return isolate_from_start<true>(curve, start, curvature, curve.of(last));
-  } else {
-    Bracket found{Verdict::undecided};
-    // What exact arithmetic knows needs no rule for what is zero within rounding.
-    if (is_widest && start.value <= curve.bounds.value_error) found = isolate_exactly(curve, query, end);
-    if (found.verdict != Verdict::undecided) return found;
-    found = isolate_from_start<false>(curve, start, curvature, curve.of(last));
-    if (found.verdict == Verdict::undecided) [[unlikely]]
-      found = isolate_exactly(curve, query, end);
-    if constexpr (is_widest)
-      if (found.verdict == Verdict::undecided) found = isolate_by_rule(curve, start, curve.of(last));
-    return found;
+  const bool undecided = found.verdict == Verdict::undecided;
+  // What exact arithmetic knows needs no rule for what is zero within rounding.
+  if (undecided || start.value <= curve.bounds.value_error) {
+    const auto exact = isolate_exactly(curve, query, end);
+    if (exact.verdict != Verdict::undecided) return exact;
   }
+  if constexpr (is_widest)
+    if (undecided) return isolate_by_rule(curve, start, curve.of(last));
+  return found;
 }
 
 /// Whether a wall is hit before another one. At one time within rounding exact arithmetic decides, or a wider
@@ -57,6 +52,8 @@ template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const
     -> Bracket {
   const Bounds& b = curve.bounds;
+  Curve rest = curve;
+  rest.most_steps = 32;
   Point last = start;
   int looks = 0;
   for (Real step = 16 * resolution(); last.t < right.t; step = 2 * step) {
@@ -72,7 +69,7 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, c
       return found;
     }
     if (opens && next.t < right.t && looks++ % 16 == 0) {  // whether the rest of the window can be decided
-      auto found = isolate(curve, next, right, 32);
+      auto found = isolate(rest, next, right);
       found.by_rule = true;
       if (found.verdict != Verdict::undecided) return found;
     }

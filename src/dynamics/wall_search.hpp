@@ -86,6 +86,7 @@ class WallSearch {
     const Functions& functions;
     int wall;
     Bounds bounds;
+    int most_steps = 80;  ///< after which its search is undecided
     Point at(const Real& t) const { return of(functions(t)); }
     Point of(const Sample& s) const { return {s.offset, s.gap[wall], s.rate[wall]}; }
   };
@@ -118,18 +119,16 @@ class WallSearch {
   Real top_speed(const Vec3<Real>& velocity, const Real& length) const {
     return norm<Real>(velocity) + mill_.gravity_size * length;
   }
-  template <bool rounded>
-  Bracket isolate_wall(const Curve& curve, const Start& first, const Sample& last,
-                       const WallQuery<Real>& query, const Real& end) const;
+  [[gnu::noinline]] Bracket isolate_further(const Curve& curve, const Start& first, const Sample& last,
+                                            const WallQuery<Real>& query, const Real& end,
+                                            const Bracket& found) const;
   template <bool rounded>
   Bracket isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
                              const Point& right) const;
-  /// @param most_steps  after which it is undecided
-  Bracket isolate(const Curve& curve, Point left, const Point& right, int most_steps = 80) const;
+  Bracket isolate(const Curve& curve, Point left, const Point& right) const;
   std::optional<Bracket> isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
                                      const Point& right) const;
-  Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing,
-                          int most_steps = 80) const;
+  Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
   Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
   Bracket isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const;
   Bracket isolate_resting(const Curve& curve, const Point& left, const Real& curvature,

@@ -127,7 +127,11 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
-    const Bracket found = isolate_wall<rounded>(curve, first, last, query, end);
+    Bracket found =
+        isolate_from_start<rounded>(curve, curve.of(first), first.curvature[wall], curve.of(last));
+    if constexpr (!rounded)
+      if (found.verdict == Verdict::undecided || is_widest) [[unlikely]]
+        found = isolate_further(curve, first, last, query, end, found);
     by_rule |= found.by_rule;
     if (found.verdict == Verdict::none) continue;
     if (found.verdict == Verdict::undecided) return {Verdict::undecided};
@@ -167,23 +171,27 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& reachable, const Errors& errors,
                                      const Real& from, Real& end) const -> Sample {
+  const auto touches = [&](const Sample& sample, int wall) {
+    return reachable[wall] & (sample.gap[wall] <= errors.gap[wall]) & (sample.gap[wall] >= -errors.gap[wall]);
+  };
+  const int count = model::function_count(mill_.vessel);
   const Real whole = end;
-  auto before = reachable;
-  for (int tries = 0;; ++tries) {
-    const auto sample = functions(end);
-    bool touched = false, lasting = tries > 0;
-    auto touching = reachable;
-    for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
-      touching[wall] =
-          reachable[wall] & (sample.gap[wall] <= errors.gap[wall]) & (sample.gap[wall] >= -errors.gap[wall]);
-      touched |= touching[wall];
-      lasting &= before[wall] | !touching[wall];
-    }
-    if (!touched || tries == 8) return sample;
-    if (lasting) return functions(end = whole);
+  Sample sample = functions(end);
+  for (int tries = 0; tries < 8; ++tries) {
+    bool touched = false;
+    for (int wall = 0; wall < count; ++wall) touched |= touches(sample, wall);
+    if (!touched) break;
     end = from + (end - from) * 3 / 4;
-    before = touching;
+    const Sample shorter = functions(end);
+    bool again = false, new_one = false;
+    for (int wall = 0; wall < count; ++wall) {
+      again |= touches(shorter, wall);
+      new_one |= touches(shorter, wall) & !touches(sample, wall);
+    }
+    if (again && !new_one) return functions(end = whole);
+    sample = shorter;
   }
+  return sample;
 }
 
 /// The first part of a window, where the second derivative is known too.
@@ -216,12 +224,11 @@ auto WallSearch<M, V>::isolate_hop(const Curve& curve, const Point& left, const 
 }
 
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& right, int most_steps) const
-    -> Bracket {
+auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& right) const -> Bracket {
   const Bounds& b = curve.bounds;
   if (left.value > b.value_error) {
     if (numerics::proven_positive(left, right, b)) return {Verdict::none};
-    return isolate_outside(curve, left, right, false, most_steps);
+    return isolate_outside(curve, left, right, false);
   }
   if (left.value < -b.value_error) {
     if (left.slope < -b.slope_error)
@@ -233,7 +240,7 @@ auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& righ
     if (numerics::proven_departure(left, right, b)) return {Verdict::none};
     // A window that another wall has cut short may end before the gap is seen to open.
     if (numerics::proven_increasing(left, right, b)) return {Verdict::none};
-    return isolate_outside(curve, left, right, true, most_steps);
+    return isolate_outside(curve, left, right, true);
   }
   if (left.slope < -2 * b.slope_error) return isolate_touching(curve, left, right);
   return {numerics::proven_increasing(left, right, b) ? Verdict::none : Verdict::undecided};
@@ -242,8 +249,8 @@ auto WallSearch<M, V>::isolate(const Curve& curve, Point left, const Point& righ
 /// Walks the window from the left over intervals that are proven free of contact, splitting where the proof
 /// fails, up to one that holds exactly one sign change.
 template <model::Motion M, model::Vessel V>
-auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Point& right, bool departing,
-                                       int most_steps) const -> Bracket {
+auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Point& right,
+                                       bool departing) const -> Bracket {
   constexpr int deepest = 64;
   std::array<Point, deepest> ends;  // right ends of intervals still to be looked at, nearest last
   int count = 0;
@@ -253,7 +260,8 @@ auto WallSearch<M, V>::isolate_outside(const Curve& curve, Point left, const Poi
     if (steps % 32 == 0) {
       Interruption::check();
       // A gap that hardly changes is excluded on short windows only.
-      if (steps >= most_steps || (steps == 64 && has_exact_gap(curve.wall))) return {Verdict::undecided};
+      if (steps >= curve.most_steps || (steps == 64 && has_exact_gap(curve.wall)))
+        return {Verdict::undecided};
     }
     const Point& end = ends[count - 1];
     if (departing ? numerics::proven_departure(left, end, b) : numerics::proven_positive(left, end, b)) {

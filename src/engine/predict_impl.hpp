@@ -104,7 +104,8 @@ void Simulation<Real>::predict_wall(int ball, const model::AnyPose<Real>& pose) 
       take_wall_answer(ball, ladder_.wall(query), now_);  // which begins in double
     }
   } catch (const InterruptedError&) {  // the impact has happened; a continued run begins by searching
-    take_wall_answer(ball, dynamics::WallAnswer<Real>::none(Real(0)), now_);
+    agendas_[ball].wall = -1;
+    agendas_[ball].times[Agenda<Real>::wall_entry] = now_;
     stop_ = EndReason::interrupted;
   }
 }
@@ -128,8 +129,8 @@ void Simulation<Real>::take_wall_answer(int ball, const dynamics::WallAnswer<Rea
   } else {
     // The next search begins where this one's proof still holds, whatever the sum is rounded to.
     a.wall = -1;
-    const Real proven = answer.searched - 4 * epsilon<Real>() * clock_.period();
-    a.times[Agenda<Real>::wall_entry] = proven > 0 ? clock_.after(begin, proven) : begin;
+    a.times[Agenda<Real>::wall_entry] =
+        clock_.after(begin, answer.searched - 4 * epsilon<Real>() * clock_.period());
   }
 }
 
