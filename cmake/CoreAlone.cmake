@@ -51,7 +51,7 @@ target_precompile_headers(edmill_core PRIVATE <algorithm> <array> <cmath> <files
   <boost/multiprecision/eigen.hpp> <Eigen/Geometry> <fmt/format.h> <toml++/toml.h>)
 edmill_take_rooms(edmill_core base model dynamics engine casefile io run tangent output api core_alone)
 set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/core_alone/toml.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
-target_sources(edmill_core PRIVATE ${instances}/float128.cpp)
+target_sources(edmill_core PRIVATE ${instances}/float128.cpp ${instances}/mpfr50.cpp)
 add_executable(edmill_core_alone ${CMAKE_SOURCE_DIR}/src/core_alone/main.cpp ${CMAKE_SOURCE_DIR}/src/app/run.cpp
                ${instances}/tools/double.cpp ${instances}/tools/float128.cpp)
 set_target_properties(edmill_core_alone PROPERTIES OUTPUT_NAME edmill-core)
@@ -72,7 +72,7 @@ if(EMSCRIPTEN)
   set_source_files_properties(${checker} PROPERTIES UNITY_GROUP checker COMPILE_DEFINITIONS CHECKER_WITHOUT_ARB)
   target_include_directories(edmill_page PRIVATE ${CMAKE_SOURCE_DIR}/verification/checker)
   # The file is to stay small; wide scalars decide seldom.
-  set_source_files_properties(${instances}/float128.cpp ${CMAKE_SOURCE_DIR}/src/core_alone/rung.cpp
+  set_source_files_properties(${instances}/float128.cpp ${instances}/mpfr50.cpp
                               PROPERTIES COMPILE_OPTIONS -Os SKIP_PRECOMPILE_HEADERS ON)
   target_compile_options(edmill_page PRIVATE -Os)
   target_link_options(edmill_page PRIVATE -sMALLOC=emmalloc)

@@ -33,7 +33,8 @@ struct OwnParts {
   Laws<Real> laws{};
 };
 
-/// A case from its initial state on, in one scalar: double, float128, mpfr50, mpfr100 or mpfr200.
+/// A case from its initial state on, in one scalar: double, float128, or mpfr with the digits that
+/// the thread has chosen as long as it lives.
 template <class Real>
 class Run {
  public:

@@ -11,11 +11,7 @@
 #else
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #endif
-#if defined(EDMILL_WITHOUT_MPFR)
-#include <boost/multiprecision/cpp_bin_float.hpp>
-#else
-#include <boost/multiprecision/mpfr.hpp>
-
+#if !defined(EDMILL_WITHOUT_MPFR)
 #include "edmill/detail/chosen_digits.hpp"
 #endif
 
@@ -30,21 +26,6 @@ using float128 =
                                   boost::multiprecision::et_off>;
 #endif
 
-#if defined(EDMILL_WITHOUT_MPFR)
-/// Decides what narrower scalars cannot; runs in it need MPFR.
-template <unsigned digits>
-using mpfr_of = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<digits>,
-                                              boost::multiprecision::et_off>;
-#else
-template <unsigned digits>
-using mpfr_of = boost::multiprecision::number<
-    boost::multiprecision::mpfr_float_backend<digits, boost::multiprecision::allocate_stack>,
-    boost::multiprecision::et_off>;
-#endif
-using mpfr50 = mpfr_of<50>;
-// Errors grow with every collision; these two are for certifying long sequences of events.
-using mpfr100 = mpfr_of<100>;
-using mpfr200 = mpfr_of<200>;
-// Beside them, `mpfr` has as many digits as `mpfr::Digits` chooses.
+// Beside it, `mpfr` has as many digits as `mpfr::Digits` chooses, 50 at first.
 
 }  // namespace edmill

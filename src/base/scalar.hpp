@@ -8,15 +8,19 @@
 
 namespace edmill {
 
-/// Name of a scalar as the case file and the records spell it, e.g. "double", "mpfr50"; of one whose digits
+/// Name of a scalar as the case file and the records spell it, "double" for example; of one whose digits
 /// are chosen at run time the part before them.
 template <class Real>
 struct ScalarName;
 
 /// Least and largest number of digits that can be chosen.
 inline constexpr unsigned fewest_digits = 20, most_digits = 1'000'000;
-/// 3000 for "mpfr:3000"; 0 for other names, and numbers that cannot be chosen.
+/// Numbers of digits with a name: "mpfr50" for "mpfr:50".
+inline constexpr unsigned named_digits[] = {50, 100, 200};
+/// 3000 for "mpfr:3000", 50 for "mpfr50"; 0 for other names, and numbers that cannot be chosen.
 inline unsigned chosen_digits_of(std::string_view name) {
+  for (const unsigned digits : named_digits)
+    if (name == "mpfr" + std::to_string(digits)) return digits;
   constexpr std::string_view begin = "mpfr:";
   if (!name.starts_with(begin) || name.size() > begin.size() + 7) return 0;
   unsigned digits = 0;
@@ -81,12 +85,18 @@ constexpr int binary_digits() {
 }
 
 /// For numbers that are hints or bounds and need few digits, but the range of the scalar's small numbers.
+/// Where digits are chosen at run time, see also `double_hints`.
 template <class Real>
 struct HintOf {
   using type = double;
 };
 template <class Real>
 using Hint = typename HintOf<Real>::type;
+/// Whether a double has the range of such numbers.
+template <class Real>
+constexpr bool double_hints() {
+  return true;
+}
 
 /// The digits of a scalar whose digits are chosen at run time, as the thread has them when this is made;
 /// `use` chooses them again for a scope. Nothing for other scalars.

@@ -1,9 +1,14 @@
 // The scalars of the core, in one place. Heavy: include it only where wide scalars are named.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <boost/math/tools/precision.hpp>
 #include <boost/multiprecision/eigen.hpp>
+#if defined(EDMILL_WITHOUT_MPFR)
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#else
+#include <boost/multiprecision/mpfr.hpp>
+#endif
 
 #include "base/archive.hpp"
 #include "base/scalar.hpp"
@@ -15,16 +20,20 @@ template <>
 struct ScalarName<float128> {
   static constexpr std::string_view value = "float128";
 };
-/// "mpfr50"
+/// A fixed number of decimal digits: for the top of the decision ladder and for conversions.
 template <unsigned digits>
-struct ScalarName<mpfr_of<digits>> {
-  static constexpr std::array<char, 7> text = [] {
-    std::array<char, 7> name{'m', 'p', 'f', 'r'};
-    unsigned place = digits < 100 ? 5 : 6;
-    for (unsigned rest = digits; rest > 0; rest /= 10) name[place--] = static_cast<char>('0' + rest % 10);
-    return name;
-  }();
-  static constexpr std::string_view value{text.data(), digits < 100 ? 6 : 7};
+using mpfr_of = boost::multiprecision::number<
+#if defined(EDMILL_WITHOUT_MPFR)
+    boost::multiprecision::cpp_bin_float<digits>,
+#else
+    boost::multiprecision::mpfr_float_backend<digits, boost::multiprecision::allocate_stack>,
+#endif
+    boost::multiprecision::et_off>;
+/// Decides what narrower scalars cannot.
+using mpfr50 = mpfr_of<50>;
+template <>
+struct ScalarName<mpfr50> {
+  static constexpr std::string_view value = "mpfr50";
 };
 
 #if defined(EDMILL_NATIVE_FLOAT128)
@@ -46,16 +55,12 @@ inline void archive_limbs(Archive& a, mpfr_ptr number) {
   for (std::size_t limb = 0; limb * mp_bits_per_limb < bits; ++limb) a(number->_mpfr_d[limb]);
 }
 }  // namespace detail
-template <unsigned digits>
-void archive_value(Archive& a, mpfr_of<digits>& value) {
-  detail::archive_limbs(a, value.backend().data());
-}
 inline void archive_value(Archive& a, mpfr& value) {
   std::int64_t bits = mpfr_get_prec(value.data());
   a(bits);
   if (a.loading()) {
     if (bits < 1 || bits > 10'000'000) throw InputError("found no such number in a saved state");
-    mpfr_set_prec(value.data(), static_cast<mpfr_prec_t>(bits));
+    value.set_precision(static_cast<mpfr_prec_t>(bits));
   }
   detail::archive_limbs(a, value.data());
 }
@@ -69,7 +74,7 @@ mpfr to_mpfr(const mpfr_of<digits>& value) {
 }
 inline mpfr to_mpfr(float128 value) {
   mpfr sum(0);
-  mpfr_set_prec(sum.data(), 113);
+  sum.set_precision(113);
   mpfr_set_zero(sum.data(), 1);
   for (int part = 0; part < 3; ++part) {  // doubles of 53 bits
     const auto leading = static_cast<double>(value);
@@ -85,7 +90,9 @@ struct ScalarName<mpfr> {
 };
 template <>
 inline std::string scalar_name<mpfr>() {
-  return "mpfr:" + std::to_string(mpfr::digits());
+  const auto digits = std::to_string(mpfr::digits());
+  const bool named = std::ranges::count(named_digits, mpfr::digits()) > 0;
+  return (named ? "mpfr" : "mpfr:") + digits;
 }
 template <>
 inline mpfr epsilon<mpfr>() {
@@ -99,6 +106,10 @@ template <>
 struct HintOf<mpfr> {
   using type = mpfr;
 };
+template <>
+inline bool double_hints<mpfr>() {
+  return mpfr::digits() <= 200;
+}
 template <>
 struct ChosenDigits<mpfr> {
   unsigned digits = mpfr::digits(), shown = mpfr::shown();
@@ -155,8 +166,7 @@ inline edmill::mpfr max_value<edmill::mpfr>() {
 }  // namespace boost::math::tools
 #endif
 
-/// Applies `MACRO(Real)` to every scalar. Another number of MPFR's digits takes a line here, one in
-/// edmill/scalars.hpp, and a file each in src/instances and src/instances/tools.
+/// Applies `MACRO(Real)` to every scalar that a run can have.
 #if defined(EDMILL_WITHOUT_MPFR)
 #define EDMILL_FOR_EACH_SCALAR(MACRO) \
   MACRO(double)                       \
@@ -165,8 +175,5 @@ inline edmill::mpfr max_value<edmill::mpfr>() {
 #define EDMILL_FOR_EACH_SCALAR(MACRO) \
   MACRO(double)                       \
   MACRO(::edmill::float128)           \
-  MACRO(::edmill::mpfr50)             \
-  MACRO(::edmill::mpfr100)            \
-  MACRO(::edmill::mpfr200)            \
   MACRO(::edmill::mpfr)
 #endif

@@ -1,15 +1,16 @@
 // Sine and cosine of an angle that has grown a little, without sines, which are expensive in wide scalars.
 #pragma once
 
+#include <cmath>
+#include <type_traits>
+
 #include "base/scalar.hpp"
 
 namespace edmill::numerics {
 
 /// Turns [rad] up to which what double rounds off the cubic term, d^3 2^-53 / 6, and the quintic term,
-/// d^5 / 120, are below the scalar's rounding of 1.
-template <class Real>
-constexpr double longest_turn_of() {
-  constexpr int digits = binary_digits<Real>();
+/// d^5 / 120, are below the rounding of 1 in a scalar of so many binary digits.
+constexpr double longest_turn(int digits) {
   if (digits <= 113) return 0x1p-24;
   double turn = 1;
   for (int k = 0; k < (digits - 53) / 3; ++k) turn /= 2;
@@ -19,9 +20,11 @@ constexpr double longest_turn_of() {
 template <class Real>
 bool is_short_turn(const Real& speed, const Real& dt, double x) {
   if constexpr (std::is_same_v<Hint<Real>, double>) {
-    constexpr double longest = longest_turn_of<Real>();
+    constexpr double longest = longest_turn(binary_digits<Real>());
     return x <= longest && x >= -longest;
-  } else {  // double may have no number so small: the cubic term itself is below the rounding
+  } else {
+    if (double_hints<Real>()) return std::abs(x) <= longest_turn(binary_digits<Real>());
+    // Double may have no number so small: the cubic term itself is below the rounding.
     const Real turn = speed * dt;
     return dt == 0 || exponent_of(turn) < -binary_digits<Real>() / 3 - 1;
   }

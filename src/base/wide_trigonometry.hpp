@@ -94,15 +94,15 @@ struct Trigonometry<mpfr> {
   static const mpfr& pi() {
     static thread_local mpfr value;
     if (mpfr_get_prec(value.data()) != mpfr::bits()) {
-      mpfr_set_prec(value.data(), mpfr::bits());
+      value.set_precision(mpfr::bits());
       mpfr_const_pi(value.data(), MPFR_RNDN);
     }
     return value;
   }
   static SinCos<mpfr> sin_cos(const mpfr& angle) {
     SinCos<mpfr> result;
-    mpfr_set_prec(result.sin.data(), mpfr::bits());
-    mpfr_set_prec(result.cos.data(), mpfr::bits());
+    result.sin.set_precision(mpfr::bits());
+    result.cos.set_precision(mpfr::bits());
     mpfr_sin_cos(result.sin.data(), result.cos.data(), angle.data(), MPFR_RNDN);
     return result;
   }

@@ -2,20 +2,19 @@
 
 #include <algorithm>
 
-#include "base/scalar_list.hpp"
-//
+#include "base/scalar.hpp"
 #include "casefile/section.hpp"
 
 namespace edmill::casefile {
 
 const std::vector<std::string>& precisions() {
-#define EDMILL_NAME_OF(Real) std::string(ScalarName<Real>::value),
   static const auto names = [] {
-    std::vector<std::string> all{EDMILL_FOR_EACH_SCALAR(EDMILL_NAME_OF)};
-    std::erase(all, "mpfr");  // its digits are chosen
+    std::vector<std::string> all{"double", "float128"};
+#if !defined(EDMILL_WITHOUT_MPFR)
+    for (const unsigned digits : named_digits) all.push_back("mpfr" + std::to_string(digits));
+#endif
     return all;
   }();
-#undef EDMILL_NAME_OF
   return names;
 }
 
@@ -34,8 +33,7 @@ bool is_precision(const std::string& name) {
 double digits_of(const std::string& precision) {
   if (precision == "double") return 15.95;
   if (precision == "float128") return 34.02;
-  if (const unsigned chosen = chosen_digits_of(precision)) return chosen;
-  return std::stod(precision.substr(4));  // of mpfr50
+  return chosen_digits_of(precision);
 }
 
 std::string read_precision(Section& section) {

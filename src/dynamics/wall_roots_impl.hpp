@@ -1,6 +1,9 @@
 // Implementation of WallSearch: from a bracket to its root; included by wall_search_impl.hpp only.
 #pragma once
 
+#include <type_traits>
+#include <utility>
+
 #include "base/errors.hpp"
 #include "dynamics/wall_search.hpp"
 
@@ -45,13 +48,13 @@ auto WallSearch<M, V>::polish(const Curve& curve, const Bracket& bracket) const 
   return Root{root.first, time_error_at(end.slope)};
 }
 
-/// The digits of Newton's iteration from a root of double on, where digits can be chosen.
+/// The digits of Newton's iteration from a root of double on, where there are many.
 template <class Real>
 auto digits_of_step(int step) {
   ChosenDigits<Real> digits;
   if constexpr (requires { digits.digits; }) {
     constexpr unsigned first = 64;  // of the step from 16 to 45 right digits
-    if (step < 15) digits.digits = std::min(digits.digits, first << step);
+    if (step < 15 && !double_hints<Real>()) digits.digits = std::min(digits.digits, first << step);
   }
   return digits.use();
 }
@@ -64,7 +67,7 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
                                 const Approach& approach, const Real& value_error) const
     -> std::optional<Root> {
   const Real unit = epsilon<Real>() * mill_.clock.period();
-  const auto clock_unit = static_cast<Hint<Real>>(unit);
+  const bool few_digits = double_hints<Real>();
   Real t = approach.guess;
   const int all_digits = binary_digits<Real>();
   auto pose = [&] {
@@ -72,22 +75,29 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
     return functions.pose(t);
   }();
   const auto pose_at = [&](const Real& time) { return functions.pose_nearby(time, pose, t); };
-  constexpr int steps = std::is_same_v<Hint<Real>, double> ? 8 : 40;  // each doubles the digits
+  const int steps = few_digits ? 8 : 40;  // each doubles the digits
   for (int step = 0; step < steps; ++step) {
     if (!(t > from && t < to)) return std::nullopt;
     // A step that finds twice the digits that the last one left needs no more of them.
     [[maybe_unused]] const auto few = digits_of_step<Real>(step);
-    if constexpr (!std::is_same_v<Hint<Real>, double>) pose = functions.pose(t);
+    if (!few_digits) pose = functions.pose(t);
     const auto sample = functions(t, pose);
     const Real& slope = sample.rate[wall];
     const double flatness = static_cast<double>(slope);
     if (!(flatness < 0)) return std::nullopt;
     const Real newton = -sample.gap[wall] / slope;
-    const auto size = static_cast<Hint<Real>>(newton), square = size * size;
-    const Real centre = t + (newton - Real(approach.curvature * square / (2 * flatness)));
-    const auto off = (approach.curvature_error + approach.third * (size < 0 ? -size : size)) * square;
-    if (off > -flatness * clock_unit || binary_digits<Real>() < all_digits) {
-      if constexpr (std::is_same_v<Hint<Real>, double>) pose = pose_at(centre);
+    // The curvature's part of the step, and whether one more would change the time.
+    const auto bent = [&](const auto& size) -> std::pair<Real, bool> {
+      using Size = std::decay_t<decltype(size)>;
+      const Size square = size * size;
+      const Size off = (approach.curvature_error + approach.third * (size < 0 ? -size : size)) * square;
+      return {Real(approach.curvature * square / (2 * flatness)), off > -flatness * static_cast<Size>(unit)};
+    };
+    const auto [bend, goes_on] =
+        few_digits ? bent(static_cast<double>(newton)) : bent(static_cast<Hint<Real>>(newton));
+    const Real centre = t + (newton - bend);
+    if (goes_on || binary_digits<Real>() < all_digits) {
+      if (few_digits) pose = pose_at(centre);
       t = centre;
       continue;
     }

@@ -129,16 +129,17 @@ void fill_laws(const CaseSpec& spec, const std::vector<int>& materials, ExactCas
 }
 
 /// Places of balls at random are multiples of 2^-52 of the room that their centres have: as whole numbers
-/// they are recovered from a run's placing in 200 digits.
-QuantityVector exact_place(const Vec3<mpfr200>& local, const QuantityVector& room, const std::string& where) {
+/// they are recovered from a run's placing in many digits, which the thread has chosen.
+QuantityVector exact_place(const Vec3<mpfr>& local, const QuantityVector& room, const std::string& where) {
   QuantityVector place{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const mpfr200 size(room[axis].to<mpfr200>());
-    const mpfr200 steps = ldexp(mpfr200(local[static_cast<int>(axis)] / size), 52), whole = round(steps);
-    if (!(abs(mpfr200(steps - whole)) < 1e-100))
+    const auto size = room[axis].to<mpfr>();
+    const mpfr steps = ldexp(local[static_cast<int>(axis)] / size, 52), whole = round(steps);
+    if (!(abs(steps - whole) < 1e-100))
       throw InputError(where +
                        ": found balls whose places are not known exactly, expected a position for each");
-    place[axis] = {room[axis].value * cpp_rational(cpp_int(whole.convert_to<cpp_int>()), cpp_int(1) << 52)};
+    place[axis] = {room[axis].value *
+                   cpp_rational(cpp_int(static_cast<std::int64_t>(whole)), cpp_int(1) << 52)};
   }
   return place;
 }
@@ -155,7 +156,8 @@ ExactBall ball_of(const casefile::BallSpec& spec) {
 void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half, std::vector<int>& materials,
                  ExactCase& result) {
   if (spec.batches.empty()) return;
-  const auto built = casefile::build_case<mpfr200>(spec, false);
+  const mpfr::Digits digits(placing_digits);
+  const auto built = casefile::build_case<mpfr>(spec, false);
   const auto& motion = built.the_case.mill.motion;
   const auto pose = motion.pose(built.start);
   for (const auto& batch : spec.batches) {

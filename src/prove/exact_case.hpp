@@ -14,6 +14,9 @@ namespace edmill::prove {
 using casefile::Quantity;
 using casefile::QuantityVector;
 
+/// Decimal digits of the runs that place balls at random and order the events to be proven.
+inline constexpr unsigned placing_digits = 200;
+
 struct ExactWall {
   enum Kind { plane, cylinder, sphere } kind = plane;
   QuantityVector normal{}, point{};  ///< of a plane: outward, of any length; inside, n.(p - point)/|n| < size

@@ -24,7 +24,7 @@ T again(T value) {
 
 template <class Real>
 class ArchiveOf : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float128, mpfr50, mpfr100, mpfr200>;
+using Scalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(ArchiveOf, Scalars);
 
 TYPED_TEST(ArchiveOf, KeepsEveryBitOfAScalar) {

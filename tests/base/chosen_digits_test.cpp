@@ -9,6 +9,8 @@
 namespace edmill {
 namespace {
 
+using Boosts = mpfr_of<100>;
+
 double number() {
   return (*rc::gen::arbitrary<int>()) * 1.0 / (1 + std::abs(*rc::gen::arbitrary<int>() % 1000));
 }
@@ -17,20 +19,20 @@ RC_GTEST_PROP(ChosenDigits, RoundAsTheScalarOfAsManyDigits, ()) {
   const mpfr::Digits digits(100);
   const double x = number(), y = number();
   const mpfr a = sqrt(abs(mpfr(x)) + 1) / 3, b = mpfr(y) / 7;
-  const mpfr100 c = sqrt(abs(mpfr100(x)) + 1) / 3, d = mpfr100(y) / 7;
-  const auto same = [](const mpfr& one, const mpfr100& other) { return one == to_mpfr(other); };
+  const Boosts c = sqrt(abs(Boosts(x)) + 1) / 3, d = Boosts(y) / 7;
+  const auto same = [](const mpfr& one, const Boosts& other) { return one == to_mpfr(other); };
   RC_ASSERT(same(a, c) && same(b, d));
   RC_ASSERT(same(a + b, c + d) && same(a - b, c - d) && same(a * b, c * d));
   if (b != 0) RC_ASSERT(same(a / b, c / d));
-  RC_ASSERT(same(exp(-a), mpfr100(exp(mpfr100(-c)))) && same(log1p(a), mpfr100(log1p(c))));
-  RC_ASSERT(same(atan2(b, a), mpfr100(atan2(d, c))) && same(floor(b), mpfr100(floor(d))));
+  RC_ASSERT(same(exp(-a), Boosts(exp(Boosts(-c)))) && same(log1p(a), Boosts(log1p(c))));
+  RC_ASSERT(same(atan2(b, a), Boosts(atan2(d, c))) && same(floor(b), Boosts(floor(d))));
   const auto one = numerics::sin_cos<mpfr>(b);
-  const auto other = numerics::sin_cos<mpfr100>(d);
+  const auto other = numerics::sin_cos<Boosts>(d);
   RC_ASSERT(same(one.sin, other.sin) && same(one.cos, other.cos));
   RC_ASSERT((a < b) == (c < d) && (a == b) == (c == d) && (a >= b) == (c >= d));
   mpfr sum = a;
   sum += b, sum *= a, sum -= b, sum /= 3;
-  mpfr100 sum_of_boost = c;
+  Boosts sum_of_boost = c;
   sum_of_boost += d, sum_of_boost *= c, sum_of_boost -= d, sum_of_boost /= 3;
   RC_ASSERT(same(sum, sum_of_boost));
 }
@@ -40,7 +42,7 @@ RC_GTEST_PROP(ChosenDigits, KeepEveryBitOfNarrowerNumbers, ()) {
   const float128 wide = float128(x) / 3;
   RC_ASSERT(static_cast<double>(mpfr(x)) == x);
   const mpfr::Digits digits(40);
-  RC_ASSERT(to_mpfr(wide) - to_mpfr(mpfr100(wide)) == 0);
+  RC_ASSERT(to_mpfr(wide) - to_mpfr(Boosts(wide)) == 0);
   RC_ASSERT(from_text<mpfr>(to_text<mpfr>(mpfr(x) / 3)) == mpfr(x) / 3);
 }
 
@@ -51,7 +53,7 @@ TEST(ChosenDigits, HoldWithinTheirScope) {
     const mpfr::Digits digits(500);
     third = mpfr(1) / 3;
     EXPECT_EQ(mpfr::digits(), 500u);
-    EXPECT_EQ(to_text<mpfr>(third).size(), 505u);  // "0." and 503 digits
+    EXPECT_EQ(to_text<mpfr>(third).size(), 504u);  // "0." and 502 digits
     const mpfr::Digits fewer(30, 8);
     EXPECT_EQ(to_text<mpfr>(mpfr(1) / 3), "0.33333333");
   }
@@ -86,8 +88,9 @@ TEST(ChosenDigits, AreSavedWithAllBits) {
 
 TEST(ChosenDigits, AreTakenFromNames) {
   EXPECT_EQ(chosen_digits_of("mpfr:3000"), 3000u);
+  EXPECT_EQ(chosen_digits_of("mpfr50"), 50u);
   for (const char* name :
-       {"mpfr", "mpfr:", "mpfr:19", "mpfr:1000001", "mpfr:5e3", "mpfr:-30", "mpfr50", ":30"})
+       {"mpfr", "mpfr:", "mpfr:19", "mpfr:1000001", "mpfr:5e3", "mpfr:-30", "mpfr51", ":30"})
     EXPECT_EQ(chosen_digits_of(name), 0u) << name;
 }
 

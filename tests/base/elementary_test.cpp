@@ -13,9 +13,9 @@ namespace {
 
 /// Distance in units of the last place of `found`.
 template <class Real>
-double ulps(const Real& found, const mpfr100& exact) {
-  const mpfr100 unit = ldexp(abs(exact), -std::numeric_limits<Real>::digits);  // half to a whole unit
-  return std::abs(static_cast<double>((mpfr100(found) - exact) / unit));
+double ulps(const Real& found, const mpfr_of<100>& exact) {
+  const mpfr_of<100> unit = ldexp(abs(exact), -std::numeric_limits<Real>::digits);  // half to a whole unit
+  return std::abs(static_cast<double>((mpfr_of<100>(found) - exact) / unit));
 }
 
 template <class Real>
@@ -26,7 +26,7 @@ void angles_are_right(std::uint64_t seed) {
     const double scale = std::pow(10, 20 * random.symmetric<double>());
     const Real across = scale * random.uniform<Real>(), along = random.symmetric<Real>();
     worst = std::max(worst, ulps<Real>(numerics::angle_between<Real>(across, along),
-                                       atan2(mpfr100(across), mpfr100(along))));
+                                       atan2(mpfr_of<100>(across), mpfr_of<100>(along))));
   }
   EXPECT_LT(worst, 4) << "seed " << seed;
   EXPECT_EQ(numerics::angle_between<Real>(0, 1), 0);
@@ -46,7 +46,7 @@ void logarithms_are_right(std::uint64_t seed) {
   for (int k = 0; k < 20000; ++k) {
     const Real x = std::pow(10, 20 * random.symmetric<double>()) * random.uniform<Real>();
     if (x == 0) continue;
-    worst = std::max(worst, ulps<Real>(numerics::log_of_one_plus<Real>(x), log1p(mpfr100(x))));
+    worst = std::max(worst, ulps<Real>(numerics::log_of_one_plus<Real>(x), log1p(mpfr_of<100>(x))));
   }
   EXPECT_LT(worst, 4) << "seed " << seed;
   EXPECT_EQ(numerics::log_of_one_plus<Real>(0), 0);

@@ -40,7 +40,7 @@ TEST(BuildCase, SeedDecidesThePlaces) {
 TEST(BuildCase, EveryScalarGetsTheSamePlaces) {
   const auto s = spec(testing::batch(30, "4 mm", "diameter_spread = \"0.2 mm\"\nrandom_speed = \"2 m/s\"\n"));
   const auto narrow = build_case<double>(s);
-  const auto wide = build_case<mpfr50>(s);
+  const auto wide = build_case<mpfr>(s);
   for (std::size_t k = 0; k < 30; ++k)
     for (int axis = 0; axis < 3; ++axis) {
       EXPECT_NEAR(narrow.states[k].position[axis], static_cast<double>(wide.states[k].position[axis]), 1e-16);
@@ -49,10 +49,10 @@ TEST(BuildCase, EveryScalarGetsTheSamePlaces) {
 }
 
 TEST(BuildCase, MassesAreDensityTimesVolume) {
-  const auto built = build_case<mpfr50>(spec(testing::batch(1, "9.52 mm")));
+  const auto built = build_case<mpfr>(spec(testing::batch(1, "9.52 mm")));
   // Table 5.1 of the thesis: 3.614 g.
-  const mpfr50 expected = mpfr50(8000) * numerics::pi<mpfr50>() / 6 * pow(mpfr50("0.00952"), 3);
-  EXPECT_LT(abs(built.the_case.balls[0].mass - expected), mpfr50("1e-50"));
+  const mpfr expected = mpfr(8000) * numerics::pi<mpfr>() / 6 * pow(mpfr("0.00952"), 3);
+  EXPECT_LT(abs(built.the_case.balls[0].mass - expected), mpfr("1e-50"));
   EXPECT_NEAR(static_cast<double>(expected), 3.614e-3, 1e-6);
 }
 
@@ -73,18 +73,18 @@ TEST(BuildCase, FinalStateContinuesTheRunExactly) {
   // A run of 0.2 s, and one of 0.1 s continued from its final state: the same trajectory except for the
   // rounding of advancing every ball at 0.1 s, so the first events after it agree closely.
   const auto s = spec(testing::batch(5, "9.52 mm"), "end_time = \"0.1 s\"");
-  const auto built = build_case<mpfr50>(s);
-  engine::Simulation<mpfr50> whole(built.the_case, built.states, built.start);
-  whole.run_until(whole.clock().at(mpfr50("0.1")));
-  std::vector<model::BallState<mpfr50>> states;
+  const auto built = build_case<mpfr>(s);
+  engine::Simulation<mpfr> whole(built.the_case, built.states, built.start);
+  whole.run_until(whole.clock().at(mpfr("0.1")));
+  std::vector<model::BallState<mpfr>> states;
   for (int k = 0; k < 5; ++k) states.push_back(whole.state_at(k, whole.now()));
-  engine::Simulation<mpfr50> rest(built.the_case, states, whole.now());
-  whole.run_until(whole.clock().at(mpfr50("0.11")));
-  rest.run_until(rest.clock().at(mpfr50("0.11")));
+  engine::Simulation<mpfr> rest(built.the_case, states, whole.now());
+  whole.run_until(whole.clock().at(mpfr("0.11")));
+  rest.run_until(rest.clock().at(mpfr("0.11")));
   for (int k = 0; k < 5; ++k)
-    EXPECT_LT(norm<mpfr50>(Vec3<mpfr50>(whole.state_at(k, whole.now()).position -
-                                        rest.state_at(k, rest.now()).position)),
-              mpfr50("1e-30"));
+    EXPECT_LT(norm<mpfr>(Vec3<mpfr>(whole.state_at(k, whole.now()).position -
+                                    rest.state_at(k, rest.now()).position)),
+              mpfr("1e-30"));
 }
 
 template <class Real>
@@ -115,13 +115,14 @@ void expect_reduced_exactly() {
 TEST(Instants, ALateInstantIsReducedExactly) {
   expect_reduced_exactly<double>();
   expect_reduced_exactly<float128>();
-  expect_reduced_exactly<mpfr50>();
+  expect_reduced_exactly<mpfr>();
 }
 
 /// A speed in rad/s makes the period a multiple of pi: 1e6 s at 100 rad/s are 1e8 / (2 pi) periods.
 TEST(Instants, ALateInstantOfAnIrrationalPeriodIsReducedToTheLastDigit) {
-  const mpfr200 period = 2 * numerics::pi<mpfr200>() / 100, count = floor(mpfr200(mpfr200(1000000) / period));
-  const mpfr200 offset = 1000000 - count * period;
+  using Exact = mpfr_of<200>;
+  const Exact period = 2 * numerics::pi<Exact>() / 100, count = floor(Exact(Exact(1000000) / period));
+  const Exact offset = 1000000 - count * period;
   EXPECT_EQ(start_at<double>("1e6 s", "100 rad/s").period, static_cast<std::int64_t>(count));
   EXPECT_EQ(start_at<double>("1e6 s", "100 rad/s").offset, static_cast<double>(offset));
   EXPECT_EQ(start_at<float128>("1e6 s", "100 rad/s").offset, static_cast<float128>(offset));
@@ -167,7 +168,8 @@ TEST(BuildCase, WholeTurnsOfConstantAnglesAndPhasesAreDroppedExactly) {
                        const std::string& less_phase) {
     expect_same_poses<double>(turned(angle, phase), turned(less, less_phase));
     expect_same_poses<float128>(turned(angle, phase), turned(less, less_phase));
-    expect_same_poses<mpfr200>(turned(angle, phase), turned(less, less_phase));
+    const mpfr::Digits digits(200);
+    expect_same_poses<mpfr>(turned(angle, phase), turned(less, less_phase));
   };
   same("240278471 deg", "720000000324 deg", "71 deg", "324 deg");
   same("360000000000030.5 deg", "-719 deg", "30.5 deg", "1 deg");
@@ -177,10 +179,11 @@ TEST(BuildCase, WholeTurnsOfConstantAnglesAndPhasesAreDroppedExactly) {
 /// 1e9 rad are no rational part of a turn: 1e9 - 159154943 * 2 pi rad.
 TEST(BuildCase, WholeTurnsOfRadiansAreDroppedToTheLastDigit) {
   const auto mill = build_mill<double>(parse_case(turned("1e9 rad", "0 deg"), "turned.toml"));
-  const mpfr200 turns = mpfr200(1000000000) / (2 * numerics::pi<mpfr200>());
+  const mpfr::Digits digits(200);
+  const mpfr turns = mpfr(1000000000) / (2 * numerics::pi<mpfr>());
   const auto* chain = mill.motion.get_if<model::ChainMotion<double>>();
   ASSERT_TRUE(chain);
-  EXPECT_EQ(chain->joints().list[1].angle, static_cast<double>(mpfr200(turns - floor(turns))));
+  EXPECT_EQ(chain->joints().list[1].angle, static_cast<double>(turns - floor(turns)));
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ struct PairWatch : engine::Observer<Real> {
 
 template <class Real>
 class MaterialsOf : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float128, mpfr50>;
+using Scalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(MaterialsOf, Scalars);
 
 TYPED_TEST(MaterialsOf, EveryImpactFollowsTheLawOfItsPair) {
@@ -184,11 +184,11 @@ TEST(Laws, KeepTheirPointsExact) {
                                    "[contact]\nmodel = \"restitution-by-speed\"\nfriction = 0.4\n"
                                    "restitution_by_speed = [[\"10 cm/s\", 0.9], [\"2 m/s\", 0.7]]\n",
                                "case.toml");
-  const auto built = casefile::build_case<mpfr50>(spec).the_case;
-  const auto& law = std::get<model::RestitutionBySpeed<mpfr50>>(built.mill.ball_wall.law);
+  const auto built = casefile::build_case<mpfr>(spec).the_case;
+  const auto& law = std::get<model::RestitutionBySpeed<mpfr>>(built.mill.ball_wall.law);
   ASSERT_EQ(law.points.size(), 2u);
-  EXPECT_EQ(law.points[0][0], mpfr50(1) / 10);
-  EXPECT_EQ(law.points[1][1], mpfr50(7) / 10);
+  EXPECT_EQ(law.points[0][0], mpfr(1) / 10);
+  EXPECT_EQ(law.points[1][1], mpfr(7) / 10);
 }
 
 }  // namespace

@@ -206,18 +206,18 @@ TEST(Quantity, DecimalsAreExact) {
 
 TEST(Quantity, WideScalarsGetEveryDigit) {
   const Quantity tenth = parsed("0.1 m", D::length);
-  EXPECT_EQ(tenth.to<mpfr50>(), mpfr50(1) / 10);
+  EXPECT_EQ(tenth.to<mpfr>(), mpfr(1) / 10);
   EXPECT_EQ(tenth.to<float128>(), float128(1) / 10);
   EXPECT_EQ(tenth.to<double>(), 0.1);
-  EXPECT_NE(tenth.to<mpfr50>(), mpfr50(0.1));
-  EXPECT_EQ(parsed("4.76 mm", D::length).to<mpfr50>(), mpfr50(476) / 100000);
+  EXPECT_NE(tenth.to<mpfr>(), mpfr(0.1));
+  EXPECT_EQ(parsed("4.76 mm", D::length).to<mpfr>(), mpfr(476) / 100000);
   EXPECT_EQ(parsed("4.76 mm", D::length).to<float128>(), float128(476) / 100000);
 }
 
 TEST(Quantity, AnglesInWideScalarsUseAsManyDigitsOfPi) {
-  const mpfr50 pi("3.14159265358979323846264338327950288419716939937510582097494459");
-  EXPECT_LT(abs(parsed("15 deg", D::angle).to<mpfr50>() - pi / 12), mpfr50("1e-49"));
-  EXPECT_LT(abs(mpfr50(parsed("15 deg", D::angle).to<float128>()) - pi / 12), mpfr50("1e-33"));
+  const mpfr pi("3.14159265358979323846264338327950288419716939937510582097494459");
+  EXPECT_LT(abs(parsed("15 deg", D::angle).to<mpfr>() - pi / 12), mpfr("1e-49"));
+  EXPECT_LT(abs(mpfr(parsed("15 deg", D::angle).to<float128>()) - pi / 12), mpfr("1e-33"));
   EXPECT_EQ(parsed("180 deg", D::angle).to<double>(), 3.141592653589793);
 }
 

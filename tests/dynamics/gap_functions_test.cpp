@@ -52,28 +52,28 @@ INSTANTIATE_TEST_SUITE_P(GapFunctions, GapErrorsAtArm, ::testing::Values("0.1", 
 TEST_P(GapErrorsAtArm, RoundingErrorsStayBelowTheirBounds) {
   const auto mill = mill_with_arm<double>(GetParam());
   const auto constants = testing::moving(mill);
-  const auto wide_mill = model::mill_cast<mpfr50>(mill);
+  const auto wide_mill = model::mill_cast<mpfr>(mill);
   const auto wide_constants = testing::moving(wide_mill);
   casefile::Random random(21);
   double worst_gap = 0, worst_rate = 0, worst_curvature = 0;
   for (int k = 0; k < 20000; ++k) {
     const GapFlight r(random, mill, 10);
     const testing::GeneralFunctions<double> narrow(constants, r.flight, r.radius, r.period);
-    const testing::GeneralFunctions<mpfr50> exact(wide_constants, flight_cast<mpfr50>(r.flight),
-                                                  mpfr50(r.radius), r.period);
+    const testing::GeneralFunctions<mpfr> exact(wide_constants, flight_cast<mpfr>(r.flight), mpfr(r.radius),
+                                                r.period);
     const auto found = narrow.start(r.offset);
-    const auto truth = exact.start(mpfr50(r.offset));
+    const auto truth = exact.start(mpfr(r.offset));
     const double elapsed = narrow.elapsed(r.offset);
     const double speed = norm<double>(r.flight.velocity) + constants.gravity_size * elapsed;
     const auto bound = narrow.errors(elapsed, speed);
     for (int w = 0; w < mill.vessel.wall_count(); ++w) {
       worst_gap =
-          std::max(worst_gap, static_cast<double>(abs(mpfr50(found.gap[w]) - truth.gap[w])) / bound.gap[w]);
-      worst_rate = std::max(worst_rate,
-                            static_cast<double>(abs(mpfr50(found.rate[w]) - truth.rate[w])) / bound.rate[w]);
-      worst_curvature = std::max(
-          worst_curvature,
-          static_cast<double>(abs(mpfr50(found.curvature[w]) - truth.curvature[w])) / bound.curvature[w]);
+          std::max(worst_gap, static_cast<double>(abs(mpfr(found.gap[w]) - truth.gap[w])) / bound.gap[w]);
+      worst_rate =
+          std::max(worst_rate, static_cast<double>(abs(mpfr(found.rate[w]) - truth.rate[w])) / bound.rate[w]);
+      worst_curvature =
+          std::max(worst_curvature, static_cast<double>(abs(mpfr(found.curvature[w]) - truth.curvature[w])) /
+                                        bound.curvature[w]);
     }
   }
   std::cout << "largest error over its bound: gap " << worst_gap << ", rate " << worst_rate << ", curvature "
@@ -87,7 +87,7 @@ TEST_P(GapErrorsAtArm, RoundingErrorsStayBelowTheirBounds) {
 }
 
 TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
-  const auto wide_mill = testing::spex_mill<mpfr50>();
+  const auto wide_mill = testing::spex_mill<mpfr>();
   const auto mill = model::mill_cast<double>(wide_mill);
   const auto constants = testing::moving(mill);
   const auto wide_constants = testing::moving(wide_mill);
@@ -96,40 +96,38 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
   for (int k = 0; k < 50000; ++k) {
     const GapFlight r(random, mill, 10);
     // Digits below those of double, anywhere up to half a unit in the last place.
-    const auto more = [&](double x) {
-      return mpfr50(x) * (1 + mpfr50(random.symmetric<double>()) * 0x1p-54);
-    };
-    auto wide = flight_cast<mpfr50>(r.flight);
+    const auto more = [&](double x) { return mpfr(x) * (1 + mpfr(random.symmetric<double>()) * 0x1p-54); };
+    auto wide = flight_cast<mpfr>(r.flight);
     for (int n = 0; n < 3; ++n) {
       wide.position[n] = more(r.flight.position[n]);
       wide.velocity[n] = more(r.flight.velocity[n]);
     }
     wide.start.offset = more(r.flight.start.offset);
-    const mpfr50 radius = more(r.radius);
+    const mpfr radius = more(r.radius);
     const testing::GeneralFunctions<double> narrow(constants, flight_cast<double>(wide),
                                                    static_cast<double>(radius), r.period);
-    const testing::GeneralFunctions<mpfr50> exact(wide_constants, wide, radius, r.period);
+    const testing::GeneralFunctions<mpfr> exact(wide_constants, wide, radius, r.period);
     const auto found = narrow.start(r.offset);
-    const auto truth = exact.start(mpfr50(r.offset));
+    const auto truth = exact.start(mpfr(r.offset));
     const double elapsed = narrow.elapsed(r.offset);
     const double speed = norm<double>(r.flight.velocity) + constants.gravity_size * elapsed;
     const auto own = narrow.errors(elapsed, speed), state = narrow.state_errors(elapsed, speed);
     const auto bound = own + state;
     // The effect of the state alone, in 50 digits.
-    const auto rounded_constants = testing::moving(model::mill_cast<mpfr50>(mill));
+    const auto rounded_constants = testing::moving(model::mill_cast<mpfr>(mill));
     const auto moved =
-        testing::GeneralFunctions<mpfr50>(rounded_constants, flight_cast<mpfr50>(flight_cast<double>(wide)),
-                                          mpfr50(static_cast<double>(radius)), r.period)
-            .start(mpfr50(r.offset));
-    const auto part = [](const mpfr50& a, const mpfr50& b, double limit) {
+        testing::GeneralFunctions<mpfr>(rounded_constants, flight_cast<mpfr>(flight_cast<double>(wide)),
+                                        mpfr(static_cast<double>(radius)), r.period)
+            .start(mpfr(r.offset));
+    const auto part = [](const mpfr& a, const mpfr& b, double limit) {
       return static_cast<double>(abs(a - b)) / limit;
     };
     for (int w = 0; w < mill.vessel.wall_count(); ++w) {
-      EXPECT_LT(part(mpfr50(found.gap[w]), truth.gap[w], bound.gap[w]), 1);
-      EXPECT_LT(part(mpfr50(found.rate[w]), truth.rate[w], bound.rate[w]), 1);
+      EXPECT_LT(part(mpfr(found.gap[w]), truth.gap[w], bound.gap[w]), 1);
+      EXPECT_LT(part(mpfr(found.rate[w]), truth.rate[w], bound.rate[w]), 1);
       worst_gap = std::max(worst_gap, part(moved.gap[w], truth.gap[w], state.gap[w]));
       worst_rate = std::max(worst_rate, part(moved.rate[w], truth.rate[w], state.rate[w]));
-      EXPECT_LT(part(mpfr50(found.curvature[w]), truth.curvature[w], bound.curvature[w]), 1);
+      EXPECT_LT(part(mpfr(found.curvature[w]), truth.curvature[w], bound.curvature[w]), 1);
       worst_curvature =
           std::max(worst_curvature, part(moved.curvature[w], truth.curvature[w], state.curvature[w]));
     }
@@ -143,16 +141,16 @@ TEST(GapFunctions, ErrorsOfRoundedStatesStayBelowTheirBounds) {
 }
 
 /// Central differences of the gap in 50 digits.
-std::array<mpfr50, 3> derivatives(const testing::GeneralFunctions<mpfr50>& f, const mpfr50& t, int wall) {
-  const mpfr50 h("1e-8");
+std::array<mpfr, 3> derivatives(const testing::GeneralFunctions<mpfr>& f, const mpfr& t, int wall) {
+  const mpfr h("1e-8");
   const auto g = [&](int k) { return f(t + k * h).gap[wall]; };
-  const mpfr50 h2 = h * h;
+  const mpfr h2 = h * h;
   return {(g(1) - 2 * g(0) + g(-1)) / h2, (g(2) - 2 * g(1) + 2 * g(-1) - g(-2)) / (2 * h2 * h),
           (g(2) - 4 * g(1) + 6 * g(0) - 4 * g(-1) + g(-2)) / (h2 * h2)};
 }
 
 TEST(MotionBounds, DerivativesOfTheGapsStayBelowTheirBounds) {
-  const auto mill = testing::spex_mill<mpfr50>();
+  const auto mill = testing::spex_mill<mpfr>();
   const auto narrow_mill = testing::spex_mill<double>();
   const auto constants = testing::moving(mill);
   const BoundsTable table(testing::moving(narrow_mill));
@@ -161,12 +159,12 @@ TEST(MotionBounds, DerivativesOfTheGapsStayBelowTheirBounds) {
   for (int k = 0; k < 5000; ++k) {
     const GapFlight r(random, narrow_mill, 10);
     const double length = table.longest_window() * (0.01 + 0.99 * random.uniform<double>());
-    const testing::GeneralFunctions<mpfr50> f(constants, flight_cast<mpfr50>(r.flight), mpfr50(r.radius),
-                                              r.flight.start.period);
+    const testing::GeneralFunctions<mpfr> f(constants, flight_cast<mpfr>(r.flight), mpfr(r.radius),
+                                            r.flight.start.period);
     const double speed = norm<double>(r.flight.velocity) + 9.8 * length;
     const auto bound = table.at(speed, length);
     for (int step = 0; step <= 4; ++step) {
-      const mpfr50 t = mpfr50(r.flight.start.offset) + mpfr50(length) * step / 4;
+      const mpfr t = mpfr(r.flight.start.offset) + mpfr(length) * step / 4;
       const auto y = derivatives(f, t, 0), q = derivatives(f, t, 2);
       for (int n = 0; n < 3; ++n) {
         worst_y[n] = std::max(worst_y[n], static_cast<double>(abs(y[n])) / bound[0][n]);

@@ -14,24 +14,27 @@ namespace edmill::dynamics {
 namespace {
 
 /// First contact by (3.1) in 200 digits from `now` on, which may be in the past by rounding [s].
-std::optional<mpfr200> exact_delay(const Flight<double>& i, const Flight<double>& j,
-                                   const Instant<double>& now, double radius_sum,
-                                   const model::Mill<double>& mill) {
-  const auto wide = [](const Vec3<double>& v) { return vector_cast<mpfr200>(v); };
+std::optional<mpfr_of<200>> exact_delay(const Flight<double>& i, const Flight<double>& j,
+                                        const Instant<double>& now, double radius_sum,
+                                        const model::Mill<double>& mill) {
+  const auto wide = [](const Vec3<double>& v) { return vector_cast<mpfr_of<200>>(v); };
   const auto age = [&](const Flight<double>& f) {
-    return mpfr200(now.period - f.start.period) * mpfr200(mill.motion.period()) +
-           (mpfr200(now.offset) - mpfr200(f.start.offset));
+    return mpfr_of<200>(now.period - f.start.period) * mpfr_of<200>(mill.motion.period()) +
+           (mpfr_of<200>(now.offset) - mpfr_of<200>(f.start.offset));
   };
-  const Vec3<mpfr200> g = wide(mill.gravity);
+  const Vec3<mpfr_of<200>> g = wide(mill.gravity);
   const auto at = [&](const Flight<double>& f) {
-    return Vec3<mpfr200>(wide(f.position) + wide(f.velocity) * age(f) + g * (age(f) * age(f) / 2));
+    return Vec3<mpfr_of<200>>(wide(f.position) + wide(f.velocity) * age(f) + g * (age(f) * age(f) / 2));
   };
-  const auto speed = [&](const Flight<double>& f) { return Vec3<mpfr200>(wide(f.velocity) + g * age(f)); };
-  const Vec3<mpfr200> r = at(i) - at(j), v = speed(i) - speed(j);
-  const mpfr200 b = r.dot(v), c = r.dot(r) - mpfr200(radius_sum) * mpfr200(radius_sum), v2 = v.dot(v);
-  const mpfr200 discriminant = b * b - v2 * c;
+  const auto speed = [&](const Flight<double>& f) {
+    return Vec3<mpfr_of<200>>(wide(f.velocity) + g * age(f));
+  };
+  const Vec3<mpfr_of<200>> r = at(i) - at(j), v = speed(i) - speed(j);
+  const mpfr_of<200> b = r.dot(v), c = r.dot(r) - mpfr_of<200>(radius_sum) * mpfr_of<200>(radius_sum),
+                     v2 = v.dot(v);
+  const mpfr_of<200> discriminant = b * b - v2 * c;
   if (discriminant < 0 || b >= 0) return std::nullopt;
-  return mpfr200(c / (sqrt(discriminant) - b));
+  return mpfr_of<200>(c / (sqrt(discriminant) - b));
 }
 
 TEST(PairSearch, TheErrorOfATimeStaysBelowItsBound) {
@@ -65,7 +68,8 @@ TEST(PairSearch, TheErrorOfATimeStaysBelowItsBound) {
       const auto exact = exact_delay(i, j, now, 2 * radius, mill);
       ASSERT_TRUE(exact.has_value());
       ++contacts;
-      worst = std::max(worst, static_cast<double>(abs(mpfr200(answer.delay) - *exact)) / answer.time_error);
+      worst =
+          std::max(worst, static_cast<double>(abs(mpfr_of<200>(answer.delay) - *exact)) / answer.time_error);
     }
     std::cout << "radius " << radius << " m: " << contacts << " contacts, largest error over its bound "
               << worst << "\n";
@@ -87,7 +91,7 @@ TEST(PairSearch, AGrazingContactIsTimedByAWiderScalar) {
   ASSERT_EQ(answer.verdict, Verdict::contact);
   EXPECT_EQ(ladder.escalations()[0].pair, 1u);
   const auto exact = exact_delay(i, j, now, 0.004, mill);
-  EXPECT_LE(static_cast<double>(abs(mpfr200(answer.delay) - *exact)), answer.time_error);
+  EXPECT_LE(static_cast<double>(abs(mpfr_of<200>(answer.delay) - *exact)), answer.time_error);
   EXPECT_LE(4 * answer.time_error, ladder.tie_window());
 }
 

@@ -115,7 +115,7 @@ TEST_P(AnyRun, AWiderScalarMakesTheSameFirstImpacts) {
   };
   const auto narrow = first(double{});
   const auto wide = first(float128{});
-  const auto widest = first(mpfr50{});
+  const auto widest = first(mpfr{});
   const std::size_t count = std::min({narrow.size(), wide.size(), widest.size(), std::size_t{60}});
   EXPECT_GT(count, 20u);
   for (std::size_t k = 0; k < count; ++k) {

@@ -118,7 +118,7 @@ TEST(Checkpoint, GoesOnWithTheSameBitsInFloat128) {
   expect_same_course<float128>(testing::demo_spec(), 60, 120, 500);
 }
 TEST(Checkpoint, GoesOnWithTheSameBitsInMpfr50) {
-  expect_same_course<mpfr50>(testing::demo_spec(), 60, 120, 500);
+  expect_same_course<mpfr>(testing::demo_spec(), 60, 120, 500);
 }
 TEST(Checkpoint, GoesOnWithTheSameBitsInDoubleWithCells) {
   expect_same_course<double>(many_balls(500), 100, 200, 10000);
@@ -127,7 +127,7 @@ TEST(Checkpoint, GoesOnWithTheSameBitsInFloat128WithCells) {
   expect_same_course<float128>(many_balls(100), 30, 60, 200);
 }
 TEST(Checkpoint, GoesOnWithTheSameBitsInMpfr50WithCells) {
-  expect_same_course<mpfr50>(many_balls(100), 30, 60, 200);
+  expect_same_course<mpfr>(many_balls(100), 30, 60, 200);
 }
 TEST(Checkpoint, KeepsTheOrderOfEventsAtTheSameTime) {
   Followed<double> probe(crystal());

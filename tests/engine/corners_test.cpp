@@ -269,7 +269,7 @@ struct FirstImpact : Observer<Real> {
 
 template <class Real>
 class CornersTest : public ::testing::Test {};
-using CornerScalars = ::testing::Types<double, float128, mpfr50>;
+using CornerScalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(CornersTest, CornerScalars);
 
 TYPED_TEST(CornersTest, AreDecidedAsTheirExactStatesSay) {

@@ -141,7 +141,7 @@ struct FewImpacts : Observer<Real> {
 
 template <class Real>
 class ExactZeros : public ::testing::Test {};
-using ZeroScalars = ::testing::Types<double, float128, mpfr50>;
+using ZeroScalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(ExactZeros, ZeroScalars);
 
 TYPED_TEST(ExactZeros, AreDecidedAsWholeNumbersSay) {

@@ -253,7 +253,7 @@ TYPED_TEST(NearTies, OfTwoWallsTheEarlierCollides) {
 
 template <class Real>
 class ExactTies : public ::testing::Test {};
-using AllScalars = ::testing::Types<double, float128, mpfr50>;
+using AllScalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(ExactTies, AllScalars);
 
 /// Two balls hit a third at once from both sides: lower numbers first, and the impact says so.

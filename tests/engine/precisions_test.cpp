@@ -53,7 +53,7 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
   constexpr std::uint64_t count = 6000;
   const auto narrow = impacts_of<double>(spec, states, count);
   const auto quad = impacts_of<float128>(spec, states, count);
-  const auto wide = impacts_of<mpfr50>(spec, states, count);
+  const auto wide = impacts_of<mpfr>(spec, states, count);
 
   const auto first = common_length(narrow, quad), second = common_length(quad, wide);
   std::cout << "double and float128 have " << first << " events in common, float128 and mpfr50 " << second
@@ -63,9 +63,9 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
 
   // Rounding is the only difference: float128 and mpfr50 times of each ball's first five collisions agree.
   std::map<int, int> collisions;
-  const DriveClock<mpfr50> clock(casefile::build_mill<mpfr50>(spec).motion.period());
+  const DriveClock<mpfr> clock(casefile::build_mill<mpfr>(spec).motion.period());
   const DriveClock<float128> quad_clock(casefile::build_mill<float128>(spec).motion.period());
-  mpfr50 worst(0);
+  mpfr worst(0);
   int compared = 0;
   for (std::size_t k = 0; k < second; ++k) {
     const auto& impact = quad[k];
@@ -73,12 +73,12 @@ TEST(Precisions, EventSequencesAgreeUntilRoundingSeparatesThem) {
     const int count_two = impact.with_wall ? count_one : ++collisions[impact.partner];
     if (count_one > 5 && count_two > 5) continue;
     ++compared;
-    const mpfr50 difference = abs(mpfr50(quad_clock.seconds(impact.time)) - clock.seconds(wide[k].time));
+    const mpfr difference = abs(mpfr(quad_clock.seconds(impact.time)) - clock.seconds(wide[k].time));
     worst = difference > worst ? difference : worst;
   }
   std::cout << compared << " events compared, worst difference " << worst.str(3) << " s\n";
   for (int ball = 0; ball < 28; ++ball) EXPECT_GE(collisions[ball], 5) << "ball " << ball;
-  EXPECT_LT(worst, mpfr50("1e-28"));
+  EXPECT_LT(worst, mpfr("1e-28"));
 }
 
 /// Radii that no scalar holds exactly: a value that passed through a narrower scalar would show in
@@ -94,11 +94,11 @@ Real deepest_overlap(double end) {
 
 TEST(Precisions, OverlapsAreOfTheRoundingOfTheScalar) {
   const float128 quad = deepest_overlap<float128>(0.1);
-  const mpfr50 wide = deepest_overlap<mpfr50>(0.1);
+  const mpfr wide = deepest_overlap<mpfr>(0.1);
   std::cout << "deepest overlap: float128 " << to_text(quad) << " m, mpfr50 " << to_text(wide) << " m\n";
   // 1 m represents the reach of the mill, 16 roundings of it a contact.
   EXPECT_LT(quad, 16 * epsilon<float128>());
-  EXPECT_LT(wide, 16 * epsilon<mpfr50>());
+  EXPECT_LT(wide, 16 * epsilon<mpfr>());
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ struct Rested : Observer<Real> {
 
 template <class Real>
 class StallRules : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float128, mpfr50>;
+using Scalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(StallRules, Scalars);
 
 /// A ball between a piston and a wall: its flights become shorter and shorter. The rule is the same in every

@@ -15,7 +15,7 @@ namespace {
 
 template <class Real>
 class FinalState : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float128, mpfr50>;
+using Scalars = ::testing::Types<double, float128, mpfr>;
 TYPED_TEST_SUITE(FinalState, Scalars);
 
 TYPED_TEST(FinalState, ReadsBackEveryBit) {

@@ -28,10 +28,10 @@ TEST(Table, TitlesHaveUnitsAndCommentsComeFirst) {
 }
 
 TEST(Table, NumbersHaveAllDigitsOfTheirScalar) {
-  Table<mpfr50> table({{"third", Type::number}});
-  const mpfr50 third = mpfr50(1) / 3;
+  Table<mpfr> table({{"third", Type::number}});
+  const mpfr third = mpfr(1) / 3;
   table.put(third);
-  EXPECT_EQ(table.csv_rows(), to_text<mpfr50>(third) + "\n");
+  EXPECT_EQ(table.csv_rows(), to_text<mpfr>(third) + "\n");
 }
 
 TEST(Table, ARowIsFilledFromLeftToRight) {
@@ -79,15 +79,15 @@ class TableInHdf5 : public ::testing::Test {
 };
 
 TEST_F(TableInHdf5, ColumnsHaveTheTypeOfTheirCells) {
-  Table<mpfr50> table({{"text", Type::text},
-                       {"flag", Type::text},
-                       {"count", Type::integer},
-                       {"whole", Type::number},
-                       {"nearly", Type::number},
-                       {"gap", Type::number}});
-  const mpfr50 little("1e-40");
-  table.put("below", "1", 3, mpfr50(4), mpfr50(4 + little), mpfr50(5));
-  table.put("2", "0", 4, mpfr50(-5), mpfr50(6), std::optional<mpfr50>());
+  Table<mpfr> table({{"text", Type::text},
+                     {"flag", Type::text},
+                     {"count", Type::integer},
+                     {"whole", Type::number},
+                     {"nearly", Type::number},
+                     {"gap", Type::number}});
+  const mpfr little("1e-40");
+  table.put("below", "1", 3, mpfr(4), mpfr(4 + little), mpfr(5));
+  table.put("2", "0", 4, mpfr(-5), mpfr(6), std::optional<mpfr>());
   store(table);
   EXPECT_EQ(type_of("text"), H5T_STRING);
   EXPECT_EQ(type_of("flag"), H5T_INTEGER);

@@ -50,33 +50,33 @@ TEST(TurnFraction, IsExactForAnyNumberOfPeriods) {
     turns -= whole;
     for (int step = 0; step < 2 && turns > cpp_rational(1, 2); ++step) turns -= 1;
     for (int step = 0; step < 2 && turns < cpp_rational(-1, 2); ++step) turns += 1;
-    const mpfr200 exact =
-        mpfr200(boost::multiprecision::numerator(turns)) / mpfr200(boost::multiprecision::denominator(turns));
-    const auto off = [&](const mpfr200& found) {  // as an angle: -1/2 and 1/2 are one
-      const mpfr200 d = abs(found - exact);
-      return static_cast<double>(d < 1 - d ? d : mpfr200(1 - d));
+    using Exact = mpfr_of<200>;
+    const Exact exact =
+        Exact(boost::multiprecision::numerator(turns)) / Exact(boost::multiprecision::denominator(turns));
+    const auto off = [&](const Exact& found) {  // as an angle: -1/2 and 1/2 are one
+      const Exact d = abs(found - exact);
+      return static_cast<double>(d < 1 - d ? d : Exact(1 - d));
     };
-    ASSERT_LE(off(mpfr200(fraction.times<double>(count))), 0x1p-53);
-    ASSERT_LE(off(mpfr200(fraction.times<float128>(count))), 0x1p-113);
-    ASSERT_LE(off(mpfr200(fraction.times<mpfr50>(count))), 1e-49);
+    ASSERT_LE(off(Exact(fraction.times<double>(count))), 0x1p-53);
+    ASSERT_LE(off(Exact(fraction.times<float128>(count))), 0x1p-113);
+    ASSERT_LE(off(Exact(fraction.times<mpfr50>(count))), 1e-49);
   }
 }
 
 /// A slide on an arm that turns about z: the centre is on a spiral, r = a + v t.
 TEST(Chain, ASlideOnAnArmMakesASpiral) {
-  const auto motion = motion_of<mpfr50>(
+  const auto motion = motion_of<mpfr>(
       "type = \"chain\"\n[[mill.joint]]\nrotate = \"z\"\nspeed = \"90 rpm\"\n[[mill.joint]]\n"
       "translate = \"x\"\ndistance = \"20 mm\"\nspeed = \"-0.07 m/s\"");
-  const mpfr50 w = 3 * numerics::pi<mpfr50>(), v("-0.07");
+  const mpfr w = 3 * numerics::pi<mpfr>(), v("-0.07");
   for (const int k : {0, 1, 2}) {
-    const mpfr50 offset = motion.period() * k / 3, t = offset + k * motion.period(),
-                 r = mpfr50("0.02") + v * t;
-    const auto pose = std::get<ChainPose<mpfr50>>(motion.pose({k, offset}));
-    const Vec3<mpfr50> out{cos(w * t), sin(w * t), mpfr50(0)}, along{-sin(w * t), cos(w * t), mpfr50(0)};
-    EXPECT_LT(static_cast<double>(distance<mpfr50>(pose.centre, out * r)), 1e-47);
-    EXPECT_LT(static_cast<double>(distance<mpfr50>(pose.velocity, out * v + along * mpfr50(r * w))), 1e-46);
+    const mpfr offset = motion.period() * k / 3, t = offset + k * motion.period(), r = mpfr("0.02") + v * t;
+    const auto pose = std::get<ChainPose<mpfr>>(motion.pose({k, offset}));
+    const Vec3<mpfr> out{cos(w * t), sin(w * t), mpfr(0)}, along{-sin(w * t), cos(w * t), mpfr(0)};
+    EXPECT_LT(static_cast<double>(distance<mpfr>(pose.centre, out * r)), 1e-47);
+    EXPECT_LT(static_cast<double>(distance<mpfr>(pose.velocity, out * v + along * mpfr(r * w))), 1e-46);
     EXPECT_LT(static_cast<double>(
-                  distance<mpfr50>(pose.acceleration, along * mpfr50(2 * v * w) - out * mpfr50(r * w * w))),
+                  distance<mpfr>(pose.acceleration, along * mpfr(2 * v * w) - out * mpfr(r * w * w))),
               1e-45);
   }
 }
@@ -84,20 +84,20 @@ TEST(Chain, ASlideOnAnArmMakesASpiral) {
 /// Vertical is Y: the jar's centre runs on a circle about it, a point of the jar on an epicycle.
 TEST(Chain, APlanetaryJarRunsOnItsEpicycle) {
   const auto motion =
-      motion_of<mpfr50>("type = \"planetary\"\nradius = \"75 mm\"\nspeed = \"400 rpm\"\nratio = -2.18");
-  const mpfr50 pi = numerics::pi<mpfr50>(), disc = 2 * pi * 400 / 60, jar = disc * mpfr50("-1.18");
-  const mpfr50 radius("0.075"), r("0.013"), h("0.02");
+      motion_of<mpfr>("type = \"planetary\"\nradius = \"75 mm\"\nspeed = \"400 rpm\"\nratio = -2.18");
+  const mpfr pi = numerics::pi<mpfr>(), disc = 2 * pi * 400 / 60, jar = disc * mpfr("-1.18");
+  const mpfr radius("0.075"), r("0.013"), h("0.02");
   for (const int k : {0, 1, 7, 100}) {
-    const mpfr50 offset = motion.period() * k / 101, t = offset + k * motion.period();
+    const mpfr offset = motion.period() * k / 101, t = offset + k * motion.period();
     const auto pose = motion.pose({k, offset});
     // About Y from z to x: x = cos, z = -sin.
-    const Vec3<mpfr50> expected{radius * cos(disc * t) + r * cos(jar * t), h,
-                                -radius * sin(disc * t) - r * sin(jar * t)};
-    const Vec3<mpfr50> velocity{-radius * disc * sin(disc * t) - r * jar * sin(jar * t), mpfr50(0),
-                                -radius * disc * cos(disc * t) - r * jar * cos(jar * t)};
-    const Vec3<mpfr50> point = motion.to_inertial(pose, Vec3<mpfr50>{r, h, mpfr50(0)});
-    EXPECT_LT(static_cast<double>(distance<mpfr50>(point, expected)), 1e-47);
-    EXPECT_LT(static_cast<double>(distance<mpfr50>(motion.wall_velocity(pose, point), velocity)), 1e-45);
+    const Vec3<mpfr> expected{radius * cos(disc * t) + r * cos(jar * t), h,
+                              -radius * sin(disc * t) - r * sin(jar * t)};
+    const Vec3<mpfr> velocity{-radius * disc * sin(disc * t) - r * jar * sin(jar * t), mpfr(0),
+                              -radius * disc * cos(disc * t) - r * jar * cos(jar * t)};
+    const Vec3<mpfr> point = motion.to_inertial(pose, Vec3<mpfr>{r, h, mpfr(0)});
+    EXPECT_LT(static_cast<double>(distance<mpfr>(point, expected)), 1e-47);
+    EXPECT_LT(static_cast<double>(distance<mpfr>(motion.wall_velocity(pose, point), velocity)), 1e-45);
   }
 }
 
@@ -131,7 +131,7 @@ TEST(Chain, ADrumTurnsAboutItsHorizontalAxis) {
 
 TEST(Chain, TheSpexAsAChainIsTheSpex) {
   const std::string speed = ", speed = \"1098 rpm\"";
-  const auto chain = motion_of<mpfr50>(
+  const auto chain = motion_of<mpfr>(
       "type = \"chain\"\n[[mill.joint]]\nrotate = \"z\"\nangle = \"90 deg\"\nswing = [{amplitude = \"15 "
       "deg\"" +
       speed +
@@ -139,20 +139,20 @@ TEST(Chain, TheSpexAsAChainIsTheSpex) {
       "\"x\"\n"
       "swing = [{amplitude = \"15 deg\"" +
       speed + "}]");
-  const auto spex = motion_of<mpfr50>("type = \"spex8000\"");
+  const auto spex = motion_of<mpfr>("type = \"spex8000\"");
   EXPECT_EQ(chain.period(), spex.period());
-  const Vec3<mpfr50> p{mpfr50("0.01"), mpfr50("-0.02"), mpfr50("0.003")};
+  const Vec3<mpfr> p{mpfr("0.01"), mpfr("-0.02"), mpfr("0.003")};
   for (int k = 0; k < 20; ++k) {
-    const Instant<mpfr50> when{k, spex.period() * k / 20};
+    const Instant<mpfr> when{k, spex.period() * k / 20};
     const auto a = chain.pose(when);
     const auto b = spex.pose(when);
-    const Vec3<mpfr50> place = spex.to_inertial(b, p);
-    EXPECT_LT(static_cast<double>(distance<mpfr50>(chain.to_inertial(a, p), place)), 1e-47);
+    const Vec3<mpfr> place = spex.to_inertial(b, p);
+    EXPECT_LT(static_cast<double>(distance<mpfr>(chain.to_inertial(a, p), place)), 1e-47);
     EXPECT_LT(
-        static_cast<double>(distance<mpfr50>(chain.wall_velocity(a, place), spex.wall_velocity(b, place))),
+        static_cast<double>(distance<mpfr>(chain.wall_velocity(a, place), spex.wall_velocity(b, place))),
         1e-45);
     EXPECT_LT(static_cast<double>(
-                  distance<mpfr50>(chain.wall_acceleration(a, place), spex.wall_acceleration(b, place))),
+                  distance<mpfr>(chain.wall_acceleration(a, place), spex.wall_acceleration(b, place))),
               1e-43);
   }
 }
@@ -162,7 +162,8 @@ TEST(Chain, TheSpexAsAChainIsTheSpex) {
 TEST(Chain, PhasesStaySharp) {
   const auto narrow = motion_of<double>(testing::skew_chain);
   const auto wide = motion_of<float128>(testing::skew_chain);
-  const auto exact = motion_of<mpfr200>(testing::skew_chain);
+  const mpfr::Digits digits(200);
+  const auto exact = motion_of<mpfr>(testing::skew_chain);
   const auto periods = static_cast<std::int64_t>(1e6 / narrow.period());
   const Vec3<double> p{0.01, -0.02, 0.015};
   double first = 0, late = 0, late_wide = 0;
@@ -171,9 +172,9 @@ TEST(Chain, PhasesStaySharp) {
       const double offset = narrow.period() * k / 500;
       const auto place = narrow.to_inertial(narrow.pose({period, offset}), p);
       const auto wider = wide.to_inertial(wide.pose({period, float128(offset)}), vector_cast<float128>(p));
-      const auto truth = exact.to_inertial(exact.pose({period, mpfr200(offset)}), vector_cast<mpfr200>(p));
-      const double off = static_cast<double>(distance<mpfr200>(vector_cast<mpfr200>(place), truth));
-      const double off_wide = static_cast<double>(distance<mpfr200>(vector_cast<mpfr200>(wider), truth));
+      const auto truth = exact.to_inertial(exact.pose({period, mpfr(offset)}), vector_cast<mpfr>(p));
+      const double off = static_cast<double>(distance<mpfr>(vector_cast<mpfr>(place), truth));
+      const double off_wide = static_cast<double>(distance<mpfr>(vector_cast<mpfr>(wider), truth));
       (period == 0 ? first : late) = std::max(period == 0 ? first : late, off);
       if (period != 0) late_wide = std::max(late_wide, off_wide);
     }

@@ -16,32 +16,32 @@ using testing::draw_vector;
 /// Derivative of a function of time by a central difference with two Richardson steps, in 50 digits: error of
 /// order h^6, far below the comparison's tolerance.
 template <class Function>
-Vec3<mpfr50> derivative(Function&& f, const mpfr50& t) {
-  const mpfr50 h("1e-7");
-  const auto central = [&](const mpfr50& step) {
-    return Vec3<mpfr50>((f(t + step) - f(t - step)) * (1 / (2 * step)));
+Vec3<mpfr> derivative(Function&& f, const mpfr& t) {
+  const mpfr h("1e-7");
+  const auto central = [&](const mpfr& step) {
+    return Vec3<mpfr>((f(t + step) - f(t - step)) * (1 / (2 * step)));
   };
-  const Vec3<mpfr50> a = central(h), b = central(h / 2), c = central(h / 4);
-  const Vec3<mpfr50> ab = (b * mpfr50(4) - a) * (mpfr50(1) / 3), bc = (c * mpfr50(4) - b) * (mpfr50(1) / 3);
-  return (bc * mpfr50(16) - ab) * (mpfr50(1) / 15);
+  const Vec3<mpfr> a = central(h), b = central(h / 2), c = central(h / 4);
+  const Vec3<mpfr> ab = (b * mpfr(4) - a) * (mpfr(1) / 3), bc = (c * mpfr(4) - b) * (mpfr(1) / 3);
+  return (bc * mpfr(16) - ab) * (mpfr(1) / 15);
 }
 
-const SpexMotion<mpfr50>& spex() {
-  static const SpexMotion<mpfr50> motion = *testing::spex_mill<mpfr50>().motion.get_if<SpexMotion<mpfr50>>();
+const SpexMotion<mpfr>& spex() {
+  static const SpexMotion<mpfr> motion = *testing::spex_mill<mpfr>().motion.get_if<SpexMotion<mpfr>>();
   return motion;
 }
 
-Vec3<mpfr50> wall_point(const mpfr50& t, const Vec3<mpfr50>& p) {
+Vec3<mpfr> wall_point(const mpfr& t, const Vec3<mpfr>& p) {
   return spex().to_inertial(spex().pose({0, t}), p);
 }
 
 TEST(SpexMotion, WallVelocityIsTheDerivativeOfTheWallPosition) {
   EXPECT_TRUE(rc::check([] {
-    const Vec3<mpfr50> p = draw_vector<mpfr50>(mpfr50("0.03"));
-    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period());
-    const auto expected = derivative([&](const mpfr50& s) { return wall_point(s, p); }, t);
+    const Vec3<mpfr> p = draw_vector<mpfr>(mpfr("0.03"));
+    const mpfr t = draw<mpfr>(mpfr(0), spex().period());
+    const auto expected = derivative([&](const mpfr& s) { return wall_point(s, p); }, t);
     const auto found = spex().wall_velocity(spex().pose({0, t}), wall_point(t, p));
-    RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(found - expected)) < mpfr50("1e-30"));
+    RC_ASSERT(norm<mpfr>(Vec3<mpfr>(found - expected)) < mpfr("1e-30"));
   }));
 }
 
@@ -74,70 +74,70 @@ void expect_nearby_poses_agree() {
 
 TEST(SpexMotion, PosesNearbyAgreeWithPosesFromSines) {
   expect_nearby_poses_agree<float128>();
-  expect_nearby_poses_agree<mpfr50>();
+  expect_nearby_poses_agree<mpfr>();
 }
 
 TEST(SpexMotion, WallAccelerationIsTheDerivativeOfTheWallVelocity) {
   EXPECT_TRUE(rc::check([] {
-    const Vec3<mpfr50> p = draw_vector<mpfr50>(mpfr50("0.03"));
-    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period());
-    const auto velocity = [&](const mpfr50& s) {
+    const Vec3<mpfr> p = draw_vector<mpfr>(mpfr("0.03"));
+    const mpfr t = draw<mpfr>(mpfr(0), spex().period());
+    const auto velocity = [&](const mpfr& s) {
       return spex().wall_velocity(spex().pose({0, s}), wall_point(s, p));
     };
     const auto found = spex().wall_acceleration(spex().pose({0, t}), wall_point(t, p));
-    RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(found - derivative(velocity, t))) < mpfr50("1e-27"));
+    RC_ASSERT(norm<mpfr>(Vec3<mpfr>(found - derivative(velocity, t))) < mpfr("1e-27"));
   }));
 }
 
 TEST(SpexMotion, VesselFrameRatesAreTheDerivativesOfVesselFramePositions) {
   EXPECT_TRUE(rc::check([] {
-    const Vec3<mpfr50> r = draw_vector<mpfr50>(mpfr50("0.15")), v = draw_vector<mpfr50>(mpfr50(5));
-    const mpfr50 t = draw<mpfr50>(mpfr50(0), spex().period());
-    const auto local = [&](const mpfr50& s) {
-      return spex().to_vessel_frame(spex().pose({0, s}), Vec3<mpfr50>(r + v * (s - t)), v).position;
+    const Vec3<mpfr> r = draw_vector<mpfr>(mpfr("0.15")), v = draw_vector<mpfr>(mpfr(5));
+    const mpfr t = draw<mpfr>(mpfr(0), spex().period());
+    const auto local = [&](const mpfr& s) {
+      return spex().to_vessel_frame(spex().pose({0, s}), Vec3<mpfr>(r + v * (s - t)), v).position;
     };
     const auto found = spex().to_vessel_frame(spex().pose({0, t}), r, v).velocity;
-    RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(found - derivative(local, t))) < mpfr50("1e-30"));
+    RC_ASSERT(norm<mpfr>(Vec3<mpfr>(found - derivative(local, t))) < mpfr("1e-30"));
   }));
 }
 
 TEST(SpexMotion, VesselFrameAndInertialFrameAreInverse) {
   EXPECT_TRUE(rc::check([] {
-    const Vec3<mpfr50> p = draw_vector<mpfr50>(mpfr50("0.03"));
-    const auto pose = spex().pose({0, draw<mpfr50>(mpfr50(0), spex().period())});
-    const auto back = spex().to_vessel_frame(pose, spex().to_inertial(pose, p),
-                                             Vec3<mpfr50>(mpfr50(0), mpfr50(0), mpfr50(0)));
-    RC_ASSERT(norm<mpfr50>(Vec3<mpfr50>(back.position - p)) < mpfr50("1e-49"));
+    const Vec3<mpfr> p = draw_vector<mpfr>(mpfr("0.03"));
+    const auto pose = spex().pose({0, draw<mpfr>(mpfr(0), spex().period())});
+    const auto back =
+        spex().to_vessel_frame(pose, spex().to_inertial(pose, p), Vec3<mpfr>(mpfr(0), mpfr(0), mpfr(0)));
+    RC_ASSERT(norm<mpfr>(Vec3<mpfr>(back.position - p)) < mpfr("1e-49"));
   }));
 }
 
 /// The printed (2.14), R_x(gamma) R_z(theta), about the centre (2.15).
-Vec3<mpfr50> printed_position(const mpfr50& t, const Vec3<mpfr50>& p) {
+Vec3<mpfr> printed_position(const mpfr& t, const Vec3<mpfr>& p) {
   const auto pose = spex().pose({0, t});
-  const mpfr50 sin_theta = pose.cos_alpha, cos_theta = -pose.sin_alpha;
-  const mpfr50 &sg = pose.sin_gamma, &cg = pose.cos_gamma, &l = spex().arm();
+  const mpfr sin_theta = pose.cos_alpha, cos_theta = -pose.sin_alpha;
+  const mpfr &sg = pose.sin_gamma, &cg = pose.cos_gamma, &l = spex().arm();
   return {l * cos_theta + cos_theta * p[0] - sin_theta * p[1],
           l * sin_theta + sin_theta * cg * p[0] + cos_theta * cg * p[1] - sg * p[2],
           sin_theta * sg * p[0] + cos_theta * sg * p[1] + cg * p[2]};
 }
 
 TEST(SpexMotionErrata, PrintedVelocityIsNotTheDerivativeOfThePrintedPosition) {
-  const Vec3<mpfr50> p(mpfr50("0.01"), mpfr50("0.02"), mpfr50("0.005"));
-  mpfr50 worst_printed(0), worst_nested(0);
+  const Vec3<mpfr> p(mpfr("0.01"), mpfr("0.02"), mpfr("0.005"));
+  mpfr worst_printed(0), worst_nested(0);
   for (int k = 0; k < 32; ++k) {
-    const mpfr50 t = spex().period() * k / 32;
+    const mpfr t = spex().period() * k / 32;
     const auto pose = spex().pose({0, t});
     const auto error = [&](auto&& position) {
       const auto velocity = spex().wall_velocity(pose, position(t));
-      return norm<mpfr50>(Vec3<mpfr50>(velocity - derivative(position, t)));
+      return norm<mpfr>(Vec3<mpfr>(velocity - derivative(position, t)));
     };
-    const mpfr50 printed = error([&](const mpfr50& s) { return printed_position(s, p); });
-    const mpfr50 nested = error([&](const mpfr50& s) { return wall_point(s, p); });
+    const mpfr printed = error([&](const mpfr& s) { return printed_position(s, p); });
+    const mpfr nested = error([&](const mpfr& s) { return wall_point(s, p); });
     worst_printed = printed > worst_printed ? printed : worst_printed;
     worst_nested = nested > worst_nested ? nested : worst_nested;
   }
-  EXPECT_GT(worst_printed, mpfr50("0.1"));  // metres per second
-  EXPECT_LT(worst_nested, mpfr50("1e-30"));
+  EXPECT_GT(worst_printed, mpfr("0.1"));  // metres per second
+  EXPECT_LT(worst_nested, mpfr("1e-30"));
 }
 
 TEST(SpexMotion, PoseIsTheThesisAnglesAtKnownPhases) {

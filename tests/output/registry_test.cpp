@@ -56,7 +56,7 @@ TEST_F(OutputRegistry, EveryTypeIsReadAndMade) {
     // A snapshot is made of an impact.
     EXPECT_EQ(std::filesystem::exists(scratch / output.file), type.name != "snapshot") << type.name;
     std::filesystem::remove(scratch / output.file);
-    commit_all<mpfr50>(spec);
+    commit_all<mpfr>(spec);
     EXPECT_EQ(std::filesystem::exists(scratch / output.file), type.name != "snapshot") << type.name;
   }
 }

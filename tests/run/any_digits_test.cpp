@@ -21,7 +21,6 @@ TEST(RunInAnyDigits, HasTheMotionOfOneInMore) {
   const auto the_case = Case::parse(
       testing::spex_text("end_time = \"0.03 s\"", "restitution = 0.53", testing::batch(28, "4.76 mm")),
       "demo.toml");
-  const auto fixed = end_of<mpfr200>(the_case);
   std::vector<mpfr> chosen, more;
   {
     const mpfr::Digits digits(200);
@@ -29,9 +28,8 @@ TEST(RunInAnyDigits, HasTheMotionOfOneInMore) {
   }
   const mpfr::Digits digits(1200);
   more = end_of<mpfr>(the_case);
-  ASSERT_EQ(fixed.size(), more.size());
+  ASSERT_EQ(chosen.size(), more.size());
   for (std::size_t k = 0; k < more.size(); ++k) {
-    EXPECT_LT(abs(to_mpfr(fixed[k]) - more[k]), mpfr(std::string("1e-190"))) << k;
     EXPECT_LT(abs(chosen[k] - more[k]), mpfr(std::string("1e-190"))) << k;
   }
 }

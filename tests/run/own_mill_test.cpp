@@ -79,9 +79,9 @@ TEST(OwnMill, ACylinderOfPolynomialsIsThatOfTheCase) {
   OwnParts<double> own;
   own.vessel = cylinder<double>(0.019, 0.0285);
   expect_alike(impacts_of<double>(the_case, {}, 150), impacts_of<double>(the_case, own, 150), 1e-9);
-  OwnParts<mpfr50> wide;
-  wide.vessel = cylinder<mpfr50>(mpfr50("0.019"), mpfr50("0.0285"));
-  expect_alike(impacts_of<mpfr50>(the_case, {}, 40), impacts_of<mpfr50>(the_case, wide, 40), 1e-15);
+  OwnParts<mpfr> wide;
+  wide.vessel = cylinder<mpfr>(mpfr("0.019"), mpfr("0.0285"));
+  expect_alike(impacts_of<mpfr>(the_case, {}, 40), impacts_of<mpfr>(the_case, wide, 40), 1e-15);
 }
 
 /// The table turns once, the jar -3.18 times on it and so -2.18 times on the ground.

@@ -197,7 +197,7 @@ TEST(Kinematics, PointsOfTheVesselMoveAsTheSeriesSay) {
   claim.say(std::to_string(count) + " random mills, points and times, seed " + std::to_string(seed));
   compare<double>(8);
   compare<float128>(8);
-  compare<mpfr50>(8);
+  compare<mpfr>(8);
 }
 
 /// What one kilogram carried by the vessel's point p is booked as wall work in one drive period: the integral
@@ -210,16 +210,16 @@ exact booked_work(const model::SpexMotion<exact>& m, const Vec3<exact>& p, bool 
     const exact t = m.period() * k / steps;
     const Vector place = as_printed ? printed(m, t, p) : nested(m, t, p);
     // The solver's own velocity, in 50 digits.
-    const auto narrow = widened<mpfr50>(m);
-    const auto pose = narrow.pose({0, mpfr50(t)});
-    const Vec3<mpfr50> wall = narrow.wall_velocity(pose, vector_cast<mpfr50>(derivative(place, 0)));
+    const auto narrow = widened<mpfr>(m);
+    const auto pose = narrow.pose({0, mpfr(t)});
+    const Vec3<mpfr> wall = narrow.wall_velocity(pose, vector_cast<mpfr>(derivative(place, 0)));
     work += dot<exact>(Vec3<exact>(derivative(place, 2) - gravity), vector_cast<exact>(wall));
   }
   return work * m.period() / steps;
 }
 
 TEST(Kinematics, ThePrintedOrderOfRotationsCreatesEnergy) {
-  const auto m = widened<exact>(*testing::spex_mill<mpfr50>().motion.get_if<model::SpexMotion<mpfr50>>());
+  const auto m = widened<exact>(*testing::spex_mill<mpfr>().motion.get_if<model::SpexMotion<mpfr>>());
   const Vec3<exact> p(exact("0.01"), exact("0.02"), exact("0.005"));
   exact apart(0), faster(0);
   for (int k = 0; k < 256; ++k) {
@@ -227,9 +227,8 @@ TEST(Kinematics, ThePrintedOrderOfRotationsCreatesEnergy) {
     const Vector a = nested(m, t, p), b = printed(m, t, p);
     raise(apart, distance(derivative(a, 0), derivative(b, 0)));
     // Printed velocity: that of the nested model at the printed place.
-    const auto narrow = widened<mpfr50>(m);
-    const auto wall =
-        narrow.wall_velocity(narrow.pose({0, mpfr50(t)}), vector_cast<mpfr50>(derivative(b, 0)));
+    const auto narrow = widened<mpfr>(m);
+    const auto wall = narrow.wall_velocity(narrow.pose({0, mpfr(t)}), vector_cast<mpfr>(derivative(b, 0)));
     raise(faster, distance(vector_cast<exact>(wall), derivative(b, 1)));
   }
   claim.at_least("printed (2.14) puts the point (10, 20, 5) mm off by", apart, 1e-3, " m");

@@ -90,7 +90,7 @@ TEST(BouncingBall, HeightsAndTimesAreTheClosedForms) {
   // The Zeno time is as good as an interval at which the hop is a million roundings u D of a position: that
   // is known to 1e-6 of itself, 5e-21 s, and enters (1 + e)/(1 - e) = 19 times.
   expect_closed_forms<float128>(1e-32, 1e-30, 1e-19);
-  expect_closed_forms<mpfr50>(1e-47, 1e-45, 1e-28);
+  expect_closed_forms<mpfr>(1e-47, 1e-45, 1e-28);
 }
 
 /// MFIX DEM02: diameter 0.2 m, 2600 kg/m3, centre at 0.5 m above the floor, hard-sphere heights of the centre
@@ -232,7 +232,7 @@ TEST(BouncingBall, ASwingingCapFollowsAnExactMap) {
   claim.say("map: 80 bounces in " + Claim::text(static_cast<double>(map.back())) + " s");
   expect_followed<double>(map, 10, 1e-9, 12);
   expect_followed<float128>(map, 30, 1e-15, 50);
-  expect_followed<mpfr50>(map, 45, 1e-30, 80);
+  expect_followed<mpfr>(map, 45, 1e-30, 80);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ void register_spex() {
   }
   add("scalar/double/demo", 400, [](benchmark::State& s) { spex<double>(s, demo); });
   add("scalar/float128/demo", 200, [](benchmark::State& s) { spex<float128>(s, demo); });
-  add("scalar/mpfr50/demo", 100, [](benchmark::State& s) { spex<mpfr50>(s, demo); });
+  add("scalar/mpfr50/demo", 100, [](benchmark::State& s) { spex<mpfr>(s, demo); });
 }
 
 void register_still_gas() {

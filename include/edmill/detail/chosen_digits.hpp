@@ -1,9 +1,12 @@
 // A scalar of MPFR whose digits are chosen at run time.
 #pragma once
 
+#include <gmp.h>
 #include <mpfr.h>
 
+#include <algorithm>
 #include <compare>
+#include <iterator>
 #include <limits>
 #include <ostream>
 #include <stdexcept>
@@ -14,17 +17,17 @@
 namespace edmill {
 
 /// A binary floating-point number of MPFR. Every operation rounds to nearest, to the digits that the thread
-/// has chosen with `mpfr::Digits`; what is only stored, copied or converted from a narrower type keeps all
-/// its bits.
+/// has chosen with `mpfr::Digits`, 50 at first; what is only stored, copied or converted from a narrower type
+/// keeps all its bits. Significands of up to 256 bits are part of the number, longer ones are allocated.
 class mpfr {
  public:
   /// Chooses the digits of the thread until the end of the scope.
   class Digits {
    public:
-    /// @param shown  of them stand in files and texts: all, and as many more as it takes to read them back,
-    /// unless given
+    /// @param shown  digits in files and texts; by default as many as it takes to read a number back
     explicit Digits(unsigned decimal, unsigned shown = 0) : before_(chosen()) {
-      chosen() = {decimal, shown > 0 ? shown : decimal + 3, bits_of(decimal)};
+      const mpfr_prec_t bits = bits_of(decimal);
+      chosen() = {decimal, shown > 0 ? shown : shown_of(bits), bits};
     }
     ~Digits() { chosen() = before_; }
     Digits(const Digits&) = delete;
@@ -37,12 +40,15 @@ class mpfr {
       mpfr_prec_t bits;
     };
     /// As many as scalars of a fixed number of digits have, mpfr50 for example.
-    static mpfr_prec_t bits_of(unsigned decimal) {
+    static constexpr mpfr_prec_t bits_of(unsigned decimal) {
       const long long thousand = 1000LL * decimal;
       return static_cast<mpfr_prec_t>(thousand / 301 + (thousand % 301 != 0 ? 2 : 1));
     }
+    static constexpr unsigned shown_of(mpfr_prec_t bits) {
+      return static_cast<unsigned>(static_cast<double>(bits) * 0.30103) + 2;
+    }
     static Chosen& chosen() {
-      static thread_local Chosen now{50, 53, bits_of(50)};
+      static constinit thread_local Chosen now{50, shown_of(bits_of(50)), bits_of(50)};
       return now;
     }
     Chosen before_;
@@ -59,53 +65,68 @@ class mpfr {
   requires std::is_arithmetic_v<T> mpfr(
       T value) {  // NOLINT(google-explicit-constructor): exact, as from int to double
     if constexpr (std::is_floating_point_v<T>) {
-      mpfr_init2(n_, 53);
+      make(53);
       mpfr_set_d(n_, static_cast<double>(value), MPFR_RNDN);
-    } else if constexpr (std::is_signed_v<T>) {
-      mpfr_init2(n_, 64);
-      mpfr_set_si(n_, value, MPFR_RNDN);
     } else {
-      mpfr_init2(n_, 64);
-      mpfr_set_ui(n_, value, MPFR_RNDN);
+      make(64);
+      if constexpr (std::is_signed_v<T>)
+        mpfr_set_si(n_, value, MPFR_RNDN);
+      else
+        mpfr_set_ui(n_, value, MPFR_RNDN);
     }
   }
   /// @throws std::runtime_error when the text is not a number
   explicit mpfr(const std::string& text) {
-    mpfr_init2(n_, bits());
+    make(bits());
     if (mpfr_set_str(n_, text.c_str(), 10, MPFR_RNDN) == 0) return;
-    mpfr_clear(n_);
+    drop();
     throw std::runtime_error("not a number: '" + text + "'");
   }
   explicit mpfr(mpfr_srcptr number) {
-    mpfr_init2(n_, mpfr_get_prec(number));
+    make(mpfr_get_prec(number));
     mpfr_set(n_, number, MPFR_RNDN);
   }
-  mpfr(const mpfr& o) : mpfr(o.data()) {}
+  mpfr(const mpfr& o) {
+    if (o.is_inside()) {
+      take_inside(o);
+    } else {
+      make(mpfr_get_prec(o.n_));
+      mpfr_set(n_, o.n_, MPFR_RNDN);
+    }
+  }
   mpfr(mpfr&& o) noexcept {
-    n_[0] = o.n_[0];
-    o.n_[0]._mpfr_d = nullptr;
+    n_[0]._mpfr_d = nullptr;
+    take(o);
   }
-  ~mpfr() {
-    if (n_[0]._mpfr_d) mpfr_clear(n_);
-  }
+  ~mpfr() { drop(); }
   mpfr& operator=(const mpfr& o) {
     if (this == &o) return *this;
-    if (!n_[0]._mpfr_d) mpfr_init2(n_, mpfr_get_prec(o.n_));
-    if (mpfr_get_prec(n_) != mpfr_get_prec(o.n_)) mpfr_set_prec(n_, mpfr_get_prec(o.n_));
-    mpfr_set(n_, o.n_, MPFR_RNDN);
+    if (o.is_inside()) {
+      drop();
+      take_inside(o);
+    } else {
+      set_precision(mpfr_get_prec(o.n_));
+      mpfr_set(n_, o.n_, MPFR_RNDN);
+    }
     return *this;
   }
   mpfr& operator=(mpfr&& o) noexcept {
-    std::swap(n_[0], o.n_[0]);
+    if (this != &o) take(o);
     return *this;
   }
 
   mpfr_ptr data() { return n_; }
   mpfr_srcptr data() const { return n_; }
+  /// For a result of MPFR's functions that is set next: the number has no value.
+  void set_precision(mpfr_prec_t bits) {
+    if (n_[0]._mpfr_d && mpfr_get_prec(n_) == bits) return;
+    drop();
+    make(bits);
+  }
   /// Rounded to the digits of the thread.
   mpfr rounded() const { return of(mpfr_set, data()); }
-  /// In `digits` significant decimal digits, as printf's %g has them; as many as tell it from others of its
-  /// bits unless given.
+  /// In `digits` significant decimal digits, as printf's %g has them; by default as many as distinguish it
+  /// from others of its bits.
   std::string str(int digits = 0, bool scientific = false) const {
     if (digits == 0) digits = static_cast<int>(static_cast<double>(mpfr_get_prec(n_)) * 0.30103) + 2;
     const char* format = scientific ? "%.*Re" : "%.*Rg";
@@ -158,8 +179,10 @@ class mpfr {
   friend bool operator==(const mpfr& a, const mpfr& b) { return mpfr_equal_p(a.n_, b.n_) != 0; }
 
  private:
+  static constexpr mpfr_prec_t most_inside = 256;  ///< bits
+
   struct Unset {};
-  explicit mpfr(Unset) { mpfr_init2(n_, bits()); }
+  explicit mpfr(Unset) { make(bits()); }
   template <class Function>
   mpfr& into(const Function& function, const mpfr& b) {
     if (mpfr_get_prec(n_) == bits())
@@ -169,7 +192,30 @@ class mpfr {
     return *this;
   }
 
+  bool is_inside() const { return n_[0]._mpfr_d == inside_; }
+  void make(mpfr_prec_t bits) {
+    if (bits <= most_inside)
+      mpfr_custom_init_set(n_, MPFR_NAN_KIND, 0, bits, inside_);
+    else
+      mpfr_init2(n_, bits);
+  }
+  void drop() {
+    if (n_[0]._mpfr_d && !is_inside()) mpfr_clear(n_);
+  }
+  void take_inside(const mpfr& o) {
+    n_[0] = o.n_[0];
+    n_[0]._mpfr_d = inside_;
+    std::copy(std::begin(o.inside_), std::end(o.inside_), inside_);
+  }
+  void take(mpfr& o) {
+    drop();
+    if (o.is_inside()) return take_inside(o);
+    n_[0] = o.n_[0];
+    o.n_[0]._mpfr_d = nullptr;
+  }
+
   mpfr_t n_;
+  mp_limb_t inside_[most_inside / GMP_NUMB_BITS];  ///< uninitialised like any number
 };
 
 inline mpfr abs(const mpfr& x) { return mpfr::of(mpfr_abs, x.data()); }
@@ -189,7 +235,7 @@ inline mpfr ldexp(const mpfr& x, int exponent) { return mpfr::of(mpfr_mul_2si, x
 inline mpfr frexp(const mpfr& x, int* exponent) {
   mpfr_exp_t e = 0;
   mpfr result;
-  mpfr_set_prec(result.data(), mpfr_get_prec(x.data()));
+  result.set_precision(mpfr_get_prec(x.data()));
   mpfr_frexp(&e, result.data(), x.data(), MPFR_RNDN);
   *exponent = static_cast<int>(e);
   return result;
