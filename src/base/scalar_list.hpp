@@ -1,7 +1,6 @@
 // The scalars of the core, in one place. Heavy: include it only where wide scalars are named.
 #pragma once
 
-#include <algorithm>
 #include <boost/math/tools/precision.hpp>
 #include <boost/multiprecision/eigen.hpp>
 #if defined(EDMILL_WITHOUT_MPFR)
@@ -90,9 +89,8 @@ struct ScalarName<mpfr> {
 };
 template <>
 inline std::string scalar_name<mpfr>() {
-  const auto digits = std::to_string(mpfr::digits());
-  const bool named = std::ranges::count(named_digits, mpfr::digits()) > 0;
-  return (named ? "mpfr" : "mpfr:") + digits;
+  const auto digits = std::to_string(mpfr::digits()), name = "mpfr" + digits;
+  return chosen_digits_of(name) > 0 ? name : "mpfr:" + digits;
 }
 template <>
 inline mpfr epsilon<mpfr>() {

@@ -123,8 +123,7 @@ class WallSearch {
                                             const WallQuery<Real>& query, const Real& end,
                                             const Bracket& found) const;
   template <bool rounded>
-  Bracket isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
-                             const Point& right) const;
+  Bracket isolate_from_start(const Curve& curve, const Start& first, const Sample& last) const;
   Bracket isolate(const Curve& curve, Point left, const Point& right) const;
   std::optional<Bracket> isolate_hop(const Curve& curve, const Point& left, const Real& curvature,
                                      const Point& right) const;

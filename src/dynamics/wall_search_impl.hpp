@@ -127,16 +127,14 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
   for (int wall = 0; wall < model::function_count(mill_.vessel); ++wall) {
     if (!reachable[wall]) continue;
     const Curve curve = curve_of(wall, derivatives);
-    Bracket found =
-        isolate_from_start<rounded>(curve, curve.of(first), first.curvature[wall], curve.of(last));
-    if constexpr (!rounded)
-      if (found.verdict == Verdict::undecided || is_widest) [[unlikely]]
-        found = isolate_further(curve, first, last, query, end, found);
+    Bracket found = isolate_from_start<rounded>(curve, first, last);
+    if (!rounded && (found.verdict == Verdict::undecided || is_widest)) [[unlikely]]
+      found = isolate_further(curve, first, last, query, end, found);
     by_rule |= found.by_rule;
     if (found.verdict == Verdict::none) continue;
-    if (found.verdict == Verdict::undecided) return {Verdict::undecided};
     // Only a start that is outside for certain makes the bracket hold the wide root too.
-    if (rounded && !(found.left.value > curve.bounds.value_error)) return {Verdict::undecided};
+    const bool doubtful = rounded && !(found.left.value > curve.bounds.value_error);
+    if (found.verdict == Verdict::undecided || doubtful) return {Verdict::undecided};
     auto root = polish(curve, found);
     if (is_widest && !root) root = Root{found.left.t, found.right.t - found.left.t}, by_rule = true;
     if (!root) return {Verdict::undecided};
@@ -197,8 +195,10 @@ auto WallSearch<M, V>::sample_of_end(const Functions& functions, const Walls& re
 /// The first part of a window, where the second derivative is known too.
 template <model::Motion M, model::Vessel V>
 template <bool rounded>
-auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Point& start, const Real& curvature,
-                                          const Point& right) const -> Bracket {
+auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Start& first, const Sample& last) const
+    -> Bracket {
+  const Point start = curve.of(first), right = curve.of(last);
+  const Real& curvature = first.curvature[curve.wall];
   const Bounds& b = curve.bounds;
   if (start.value > b.value_error) return isolate(curve, start, right);
   const bool level = start.slope <= 2 * b.slope_error && start.slope >= -2 * b.slope_error;

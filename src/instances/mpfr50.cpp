@@ -6,11 +6,8 @@
 #include "dynamics/decision_ladder_impl.hpp"
 #include "dynamics/wall_search_impl.hpp"
 
-namespace edmill {
-
-template class dynamics::WallSearch<model::AnyMotion<mpfr50>, model::AnyVessel<mpfr50>>;
-template class dynamics::DecisionLadder<mpfr50>;
-template std::string to_text<mpfr50>(const mpfr50&);
-template mpfr50 casefile::Quantity::to<mpfr50>() const;
-
-}  // namespace edmill
+template class edmill::dynamics::WallSearch<edmill::model::AnyMotion<edmill::mpfr50>,
+                                            edmill::model::AnyVessel<edmill::mpfr50>>;
+template class edmill::dynamics::DecisionLadder<edmill::mpfr50>;
+template std::string edmill::to_text<edmill::mpfr50>(const edmill::mpfr50&);
+template edmill::mpfr50 edmill::casefile::Quantity::to<edmill::mpfr50>() const;
