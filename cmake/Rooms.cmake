@@ -1,20 +1,18 @@
 # Several sources in one compilation: most of the compile time of a small one goes into the headers that it shares with others.
-option(EDMILL_UNITY "compile sources without loops over impacts several at a time" ON)
+option(EDMILL_UNITY "compile sources of a room several at a time" ON)
 
-# edmill_library(name ROOMS room... LIGHT room... LOOPS room...): a static library of the sources of these folders of src/.
-# Dependencies between rooms go one way, which tests/architecture checks. Loops over impacts are in LOOPS alone, and where
-# edmill_optimise says so; the others are compiled with fewer optimisations, LIGHT ones several sources at a time.
+# edmill_library(name ROOMS room... LIGHT room...): a static library of the sources of these folders of src/. Dependencies between
+# rooms go one way, which tests/architecture checks. What edmill_optimise does not name is compiled with fewer optimisations, LIGHT
+# rooms several sources at a time.
 function(edmill_library name)
-  cmake_parse_arguments(ARG "" "" "ROOMS;LIGHT;LOOPS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "ROOMS;LIGHT" ${ARGN})
   add_library(${name} STATIC)
-  foreach(room ${ARG_ROOMS} ${ARG_LIGHT} ${ARG_LOOPS})
+  foreach(room ${ARG_ROOMS} ${ARG_LIGHT})
     file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
     list(FILTER of_room EXCLUDE REGEX "/main.cpp$")
     target_sources(${name} PRIVATE ${of_room})
     if(room IN_LIST ARG_LIGHT)
       edmill_group(${room} ${of_room})
-    elseif(room IN_LIST ARG_LOOPS)
-      edmill_optimise(${of_room})
     endif()
   endforeach()
   target_link_libraries(${name} PUBLIC edmill_settings)
@@ -46,7 +44,7 @@ else()
   set(edmill_wide_optimisation -O1)
 endif()
 
-# Sources that compile sooner at the price of speed, which MPFR takes nearly all of.
+# Sources that compile sooner at the price of speed, which MPFR and the arithmetic of binary128 take nearly all of.
 function(edmill_compile_fast)
   foreach(source ${ARGN})
     set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/${source} APPEND PROPERTY COMPILE_OPTIONS

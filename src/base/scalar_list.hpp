@@ -64,24 +64,29 @@ inline void archive_value(Archive& a, mpfr& value) {
   detail::archive_limbs(a, value.data());
 }
 
-/// A number of any scalar, exactly.
-inline mpfr to_mpfr(double value) { return mpfr(value); }
-inline mpfr to_mpfr(const mpfr& value) { return value; }
 template <unsigned digits>
-mpfr to_mpfr(const mpfr_of<digits>& value) {
-  return mpfr(value.backend().data());
-}
-inline mpfr to_mpfr(float128 value) {
-  mpfr sum(0);
-  sum.set_precision(113);
-  mpfr_set_zero(sum.data(), 1);
-  for (int part = 0; part < 3; ++part) {  // doubles of 53 bits
-    const auto leading = static_cast<double>(value);
-    mpfr_add_d(sum.data(), sum.data(), leading, MPFR_RNDN);
-    value -= leading;
+struct MpfrConversion<mpfr_of<digits>> {
+  static mpfr exact(const mpfr_of<digits>& value) { return mpfr(value.backend().data()); }
+  static mpfr_of<digits> rounded(const mpfr& value) {
+    mpfr_of<digits> result;
+    mpfr_set(result.backend().data(), value.data(), MPFR_RNDN);
+    return result;
   }
-  return sum;
-}
+};
+template <>
+struct MpfrConversion<float128> {
+  static mpfr exact(float128 value) {
+    mpfr sum;
+    sum.set_precision(113);
+    mpfr_set_zero(sum.data(), 1);
+    for (int part = 0; part < 3; ++part) {  // doubles of 53 bits
+      const auto leading = static_cast<double>(value);
+      mpfr_add_d(sum.data(), sum.data(), leading, MPFR_RNDN);
+      value -= leading;
+    }
+    return sum;
+  }
+};
 
 template <>
 struct ScalarName<mpfr> {

@@ -84,13 +84,6 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
       states.push_back(simulation_->state_at(k, simulation_->now()));
     return states;
   }
-  static Number number_of(const Real& value) {
-#if defined(EDMILL_WITHOUT_MPFR)
-    return Number(value);
-#else
-    return to_mpfr(value);
-#endif
-  }
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
     if (stop_rules_) {
       auto numbered = impact;
@@ -101,7 +94,7 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
     if (!wanted_) return;
     const auto record = record_of<Real>(impact, simulation);
     Event event{.ball = record.ball, .with_wall = record.with_wall, .partner = record.partner};
-    for (std::size_t k = 0; k < model::logged_count; ++k) event[k] = number_of(record[k]);
+    for (std::size_t k = 0; k < model::logged_count; ++k) event[k] = Number(record[k]);
     event.by_rule = record.by_rule;
     event.put_in_order();
     waiting_.push_back(event);

@@ -20,7 +20,7 @@ RC_GTEST_PROP(ChosenDigits, RoundAsTheScalarOfAsManyDigits, ()) {
   const double x = number(), y = number();
   const mpfr a = sqrt(abs(mpfr(x)) + 1) / 3, b = mpfr(y) / 7;
   const Boosts c = sqrt(abs(Boosts(x)) + 1) / 3, d = Boosts(y) / 7;
-  const auto same = [](const mpfr& one, const Boosts& other) { return one == to_mpfr(other); };
+  const auto same = [](const mpfr& one, const Boosts& other) { return one == mpfr(other); };
   RC_ASSERT(same(a, c) && same(b, d));
   RC_ASSERT(same(a + b, c + d) && same(a - b, c - d) && same(a * b, c * d));
   if (b != 0) RC_ASSERT(same(a / b, c / d));
@@ -42,7 +42,7 @@ RC_GTEST_PROP(ChosenDigits, KeepEveryBitOfNarrowerNumbers, ()) {
   const float128 wide = float128(x) / 3;
   RC_ASSERT(static_cast<double>(mpfr(x)) == x);
   const mpfr::Digits digits(40);
-  RC_ASSERT(to_mpfr(wide) - to_mpfr(Boosts(wide)) == 0);
+  RC_ASSERT(mpfr(wide) - mpfr(Boosts(wide)) == 0);
   RC_ASSERT(from_text<mpfr>(to_text<mpfr>(mpfr(x) / 3)) == mpfr(x) / 3);
 }
 

@@ -16,9 +16,13 @@
 
 namespace edmill {
 
+/// How a number of another library becomes an `mpfr`, exactly, and back, rounded: `exact`, `rounded`.
+template <class Number>
+struct MpfrConversion {};
+
 /// A binary floating-point number of MPFR. Every operation rounds to nearest, to the digits that the thread
 /// has chosen with `mpfr::Digits`, 50 at first; what is only stored, copied or converted from a narrower type
-/// keeps all its bits. Significands of up to 256 bits are part of the number, longer ones are allocated.
+/// keeps all its bits. Significands of up to 384 bits are part of the number, longer ones are allocated.
 class mpfr {
  public:
   /// Chooses the digits of the thread until the end of the scope.
@@ -86,6 +90,9 @@ class mpfr {
     make(mpfr_get_prec(number));
     mpfr_set(n_, number, MPFR_RNDN);
   }
+  template <class Number>
+  requires requires(const Number& x) { MpfrConversion<Number>::exact(x); }
+  explicit mpfr(const Number& number) : mpfr(MpfrConversion<Number>::exact(number)) {}
   mpfr(const mpfr& o) {
     if (o.is_inside()) {
       take_inside(o);
@@ -149,6 +156,10 @@ class mpfr {
       return static_cast<T>(mpfr_get_ui(n_, MPFR_RNDZ));
   }
 
+  template <class Number>
+  requires requires(const mpfr& x) { MpfrConversion<Number>::rounded(x); }
+  explicit operator Number() const { return MpfrConversion<Number>::rounded(*this); }
+
   /// The result of one of MPFR's functions at the digits of the thread.
   template <class Function, class... Arguments>
   static mpfr of(const Function& function, const Arguments&... arguments) {
@@ -179,7 +190,7 @@ class mpfr {
   friend bool operator==(const mpfr& a, const mpfr& b) { return mpfr_equal_p(a.n_, b.n_) != 0; }
 
  private:
-  static constexpr mpfr_prec_t most_inside = 256;  ///< bits
+  static constexpr mpfr_prec_t most_inside = 384;  ///< bits
 
   struct Unset {};
   explicit mpfr(Unset) { make(bits()); }
@@ -243,6 +254,8 @@ inline mpfr frexp(const mpfr& x, int* exponent) {
 /// The number lies below 2 to this power, and not below half of it. @pre not zero
 inline long exponent_of(const mpfr& x) { return mpfr_get_exp(x.data()); }
 inline bool isfinite(const mpfr& x) { return mpfr_number_p(x.data()) != 0; }
+inline bool isinf(const mpfr& x) { return mpfr_inf_p(x.data()) != 0; }
+inline bool signbit(const mpfr& x) { return mpfr_signbit(x.data()) != 0; }
 inline bool isnan(const mpfr& x) { return mpfr_nan_p(x.data()) != 0; }
 
 }  // namespace edmill
