@@ -51,7 +51,7 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
     std::vector<Number> numbers;
     for (const auto& state : states_now())
       for (const auto& vector : {state.position, state.velocity, state.spin})
-        for (int axis = 0; axis < 3; ++axis) numbers.push_back(number_of(vector[axis]));
+        for (int axis = 0; axis < 3; ++axis) numbers.push_back(Number(vector[axis]));
     return numbers;
   }
 
