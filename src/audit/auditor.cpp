@@ -120,33 +120,6 @@ void Auditor::find_wrong_balls(LoggedEvent& event) {
   }
 }
 
-void Auditor::complete_scene(const LoggedEvent& event, Scene& scene) const {
-  ContactGeometry& impact = scene.impact;
-  impact.with_wall = event.with_wall;
-  impact.ball[0] = ball(event.ball);
-  if (event.with_wall)
-    impact.wall = event.partner;
-  else
-    impact.ball[1] = ball(event.partner);
-  impact.set_masses();
-  impact.normal = {1, 0, 0};
-  if (!available_.positions(event.with_wall)) return;
-  if (event.with_wall) {
-    const double radius = impact.ball[0].radius;
-    const Vec& position = event.body[0].position;
-    impact.normal = wall_normal(scene.nested, case_.mill.vessel, event.partner, radius, position);
-    impact.bend = wall_bend(scene.nested, case_.mill.vessel, event.partner, radius, position);
-    impact.wall_velocity = wall_velocity(WallVelocity::nested, scene.nested, scene.printed,
-                                         event.body[0].position - impact.normal * impact.ball[0].radius,
-                                         event.body[0].position) +
-                           piston_velocity(scene.nested, impact.wall, impact.normal);
-  } else {
-    const Vec apart = event.body[0].position - event.body[1].position;
-    const double distance = size(apart);
-    if (distance > 0) impact.normal = apart * (1 / distance);
-  }
-}
-
 /// Notes how late an event is that does not come before its bodies touch.
 void Auditor::note_delay(const LoggedEvent& event, const Scene& scene, double depth) {
   if (!available_.velocities_before(event.with_wall)) return;
@@ -156,8 +129,9 @@ void Auditor::note_delay(const LoggedEvent& event, const Scene& scene, double de
 }
 
 auto Auditor::judge_touch(LoggedEvent& event, Scene& scene) -> Touch {
-  complete_scene(event, scene);
-  if (!available_.positions(event.with_wall)) return {};
+  const bool placed = available_.positions(event.with_wall);
+  scene.impact = geometry_of(event, case_, scene.nested, placed);
+  if (!placed) return {};
   if (event.with_wall) return judge_wall_touch(event, scene);
   findings_.judged(Check::touch);
   const double gap = size(Vec(event.body[0].position - event.body[1].position)) - ball(event.ball).radius -
@@ -206,16 +180,13 @@ auto Auditor::judge_off_the_wall(LoggedEvent& event, Scene& scene, double gap, d
     // The other checks use the wall as that code has it.
     scene.displaced = true;
     scene.impact.normal = wall_normal(scene.printed, vessel, event.partner, radius, position);
-    const Vec point = position - scene.impact.normal * radius;
-    scene.impact.wall_velocity =
-        wall_velocity(WallVelocity::nested, scene.nested, scene.printed, point, position) +
-        piston_velocity(scene.nested, event.partner, scene.impact.normal);
+    scene.impact.set_wall_velocity(WallVelocity::nested, scene.nested, scene.printed, position);
     return {gap < 0, true, true};
   }
   if (rotations_.is_suspected()) rotations_.contradicted();
   if (another_body_is_there(event, allowed, gap)) {
     if (!event.with_wall) return {false, false, false};  // the partner's state is not in the log
-    complete_scene(event, scene);
+    scene.impact = geometry_of(event, case_, scene.nested, true);
     return {};
   }
   findings_.add(off_the_wall);

@@ -48,16 +48,10 @@ class Auditor {
   Touch judge_off_the_wall(LoggedEvent& event, Scene& scene, double gap, double allowed);
   bool another_body_is_there(LoggedEvent& event, double allowed, double gap);
   void note_delay(const LoggedEvent& event, const Scene& scene, double depth);
-  void complete_scene(const LoggedEvent& event, Scene& scene) const;
   const model::BallProperties<double>& ball(int k) const { return case_.balls[static_cast<std::size_t>(k)]; }
   void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
             const char* note = "") {
     findings_.add(finding(kind, event, size, found, expected, note));
-  }
-  static Finding finding(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-                         const char* note = "", bool explained = false) {
-    return {kind,          size,  event.line, event.time, event.ball, event.with_wall,
-            event.partner, found, expected,   note,       explained};
   }
 
   const model::Case<double>& case_;

@@ -77,11 +77,8 @@ Ways ways_of(const KnownMistake& mistake, const LoggedEvent& event, const Scene&
   const bool with_wall = scene.impact.with_wall;
   if (mistake.where == (with_wall ? Where::balls : Where::walls)) return ways;
   ContactGeometry impact = scene.impact;
-  if (mistake.wall != WallVelocity::nested) {
-    const Vec centre = event.body[0].position, point = centre - impact.normal * impact.ball[0].radius;
-    impact.wall_velocity = wall_velocity(mistake.wall, scene.nested, scene.printed, point, centre) +
-                           piston_velocity(scene.nested, impact.wall, impact.normal);
-  }
+  if (mistake.wall != WallVelocity::nested)
+    impact.set_wall_velocity(mistake.wall, scene.nested, scene.printed, event.body[0].position);
   for (std::size_t ball = 0; ball < impact.count(); ++ball)
     ways.push_back({impact, outcome(impact, law, event, mistake.formula(impact, ball))});
   return ways;
@@ -141,15 +138,11 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const ContactGeometry& i
   const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
   const double due = separation_speed(l, impact, g_n);
   const double by_restitution = l.restitution(-g_n, impact.bodies()) * -g_n;
-  const auto finding = [&](Kind kind, double found, double expected, const char* note) {
-    return Finding{kind,          off,   event.line, event.time, event.ball,   event.with_wall,
-                   event.partner, found, expected,   note,       *note != '\0'};
-  };
-  const auto as_found = g_n != 0 ? finding(Kind::normal_restitution, -left / g_n, -due / g_n, "")
-                                 : finding(Kind::normal_restitution, unknown, unknown, "");
+  const auto as_found = g_n != 0 ? finding(Kind::normal_restitution, event, off, -left / g_n, -due / g_n)
+                                 : finding(Kind::normal_restitution, event, off, unknown, unknown);
   if (&plain != &findings_) return plain.add(as_found);
   const auto name = [&](Suspicion& suspicion, double left_off, const char* note) {
-    suspicion.explains(off, left_off).add(finding(Kind::separation_law, left, due, note));
+    suspicion.explains(off, left_off).add(finding(Kind::separation_law, event, off, left, due, note, true));
     suspicion.plain().add(as_found);
   };
   SeparationSuspicions& of_law = separations_.try_emplace(number_of(l), findings_.examples()).first->second;

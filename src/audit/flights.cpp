@@ -42,13 +42,6 @@ Flights::Flights(const model::Case<double>& the_case, const Available& available
       flown_through_(the_case.mill.vessel.walls().size()),
       looks_(look_notes.size(), Suspicion(findings.examples())) {}
 
-VesselFrame Flights::frame_at(double time, bool as_printed) const {
-  const auto when = clock_.at(time);
-  auto frame = frame_of(case_.mill.motion, case_.mill.motion.pose(when), as_printed);
-  frame.moved = moved_walls(case_.mill.vessel, when);
-  return frame;
-}
-
 Vec Flights::position_at(int ball, double time) const {
   const Track& track = of(ball);
   return dynamics::position_after(track.flight, case_.mill.gravity, time - track.start);
@@ -144,16 +137,7 @@ bool Flights::report_missed_ball(int ball, const Contact& pair, const FlightEnd&
     return true;
   }
   if ((off > 0 && pair.depth <= 2 * off) || other.pending.size() >= pending_kept) return false;
-  const Finding finding{Kind::missed_event,
-                        pair.depth,
-                        end.event->line,
-                        pair.time,
-                        ball,
-                        false,
-                        pair.partner,
-                        unknown,
-                        unknown,
-                        off == 0 ? "the balls flew through each other" : ""};
+  const auto finding = missed_finding(ball, pair, end, off == 0 ? "the balls flew through each other" : "");
   other.pending.push_back({finding, pair.depth});
   missed_at = pair.time;
   return off > 0;

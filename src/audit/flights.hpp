@@ -46,8 +46,8 @@ class Flights {
 
   /// Position of a ball, extrapolated from its last known state [m]. @pre its state is known
   Vec position_at(int ball, double time) const;
-  VesselFrame nested_at(double time) const { return frame_at(time, false); }
-  VesselFrame printed_at(double time) const { return frame_at(time, true); }
+  VesselFrame nested_at(double time) const { return vessel_at(case_.mill, time, false); }
+  VesselFrame printed_at(double time) const { return vessel_at(case_.mill, time, true); }
 
   /// Checks the flight of a ball that an event ends.
   void judge(int ball, const FlightEnd& end);
@@ -66,7 +66,6 @@ class Flights {
   std::uint64_t undecided() const { return undecided_; }
 
  private:
-  VesselFrame frame_at(double time, bool as_printed) const;
   struct Contact {
     double time = 0;
     bool with_wall = false;
@@ -97,7 +96,6 @@ class Flights {
   int walls() const { return static_cast<int>(flown_through_.size()); }
   bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const;
   double deepest(int ball, const Track& track, int wall, double from, double until) const;
-  Scene scene_at(int ball, int wall, double time, const Vec& position) const;
 
   const model::Case<double>& case_;
   const Available& available_;

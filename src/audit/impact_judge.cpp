@@ -134,10 +134,8 @@ void ImpactJudge::judge(const LoggedEvent& event, Scene scene) {
   if (scene.displaced && known.velocities) {
     // The printed matrix is used either with its own derivative or with the printed velocity.
     ContactGeometry other = scene.impact;
-    const Vec& centre = event.body[0].position;
-    other.wall_velocity = wall_velocity(WallVelocity::of_the_printed_matrix, scene.nested, scene.printed,
-                                        centre - other.normal * other.ball[0].radius, centre) +
-                          piston_velocity(scene.nested, other.wall, other.normal);
+    other.set_wall_velocity(WallVelocity::of_the_printed_matrix, scene.nested, scene.printed,
+                            event.body[0].position);
     if (residuals(event, other, known, false).largest() <
         residuals(event, scene.impact, known, false).largest())
       scene.impact = other;

@@ -40,6 +40,12 @@ struct Energies {
   }
 };
 
+inline Finding finding(Kind kind, const LoggedEvent& event, double size, double found, double expected,
+                       const char* note = "", bool explained = false) {
+  return {kind,          size,  event.line, event.time, event.ball, event.with_wall,
+          event.partner, found, expected,   note,       explained};
+}
+
 class ImpactJudge {
  public:
   ImpactJudge(const model::Mill<double>& mill, const Available& available, const Tolerances& tolerances,
@@ -56,10 +62,7 @@ class ImpactJudge {
   void judge(const LoggedEvent& event, Scene scene);
   /// Judges the dose by the logged speeds, where the log or this impact has no states.
   void judge_speeds(const LoggedEvent& event, const ContactGeometry& impact);
-  const model::ContactLaw<double>& law(const ContactGeometry& impact) const {
-    return impact.with_wall ? mill_.law_with_wall(impact.ball[0], impact.wall)
-                            : mill_.law_between(impact.ball[0], impact.ball[1]);
-  }
+  const model::ContactLaw<double>& law(const ContactGeometry& impact) const { return law_of(mill_, impact); }
   /// At the end of the log.
   void finish();
 
@@ -124,11 +127,6 @@ class ImpactJudge {
   void leave_unresolved(const Known& known);
   bool leaves_by_the_other_branch(const LoggedEvent& event, const ContactGeometry& impact, double off,
                                   double allowed) const;
-  static Finding finding(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-                         const char* note = "", bool explained = false) {
-    return {kind,          size,  event.line, event.time, event.ball, event.with_wall,
-            event.partner, found, expected,   note,       explained};
-  }
   void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected) {
     findings_.add(finding(kind, event, size, found, expected));
   }

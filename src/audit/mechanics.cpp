@@ -15,8 +15,6 @@ Vec inside(const VesselFrame& frame, const Vec& position) {
   return {dot(d, frame.x), dot(d, frame.y), dot(d, frame.z)};
 }
 
-}  // namespace
-
 VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPose<double>& pose,
                      bool as_printed) {
   const auto* spex = motion.get_if<model::SpexMotion<double>>();
@@ -41,12 +39,15 @@ VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPos
   return frame;
 }
 
-std::vector<model::Moved<double>> moved_walls(const model::AnyVessel<double>& vessel,
-                                              const Instant<double>& when) {
-  std::vector<model::Moved<double>> moved;
-  if (const auto* pistons = vessel.pistons())
-    for (int wall = 0; wall < vessel.wall_count(); ++wall) moved.push_back(pistons->of_wall(wall, when));
-  return moved;
+}  // namespace
+
+VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed) {
+  const auto when = DriveClock<double>(mill.motion.period()).at(time);
+  auto frame = frame_of(mill.motion, mill.motion.pose(when), as_printed);
+  if (const auto* pistons = mill.vessel.pistons())
+    for (int wall = 0; wall < mill.vessel.wall_count(); ++wall)
+      frame.moved.push_back(pistons->of_wall(wall, when));
+  return frame;
 }
 
 double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
@@ -137,6 +138,43 @@ void ContactGeometry::set_masses() {
   effective_mass = 1 / (1 / ball[0].mass + 1 / ball[1].mass);
   compliance = 1;
   for (const auto& b : ball) compliance += effective_mass / (b.mass * b.reduced_inertia);
+}
+
+void ContactGeometry::set_wall_velocity(WallVelocity formula, const VesselFrame& nested,
+                                        const VesselFrame& printed, const Vec& ball_centre) {
+  const Vec point = ball_centre - normal * ball[0].radius;
+  wall_velocity = audit::wall_velocity(formula, nested, printed, point, ball_centre) +
+                  piston_velocity(nested, wall, normal);
+}
+
+ContactGeometry geometry_of(const LoggedEvent& event, const model::Case<double>& the_case,
+                            const VesselFrame& frame, bool placed) {
+  ContactGeometry impact;
+  impact.with_wall = event.with_wall;
+  impact.ball[0] = the_case.balls[static_cast<std::size_t>(event.ball)];
+  impact.normal = {1, 0, 0};
+  const Vec& place = event.body[0].position;
+  if (event.with_wall) {
+    impact.wall = event.partner;
+    if (placed) {
+      const auto& vessel = the_case.mill.vessel;
+      impact.normal = wall_normal(frame, vessel, event.partner, impact.ball[0].radius, place);
+      impact.bend = wall_bend(frame, vessel, event.partner, impact.ball[0].radius, place);
+      impact.set_wall_velocity(WallVelocity::nested, frame, frame, place);
+    }
+  } else {
+    impact.ball[1] = the_case.balls[static_cast<std::size_t>(event.partner)];
+    const Vec apart = place - event.body[1].position;
+    const double distance = size(apart);
+    if (placed && distance > 0) impact.normal = apart * (1 / distance);
+  }
+  impact.set_masses();
+  return impact;
+}
+
+const model::ContactLaw<double>& law_of(const model::Mill<double>& mill, const ContactGeometry& impact) {
+  return impact.with_wall ? mill.law_with_wall(impact.ball[0], impact.wall)
+                          : mill.law_between(impact.ball[0], impact.ball[1]);
 }
 
 Vec ContactGeometry::contact_velocity(const Vec& v_i, const Vec& w_i, const Vec& v_j, const Vec& w_j) const {

@@ -31,14 +31,9 @@ struct VesselFrame {
   }
 };
 
-/// Where the walls of a vessel are at an instant, and how they move.
-std::vector<model::Moved<double>> moved_walls(const model::AnyVessel<double>& vessel,
-                                              const Instant<double>& when);
-
-/// The nested motion R_z(theta) R_x(gamma), (2.7'), or any other as it is.
+/// By the nested motion R_z(theta) R_x(gamma), (2.7'), or any other as it is.
 /// @param as_printed  R_x(gamma) R_z(theta) in place of it, as (2.14) is printed
-VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPose<double>& pose,
-                     bool as_printed);
+VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed);
 
 /// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
 double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
@@ -88,6 +83,9 @@ struct ContactGeometry {
   double effective_mass = 0, compliance = 0;
 
   void set_masses();
+  /// Sets the velocity of the wall that a code has by this formula, with that in its vessel.
+  void set_wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselFrame& printed,
+                         const Vec& ball_centre);
   std::size_t count() const { return with_wall ? 1 : 2; }  ///< of balls
   model::ContactBodies<double> bodies() const {
     return {effective_mass, ball[0].radius, with_wall ? -1 : ball[1].radius};
@@ -97,6 +95,13 @@ struct ContactGeometry {
   Vec before(const LoggedEvent& e) const;
   Vec after(const LoggedEvent& e) const;
 };
+
+/// The impact of an event, with the right velocity of the wall.
+/// @param placed  whether the log has the places of its bodies; else the normal is any
+ContactGeometry geometry_of(const LoggedEvent& event, const model::Case<double>& the_case,
+                            const VesselFrame& frame, bool placed);
+
+const model::ContactLaw<double>& law_of(const model::Mill<double>& mill, const ContactGeometry& impact);
 
 /// Speed along the normal at which the contact points separate, max(e_n |g_n|, v_s) [m/s]. (2.23')
 /// @param g_n  before the impact; negative while the bodies approach

@@ -118,22 +118,6 @@ auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, dou
   return first;
 }
 
-Scene Flights::scene_at(int ball, int wall, double time, const Vec& position) const {
-  Scene scene;
-  scene.nested = nested_at(time);
-  scene.printed = printed_at(time);
-  ContactGeometry& impact = scene.impact;
-  impact.with_wall = true;
-  impact.wall = wall;
-  impact.ball[0] = case_.balls[static_cast<std::size_t>(ball)];
-  impact.normal = wall_normal(scene.nested, case_.mill.vessel, wall, impact.ball[0].radius, position);
-  impact.wall_velocity = wall_velocity(WallVelocity::nested, scene.nested, scene.printed,
-                                       position - impact.normal * impact.ball[0].radius, position) +
-                         piston_velocity(scene.nested, wall, impact.normal);
-  impact.set_masses();
-  return scene;
-}
-
 /// Whether a ball in this state reaches the logged end of the flight.
 bool Flights::arrives(const State& state, const FlightEnd& end) const {
   const double dt = end.event->time - state.start;
@@ -155,13 +139,14 @@ bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& 
     if (!contact) return false;
     const double time = contact->first, dt = time - state.start;
     LoggedEvent event;
+    event.ball = ball;
     event.with_wall = true;
+    event.partner = contact->second;
     event.body[0].position = dynamics::position_after(state.flight, case_.mill.gravity, dt);
     event.body[0].velocity_before = dynamics::velocity_after(state.flight, case_.mill.gravity, dt);
     event.body[0].spin_before = state.spin;
-    const auto scene = scene_at(ball, contact->second, time, event.body[0].position);
-    const auto after =
-        outcome(scene.impact, case_.mill.law_with_wall(scene.impact.ball[0], scene.impact.wall), event, {});
+    const auto impact = geometry_of(event, case_, nested_at(time), true);
+    const auto after = outcome(impact, law_of(case_.mill, impact), event, {});
     state = {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time};
     if (arrives(state, end)) return true;
   }
@@ -195,7 +180,7 @@ bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEn
   }
   apart = event.body[0].position - event.body[1].position;
   impact.normal = apart * (1 / size(apart));
-  const auto after = outcome(impact, case_.mill.law_between(impact.ball[0], impact.ball[1]), event, {});
+  const auto after = outcome(impact, law_of(case_.mill, impact), event, {});
   return arrives(
       {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time}, end);
 }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "audit/mechanics.hpp"
-#include "base/instant.hpp"
 #include "casefile/check_case.hpp"
 
 namespace edmill::casefile {
@@ -27,8 +26,7 @@ namespace {
 
 /// Vectors of another frame in that of the laboratory.
 void to_laboratory(audit::LoggedEvent& event, LogFrame from, const model::Mill<double>& mill) {
-  const auto pose = mill.motion.pose(DriveClock<double>(mill.motion.period()).at(event.time));
-  const auto frame = audit::frame_of(mill.motion, pose, false);
+  const auto frame = audit::vessel_at(mill, event.time, false);
   const auto turned = [&](const Vec3<double>& v) {
     return Vec3<double>(frame.x * v[0] + frame.y * v[1] + frame.z * v[2]);
   };

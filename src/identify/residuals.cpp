@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "base/instant.hpp"
 
 namespace edmill::identify {
 
@@ -17,45 +16,6 @@ namespace {
 constexpr double out_of_range = 1e15;
 
 int ball_of(const LoggedEvent& event, std::size_t body) { return body == 0 ? event.ball : event.partner; }
-
-audit::VesselFrame frame_at(const model::Mill<double>& mill, double time) {
-  const auto when = DriveClock<double>(mill.motion.period()).at(time);
-  auto frame = audit::frame_of(mill.motion, mill.motion.pose(when), false);
-  frame.moved = audit::moved_walls(mill.vessel, when);
-  return frame;
-}
-
-ContactGeometry impact_of(const LoggedEvent& event, const model::Case<double>& model,
-                          const audit::VesselFrame& frame, bool with_positions) {
-  ContactGeometry impact;
-  impact.with_wall = event.with_wall;
-  impact.ball[0] = model.balls[static_cast<std::size_t>(event.ball)];
-  impact.normal = {1, 0, 0};
-  const Vec& place = event.body[0].position;
-  if (event.with_wall) {
-    impact.wall = event.partner;
-    if (with_positions) {
-      const double radius = impact.ball[0].radius;
-      impact.normal = audit::wall_normal(frame, model.mill.vessel, event.partner, radius, place);
-      impact.bend = audit::wall_bend(frame, model.mill.vessel, event.partner, radius, place);
-      const Vec point = place - impact.normal * impact.ball[0].radius;
-      impact.wall_velocity = audit::wall_velocity(audit::WallVelocity::nested, frame, frame, point, place) +
-                             audit::piston_velocity(frame, event.partner, impact.normal);
-    }
-  } else {
-    impact.ball[1] = model.balls[static_cast<std::size_t>(event.partner)];
-    const Vec apart = place - event.body[1].position;
-    const double distance = audit::size(apart);
-    if (with_positions && distance > 0) impact.normal = apart * (1 / distance);
-  }
-  impact.set_masses();
-  return impact;
-}
-
-const model::ContactLaw<double>& law_of(const model::Mill<double>& mill, const ContactGeometry& impact) {
-  return impact.with_wall ? mill.law_with_wall(impact.ball[0], impact.wall)
-                          : mill.law_between(impact.ball[0], impact.ball[1]);
-}
 
 }  // namespace
 
@@ -106,7 +66,8 @@ LogResiduals::LogResiduals(const audit::EventsAtHand& log, const audit::Toleranc
       own = {static_cast<long>(k), body};
     }
     const auto friction =
-        stalls.take(event, law_of(nominal.mill, impact_of(event, nominal, {}, false)), tolerances.relative);
+        stalls.take(event, audit::law_of(nominal.mill, audit::geometry_of(event, nominal, {}, false)),
+                    tolerances.relative);
     in_stall_[k] = friction == audit::Friction::rests;
     branches_[k] = branches_of(event);
   }
@@ -115,9 +76,10 @@ LogResiduals::LogResiduals(const audit::EventsAtHand& log, const audit::Toleranc
 Branches LogResiduals::branches_of(const LoggedEvent& event) const {
   const auto& has = log_.available;
   if (!has.positions(event.with_wall) || !has.velocities_before(event.with_wall)) return {};
-  const auto impact = impact_of(
-      event, nominal_, event.with_wall ? frame_at(nominal_.mill, event.time) : audit::VesselFrame{}, true);
-  const auto& law = law_of(nominal_.mill, impact);
+  const auto impact = audit::geometry_of(
+      event, nominal_,
+      event.with_wall ? audit::vessel_at(nominal_.mill, event.time, false) : audit::VesselFrame{}, true);
+  const auto& law = audit::law_of(nominal_.mill, impact);
   const auto speeds = audit::speeds_before(event, impact);
   const double separation = audit::separation_speed(law, impact, speeds.g_n);
   const double bounce = separation - speeds.g_n;
@@ -203,21 +165,16 @@ audit::Formula formula_of(const Terms& terms, const ContactGeometry& impact) {
   return formula;
 }
 
-/// The wall's velocity as a code with other terms has it.
-Vec assumed_wall_velocity(const LoggedEvent& event, const ContactGeometry& impact,
-                          const model::Mill<double>& mill, const Terms& terms) {
-  if (terms.wall_velocity_delay == 0 && terms.wall_velocity_formula == 0)
-    return impact.wall_velocity * terms.wall_velocity;
-  const auto when = DriveClock<double>(mill.motion.period()).at(event.time - terms.wall_velocity_delay);
-  const auto pose = mill.motion.pose(when);
-  auto frame = audit::frame_of(mill.motion, pose, false);
-  frame.moved = audit::moved_walls(mill.vessel, when);
-  const Vec& centre = event.body[0].position;
-  const Vec point = centre - impact.normal * impact.ball[0].radius;
-  return (audit::wall_velocity(static_cast<audit::WallVelocity>(terms.wall_velocity_formula), frame,
-                               audit::frame_of(mill.motion, pose, true), point, centre) +
-          audit::piston_velocity(frame, event.partner, impact.normal)) *
-         terms.wall_velocity;
+/// The wall's velocity becomes that of a code with other terms.
+void assume_wall_velocity(const LoggedEvent& event, const model::Mill<double>& mill, const Terms& terms,
+                          ContactGeometry& impact) {
+  if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
+    const double time = event.time - terms.wall_velocity_delay;
+    impact.set_wall_velocity(static_cast<audit::WallVelocity>(terms.wall_velocity_formula),
+                             audit::vessel_at(mill, time, false), audit::vessel_at(mill, time, true),
+                             event.body[0].position);
+  }
+  impact.wall_velocity *= terms.wall_velocity;
 }
 
 }  // namespace
@@ -227,11 +184,11 @@ void LogResiduals::event_rows(std::size_t k, const Given& given, Writer& out) co
   LoggedEvent event = log_.events[k];
   given.change.apply(event, model.mill);
   const bool placed = log_.available.positions(event.with_wall);
-  const auto frame = event.with_wall && placed ? frame_at(model.mill, event.time) : audit::VesselFrame{};
-  auto impact = impact_of(event, model, frame, placed);
+  const auto frame =
+      event.with_wall && placed ? audit::vessel_at(model.mill, event.time, false) : audit::VesselFrame{};
+  auto impact = audit::geometry_of(event, model, frame, placed);
   impact.in_stall = in_stall_[k];
-  if (event.with_wall && placed)
-    impact.wall_velocity = assumed_wall_velocity(event, impact, model.mill, given.terms);
+  if (event.with_wall && placed) assume_wall_velocity(event, model.mill, given.terms, impact);
   out.at = {k, -1, false};
   if (placed) {
     double gap;
@@ -243,7 +200,7 @@ void LogResiduals::event_rows(std::size_t k, const Given& given, Writer& out) co
             impact.ball[1].radius;
     out.add(RowKind::touch, gap - given.terms.contact_gap, tolerances_.touch(event.time, event.with_wall));
   }
-  const auto& law = law_of(model.mill, impact);
+  const auto& law = audit::law_of(model.mill, impact);
   if (placed && log_.available.velocities_before(event.with_wall))
     impact_rows(event, impact, law, given.terms, out);
   else

@@ -12,7 +12,6 @@
 #include "audit/delays.hpp"
 #include "audit/mechanics.hpp"
 #include "audit/naming.hpp"
-#include "base/instant.hpp"
 
 namespace edmill::identify {
 
@@ -124,14 +123,11 @@ class Measured {
     const auto& ball = case_.balls[static_cast<std::size_t>(event.ball)];
     double gap;
     if (event.with_wall) {
-      const auto when = DriveClock<double>(case_.mill.motion.period()).at(event.time);
-      auto frame = audit::frame_of(case_.mill.motion, case_.mill.motion.pose(when), false);
-      frame.moved = audit::moved_walls(case_.mill.vessel, when);
+      const auto frame = audit::vessel_at(case_.mill, event.time, false);
       gap = audit::wall_gap(frame, case_.mill.vessel, event.partner, ball.radius, one.position);
-      normal = audit::wall_normal(frame, case_.mill.vessel, event.partner, ball.radius, one.position);
-      const Vec point = one.position - normal * ball.radius;
-      carrier = audit::wall_velocity(audit::WallVelocity::nested, frame, frame, point, one.position) +
-                audit::piston_velocity(frame, event.partner, normal);
+      const auto impact = audit::geometry_of(event, case_, frame, true);
+      normal = impact.normal;
+      carrier = impact.wall_velocity;
       contact.effective_mass = ball.mass, contact.effective_radius = ball.radius;
     } else {
       const auto& other = case_.balls[static_cast<std::size_t>(event.partner)];
