@@ -12,8 +12,6 @@ namespace edmill::audit {
 
 namespace {
 
-double reach_of(const model::Mill<double>& mill) { return mill.motion.reach(mill.vessel.reach()); }
-
 std::vector<Check> checks_not_made(const Findings& findings, bool any_pairs) {
   std::vector<Check> missing;
   for (std::size_t k = 0; k < check_count; ++k) {
@@ -56,8 +54,7 @@ std::vector<Diagnosis> diagnose(const Auditor& auditor, const Findings& findings
   if (partners[0].label == "cap -y" && auditor.with_wall()[0] == 0 && late + early == 0)
     add("gap_sign", auditor.flights().flown_through()[0], count(Kind::missed_event),
         "printed error (2.19), (2.20): no impact with the cap at -y is logged, and balls fly through it; y - "
-        "R "
-        "- h/2 is negative everywhere in the vessel, the gap is h/2 + y - R");
+        "R - h/2 is negative everywhere in the vessel, the gap is h/2 + y - R");
   if (const double step = auditor.delays().step(); step > 0 && early == 0)
     add("time_step", late, late,
         fmt::format(
@@ -97,7 +94,6 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
                    const Options& options, const std::string& file, const Available& available,
                    const Next& next) {
   Audit result;
-  result.options = options;
   result.findings = Findings(options.examples);
   result.tolerances = tolerances_of(the_case, options);
   result.log_name = file;
@@ -143,7 +139,7 @@ EventLog open_log(const model::Case<double>& the_case, const Options& options) {
 Tolerances tolerances_of(const model::Case<double>& the_case, const Options& options) {
   Tolerances tolerances;
   tolerances.relative = options.tolerance;
-  tolerances.reach = reach_of(the_case.mill);
+  tolerances.reach = the_case.mill.motion.reach(the_case.mill.vessel.reach());
   tolerances.gravity = norm<double>(the_case.mill.gravity);
   tolerances.walls = WallRates::of(the_case.mill);
   tolerances.gap = options.gap_tolerance.value_or(options.tolerance * tolerances.reach);

@@ -45,7 +45,6 @@ enum class Verdict { clean, violations, too_few };
 std::string_view name_of(Verdict verdict);
 
 struct Audit {
-  Options options;
   Tolerances tolerances;
   std::string case_name, log_name;
   std::uint64_t events = 0;

@@ -48,8 +48,7 @@ std::string unresolved_checks(const Audit& a) {
   if (places > a.tolerances.relative * a.tolerances.reach)
     out += fmt::format(
         "\n  times are known to {:.2g} s by their rounding, places of walls to {:.2g} m: the tolerances "
-        "allow for "
-        "it\n",
+        "allow for it\n",
         Tolerances::time(latest), places);
   std::string list;
   for (std::size_t k = 0; k < check_count; ++k)

@@ -44,7 +44,6 @@ class Suspicion {
   bool fits() const { return accounts_for(explained_, shows_); }
   const Findings& findings() const { return findings(is_named()); }
   const Findings& findings(bool named) const { return named ? named_ : plain_; }
-  std::uint64_t explained() const { return explained_; }
 
  private:
   static constexpr double least_decades = 6;  ///< an exact log has more at a single impact

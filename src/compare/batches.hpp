@@ -1,7 +1,6 @@
 // A log divided into batches of equal duration, and tests on two series of batches.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <vector>
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "base/scalar_list.hpp"
 #include "base/version.hpp"
 #include "compare/comparison.hpp"
 #include "io/json_text.hpp"

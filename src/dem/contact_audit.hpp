@@ -2,13 +2,16 @@
 #pragma once
 
 #include <atomic>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "casefile/build_case.hpp"
 #include "dem/contact_log.hpp"
 #include "io/json_text.hpp"
+
+namespace edmill {
+extern template std::string to_text<double>(const double&);
+}
 
 namespace edmill::dem {
 

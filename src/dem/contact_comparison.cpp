@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "base/errors.hpp"
 #include "compare/log_reader.hpp"
@@ -12,10 +11,6 @@
 #include "dem/dose_rate.hpp"
 #include "io/json_text.hpp"
 #include "io/junit_text.hpp"
-
-namespace edmill {
-extern template std::string to_text<double>(const double&);
-}
 
 namespace edmill::dem {
 

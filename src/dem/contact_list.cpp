@@ -1,5 +1,4 @@
-#include "dem/contact_list.hpp"
-
+// A list of contacts with walls becomes a log of contacts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "casefile/build_case.hpp"
 #include "dem/contact_audit.hpp"
 #include "dem/contact_list_reader.hpp"
+#include "dem/import_dump.hpp"
 
 namespace edmill::dem {
 

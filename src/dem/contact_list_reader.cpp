@@ -6,7 +6,6 @@
 #include <array>
 #include <limits>
 
-#include "base/errors.hpp"
 #include "io/csv_reader.hpp"
 #include "io/input_file.hpp"
 

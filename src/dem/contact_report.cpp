@@ -5,10 +5,6 @@
 #include "io/json_text.hpp"
 #include "io/junit_text.hpp"
 
-namespace edmill {
-extern template std::string to_text<double>(const double&);
-}
-
 namespace edmill::dem {
 
 namespace {

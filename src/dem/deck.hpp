@@ -68,6 +68,10 @@ Deck lammps_deck(const DeckCase& c, const DeckOptions& options);
 Deck liggghts_deck(const DeckCase& c, const DeckOptions& options);
 Deck yade_deck(const DeckCase& c, const DeckOptions& options);
 
+/// The pose of the vessel as a function in Python: defines pose(t): orientation, centre, angular velocity and
+/// its rate, velocity and acceleration of the centre, all along inertial axes. Needs `import numpy as np`.
+std::string pose_in_python(const DeckCase& c);
+
 /// [0.003 * sin(62.8 * t + 0.5)]: the displacement of all translations along each axis at the time `t`, as
 /// LAMMPS, LIGGGHTS and Python write formulas. @pre c.translates()
 std::array<std::string, 3> displacement_formulas(const DeckCase& c, const std::string& time,

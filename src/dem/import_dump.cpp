@@ -6,7 +6,6 @@
 
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
-#include "dem/contact_list.hpp"
 #include "dem/contact_list_reader.hpp"
 
 namespace edmill::dem {

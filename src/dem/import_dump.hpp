@@ -4,7 +4,6 @@
 #include <atomic>
 #include <functional>
 #include <optional>
-#include <ostream>
 #include <string>
 
 #include "casefile/case_spec.hpp"
@@ -31,6 +30,13 @@ struct Imported {
 /// Memory does not depend on the length of the dump.
 /// @throws InputError when it cannot be read, lacks what is needed or has other balls than the case
 Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options, ContactLogWriter& log);
+
+/// The same of a list of contacts with walls, which has no places. Its contacts can be judged where the
+/// velocity of a wall and its normal are the same at all places: flat walls that do not turn. The log has no
+/// frames, and no contacts between balls.
+/// @throws InputError when it cannot be read, lacks what is needed, or the case has other walls
+Imported import_contact_list(const casefile::CaseSpec& spec, const ImportOptions& options,
+                             ContactLogWriter& log);
 
 std::string table(const Imported& imported, const std::string& log);
 

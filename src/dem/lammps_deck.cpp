@@ -2,11 +2,8 @@
 // rest and the fictitious forces and torques come from Python.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "base/errors.hpp"
 #include "dem/deck.hpp"
-#include "dem/pose_in_python.hpp"
 #include "dem/soft_contact.hpp"
 
 namespace edmill::dem {

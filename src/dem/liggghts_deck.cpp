@@ -193,10 +193,8 @@ std::string granules_of(const DeckCase& c) {
     sets +=
         fmt::format("set atom {0} diameter {1} density {2}\n", k + 1, 2 * c.balls[k].radius, c.density(k));
     if (norm<double>(v) > 0 || norm<double>(w) > 0)
-      sets += fmt::format(
-          "set atom {0} vx {1} vy {2} vz {3} omegax {4} omegay {5} omegaz "
-          "{6}\n",
-          k + 1, v[0], v[1], v[2], w[0], w[1], w[2]);
+      sets += fmt::format("set atom {0} vx {1} vy {2} vz {3} omegax {4} omegay {5} omegaz {6}\n", k + 1, v[0],
+                          v[1], v[2], w[0], w[1], w[2]);
   }
   return text + sets;
 }
@@ -238,8 +236,7 @@ Deck liggghts_deck(const DeckCase& c, const DeckOptions& options) {
   if (meshes.empty())
     throw InputError(
         fmt::format("{}: key 'vessel.type': found a vessel with walls that are round in two ways, expected "
-                    "flat walls or a "
-                    "cylinder, which LIGGGHTS can have as triangles",
+                    "flat walls or a cylinder, which LIGGGHTS can have as triangles",
                     c.file));
   Chain chain(c);
   const double reach = 1.5 * c.mill.motion.reach(c.mill.vessel.reach());

@@ -14,10 +14,6 @@
 #include "io/json_text.hpp"
 #include "plot/chart.hpp"
 
-namespace edmill {
-extern template std::string to_text<double>(const double&);
-}
-
 namespace edmill::dem {
 
 namespace {

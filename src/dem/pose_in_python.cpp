@@ -1,8 +1,9 @@
-#include "dem/pose_in_python.hpp"
-
+// The pose of a vessel, for decks that call Python.
 #include <fmt/format.h>
 
 #include <cmath>
+
+#include "dem/deck.hpp"
 
 namespace edmill::dem {
 
@@ -15,12 +16,10 @@ std::string pose_in_python(const DeckCase& c) {
     for (const auto& s : j.swings)
       swings += fmt::format("({}, {}, {}), ", j.rotates ? turn * s.amplitude : s.amplitude,
                             turn * s.frequency, turn * s.phase);
-    joints += fmt::format(
-        "    ({}, np.array([{}, {}, {}]), np.array([{}, {}, {}]), {}, "
-        "{}, "
-        "[{}]),\n",
-        j.rotates ? "True" : "False", j.axis[0] / unit, j.axis[1] / unit, j.axis[2] / unit, j.shift[0],
-        j.shift[1], j.shift[2], turn * j.angle, j.rotates ? turn * j.speed : j.speed, swings);
+    joints += fmt::format("    ({}, np.array([{}, {}, {}]), np.array([{}, {}, {}]), {}, {}, [{}]),\n",
+                          j.rotates ? "True" : "False", j.axis[0] / unit, j.axis[1] / unit, j.axis[2] / unit,
+                          j.shift[0], j.shift[1], j.shift[2], turn * j.angle,
+                          j.rotates ? turn * j.speed : j.speed, swings);
   }
   return fmt::format(
       R"(from math import cos, sin

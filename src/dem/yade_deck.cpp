@@ -6,7 +6,6 @@
 
 #include "base/errors.hpp"
 #include "dem/deck.hpp"
-#include "dem/pose_in_python.hpp"
 #include "dem/soft_contact.hpp"
 #include "dem/wall_mesh.hpp"
 
@@ -73,10 +72,8 @@ std::string bodies_of(const DeckCase& c) {
   std::string text = "BALLS = [  # position, radius, density, velocity, spin\n";
   for (std::size_t k = 0; k < c.balls.size(); ++k) {
     const auto& [x, v, w] = c.states[k];
-    text += fmt::format(
-        "    (({}, {}, {}), {}, {}, ({}, {}, {}), ({}, {}, "
-        "{})),\n",
-        x[0], x[1], x[2], c.balls[k].radius, c.density(k), v[0], v[1], v[2], w[0], w[1], w[2]);
+    text += fmt::format("    (({}, {}, {}), {}, {}, ({}, {}, {}), ({}, {}, {})),\n", x[0], x[1], x[2],
+                        c.balls[k].radius, c.density(k), v[0], v[1], v[2], w[0], w[1], w[2]);
   }
   return text + R"(]
 balls, materials = [], {}

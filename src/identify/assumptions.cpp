@@ -8,12 +8,6 @@
 #include "audit/mechanics.hpp"
 #include "casefile/check_case.hpp"
 
-namespace edmill::casefile {
-extern template model::Mill<double> build_mill<double>(const CaseSpec&);
-extern template InitialCase<double> build_case<double>(const CaseSpec&, bool);
-extern template double Quantity::to<double>() const;
-}  // namespace edmill::casefile
-
 namespace edmill::identify {
 
 Vec3<double> Axes::of(const Vec3<double>& v) const {

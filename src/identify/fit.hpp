@@ -1,7 +1,6 @@
 // Robust least squares of the rows of a log.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "identify/parameters.hpp"

@@ -10,10 +10,6 @@
 #include "identify/candidates.hpp"
 #include "identify/replay.hpp"
 
-namespace edmill::casefile {
-extern template InitialCase<double> build_case<double>(const CaseSpec&, bool);
-}
-
 namespace edmill::identify {
 
 namespace {

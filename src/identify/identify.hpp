@@ -27,9 +27,8 @@ struct Cause {
   std::vector<std::string> mistakes;   ///< "mill, sign of gamma: ..."
   std::uint64_t explains = 0, of = 0;  ///< violations
   double gain = 0;                     ///< of Schwarz's criterion over no cause
-  /// For logs without states: how many impacts a run with the cause follows, how many rounding lets it
-  /// follow, and how many a run of the case itself follows.
-  std::uint64_t follows = 0, could_follow = 0, follows_without = 0;
+  /// For logs without states: how many impacts a run with the cause follows, and how many rounding lets it.
+  std::uint64_t follows = 0, could_follow = 0;
   std::vector<std::string> alike;  ///< other causes that this log cannot distinguish from it
 
   /// "mill.arm = 100.500 +- 0.001 mm in place of 100 mm"

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -10,10 +9,6 @@
 #include <utility>
 
 #include "identify/parameters.hpp"
-
-namespace edmill::casefile {
-extern template double Quantity::to<double>() const;
-}
 
 namespace edmill::identify {
 

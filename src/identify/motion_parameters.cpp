@@ -2,14 +2,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <numbers>
 
 #include "identify/parameters.hpp"
-
-namespace edmill::casefile {
-extern template double Quantity::to<double>() const;
-}
 
 namespace edmill::identify {
 

@@ -6,10 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-namespace edmill::casefile {
-extern template double Quantity::to<double>() const;
-}
-
 namespace edmill::identify {
 
 namespace {

@@ -11,10 +11,6 @@ namespace edmill::run {
 extern template std::unique_ptr<EventSource> make_source<double>(const casefile::CaseSpec&, bool,
                                                                  const std::atomic<bool>*);
 }
-namespace edmill::casefile {
-extern template InitialCase<double> build_case<double>(const CaseSpec&, bool);
-extern template double Quantity::to<double>() const;
-}  // namespace edmill::casefile
 
 namespace edmill::identify {
 

@@ -13,7 +13,6 @@ class Samples {
  public:
   using Places = std::vector<std::size_t>;
 
-  Samples() = default;
   /// @param events  at least one; they must outlive the samples
   /// @param period  of the drive [s]
   Samples(const std::vector<audit::LoggedEvent>& events, double period)
@@ -35,8 +34,8 @@ class Samples {
  private:
   Places sample(double until, std::size_t most) const;
 
-  const std::vector<audit::LoggedEvent>* events_ = nullptr;
-  double period_ = 1;
+  const std::vector<audit::LoggedEvent>* events_;
+  double period_;
   std::vector<bool> violating_;  ///< by event
   std::vector<Places> windows_;
   Places few_, many_;

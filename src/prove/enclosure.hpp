@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <string>
-#include <utility>
 
 #include "base/vector.hpp"
 
@@ -90,15 +89,6 @@ class Enclosure {
     arb_add(result.ball_, middle().ball_, radius().ball_, ARF_PREC_EXACT);
     return result;
   }
-  /// [-r, r] for r = |this|.
-  Enclosure both_signs() const {
-    Enclosure result;
-    arb_add_error(result.ball_, ball_);
-    return result;
-  }
-  double nearest() const { return arf_get_d(arb_midref(ball_), ARF_RND_NEAR); }
-  /// Bits of the midpoint that the radius leaves.
-  slong accuracy() const { return arb_rel_accuracy_bits(ball_); }
 
  private:
   template <class Operation>

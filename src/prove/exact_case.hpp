@@ -2,7 +2,6 @@
 // sphere.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // docs/certificates.md
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
