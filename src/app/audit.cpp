@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/errors.hpp"
 #include "instances/instances.hpp"
 #include "io/input_file.hpp"

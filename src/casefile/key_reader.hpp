@@ -6,7 +6,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <type_traits>
 
 #include "casefile/section.hpp"
 #include "model/parts/parameter.hpp"

@@ -1,7 +1,6 @@
 // The commands for DEM codes, and audits and comparisons of contacts that last.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "io/file_record.hpp"
 
-#include <algorithm>
 #include <fstream>
 #include <set>
 #include <string>

@@ -1,9 +1,6 @@
 // Implementation of final_state.hpp; included by the instantiation files only.
 #pragma once
 
-#include <algorithm>
-#include <sstream>
-
 #include "base/errors.hpp"
 #include "base/scalar.hpp"
 #include "io/csv_reader.hpp"

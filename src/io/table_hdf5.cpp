@@ -1,7 +1,6 @@
 #include "io/table_hdf5.hpp"
 
 #include <charconv>
-#include <cstring>
 #include <limits>
 #include <set>
 

@@ -3,8 +3,6 @@
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
 
-#include <sstream>
-
 #include "machines/embedded.hpp"
 #include "machines/machines.hpp"
 

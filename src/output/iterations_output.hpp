@@ -1,7 +1,6 @@
 // All variables of each impact. (thesis D.4.9)
 #pragma once
 
-#include "casefile/section.hpp"
 #include "output/by_partner.hpp"
 #include "output/table_output.hpp"
 

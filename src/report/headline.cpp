@@ -1,8 +1,6 @@
 // The main results, the comparison with the thesis, and warnings.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "report/sections.hpp"
 
 namespace edmill::report {

@@ -1,5 +1,4 @@
 // Common parts of the sections of a report.
-#include <cmath>
 
 #include "model/impact_variables.hpp"
 #include "report/sections.hpp"

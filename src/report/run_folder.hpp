@@ -3,9 +3,7 @@
 
 #include <filesystem>
 #include <functional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "casefile/case_spec.hpp"
 #include "report/run_facts.hpp"

@@ -1,7 +1,6 @@
 #include "report/series.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace edmill::report {
 
