@@ -28,7 +28,6 @@
 #include "prove/certificate.hpp"
 #include "python/binding.hpp"
 #include "python/interruptible.hpp"
-#include "report/comparison_page.hpp"
 #include "report/report_page.hpp"
 #include "run/run_folder.hpp"
 

@@ -1,5 +1,4 @@
-#include "report/comparison_page.hpp"
-
+// Runs side by side.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,6 +8,7 @@
 #include "base/version.hpp"
 #include "io/named_file.hpp"
 #include "report/page.hpp"
+#include "report/report_page.hpp"
 #include "report/sections.hpp"
 
 namespace edmill::report {

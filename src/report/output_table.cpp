@@ -1,11 +1,11 @@
-#include "report/output_table.hpp"
-
+// Tables of outputs.
 #include <cstdio>
 #include <fstream>
 #include <limits>
 
 #include "base/errors.hpp"
 #include "io/csv_reader.hpp"
+#include "report/series.hpp"
 
 namespace edmill::report {
 

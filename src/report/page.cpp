@@ -8,7 +8,6 @@
 #include "base/clean_text.hpp"
 #include "plot/markup.hpp"
 #include "report/embedded.hpp"
-#include "report/terms.hpp"
 
 namespace edmill::report {
 

@@ -1,4 +1,4 @@
-// The frame of every page: head, title, style and foot.
+// The frame of every page: head, title, style, the terms of its sections and foot.
 #pragma once
 
 #include <pugixml.hpp>
@@ -14,5 +14,8 @@ struct Page {
 };
 
 std::string page_of(const Page& page);
+
+/// Ends each section with a folded list of the terms that its text uses.
+void add_terms(pugi::xml_node main);
 
 }  // namespace edmill::report

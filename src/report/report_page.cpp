@@ -8,9 +8,9 @@
 #include "io/checkpoint_file.hpp"
 #include "io/file_record.hpp"
 #include "io/output_folder.hpp"
+#include "report/animation.hpp"
 #include "report/embedded.hpp"
 #include "report/page.hpp"
-#include "report/scene.hpp"
 #include "report/sections.hpp"
 
 namespace edmill::report {

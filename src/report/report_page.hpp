@@ -1,8 +1,10 @@
-// `edmill report`: the files of a run as one self-contained HTML page.
+// `edmill report`: the files of a run, or of several side by side, as one self-contained HTML page.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "report/run_folder.hpp"
 
@@ -17,5 +19,13 @@ std::string report_page(const RunFolder& run);
 std::filesystem::path write_report(const std::filesystem::path& folder);
 /// Writes the page as `write_report` does. @pre the caller holds the folder's lock
 std::filesystem::path put_report(const std::filesystem::path& folder);
+
+/// Whether two rates differ: the 95 % interval of their difference, by half-widths in quadrature, leaves out
+/// zero. Nothing where a rate has no interval.
+std::optional<bool> differ(const RateOf& a, const RateOf& b);
+/// One page that shows runs side by side. @param runs  two or more
+std::string comparison_page(const std::vector<RunFolder>& runs);
+/// @throws InputError when a folder is no run, or the file cannot be written
+void write_comparison(const std::vector<std::string>& folders, const std::filesystem::path& file);
 
 }  // namespace edmill::report

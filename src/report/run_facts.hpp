@@ -11,6 +11,12 @@
 
 namespace edmill::report {
 
+/// A rate of a run, or of several.
+struct RateOf {
+  double value;
+  std::optional<double> half_width;  ///< of the 95 % interval
+};
+
 /// Names and units as in docs/files.md.
 struct RunFacts {
   std::string version, commit, compiler, case_file, case_digest, precision, error;

@@ -1,5 +1,4 @@
-#include "report/scene.hpp"
-
+// An animation as part of an HTML page: the frames that its player shows, and a still drawing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "plot/markup.hpp"
+#include "report/animation.hpp"
+#include "report/sections.hpp"
 
 namespace edmill::report {
 

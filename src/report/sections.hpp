@@ -3,7 +3,6 @@
 
 #include "plot/chart.hpp"
 #include "plot/markup.hpp"
-#include "report/rate_of.hpp"
 #include "report/run_folder.hpp"
 #include "report/series.hpp"
 #include "report/ward.hpp"
@@ -30,6 +29,16 @@ void add_ball_speeds(pugi::xml_node main, const RunFolder& run);
 void add_energy(pugi::xml_node main, const RunFolder& run);
 void add_case(pugi::xml_node main, const RunFolder& run);
 
+struct Animation;
+/// Adds <script type="application/json" id="frames">, which page.js plays. Lengths in millimetres:
+///   {duration, eye, target,
+///    vessel: {radius, height, colour, opacity, poses: [x, y, z, qx, qy, qz, qw of each frame]},
+///    spheres: {radii, colours, places: [x, y, z of each sphere, frame by frame]}}
+/// Frames divide the playback into equal parts, from its beginning to its end.
+void add_frames(pugi::xml_node parent, const Animation& animation);
+/// Adds an <svg> of the first frame, seen along the Z axis.
+void add_still(pugi::xml_node parent, const Animation& animation);
+
 using Rows = std::vector<std::vector<std::string>>;
 
 /// Balls, powder, vessel, mill and contacts in words: name and text.
@@ -46,7 +55,13 @@ std::string name_of(const model::PartnerInfo& partner);
 /// The colour of a partner in charts, by its place; balls have the same beside any walls.
 std::string partner_colour(const model::Partners& partners, int place);
 
-/// A section with a heading.
+/// "27.92 ± 0.23"
+std::string text_of(const RateOf& rate);
+/// A short line at the rate, within its interval.
+/// @param half_length  of the line, in units of x
+void add_point(plot::Chart& chart, double x, double half_length, const RateOf& rate, const std::string& name,
+               const std::string& colour);
+
 pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std::string& heading);
 /// "No ball speeds: add [[output]] type = ..."
 void add_missing(pugi::xml_node section, const std::string& what, const std::string& output);

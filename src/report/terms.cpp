@@ -1,15 +1,14 @@
-#include "report/terms.hpp"
-
-#include <fmt/format.h>
+// The words of a page and what they mean.
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "plot/markup.hpp"
 #include "report/embedded.hpp"
+#include "report/page.hpp"
 
 namespace edmill::report {
 

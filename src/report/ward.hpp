@@ -18,7 +18,6 @@ struct WardCase {
   std::optional<double> collision_rate;  ///< table 5.6 [1/s]
 };
 
-/// All of them.
 std::vector<WardCase> ward_cases();
 
 /// The case of the thesis with exactly the same mill, vessel, gravity, contact law, balls and powder. The

@@ -9,7 +9,6 @@
 #include "base/errors.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/terminal.hpp"
-#include "report/comparison_page.hpp"
 #include "report/report_page.hpp"
 
 namespace edmill::cli {
