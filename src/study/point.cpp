@@ -1,11 +1,11 @@
-#include "study/point.hpp"
-
+// A point of a study: the settings of a case and its runs.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
+#include "study/study.hpp"
 
 namespace edmill {
 extern template double casefile::Quantity::to<double>() const;
