@@ -1,4 +1,4 @@
-// What becomes of errors: a message on standard error, and an exit code.
+// What becomes of errors, and of standard streams that fail: a message on standard error, and an exit code.
 #pragma once
 
 #include <functional>
@@ -15,5 +15,15 @@ void print_problem(const std::string& problem);
 
 /// Does a command, and prints what it throws. @return the exit code
 int exit_code_of(const std::function<int()>& command);
+
+/// At the start: a standard descriptor that is closed is opened on /dev/null, so that no file gets its
+/// number. Using it fails all the same.
+void open_standard_descriptors();
+
+/// At the end: whether all of standard output was written. When not, one message says why, unless its reader
+/// did not want more, which ends the program by SIGPIPE.
+/// @param code  of the command
+/// @return the exit code
+int after_output(int code);
 
 }  // namespace edmill::cli

@@ -23,7 +23,6 @@
 #include "cli/commands/studies.hpp"
 #include "cli/commands/texts.hpp"
 #include "cli/failures.hpp"
-#include "cli/standard_streams.hpp"
 #include "cli/suggestions.hpp"
 #include "io/input_file.hpp"
 
