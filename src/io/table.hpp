@@ -11,11 +11,21 @@
 #include <vector>
 
 #include "base/archive.hpp"
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "base/scalar.hpp"
-#include "io/csv_cell.hpp"
 
 namespace edmill::io {
+
+/// A text as a cell of CSV (RFC 4180), quoted where necessary, also for readers with comments (#) and with
+/// other separators.
+inline std::string csv_cell(const std::string& text) {
+  const bool blank_ends = text.starts_with(' ') || text.ends_with(' ');
+  if (!blank_ends && text.find_first_of(",;\t\"#\n\r") == std::string::npos) return clean_text(text);
+  std::string quoted = "\"";
+  for (const char c : clean_text(text)) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
 
 struct Column {
   enum class Type { text, integer, number };

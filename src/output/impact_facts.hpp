@@ -1,12 +1,15 @@
 // Everything that is known of one impact, and what outputs can say of it.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "base/elementary.hpp"
+#include "base/scalar.hpp"
 #include "base/vector.hpp"
 #include "engine/simulation.hpp"
 #include "model/ball.hpp"
+#include "model/impact_variables.hpp"
 
 namespace edmill::output {
 
@@ -119,6 +122,27 @@ Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Re
     arc += across2 * asinh(steps * sum / (u1 * q0 + u0 * q1));
   }
   return arc / (2 * strength);
+}
+
+/// Value of the variable at a place of model::impact_variables, by its formula there; 0 or 1 for a flag.
+template <class Real>
+using VariableFormula = Real (*)(const ImpactFacts<Real>&);
+
+template <class Real>
+VariableFormula<Real> variable_formula(int place) {
+  using Facts = ImpactFacts<Real>;
+#define EDMILL_FLAG(name, thesis, meaning, formula) \
+  [](const Facts& f) -> Real { return (static_cast<void>(f), (formula) ? Real(1) : Real(0)); },
+#define EDMILL_COUNT(name, thesis, meaning, formula) [](const Facts& f) -> Real { return Real(formula); },
+#define EDMILL_VARIABLE(name, thesis, unit, meaning, formula) \
+  [](const Facts& f) -> Real { return Real(formula); },
+  static constexpr std::array<VariableFormula<Real>, model::impact_variables.size()> formulas{
+#include "model/impact_variables.def"
+  };
+#undef EDMILL_FLAG
+#undef EDMILL_COUNT
+#undef EDMILL_VARIABLE
+  return formulas[static_cast<std::size_t>(place)];
 }
 
 }  // namespace edmill::output

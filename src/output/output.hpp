@@ -10,8 +10,8 @@
 #include "engine/simulation.hpp"
 #include "io/file_note.hpp"
 #include "model/parts/surface.hpp"
+#include "output/impact_facts.hpp"
 #include "output/output_timer.hpp"
-#include "output/variable_values.hpp"
 
 namespace edmill::output {
 
