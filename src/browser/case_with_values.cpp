@@ -1,10 +1,10 @@
-#include "browser/case_with_values.hpp"
-
+// A case file with the page's settings in it.
 #include <algorithm>
 #include <sstream>
 #include <vector>
 
 #include "base/errors.hpp"
+#include "browser/session.hpp"
 #include "casefile/case_of_run.hpp"
 #include "casefile/section.hpp"
 

@@ -21,6 +21,7 @@ extern template casefile::InitialCase<double> casefile::build_case<double>(const
 
 namespace {
 
+using edmill::browser::content_of;
 using edmill::io::JsonText;
 
 std::unique_ptr<edmill::browser::Session> session;
@@ -34,24 +35,15 @@ const char* kept(std::string text) {
 /// The result of `work`, or the problems that it found.
 template <class Work>
 const char* answer(const Work& work) {
+  JsonText json;
   try {
     return kept(work());
   } catch (const edmill::InputError& error) {
-    JsonText json;
     json.texts("problems", error.problems());
-    return kept(json.finish());
   } catch (const std::exception& error) {
-    JsonText json;
     json.texts("problems", {error.what()});
-    return kept(json.finish());
   }
-}
-
-std::string content_of(const char* file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  return kept(json.finish());
 }
 
 /// The case is the file /case of the page's own memory, settings over it are the lines of /settings.

@@ -9,8 +9,8 @@
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
-#include "browser/case_with_values.hpp"
 #include "casefile/build_case.hpp"
+#include "casefile/case_of_run.hpp"
 #include "io/json_text.hpp"
 #include "model/parts/surface.hpp"
 #include "output/vessel_frame.hpp"
@@ -47,17 +47,6 @@ casefile::CaseSpec read(const std::string& text, const std::vector<std::string>&
   return spec;
 }
 
-std::string content_of(const std::string& place) {
-  std::ifstream in(place, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-}  // namespace
-
-namespace {
-
 struct FirstImpacts : Observer<double> {
   explicit FirstImpacts(int most) : most(static_cast<std::size_t>(most)) {}
   void on_impact(const Impact<double>& impact, Run<double>& run) override {
@@ -72,6 +61,13 @@ struct FirstImpacts : Observer<double> {
 };
 
 }  // namespace
+
+std::string content_of(const std::string& place) {
+  std::ifstream in(place, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
 
 std::string first_impacts(const std::string& text, const std::vector<std::string>& settings, int most) {
   Run<double> run(CaseAccess::make(casefile::parse_case(text, "case.toml", settings)));

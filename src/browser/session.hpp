@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +23,14 @@ struct SpeedClasses {
 /// @throws InputError
 std::string first_impacts(const std::string& text, const std::vector<std::string>& settings, int most);
 
+/// The text of a case whose values are those of its settings, so that it is the same case without them. Where
+/// that cannot be done line by line, settings follow as comments.
+/// @param log  whether an output "collisions" is added unless the case has one
+std::string text_with_values(const casefile::CaseSpec& spec, bool log);
+
+/// The bytes of a file; none where there is no such file.
+std::string content_of(const std::string& place);
+
 class Session : private Observer<double> {
  public:
   /// @param settings  "section.key=value" over the text, whose own outputs are left out
@@ -38,7 +45,6 @@ class Session : private Observer<double> {
   void advance_one_impact();
   /// The present state as JSON: places, the vessel's frame, rates with intervals, counts by approach speed.
   std::string frame();
-  bool ended() const { return !going_on_; }
   /// The case with the settings in it, as a file that the command line runs: with the same log, if one is
   /// written.
   std::string case_text() const;
