@@ -1,11 +1,14 @@
-// How a source adds functions and classes to the module, and how its functions release and take Python's
-// lock.
+// How a source adds functions and classes to the module, how its functions release and take Python's lock,
+// and how Ctrl-C ends long work.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <chrono>
+#include <future>
 #include <thread>
+#include <type_traits>
 #include <utility>
 
 #include "base/standard_arithmetic.hpp"
@@ -90,6 +93,38 @@ template <class... Argument>
 pybind11::object call(const pybind11::object& callable, Argument&&... argument) {
   const auto arguments = pybind11::make_tuple(std::forward<Argument>(argument)...);
   return made_by([&] { return PyObject_CallObject(callable.ptr(), arguments.ptr()); });
+}
+
+/// Work on a thread of its own, while this one lets Python's signal handlers run: Ctrl-C sets the flag, which
+/// the work obeys, and is raised when that has ended.
+template <class Work>
+std::invoke_result_t<Work> interruptible(std::atomic<bool>& interrupt, const Work& work) {
+  auto done = std::async(std::launch::async, work);
+  bool raised = false;
+  for (;;) {
+    {
+      const Unlocked others;
+      if (done.wait_for(std::chrono::milliseconds(100)) == std::future_status::ready) break;
+    }
+    if (call_python(PyErr_CheckSignals) != 0) {
+      PyErr_Clear();
+      raised = interrupt = true;
+    }
+  }
+  auto result = done.get();
+  if (raised) {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    throw pybind11::error_already_set();
+  }
+  return result;
+}
+
+/// The same with options that take the flag.
+template <class Options, class Work>
+auto with_interrupt(Options options, const Work& work) {
+  std::atomic<bool> interrupt{false};
+  options.interrupt = &interrupt;
+  return interruptible(interrupt, [&] { return work(options); });
 }
 
 }  // namespace edmill::python

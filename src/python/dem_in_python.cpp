@@ -6,7 +6,6 @@
 #include "dem/limit.hpp"
 #include "io/named_file.hpp"
 #include "python/binding.hpp"
-#include "python/interruptible.hpp"
 
 namespace py = pybind11;
 
@@ -31,14 +30,13 @@ py::tuple deck_of(const Case& the_case, const std::string& code, const std::stri
 py::dict import_dump(const Case& the_case, const std::string& dump, const std::string& out,
                      const std::string& deck, std::optional<double> time_step,
                      std::optional<std::string> units, bool in_vessel) {
-  std::atomic<bool> interrupt{false};
   dem::ImportOptions options;
   options.dump = dump, options.deck = deck, options.time_step = time_step, options.units = units;
-  options.in_vessel = in_vessel, options.interrupt = &interrupt;
-  const auto imported = interruptible(interrupt, [&] {
+  options.in_vessel = in_vessel;
+  const auto imported = with_interrupt(options, [&](const dem::ImportOptions& o) {
     io::NamedFile file(out);
     dem::ContactLogWriter log;
-    auto result = dem::import_dump(CaseAccess::spec(the_case), options, log);
+    auto result = dem::import_dump(CaseAccess::spec(the_case), o, log);
     file.write([&](std::ostream& stream) { log.write(stream, result.facts); });
     return result;
   });

@@ -1,6 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <array>
 #include <atomic>
 #include <limits>
 #include <sstream>
@@ -27,7 +26,6 @@
 #include "model/impact_variables.hpp"
 #include "prove/certificate.hpp"
 #include "python/binding.hpp"
-#include "python/interruptible.hpp"
 #include "report/report_page.hpp"
 #include "run/run_folder.hpp"
 
@@ -40,9 +38,7 @@ namespace {
 /// @return how many runs failed
 template <class Command>
 std::size_t study(const std::string& file, const std::string& folder, int jobs, const Command& command) {
-  std::atomic<bool> interrupt{false};
-  const app::StudyOptions options{file, folder, jobs, true, false, &interrupt};
-  const auto result = interruptible(interrupt, [&] { return command(options); });
+  const auto result = with_interrupt(app::StudyOptions{file, folder, jobs, true}, command);
   return result ? result->counts.failed : 0;
 }
 
@@ -65,17 +61,15 @@ std::string compare(const std::string& a, const std::string& b, double tolerance
 std::string audit(const Case& the_case, const std::string& log, const std::vector<std::string>& columns,
                   std::optional<double> tolerance, std::optional<double> gap_tolerance,
                   std::optional<int> first_ball, const std::string& walls, bool from_start, bool identify) {
-  std::atomic<bool> interrupt{false};
   app::AuditOptions options;
   options.log = log, options.columns = columns, options.tolerance = tolerance;
   options.gap_tolerance = gap_tolerance, options.first_ball = first_ball, options.walls = walls;
   options.from_start = from_start, options.identify = identify;
-  options.interrupt = &interrupt;
   const auto& spec = CaseAccess::spec(the_case);
-  return interruptible(interrupt, [&] {
+  return with_interrupt(options, [&](const app::AuditOptions& o) {
     const io::Spool pipes;
-    return dem::is_contact_log(log) ? dem::to_json(dem::audit_contacts(spec, {log, &interrupt}))
-                                    : app::audit(spec, options).json();
+    return dem::is_contact_log(log) ? dem::to_json(dem::audit_contacts(spec, {log, o.interrupt}))
+                                    : app::audit(spec, o).json();
   });
 }
 
@@ -109,12 +103,10 @@ py::list bodies_of(const std::vector<run::Event>& events) {
 /// @return what each pair of scalars agrees on, and the events, numbers as texts of all their digits
 /// @throws UndecidedError when no two scalars agree
 py::tuple certify(const Case& the_case, std::size_t collisions, int digits, const std::string& file) {
-  std::atomic<bool> interrupt{false};
   app::CertifyOptions options;
-  options.file = file, options.collisions = collisions, options.digits = digits,
-  options.interrupt = &interrupt;
+  options.file = file, options.collisions = collisions, options.digits = digits;
   const auto found =
-      interruptible(interrupt, [&] { return app::certify(CaseAccess::spec(the_case), options); });
+      with_interrupt(options, [&](const auto& o) { return app::certify(CaseAccess::spec(the_case), o); });
   if (!found.undecided.empty()) throw UndecidedError(found.undecided);
   py::list evidence;
   for (const auto& pair : found.evidence)
@@ -142,11 +134,10 @@ py::dict shadow(const Case& the_case, const std::string& precision, const std::s
 /// quantities, and of both balls' states, as texts
 py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, std::size_t events,
                       unsigned digits) {
-  std::atomic<bool> interrupt{false};
   app::SensitivityOptions options;
-  options.by = by, options.events = events, options.digits = digits, options.interrupt = &interrupt;
+  options.by = by, options.events = events, options.digits = digits;
   const auto found =
-      interruptible(interrupt, [&] { return app::sensitivity(CaseAccess::spec(the_case), options); });
+      with_interrupt(options, [&](const auto& o) { return app::sensitivity(CaseAccess::spec(the_case), o); });
   py::list of_numbers;
   for (std::size_t k = 0; k < by.size(); ++k) {
     std::vector<std::string> quantities, states;
@@ -168,11 +159,9 @@ py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, 
 /// @return the precision in which the case has the digits that it asks for, and the case with those found
 /// @throws UndecidedError when no number of digits suffices
 py::tuple find_digits(const Case& the_case) {
-  std::atomic<bool> interrupt{false};
-  app::DigitsOptions options;
-  options.interrupt = &interrupt;
-  const auto found =
-      interruptible(interrupt, [&] { return app::find_digits(CaseAccess::spec(the_case), options); });
+  const auto found = with_interrupt(app::DigitsOptions(), [&](const auto& options) {
+    return app::find_digits(CaseAccess::spec(the_case), options);
+  });
   if (!found.undecided.empty()) throw UndecidedError(found.undecided);
   auto spec = CaseAccess::spec(the_case);
   spec.right_digits = found.right();
@@ -180,11 +169,9 @@ py::tuple find_digits(const Case& the_case) {
 }
 
 py::dict estimate(const Case& the_case, const std::string& precision) {
-  std::atomic<bool> interrupt{false};
-  app::DigitsOptions options;
-  options.interrupt = &interrupt;
-  const auto found = interruptible(
-      interrupt, [&] { return app::estimate_run(CaseAccess::spec(the_case), precision, options); });
+  const auto found = with_interrupt(app::DigitsOptions(), [&](const auto& options) {
+    return app::estimate_run(CaseAccess::spec(the_case), precision, options);
+  });
   py::dict facts;
   facts["precision"] = found.precision, facts["events"] = found.events;
   facts["digits_lost_per_event"] = found.lost_per_event, facts["right_events"] = found.right_events;
@@ -209,12 +196,10 @@ py::list check(const Case& the_case) {
 /// @throws UndecidedError when the events cannot be proven
 py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
                 const std::string& certificate) {
-  std::atomic<bool> interrupt{false};
   app::ProveOptions options;
-  options.collisions = collisions, options.most_bits = most_bits, options.interrupt = &interrupt;
-  options.certificate = certificate;
+  options.collisions = collisions, options.most_bits = most_bits, options.certificate = certificate;
   const auto proof =
-      interruptible(interrupt, [&] { return app::prove(CaseAccess::spec(the_case), options); }).proof;
+      with_interrupt(options, [&](const auto& o) { return app::prove(CaseAccess::spec(the_case), o); }).proof;
   if (!proof.impossible.empty()) throw UndecidedError(proof.impossible);
   std::ostringstream events;
   prove::write_events(events, proof, 40);
@@ -232,10 +217,9 @@ std::string report(const std::string& folder) {
 }
 
 /// @throws KeyboardInterrupt when Ctrl-C ended it, with its state on disk
-void in_folder(app::RunOptions options, const std::function<app::RunResult(const app::RunOptions&)>& work) {
-  std::atomic<bool> interrupt{false};
-  options.interrupt = &interrupt;
-  const auto result = interruptible(interrupt, [&] { return work(options); });
+void in_folder(const app::RunOptions& options,
+               const std::function<app::RunResult(const app::RunOptions&)>& work) {
+  const auto result = with_interrupt(options, work);
   if (result.end_reason == model::EndReason::undecided) throw UndecidedError(result.error);
 }
 
