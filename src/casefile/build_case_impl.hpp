@@ -10,7 +10,6 @@
 #include "casefile/filling.hpp"
 #include "casefile/joints.hpp"
 #include "casefile/quantity_value.hpp"
-#include "casefile/random.hpp"
 #include "io/final_state.hpp"
 
 namespace edmill::casefile {
@@ -89,25 +88,18 @@ void fill_from_file(const casefile::CaseSpec& spec, InitialCase<Real>& result) {
                      " s, expected one before the case's end_time");
   result.start = saved.time;
   Filling<Real> filling(spec, result);
-  Random random(spec.seed);
   std::size_t k = 0;
-  for (const auto& b : spec.balls) {
-    filling.add_checked(to_ball<Real>(b, b.diameter.template to<Real>()), saved.states[k], b.where);
-    ++k;
-  }
+  for (const auto& b : spec.balls)
+    filling.add_checked(to_ball<Real>(b, b.diameter.template to<Real>()), saved.states[k++], b.where);
   for (const auto& b : spec.batches) {
     if (b.diameter_spread.positive())
       throw InputError(b.where +
                        ": found diameter_spread with an initial state, expected balls of one diameter");
-    for (int n = 0; n < b.count; ++n, ++k)
-      filling.add_checked(to_ball<Real>(b, b.diameter.template to<Real>()), saved.states[k], b.where);
+    for (int n = 0; n < b.count; ++n)
+      filling.add_checked(to_ball<Real>(b, b.diameter.template to<Real>()), saved.states[k++], b.where);
   }
   if (!filling.problems().empty()) throw InputError(filling.problems());
 }
-
-}  // namespace detail
-
-namespace detail {
 
 /// Refuses what the scalar cannot resolve: balls about as small as the rounding of a position, and a least
 /// separation speed whose hops are lower than that.

@@ -16,6 +16,8 @@ int read_material_of(Section& section, const std::string& key, const CaseSpec& s
 void read_wall_materials(Section& vessel, CaseSpec& spec);
 /// [[vessel.piston]]. @return the entries, for what can be told when the rest has been read
 std::vector<Section> read_pistons(Section& vessel, CaseSpec& spec);
+/// [[vessel.plane]] or [[vessel.vertex]]; what is wrong is reported.
+model::Polyhedron<Quantity> read_polyhedron(Section& vessel);
 /// Reports pistons that leave the vessel or meet the other end.
 void require_travel(std::vector<Section>& entries, const CaseSpec& spec);
 /// [contact], [contact.ball_ball], [contact.ball_wall] and [[contact.pair]].

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -21,20 +20,7 @@ struct GivenLaw {
   Quantity least_separation{cpp_rational(1, 100)};
 };
 
-/// Calls visit(law) with one law of each kind.
-template <class Visit>
-void for_each_law(const Visit& visit) {
-  [&]<std::size_t... kind>(std::index_sequence<kind...>) {
-    (visit(std::variant_alternative_t<kind, model::NamedLaws<Quantity>>{}), ...);
-  }
-  (std::make_index_sequence<std::variant_size_v<model::NamedLaws<Quantity>>>{});
-}
-
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for_each_law([&](const auto& law) { names.push_back(law.name); });
-  return names;
-}
+using Laws = model::NamedLaws<Quantity>;
 
 void require_least(Section& s, const Quantity& speed) {
   s.require(!speed.negative(), "least_separation", "a speed of 0 or more");
@@ -59,7 +45,7 @@ void read_table(Section& s, GivenLaw& given) {
 /// Parameters of every law may be given, so that a sweep over laws has all that it needs in one section.
 void read_law(Section& s, GivenLaw& given) {
   const bool chosen = s.has("model");
-  const auto name = s.choice("model", law_names());
+  const auto name = s.choice("model", names_of_kinds<Laws>());
   if (chosen || given.name.empty()) given.name = name;
   if (s.has("restitution") && s.has("restitution_normal"))
     s.problem("restitution_normal", "both 'restitution' and 'restitution_normal'", "one of them");
@@ -70,14 +56,14 @@ void read_law(Section& s, GivenLaw& given) {
     if (here) given.parameters[p.key] = found.value_or(Quantity{});  // what is wrong has been reported
   };
   std::map<std::string, bool> read;
-  for_each_law([&](const auto& law) {
+  for_each_kind<Laws>([&](const auto& law) {
     law.parameters(law, [&](const Parameter& p, const Quantity&) {
       if (std::exchange(read[p.key], true)) return;
       take(p.key, p);
       if (p.key == std::string("restitution")) take("restitution_normal", p);
     });
   });
-  for_each_law([&]<class Law>(const Law&) {
+  for_each_kind<Laws>([&]<class Law>(const Law&) {
     if constexpr (requires { Law::table; }) read_table<Law>(s, given);
   });
   if (const auto speed = s.quantity("least_separation", Dimension::speed)) {
@@ -117,7 +103,7 @@ void require_diameters(Section& s, const CaseSpec& spec) {
 ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spec) {
   ContactSpec result;
   result.least_separation = given.least_separation;
-  for_each_law([&](auto law) {
+  for_each_kind<Laws>([&](auto law) {
     if (given.name != law.name) return;
     law.parameters(law, [&](const Parameter& p, Quantity& value) {
       const auto found = given.parameters.find(p.key);
@@ -150,7 +136,7 @@ ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spe
 /// Whether all that its law needs is given.
 bool is_complete(const GivenLaw& given, const CaseSpec& spec) {
   bool complete = true;
-  for_each_law([&](const auto& law) {
+  for_each_kind<Laws>([&](const auto& law) {
     if (given.name != law.name) return;
     law.parameters(law, [&](const Parameter& p, const Quantity&) {
       complete = complete && (given.parameters.contains(p.key) || p.fallback ||

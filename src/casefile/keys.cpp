@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -56,7 +55,6 @@ constexpr FixedKey fixed_keys[] = {
     {"vessel.piston.swing", "amplitude", "length", "required", "inward"},
     {"vessel.piston.swing", "speed", "angular speed", "required", "2 pi times the frequency"},
     {"vessel.piston.swing", "phase", "angle", "`\"0 deg\"`", "at the time 0"},
-
 
     {"contact", "model", "name", "`\"walton-braun\"`", "the contact law"},
     {"contact", "restitution_normal", "number", "none", "another name of `restitution`", "walton-braun, constant"},
@@ -172,7 +170,7 @@ class Table {
       if (name == "run") add_stop_rules();
       if (name == "mill") add_parts<MotionSpec>(name);
       if (name == "vessel") add_parts<VesselSpec>(name);
-      if (name == "contact") add_laws();
+      if (name == "contact") add_parts<model::NamedLaws<Quantity>>(name);
       add_fixed(name, false);
       if (name == "output") add_outputs();
     }
@@ -203,14 +201,7 @@ class Table {
   }
   template <class Variant>
   static std::string names_of() {
-    std::string list;
-    [&]<std::size_t... kind>(std::index_sequence<kind...>) {
-      ((list +=
-        fmt::format("{}`{}`", list.empty() ? ": " : ", ", std::variant_alternative_t<kind, Variant>::name)),
-       ...);
-    }
-    (std::make_index_sequence<std::variant_size_v<Variant>>{});
-    return list;
+    return fmt::format(": `{}`", fmt::join(names_of_kinds<Variant>(), "`, `"));
   }
 
   /// A parameter that several types have in the same sense is one row.
@@ -227,20 +218,14 @@ class Table {
 
   template <class Variant>
   void add_parts(const std::string& section) {
-    [&]<std::size_t... kind>(std::index_sequence<kind...>) {
-      (add_part<std::variant_alternative_t<kind, Variant>>(section), ...);
-    }
-    (std::make_index_sequence<std::variant_size_v<Variant>>{});
-  }
-  template <class Part>
-  void add_part(const std::string& section) {
-    if constexpr (
-        requires(Part part) { part.given; } || requires(Part part) { part.faces; })
-      return;
-    const auto see = adder(section, Part::name);
-    Part part{};
-    Part::parameters(part, [&](const Parameter& p, const auto& value) {
-      if (p.key) see(p, kind_of(p, value), default_of(p, false));
+    for_each_kind<Variant>([&](const auto& part) {
+      if constexpr (
+          requires { part.given; } || requires { part.faces; })
+        return;
+      const auto see = adder(section, part.name);
+      part.parameters(part, [&](const Parameter& p, const auto& value) {
+        if (p.key) see(p, kind_of(p, value), default_of(p, false));
+      });
     });
   }
 
@@ -254,19 +239,6 @@ class Table {
     const auto see = adder("run", "");
     model::for_each_stop_rule([&](auto rule, std::size_t) {
       see(rule.key, kind_of(rule.key, Quantity{}), default_of(rule.key, true));
-    });
-  }
-
-  void add_laws() {
-    [&]<std::size_t... kind>(std::index_sequence<kind...>) {
-      (add_law(std::variant_alternative_t<kind, model::NamedLaws<Quantity>>{}), ...);
-    }
-    (std::make_index_sequence<std::variant_size_v<model::NamedLaws<Quantity>>>{});
-  }
-  void add_law(const auto& law) {
-    const auto see = adder("contact", law.name);
-    law.parameters(law, [&](const Parameter& p, const Quantity& value) {
-      see(p, kind_of(p, value), default_of(p, false));
     });
   }
 

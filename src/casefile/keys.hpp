@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "casefile/key.hpp"
-
 namespace edmill::casefile {
 
 struct Key {

@@ -1,12 +1,20 @@
 // Keys that several types of output have.
 #pragma once
 
-#include "casefile/key.hpp"
+#include <string_view>
+
 #include "casefile/section.hpp"
 
 namespace edmill::casefile {
 
-// Keys that several outputs have.
+/// What a reader needs to know of one key of an output.
+struct KeyText {
+  std::string_view name;
+  std::string_view kind;      ///< "time", "count", "list of texts"
+  std::string_view fallback;  ///< as in a file, "required", or what holds without the key
+  std::string_view meaning;
+};
+
 inline constexpr KeyText columns_key{"columns", "list of tables", "required", "what the table contains"};
 inline constexpr KeyText column_keys[] = {columns_key};
 inline constexpr KeyText interval_of_30_s{"interval", "time", "`\"30 s\"`", "length of an interval"};
@@ -30,7 +38,6 @@ void read_columns(Section& s, const ColumnRules& rules, OutputSpec& output);
 /// Reads `variable`; place in impact_variables, or nothing when it is wrong, which is reported.
 std::optional<int> read_variable(Section& s, bool flags, bool counts, bool numbers);
 
-/// Reads `statistics`.
 std::vector<Statistic> read_statistics(Section& s, const std::vector<Statistic>& allowed);
 
 /// Reads `interval` and `max_rows`.
@@ -39,7 +46,6 @@ void read_interval(Section& s, TimerSpec& timer, const std::optional<Quantity>& 
 /// The size of a table: at least 1 and not beyond reason.
 inline constexpr Range table_size{1, 1000};
 
-/// Reads `contact_point`.
 void read_contact_point(Section& s, OutputSpec& output);
 
 /// The dimension in which a unit of the variables is given in a case.

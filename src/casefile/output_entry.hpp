@@ -4,9 +4,8 @@
 
 #include <span>
 
-#include "casefile/key.hpp"
 #include "casefile/key_reader.hpp"
-#include "casefile/section.hpp"
+#include "casefile/output_columns.hpp"
 
 namespace edmill::casefile {
 

@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "casefile/case_parts.hpp"
 #include "casefile/joints.hpp"
 #include "casefile/key_reader.hpp"
-#include "casefile/polyhedron.hpp"
 
 namespace edmill::casefile {
 
@@ -30,27 +27,23 @@ void require_shape(Section& vessel, const model::RoundedCylinder<Quantity>& cyli
 template <class Variant>
 Variant read_part(Section& given) {
   Variant chosen;
-  [&]<std::size_t... kind>(std::index_sequence<kind...>) {
-    const auto name = given.kind("type", {std::variant_alternative_t<kind, Variant>::name...});
-    // Where the type is unknown, nothing else can be judged.
-    Document ignored;
-    Section nothing(ignored, nullptr, given.path());
-    Section& section = given.of_unknown_kind() ? nothing : given;
-    const auto read = [&]<class Part>(Part part) {
-      if (name != Part::name) return;
-      KeyReader read_key(section);
-      if constexpr (requires { part.given; })
-        part.given = read_joints(section);
-      else if constexpr (requires { part.faces; })
-        part = read_polyhedron(section);
-      else
-        Part::parameters(part, read_key);
-      if (read_key.complete()) require_shape(section, part);
-      chosen = part;
-    };
-    (read(std::variant_alternative_t<kind, Variant>{}), ...);
-  }
-  (std::make_index_sequence<std::variant_size_v<Variant>>{});
+  const auto name = given.kind("type", names_of_kinds<Variant>());
+  // Where the type is unknown, nothing else can be judged.
+  Document ignored;
+  Section nothing(ignored, nullptr, given.path());
+  Section& section = given.of_unknown_kind() ? nothing : given;
+  for_each_kind<Variant>([&]<class Part>(Part part) {
+    if (name != Part::name) return;
+    KeyReader read_key(section);
+    if constexpr (requires { part.given; })
+      part.given = read_joints(section);
+    else if constexpr (requires { part.faces; })
+      part = read_polyhedron(section);
+    else
+      Part::parameters(part, read_key);
+    if (read_key.complete()) require_shape(section, part);
+    chosen = part;
+  });
   return chosen;
 }
 

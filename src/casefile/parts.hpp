@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -14,6 +15,23 @@ namespace edmill::casefile {
 
 using MotionSpec = model::NamedMotions<Quantity>;
 using VesselSpec = model::NamedVessels<Quantity>;
+
+/// Calls visit(kind) with a value of each type that a variant can hold, in their order.
+template <class Variant, class Visit>
+void for_each_kind(const Visit& visit) {
+  [&]<std::size_t... kind>(std::index_sequence<kind...>) {
+    (visit(std::variant_alternative_t<kind, Variant>{}), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Variant>>{});
+}
+
+/// The names of these types.
+template <class Variant>
+std::vector<std::string> names_of_kinds() {
+  std::vector<std::string> names;
+  for_each_kind<Variant>([&](const auto& kind) { names.emplace_back(kind.name); });
+  return names;
+}
 
 /// The name of a part's type, "spex8000".
 template <class... Part>

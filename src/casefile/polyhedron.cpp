@@ -1,8 +1,7 @@
-#include "casefile/polyhedron.hpp"
-
+// Convex vessels as a case file says them: by planes or by vertices.
 #include <set>
 
-#include "casefile/section.hpp"
+#include "casefile/case_parts.hpp"
 
 namespace edmill::casefile {
 

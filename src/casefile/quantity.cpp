@@ -1,5 +1,6 @@
 #include "casefile/quantity.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <vector>
@@ -98,35 +99,13 @@ const Unit* find_unit(std::string_view spelling, Dimension dimension) {
   return nullptr;
 }
 
-std::string name(Dimension dimension) {
-  switch (dimension) {
-    case Dimension::none:
-      return "a plain number";
-    case Dimension::length:
-      return "a length";
-    case Dimension::mass:
-      return "a mass";
-    case Dimension::time:
-      return "a time";
-    case Dimension::angle:
-      return "an angle";
-    case Dimension::energy:
-      return "an energy";
-    case Dimension::specific_energy:
-      return "an energy per mass";
-    case Dimension::speed:
-      return "a speed";
-    case Dimension::angular_speed:
-      return "an angular speed";
-    case Dimension::acceleration:
-      return "an acceleration";
-    case Dimension::density:
-      return "a density";
-    case Dimension::pressure:
-      return "a pressure";
-  }
-  return "?";
-}
+/// In the order of the enumerators.
+constexpr std::array dimension_names{
+    "a plain number",     "a length", "a mass",           "a time",          "an angle",  "an energy",
+    "an energy per mass", "a speed",  "an angular speed", "an acceleration", "a density", "a pressure"};
+static_assert(dimension_names.size() == static_cast<std::size_t>(Dimension::pressure) + 1);
+
+std::string name(Dimension dimension) { return dimension_names[static_cast<std::size_t>(dimension)]; }
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
@@ -264,6 +243,13 @@ std::optional<cpp_rational> parse_decimal(std::string_view text) {
       boost::multiprecision::pow(cpp_int(10), static_cast<unsigned>(exponent < 0 ? -exponent : exponent));
   cpp_rational value = exponent < 0 ? cpp_rational(mantissa, power) : cpp_rational(mantissa * power);
   return negative ? cpp_rational(-value) : value;
+}
+
+std::optional<std::pair<double, std::string>> split_number(const std::string& text) {
+  const auto end = std::min(text.find_first_not_of("0123456789+-."), text.size());
+  const auto number = parse_decimal(text.substr(0, end));
+  if (!number) return std::nullopt;
+  return std::pair{static_cast<double>(*number), text.substr(end)};
 }
 
 QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLimit limit) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -80,5 +81,8 @@ bool has_comma(std::string_view text);
 
 /// Exact value of a decimal number; nothing for anything else, nan and inf included.
 std::optional<boost::multiprecision::cpp_rational> parse_decimal(std::string_view text);
+
+/// "4.76 mm" is 4.76 and " mm"; nothing for what does not begin with a number.
+std::optional<std::pair<double, std::string>> split_number(const std::string& text);
 
 }  // namespace edmill::casefile

@@ -101,19 +101,23 @@ std::vector<Section> Section::sections(const std::string& key, bool may_be_empty
   return entries;
 }
 
-std::optional<Quantity> Section::quantity(const std::string& key, Dimension dimension) {
-  const auto* node = find(key);
-  if (!node) return std::nullopt;
-  if (!node->is_string() && !node->is_number()) {
-    document_->report(node, full(key), kind_of(*node), describe(dimension));
+std::optional<Quantity> Section::quantity_in(const toml::node& node, const std::string& path,
+                                             Dimension dimension, ParseQuantity* parse) {
+  if (!node.is_string() && !node.is_number()) {
+    document_->report(&node, path, kind_of(node), describe(dimension));
     return std::nullopt;
   }
-  const auto result = parse_quantity(document_->raw(*node, full(key)), dimension, document_->sizes);
+  const auto result = parse(document_->raw(node, path), dimension, document_->sizes);
   if (const auto* problem = std::get_if<QuantityProblem>(&result)) {
-    document_->report(node, full(key), problem->found, describe(dimension));
+    document_->report(&node, path, problem->found, describe(dimension));
     return std::nullopt;
   }
   return std::get<Quantity>(result);
+}
+
+std::optional<Quantity> Section::quantity(const std::string& key, Dimension dimension) {
+  const auto* node = find(key);
+  return node ? quantity_in(*node, full(key), dimension, parse_quantity) : std::nullopt;
 }
 
 Quantity Section::quantity(const std::string& key, Dimension dimension, const Quantity& fallback) {
@@ -128,18 +132,7 @@ Quantity Section::required(const std::string& key, Dimension dimension) {
 
 std::optional<Quantity> Section::item(const toml::array& array, const std::string& path, std::size_t k,
                                       Dimension dimension) {
-  const auto& node = *array.get(k);
-  const std::string item_path = path + "." + std::to_string(k);
-  if (!node.is_string() && !node.is_number()) {
-    document_->report(&node, item_path, kind_of(node), describe(dimension));
-    return std::nullopt;
-  }
-  const auto result = parse_quantity_or_si(document_->raw(node, item_path), dimension, document_->sizes);
-  if (const auto* problem = std::get_if<QuantityProblem>(&result)) {
-    document_->report(&node, item_path, problem->found, describe(dimension));
-    return std::nullopt;
-  }
-  return std::get<Quantity>(result);
+  return quantity_in(*array.get(k), path + "." + std::to_string(k), dimension, parse_quantity_or_si);
 }
 
 std::optional<QuantityVector> Section::vector(const std::string& key, Dimension dimension) {

@@ -116,7 +116,11 @@ class Section {
  private:
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   const toml::node* find(const std::string& key);
-  /// An entry of an array; nothing when it is no quantity, which is reported.
+  using ParseQuantity = QuantityResult(std::string_view text, Dimension dimension, SizeLimit limit);
+  /// Nothing when the value is no quantity, which is reported.
+  std::optional<Quantity> quantity_in(const toml::node& node, const std::string& path, Dimension dimension,
+                                      ParseQuantity* parse);
+  /// An entry of an array.
   std::optional<Quantity> item(const toml::array& array, const std::string& path, std::size_t k,
                                Dimension dimension);
   std::optional<std::string> setting_of(const toml::node& node, const std::string& path);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "base/errors.hpp"
 #include "casefile/key_reader.hpp"
@@ -100,28 +101,19 @@ void check_size(Section& s, const SweepSpec& spec) {
   }
 }
 
-/// "2.36 mm" is 2.36 and " mm".
-bool split_value(const std::string& text, double& number, std::string& unit) {
-  if (has_comma(text)) return false;
-  const auto end = std::min(text.find_first_not_of("0123456789+-."), text.size());
-  const auto value = parse_decimal(text.substr(0, end));
-  if (!value) return false;
-  number = static_cast<double>(*value);
-  unit = text.substr(end);
-  return true;
-}
-
 void read_range(Section& s, OptimizeVariable& variable) {
   std::string high_unit;
-  const std::pair<const char*, std::pair<double*, std::string*>> ends[] = {
-      {"low", {&variable.low, &variable.unit}}, {"high", {&variable.high, &high_unit}}};
+  const std::tuple<const char*, double*, std::string*> ends[] = {{"low", &variable.low, &variable.unit},
+                                                                 {"high", &variable.high, &high_unit}};
   bool good = true;
-  for (const auto& [key, place] : ends) {
+  for (const auto& [key, number, unit] : ends) {
     const auto text = s.setting(key);
-    const bool fine = text && split_value(*text, *place.first, *place.second);
-    if (!fine)
+    const auto value = text && !has_comma(*text) ? split_number(*text) : std::nullopt;
+    if (value)
+      std::tie(*number, *unit) = *value;
+    else
       s.problem(key, text ? "\"" + *text + "\"" : "nothing", "a number with a decimal point, and its unit");
-    good = good && fine;
+    good = good && value;
   }
   if (!good) return;
   s.require(variable.unit == high_unit, "high", "the same unit as 'low'");

@@ -50,14 +50,6 @@ std::string name_of_point(const Point& point, std::size_t index) {
   return name.empty() ? fmt::format("point {}", index + 1) : name;
 }
 
-/// "4.76 mm" is 4.76 and " mm"; nothing for what does not begin with a number.
-std::optional<std::pair<double, std::string>> split(const std::string& text) {
-  const auto end = std::min(text.find_first_not_of("0123456789+-."), text.size());
-  const auto number = casefile::parse_decimal(text.substr(0, end));
-  if (!number) return std::nullopt;
-  return std::pair{static_cast<double>(*number), text.substr(end)};
-}
-
 /// The axis of the points: the value of the only key that varies, where it is a number, or their numbers.
 struct Places {
   std::string title = "point";
@@ -69,7 +61,7 @@ struct Places {
     std::string unit;
     for (const auto& point : points) {
       if (point.settings.size() != 1 || point.settings[0].first != points[0].settings[0].first) return;
-      const auto value = split(point.settings[0].second);
+      const auto value = casefile::split_number(point.settings[0].second);
       if (!value || (!values.empty() && value->second != unit)) return;
       unit = value->second;
       values.push_back(value->first);
