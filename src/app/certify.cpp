@@ -21,10 +21,6 @@ using run::Agreement;
 using run::Event;
 using run::Number;
 
-bool stop_asked(const std::atomic<bool>* interrupt) {
-  return interrupt && interrupt->load(std::memory_order_relaxed);
-}
-
 /// The first events of a case in one scalar, and how long they took.
 struct Sequence {
   std::string precision;
@@ -88,17 +84,6 @@ std::string describe(const Event& e) {
   return fmt::format("ball {} and {} {} at {} s", e.ball, e.with_wall ? "wall" : "ball", e.partner,
                      e.time.str(17));
 }
-
-}  // namespace
-
-std::string Evidence::text() const {
-  std::string line = fmt::format("{} and {}: {} events in common; digits:", narrow, wide, agreement.events());
-  for (std::size_t k = 0; k < model::logged_count; ++k)
-    line += fmt::format(" {} {}", model::logged_quantities[k].name, digits_text(agreement.digits(k)));
-  return line;
-}
-
-namespace {
 
 /// What is found on the way to a certain sequence.
 class Certifier {
@@ -222,8 +207,7 @@ Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& opti
                       const std::function<void(const Evidence&)>& found) try {
   if (options.collisions == 0 && !spec.end_time)
     throw InputError(spec.file + ": found no run.end_time, expected one, or a number of collisions");
-  std::optional<io::NamedFile> file;
-  if (!options.file.empty()) file.emplace(options.file);
+  auto file = io::file_for(options.file);
   Certifier certifier(spec, options, found);
   if (!certifier.by_fixed_scalars()) certifier.by_chosen_digits();
   auto result = std::move(certifier.result);
@@ -249,6 +233,13 @@ Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, cons
   }
   return {precision,        wider, runs.agreement(), runs.diverged(), runs.uneven(), stop_asked(interrupt),
           spec.ball_count()};
+}
+
+std::string Evidence::text() const {
+  std::string line = fmt::format("{} and {}: {} events in common; digits:", narrow, wide, agreement.events());
+  for (std::size_t k = 0; k < model::logged_count; ++k)
+    line += fmt::format(" {} {}", model::logged_quantities[k].name, digits_text(agreement.digits(k)));
+  return line;
 }
 
 std::string Shadow::text() const {

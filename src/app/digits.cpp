@@ -18,10 +18,6 @@ namespace edmill::app {
 
 namespace {
 
-bool stop_asked(const DigitsOptions& options) {
-  return options.interrupt && options.interrupt->load(std::memory_order_relaxed);
-}
-
 std::string chosen(double digits) {
   return fmt::format("mpfr:{}", static_cast<unsigned>(std::clamp(digits, 60.0, double{most_digits})));
 }
@@ -32,7 +28,7 @@ double count_events(const casefile::CaseSpec& spec, const DigitsOptions& options
   const auto source = source_in("double", spec, true, options.interrupt);
   const double begin = run::cpu_seconds(), first = source->reached();
   double events = 0;
-  while (!stop_asked(options)) {
+  while (!stop_asked(options.interrupt)) {
     const auto more = source->pass(1024);
     if (more == 0) return events;
     events += static_cast<double>(more);
@@ -62,7 +58,7 @@ void find_lost_digits(RunEstimate& e, double enough, const casefile::CaseSpec& s
   };
   bool all = false;
   std::vector<double> times;
-  while (!stop_asked(options) && agreement.events() < most && lost() < enough) {
+  while (!stop_asked(options.interrupt) && agreement.events() < most && lost() < enough) {
     const auto events = runs.next(256);
     all = events.empty() && !runs.diverged();
     if (events.empty()) break;
@@ -117,7 +113,7 @@ double time_per_event(const std::string& precision, const casefile::CaseSpec& sp
   double begin = run::cpu_seconds(), took = 0;
   std::size_t events = 0;
   bool warm = false;
-  while (took < longest && !stop_asked(options)) {
+  while (took < longest && !stop_asked(options.interrupt)) {
     const auto more = source->pass(64);
     if (more == 0) break;
     if (!warm) {
@@ -166,7 +162,7 @@ RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& prec
   if (precision.empty() && e.seconds_per_event > 0) e.verifying = 2 * share_of_verifying(e, spec, options);
   e.bytes = most_memory();
   e.outputs = !spec.outputs.empty();
-  e.interrupted = stop_asked(options);
+  e.interrupted = stop_asked(options.interrupt);
   return e;
 } catch (const InterruptedError&) {
   RunEstimate e;
@@ -219,7 +215,7 @@ FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& opt
        digits < most_digits && found.undecided.empty();) {
     found.narrow = chosen(digits), found.precision = chosen(wider_than(static_cast<unsigned>(digits)));
     SideBySide runs(spec, found.narrow, found.precision, true, options.interrupt);
-    for (bool more = true; more && !(found.interrupted = stop_asked(options));) {
+    for (bool more = true; more && !(found.interrupted = stop_asked(options.interrupt));) {
       const auto events = runs.next(256);
       more = !events.empty();
       for (const auto& event : events)

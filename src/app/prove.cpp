@@ -1,7 +1,6 @@
 #include "app/prove.hpp"
 
 #include <chrono>
-#include <optional>
 
 #include "app/certify.hpp"
 #include "base/clean_text.hpp"
@@ -29,9 +28,7 @@ std::size_t right_events(const std::string& precision, const casefile::CaseSpec&
 }
 
 Proven prove(const casefile::CaseSpec& spec, const ProveOptions& options) {
-  std::optional<io::NamedFile> events, certificate;
-  if (!options.file.empty()) events.emplace(options.file);
-  if (!options.certificate.empty()) certificate.emplace(options.certificate);
+  auto events = io::file_for(options.file), certificate = io::file_for(options.certificate);
   const auto begin = std::chrono::steady_clock::now();
   Proven result{prove::prove(spec, options)};
   result.proof.exact.name = one_line(result.proof.exact.name);

@@ -243,8 +243,7 @@ Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptio
   if (options.digits > most_digits)
     throw InputError(fmt::format("--digits: found {}, expected at most {}: a derivative has no more",
                                  options.digits, most_digits));
-  std::optional<io::NamedFile> file;
-  if (!options.file.empty()) file.emplace(options.file);
+  auto file = io::file_for(options.file);
   Differentiator differentiator(spec, options);
   double digits = options.digits + 60.0;
   for (;;) {

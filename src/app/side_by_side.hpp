@@ -14,6 +14,10 @@
 
 namespace edmill::app {
 
+inline bool stop_asked(const std::atomic<bool>* interrupt) {
+  return interrupt && interrupt->load(std::memory_order_relaxed);
+}
+
 /// The events of a case in the scalar of this name.
 /// @param to_end  whether they end where the case does
 std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,

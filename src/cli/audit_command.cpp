@@ -12,23 +12,12 @@
 
 namespace edmill::cli {
 
-namespace {
-
-/// A file that is asked for by name; it is found before the work whether it can be written.
-std::optional<io::NamedFile> file_for(const std::string& name) {
-  std::optional<io::NamedFile> file;
-  if (!name.empty()) file.emplace(name);
-  return file;
-}
-
-}  // namespace
-
 int run_audit(const casefile::CaseSpec& spec, AuditOptions options) {
   const io::Spool pipes;
   if (dem::is_contact_log(options.log))
     return run_contact_audit(spec, {options.log, options.interrupt}, {options.json, options.junit},
                              options.quiet);
-  auto json = file_for(options.json), junit = file_for(options.junit);
+  auto json = io::file_for(options.json), junit = io::file_for(options.junit);
   std::optional<ProgressLine> line;
   if (shows_progress(options.quiet)) {
     std::optional<double> end;
@@ -42,18 +31,13 @@ int run_audit(const casefile::CaseSpec& spec, AuditOptions options) {
   if (json) json->write([&](std::ostream& out) { out << audited.json(); });
   if (junit) junit->write([&](std::ostream& out) { out << audited.junit(); });
   if (!options.quiet) io::print("{}", audited.table());
-  switch (audited.result.verdict) {
-    case audit::Verdict::clean:
-      return ok;
-    case audit::Verdict::violations:
-      return outputs_differ;
-    default:
-      return too_few_data;
-  }
+  const auto verdict = audited.result.verdict;
+  if (verdict == audit::Verdict::clean) return ok;
+  return verdict == audit::Verdict::violations ? outputs_differ : too_few_data;
 }
 
 int run_compare(const CompareOptions& options) {
-  auto json = file_for(options.json), junit = file_for(options.junit);
+  auto json = io::file_for(options.json), junit = io::file_for(options.junit);
   const io::Spool pipes;
   if (dem::is_contact_log(options.a.string()) || dem::is_contact_log(options.b.string()))
     return run_contact_comparison(options.a.string(), options.b.string(), options.limits.from.value_or(0),
@@ -63,14 +47,8 @@ int run_compare(const CompareOptions& options) {
   if (json) json->write([&](std::ostream& out) { out << compare::to_json(comparison); });
   if (junit) junit->write([&](std::ostream& out) { out << compare::to_junit(comparison); });
   if (!options.quiet) io::print("{}", compare::table(comparison));
-  switch (comparison.verdict) {
-    case compare::Verdict::agree:
-      return ok;
-    case compare::Verdict::differ:
-      return outputs_differ;
-    default:
-      return too_few_data;
-  }
+  if (comparison.verdict == compare::Verdict::agree) return ok;
+  return comparison.verdict == compare::Verdict::differ ? outputs_differ : too_few_data;
 }
 
 }  // namespace edmill::cli

@@ -24,4 +24,10 @@ void NamedFile::write(const std::function<void(std::ostream&)>& put) {
   file.commit();
 }
 
+std::optional<NamedFile> file_for(const std::string& name) {
+  std::optional<NamedFile> file;
+  if (!name.empty()) file.emplace(name);
+  return file;
+}
+
 }  // namespace edmill::io

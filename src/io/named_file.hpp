@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <ostream>
+#include <string>
 
 #include "io/output_folder.hpp"
 
@@ -28,5 +29,8 @@ class NamedFile {
   bool through_;
   std::optional<FolderLock> lock_;
 };
+
+/// The file of that name; none where it is empty.
+std::optional<NamedFile> file_for(const std::string& name);
 
 }  // namespace edmill::io
