@@ -132,33 +132,6 @@ std::string canonical_text(const CaseSpec& c) {
   return out.str();
 }
 
-}  // namespace
-
-std::vector<Colour> CaseSpec::ball_colours() const {
-  std::vector<Colour> colours;
-  for (const auto& ball : balls) colours.push_back(ball.colour);
-  for (const auto& batch : batches)
-    colours.insert(colours.end(), static_cast<std::size_t>(batch.count), batch.colour);
-  return colours;
-}
-
-std::string TargetSpec::counts() const {
-  std::string text = counted.normal_only ? "the dose along the normal" : "all of the dose";
-  if (counted.least.positive())
-    text +=
-        fmt::format("{} {:g} J or more", counted.normal_only ? " of impacts where it is" : " of impacts of",
-                    counted.least.to<double>());
-  return text;
-}
-
-std::size_t CaseSpec::ball_count() const {
-  std::size_t count = balls.size();
-  for (const auto& batch : batches) count += static_cast<std::size_t>(batch.count);
-  return count;
-}
-
-namespace {
-
 /// @param finished  a run of it is over: the file that it began from is not looked for
 CaseSpec parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                bool finished, SizeLimit sizes = SizeLimit::physical) {
@@ -217,6 +190,29 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
 }
 
 }  // namespace
+
+std::vector<Colour> CaseSpec::ball_colours() const {
+  std::vector<Colour> colours;
+  for (const auto& ball : balls) colours.push_back(ball.colour);
+  for (const auto& batch : batches)
+    colours.insert(colours.end(), static_cast<std::size_t>(batch.count), batch.colour);
+  return colours;
+}
+
+std::string TargetSpec::counts() const {
+  std::string text = counted.normal_only ? "the dose along the normal" : "all of the dose";
+  if (counted.least.positive())
+    text +=
+        fmt::format("{} {:g} J or more", counted.normal_only ? " of impacts where it is" : " of impacts of",
+                    counted.least.to<double>());
+  return text;
+}
+
+std::size_t CaseSpec::ball_count() const {
+  std::size_t count = balls.size();
+  for (const auto& batch : batches) count += static_cast<std::size_t>(batch.count);
+  return count;
+}
 
 std::vector<std::string> problems_of(const CaseSpec& spec) {
   Document document;

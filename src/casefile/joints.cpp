@@ -198,6 +198,21 @@ void require_speed(Section& swing, const Quantity& speed) {
                 "a positive angular speed below 1e6 rad/s");
 }
 
+template <class Spex>
+std::vector<Joint<Quantity>> spex_joints(const Spex& spex) {
+  const auto number = [](int n, int d) { return Quantity{boost::multiprecision::cpp_rational(n, d)}; };
+  const Quantity frequency = Quantity{1} / spex.period;
+  Joint<Quantity> swing, arm, turn;
+  swing.axis[2] = number(1, 1);
+  swing.angle = number(1, 4);
+  swing.swings.push_back({in_turns(spex.theta_max), frequency, number(1, 4)});
+  arm.rotates = false;
+  arm.shift[0] = spex.arm;
+  turn.axis[0] = number(1, 1);
+  turn.swings.push_back({in_turns(spex.gamma_max), frequency, number(0, 1)});
+  return {swing, arm, turn};
+}
+
 }  // namespace
 
 void check_swings(Section& section, const std::vector<Swing<Quantity>>& swings) {
@@ -274,28 +289,6 @@ std::string equation_of(const Joints<Quantity>& joints) {
   for (const auto& joint : joints.list) text += (text.empty() ? "" : "; ") + text_of_joint(joint);
   return text;
 }
-
-namespace {
-
-template <class Spex>
-std::vector<model::Joint<Quantity>> spex_joints(const Spex& spex) {
-  const auto in_turns = [](const Quantity& radians) {
-    return Quantity{radians.value / 2, radians.pi_power - 1};
-  };
-  const auto number = [](int n, int d) { return Quantity{boost::multiprecision::cpp_rational(n, d)}; };
-  const Quantity frequency = Quantity{1} / spex.period;
-  model::Joint<Quantity> swing, arm, turn;
-  swing.axis[2] = number(1, 1);
-  swing.angle = number(1, 4);
-  swing.swings.push_back({in_turns(spex.theta_max), frequency, number(1, 4)});
-  arm.rotates = false;
-  arm.shift[0] = spex.arm;
-  turn.axis[0] = number(1, 1);
-  turn.swings.push_back({in_turns(spex.gamma_max), frequency, number(0, 1)});
-  return {swing, arm, turn};
-}
-
-}  // namespace
 
 std::vector<model::Joint<Quantity>> joints_of(const MotionSpec& motion) {
   return std::visit(

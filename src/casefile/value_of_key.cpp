@@ -44,6 +44,14 @@ std::pair<cpp_int, int> in_decimals(const std::string& number) {
   return {cpp_int(numerator(value) * (power / denominator)), exponent};
 }
 
+std::vector<std::string> settings_with(const CaseSpec& spec, const std::string& key,
+                                       const std::string& value) {
+  auto settings = spec.settings;
+  const bool plain = value.find(' ') == std::string::npos;  // a number without a unit
+  settings.push_back(key + "=" + (plain ? value : "\"" + value + "\""));
+  return settings;
+}
+
 }  // namespace
 
 std::string WrittenNumber::plus(int sign, unsigned digits) const {
@@ -69,18 +77,6 @@ WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key) {
                      ", expected a number that the case file or a setting gives");
   return found;
 }
-
-namespace {
-
-std::vector<std::string> settings_with(const CaseSpec& spec, const std::string& key,
-                                       const std::string& value) {
-  auto settings = spec.settings;
-  const bool plain = value.find(' ') == std::string::npos;  // a number without a unit
-  settings.push_back(key + "=" + (plain ? value : "\"" + value + "\""));
-  return settings;
-}
-
-}  // namespace
 
 CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value) {
   return parse_case(spec.text, spec.file, settings_with(spec, key, value));

@@ -62,32 +62,6 @@ int with_progress(app::RunOptions& options, const RunCommand& command, const Wor
   return with_signal(tell(result, command));
 }
 
-}  // namespace
-
-std::string name_of(const std::string& case_file) {
-  return io::is_stream(case_file) ? "stdin" : std::filesystem::path(case_file).stem().string();
-}
-
-void until_precision(const std::string& precision, const casefile::CaseSpec& spec,
-                     std::vector<std::string>& settings) {
-  std::string_view number = precision;
-  const bool percent = number.ends_with('%');
-  if (percent) number.remove_suffix(1);
-  while (number.ends_with(' ')) number.remove_suffix(1);
-  const auto value = casefile::parse_decimal(number);
-  const double part = value ? static_cast<double>(*value) / (percent ? 100 : 1) : 0;
-  if (!(part > 0 && part < 1))
-    throw InputError("--until-precision: found \"" + precision +
-                     "\", expected a part of the dose rate above 0 and below 1: \"1%\" or 0.01");
-  settings.push_back(fmt::format("run.dose_rate_precision={}", part));
-  const bool limited =
-      std::ranges::any_of(settings, [](const auto& s) { return s.starts_with("run.end_time="); });
-  if (!limited && spec.end_time)
-    settings.push_back(fmt::format("run.end_time=\"{} s\"", 100 * spec.end_time->to<double>()));
-}
-
-namespace {
-
 /// Keeps a folder for a run whose digits are sought first: what would refuse it is told before. Leaves no
 /// empty folders.
 class ReservedFolder {
@@ -115,6 +89,28 @@ class ReservedFolder {
 };
 
 }  // namespace
+
+std::string name_of(const std::string& case_file) {
+  return io::is_stream(case_file) ? "stdin" : std::filesystem::path(case_file).stem().string();
+}
+
+void until_precision(const std::string& precision, const casefile::CaseSpec& spec,
+                     std::vector<std::string>& settings) {
+  std::string_view number = precision;
+  const bool percent = number.ends_with('%');
+  if (percent) number.remove_suffix(1);
+  while (number.ends_with(' ')) number.remove_suffix(1);
+  const auto value = casefile::parse_decimal(number);
+  const double part = value ? static_cast<double>(*value) / (percent ? 100 : 1) : 0;
+  if (!(part > 0 && part < 1))
+    throw InputError("--until-precision: found \"" + precision +
+                     "\", expected a part of the dose rate above 0 and below 1: \"1%\" or 0.01");
+  settings.push_back(fmt::format("run.dose_rate_precision={}", part));
+  const bool limited =
+      std::ranges::any_of(settings, [](const auto& s) { return s.starts_with("run.end_time="); });
+  if (!limited && spec.end_time)
+    settings.push_back(fmt::format("run.end_time=\"{} s\"", 100 * spec.end_time->to<double>()));
+}
 
 int run_case(casefile::CaseSpec spec, const RunCommand& given) {
   auto command = given;

@@ -50,24 +50,6 @@ int locked(int descriptor, const fs::path& folder, FolderLock::Kind kind) {
   return descriptor;
 }
 
-}  // namespace
-
-FolderLock::FolderLock(const fs::path& folder, Kind kind)
-    : descriptor_(locked(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), folder, kind)) {
-  // NFS locks only what is open for writing, which a folder never is.
-  if (descriptor_ < 0)
-    descriptor_ =
-        locked(::open((folder / ".edmill-lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666), folder, kind);
-}
-
-FolderLock::FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-FolderLock::~FolderLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-namespace {
-
 const std::string partial = ".partial-";
 
 /// A mark in the names of this process's temporary files that no other process uses.
@@ -86,6 +68,20 @@ bool is_temporary(const std::string& name) {
 }
 
 }  // namespace
+
+FolderLock::FolderLock(const fs::path& folder, Kind kind)
+    : descriptor_(locked(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), folder, kind)) {
+  // NFS locks only what is open for writing, which a folder never is.
+  if (descriptor_ < 0)
+    descriptor_ =
+        locked(::open((folder / ".edmill-lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666), folder, kind);
+}
+
+FolderLock::FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
 
 fs::path temporary_name(const fs::path& place) {
   static std::atomic<int> count = 0;  // two files of one run can have the same path

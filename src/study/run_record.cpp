@@ -22,6 +22,23 @@ constexpr const char* format_name = "edmill run record 1";
 /// The number of walls that a record counts impacts with.
 int walls_of(const RunRecord& r) { return static_cast<int>(r.collisions.size()) - 1; }
 
+/// An amount per second of the statistics; nothing when they cover no time.
+std::optional<double> rate(const RunRecord& r, double amount) {
+  const double duration = r.end_time - r.start_time;
+  return duration > 0 ? std::optional<double>(amount / duration) : std::nullopt;
+}
+
+std::optional<double> collision_rate(const RunRecord& r, std::size_t place) {
+  return place < r.collisions.size() ? rate(r, static_cast<double>(r.collisions[place])) : std::nullopt;
+}
+
+Quantity wall_rate(int wall) {
+  const auto of = [wall](const RunRecord& r) {
+    return wall < walls_of(r) ? collision_rate(r, static_cast<std::size_t>(wall)) : std::nullopt;
+  };
+  return {"collision_rate_" + model::partner_key(wall, wall + 1), of};
+}
+
 }  // namespace
 
 RunRecord failed_run(const std::string& digest, const std::string& status, const std::string& message) {
@@ -85,27 +102,6 @@ std::optional<RunRecord> from_json(const std::string& text) try {
 } catch (const std::exception&) {
   return std::nullopt;
 }
-
-namespace {
-
-/// An amount per second of the statistics; nothing when they cover no time.
-std::optional<double> rate(const RunRecord& r, double amount) {
-  const double duration = r.end_time - r.start_time;
-  return duration > 0 ? std::optional<double>(amount / duration) : std::nullopt;
-}
-
-std::optional<double> collision_rate(const RunRecord& r, std::size_t place) {
-  return place < r.collisions.size() ? rate(r, static_cast<double>(r.collisions[place])) : std::nullopt;
-}
-
-Quantity wall_rate(int wall) {
-  const auto of = [wall](const RunRecord& r) {
-    return wall < walls_of(r) ? collision_rate(r, static_cast<std::size_t>(wall)) : std::nullopt;
-  };
-  return {"collision_rate_" + model::partner_key(wall, wall + 1), of};
-}
-
-}  // namespace
 
 std::vector<Quantity> quantities(int walls) {
   std::vector<Quantity> list{
