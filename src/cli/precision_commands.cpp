@@ -33,6 +33,12 @@ app::DigitsOptions options_of_trials(bool quiet) {
   return options;
 }
 
+/// @return the exit code
+int tell_undecided(const std::string& why) {
+  io::tell("edmill: {}; nothing is written\n", why);
+  return undecided;
+}
+
 /// Whether the certificate is one of this case.
 int check_header(const casefile::CaseSpec& spec, const ProveOptions& options) {
   const auto differences = app::check_certificate(spec, options.checked);
@@ -60,10 +66,7 @@ int run_certify(const casefile::CaseSpec& spec, CertifyOptions options) {
   });
   if (show) io::tell("{}", no_line);
   if (result.interrupted) return ok;
-  if (!result.undecided.empty()) {
-    io::tell("edmill: {}; nothing is written\n", result.undecided);
-    return undecided;
-  }
+  if (!result.undecided.empty()) return tell_undecided(result.undecided);
   if (!options.quiet) io::print("certified: {}\n", options.file);
   return ok;
 }
@@ -92,10 +95,7 @@ int choose_digits(casefile::CaseSpec& spec, bool quiet, std::string& precision) 
     io::tell("edmill: interrupted before the digits were found; nothing is written\n");
     return after_signals(interrupted);
   }
-  if (!found.undecided.empty()) {
-    io::tell("edmill: {}; nothing is written\n", found.undecided);
-    return undecided;
-  }
+  if (!found.undecided.empty()) return tell_undecided(found.undecided);
   if (!quiet) io::print("{}", found.text());
   precision = found.precision;
   spec.right_digits = found.right();
@@ -117,10 +117,7 @@ int run_prove(const casefile::CaseSpec& spec, ProveOptions options) {
   if (show) io::tell("{}", no_line);
   if (!options.quiet) print_attempts(proof);
   if (proof.interrupted) return ok;
-  if (!proof.impossible.empty()) {
-    io::tell("edmill: {}; nothing is written\n", proof.impossible);
-    return undecided;
-  }
+  if (!proof.impossible.empty()) return tell_undecided(proof.impossible);
   if (options.quiet) return ok;
   io::print("proven: {} events in {} bits, {:.2f} bits lost per event ({:.1f} s)\n", proof.events.size(),
             proof.bits,

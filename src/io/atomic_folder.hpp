@@ -24,7 +24,6 @@ class AtomicFolder {
   /// Adds a file. @throws std::runtime_error when it was not written
   void add(const std::string& name, const std::string& text);
   void commit();
-  /// Places of its files.
   std::vector<std::filesystem::path> places() const;
 
   /// For a checkpoint; the temporary folder is then kept even without `commit`. Loading continues with

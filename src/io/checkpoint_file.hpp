@@ -37,7 +37,6 @@ Checkpoint read_checkpoint(const std::filesystem::path& folder);
 /// @throws InputError when an unfinished run has left one, from which it could continue
 void require_no_checkpoint(const std::filesystem::path& folder);
 
-/// Path of a folder's checkpoint.
 std::filesystem::path checkpoint_place(const std::filesystem::path& folder);
 
 }  // namespace edmill::io

@@ -38,7 +38,6 @@ class FileBuffer : public std::streambuf {
 
   /// Takes over a descriptor that stands after `size` bytes with this digest.
   void open(int descriptor, std::uint64_t size = 0, Sha256 digest = {});
-  bool is_open() const { return descriptor_ >= 0; }
   /// @return whether everything was written
   bool close();
   /// Forgets what is left in the buffer, and closes.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "report/result_table.hpp"
 
 namespace edmill::report {
@@ -16,14 +18,17 @@ inline std::string time_text(double seconds, const std::optional<double>& half_w
                      half_width ? fmt::format(" ± {:.2g}", *half_width / size) : "", unit);
 }
 
+inline std::string row_text(std::string_view name, std::string_view value) {
+  return fmt::format("  {:<28}{}\n", name, value);
+}
+
 template <class Real>
 std::string target_rows(const io::Summary<Real>& s) {
-  std::string text = fmt::format("  {:<28}{:g} kJ/g, {}\n", "target dose",
-                                 static_cast<double>(s.target->dose) / 1e6, s.target->counts);
-  text += fmt::format("  {:<28}", "milling time");
   const auto time = s.milling_time();
-  if (!time) return text + "none: nothing of the dose counts\n";
-  return text + time_text(static_cast<double>(*time), s.milling_time_half_width()) + "\n";
+  return row_text("target dose",
+                  fmt::format("{:g} kJ/g, {}", static_cast<double>(s.target->dose) / 1e6, s.target->counts)) +
+         row_text("milling time", time ? time_text(static_cast<double>(*time), s.milling_time_half_width())
+                                       : "none: nothing of the dose counts");
 }
 
 /// Rates with their intervals; nothing of a run without time.
@@ -52,15 +57,14 @@ std::string rate_rows(const io::Summary<Real>& s) {
 template <class Real>
 std::string decision_rows(const io::Summary<Real>& s) {
   std::string out;
-  const auto row = [&](const std::string& name, const std::string& value) {
-    out += fmt::format("  {:<28}{}\n", name, value);
-  };
   if (s.simultaneous_contacts > 0)
-    row("simultaneous, by a rule", fmt::format("{} impacts, {:.2g} %", s.simultaneous_contacts,
-                                               100.0 * static_cast<double>(s.simultaneous_contacts) /
-                                                   static_cast<double>(s.total_impacts)));
+    out +=
+        row_text("simultaneous, by a rule", fmt::format("{} impacts, {:.2g} %", s.simultaneous_contacts,
+                                                        100.0 * static_cast<double>(s.simultaneous_contacts) /
+                                                            static_cast<double>(s.total_impacts)));
   for (const auto& e : s.escalations)
-    row("decided by " + e.scalar, fmt::format("{} wall, {} pair, {} order", e.wall, e.pair, e.order));
+    out += row_text("decided by " + e.scalar,
+                    fmt::format("{} wall, {} pair, {} order", e.wall, e.pair, e.order));
   return out;
 }
 
@@ -69,9 +73,7 @@ std::string result_table(const io::Summary<Real>& s) {
   const auto real = [](const Real& x) { return static_cast<double>(x); };
   const double duration = real(s.duration());
   std::string out;
-  const auto row = [&](const std::string& name, const std::string& value) {
-    out += fmt::format("  {:<28}{}\n", name, value);
-  };
+  const auto row = [&](const std::string& name, const std::string& value) { out += row_text(name, value); };
   out += fmt::format("{} in {}, ended by {}\n", s.provenance.case_file, s.provenance.precision,
                      model::name(s.end_reason));
   row("statistics", fmt::format("{} s to {} s", real(s.start_time), real(s.end_time)));

@@ -15,8 +15,8 @@ struct CaseArgument {
   std::string file;
   std::vector<std::string> overrides;
 
-  void add_to(CLI::App& command) {
-    command.add_option("case", file, "case file (TOML)")->required();
+  void add_to(CLI::App& command, const std::string& name = "case") {
+    command.add_option(name, file, "case file (TOML)")->required();
     command.add_option("--set", overrides, "section.key=value, overrides the case file; can be repeated")
         ->take_all()
         ->expected(1);

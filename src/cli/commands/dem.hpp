@@ -81,11 +81,7 @@ struct Import {
                     "compressed; - for "
                     "standard input; or a list of contacts with walls, as Lethe writes it")
         ->required();
-    command.add_option("--case", given_.file, "case file (TOML)")->required();
-    command
-        .add_option("--set", given_.overrides, "section.key=value, overrides the case file; can be repeated")
-        ->take_all()
-        ->expected(1);
+    given_.add_to(command, "--case");
     command.add_option("--out", options_.out, "log of contacts (CSV); contacts.csv unless given");
     command.add_option("--deck", options_.deck, "input of the code, which gives time step, units and frame");
     add_quantity(command, "--timestep", options_.time_step, casefile::Dimension::time,
