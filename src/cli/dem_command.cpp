@@ -18,7 +18,7 @@ void write(const std::string& name, const std::string& text) {
   if (!name.empty()) io::NamedFile(name).write([&](std::ostream& out) { out << text; });
 }
 
-int code_of(bool known, bool good) { return !known ? too_few_data : good ? ok : outputs_differ; }
+int code_of_verdict(bool known, bool good) { return !known ? too_few_data : good ? ok : outputs_differ; }
 
 }  // namespace
 
@@ -60,7 +60,8 @@ int run_contact_audit(const casefile::CaseSpec& spec, const dem::ContactAuditOpt
   write(files.json, dem::to_json(audit));
   write(files.junit, dem::to_junit(audit));
   if (!quiet) io::print("{}", dem::table(audit));
-  return code_of(audit.verdict != dem::ContactVerdict::too_few, audit.verdict == dem::ContactVerdict::agrees);
+  return code_of_verdict(audit.verdict != dem::ContactVerdict::too_few,
+                         audit.verdict == dem::ContactVerdict::agrees);
 }
 
 int run_contact_comparison(const std::string& a, const std::string& b, double from, double until,
@@ -69,7 +70,7 @@ int run_contact_comparison(const std::string& a, const std::string& b, double fr
   write(files.json, dem::to_json(comparison));
   write(files.junit, dem::to_junit(comparison));
   if (!quiet) io::print("{}", dem::table(comparison));
-  return code_of(comparison.known, comparison.agree());
+  return code_of_verdict(comparison.known, comparison.agree());
 }
 
 int run_limit(const LimitOptions& options) {
