@@ -168,19 +168,13 @@ void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
     return Median{value, value - half_width, value + half_width, 1};
   };
   for (Eigen::Index k = 0; k < 3 && !audit.facts.of_list(); ++k) {
-    Judged g{fmt::format("gravity along {}", "XYZ"[k]), "m/s^2", "",
-             within(s.gravity[k], s.gravity_half_width[k])};
-    g.expected = mill.gravity[k];
-    g.allowed = 1e-3 * norm<double>(mill.gravity) + 1e-3;
-    audit.judged.push_back(g);
+    audit.judged.push_back({fmt::format("gravity along {}", "XYZ"[k]), "m/s^2", "",
+                            within(s.gravity[k], s.gravity_half_width[k]), mill.gravity[k],
+                            1e-3 * norm<double>(mill.gravity) + 1e-3});
   }
-  Judged mass{"density over the case's", "", "",
-              within(audit.facts.mass_factor / std::pow(audit.facts.radius_factor, 3), 0)};
-  mass.expected = 1, mass.allowed = 1e-6;
-  Judged size{"diameter over the case's", "", "", within(audit.facts.radius_factor, 0)};
-  size.expected = 1, size.allowed = 1e-6;
-  audit.judged.push_back(mass);
-  audit.judged.push_back(size);
+  const double density = audit.facts.mass_factor / std::pow(audit.facts.radius_factor, 3);
+  audit.judged.push_back({"density over the case's", "", "", within(density, 0), 1, 1e-6});
+  audit.judged.push_back({"diameter over the case's", "", "", within(audit.facts.radius_factor, 0), 1, 1e-6});
 }
 
 /// A ball that leaves its flight has met something, as far as frames resolve it.
@@ -188,9 +182,7 @@ void judge_unexplained(ContactAudit& audit) {
   const double all = audit.facts.dose();
   if (!(all > 0)) return;
   const double share = audit.facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all;
-  Judged j{"dose with no wall or ball", "", "", {share, share, share, 1}};
-  j.allowed = 0.01;
-  audit.judged.push_back(j);
+  audit.judged.push_back({"dose with no wall or ball", "", "", {share, share, share, 1}, 0, 0.01});
 }
 
 std::vector<SlipBin> slips_of(const std::vector<Shown>& walls, const std::vector<Shown>& balls) {

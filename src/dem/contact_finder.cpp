@@ -15,13 +15,19 @@ constexpr std::size_t longest_stretch = 4096;
 /// Places in which a flight is tried between frames that are far apart.
 constexpr int tried = 32;
 
+/// What the velocity of a ball changes by from one frame to another, beside gravity [m/s].
+double change_of(const Frame& from, const Frame& to, std::size_t ball, const Vector& gravity) {
+  return norm<double>(
+      Vector(to.balls[ball].velocity - from.balls[ball].velocity - gravity * (to.time - from.time)));
+}
+
+}  // namespace
+
 double middle_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
-
-}  // namespace
 
 FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& expected_gravity) {
   EDMILL_REQUIRE(frames.size() > 2, "three frames");
@@ -57,20 +63,15 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
   if (as_expected) s.gravity = expected_gravity;
   std::vector<double> changes;
   for (std::size_t k = 1; k < frames.size(); ++k)
-    for (std::size_t i = 0; i < balls; ++i) {
-      const double dt = frames[k].time - frames[k - 1].time;
-      changes.push_back(norm<double>(
-          Vector(frames[k].balls[i].velocity - frames[k - 1].balls[i].velocity - s.gravity * dt)));
-    }
+    for (std::size_t i = 0; i < balls; ++i)
+      changes.push_back(change_of(frames[k - 1], frames[k], i, s.gravity));
   std::sort(changes.begin(), changes.end());
   s.kick = std::clamp(20 * changes[changes.size() / 4], 2e-5, 1e-2);
   std::vector<double> stretches;
   for (std::size_t i = 0; i < balls; ++i) {
     double since = -1;
     for (std::size_t k = 1; k < frames.size(); ++k) {
-      const double dt = frames[k].time - frames[k - 1].time;
-      const bool kicked = norm<double>(Vector(frames[k].balls[i].velocity - frames[k - 1].balls[i].velocity -
-                                              s.gravity * dt)) > s.kick;
+      const bool kicked = change_of(frames[k - 1], frames[k], i, s.gravity) > s.kick;
       if (kicked && since < 0) since = frames[k - 1].time;
       if (!kicked && since >= 0) stretches.push_back(frames[k - 1].time - since), since = -1;
     }
@@ -83,9 +84,7 @@ ContactFinder::ContactFinder(const MovingVessel& vessel, const FrameStatistics& 
     : vessel_(vessel), frames_(frames), found_(std::move(found)), open_of_(vessel.ball_count(), -1) {}
 
 bool ContactFinder::flies(const Frame& from, const Frame& to, std::size_t ball) const {
-  const Vector change =
-      to.balls[ball].velocity - from.balls[ball].velocity - frames_.gravity * (to.time - from.time);
-  return norm<double>(change) <= frames_.kick;
+  return change_of(from, to, ball, frames_.gravity) <= frames_.kick;
 }
 
 void ContactFinder::add(Frame next) {

@@ -39,6 +39,9 @@ struct FrameStatistics {
   double contact_time = 0;    ///< median of the time in which a ball does not fly [s]
 };
 
+/// The median, of an even number of values the upper one of the middle. @pre not empty
+double middle_of(std::vector<double> values);
+
 /// @pre at least three frames
 FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& expected_gravity);
 

@@ -21,9 +21,7 @@ double factor_of(const std::vector<double>& dump, const std::vector<model::BallP
   if (dump.empty()) return 1;
   std::vector<double> factors;
   for (std::size_t k = 0; k < balls.size(); ++k) factors.push_back(dump[k] / of(balls[k]));
-  std::nth_element(factors.begin(), factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2),
-                   factors.end());
-  const double factor = factors[factors.size() / 2];
+  const double factor = middle_of(std::move(factors));
   // As dumps write numbers.
   return std::abs(factor - 1) < 1e-5 ? 1 : factor;
 }

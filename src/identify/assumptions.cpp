@@ -41,8 +41,6 @@ void to_laboratory(audit::LoggedEvent& event, LogFrame from, const model::Mill<d
 
 }  // namespace
 
-bool LogChange::none() const { return *this == LogChange{}; }
-
 void LogChange::apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const {
   event.time = event.time * time + delay;
   event.milling_dose *= energies, event.wall_work *= energies;

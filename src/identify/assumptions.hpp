@@ -48,7 +48,7 @@ struct LogChange {
   std::array<int, 2> exchanged = {-1, -1};  ///< numbers of two balls that are taken for each other
 
   bool operator==(const LogChange&) const = default;
-  bool none() const;
+  bool none() const { return *this == LogChange{}; }
   /// @param mill  of the vessel whose frame it may be
   void apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const;
 };

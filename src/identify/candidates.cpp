@@ -21,6 +21,17 @@ double misfit_of(const Residuals& sample, const Assumptions& assumed) {
   return misfit(sample.rows(assumed), sample.kinds());
 }
 
+double misfit_with(const Residuals& sample, const Assumptions& base, const Parameter& p, double value) {
+  Assumptions moved = base;
+  p.set(moved, value);
+  return misfit_of(sample, moved);
+}
+
+/// Whether what a parameter tells of can be restricted to a part of the log.
+bool fits(const Subset& part, const Parameter& p) {
+  return (part.of_impacts && p.of_impacts) || (part.of_flights && p.of_flights);
+}
+
 double penalty(const Residuals& sample, const Model& model) {
   double sum = static_cast<double>(model.free.size()) * std::log(static_cast<double>(sample.count()));
   for (const auto* p : model.free) sum += p->prior;
@@ -60,12 +71,8 @@ Candidates::Candidates(const audit::EventsAtHand& log, const audit::Options& opt
 
 void Candidates::draw_samples(const std::vector<Assumptions>& assumptions) {
   samples_.forget_violating();
-  for (const auto& assumed : assumptions) {
-    const auto all = residuals_.on(samples_.every());
-    const auto rows = all.rows(assumed);
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      if (std::abs(rows[k]) > 1) samples_.note_violating(all.places()[k].event);
-  }
+  for (const auto& assumed : assumptions)
+    for (const std::size_t event : events_off(assumed)) samples_.note_violating(event);
   samples_.choose();
   without_ = misfit_of(residuals_.on(samples_.whole()), nominal_);
 }
@@ -74,7 +81,7 @@ void Candidates::count_violations(Candidate& c) const {
   const auto assumed = c.assumed();
   c.of = violations_;
   if (!assumed.is_case()) {
-    c.of = events_off(nominal_), c.left = events_off(assumed);
+    c.of = events_off(nominal_).size(), c.left = events_off(assumed).size();
     return;
   }
   const auto built = assumed.built();
@@ -89,13 +96,13 @@ void Candidates::count_violations(Candidate& c) const {
   }
 }
 
-std::uint64_t Candidates::events_off(const Assumptions& assumed) const {
+std::set<std::size_t> Candidates::events_off(const Assumptions& assumed) const {
   const auto all = residuals_.on(samples_.every());
   const auto rows = all.rows(assumed);
   std::set<std::size_t> off;
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (std::abs(rows[k]) > 1) off.insert(all.places()[k].event);
-  return off.size();
+  return off;
 }
 
 void Candidates::judge(Candidate& c) const {
@@ -129,21 +136,14 @@ std::vector<double> Candidates::starts(const Assumptions& base, const Parameter&
   if (!p.is_speed && p.cycle == 0) {
     const auto few = residuals_.on(samples_.few());
     double best = misfit_of(few, base) - strong_evidence, far = p.value;
-    for (const double value : p.values_from_afar()) {
-      Assumptions moved = base;
-      p.set(moved, value);
-      if (const double now = misfit_of(few, moved); now < best) best = now, far = value;
-    }
+    for (const double value : p.values_from_afar())
+      if (const double now = misfit_with(few, base, p, value); now < best) best = now, far = value;
     if (!p.is_of_case()) return {std::isfinite(far) ? far : p.first_values.front()};
     return far == p.value ? std::vector{p.value} : std::vector{p.value, far};
   }
   const auto sample = residuals_.on(samples_.early());
   std::vector<std::pair<double, double>> tried;
-  const auto add = [&](double value) {
-    Assumptions moved = base;
-    p.set(moved, value);
-    tried.emplace_back(misfit_of(sample, moved), value);
-  };
+  const auto add = [&](double value) { tried.emplace_back(misfit_with(sample, base, p, value), value); };
   add(p.value);
   if (p.cycle > 0) {
     for (int k = 1; k < 16; ++k) add(p.value + p.cycle * (k <= 8 ? k : k - 16) / 16);
@@ -265,11 +265,8 @@ std::vector<const Parameter*> Candidates::telling_from_afar(const Assumptions& b
   std::vector<std::pair<double, const Parameter*>> order;
   for (const auto& p : parameters) {
     double best = here;
-    for (const double value : p.values_from_afar()) {
-      Assumptions moved = base;
-      p.set(moved, value);
-      best = std::min(best, misfit_of(sample, moved));
-    }
+    for (const double value : p.values_from_afar())
+      best = std::min(best, misfit_with(sample, base, p, value));
     if (best < here - strong_evidence) order.emplace_back(best, &p);
   }
   sort_by(order, [](const auto& row) { return row.first; });
@@ -323,10 +320,7 @@ std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, cons
     if (off_inside == 0 || static_cast<double>(off_inside) < share * static_cast<double>(off)) continue;
     holding.push_back(s);
     for (std::size_t p = 0; p < parameters.size(); ++p) {
-      const auto& part = *parts_[s];
-      const bool fits =
-          (part.of_impacts && parameters[p].of_impacts) || (part.of_flights && parameters[p].of_flights);
-      if (slopes[p].empty() || !fits) continue;
+      if (slopes[p].empty() || !fits(*parts_[s], parameters[p])) continue;
       auto slope = slopes[p];
       bool some = false, others = false;  // a part that holds all of a parameter's rows restricts nothing
       for (std::size_t k = 0; k < slope.size(); ++k) {
@@ -357,16 +351,11 @@ std::vector<Parameter> Candidates::telling_from_afar_in_parts(const Assumptions&
   std::vector<std::pair<double, Parameter>> order;
   for (const auto* p : telling_from_afar(base, parameters, 4))
     for (const auto part : parts) {
-      const bool fits =
-          (parts_[part]->of_impacts && p->of_impacts) || (parts_[part]->of_flights && p->of_flights);
-      if (!fits) continue;
+      if (!fits(*parts_[part], *p)) continue;
       auto restricted = restricted_to(parts_[part], *p, parts_.size());
       double best = here - strong_evidence;
-      for (const double value : restricted.values_from_afar()) {
-        Assumptions moved = base;
-        restricted.set(moved, value);
-        best = std::min(best, misfit_of(few, moved));
-      }
+      for (const double value : restricted.values_from_afar())
+        best = std::min(best, misfit_with(few, base, restricted, value));
       if (best < here - strong_evidence) order.emplace_back(best, std::move(restricted));
     }
   sort_by(order, [](const auto& row) { return row.first; });

@@ -104,7 +104,7 @@ class Candidates {
   void widen(Candidate& c, std::size_t place) const;
   /// What an audit finds with these assumptions; events that are off where a case does not say all of them.
   void count_violations(Candidate& c) const;
-  std::uint64_t events_off(const Assumptions& assumed) const;
+  std::set<std::size_t> events_off(const Assumptions& assumed) const;
 
   const audit::EventsAtHand& log_;
   const audit::Options& options_;

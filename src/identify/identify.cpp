@@ -113,17 +113,11 @@ class Search {
 
   /// The best of the fits of one more number on top of a base.
   std::vector<Candidate> one_more(
-      const Assumptions& base, const std::vector<std::string>& mistakes, std::size_t most,
+      const Candidate& base, std::size_t most,
       const std::function<bool(const Parameter&)>& free_of = [](const auto&) { return true; }) {
     std::vector<Candidate> found;
-    for (const auto* p : candidates_->ranked(base, parameters_, most)) {
-      if (is_interrupted() || !free_of(*p)) continue;
-      std::vector<Candidate> of_starts;
-      for (const double start : candidates_->starts(base, *p))
-        of_starts.push_back(candidates_->fitted({base, {p}}, mistakes, {start}));
-      sort(of_starts);
-      found.push_back(of_starts.front());
-    }
+    for (const auto* p : candidates_->ranked(base.assumed(), parameters_, most))
+      if (!is_interrupted() && free_of(*p)) found.push_back(with_one_more(base, *p));
     return found;
   }
 
@@ -145,8 +139,8 @@ class Search {
       t.mistake.make(assumed);
       tried.push_back(candidates_->with_mistakes(assumed, {name_of(t.mistake)}));
     }
-    singles_ = one_more(nominal_, {}, 6);
-    for (const auto& c : singles_) tried.push_back(c);
+    singles_ = one_more(none(), 6);
+    tried.insert(tried.end(), singles_.begin(), singles_.end());
     return accepted_of(std::move(tried));
   }
 
@@ -247,7 +241,8 @@ class Search {
       const auto free_of = [&](const Parameter& p) {
         return p.key != t.mistake.key && !(t.mistake.of_motion && p.key.starts_with("mill."));
       };
-      for (auto& c : one_more(base, {name_of(t.mistake)}, 3, free_of)) tried.push_back(std::move(c));
+      const Candidate mistaken{{base, {}}, {name_of(t.mistake)}, {}, {}};
+      for (auto& c : one_more(mistaken, 3, free_of)) tried.push_back(std::move(c));
     }
     for (auto& c : two_numbers()) tried.push_back(std::move(c));
     // A number on top of the best ones, then both together.
