@@ -262,8 +262,7 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
   if (audit.facts.radius_factor == 1 && !audit.facts.of_list())
     judge_places(spec, at_walls, options.interrupt, audit);
   const bool met = audit.walls_met();
-  const bool all =
-      std::all_of(audit.judged.begin(), audit.judged.end(), [](const Judged& j) { return j.agrees(); });
+  const bool all = std::ranges::all_of(audit.judged, [](const Judged& j) { return j.agrees(); });
   if (!all || !met)
     audit.verdict = ContactVerdict::differs;
   else if (enough && !audit.interrupted)

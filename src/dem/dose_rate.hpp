@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "base/student.hpp"
@@ -21,11 +22,7 @@ class DoseRate {
     if (place >= 0) doses_[static_cast<std::size_t>(std::min(place, batches - 1.0))] += dose;
   }
   /// [W]
-  double mean() const {
-    double sum = 0;
-    for (const double dose : doses_) sum += dose;
-    return sum / (length_ * batches);
-  }
+  double mean() const { return std::accumulate(doses_.begin(), doses_.end(), 0.0) / (length_ * batches); }
   /// Of the 95 % interval [W].
   double half_width() const {
     const double middle = mean();

@@ -62,8 +62,7 @@ std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int face
 namespace {
 
 bool any_round(const std::vector<WallMesh>& meshes) {
-  return std::any_of(meshes.begin(), meshes.end(),
-                     [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
+  return std::ranges::any_of(meshes, [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
 }
 
 }  // namespace

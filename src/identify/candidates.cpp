@@ -218,9 +218,7 @@ std::vector<Tried> Candidates::promising(const Assumptions& base, const std::vec
   const double before = misfit_of(sample, base);
   std::vector<Tried> better;
   for (const auto& mistake : mistakes) {
-    Assumptions assumed = base;
-    mistake.make(assumed);
-    const double now = misfit_of(sample, assumed);
+    const double now = misfit_of(sample, mistake.on(base));
     if (now < before - strong_evidence) better.push_back({now, mistake});
   }
   sort_by(better, [](const auto& t) { return t.misfit; });

@@ -60,9 +60,8 @@ void add_motions(const Assumptions& nominal, std::vector<Mistake>& list) {
                     [joints](Assumptions& a) { put_chain(a, reversed(joints)); }, false, true});
     return;
   }
-  bool moves = false;
-  for (const auto& joint : joints) moves = moves || !joint.speed.zero() || !joint.swings.empty();
-  if (moves)
+  const auto moves = [](const auto& joint) { return !joint.speed.zero() || !joint.swings.empty(); };
+  if (std::any_of(joints.begin(), joints.end(), moves))
     list.push_back({"mill, direction of rotation", "all joints move the other way in time",
                     [joints](Assumptions& a) { put_chain(a, reversed(joints)); }, false, true});
 }

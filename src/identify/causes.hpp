@@ -17,6 +17,12 @@ struct Mistake {
   std::function<void(Assumptions&)> make;
   bool by_factor = false;  ///< of a number, as a wrong unit makes it
   bool of_motion = false;  ///< it makes another mill, which has not the numbers of the case's
+
+  /// The assumptions with it.
+  Assumptions on(Assumptions base) const {
+    make(base);
+    return base;
+  }
 };
 
 /// Those that can be told apart in a log with these columns.

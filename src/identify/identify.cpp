@@ -90,11 +90,7 @@ class Search {
     for (const auto& p : parameters_)
       if (p.equation.empty() && p.is_of_case()) numbers.push_back(p);
     auto mistakes = mistakes_of(nominal_, numbers, log_);
-    std::erase_if(mistakes, [&](const Mistake& m) {
-      Assumptions assumed = nominal_;
-      m.make(assumed);
-      return !assumed.is_case();
-    });
+    std::erase_if(mistakes, [&](const Mistake& m) { return !m.on(nominal_).is_case(); });
     const auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
     result.interrupted = is_interrupted(), result.too_few = found.too_few;
     if (result.interrupted || result.too_few) return;
@@ -134,11 +130,7 @@ class Search {
     mistakes_ = mistakes_of(nominal_, parameters_, log_);
     promising_ = candidates_->promising(nominal_, mistakes_, 8);
     std::vector<Candidate> tried;
-    for (const auto& t : promising_) {
-      Assumptions assumed = nominal_;
-      t.mistake.make(assumed);
-      tried.push_back(candidates_->with_mistakes(assumed, {name_of(t.mistake)}));
-    }
+    for (const auto& t : promising_) tried.push_back(with(t.mistake));
     singles_ = one_more(none(), 6);
     tried.insert(tried.end(), singles_.begin(), singles_.end());
     return accepted_of(std::move(tried));
@@ -170,6 +162,9 @@ class Search {
 
   std::vector<Candidate> in_parts() { return accepted_of(one_more_in_parts(none(), 8, 0.9)); }
   Candidate none() const { return {{nominal_, {}}, {}, {}, {}}; }
+  Candidate with(const Mistake& mistake) const {
+    return candidates_->with_mistakes(mistake.on(nominal_), {name_of(mistake)});
+  }
 
   /// A cause in a part of the log on top of another one, which may be in a part itself.
   std::vector<Candidate> pairs_in_parts() {
@@ -179,11 +174,8 @@ class Search {
     auto some = one_more_in_parts(none(), 4, 0.2);
     sort(some);
     for (auto& c : some) bases.push_back(std::move(c));
-    for (std::size_t k = 0; k < std::min<std::size_t>(2, promising_.size()); ++k) {
-      Assumptions assumed = nominal_;
-      promising_[k].mistake.make(assumed);
-      bases.push_back(candidates_->with_mistakes(assumed, {name_of(promising_[k].mistake)}));
-    }
+    for (std::size_t k = 0; k < std::min<std::size_t>(2, promising_.size()); ++k)
+      bases.push_back(with(promising_[k].mistake));
     std::vector<Candidate> tried;
     for (const auto& base : bases)
       for (auto& c : one_more_in_parts(base, 3, 0.9)) tried.push_back(std::move(c));
@@ -230,13 +222,11 @@ class Search {
     std::vector<Candidate> tried;
     // A mistake and another one, or a number.
     for (const auto& t : promising_) {
-      Assumptions base = nominal_;
-      t.mistake.make(base);
+      const Assumptions base = t.mistake.on(nominal_);
       for (const auto& other : candidates_->promising(base, mistakes_, 2)) {
         if (other.mistake.key == t.mistake.key || (other.mistake.of_motion && t.mistake.of_motion)) continue;
-        Assumptions both = base;
-        other.mistake.make(both);
-        tried.push_back(candidates_->with_mistakes(both, {name_of(t.mistake), name_of(other.mistake)}));
+        tried.push_back(
+            candidates_->with_mistakes(other.mistake.on(base), {name_of(t.mistake), name_of(other.mistake)}));
       }
       const auto free_of = [&](const Parameter& p) {
         return p.key != t.mistake.key && !(t.mistake.of_motion && p.key.starts_with("mill."));

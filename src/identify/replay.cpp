@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "base/errors.hpp"
 #include "run/event_source.hpp"
@@ -55,7 +56,7 @@ class Replay {
     if (!built) return {};
     const auto& mill = built->mill;
     const auto pose = mill.motion.pose(DriveClock<double>(mill.motion.period()).at(start_));
-    const double volume = 4.0 / 3 * 3.14159265358979323846;
+    const double volume = 4.0 / 3 * std::numbers::pi;
     for (std::size_t k = 0; k < states_.size(); ++k) {
       casefile::ExplicitBall ball;
       const auto& own = assumed.balls[k];
@@ -215,8 +216,7 @@ ReplayResult replay(const Assumptions& nominal, const std::vector<Parameter>& pa
     for (const auto& mistake : mistakes) {
       if (is_interrupted()) return result;
       if (mistake.by_factor) continue;  // a mill that turns a thousand times as fast is not run in a hurry
-      Assumptions assumed = nominal;
-      mistake.make(assumed);
+      const Assumptions assumed = mistake.on(nominal);
       if (runs.follows(runs.impacts(assumed, 30)) < std::min<std::size_t>(20, runs.count())) continue;
       consider({mistake.key + ": " + mistake.text, nullptr, 0, 0, 0, 0}, assumed);
     }

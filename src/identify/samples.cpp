@@ -1,8 +1,8 @@
-#include "identify/samples.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "identify/candidates.hpp"
 
 namespace edmill::identify {
 

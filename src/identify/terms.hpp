@@ -2,7 +2,6 @@
 // at all.
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "base/dimension.hpp"
@@ -38,16 +37,6 @@ struct Terms {
            equal_balls != EqualBalls::no;
   }
 };
-
-/// A new kind of term is a member above, a line where its equation stands (residuals.cpp), and a row here.
-struct TermRow {
-  const char* name;      ///< "torque of the friction"
-  const char* equation;  ///< of docs/theory.md
-  double Terms::*member;
-  Dimension shift = Dimension::none;  ///< of what is 0 if right; else a factor, 1 if right
-  bool of_flights = false;            ///< else of impacts
-};
-std::span<const TermRow> term_rows();
 
 /// "reversed", "left out", "doubled", "halved", where an interval holds such a factor and little else; else
 /// empty.

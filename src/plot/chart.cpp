@@ -110,9 +110,7 @@ void add_axes(pugi::xml_node svg, const Chart& chart, const Places& places) {
 }
 
 void add_legend(pugi::xml_node figure, const Chart& chart) {
-  if (std::count_if(chart.curves.begin(), chart.curves.end(),
-                    [](const auto& c) { return !c.name.empty(); }) == 0)
-    return;
+  if (std::ranges::all_of(chart.curves, [](const auto& c) { return c.name.empty(); })) return;
   auto legend = add(figure, "ul", {{"class", "legend"}});
   for (const auto& curve : chart.curves)
     if (!curve.name.empty()) {

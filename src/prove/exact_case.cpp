@@ -36,10 +36,7 @@ ExactWall plane(std::size_t axis, int side, const Quantity& distance) {
   return wall;
 }
 ExactWall round_wall(ExactWall::Kind kind, const Quantity& diameter) {
-  ExactWall wall;
-  wall.kind = kind;
-  wall.size = diameter / number(2);
-  return wall;
+  return {kind, {}, {}, diameter / number(2)};
 }
 
 /// The walls of a vessel in their order, and half its sizes where balls are placed at random by them.
@@ -68,13 +65,8 @@ Vessel vessel_of(const model::Sphere<Quantity>& v) {
 }
 Vessel vessel_of(const model::Polyhedron<Quantity>& v) {
   Vessel vessel;
-  for (const auto& face : v.faces) {
-    ExactWall wall;
-    wall.normal = face.normal;
-    wall.point = face.point;
-    wall.size = face.distance;
-    vessel.walls.push_back(wall);
-  }
+  for (const auto& face : v.faces)
+    vessel.walls.push_back({ExactWall::plane, face.normal, face.point, face.distance});
   return vessel;
 }
 template <class Other>
