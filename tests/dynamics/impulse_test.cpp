@@ -154,7 +154,7 @@ struct WallHit {
 
 template <class Real>
 class Impulse : public ::testing::Test {};
-using Scalars = ::testing::Types<double, mpfr50>;
+using Scalars = ::testing::Types<double, mpfr>;
 TYPED_TEST_SUITE(Impulse, Scalars);
 
 TYPED_TEST(Impulse, BallsKeepTheirLinearMomentum) {

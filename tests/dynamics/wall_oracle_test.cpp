@@ -35,7 +35,7 @@ TEST(WallSearch, AgreesWithAnIndependentSolverOnAdversarialStates) {
 
 template <class Real>
 class WideWallOracle : public ::testing::Test {};
-using WideScalars = ::testing::Types<float128, mpfr50>;
+using WideScalars = ::testing::Types<float128, mpfr>;
 TYPED_TEST_SUITE(WideWallOracle, WideScalars);
 
 TYPED_TEST(WideWallOracle, AgreesWithAnIndependentSolver) {
