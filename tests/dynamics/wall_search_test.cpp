@@ -56,7 +56,7 @@ WallQuery<double> round_grazing_query(double distance) {
 
 template <class Real>
 class WideWallSearch : public ::testing::Test {};
-using WideScalars = ::testing::Types<float128, mpfr50>;
+using WideScalars = ::testing::Types<float128, mpfr>;
 TYPED_TEST_SUITE(WideWallSearch, WideScalars);
 
 TYPED_TEST(WideWallSearch, GrazingAndTouchingStatesAreLeftToTheWideSearch) {
