@@ -5,6 +5,7 @@
 
 #include <string_view>
 
+#include "base/percent.hpp"
 #include "report/result_table.hpp"
 
 namespace edmill::report {
@@ -59,9 +60,9 @@ std::string decision_rows(const io::Summary<Real>& s) {
   std::string out;
   if (s.simultaneous_contacts > 0)
     out +=
-        row_text("simultaneous, by a rule", fmt::format("{} impacts, {:.2g} %", s.simultaneous_contacts,
-                                                        100.0 * static_cast<double>(s.simultaneous_contacts) /
-                                                            static_cast<double>(s.total_impacts)));
+        row_text("simultaneous, by a rule", fmt::format("{} impacts, {}", s.simultaneous_contacts,
+                                                        percent(static_cast<double>(s.simultaneous_contacts) /
+                                                                static_cast<double>(s.total_impacts))));
   for (const auto& e : s.escalations)
     out += row_text("decided by " + e.scalar,
                     fmt::format("{} wall, {} pair, {} order", e.wall, e.pair, e.order));
@@ -101,18 +102,18 @@ std::string result_table(const io::Summary<Real>& s) {
         fmt::format("{:.2e}", real(s.energy_closure()) / scale));
   const auto total = s.total_collisions();
   const auto of_dose = [&](const Real& energy) {
-    return s.milling_dose > 0 ? 100 * real(energy) / real(s.milling_dose) : 0.0;
+    return percent(s.milling_dose > 0 ? real(energy) / real(s.milling_dose) : 0.0);
   };
   const auto of_impacts = [&](std::uint64_t impacts) {
-    return total > 0 ? 100.0 * static_cast<double>(impacts) / static_cast<double>(total) : 0.0;
+    return total > 0 ? static_cast<double>(impacts) / static_cast<double>(total) : 0.0;
   };
   row("least separation speed",
-      fmt::format("{:.1f} % of impacts, {:.2g} % of the dose; supplies {:.2g} % of the {}",
-                  of_impacts(s.touched_impacts), of_dose(s.touched_dose),
-                  scale > 0 ? 100 * real(s.supplied_energy) / scale : 0.0, s.energy_scale_name()));
+      fmt::format("{:.1f} % of impacts, {} of the dose; supplies {} of the {}",
+                  100 * of_impacts(s.touched_impacts), of_dose(s.touched_dose),
+                  percent(scale > 0 ? real(s.supplied_energy) / scale : 0.0), s.energy_scale_name()));
   if (s.stall_impacts > 0)
-    row("stalls, without friction", fmt::format("{:.2g} % of impacts, {:.2g} % of the dose",
-                                                of_impacts(s.stall_impacts), of_dose(s.stall_dose)));
+    row("stalls, without friction", fmt::format("{} of impacts, {} of the dose",
+                                                percent(of_impacts(s.stall_impacts)), of_dose(s.stall_dose)));
   if (s.collapse)
     row("inelastic collapse", fmt::format("ball {} with {} {} at {:.12g} s", s.collapse->ball,
                                           s.collapse->with_wall ? "wall" : "ball", s.collapse->partner,

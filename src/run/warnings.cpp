@@ -4,13 +4,12 @@
 
 #include <cmath>
 
+#include "base/percent.hpp"
 #include "base/statistics.hpp"
 
 namespace edmill::run {
 
 namespace {
-
-std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
 constexpr double touched_share_limit = 0.05, supplied_share_limit = 0.01, stall_share_limit = 0.01,
                  closure_limit = 1e-9, interval_limit = 0.05, by_rule_share_limit = 0.01;

@@ -86,8 +86,9 @@ TYPED_TEST(WideWallSearch, GrazingAndTouchingStatesAreLeftToTheWideSearch) {
 
 template <class Real>
 Verdict grazing_verdict(double distance) {
-  return testing::general_search(round_grazing_mill<Real>())(widened<Real>(round_grazing_query(distance)))
-      .verdict;
+  const auto search = testing::general_search(round_grazing_mill<Real>());
+  const auto decide = [&](const WallQuery<Real>& query) { return search(query); };
+  return over_window(decide, widened<Real>(round_grazing_query(distance)), Real(1)).verdict;
 }
 
 /// Windows as long as the test without rates allows, for balls from rest to 6 m/s.
@@ -167,8 +168,9 @@ TEST(WallSearch, APathThatGrazesAFlatWallIsDecidedInDoubleByExactArithmetic) {
     const auto hit = ladder.wall(grazing_query(-distance));
     ASSERT_EQ(hit.verdict, Verdict::contact);
     EXPECT_EQ(hit.wall, 0);
-    // sqrt(2 d / g) before the highest point
-    EXPECT_NEAR(hit.time.offset, 1.0 / 16 - std::sqrt(distance) / 2, 1e-15);
+    // sqrt(2 d / g) before the highest point; by bounds, so nearly level, the gap is zero within rounding for
+    // some 1e-14 s.
+    EXPECT_NEAR(hit.time.offset, 1.0 / 16 - std::sqrt(distance) / 2, 1e-13);
     EXPECT_LE(hit.time.offset, 1.0 / 16);
   }
   for (const auto& row : ladder.escalations()) EXPECT_EQ(row.wall, 0u);
@@ -186,22 +188,25 @@ TEST(WallSearch, TheLadderClimbsAsFarAsTheCaseNeedsAndCountsIt) {
     EXPECT_EQ(rows[1].wall, to_mpfr50);
     EXPECT_EQ(rows[2].wall, by_rule);
   };
-  EXPECT_EQ(ladder.wall(round_grazing_query(0x1p-30)).verdict, Verdict::none);
+  const auto first = [&](double distance) {
+    const auto decide = [&](const WallQuery<double>& query) { return ladder.wall(query); };
+    return over_window(decide, round_grazing_query(distance), 1.0);
+  };
+  EXPECT_EQ(first(0x1p-30).verdict, Verdict::none);
   expect_counts(0, 0, 0);
-  EXPECT_EQ(ladder.wall(round_grazing_query(0x1p-57)).verdict, Verdict::none);
+  EXPECT_EQ(first(0x1p-57).verdict, Verdict::none);
   expect_counts(1, 0, 0);
-  const auto hit = ladder.wall(round_grazing_query(-0x1p-120));
+  const auto hit = first(-0x1p-120);
   expect_counts(2, 1, 0);
   // sqrt(2 d / g) = 2^-61 s before the highest point
   EXPECT_EQ(hit.verdict, Verdict::contact);
   EXPECT_EQ(hit.wall, 2);
   EXPECT_LE(hit.time.offset, 1.0 / 16);
   EXPECT_GE(hit.time.offset, std::nextafter(1.0 / 16, 0.0));
-  EXPECT_EQ(ladder.wall(round_grazing_query(0x1p-120)).verdict, Verdict::none);
+  EXPECT_EQ(first(0x1p-120).verdict, Verdict::none);
   expect_counts(3, 2, 0);
-  const auto beyond = ladder.wall(round_grazing_query(0x1p-200));
+  first(0x1p-200);
   expect_counts(4, 3, 1);
-  EXPECT_TRUE(beyond.by_rule);
 }
 
 TEST(WallSearch, GrazingWithinRoundingInTheMovingMillNeedsFloat128) {

@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "base/percent.hpp"
+
 namespace {
 
 using namespace edmill::run;
@@ -38,6 +40,13 @@ std::vector<std::string> kinds(const Measures& m, const Rates& rates) {
 }
 
 using Kinds = std::vector<std::string>;
+
+TEST(Percent, HasNoExponent) {
+  EXPECT_EQ(edmill::percent(1), "100 %");
+  EXPECT_EQ(edmill::percent(0.996), "100 %");
+  EXPECT_EQ(edmill::percent(0.0714), "7.1 %");
+  EXPECT_EQ(edmill::percent(12.3), "1230 %");
+}
 
 TEST(Warnings, AGoodRunHasNone) {
   EXPECT_EQ(kinds(good_facts(), steady()), Kinds{});
