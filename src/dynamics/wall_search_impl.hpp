@@ -340,8 +340,7 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& left, co
   const Real until = (slope + sqrt(slope * slope + 4 * bend * value)) / bend;
   if (!(b.third * (2 * until) <= bend)) return {Verdict::undecided};
   if (curvature < 0) return {Verdict::contact, left, left, until + resolution()};
-  if constexpr (!is_widest)
-    if (!overlaps) return {Verdict::undecided};
+  if constexpr (!is_widest) return {Verdict::undecided};
   const Real later = left.t + 2 * until;
   if (!(later < right.t)) return {Verdict::undecided};
   return isolate(curve, curve.at(later), right);
