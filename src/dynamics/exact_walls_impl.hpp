@@ -46,17 +46,17 @@ std::optional<bool> WallSearch<M, V>::comes_first(const WallQuery<Real>& query, 
 
 /// The widest scalar does not decide, nor is the gap a polynomial, that exact arithmetic would: it is zero
 /// within rounding, or changes too little to be excluded. The rule: what is not seen to fall does not fall.
-/// The gap is seen at times that double their distance from the start; where it falls without having opened,
-/// the contact was when it was seen last.
+/// The gap is evaluated at times after the start that grow fourfold; where it falls without having opened,
+/// the contact was at the time before.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const
     -> Bracket {
   const Bounds& b = curve.bounds;
   Curve rest = curve;
-  rest.most_steps = 32;
+  rest.most_steps = 8;
   Point last = start;
   int looks = 0;
-  for (Real step = 16 * resolution(); last.t < right.t; step = 2 * step) {
+  for (Real step = 16 * resolution(); last.t < right.t; step = 4 * step) {
     Interruption::check();
     const Real t = start.t + step;
     const Point next = t < right.t ? curve.at(t) : right;
@@ -68,7 +68,7 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, c
       found.by_rule = true;
       return found;
     }
-    if (opens && next.t < right.t && looks++ % 16 == 0) {  // whether the rest of the window can be decided
+    if (opens && next.t < right.t && looks++ % 8 == 0) {  // whether the rest of the window can be decided
       auto found = isolate(rest, next, right);
       found.by_rule = true;
       if (found.verdict != Verdict::undecided) return found;

@@ -359,7 +359,7 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
   bool rose = false;
   int setbacks = 0;  // of a gap that hardly changes, steps neither grow nor shrink
   Real before = step;
-  for (int k = 0; k < 400 && setbacks < 32; ++k) {
+  for (int k = 0; k < 5 * curve.most_steps && setbacks < 32; ++k) {
     if constexpr (is_wide) Interruption::check();
     Real t = left.t + step;
     const bool last = !(t < right.t);
