@@ -66,6 +66,7 @@ class Comparison {
           },
           widened<Real>(query), Real(mill_.motion.period()));
       answer = {wide.verdict, wide.wall, instant_cast<double>(wide.time)};
+      answer.time_error = static_cast<double>(wide.time_error);
       if (by_double && wide.verdict == Verdict::contact) expect_polished(query, wide);
     } catch (const std::exception& error) {
       ++tally.thrown;
@@ -165,10 +166,11 @@ class Comparison {
     // A bracket of seven units of the clock is left open, theory.md section 3.
     double allowed = 7 * epsilon<double>() * mill_.motion.period();
     // A turning point inside the overlap is located to 2^-16 of the time since begin; the overlap changes
-    // there by the square of the error only. The rate of a gap is known to some hundred roundings of the
-    // speeds, 1e-13 m/s: a ball that turns back sooner is pressed on the wall, and the contact at once.
+    // there by the square of the error only. Where the rate at the begin is zero within its rounding, a ball
+    // that is pressed on the wall is in contact at once, and the answer says by how much that may be off.
     if (hit.turned_back)
-      allowed += 0x1p-15 * hit.latest + 1e-13 * unit / std::abs(hit.curvature);
+      allowed +=
+          0x1p-15 * hit.latest + 2e-14 * unit / std::abs(hit.curvature) + std::min(answer.time_error, 1e-12);
     else
       allowed += 4 * epsilon<double>() * lengths / rate;
     tally.worst = std::max(tally.worst, std::abs(error) / allowed);
