@@ -33,8 +33,8 @@ struct OwnParts {
   Laws<Real> laws{};
 };
 
-/// A case from its initial state on, in one scalar: double, float128, or mpfr with the digits that
-/// the thread has chosen as long as it lives.
+/// A case from its initial state on, in one scalar: double, float128, or mpfr. A run in mpfr must be made
+/// and advanced within one scope of `mpfr::Digits`; without it, it has 50 digits.
 template <class Real>
 class Run {
  public:

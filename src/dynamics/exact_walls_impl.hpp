@@ -44,10 +44,10 @@ std::optional<bool> WallSearch<M, V>::comes_first(const WallQuery<Real>& query, 
   return order && *order < 0;
 }
 
-/// The widest scalar does not decide, nor is the gap a polynomial, that exact arithmetic would: it is zero
-/// within rounding, or changes too little to be excluded. The rule: what is not seen to fall does not fall.
-/// The gap is evaluated at times after the start that grow fourfold; where it falls without having opened,
-/// the contact was at the time before.
+/// For gaps that the widest scalar does not decide and that are no polynomials, so that exact arithmetic
+/// does not apply: they are zero within rounding, or change too slowly to be excluded. The rule is that a gap
+/// which does not measurably fall does not fall. It is evaluated at times after the start that grow fourfold;
+/// if it falls before it has opened, the contact is at the evaluation before.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const
     -> Bracket {
@@ -55,7 +55,7 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, c
   Curve rest = curve;
   rest.most_steps = 8;
   Point last = start;
-  int looks = 0;
+  int openings = 0;
   for (Real step = 16 * resolution(); last.t < right.t; step = 4 * step) {
     Interruption::check();
     const Real t = start.t + step;
@@ -68,7 +68,7 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, c
       found.by_rule = true;
       return found;
     }
-    if (opens && next.t < right.t && looks++ % 8 == 0) {  // whether the rest of the window can be decided
+    if (opens && next.t < right.t && openings++ % 8 == 0) {  // whether the rest of the window can be decided
       auto found = isolate(rest, next, right);
       found.by_rule = true;
       if (found.verdict != Verdict::undecided) return found;

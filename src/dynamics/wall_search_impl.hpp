@@ -321,9 +321,8 @@ auto WallSearch<M, V>::isolate_touching(const Curve& curve, const Point& left, P
 }
 
 /// The start touches and neither falls nor rises, within rounding: the second derivative decides. A ball that
-/// is pressed on the wall is in contact at once. One that is drawn off would leave it open
-/// whether it touched before; at the top of the ladder what is zero within rounding counts as zero, so it
-/// leaves.
+/// is pressed on the wall is in contact at once. For one that accelerates away it remains open whether it
+/// approaches at first; the widest scalar counts what is zero within rounding as zero, so that it leaves.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
                                        const Point& right) const -> Bracket {

@@ -27,7 +27,7 @@ double misfit_with(const Residuals& sample, const Assumptions& base, const Param
   return misfit_of(sample, moved);
 }
 
-/// Whether what a parameter tells of can be restricted to a part of the log.
+/// Whether the effect of a parameter can be restricted to this part of the log.
 bool fits(const Subset& part, const Parameter& p) {
   return (part.of_impacts && p.of_impacts) || (part.of_flights && p.of_flights);
 }

@@ -8,7 +8,7 @@ namespace edmill::identify {
 
 namespace {
 
-/// A new kind of term is a member of Terms, a line where its equation stands (residuals.cpp), and a row here.
+/// To add a term, add a member to Terms, a factor in its equation in residuals.cpp, and a row here.
 struct TermRow {
   const char* name;      ///< "torque of the friction"
   const char* equation;  ///< of docs/theory.md

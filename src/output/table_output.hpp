@@ -28,7 +28,7 @@ inline std::string name_of(const casefile::ColumnSpec& column, std::string_view 
   return column.label.empty() ? std::string(variable) : column.label;
 }
 
-/// The column's name with one of its statistics, which a label stands for when it is the only one.
+/// The name of a column and one of its statistics; the label alone where there is only one statistic.
 inline std::string name_of(const casefile::ColumnSpec& column, std::string_view variable, Statistic s) {
   const bool alone = !column.label.empty() && column.statistics.size() == 1;
   return alone ? column.label : name_of(column, variable) + " " + statistic_name(s);

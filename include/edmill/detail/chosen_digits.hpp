@@ -28,7 +28,7 @@ class mpfr {
   /// Chooses the digits of the thread until the end of the scope.
   class Digits {
    public:
-    /// @param shown  digits in files and texts; by default as many as it takes to read a number back
+    /// @param shown  digits written to files (default: enough to read the same number back)
     explicit Digits(unsigned decimal, unsigned shown = 0) : before_(chosen()) {
       const mpfr_prec_t bits = bits_of(decimal);
       chosen() = {decimal, shown > 0 ? shown : shown_of(bits), bits};
@@ -124,7 +124,7 @@ class mpfr {
 
   mpfr_ptr data() { return n_; }
   mpfr_srcptr data() const { return n_; }
-  /// For a result of MPFR's functions that is set next: the number has no value.
+  /// Prepares the number for a result that a function of MPFR will store in it; its value is lost.
   void set_precision(mpfr_prec_t bits) {
     if (n_[0]._mpfr_d && mpfr_get_prec(n_) == bits) return;
     drop();
@@ -132,8 +132,8 @@ class mpfr {
   }
   /// Rounded to the digits of the thread.
   mpfr rounded() const { return of(mpfr_set, data()); }
-  /// In `digits` significant decimal digits, as printf's %g has them; by default as many as distinguish it
-  /// from others of its bits.
+  /// Decimal text with `digits` significant digits, in the format of printf's %g (default: enough to read the
+  /// same number back).
   std::string str(int digits = 0, bool scientific = false) const {
     if (digits == 0) digits = static_cast<int>(static_cast<double>(mpfr_get_prec(n_)) * 0.30103) + 2;
     const char* format = scientific ? "%.*Re" : "%.*Rg";
