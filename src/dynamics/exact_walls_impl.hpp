@@ -2,6 +2,8 @@
 // wall_search_impl.hpp only.
 #pragma once
 
+#include <bit>
+
 #include "base/interruption.hpp"
 #include "dynamics/exact_contact_impl.hpp"
 #include "dynamics/wall_search.hpp"
@@ -46,17 +48,17 @@ std::optional<bool> WallSearch<M, V>::comes_first(const WallQuery<Real>& query, 
 
 /// For gaps that the widest scalar does not decide and that are no polynomials, so that exact arithmetic
 /// does not apply: they are zero within rounding, or change too slowly to be excluded. The rule is that a gap
-/// which does not measurably fall does not fall. It is evaluated at times after the start that grow fourfold;
-/// if it falls before it has opened, the contact is at the evaluation before.
+/// which does not measurably fall does not fall. It is evaluated at times after the start that grow by
+/// factors of 16; if it falls before it has opened, the contact is at the evaluation before.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const
     -> Bracket {
   const Bounds& b = curve.bounds;
   Curve rest = curve;
-  rest.most_steps = 8;
+  rest.most_steps = 2;
   Point last = start;
-  int openings = 0;
-  for (Real step = 16 * resolution(); last.t < right.t; step = 4 * step) {
+  unsigned openings = 0;
+  for (Real step = 16 * resolution(); last.t < right.t; step = 16 * step) {
     Interruption::check();
     const Real t = start.t + step;
     const Point next = t < right.t ? curve.at(t) : right;
@@ -68,7 +70,7 @@ auto WallSearch<M, V>::isolate_by_rule(const Curve& curve, const Point& start, c
       found.by_rule = true;
       return found;
     }
-    if (opens && next.t < right.t && openings++ % 8 == 0) {  // whether the rest of the window can be decided
+    if (opens && next.t < right.t && std::has_single_bit(++openings)) {  // can the rest be decided?
       auto found = isolate(rest, next, right);
       found.by_rule = true;
       if (found.verdict != Verdict::undecided) return found;

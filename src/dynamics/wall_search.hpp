@@ -130,6 +130,8 @@ class WallSearch {
   Bracket isolate_outside(const Curve& curve, Point left, const Point& right, bool departing) const;
   Bracket isolate_touching(const Curve& curve, const Point& left, Point right) const;
   Bracket isolate_by_rule(const Curve& curve, const Point& start, const Point& right) const;
+  Bracket isolate_rising(const Curve& curve, const Point& start, const Real& curvature,
+                         const Point& right) const;
   Bracket isolate_resting(const Curve& curve, const Point& left, const Real& curvature,
                           const Point& right) const;
   Bracket follow_overlap(const Curve& curve, const Point& left, const Point& right) const;

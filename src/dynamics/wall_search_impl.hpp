@@ -205,7 +205,19 @@ auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Start& first
   if (level) return isolate_resting(curve, start, curvature, right);
   if constexpr (!rounded)
     if (const auto hop = isolate_hop(curve, start, curvature, right)) return *hop;
+  if constexpr (is_widest && !rounded)
+    if (start.slope > b.slope_error && curvature > b.curvature_error)
+      return isolate_rising(curve, start, curvature, right);
   return isolate(curve, start, right);
+}
+
+/// The gap rises, and goes on rising while its second derivative is positive: one step in place of the many
+/// by which an overlap is followed.
+template <model::Motion M, model::Vessel V>
+auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& start, const Real& curvature,
+                                      const Point& right) const -> Bracket {
+  const Real t = start.t + (curvature - curve.bounds.curvature_error) / (2 * curve.bounds.third);
+  return t < right.t ? isolate(curve, curve.at(t), right) : Bracket{Verdict::none};
 }
 
 /// A ball that has just left, and whose gap is proven to bend downwards all along the window: the gap rises
@@ -340,9 +352,7 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& left, co
   if (!(b.third * (2 * until) <= bend)) return {Verdict::undecided};
   if (curvature < 0) return {Verdict::contact, left, left, until + resolution()};
   if constexpr (!is_widest) return {Verdict::undecided};
-  const Real later = left.t + 2 * until;
-  if (!(later < right.t)) return {Verdict::undecided};
-  return isolate(curve, curve.at(later), right);
+  return isolate_rising(curve, left, curvature, right);
 }
 
 /// The start is overlapped for certain, by rounding, and leaves. Either the gap opens, and the search goes on
@@ -358,7 +368,7 @@ auto WallSearch<M, V>::follow_overlap(const Curve& curve, const Point& start, co
   bool rose = false;
   int setbacks = 0;  // of a gap that hardly changes, steps neither grow nor shrink
   Real before = step;
-  for (int k = 0; k < 5 * curve.most_steps && setbacks < 32; ++k) {
+  for (int k = 0; k < 5 * curve.most_steps && setbacks < 16; ++k) {
     if constexpr (is_wide) Interruption::check();
     Real t = left.t + step;
     const bool last = !(t < right.t);
