@@ -54,7 +54,7 @@ model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) 
   const auto exactly = [](const TurnsPerPeriod& t) {
     if (t.of < 1)
       throw InputError("joint: found turns per " + std::to_string(t.of) + " periods, expected 1 or more");
-    return Quantity{boost::multiprecision::cpp_rational(t.turns, t.of)};
+    return Quantity{t.turns, t.of};
   };
   model::Joints<Quantity> phases{{}, Quantity{1}};
   model::Joints<Real> joints{{}, period};

@@ -46,7 +46,7 @@ void read_batch(Section s, CaseSpec& spec) {
   read_keys(s, batch);
   read_density(s, batch, spec);
   count_by_mass(s, batch);
-  const bool narrow = batch.diameter_spread.value < batch.diameter.value || !batch.diameter.positive();
+  const bool narrow = batch.diameter_spread < batch.diameter || !batch.diameter.positive();
   s.require(narrow, "diameter_spread", "a length from 0 to less than the diameter");
   if (batch.random_speed && s.has("velocity"))
     s.problem("random_speed", "both 'velocity' and 'random_speed'", "one of them");

@@ -16,13 +16,12 @@
 #include "casefile/key_reader.hpp"
 #include "casefile/output_entry.hpp"
 #include "casefile/precisions.hpp"
+#include "casefile/rational.hpp"
 #include "casefile/section.hpp"
 #include "casefile/value_of_key.hpp"
 #include "io/input_file.hpp"
 
 namespace edmill::casefile {
-
-using boost::multiprecision::cpp_rational;
 
 namespace {
 
@@ -32,11 +31,9 @@ void read_run(Section run, CaseSpec& spec) {
   read_keys(run, spec);
   run.require(!spec.digits || !run.has("precision"), "digits", "digits or a precision, not both");
   if (!run.has("start_time")) spec.statistics_start = spec.initial_time;
-  run.require(spec.statistics_start.value >= spec.initial_time.value, "start_time",
-              "a time not before the initial time");
+  run.require(spec.statistics_start >= spec.initial_time, "start_time", "a time not before the initial time");
   if (spec.end_time)
-    run.require(spec.end_time->value > spec.statistics_start.value, "end_time",
-                "a time after the start time");
+    run.require(*spec.end_time > spec.statistics_start, "end_time", "a time after the start time");
   bool stops = run.has("end_time");
   std::string rules = "end_time";
   model::for_each_stop_rule([&](auto rule, std::size_t place) {
@@ -50,7 +47,7 @@ void read_run(Section run, CaseSpec& spec) {
     if (run.is_array("gravity")) {
       spec.gravity = run.vector("gravity", Dimension::acceleration).value_or(QuantityVector{});
     } else if (const auto strength = run.quantity("gravity", Dimension::acceleration)) {
-      spec.gravity[1] = Quantity{-strength->value, strength->pi_power};
+      spec.gravity[1] = -*strength;
     }
   }
   run.reject_unknown_keys();
@@ -59,7 +56,7 @@ void read_run(Section run, CaseSpec& spec) {
 /// Instants count drive periods, so a run has no more of them than an integer holds.
 void check_times(Section run, const CaseSpec& spec) {
   const auto within = [&](const Quantity& time) {
-    return time.value < period_of(spec.mill).value * cpp_rational(1000000000000000);
+    return rational(time) < rational(period_of(spec.mill)) * 1000000000000000;
   };
   const std::string expected = "a time of less than 1e15 drive periods";
   run.require(within(spec.initial_time), "initial_time", expected);

@@ -37,7 +37,7 @@ struct BallSpec {
   Quantity diameter;
   Quantity density{8000};
   int material = 0;  ///< of CaseSpec::materials, from 1; 0 for none
-  Quantity reduced_inertia{boost::multiprecision::cpp_rational(2, 5)};
+  Quantity reduced_inertia{2, 5};
   QuantityVector velocity{};
   Colour colour{0, 0, 1};
   std::string where;  ///< "case.toml:12: [[balls]] 1", for messages
@@ -63,8 +63,8 @@ struct BallBatch : BallSpec {
   std::optional<Quantity> mass;  ///< of the batch, from which the count follows
   Quantity diameter_spread;
   std::optional<Quantity> random_speed;  ///< largest; direction and size at random
-  Quantity gap_ball{boost::multiprecision::cpp_rational(1, 1000)};
-  Quantity gap_wall{boost::multiprecision::cpp_rational(1, 1000)};
+  Quantity gap_ball{1, 1000};
+  Quantity gap_wall{1, 1000};
   std::uint64_t max_relocations = 100000;
 
   static void keys(auto& b, auto&& row) {

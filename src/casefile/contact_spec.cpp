@@ -5,10 +5,9 @@
 
 #include "casefile/case_parts.hpp"
 #include "casefile/key_reader.hpp"
+#include "casefile/rational.hpp"
 
 namespace edmill::casefile {
-
-using boost::multiprecision::cpp_rational;
 
 namespace {
 
@@ -17,7 +16,7 @@ struct GivenLaw {
   std::string name;
   std::map<std::string, Quantity> parameters;
   std::map<std::string, std::vector<std::array<Quantity, 2>>> tables;  ///< by key
-  Quantity least_separation{cpp_rational(1, 100)};
+  Quantity least_separation{1, 100};
 };
 
 using Laws = model::NamedLaws<Quantity>;
@@ -36,7 +35,7 @@ void read_table(Section& s, GivenLaw& given) {
   for (std::size_t k = 0; k < points.size(); ++k) {
     for (std::size_t place = 0; place < 2; ++place)
       good = good && in_range(points[k][place], rows[place].range);
-    if (k > 0) good = good && points[k - 1][0].value < points[k][0].value;
+    if (k > 0) good = good && points[k - 1][0] < points[k][0];
   }
   if (!good) s.problem(Law::table, fmt::format("a table of {} points", points.size()), Law::table_form);
   given.tables[Law::table] = std::move(points);
@@ -76,28 +75,29 @@ void read_law(Section& s, GivenLaw& given) {
 /// Mass of the balls over that of the powder, where the case has powder.
 std::optional<Quantity> charge_ratio(const CaseSpec& spec) {
   if (!spec.powder_mass || !spec.powder_mass->positive()) return std::nullopt;
-  cpp_rational mass = 0;  // times pi
+  Rational mass = 0;  // times pi
   // The mean cube of diameters that are uniform in d +- s is d^3 + d s^2.
-  const auto add = [&](const BallSpec& b, int count, const cpp_rational& s) {
-    const auto& d = b.diameter.value;
-    mass += count * b.density.value * d * (d * d + s * s) / 6;
+  const auto add = [&](const BallSpec& b, int count, const Rational& s) {
+    const auto& d = rational(b.diameter);
+    mass += count * rational(b.density) * d * (d * d + s * s) / 6;
   };
   for (const auto& ball : spec.balls) add(ball, 1, 0);
-  for (const auto& batch : spec.batches) add(batch, batch.count, batch.diameter_spread.value);
-  return Quantity{mass / spec.powder_mass->value, 1};
+  for (const auto& batch : spec.batches) add(batch, batch.count, rational(batch.diameter_spread));
+  return quantity_of(mass / rational(*spec.powder_mass), 1);
 }
 
 /// The powder-load table has balls of 2.36 mm to 9.52 mm.
 void require_diameters(Section& s, const CaseSpec& spec) {
   using Law = model::PowderLoad<Quantity>;
-  const cpp_rational least(Law::diameters.front(), 1000000), largest(Law::diameters.back(), 1000000);
-  const auto check = [&](const BallSpec& ball, const cpp_rational& spread) {
-    if (ball.diameter.value - spread < least || ball.diameter.value + spread > largest)
+  const Rational least(Law::diameters.front(), 1000000), largest(Law::diameters.back(), 1000000);
+  const auto check = [&](const BallSpec& ball, const Rational& spread) {
+    const Rational& diameter = rational(ball.diameter);
+    if (diameter - spread < least || diameter + spread > largest)
       s.problem("model", fmt::format("\"{}\" with balls of {:g} m", Law::name, ball.diameter.to<double>()),
                 "balls of 2.36 mm to 9.52 mm, which its table is for");
   };
   for (const auto& ball : spec.balls) check(ball, 0);
-  for (const auto& batch : spec.batches) check(batch, batch.diameter_spread.value);
+  for (const auto& batch : spec.batches) check(batch, rational(batch.diameter_spread));
 }
 
 ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spec) {

@@ -8,6 +8,7 @@
 #include "base/scalar_list.hpp"
 #include "casefile/parts.hpp"
 #include "casefile/quantity_value.hpp"
+#include "casefile/rational.hpp"
 #include "casefile/section.hpp"
 
 namespace edmill::casefile {
@@ -53,8 +54,8 @@ TurnFraction fraction_of(const Quantity& turns) {
   const int fraction_bits = 64 * static_cast<int>(TurnFraction::words + fraction.further.size());
   cpp_int scaled;
   if (turns.pi_power == 0) {
-    const cpp_int shifted = numerator(turns.value) << fraction_bits;
-    scaled = shifted / denominator(turns.value);
+    const cpp_int shifted = numerator(rational(turns)) << fraction_bits;
+    scaled = shifted / denominator(rational(turns));
   } else {
     scaled = in_units_of(turns, fraction_bits);
   }
@@ -73,15 +74,17 @@ TurnFraction fraction_of(const Quantity& turns) {
 Quantity without_whole_turns(const Quantity& turns) {
   const auto fraction = fraction_of(turns);
   if (fraction.whole == 0 || fraction.whole == -1) return turns;
-  if (turns.pi_power == 0) return {turns.value - fraction.whole};
+  if (turns.pi_power == 0) return quantity_of(rational(turns) - fraction.whole);
   cpp_int bits = 0;
   const std::size_t words = TurnFraction::words + fraction.further.size();
   for (std::size_t k = 0; k < words; ++k) bits = (bits << 64) + fraction.word(k);
-  return {boost::multiprecision::cpp_rational(bits, cpp_int(1) << (64 * words))};
+  return quantity_of({bits, cpp_int(1) << (64 * words)});
 }
 
 /// A frequency [1/s] for an angular speed [rad/s], turns for an angle [rad].
-Quantity in_turns(const Quantity& radians) { return {radians.value / 2, radians.pi_power - 1}; }
+Quantity in_turns(const Quantity& radians) {
+  return quantity_of(rational(radians) / 2, radians.pi_power - 1);
+}
 
 const std::array<std::string, 3> axes{"x", "y", "z"};
 
@@ -155,14 +158,14 @@ Quantity period_of_fastest(const Joints<Quantity>& joints) {
     if (joint.rotates) see(joint.speed);
     for (const auto& swing : joint.swings) see(swing.frequency);
   }
-  if (fastest.zero()) return {boost::multiprecision::cpp_rational(1, 16)};
-  if (fastest.negative()) fastest.value = -fastest.value;
+  if (fastest.zero()) return {1, 16};
+  if (fastest.negative()) fastest = -fastest;
   return Quantity{1} / fastest;
 }
 
 std::string axis_name(const std::array<Quantity, 3>& axis) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (axis[k].value == 1 && axis[(k + 1) % 3].zero() && axis[(k + 2) % 3].zero()) return axes[k];
+    if (axis[k] == 1 && axis[(k + 1) % 3].zero() && axis[(k + 2) % 3].zero()) return axes[k];
   return fmt::format("({:g}, {:g}, {:g})", axis[0].to<double>(), axis[1].to<double>(), axis[2].to<double>());
 }
 
@@ -200,7 +203,7 @@ void require_speed(Section& swing, const Quantity& speed) {
 
 template <class Spex>
 std::vector<Joint<Quantity>> spex_joints(const Spex& spex) {
-  const auto number = [](int n, int d) { return Quantity{boost::multiprecision::cpp_rational(n, d)}; };
+  const auto number = [](int n, int d) { return Quantity{n, d}; };
   const Quantity frequency = Quantity{1} / spex.period;
   Joint<Quantity> swing, arm, turn;
   swing.axis[2] = number(1, 1);
@@ -217,7 +220,7 @@ std::vector<Joint<Quantity>> spex_joints(const Spex& spex) {
 
 void check_swings(Section& section, const std::vector<Swing<Quantity>>& swings) {
   for (const auto& swing : swings)
-    require_speed(section, {2 * swing.frequency.value, 1 + swing.frequency.pi_power});
+    require_speed(section, quantity_of(2 * rational(swing.frequency), 1 + swing.frequency.pi_power));
 }
 
 std::vector<Swing<Quantity>> read_swings(Section& joint, bool rotates) {

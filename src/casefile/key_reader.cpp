@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "casefile/rational.hpp"
 
 namespace edmill::casefile {
 
-using boost::multiprecision::cpp_rational;
 using model::Parameter;
 using model::Range;
 
@@ -17,7 +17,7 @@ namespace {
 /// What is kept of a value that was read.
 Quantity kept(const Quantity& q, const Range& range) {
   if (range.kind != Range::drive) return q;
-  return q.positive() ? Quantity{2 / q.value, 1 - q.pi_power} : Quantity{1};
+  return q.positive() ? quantity_of(2 / rational(q), 1 - q.pi_power) : Quantity{1};
 }
 
 }  // namespace
@@ -33,12 +33,12 @@ bool in_range(const Quantity& q, const Range& range) {
     case Range::drive:
       return q.positive();
     case Range::quarter_turn:
-      return !q.negative() && q.value <= (q.pi_power == 1 ? cpp_rational(1, 2) : cpp_rational(157, 100));
+      return !q.negative() && rational(q) <= (q.pi_power == 1 ? Rational(1, 2) : Rational(157, 100));
     case Range::share:
-      return q.positive() && q.value <= 1;
+      return q.positive() && rational(q) <= 1;
     case Range::interval:
       if (q.pi_power != 0) return q.to<double>() >= range.low && q.to<double>() <= range.high;
-      return q.value >= cpp_rational(range.low) && q.value <= cpp_rational(range.high);
+      return rational(q) >= Rational(range.low) && rational(q) <= Rational(range.high);
   }
   return false;
 }
@@ -82,7 +82,7 @@ void KeyReader::operator()(const Parameter& p, std::optional<Quantity>& value) {
   if (p.range != Range::count)
     value = section_.quantity(p.key, p.dimension);
   else if (const auto count = section_.count(p.key))
-    value = Quantity{cpp_rational(*count)};
+    value = quantity_of(*count);
   if (value) section_.require(in_range(*value, p.range), p.key, expected(p));
   if (!value && p.fallback) value = fallback_of(p);
 }
@@ -101,7 +101,7 @@ void KeyReader::operator()(const Parameter& p, std::array<Quantity, 3>& values) 
 
 void KeyReader::operator()(const Parameter& p, std::optional<std::uint64_t>& value) {
   value = section_.count(p.key);
-  if (value) section_.require(in_range(Quantity{cpp_rational(*value)}, p.range), p.key, expected(p));
+  if (value) section_.require(in_range(quantity_of(*value), p.range), p.key, expected(p));
 }
 
 void KeyReader::operator()(const Parameter& p, std::uint64_t& value) {
@@ -110,7 +110,7 @@ void KeyReader::operator()(const Parameter& p, std::uint64_t& value) {
   if (found)
     value = *found;
   else if (p.fallback)
-    value = static_cast<std::uint64_t>(numerator(fallback_of(p).value));
+    value = static_cast<std::uint64_t>(numerator(rational(fallback_of(p))));
   else
     require_presence(p, "a count");
 }

@@ -98,9 +98,7 @@ void read_interval(Section& s, TimerSpec& timer, const std::optional<Quantity>& 
   s.require(!timer.max_rows || *timer.max_rows > 0, "max_rows", "at least 1");
 }
 
-double size_of(const Quantity& quantity) {
-  return quantity.value.convert_to<double>() * std::pow(3.14159265358979, quantity.pi_power);
-}
+double size_of(const Quantity& quantity) { return quantity.to<double>(); }
 
 void read_contact_point(Section& s, OutputSpec& output) {
   if (!s.has("contact_point")) return;

@@ -24,8 +24,6 @@ inline constexpr KeyText max_rows_key{"max_rows", "count", "32000", "the record 
 inline constexpr KeyText contact_point_key{"contact_point", "table", "none",
                                            "a sphere where the bodies touch"};
 
-using Rational = boost::multiprecision::cpp_rational;
-
 /// What a type of output allows in its columns.
 struct ColumnRules {
   bool flags, counts, numbers;

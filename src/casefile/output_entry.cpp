@@ -15,7 +15,7 @@ using model::VariableKind;
 void read_timer(Section& s, TimerSpec& timer) {
   read_keys(s, timer);
   if (timer.start_time && timer.end_time)
-    s.require(timer.end_time->value > timer.start_time->value, "end_time", "a time after start_time");
+    s.require(*timer.end_time > *timer.start_time, "end_time", "a time after start_time");
 }
 
 void read_restrictions(Section& s, std::vector<Restriction>& only) {

@@ -83,7 +83,7 @@ struct FrequencySpec {
 
 /// A sphere that marks the contact point in pictures.
 struct ContactPointSpec {
-  Quantity radius{boost::multiprecision::cpp_rational(1, 1000)};
+  Quantity radius{1, 1000};
   Colour colour{1, 1, 0};
 
   static void keys(auto& c, auto&& row) {
@@ -96,8 +96,8 @@ struct ContactPointSpec {
 
 /// How an animation is played. (thesis D.4.2)
 struct AnimationSpec {
-  Quantity speed{boost::multiprecision::cpp_rational(1, 1000)};  ///< of playback; 1 is real time
-  std::uint64_t frames_per_minute = 60;                          ///< of playback
+  Quantity speed{1, 1000};               ///< of playback; 1 is real time
+  std::uint64_t frames_per_minute = 60;  ///< of playback
   std::uint64_t min_frames = 8;
 
   static void keys(auto& a, auto&& row) {

@@ -10,17 +10,16 @@ namespace edmill::casefile {
 
 namespace {
 
-using boost::multiprecision::cpp_rational;
 using model::Range;
 
 /// What the ranges of single parameters do not say.
 void require_shape(Section&, const auto&) {}
 void require_shape(Section& vessel, const model::Capsule<Quantity>& capsule) {
-  vessel.require(capsule.height.value >= capsule.diameter.value, "height", "the diameter or more");
+  vessel.require(capsule.height >= capsule.diameter, "height", "the diameter or more");
 }
 void require_shape(Section& vessel, const model::RoundedCylinder<Quantity>& cylinder) {
-  const cpp_rational width = 2 * cylinder.edge.value;
-  vessel.require(width <= cylinder.diameter.value && width <= cylinder.height.value, "edge_radius",
+  const Quantity width = Quantity(2) * cylinder.edge;
+  vessel.require(width <= cylinder.diameter && width <= cylinder.height, "edge_radius",
                  "at most half of the diameter and of the height");
 }
 

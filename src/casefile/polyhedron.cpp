@@ -2,22 +2,24 @@
 #include <set>
 
 #include "casefile/case_parts.hpp"
+#include "casefile/rational.hpp"
 
 namespace edmill::casefile {
 
 namespace {
 
-using boost::multiprecision::cpp_rational;
 using model::Face;
-using Point = std::array<cpp_rational, 3>;
+using Point = std::array<Rational, 3>;
 
 Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Point product(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-cpp_rational along(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Rational along(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-QuantityVector quantities(const Point& p) { return {Quantity{p[0]}, Quantity{p[1]}, Quantity{p[2]}}; }
+QuantityVector quantities(const Point& p) {
+  return {quantity_of(p[0]), quantity_of(p[1]), quantity_of(p[2])};
+}
 
 /// The planes through three vertices and more that have all others on one side, in exact numbers.
 class Hull {
@@ -47,7 +49,7 @@ class Hull {
     std::set<std::size_t> on;
     bool below = false, above = false;
     for (std::size_t v = 0; v < vertices_.size(); ++v) {
-      const cpp_rational side = along(normal, difference(vertices_[v], vertices_[i]));
+      const Rational side = along(normal, difference(vertices_[v], vertices_[i]));
       below |= side<0, above |= side> 0;
       if (side == 0) on.insert(v);
     }
@@ -81,7 +83,7 @@ std::vector<Face<Quantity>> read_vertices(Section& vessel) {
   for (Section& entry : vessel.sections("vertex")) {
     const auto at = entry.vector("at", Dimension::length);
     if (!at && !entry.has("at")) entry.problem("at", "nothing", "an array of three lengths");
-    if (at) vertices.push_back({(*at)[0].value, (*at)[1].value, (*at)[2].value});
+    if (at) vertices.push_back({rational((*at)[0]), rational((*at)[1]), rational((*at)[2])});
     entry.reject_unknown_keys();
   }
   if (vertices.size() < 4 || vertices.size() > 60) {

@@ -5,10 +5,11 @@
 #include <cctype>
 #include <vector>
 
+#include "casefile/rational.hpp"
+
 namespace edmill::casefile {
 
 using boost::multiprecision::cpp_int;
-using boost::multiprecision::cpp_rational;
 
 namespace {
 
@@ -16,57 +17,54 @@ namespace {
 struct Unit {
   Dimension dimension;
   std::vector<std::string_view> spellings;
-  cpp_rational factor;
-  int pi_power = 0;
+  Quantity factor;
 };
 
-cpp_rational ratio(long long numerator, long long denominator) {
-  return {cpp_int(numerator), cpp_int(denominator)};
-}
+Quantity pi_by(int divisor) { return quantity_of({1, divisor}, 1); }
 
 const std::vector<Unit>& units() {
   using D = Dimension;
   static const std::vector<Unit> table = {
       {D::length, {"m", "meter", "meters", "metre", "metres"}, 1},
-      {D::length, {"dm", "decimeter", "decimeters", "decimetre", "decimetres"}, ratio(1, 10)},
-      {D::length, {"cm", "centimeter", "centimeters", "centimetre", "centimetres"}, ratio(1, 100)},
-      {D::length, {"mm", "millimeter", "millimeters", "millimetre", "millimetres"}, ratio(1, 1000)},
-      {D::length, {"um", "micrometer", "micrometers", "micrometre", "micrometres"}, ratio(1, 1000000)},
-      {D::length, {"in", "inch", "inches"}, ratio(254, 10000)},
-      {D::length, {"ft", "foot", "feet"}, ratio(3048, 10000)},
+      {D::length, {"dm", "decimeter", "decimeters", "decimetre", "decimetres"}, Quantity(1, 10)},
+      {D::length, {"cm", "centimeter", "centimeters", "centimetre", "centimetres"}, Quantity(1, 100)},
+      {D::length, {"mm", "millimeter", "millimeters", "millimetre", "millimetres"}, Quantity(1, 1000)},
+      {D::length, {"um", "micrometer", "micrometers", "micrometre", "micrometres"}, Quantity(1, 1000000)},
+      {D::length, {"in", "inch", "inches"}, Quantity(254, 10000)},
+      {D::length, {"ft", "foot", "feet"}, Quantity(3048, 10000)},
       {D::mass, {"kg", "kilogram", "kilograms"}, 1},
-      {D::mass, {"g", "gram", "grams"}, ratio(1, 1000)},
-      {D::mass, {"mg", "milligram", "milligrams"}, ratio(1, 1000000)},
-      {D::mass, {"lb", "lbs", "pound", "pounds"}, ratio(45359237, 100000000)},
+      {D::mass, {"g", "gram", "grams"}, Quantity(1, 1000)},
+      {D::mass, {"mg", "milligram", "milligrams"}, Quantity(1, 1000000)},
+      {D::mass, {"lb", "lbs", "pound", "pounds"}, Quantity(45359237, 100000000)},
       {D::time, {"s", "sec", "second", "seconds"}, 1},
-      {D::time, {"ms", "millisecond", "milliseconds"}, ratio(1, 1000)},
-      {D::time, {"us", "microsecond", "microseconds"}, ratio(1, 1000000)},
-      {D::time, {"ns", "nanosecond", "nanoseconds"}, ratio(1, 1000000000)},
+      {D::time, {"ms", "millisecond", "milliseconds"}, Quantity(1, 1000)},
+      {D::time, {"us", "microsecond", "microseconds"}, Quantity(1, 1000000)},
+      {D::time, {"ns", "nanosecond", "nanoseconds"}, Quantity(1, 1000000000)},
       {D::time, {"min", "m", "minute", "minutes"}, 60},  // "m" is the thesis's own
       {D::time, {"h", "hr", "hour", "hours"}, 3600},
       {D::angle, {"rad", "radian", "radians"}, 1},
-      {D::angle, {"deg", "degree", "degrees"}, ratio(1, 180), 1},
-      {D::angle, {"grad", "gradient", "gradients", "gon"}, ratio(1, 200), 1},
+      {D::angle, {"deg", "degree", "degrees"}, pi_by(180)},
+      {D::angle, {"grad", "gradient", "gradients", "gon"}, pi_by(200)},
       {D::energy, {"J", "joule", "joules"}, 1},
-      {D::energy, {"mJ", "millijoule", "millijoules"}, ratio(1, 1000)},
+      {D::energy, {"mJ", "millijoule", "millijoules"}, Quantity(1, 1000)},
       {D::energy, {"kJ", "kilojoule", "kilojoules"}, 1000},
       {D::specific_energy, {"J/kg"}, 1},
       {D::specific_energy, {"kJ/kg", "J/g"}, 1000},
       {D::specific_energy, {"MJ/kg", "kJ/g"}, 1000000},
       {D::specific_energy, {"kWh/t", "Wh/kg"}, 3600},
       {D::speed, {"m/s"}, 1},
-      {D::speed, {"cm/s"}, ratio(1, 100)},
-      {D::speed, {"mm/s"}, ratio(1, 1000)},
-      {D::speed, {"in/s"}, ratio(254, 10000)},
-      {D::speed, {"ft/s"}, ratio(3048, 10000)},
+      {D::speed, {"cm/s"}, Quantity(1, 100)},
+      {D::speed, {"mm/s"}, Quantity(1, 1000)},
+      {D::speed, {"in/s"}, Quantity(254, 10000)},
+      {D::speed, {"ft/s"}, Quantity(3048, 10000)},
       {D::angular_speed, {"rad/s"}, 1},
-      {D::angular_speed, {"deg/s"}, ratio(1, 180), 1},
-      {D::angular_speed, {"Hz", "hertz"}, 2, 1},
-      {D::angular_speed, {"rpm", "cpm", "r/min", "rev/min", "cycles/min"}, ratio(1, 30), 1},
+      {D::angular_speed, {"deg/s"}, pi_by(180)},
+      {D::angular_speed, {"Hz", "hertz"}, Quantity(2) * pi_by(1)},
+      {D::angular_speed, {"rpm", "cpm", "r/min", "rev/min", "cycles/min"}, pi_by(30)},
       {D::acceleration, {"m/s2", "m/s/s"}, 1},
-      {D::acceleration, {"cm/s2", "cm/s/s"}, ratio(1, 100)},
-      {D::acceleration, {"in/s2", "in/s/s"}, ratio(254, 10000)},
-      {D::acceleration, {"ft/s2", "ft/s/s"}, ratio(3048, 10000)},
+      {D::acceleration, {"cm/s2", "cm/s/s"}, Quantity(1, 100)},
+      {D::acceleration, {"in/s2", "in/s/s"}, Quantity(254, 10000)},
+      {D::acceleration, {"ft/s2", "ft/s/s"}, Quantity(3048, 10000)},
       {D::pressure, {"Pa", "pascal"}, 1},
       {D::pressure, {"kPa"}, 1000},
       {D::pressure, {"MPa"}, 1000000},
@@ -75,7 +73,8 @@ const std::vector<Unit>& units() {
       {D::density, {"g/cm3", "g/cc"}, 1000},
       {D::density,
        {"lb/ft3"},
-       ratio(45359237, 100000000) / (ratio(3048, 10000) * ratio(3048, 10000) * ratio(3048, 10000))},
+       Quantity(45359237, 100000000) /
+           (Quantity(3048, 10000) * Quantity(3048, 10000) * Quantity(3048, 10000))},
   };
   return table;
 }
@@ -139,10 +138,10 @@ std::size_t number_length(std::string_view text) {
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-bool of_physical_size(const cpp_rational& value, SizeLimit limit) {
+bool of_physical_size(const Quantity& quantity, SizeLimit limit) {
   if (limit == SizeLimit::none) return true;
-  static const cpp_rational largest(boost::multiprecision::pow(cpp_int(10), 30));
-  const cpp_rational size = abs(value);
+  static const Rational largest(boost::multiprecision::pow(cpp_int(10), 30));
+  const Rational size = abs(rational(quantity));
   return size == 0 || (size <= largest && size * largest >= 1);
 }
 
@@ -160,12 +159,12 @@ QuantityResult parse(std::string_view text, Dimension dimension, bool unit_neede
   if (unit.empty()) {
     if (unit_needed && dimension != Dimension::none) return QuantityProblem{quoted + " (no unit)"};
     if (!of_physical_size(*number, limit)) return QuantityProblem{quoted + beyond};
-    return Quantity{*number, 0};
+    return *number;
   }
   if (const Unit* known = find_unit(unit, dimension)) {
-    const cpp_rational value = *number * known->factor;
-    if (!of_physical_size(value, limit)) return QuantityProblem{quoted + beyond};
-    return Quantity{value, known->pi_power};
+    const Quantity quantity = *number * known->factor;
+    if (!of_physical_size(quantity, limit)) return QuantityProblem{quoted + beyond};
+    return quantity;
   }
   for (const auto& other : units())
     for (const auto& spelling : other.spellings)
@@ -203,8 +202,28 @@ std::vector<UnitText> unit_texts() {
   return texts;
 }
 
+Quantity::Quantity(std::int64_t numerator, std::int64_t denominator)
+    : Quantity(quantity_of({numerator, denominator})) {}
+Quantity Quantity::exactly(double value) { return quantity_of(Rational(value)); }
+bool Quantity::positive() const { return rational(*this) > 0; }
+bool Quantity::negative() const { return rational(*this) < 0; }
+bool Quantity::zero() const { return rational(*this) == 0; }
+
+Quantity operator*(const Quantity& a, const Quantity& b) {
+  return quantity_of(rational(a) * rational(b), a.pi_power + b.pi_power);
+}
+Quantity operator/(const Quantity& a, const Quantity& b) {
+  return quantity_of(rational(a) / rational(b), a.pi_power - b.pi_power);
+}
+Quantity operator-(const Quantity& a) { return quantity_of(-rational(a), a.pi_power); }
+std::strong_ordering operator<=>(const Quantity& a, const Quantity& b) {
+  return rational(a).compare(rational(b)) <=> 0;
+}
+
 std::string Quantity::text() const {
-  return value.str() + (pi_power == 0 ? "" : pi_power == 1 ? "*pi" : "*pi^" + std::to_string(pi_power));
+  return rational(*this).str() + (pi_power == 0   ? ""
+                                  : pi_power == 1 ? "*pi"
+                                                  : "*pi^" + std::to_string(pi_power));
 }
 
 bool has_comma(std::string_view text) {
@@ -213,7 +232,7 @@ bool has_comma(std::string_view text) {
          is_digit(text[end + 1]);
 }
 
-std::optional<cpp_rational> parse_decimal(std::string_view text) {
+std::optional<Quantity> parse_decimal(std::string_view text) {
   if (text.empty() || number_length(text) != text.size()) return std::nullopt;
   bool negative = false;
   std::string digits;
@@ -241,15 +260,15 @@ std::optional<cpp_rational> parse_decimal(std::string_view text) {
   const cpp_int mantissa(first == std::string::npos ? std::string("0") : digits.substr(first));
   const cpp_int power =
       boost::multiprecision::pow(cpp_int(10), static_cast<unsigned>(exponent < 0 ? -exponent : exponent));
-  cpp_rational value = exponent < 0 ? cpp_rational(mantissa, power) : cpp_rational(mantissa * power);
-  return negative ? cpp_rational(-value) : value;
+  const Quantity value = quantity_of(exponent < 0 ? Rational(mantissa, power) : Rational(mantissa * power));
+  return negative ? -value : value;
 }
 
 std::optional<std::pair<double, std::string>> split_number(const std::string& text) {
   const auto end = std::min(text.find_first_not_of("0123456789+-."), text.size());
   const auto number = parse_decimal(text.substr(0, end));
   if (!number) return std::nullopt;
-  return std::pair{static_cast<double>(*number), text.substr(end)};
+  return std::pair{number->to<double>(), text.substr(end)};
 }
 
 QuantityResult parse_quantity(std::string_view text, Dimension dimension, SizeLimit limit) {

@@ -1,7 +1,9 @@
 // Quantities with units, read exactly: "4.76 mm" is the rational 476/100000 m, "15 deg" is pi/12.
 #pragma once
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <compare>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,22 +33,30 @@ struct UnitText {
 };
 std::vector<UnitText> unit_texts();
 
-/// An exact SI value: `value` times pi^`pi_power`.
-struct Quantity {
-  boost::multiprecision::cpp_rational value{0};
+/// An exact SI value: a rational number, which casefile/rational.hpp has, times pi^`pi_power`.
+class Quantity {
+ public:
+  struct Exact;
+  Quantity(std::int64_t numerator = 0, std::int64_t denominator = 1);
+  explicit Quantity(std::shared_ptr<const Exact> value, int power)
+      : pi_power(power), value_(std::move(value)) {}
+  /// @pre `value` is finite
+  static Quantity exactly(double value);
+
   int pi_power = 0;
+  const Exact& exact() const { return *value_; }
 
-  bool positive() const { return value > 0; }
-  bool negative() const { return value < 0; }
-  bool zero() const { return value == 0; }
+  bool positive() const;
+  bool negative() const;
+  bool zero() const;
 
-  friend Quantity operator*(const Quantity& a, const Quantity& b) {
-    return {a.value * b.value, a.pi_power + b.pi_power};
-  }
+  friend Quantity operator*(const Quantity& a, const Quantity& b);
   /// @pre b is not zero
-  friend Quantity operator/(const Quantity& a, const Quantity& b) {
-    return {a.value / b.value, a.pi_power - b.pi_power};
-  }
+  friend Quantity operator/(const Quantity& a, const Quantity& b);
+  friend Quantity operator-(const Quantity& a);
+  /// @pre the powers of pi are the same
+  friend std::strong_ordering operator<=>(const Quantity& a, const Quantity& b);
+  friend bool operator==(const Quantity& a, const Quantity& b) { return (a <=> b) == 0; }
 
   /// Nearest scalar; no value passes through double on its way to a wider one.
   template <class Real>
@@ -54,6 +64,9 @@ struct Quantity {
 
   /// Canonical text, "119/25000" or "1/12*pi", for digests.
   std::string text() const;
+
+ private:
+  std::shared_ptr<const Exact> value_;  ///< shared by copies
 };
 
 /// What is wrong with a text that is not a quantity.
@@ -80,7 +93,7 @@ QuantityResult parse_quantity_or_si(std::string_view text, Dimension dimension,
 bool has_comma(std::string_view text);
 
 /// Exact value of a decimal number; nothing for anything else, nan and inf included.
-std::optional<boost::multiprecision::cpp_rational> parse_decimal(std::string_view text);
+std::optional<Quantity> parse_decimal(std::string_view text);
 
 /// "4.76 mm" is 4.76 and " mm"; nothing for what does not begin with a number.
 std::optional<std::pair<double, std::string>> split_number(const std::string& text);

@@ -4,7 +4,7 @@
 #include "base/instant.hpp"
 #include "base/scalar_list.hpp"
 #include "base/wide_trigonometry.hpp"
-#include "casefile/quantity.hpp"
+#include "casefile/rational.hpp"
 
 namespace edmill::casefile {
 
@@ -49,7 +49,7 @@ Real Quantity::to() const {
   // Twice the digits and more, so that the last rounding is the only one that counts.
   using Wide = detail::Wide<Real, 20>;
   [[maybe_unused]] const detail::WideDigits<Real> digits(20);
-  Wide result = Wide(numerator(value).str()) / Wide(denominator(value).str());
+  Wide result = Wide(numerator(rational(*this)).str()) / Wide(denominator(rational(*this)).str());
   const Wide pi = numerics::pi<Wide>();
   for (int k = 0; k < pi_power; ++k) result *= pi;
   for (int k = 0; k > pi_power; --k) result /= pi;
@@ -66,10 +66,10 @@ Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
   std::int64_t periods;
   Real offset;
   if (time.pi_power == period.pi_power) {
-    const boost::multiprecision::cpp_rational count = time.value / period.value;
+    const Rational count = rational(time / period);
     periods =
         static_cast<std::int64_t>(boost::multiprecision::cpp_int(numerator(count) / denominator(count)));
-    offset = Quantity{time.value - periods * period.value, time.pi_power}.to<Real>();
+    offset = quantity_of(rational(time) - periods * rational(period), time.pi_power).to<Real>();
   } else {
     // Up to 1e15 periods lead away that many digits more.
     using Wide = detail::Wide<Real, 40>;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
-#include "casefile/quantity.hpp"
+#include "casefile/rational.hpp"
 #include "casefile/section.hpp"
 
 namespace edmill::casefile {
@@ -36,7 +36,7 @@ std::string written(const CaseSpec& spec, const std::string& key) {
 
 /// The number as an integer times a power of ten.
 std::pair<cpp_int, int> in_decimals(const std::string& number) {
-  const auto value = *parse_decimal(number);
+  const Rational value = rational(*parse_decimal(number));
   cpp_int denominator = boost::multiprecision::denominator(value);
   int exponent = 0;
   cpp_int power = 1;

@@ -101,7 +101,7 @@ void until_precision(const std::string& precision, const casefile::CaseSpec& spe
   if (percent) number.remove_suffix(1);
   while (number.ends_with(' ')) number.remove_suffix(1);
   const auto value = casefile::parse_decimal(number);
-  const double part = value ? static_cast<double>(*value) / (percent ? 100 : 1) : 0;
+  const double part = value ? value->to<double>() / (percent ? 100 : 1) : 0;
   if (!(part > 0 && part < 1))
     throw InputError("--until-precision: found \"" + precision +
                      "\", expected a part of the dose rate above 0 and below 1: \"1%\" or 0.01");

@@ -101,7 +101,7 @@ Assumptions assumptions_of(const casefile::CaseSpec& spec) {
 
 casefile::Quantity exactly(double value) {
   // What is no number is none of a case: 0 is refused, or fits as badly.
-  return {boost::multiprecision::cpp_rational(std::isfinite(value) ? value : 0.0)};
+  return casefile::Quantity::exactly(std::isfinite(value) ? value : 0.0);
 }
 
 std::vector<BallGroup> ball_groups(const casefile::CaseSpec& spec) {

@@ -26,10 +26,10 @@ void put_chain(Assumptions& a, Joints joints) {
 /// Joints that turn the other way in time: t becomes -t in every motion.
 Joints reversed(Joints joints) {
   for (auto& joint : joints) {
-    joint.speed.value = -joint.speed.value;
+    joint.speed = -joint.speed;
     for (auto& swing : joint.swings) {  // sin(2 pi (-f t + p)) = -sin(2 pi (f t - p))
-      swing.amplitude.value = -swing.amplitude.value;
-      swing.phase.value = -swing.phase.value;
+      swing.amplitude = -swing.amplitude;
+      swing.phase = -swing.phase;
     }
   }
   return joints;
@@ -44,15 +44,15 @@ void add_motions(const Assumptions& nominal, std::vector<Mistake>& list) {
                       // The centre stays on its circle; the axes are turned by theta first, then by gamma
                       // about X.
                       auto back = joints[0];
-                      back.angle.value = -back.angle.value;
-                      for (auto& swing : back.swings) swing.amplitude.value = -swing.amplitude.value;
+                      back.angle = -back.angle;
+                      for (auto& swing : back.swings) swing.amplitude = -swing.amplitude;
                       put_chain(a, {joints[0], joints[1], back, joints[2], joints[0]});
                     },
                     false, true});
     list.push_back({"mill, sign of gamma", "-gamma_max sin(phase) in place of gamma_max sin(phase)",
                     [joints](Assumptions& a) {
                       auto turned = joints;
-                      for (auto& swing : turned[2].swings) swing.amplitude.value = -swing.amplitude.value;
+                      for (auto& swing : turned[2].swings) swing.amplitude = -swing.amplitude;
                       put_chain(a, turned);
                     },
                     false, true});

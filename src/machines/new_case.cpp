@@ -40,7 +40,7 @@ double value_of(const std::string& option, const std::string& text, Dimension di
 /// @throws InputError
 double number_of(const std::string& option, const std::string& text, double high) {
   const auto number = casefile::parse_decimal(text);
-  if (number && *number >= 0 && static_cast<double>(*number) <= high) return static_cast<double>(*number);
+  if (number && !number->negative() && number->to<double>() <= high) return number->to<double>();
   throw InputError(fmt::format("{}: found \"{}\", expected a number from 0{}", option, text,
                                std::isfinite(high) ? fmt::format(" to {:g}", high) : ""));
 }
@@ -51,7 +51,8 @@ Batch batch_of(const std::string& text) {
   };
   const auto times = text.find_first_of("x*");
   const auto count = casefile::parse_decimal(text.substr(0, times));
-  if (times == std::string::npos || !count || *count < 1 || *count > 1000000 || denominator(*count) != 1)
+  if (times == std::string::npos || !count || *count < 1 || *count > 1000000 ||
+      count->text().find('/') != std::string::npos)
     throw fail(
         "a number of balls and their diameter, \"10x12.7mm\", and a material if not steel, "
         "\"10x12.7mm:zirconia\"");
@@ -63,8 +64,8 @@ Batch batch_of(const std::string& text) {
   const auto& materials = catalogue().materials;
   const auto found = std::ranges::find(materials, material, &Material::key);
   if (found == materials.end()) throw fail("a material among " + keys_of(materials));
-  return {static_cast<std::uint64_t>(*count), diameter, value_of("--balls", diameter, Dimension::length),
-          &*found};
+  return {static_cast<std::uint64_t>(count->to<double>()), diameter,
+          value_of("--balls", diameter, Dimension::length), &*found};
 }
 
 /// What fills the vessel, and what follows from it.

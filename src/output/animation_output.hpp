@@ -65,7 +65,8 @@ class AnimationOutput : public FramesOutput<Real> {
  private:
   static casefile::TimerSpec frames_of(const casefile::AnimationSpec& a) {
     casefile::TimerSpec timer;
-    timer.interval = casefile::Quantity{a.speed.value * 60 / a.frames_per_minute};
+    timer.interval =
+        a.speed * casefile::Quantity{60} / casefile::Quantity(static_cast<std::int64_t>(a.frames_per_minute));
     return timer;
   }
 

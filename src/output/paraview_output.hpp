@@ -11,7 +11,7 @@ namespace edmill::output {
 inline constexpr casefile::KeyText paraview_keys[] = {casefile::interval_of_10_ms, casefile::max_rows_key};
 
 inline void read_paraview(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  casefile::read_interval(s, output.timer, casefile::Quantity{casefile::Rational(1, 100)});
+  casefile::read_interval(s, output.timer, casefile::Quantity{1, 100});
 }
 
 template <class Real>

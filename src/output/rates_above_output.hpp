@@ -19,8 +19,7 @@ inline void read_rates_above(casefile::Section& s, const casefile::CaseSpec&, ca
   Cutoffs cutoffs;
   if (!s.has("cutoffs")) {
     cutoffs.push_back(casefile::Quantity{0});
-    for (const int per_metre : {1000, 100, 10, 1})
-      cutoffs.push_back(casefile::Quantity{casefile::Rational(1, per_metre)});
+    for (const int per_metre : {1000, 100, 10, 1}) cutoffs.push_back(casefile::Quantity{1, per_metre});
     output.own = std::move(cutoffs);
     return;
   }

@@ -32,11 +32,8 @@ inline void read_spectra(casefile::Section& s, const casefile::CaseSpec&, casefi
   spectra.of_speed = s.choice("of", {"energy", "speed"}) == "speed";
   const bool speed = spectra.of_speed;
   const auto dimension = speed ? casefile::Dimension::speed : casefile::Dimension::energy;
-  spectra.low =
-      s.quantity("low", dimension,
-                 casefile::Quantity{speed ? casefile::Rational(1, 1000) : casefile::Rational(1, 1000000000)});
-  spectra.high = s.quantity("high", dimension,
-                            casefile::Quantity{speed ? casefile::Rational(10) : casefile::Rational(1)});
+  spectra.low = s.quantity("low", dimension, casefile::Quantity{1, speed ? 1000 : 1000000000});
+  spectra.high = s.quantity("high", dimension, casefile::Quantity{speed ? 10 : 1});
   s.require(spectra.low.positive(), "low", "a value above 0: the bins are logarithmic");
   const double low = casefile::size_of(spectra.low), high = casefile::size_of(spectra.high);
   const bool ascending = low > 0 && high > low * (1 + 1e-6) && std::isfinite(high);

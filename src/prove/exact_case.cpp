@@ -7,17 +7,17 @@
 #include "base/scalar_list.hpp"
 #include "base/wide_trigonometry.hpp"
 #include "casefile/build_case.hpp"
+#include "casefile/rational.hpp"
 
 namespace edmill::prove {
 
 namespace {
 
 using boost::multiprecision::cpp_int;
-using boost::multiprecision::cpp_rational;
 using casefile::CaseSpec;
 using model::Joint;
 
-Quantity number(int n, int d = 1) { return {cpp_rational(n, d)}; }
+Quantity number(int n, int d = 1) { return {n, d}; }
 /// Without what does not move: a certificate lists no zeros.
 std::vector<Joint<Quantity>> moving_joints(const casefile::MotionSpec& motion) {
   auto joints = casefile::joints_of(motion);
@@ -130,8 +130,8 @@ QuantityVector exact_place(const Vec3<mpfr>& local, const QuantityVector& room, 
     if (!(abs(steps - whole) < 1e-100))
       throw InputError(where +
                        ": found balls whose places are not known exactly, expected a position for each");
-    place[axis] = {room[axis].value *
-                   cpp_rational(cpp_int(static_cast<std::int64_t>(whole)), cpp_int(1) << 52)};
+    place[axis] =
+        room[axis] * casefile::quantity_of({cpp_int(static_cast<std::int64_t>(whole)), cpp_int(1) << 52});
   }
   return place;
 }
@@ -161,7 +161,8 @@ void add_batches(const CaseSpec& spec, const std::optional<QuantityVector>& half
     for (int k = 0; k < batch.count; ++k) {
       ExactBall ball = ball_of(batch);
       QuantityVector room = *half;
-      for (auto& size : room) size.value -= ball.radius.value + batch.gap_wall.value;
+      for (auto& size : room)
+        size = casefile::quantity_of(rational(size) - rational(ball.radius) - rational(batch.gap_wall));
       ball.in_vessel = true;
       ball.position = exact_place(motion.position_in_vessel(pose, built.states[result.balls.size()].position),
                                   room, batch.where);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "casefile/rational.hpp"
+
 namespace edmill::prove {
 
 namespace {
@@ -29,7 +31,8 @@ Enclosure integer(const boost::multiprecision::cpp_int& value) {
 }  // namespace
 
 Enclosure enclosure_of(const casefile::Quantity& quantity) {
-  Enclosure result = integer(numerator(quantity.value)) / integer(denominator(quantity.value));
+  Enclosure result =
+      integer(numerator(casefile::rational(quantity))) / integer(denominator(casefile::rational(quantity)));
   if (quantity.pi_power == 0) return result;
   Enclosure pi;
   arb_const_pi(pi.arb(), Precision::bits());

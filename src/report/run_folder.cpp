@@ -106,26 +106,25 @@ void add_report_outputs(casefile::CaseSpec& spec) {
   const bool moving = casefile::name_of(spec.mill) != "still";
   // Powers of pi in the drive's period may be rounded: these are only sampling times.
   const auto period =
-      moving ? Quantity{boost::multiprecision::cpp_rational(casefile::period_of(spec.mill).to<double>())}
-             : Quantity{boost::multiprecision::cpp_rational(1, 20)};
+      moving ? Quantity::exactly(casefile::period_of(spec.mill).to<double>()) : Quantity{1, 20};
   for (auto k = before; k < spec.outputs.size(); ++k) {
     auto& output = spec.outputs[k];
     if (output.type == "trends") {
       output.timer.interval = period;  // whole drive periods can be compared
     } else if (output.type == "trends_balls") {
-      output.timer.interval = Quantity{period.value * 2 / 5};  // 5 phases of the drive in turn
+      output.timer.interval = period * Quantity{2, 5};  // 5 phases of the drive in turn
     } else {
       output.timer.start_time = spec.statistics_start;
     }
     if (output.type == "animation") {
-      output.timer.duration = Quantity{period.value * (spec.ball_count() > 200 ? 1 : 2)};
-      output.animation.speed = Quantity{period.value / 4};  // a period takes 4 s
+      output.timer.duration = period * Quantity{spec.ball_count() > 200 ? 1 : 2};
+      output.animation.speed = period / Quantity{4};  // a period takes 4 s
       output.animation.frames_per_minute = 20 * 60;
     }
     if (output.type == "frequency" && moving) {
       // Balls are rarely faster than three times the peak speed of the vessel's centre.
       const double fastest = 3 * casefile::build_mill<double>(spec).motion.wall_speed(0);
-      if (fastest > 0) output.frequency.high = Quantity{boost::multiprecision::cpp_rational(fastest)};
+      if (fastest > 0) output.frequency.high = Quantity::exactly(fastest);
     }
   }
 }

@@ -205,7 +205,7 @@ std::string bound_of(const casefile::OptimizeVariable& v, const Point& point) {
   for (const auto& [key, value] : point.settings) {
     if (key != v.key) continue;
     const auto number = casefile::parse_decimal(value.substr(0, value.size() - v.unit.size()));
-    const double x = number ? static_cast<double>(*number) : 0, slack = 1e-9 * (v.high - v.low);
+    const double x = number ? number->to<double>() : 0, slack = 1e-9 * (v.high - v.low);
     for (const auto& [end, name] : {std::pair{v.low, "low"}, std::pair{v.high, "high"}})
       if (number && std::abs(x - end) <= slack)
         return fmt::format(

@@ -21,13 +21,13 @@ std::string count_of(const casefile::CaseSpec& spec, const std::string& ratio) {
     throw InputError(spec.file + ": key 'charge_ratio': found " + found + ", expected " + expected);
   };
   const auto value = casefile::parse_decimal(ratio);
-  if (!value || *value <= 0) fail("\"" + ratio + "\"", "a positive number");
+  if (!value || !value->positive()) fail("\"" + ratio + "\"", "a positive number");
   if (!spec.powder_mass) fail("no powder", "a case with powder.mass");
   if (spec.batches.size() != 1 || !spec.balls.empty()) fail("other balls", "a case with one batch [[balls]]");
   const auto& balls = spec.batches.front();
   const double d = balls.diameter.to<double>();
   const double mass = balls.density.to<double>() * std::numbers::pi / 6 * d * d * d;
-  const double count = std::round(static_cast<double>(*value) * spec.powder_mass->to<double>() / mass);
+  const double count = std::round(value->to<double>() * spec.powder_mass->to<double>() / mass);
   if (count > 1e8) fail(ratio, "a charge ratio of fewer than 1e8 balls");
   return std::to_string(static_cast<std::uint64_t>(std::max(count, 1.0)));
 }

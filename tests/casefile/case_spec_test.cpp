@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "casefile/rational.hpp"
 #include "instances/instances.hpp"
 
 namespace edmill {
@@ -23,7 +24,7 @@ using WaltonBraun = model::WaltonBraun<Quantity>;
 cpp_rational parameter(const casefile::ContactSpec& c, const std::string& key) {
   cpp_rational found = -2;
   c.parameters([&](const model::Parameter& p, const Quantity& q) {
-    if (p.key == key) found = q.value;
+    if (p.key == key) found = rational(q);
   });
   return found;
 }
@@ -130,53 +131,53 @@ TEST(CaseSpec, EveryValueOfAFullCaseIsReadExactly) {
   EXPECT_EQ(c.file, "case.toml");
   EXPECT_EQ(c.precision, "float128");
   EXPECT_EQ(c.seed, 7u);
-  EXPECT_EQ(c.initial_time.value, ratio(1, 4));
-  EXPECT_EQ(c.statistics_start.value, ratio(1, 2));
-  EXPECT_EQ(c.end_time->value, 10);
-  EXPECT_EQ(c.stop_limits[model::place_of_rule<model::MaxCollisions>]->value, 1000000);
-  EXPECT_EQ(c.stop_limits[model::place_of_rule<model::MaxMillingDose>]->value, ratio(5, 2));
-  EXPECT_EQ(c.stop_limits[model::place_of_rule<model::MaxBallSpeed>]->value, 40);
-  EXPECT_EQ(c.gravity[0].value, 0);
-  EXPECT_EQ(c.gravity[1].value, ratio(-98, 10));
-  EXPECT_EQ(c.gravity[2].value, ratio(1, 8));
+  EXPECT_EQ(rational(c.initial_time), ratio(1, 4));
+  EXPECT_EQ(rational(c.statistics_start), ratio(1, 2));
+  EXPECT_EQ(rational(*c.end_time), 10);
+  EXPECT_EQ(rational(*c.stop_limits[model::place_of_rule<model::MaxCollisions>]), 1000000);
+  EXPECT_EQ(rational(*c.stop_limits[model::place_of_rule<model::MaxMillingDose>]), ratio(5, 2));
+  EXPECT_EQ(rational(*c.stop_limits[model::place_of_rule<model::MaxBallSpeed>]), 40);
+  EXPECT_EQ(rational(c.gravity[0]), 0);
+  EXPECT_EQ(rational(c.gravity[1]), ratio(-98, 10));
+  EXPECT_EQ(rational(c.gravity[2]), ratio(1, 8));
   const auto& mill = std::get<model::Spex8000<Quantity>>(c.mill);
-  EXPECT_EQ(mill.period.value, ratio(60, 1054));
+  EXPECT_EQ(rational(mill.period), ratio(60, 1054));
   EXPECT_EQ(mill.period.pi_power, 0);
-  EXPECT_EQ(mill.arm.value, ratio(95, 1000));
+  EXPECT_EQ(rational(mill.arm), ratio(95, 1000));
   EXPECT_EQ(mill.theta_max.text(), "1/4");
   EXPECT_EQ(mill.gamma_max.text(), "1/18*pi");
   const auto& vessel = std::get<model::Cylinder<Quantity>>(c.vessel);
-  EXPECT_EQ(vessel.diameter.value, ratio(38, 1000));
-  EXPECT_EQ(vessel.height.value, ratio(57, 1000));
-  EXPECT_EQ(c.powder_mass->value, ratio(5, 1000));
+  EXPECT_EQ(rational(vessel.diameter), ratio(38, 1000));
+  EXPECT_EQ(rational(vessel.height), ratio(57, 1000));
+  EXPECT_EQ(rational(*c.powder_mass), ratio(5, 1000));
   ASSERT_EQ(c.balls.size(), 1u);
   const auto& ball = c.balls[0];
-  EXPECT_EQ(ball.diameter.value, ratio(6, 1000));
-  EXPECT_EQ(ball.density.value, 15000);
-  EXPECT_EQ(ball.reduced_inertia.value, ratio(1, 2));
-  EXPECT_EQ(ball.position[0].value, ratio(1, 10));
-  EXPECT_EQ(ball.position[1].value, ratio(1, 1000));
-  EXPECT_EQ(ball.position[2].value, ratio(2, 1000));
-  EXPECT_EQ(ball.velocity[1].value, ratio(-3, 2));
-  EXPECT_EQ(ball.velocity[2].value, ratio(9144, 10000));
+  EXPECT_EQ(rational(ball.diameter), ratio(6, 1000));
+  EXPECT_EQ(rational(ball.density), 15000);
+  EXPECT_EQ(rational(ball.reduced_inertia), ratio(1, 2));
+  EXPECT_EQ(rational(ball.position[0]), ratio(1, 10));
+  EXPECT_EQ(rational(ball.position[1]), ratio(1, 1000));
+  EXPECT_EQ(rational(ball.position[2]), ratio(2, 1000));
+  EXPECT_EQ(rational(ball.velocity[1]), ratio(-3, 2));
+  EXPECT_EQ(rational(ball.velocity[2]), ratio(9144, 10000));
   EXPECT_EQ(ball.spin[0].text(), "2*pi");
-  EXPECT_EQ(ball.spin[2].value, -1);
+  EXPECT_EQ(rational(ball.spin[2]), -1);
   ASSERT_EQ(c.batches.size(), 2u);
   const auto& batch = c.batches[0];
   EXPECT_EQ(batch.count, 28);
-  EXPECT_EQ(batch.diameter.value, ratio(476, 100000));
-  EXPECT_EQ(batch.diameter_spread.value, ratio(1, 10000));
-  EXPECT_EQ(batch.random_speed->value, 1);
-  EXPECT_EQ(batch.gap_ball.value, ratio(1, 2000));
-  EXPECT_EQ(batch.gap_wall.value, ratio(1, 4000));
+  EXPECT_EQ(rational(batch.diameter), ratio(476, 100000));
+  EXPECT_EQ(rational(batch.diameter_spread), ratio(1, 10000));
+  EXPECT_EQ(rational(*batch.random_speed), 1);
+  EXPECT_EQ(rational(batch.gap_ball), ratio(1, 2000));
+  EXPECT_EQ(rational(batch.gap_wall), ratio(1, 4000));
   EXPECT_EQ(batch.max_relocations, 500u);
-  EXPECT_EQ(c.batches[1].velocity[0].value, 1);
+  EXPECT_EQ(rational(c.batches[1].velocity[0]), 1);
   EXPECT_EQ(c.ball_count(), 30u);
   ASSERT_EQ(c.outputs.size(), 1u);
   EXPECT_EQ(c.outputs[0].type, "collisions");
   EXPECT_EQ(c.outputs[0].file, "first.csv");
-  EXPECT_EQ(c.outputs[0].timer.start_time->value, 1);
-  EXPECT_EQ(c.outputs[0].timer.end_time->value, 2);
+  EXPECT_EQ(rational(*c.outputs[0].timer.start_time), 1);
+  EXPECT_EQ(rational(*c.outputs[0].timer.end_time), 2);
 }
 
 TEST(CaseSpec, DefaultsAreThoseOfTheThesis) {
@@ -185,21 +186,21 @@ TEST(CaseSpec, DefaultsAreThoseOfTheThesis) {
   EXPECT_EQ(mill.arm.text(), "1/10");
   EXPECT_EQ(mill.theta_max.text(), "1/12*pi");
   EXPECT_EQ(mill.gamma_max.text(), "1/12*pi");
-  EXPECT_EQ(mill.period.value, ratio(60, 1098));
-  EXPECT_EQ(c.batches[0].density.value, 8000);
-  EXPECT_EQ(c.batches[0].reduced_inertia.value, ratio(2, 5));
-  EXPECT_EQ(c.batches[0].gap_ball.value, ratio(1, 1000));
-  EXPECT_EQ(c.batches[0].gap_wall.value, ratio(1, 1000));
+  EXPECT_EQ(rational(mill.period), ratio(60, 1098));
+  EXPECT_EQ(rational(c.batches[0].density), 8000);
+  EXPECT_EQ(rational(c.batches[0].reduced_inertia), ratio(2, 5));
+  EXPECT_EQ(rational(c.batches[0].gap_ball), ratio(1, 1000));
+  EXPECT_EQ(rational(c.batches[0].gap_wall), ratio(1, 1000));
   EXPECT_EQ(c.batches[0].count, 1);
   EXPECT_FALSE(c.batches[0].random_speed);
   for (const auto* law : {&c.ball_ball, &c.ball_wall}) {
-    EXPECT_EQ(std::get<WaltonBraun>(law->law).min_tangential.value, -1);
-    EXPECT_EQ(law->least_separation.value, ratio(1, 100));
+    EXPECT_EQ(rational(std::get<WaltonBraun>(law->law).min_tangential), -1);
+    EXPECT_EQ(rational(law->least_separation), ratio(1, 100));
   }
   EXPECT_EQ(c.precision, "double");
   EXPECT_EQ(c.seed, 1u);
-  EXPECT_EQ(c.initial_time.value, 0);
-  EXPECT_EQ(c.statistics_start.value, 0);
+  EXPECT_EQ(rational(c.initial_time), 0);
+  EXPECT_EQ(rational(c.statistics_start), 0);
   for (const auto& limit : c.stop_limits) EXPECT_FALSE(limit);
   EXPECT_FALSE(c.powder_mass);
   for (const auto& g : c.gravity) EXPECT_TRUE(g.zero());
@@ -208,13 +209,14 @@ TEST(CaseSpec, DefaultsAreThoseOfTheThesis) {
 TEST(CaseSpec, AContactPairOverridesOnlyItsOwnKeys) {
   const CaseSpec c = read(full);
   const auto& balls = std::get<model::ConstantRestitution<Quantity>>(c.ball_ball.law);
-  EXPECT_EQ(balls.normal.value, ratio(53, 100));
-  EXPECT_EQ(balls.tangential.value, ratio(1, 4));
+  EXPECT_EQ(rational(balls.normal), ratio(53, 100));
+  EXPECT_EQ(rational(balls.tangential), ratio(1, 4));
   const auto& walls = std::get<WaltonBraun>(c.ball_wall.law);
-  EXPECT_EQ(walls.normal.value, ratio(3, 4));
-  EXPECT_EQ(walls.friction.value, ratio(2, 5));
-  EXPECT_EQ(walls.min_tangential.value, ratio(-1, 2));
-  for (const auto* law : {&c.ball_ball, &c.ball_wall}) EXPECT_EQ(law->least_separation.value, ratio(2, 1000));
+  EXPECT_EQ(rational(walls.normal), ratio(3, 4));
+  EXPECT_EQ(rational(walls.friction), ratio(2, 5));
+  EXPECT_EQ(rational(walls.min_tangential), ratio(-1, 2));
+  for (const auto* law : {&c.ball_ball, &c.ball_wall})
+    EXPECT_EQ(rational(law->least_separation), ratio(2, 1000));
 }
 
 TEST(CaseSpec, TwoPairsTogetherReplaceTheCommonKeys) {
@@ -228,7 +230,7 @@ TEST(CaseSpec, TwoPairsTogetherReplaceTheCommonKeys) {
 TEST(CaseSpec, GravityAsOneNumberPointsAlongMinusY) {
   const CaseSpec c = read(least, {"run.gravity=9.8 m/s2"});
   EXPECT_TRUE(c.gravity[0].zero());
-  EXPECT_EQ(c.gravity[1].value, ratio(-98, 10));
+  EXPECT_EQ(rational(c.gravity[1]), ratio(-98, 10));
   EXPECT_TRUE(c.gravity[2].zero());
 }
 
@@ -254,9 +256,9 @@ TEST(CaseSpec, NumbersOfAnArrayStayExactInEveryLayout) {
   for (const auto* line : {"velocity = [0.1,-0.2,0.3]", "velocity = [ 0.1 , -0.2 , 0.3 ]",
                            "velocity = [\n  0.1, # one\n  -0.2,\n  0.3,\n]"}) {
     const CaseSpec c = read(least + line + "\n");
-    EXPECT_EQ(c.batches[0].velocity[0].value, ratio(1, 10)) << line;
-    EXPECT_EQ(c.batches[0].velocity[1].value, ratio(-2, 10)) << line;
-    EXPECT_EQ(c.batches[0].velocity[2].value, ratio(3, 10)) << line;
+    EXPECT_EQ(rational(c.batches[0].velocity[0]), ratio(1, 10)) << line;
+    EXPECT_EQ(rational(c.batches[0].velocity[1]), ratio(-2, 10)) << line;
+    EXPECT_EQ(rational(c.batches[0].velocity[2]), ratio(3, 10)) << line;
   }
 }
 
@@ -264,12 +266,12 @@ TEST(CaseSpec, TheCommandLineOverridesTheFile) {
   const CaseSpec c = read(full, {"run.end_time=0.75 s", "balls.0.count=5", "balls.01.diameter=\"2 mm\"",
                                  "ball.0.density=7 g/cm3", "contact.restitution=0.1", "mill.speed=1000 rpm",
                                  "output.0.file=other.csv", "contact.ball_wall.friction=0.3"});
-  EXPECT_EQ(c.end_time->value, ratio(3, 4));
+  EXPECT_EQ(rational(*c.end_time), ratio(3, 4));
   EXPECT_EQ(c.batches[0].count, 5);
-  EXPECT_EQ(c.batches[1].diameter.value, ratio(2, 1000));
-  EXPECT_EQ(c.balls[0].density.value, 7000);
+  EXPECT_EQ(rational(c.batches[1].diameter), ratio(2, 1000));
+  EXPECT_EQ(rational(c.balls[0].density), 7000);
   EXPECT_EQ(restitution(c.ball_ball), ratio(1, 10));
-  EXPECT_EQ(period_of(c.mill).value, ratio(60, 1000));
+  EXPECT_EQ(rational(period_of(c.mill)), ratio(60, 1000));
   EXPECT_EQ(c.outputs[0].file, "other.csv");
   EXPECT_EQ(friction(c.ball_wall), ratio(3, 10));
 }
@@ -280,10 +282,10 @@ TEST(CaseSpec, NumbersOfTheCommandLineStayExact) {
   const CaseSpec c = read(text, {"run.gravity=[0.1, -9.81, 1e-3]", "balls.00.reduced_inertia=0.35",
                                  "contact.ball_ball={restitution=0.7, friction=0.3}",
                                  "contact.ball_wall.restitution=0.6 # a comment"});
-  EXPECT_EQ(c.gravity[0].value, ratio(1, 10));
-  EXPECT_EQ(c.gravity[1].value, ratio(-981, 100));
-  EXPECT_EQ(c.gravity[2].value, ratio(1, 1000));
-  EXPECT_EQ(c.batches[0].reduced_inertia.value, ratio(35, 100));
+  EXPECT_EQ(rational(c.gravity[0]), ratio(1, 10));
+  EXPECT_EQ(rational(c.gravity[1]), ratio(-981, 100));
+  EXPECT_EQ(rational(c.gravity[2]), ratio(1, 1000));
+  EXPECT_EQ(rational(c.batches[0].reduced_inertia), ratio(35, 100));
   EXPECT_EQ(restitution(c.ball_ball), ratio(7, 10));
   EXPECT_EQ(friction(c.ball_ball), ratio(3, 10));
   EXPECT_EQ(restitution(c.ball_wall), ratio(6, 10));
@@ -300,7 +302,7 @@ TEST(CaseSpec, TheLastOfTwoSettingsCounts) {
 }
 
 TEST(CaseSpec, ASettingCanAddASection) {
-  EXPECT_EQ(read(least, {"powder.mass=5 g"}).powder_mass->value, ratio(5, 1000));
+  EXPECT_EQ(rational(*read(least, {"powder.mass=5 g"}).powder_mass), ratio(5, 1000));
 }
 
 TEST(CaseSpec, TheDigestIgnoresHowAValueIsWritten) {

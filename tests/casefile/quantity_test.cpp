@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "casefile/rational.hpp"
 #include "instances/instances.hpp"
 
 namespace edmill::casefile {
@@ -50,7 +51,7 @@ struct Sample {
 void expect_values(const std::vector<Sample>& samples) {
   for (const auto& s : samples) {
     const Quantity q = parsed(s.text, s.dimension);
-    EXPECT_EQ(q.value, s.value) << s.text << " is " << q.text();
+    EXPECT_EQ(rational(q), s.value) << s.text << " is " << q.text();
     EXPECT_EQ(q.pi_power, s.pi_power) << s.text;
   }
 }
@@ -110,7 +111,7 @@ TEST(Quantity, CompanionUnitsAreExact) {
 TEST(Quantity, RpmIsExactInTurns) {
   // 2 pi / w is one turn: 60 s / 1054.
   const Quantity speed = parsed("1054 rpm", D::angular_speed);
-  EXPECT_EQ(2 / speed.value, ratio(60, 1054));
+  EXPECT_EQ(2 / rational(speed), ratio(60, 1054));
   EXPECT_EQ(speed.pi_power, 1);
 }
 
@@ -190,15 +191,15 @@ TEST(Quantity, SizesThatDoubleCannotCubeAreRejected) {
 
 TEST(Quantity, PlainNumbersAreSiOnlyWhereAllowed) {
   EXPECT_EQ(problem("9.8", D::acceleration), "\"9.8\" (no unit)");
-  EXPECT_EQ(std::get<Quantity>(parse_quantity_or_si("9.8", D::acceleration)).value, ratio(98, 10));
-  EXPECT_EQ(parsed("0.4", D::none).value, ratio(2, 5));
+  EXPECT_EQ(rational(std::get<Quantity>(parse_quantity_or_si("9.8", D::acceleration))), ratio(98, 10));
+  EXPECT_EQ(rational(parsed("0.4", D::none)), ratio(2, 5));
 }
 
 TEST(Quantity, DecimalsAreExact) {
-  EXPECT_EQ(*parse_decimal("0.53"), ratio(53, 100));
-  EXPECT_EQ(*parse_decimal("-.5e-2"), ratio(-1, 200));
-  EXPECT_EQ(*parse_decimal("007"), ratio(7));
-  EXPECT_EQ(*parse_decimal("0.1000000000000000000000000000000000000001"),
+  EXPECT_EQ(rational(*parse_decimal("0.53")), ratio(53, 100));
+  EXPECT_EQ(rational(*parse_decimal("-.5e-2")), ratio(-1, 200));
+  EXPECT_EQ(rational(*parse_decimal("007")), ratio(7));
+  EXPECT_EQ(rational(*parse_decimal("0.1000000000000000000000000000000000000001")),
             cpp_rational(cpp_int("1000000000000000000000000000000000000001"), pow(cpp_int(10), 40)));
   for (const auto* text : {"", "nan", "inf", "0x10", "1 ", " 1", "1e", "1,5", "1.2.3", "1e5000"})
     EXPECT_FALSE(parse_decimal(text)) << text;
@@ -370,7 +371,7 @@ RC_GTEST_PROP(Quantity, RandomDecimalsAreExactInEveryUnit, ()) {
   const std::string space = *rc::gen::element<std::string>("", " ", "  ");
   const auto result = parse_quantity(d.text + space + unit.name, unit.dimension);
   RC_ASSERT(std::holds_alternative<Quantity>(result));
-  RC_ASSERT(std::get<Quantity>(result).value == d.value * unit.factor);
+  RC_ASSERT(rational(std::get<Quantity>(result)) == d.value * unit.factor);
   RC_ASSERT(std::get<Quantity>(result).pi_power == unit.pi_power);
 }
 

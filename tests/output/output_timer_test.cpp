@@ -115,7 +115,7 @@ TEST(IntervalClock, LastRowStaysOpenForAnImpactAtTheEnd) {
 /// A tenth is no double: rows must neither vanish nor appear by its rounding.
 TEST(IntervalClock, TenthsOfASecond) {
   TimerSpec spec;
-  spec.interval = Quantity{boost::multiprecision::cpp_rational(1, 10)};
+  spec.interval = Quantity{1, 10};
   EXPECT_EQ(rows(spec, {}, 30.0).size(), 300u);
   EXPECT_EQ(rows(spec, {0.3, 17.7, 29.9}, 30.0).size(), 300u);
 }

@@ -55,7 +55,7 @@ casefile::CaseSpec case_with(const std::string& more, const std::string& powder 
       "test.toml");
 }
 casefile::CaseSpec ending_at(double time, casefile::CaseSpec spec) {
-  spec.end_time = casefile::Quantity{boost::multiprecision::cpp_rational(time), 0};
+  spec.end_time = casefile::Quantity::exactly(time);
   return spec;
 }
 io::Summary<double> summary_of(const casefile::CaseSpec& spec) {

@@ -44,7 +44,7 @@ struct Bifurcation {
       if (known == nullptr)
         throw InputError("--above: found " + std::get<casefile::QuantityProblem>(speed).found +
                          ", expected a speed such as \"2 cm/s\"");
-      options_.least_approach = static_cast<double>(known->value);
+      options_.least_approach = known->to<double>();
     }
     if (options_.file.empty()) options_.file = "out/" + name_of(given_.file) + ".bifurcation.svg";
     return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) {

@@ -1,0 +1,22 @@
+// The number in a quantity. Heavy: for sources that compute with it beyond what Quantity offers.
+#pragma once
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include "casefile/quantity.hpp"
+
+namespace edmill::casefile {
+
+using Rational = boost::multiprecision::cpp_rational;
+
+struct Quantity::Exact {
+  Rational value;
+};
+
+inline const Rational& rational(const Quantity& quantity) { return quantity.exact().value; }
+
+inline Quantity quantity_of(Rational value, int pi_power = 0) {
+  return Quantity(std::make_shared<const Quantity::Exact>(Quantity::Exact{std::move(value)}), pi_power);
+}
+
+}  // namespace edmill::casefile
