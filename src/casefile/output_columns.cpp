@@ -1,7 +1,6 @@
 #include "casefile/output_columns.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "casefile/key_reader.hpp"
 #include "casefile/nearest.hpp"
@@ -97,8 +96,6 @@ void read_interval(Section& s, TimerSpec& timer, const std::optional<Quantity>& 
   timer.max_rows = s.count("max_rows");
   s.require(!timer.max_rows || *timer.max_rows > 0, "max_rows", "at least 1");
 }
-
-double size_of(const Quantity& quantity) { return quantity.to<double>(); }
 
 void read_contact_point(Section& s, OutputSpec& output) {
   if (!s.has("contact_point")) return;

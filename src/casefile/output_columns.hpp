@@ -49,9 +49,6 @@ void read_contact_point(Section& s, OutputSpec& output);
 /// The dimension in which a unit of the variables is given in a case.
 Dimension dimension_of(std::string_view unit);
 
-/// Size of a quantity, for comparisons between them.
-double size_of(const Quantity& quantity);
-
 /// "a, b, c", for messages.
 std::string listed(const std::vector<std::string>& names);
 

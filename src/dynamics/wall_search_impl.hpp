@@ -211,8 +211,8 @@ auto WallSearch<M, V>::isolate_from_start(const Curve& curve, const Start& first
   return isolate(curve, start, right);
 }
 
-/// The gap rises, and goes on rising while its second derivative is positive: one step in place of the many
-/// by which an overlap is followed.
+/// A rising gap keeps rising while its second derivative is positive, so that one long step suffices at
+/// first, also from an overlap. Where the third derivative is zero, it covers the whole window.
 template <model::Motion M, model::Vessel V>
 auto WallSearch<M, V>::isolate_rising(const Curve& curve, const Point& start, const Real& curvature,
                                       const Point& right) const -> Bracket {

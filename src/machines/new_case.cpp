@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/errors.hpp"
-#include "casefile/quantity.hpp"
+#include "casefile/rational.hpp"
 #include "machines/machines.hpp"
 
 namespace edmill::machines {
@@ -52,7 +52,7 @@ Batch batch_of(const std::string& text) {
   const auto times = text.find_first_of("x*");
   const auto count = casefile::parse_decimal(text.substr(0, times));
   if (times == std::string::npos || !count || *count < 1 || *count > 1000000 ||
-      count->text().find('/') != std::string::npos)
+      denominator(casefile::rational(*count)) != 1)
     throw fail(
         "a number of balls and their diameter, \"10x12.7mm\", and a material if not steel, "
         "\"10x12.7mm:zirconia\"");

@@ -33,7 +33,7 @@ inline void read_frequency(casefile::Section& s, const casefile::CaseSpec&, case
       s.setting(key);  // of unknown dimension: nothing to check it against
   }
   if (variable && s.has("low") && s.has("high"))
-    s.require(casefile::size_of(f.high) > casefile::size_of(f.low), "high", "a value above low");
+    s.require(f.high.to<double>() > f.low.to<double>(), "high", "a value above low");
   f.intervals = s.count("intervals").value_or(10);
   s.require(f.intervals > 0 && f.intervals <= 1000000, "intervals", "1 to 1000000");
   f.title = s.text("title").value_or("");

@@ -34,9 +34,7 @@ inline void read_rates_above(casefile::Section& s, const casefile::CaseSpec&, ca
     else
       cutoffs.push_back(*quantity);
   }
-  std::sort(cutoffs.begin(), cutoffs.end(), [](const casefile::Quantity& a, const casefile::Quantity& b) {
-    return casefile::size_of(a) < casefile::size_of(b);
-  });
+  std::sort(cutoffs.begin(), cutoffs.end());
   output.own = std::move(cutoffs);
 }
 

@@ -35,7 +35,7 @@ inline void read_spectra(casefile::Section& s, const casefile::CaseSpec&, casefi
   spectra.low = s.quantity("low", dimension, casefile::Quantity{1, speed ? 1000 : 1000000000});
   spectra.high = s.quantity("high", dimension, casefile::Quantity{speed ? 10 : 1});
   s.require(spectra.low.positive(), "low", "a value above 0: the bins are logarithmic");
-  const double low = casefile::size_of(spectra.low), high = casefile::size_of(spectra.high);
+  const double low = spectra.low.to<double>(), high = spectra.high.to<double>();
   const bool ascending = low > 0 && high > low * (1 + 1e-6) && std::isfinite(high);
   const bool low_is_wrong = s.has("low") && !s.has("high");
   s.require(ascending || !spectra.low.positive(), low_is_wrong ? "low" : "high",

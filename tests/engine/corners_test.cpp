@@ -3,6 +3,7 @@
 // that of a computation in 200 digits, in which the states are exact.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
