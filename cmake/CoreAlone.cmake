@@ -31,8 +31,8 @@ include(cmake/Rooms.cmake)
 function(edmill_take_rooms target)
   foreach(room ${ARGN})
     file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
-    # What needs other libraries, for which core_alone/absent.cpp stands, and programs.
-    list(FILTER sources EXCLUDE REGEX "(table_hdf5|hdf5_error|decoder|event_file|x3d_scene|vtk_scene|main)[.]cpp$")
+    # What needs other libraries, for which core_alone/absent.cpp stands, MPFR and programs.
+    list(FILTER sources EXCLUDE REGEX "(table_hdf5|hdf5_error|decoder|event_file|x3d_scene|vtk_scene|mpfr|linearised|sensitivity|make_run|main)[.]cpp$")
     target_sources(${target} PRIVATE ${sources})
     if(NOT room STREQUAL core_alone)
       edmill_group(${room} ${sources})
@@ -43,17 +43,19 @@ endfunction()
 
 # Linkers keep the first copy of an inline function: that of double comes before those of wide scalars, which WebAssembly compiles
 # for size (functions of double that they share took three times as long).
-set(instances ${CMAKE_SOURCE_DIR}/src/instances)
-add_library(edmill_core OBJECT ${instances}/double.cpp ${instances}/double_other.cpp ${EDMILL_VERSION_SOURCE})
+set(src ${CMAKE_SOURCE_DIR}/src)
+add_library(edmill_core OBJECT ${src}/engine/double.cpp ${src}/engine/double_other.cpp ${src}/run/double.cpp ${src}/output/double.cpp
+            ${EDMILL_VERSION_SOURCE})
 target_link_libraries(edmill_core PUBLIC edmill_core_settings)
 target_precompile_headers(edmill_core PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <sstream>
   <string> <variant> <vector> <boost/container/static_vector.hpp> <boost/multiprecision/cpp_int.hpp> <boost/multiprecision/cpp_bin_float.hpp>
   <boost/multiprecision/eigen.hpp> <Eigen/Geometry> <fmt/format.h> <toml++/toml.h>)
-edmill_take_rooms(edmill_core base model dynamics engine casefile io run tangent output api core_alone)
+edmill_take_rooms(edmill_core base model dynamics engine casefile io run tangent output core_alone)
+edmill_alone(src/engine/double.cpp src/engine/double_other.cpp src/run/double.cpp src/output/double.cpp)
 set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/core_alone/toml.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
-target_sources(edmill_core PRIVATE ${instances}/float128.cpp ${instances}/mpfr50.cpp)
-add_executable(edmill_core_alone ${CMAKE_SOURCE_DIR}/src/core_alone/main.cpp ${CMAKE_SOURCE_DIR}/src/app/run.cpp
-               ${instances}/tools/double.cpp ${instances}/tools/float128.cpp)
+set(wide ${src}/engine/float128.cpp ${src}/engine/mpfr50.cpp ${src}/run/float128.cpp ${src}/output/float128.cpp)
+set_property(SOURCE ${wide} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
+add_executable(edmill_core_alone ${src}/core_alone/main.cpp ${src}/app/run.cpp ${src}/report/result_table.cpp ${src}/run/make_run.cpp)
 set_target_properties(edmill_core_alone PROPERTIES OUTPUT_NAME edmill-core)
 target_link_libraries(edmill_core_alone PRIVATE edmill_core)
 
@@ -72,8 +74,7 @@ if(EMSCRIPTEN)
   set_source_files_properties(${checker} PROPERTIES UNITY_GROUP checker COMPILE_DEFINITIONS CHECKER_WITHOUT_ARB)
   target_include_directories(edmill_page PRIVATE ${CMAKE_SOURCE_DIR}/verification/checker)
   # The file is to stay small; wide scalars decide seldom.
-  set_source_files_properties(${instances}/float128.cpp ${instances}/mpfr50.cpp
-                              PROPERTIES COMPILE_OPTIONS -Os SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${wide} PROPERTIES COMPILE_OPTIONS -Os SKIP_PRECOMPILE_HEADERS ON)
   target_compile_options(edmill_page PRIVATE -Os)
   target_link_options(edmill_page PRIVATE -sMALLOC=emmalloc)
   target_link_options(edmill_page PRIVATE -sMODULARIZE=1 -sEXPORT_NAME=Edmill -sENVIRONMENT=web,worker

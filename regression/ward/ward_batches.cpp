@@ -4,8 +4,10 @@
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
-#include "instances/instances.hpp"
+#include "casefile/build_case.hpp"
+#include "engine/simulation.hpp"
 #include "io/json_text.hpp"
+#include "run/simulate.hpp"
 
 namespace {
 
@@ -61,7 +63,7 @@ void write(const io::Summary<double>& s, double length, const std::vector<Batche
   json.number("end_time", s.end_time);
   json.number("batch_length", length);
   json.number("milling_dose", s.milling_dose);
-  json.number("energy_closure", s.energy_closure());
+  json.number("energy_closure", s.energy_closure);
   json.number("touched_milling_dose", s.touched_dose);
   json.integer("touched_impacts", s.touched_impacts);
   json.integer("impacts_since_start", s.total_impacts);

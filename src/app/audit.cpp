@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
-#include "instances/instances.hpp"
 #include "io/input_file.hpp"
 #include "io/junit_text.hpp"
 

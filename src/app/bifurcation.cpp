@@ -22,7 +22,7 @@ namespace {
 bool add_phases(const casefile::CaseSpec& spec, const BifurcationOptions& options, double value,
                 Bifurcation& found) {
   const double period = casefile::period_of(spec.mill).to<double>();
-  const auto source = source_in("double", spec, false, options.interrupt);
+  const auto source = run::make_source("double", spec, false, options.interrupt);
   constexpr std::size_t most = 10'000'000;  // of a ball that rests, and hops more slowly than what counts
   std::size_t all = 0;
   for (std::size_t seen = 0; seen < options.skip + options.keep;) {

@@ -11,7 +11,7 @@
 #include "base/version.hpp"
 #include "casefile/precisions.hpp"
 #include "io/named_file.hpp"
-#include "run/collision_log.hpp"
+#include "output/collision_log.hpp"
 
 namespace edmill::app {
 
@@ -34,7 +34,7 @@ Sequence first_events(const std::string& precision, const casefile::CaseSpec& sp
   Sequence sequence{precision, {}};
   const auto begin = std::chrono::steady_clock::now();
   const bool to_end = options.collisions == 0;
-  const auto source = source_in(precision, spec, to_end, options.interrupt);
+  const auto source = run::make_source(precision, spec, to_end, options.interrupt);
   while ((to_end || sequence.events.size() < options.collisions) && !stop_asked(options.interrupt)) {
     const auto more =
         source->next(to_end ? 64 : std::min<std::size_t>(64, options.collisions - sequence.events.size()));
@@ -69,7 +69,7 @@ void write_reference(std::ostream& out, const casefile::CaseSpec& spec, const Ce
       << fmt::format("# {} events, each value correct to {} digits of the quantity's largest size\n",
                      found.events.size(), options.digits);
   for (const auto& pair : found.evidence) out << "# " << pair.text() << '\n';
-  out << run::collision_log_header(false) << '\n';
+  out << output::collision_log_header(false) << '\n';
   for (std::size_t k = 0; k < found.events.size(); ++k) {
     const Event& e = found.events[k];
     // Two digits more than are certified, so that the rounding of the text does not count.

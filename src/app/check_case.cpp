@@ -5,11 +5,11 @@
 #include <functional>
 #include <utility>
 
-#include "base/with_scalar.hpp"
+#include "casefile/build_case.hpp"
 #include "casefile/memory_for.hpp"
-#include "instances/instances.hpp"
 #include "io/named_file.hpp"
 #include "report/mill_drawing.hpp"
+#include "run/any_run.hpp"
 
 namespace edmill::app {
 
@@ -23,13 +23,6 @@ std::string describe_law(const model::ContactLaw<double>& law) {
   });
   return text + (law.least_separation > 0 ? fmt::format(", least separation {:g} m/s", law.least_separation)
                                           : ", no least separation");
-}
-
-/// What a run does before its first event: places the balls and predicts their first contacts.
-template <class Real>
-void prepare(const casefile::CaseSpec& spec) {
-  const auto built = casefile::build_case<Real>(spec);
-  const engine::Simulation<Real> ready(built.the_case, built.states, built.start);
 }
 
 using Row = std::function<void(const std::string& name, const std::string& value)>;
@@ -91,7 +84,7 @@ void add_charge(const casefile::CaseSpec& spec, const model::Case<double>& c, co
 CheckedCase check(const casefile::CaseSpec& spec) {
   return casefile::with_memory_for(spec, [&] {
     // The case must be valid in its own scalar; double is sufficient for the description.
-    with_scalar(spec.precision, [&]<class Real>() { prepare<Real>(spec); });
+    run::make_run(spec.precision, spec)->begin();
     const auto built = casefile::build_case<double>(spec, false);
     CheckedCase result{spec.file, {}};
     const auto row = [&](const std::string& name, const std::string& value) {

@@ -25,7 +25,7 @@ std::string chosen(double digits) {
 /// Events to the end of the case: a run in double has about as many as the true motion.
 double count_events(const casefile::CaseSpec& spec, const DigitsOptions& options) {
   constexpr double longest = 5;  // [s] of processor time
-  const auto source = source_in("double", spec, true, options.interrupt);
+  const auto source = run::make_source("double", spec, true, options.interrupt);
   const double begin = run::cpu_seconds(), first = source->reached();
   double events = 0;
   while (!stop_asked(options.interrupt)) {
@@ -109,7 +109,7 @@ RunEstimate estimate_digits(const casefile::CaseSpec& spec, const std::string& p
 double time_per_event(const std::string& precision, const casefile::CaseSpec& spec,
                       const DigitsOptions& options) {
   constexpr double longest = 2;  // [s] of processor time
-  const auto source = source_in(precision, spec, true, options.interrupt);
+  const auto source = run::make_source(precision, spec, true, options.interrupt);
   double begin = run::cpu_seconds(), took = 0;
   std::size_t events = 0;
   bool warm = false;

@@ -12,7 +12,7 @@ namespace edmill::app {
 
 std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
                          const prove::Proof& proof) {
-  const auto source = source_in(precision, spec, false);
+  const auto source = run::make_source(precision, spec, false);
   std::size_t right = 0;
   while (right < proof.events.size()) {
     const auto more = source->next(std::min<std::size_t>(256, proof.events.size() - right));

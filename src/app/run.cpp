@@ -1,26 +1,36 @@
 #include "app/run.hpp"
 
 #include "base/errors.hpp"
-#include "base/with_scalar.hpp"
 #include "casefile/memory_for.hpp"
-#include "casefile/right_digits.hpp"
-#include "instances/tools/instances.hpp"
 #include "io/input_file.hpp"
 #include "report/report_page.hpp"
+#include "report/result_table.hpp"
 #include "run/run_folder.hpp"
 
 namespace edmill::app {
 
 RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOptions& options) {
   if (options.report) report::add_report_outputs(spec);
-  const auto put_page = [&] {
-    return options.report ? report::put_report(options.folder) : std::filesystem::path();
-  };
   return casefile::with_memory_for(spec, [&] {
-    return with_scalar(precision, [&]<class Real>() {
-      const auto shown = casefile::only_right_digits<Real>(spec);
-      return run_in<Real>(spec, options, put_page);
+    run::RunSetup setup;
+    setup.interrupt = options.interrupt;
+    setup.progress = options.progress;
+    const auto run = run::make_run(precision, spec, setup);
+    run->write_to(options.folder, options.checkpoint, options.without_locks);
+    options.begun();
+    try {
+      run->finish();
+    } catch (const UndecidedError&) {  // the summary says so, and covers the time up to then
+    }
+    const auto summary = run->summary();
+    RunResult result{summary.end_reason, summary.error, report::result_table(summary), run->goes_on(), {}};
+    run->commit([&] {
+      if (options.report) result.report = report::put_report(options.folder);
+      Archive archive;
+      archive(result);
+      return archive.bytes();
     });
+    return result;
   });
 }
 

@@ -13,16 +13,9 @@
 #include "casefile/case_spec.hpp"
 #include "io/checkpoint_file.hpp"
 #include "model/end_reason.hpp"
+#include "run/any_run.hpp"
 
 namespace edmill::app {
-
-/// How far a run is.
-struct RunProgress {
-  double now;                 ///< simulated time [s]
-  std::optional<double> end;  ///< of it; nothing when only other rules stop the run
-  std::uint64_t collisions;   ///< since the start of the run
-  double milling_dose;        ///< since the program started it, or resumed it [J]
-};
 
 struct RunOptions {
   std::string folder;   ///< of the outputs
@@ -32,7 +25,7 @@ struct RunOptions {
   std::function<void()> begun = [] {};
   /// Called where the file system has no locks, so that nothing keeps a second run out of the folder.
   std::function<void(const std::filesystem::path&)> without_locks = [](const auto&) {};
-  std::function<void(const RunProgress&)> progress;  ///< called now and then
+  std::function<void(const run::Progress&)> progress;  ///< called now and then
   /// What checkpoints hold besides the state, if the run makes any; with a state, it continues from there.
   std::optional<io::Checkpoint> checkpoint;
 };
@@ -66,12 +59,5 @@ io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vecto
 /// Continues the run of `options.folder` from its checkpoint. @param interval  empty to keep the previous one
 /// @throws InputError when the checkpoint is not valid for this program
 RunResult resume(const std::string& interval, RunOptions options);
-
-/// What `run` does in one scalar.
-/// @param put_page  called when the results are in place, while a killed run could still continue; gives the
-/// path of the page, empty without one
-template <class Real>
-RunResult run_in(const casefile::CaseSpec& spec, const RunOptions& options,
-                 const std::function<std::filesystem::path()>& put_page);
 
 }  // namespace edmill::app

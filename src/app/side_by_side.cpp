@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <future>
 
-#include "base/with_scalar.hpp"
-#include "instances/instances.hpp"
-
 namespace edmill::app {
 
 namespace {
@@ -20,17 +17,11 @@ auto together(const One& one, const Two& two) {
 
 }  // namespace
 
-std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
-                                            bool to_end, const std::atomic<bool>* interrupt) {
-  return with_scalar(precision,
-                     [&]<class Real>() { return run::make_source<Real>(spec, to_end, interrupt); });
-}
-
 SideBySide::SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide,
                        bool to_end, const std::atomic<bool>* interrupt)
     : interrupt_(interrupt), digits_{chosen_digits_of(narrow), chosen_digits_of(wide)} {
-  std::tie(narrow_, wide_) = together([&] { return source_in(narrow, spec, to_end, interrupt); },
-                                      [&] { return source_in(wide, spec, to_end, interrupt); });
+  std::tie(narrow_, wide_) = together([&] { return run::make_source(narrow, spec, to_end, interrupt); },
+                                      [&] { return run::make_source(wide, spec, to_end, interrupt); });
 }
 
 std::vector<run::Event> SideBySide::next(std::size_t count) {

@@ -18,11 +18,6 @@ inline bool stop_asked(const std::atomic<bool>* interrupt) {
   return interrupt && interrupt->load(std::memory_order_relaxed);
 }
 
-/// The events of a case in the scalar of this name.
-/// @param to_end  whether they end where the case does
-std::unique_ptr<run::EventSource> source_in(const std::string& precision, const casefile::CaseSpec& spec,
-                                            bool to_end, const std::atomic<bool>* interrupt = nullptr);
-
 /// Two runs that advance together, each on a thread of its own. Where their digits are chosen, both keep as
 /// many as the narrower one has right, by their agreement so far, and some more: the error that this adds to
 /// it is small beside its own.

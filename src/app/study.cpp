@@ -1,24 +1,14 @@
 #include "app/study.hpp"
 
 #include "base/errors.hpp"
-#include "base/with_scalar.hpp"
 #include "casefile/memory_for.hpp"
-#include "instances/instances.hpp"
 #include "report/study_page.hpp"
-#include "run/cpu_limit.hpp"
+#include "run/any_run.hpp"
 #include "study/optimizer.hpp"
 
 namespace edmill::app {
 
 namespace {
-
-template <class Real>
-study::RunRecord record_in(const casefile::CaseSpec& spec, double max_cpu_time,
-                           const std::atomic<bool>* interrupt) {
-  run::CpuLimit<Real> limit(max_cpu_time);
-  run::Guests<Real> guests{{&limit}, interrupt};
-  return study::record_of(run::simulate<Real>(spec, casefile::build_case<Real>(spec), guests).summary);
-}
 
 study::RunRecord do_job(const study::Job& job, const std::atomic<bool>* interrupt) {
   const auto spec = casefile::read_case(job.case_file, job.overrides);
@@ -26,9 +16,16 @@ study::RunRecord do_job(const study::Job& job, const std::atomic<bool>* interrup
     throw InputError(
         spec.file +
         ": key 'run.digits': found it in a study, expected a precision: digits are found for one run");
-  return with_scalar(spec.precision, [&]<class Real>() {
-    return casefile::with_memory_for(spec,
-                                     [&] { return record_in<Real>(spec, job.max_cpu_time, interrupt); });
+  return casefile::with_memory_for(spec, [&] {
+    run::RunSetup setup;
+    setup.interrupt = interrupt;
+    setup.max_cpu_time = job.max_cpu_time;
+    const auto run = run::make_run(spec.precision, spec, setup);
+    try {
+      run->finish();
+    } catch (const UndecidedError&) {  // part of the record
+    }
+    return study::record_of(run->summary());
   });
 }
 

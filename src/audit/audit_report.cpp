@@ -5,10 +5,6 @@
 #include "audit/audit.hpp"
 #include "base/version.hpp"
 
-namespace edmill {
-extern template std::string to_text<double>(const double&);
-}
-
 namespace edmill::audit {
 
 namespace {

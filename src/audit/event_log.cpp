@@ -12,10 +12,6 @@
 #include "casefile/quantity.hpp"
 #include "compare/log_reader.hpp"
 
-namespace edmill::casefile {
-extern template double Quantity::to<double>() const;
-}
-
 namespace edmill::audit {
 
 namespace {

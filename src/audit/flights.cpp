@@ -4,10 +4,6 @@
 #include <array>
 #include <cmath>
 
-namespace edmill::dynamics {
-extern template class DecisionLadder<double>;
-}
-
 namespace edmill::audit {
 
 namespace {

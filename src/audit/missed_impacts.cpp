@@ -4,10 +4,6 @@
 #include "audit/flights.hpp"
 #include "base/errors.hpp"
 
-namespace edmill::dynamics {
-extern template class DecisionLadder<double>;
-}
-
 namespace edmill::audit {
 
 /// First contact of a ball with the walls, in (start, until].

@@ -15,10 +15,6 @@
 #include "identify/identify.hpp"
 #include "io/json_text.hpp"
 
-namespace edmill {
-extern template casefile::InitialCase<double> casefile::build_case<double>(const casefile::CaseSpec&, bool);
-}  // namespace edmill
-
 namespace {
 
 using edmill::browser::content_of;

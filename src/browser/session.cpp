@@ -5,7 +5,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "api/case_access.hpp"
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
@@ -14,12 +13,7 @@
 #include "io/json_text.hpp"
 #include "model/parts/surface.hpp"
 #include "output/vessel_frame.hpp"
-
-namespace edmill {
-extern template std::string to_text<double>(const double&);
-extern template model::Mill<double> casefile::build_mill<double>(const casefile::CaseSpec&);
-extern template class Run<double>;
-}  // namespace edmill
+#include "run/case_access.hpp"
 
 namespace edmill::browser {
 

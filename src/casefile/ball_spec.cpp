@@ -4,10 +4,6 @@
 #include "casefile/case_parts.hpp"
 #include "casefile/key_reader.hpp"
 
-namespace edmill {
-extern template double casefile::Quantity::to<double>() const;
-}
-
 namespace edmill::casefile {
 
 namespace {

@@ -53,7 +53,7 @@ int with_progress(app::RunOptions& options, const RunCommand& command, const Wor
   std::optional<ProgressLine> line;
   if (shows_progress(command.quiet)) {
     line.emplace();
-    options.progress = [&](const app::RunProgress& p) {
+    options.progress = [&](const run::Progress& p) {
       line->show(p.now, p.end, p.collisions, p.milling_dose);
     };
   }

@@ -9,10 +9,6 @@
 #include "dem/contact_log.hpp"
 #include "io/json_text.hpp"
 
-namespace edmill {
-extern template std::string to_text<double>(const double&);
-}
-
 namespace edmill::dem {
 
 /// A median with its 95 % interval by order statistics, which ask nothing of the distribution.

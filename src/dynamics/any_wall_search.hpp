@@ -97,4 +97,9 @@ class AnyWallSearch {
   Real longest_window_, reach_;
 };
 
+// Their inline functions come from where they are optimised.
+extern template class WallSearch<model::SpexMotion<double>, model::CylinderVessel<double>>;
+extern template class WallSearch<model::ChainMotion<double>, model::CylinderVessel<double>>;
+extern template class WallSearch<model::AnyMotion<double>, model::AnyVessel<double>>;
+
 }  // namespace edmill::dynamics

@@ -107,4 +107,6 @@ class DecisionLadder {
   std::unique_ptr<Above> above_;
 };
 
+extern template class DecisionLadder<double>;
+
 }  // namespace edmill::dynamics

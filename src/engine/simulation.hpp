@@ -187,4 +187,7 @@ class Simulation {
   std::vector<Event<Real>> rivals_;  ///< contacts that may be first
 };
 
+// Its inline functions come from where they are optimised.
+extern template class Simulation<double>;
+
 }  // namespace edmill::engine

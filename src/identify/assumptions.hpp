@@ -14,12 +14,6 @@
 #include "identify/subsets.hpp"
 #include "identify/terms.hpp"
 
-namespace edmill::casefile {
-extern template model::Mill<double> build_mill<double>(const CaseSpec&);
-extern template InitialCase<double> build_case<double>(const CaseSpec&, bool);
-extern template double Quantity::to<double>() const;
-}  // namespace edmill::casefile
-
 namespace edmill::identify {
 
 /// Axes of vectors, permuted and turned: component k is sign[k] times component from[k] of the log.

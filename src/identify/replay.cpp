@@ -8,11 +8,6 @@
 #include "base/errors.hpp"
 #include "run/event_source.hpp"
 
-namespace edmill::run {
-extern template std::unique_ptr<EventSource> make_source<double>(const casefile::CaseSpec&, bool,
-                                                                 const std::atomic<bool>*);
-}
-
 namespace edmill::identify {
 
 namespace {
@@ -75,7 +70,7 @@ class Replay {
     }
     std::vector<Impact> list;
     try {
-      const auto source = run::make_source<double>(spec, true);
+      const auto source = run::make_source("double", spec, true);
       for (const auto& e : source->next(count))
         list.push_back({.ball = e.ball,
                         .with_wall = e.with_wall,

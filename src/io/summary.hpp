@@ -71,6 +71,8 @@ struct Summary {
   std::vector<Real> dose_by_partner;      ///< [J]
   Real milling_dose{0}, wall_work{0};     ///< [J]
   model::Energy<Real> energy_at_start, energy_at_end;
+  /// sum WE - sum MD + supplied energy - change of (KE + PE) [J]; zero up to rounding.
+  Real energy_closure{0};
   std::uint64_t touched_impacts = 0;  ///< by the least separation speed (theory.md, section 6)
   Real touched_dose{0};               ///< of these impacts [J]
   Real supplied_energy{0};            ///< by these impacts [J]
@@ -112,12 +114,6 @@ struct Summary {
     for (const auto c : collisions) sum += c;
     return sum;
   }
-  /// sum WE - sum MD + supplied energy - change of (KE + PE) [J]; zero up to rounding.
-  Real energy_closure() const {
-    return wall_work - milling_dose + supplied_energy -
-           ((energy_at_end.kinetic + energy_at_end.potential) -
-            (energy_at_start.kinetic + energy_at_start.potential));
-  }
   /// What supplied energy and closure are measured against [J]: the dose, or the kinetic energy of the balls
   /// at an end of the record where that is larger.
   Real energy_scale() const {
@@ -127,6 +123,10 @@ struct Summary {
   /// False where the dose is the rounding of elastic impacts.
   bool has_dose() const { return milling_dose * Real(1000000000) > energy_scale(); }
 };
+
+/// Rounded to double.
+template <class Real>
+Summary<double> in_double(const Summary<Real>& summary);
 
 /// When a run stalled, which bodies, and what helps.
 template <class Real>

@@ -90,8 +90,8 @@ class SummaryWriter {
     json.number("potential_start", s.energy_at_start.potential);
     json.number("kinetic_end", s.energy_at_end.kinetic);
     json.number("potential_end", s.energy_at_end.potential);
-    json.number("closure", s.energy_closure());
-    json.number("closure_relative", Real(s.energy_closure() / s.energy_scale()));
+    json.number("closure", s.energy_closure);
+    json.number("closure_relative", Real(s.energy_closure / s.energy_scale()));
     json.end();
   }
 
@@ -223,6 +223,35 @@ class SummaryWriter {
 };
 
 }  // namespace detail
+
+template <class Real>
+Summary<double> in_double(const Summary<Real>& s) {
+  const auto real = [](const Real& x) { return static_cast<double>(x); };
+  const auto maybe = [&](const std::optional<Real>& x) { return x ? std::optional(real(*x)) : std::nullopt; };
+  Summary<double> d(s.partners);
+  d.provenance = s.provenance, d.end_reason = s.end_reason, d.error = s.error;
+  d.start_time = real(s.start_time), d.end_time = real(s.end_time), d.period = real(s.period);
+  d.collisions = s.collisions;
+  std::ranges::transform(s.dose_by_partner, d.dose_by_partner.begin(), real);
+  d.milling_dose = real(s.milling_dose), d.wall_work = real(s.wall_work);
+  d.energy_at_start = {real(s.energy_at_start.kinetic), real(s.energy_at_start.potential)};
+  d.energy_at_end = {real(s.energy_at_end.kinetic), real(s.energy_at_end.potential)};
+  d.energy_closure = real(s.energy_closure);
+  d.touched_impacts = s.touched_impacts, d.touched_dose = real(s.touched_dose);
+  d.supplied_energy = real(s.supplied_energy);
+  d.stall_impacts = s.stall_impacts, d.stall_dose = real(s.stall_dose);
+  if (const auto& c = s.collapse)
+    d.collapse = {c->ball, c->with_wall, c->partner, real(c->accumulation_time)};
+  if (const auto& stall = s.stall) d.stall = {real(stall->time), stall->balls, stall->walls, stall->impacts};
+  d.escalations = s.escalations;
+  d.powder_mass = maybe(s.powder_mass), d.ball_mass = maybe(s.ball_mass);
+  d.simultaneous_contacts = s.simultaneous_contacts, d.deepest_overlap = real(s.deepest_overlap);
+  d.cpu_seconds = s.cpu_seconds, d.total_impacts = s.total_impacts;
+  for (const auto& [name, value] : s.notes) d.notes.emplace_back(name, real(value));
+  d.intervals = s.intervals, d.warnings = s.warnings, d.wanted_precision = s.wanted_precision;
+  if (const auto& t = s.target) d.target = {real(t->dose), t->counts, real(t->counted_dose_rate)};
+  return d;
+}
 
 template <class Real>
 std::string stall_message(const Summary<Real>& s) {

@@ -3,8 +3,8 @@
 
 #include "casefile/section.hpp"
 #include "io/atomic_file.hpp"
+#include "output/collision_log.hpp"
 #include "output/one_file_output.hpp"
-#include "run/collision_log.hpp"
 
 namespace edmill::output {
 
@@ -34,12 +34,12 @@ class CollisionsOutput : public OneFileOutput<Real, io::AtomicFile> {
                    const RunContext<Real>& run)
       : OneFileOutput<Real, io::AtomicFile>(spec, folder, run, spec.append),
         states_(spec.own_keys<StatesKey>().states) {
-    this->file_.stream() << run::collision_log_header(states_) << '\n';
+    this->file_.stream() << collision_log_header(states_) << '\n';
   }
 
  protected:
   void record(const ImpactFacts<Real>& f) override {
-    this->file_.stream() << run::collision_line<Real>(f.impact, f.simulation, states_) << '\n';
+    this->file_.stream() << collision_line<Real>(f.impact, f.simulation, states_) << '\n';
   }
 
  private:

@@ -15,9 +15,6 @@ namespace edmill::output {
 using io::Handle;
 using io::hdf5_check;
 
-namespace {
-constexpr hsize_t block = 16384;  ///< rows that are written at a time
-
 /// Where a chunk stands in the file [bytes].
 struct ChunkPlace {
   std::uint64_t at = 0, size = 0;
@@ -25,6 +22,9 @@ struct ChunkPlace {
   void archive(Archive& a) { a(at, size); }
   bool operator==(const ChunkPlace&) const = default;
 };
+
+namespace {
+constexpr hsize_t block = 16384;  ///< rows that are written at a time
 
 ChunkPlace place_of_chunk(hid_t set, hsize_t row) {
   const hsize_t offset[2] = {row, 0};

@@ -49,7 +49,7 @@ class EventsOutput : public OneFileOutput<Real, EventFile> {
 
  protected:
   void record(const ImpactFacts<Real>& f) override {
-    const auto record = run::record_of<Real>(f.impact, f.simulation);
+    const auto record = record_of<Real>(f.impact, f.simulation);
     file_.add(0, static_cast<std::int64_t>(f.impact.index));
     file_.add(1, static_cast<double>(record.time));
     file_.add(2, std::int64_t{f.impact.ball});

@@ -46,8 +46,7 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
                                 std::string& impossible) {
   const std::size_t collisions = options.collisions;
   const auto source = [&] {
-    const mpfr::Digits digits(placing_digits);
-    return run::make_source<mpfr>(spec, false);
+    return run::make_source("mpfr:" + std::to_string(placing_digits), spec, false);
   }();
   std::vector<run::Event> events;
   while (events.size() < collisions && !stopped(options)) {

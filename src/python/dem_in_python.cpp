@@ -1,11 +1,11 @@
 #include <pybind11/stl.h>
 
-#include "api/case_access.hpp"
 #include "dem/deck.hpp"
 #include "dem/import_dump.hpp"
 #include "dem/limit.hpp"
 #include "io/named_file.hpp"
 #include "python/binding.hpp"
+#include "run/case_access.hpp"
 
 namespace py = pybind11;
 

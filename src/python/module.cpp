@@ -5,11 +5,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "api/case_access.hpp"
 #include "base/version.hpp"
 #include "edmill/case.hpp"
 #include "edmill/errors.hpp"
 #include "python/binding.hpp"
+#include "run/case_access.hpp"
 
 namespace py = pybind11;
 

@@ -8,17 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "api/case_access.hpp"
-#include "api/run_access.hpp"
-#include "base/with_scalar.hpp"
 #include "casefile/memory_for.hpp"
 #include "casefile/precisions.hpp"
-#include "casefile/right_digits.hpp"
-#include "edmill/run.hpp"
-#include "instances/instances.hpp"
 #include "python/binding.hpp"
 #include "report/report_page.hpp"
 #include "report/run_folder.hpp"
+#include "run/any_run.hpp"
+#include "run/case_access.hpp"
 
 namespace py = pybind11;
 
@@ -26,45 +22,42 @@ namespace edmill::python {
 
 namespace {
 
-/// A float, or a Decimal with all digits of a wider scalar.
-template <class Real>
-py::object to_python(const Real& x) {
-  if constexpr (std::is_same_v<Real, double>)
-    return py::float_(x);
-  else
-    return py::module_::import("decimal").attr("Decimal")(to_text<Real>(x));
-}
-template <class Real>
-py::tuple to_python(const Vector<Real>& v) {
-  return py::make_tuple(to_python<Real>(v[0]), to_python<Real>(v[1]), to_python<Real>(v[2]));
-}
-/// @throws InputError where it is no number. @param what  the function that gave it
-template <class Real>
-Real from_python(const py::handle& x, const char* what) {
-  if (PyNumber_Check(x.ptr()) != 0) {
-    if constexpr (std::is_same_v<Real, double>) {
-      const double value = call_python([&] { return PyFloat_AsDouble(x.ptr()); });
-      if (!PyErr_Occurred()) return value;
-      PyErr_Clear();
-    } else {
-      try {
-        return from_text<Real>(py::str(made_by([&] { return PyObject_Str(x.ptr()); })));
-      } catch (const std::exception&) {  // told below
-      }
-    }
+using run::AnyRun;
+using run::SeenImpact;
+
+/// Numbers of a run for Python: in double floats, in wider scalars Decimals with all digits.
+struct Numbers {
+  bool wide;
+
+  py::object of(const std::string& text) const {
+    if (wide) return py::module_::import("decimal").attr("Decimal")(text);
+    return py::float_(std::stod(text));
   }
-  throw InputError(std::string("contact law of the program: ") + what + ": found " +
-                   std::string(py::str(made_by([&] { return PyObject_Repr(x.ptr()); }))) +
-                   ", expected a number");
-}
+  py::tuple of(const Vector<std::string>& v) const { return py::make_tuple(of(v[0]), of(v[1]), of(v[2])); }
+  py::tuple of(const BallState<std::string>& s) const {
+    return py::make_tuple(of(s.position), of(s.velocity), of(s.spin));
+  }
+  /// @throws InputError where it is no number. @param what  the function that gave it
+  std::string text_of(const py::handle& x, const char* what) const {
+    if (wide && PyNumber_Check(x.ptr()) != 0) return py::str(made_by([&] { return PyObject_Str(x.ptr()); }));
+    if (PyNumber_Check(x.ptr()) != 0) {
+      const double value = call_python([&] { return PyFloat_AsDouble(x.ptr()); });
+      if (!PyErr_Occurred()) return to_text<double>(value);
+      PyErr_Clear();
+    }
+    throw InputError(std::string("contact law of the program: ") + what + ": found " +
+                     std::string(py::str(made_by([&] { return PyObject_Repr(x.ptr()); }))) +
+                     ", expected a number");
+  }
+};
 
 /// Ctrl-C while Python code runs in a callback.
 bool is_control_c(const py::error_already_set& error) { return error.matches(PyExc_KeyboardInterrupt); }
 
 /// Calls f(name, member) for everything that is known of an impact.
-template <class Real, class F>
+template <class Number, class F>
 void for_each_member(F&& f) {
-  using I = Impact<Real>;
+  using I = Impact<Number>;
   f("index", &I::index), f("time", &I::time), f("ball", &I::ball), f("with_wall", &I::with_wall);
   f("partner", &I::partner), f("normal", &I::normal), f("approach_speed", &I::approach_speed);
   f("slip_speed", &I::slip_speed), f("separation_speed", &I::separation_speed);
@@ -72,14 +65,19 @@ void for_each_member(F&& f) {
   f("tangential_impulse", &I::tangential_impulse), f("milling_dose", &I::milling_dose);
   f("supplied_energy", &I::supplied_energy), f("wall_work", &I::wall_work);
 }
-template <class Real>
-py::object member(const Impact<Real>& impact, const auto& which) {
-  const auto& value = impact.*which;
-  if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>)
-    return py::cast(value);
-  else
-    return to_python<Real>(value);
-}
+/// An impact for an observer of Python: its members become numbers of Python when they are asked for.
+struct ImpactOfPython {
+  Impact<std::string> texts;
+  Numbers numbers;
+
+  py::object member(const auto& which) const {
+    const auto& value = texts.*which;
+    if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>)
+      return py::cast(value);
+    else
+      return numbers.of(value);
+  }
+};
 
 /// The array owns what the list held: nothing is copied.
 template <class Row>
@@ -90,52 +88,59 @@ py::array as_array(std::vector<Row> rows) {
   py::capsule keeper(owner.release(), [](void* p) { delete static_cast<std::vector<Row>*>(p); });
   return py::array_t<Row>(size, data, keeper);
 }
-/// Wide numbers are objects, a list of tuples for the package to make an array of.
-template <class Real>
-py::object events_of(std::vector<Impact<Real>> events) {
-  if constexpr (std::is_same_v<Real, double>) {
-    return as_array(std::move(events));
-  } else {
+
+/// Keeps all impacts. Wide numbers are objects, a list of tuples for the package to make an array of.
+class Collector : public run::Watcher {
+ public:
+  explicit Collector(const Numbers& numbers) : numbers_(numbers) {}
+  void on_impact(const SeenImpact& impact, AnyRun&) override {
+    if (numbers_.wide)
+      texts_.push_back(impact.in_texts());
+    else
+      doubles_.push_back(impact.in_double());
+  }
+  py::object events() {
+    if (!numbers_.wide) return as_array(std::move(doubles_));
     py::list rows;
-    for (const auto& event : events) {
+    for (const auto& event : texts_) {
+      const ImpactOfPython impact{event, numbers_};
       py::list row;
-      for_each_member<Real>([&](const char*, const auto& which) { row.append(member<Real>(event, which)); });
+      for_each_member<std::string>([&](const char*, const auto& which) { row.append(impact.member(which)); });
       rows.append(py::tuple(row));
     }
     return rows;
   }
-}
-template <class Real>
-py::object states_of(const Run<Real>& run) {
-  std::vector<BallState<Real>> states;
-  for (int k = 0; k < run.ball_count(); ++k) states.push_back(run.ball(k));
-  if constexpr (std::is_same_v<Real, double>) {
-    return as_array(std::move(states));
-  } else {
-    py::list rows;
-    for (const auto& s : states)
-      rows.append(
-          py::make_tuple(to_python<Real>(s.position), to_python<Real>(s.velocity), to_python<Real>(s.spin)));
-    return rows;
-  }
-}
 
-template <class Real>
-class Collector : public Observer<Real> {
- public:
-  void on_impact(const Impact<Real>& impact, Run<Real>&) override { events.push_back(impact); }
-  std::vector<Impact<Real>> events;
+ private:
+  Numbers numbers_;
+  std::vector<Impact<double>> doubles_;
+  std::vector<Impact<std::string>> texts_;
 };
+py::object states_of(const AnyRun& run, const Numbers& numbers) {
+  py::list rows;
+  std::vector<BallState<double>> doubles;
+  const auto in_double = [](const Vector<std::string>& v) {
+    return Vector<double>{std::stod(v[0]), std::stod(v[1]), std::stod(v[2])};
+  };
+  for (int k = 0; k < run.ball_count(); ++k) {
+    const auto s = run.ball(k);
+    if (numbers.wide)
+      rows.append(numbers.of(s));
+    else
+      doubles.push_back({in_double(s.position), in_double(s.velocity), in_double(s.spin)});
+  }
+  return numbers.wide ? py::object(rows) : py::object(as_array(std::move(doubles)));
+}
 
 /// Lets Python's signal handlers run and tells of progress, ten times a second; ends the run after Ctrl-C.
-template <class Real>
-class Pulse : public Observer<Real> {
+class Pulse : public run::Watcher {
  public:
   /// @param interrupted  set here, and by callbacks during which Ctrl-C came
-  Pulse(py::object progress, bool& interrupted) : interrupted_(interrupted), progress_(std::move(progress)) {}
+  Pulse(py::object progress, const Numbers& numbers, bool& interrupted)
+      : look_every_(numbers.wide ? 16 : 1024), interrupted_(interrupted), progress_(std::move(progress)) {}
 
-  void on_impact(const Impact<Real>& impact, Run<Real>& run) override {
-    if (interrupted_) return run.interrupt();
+  void on_impact(const SeenImpact& impact, AnyRun& run) override {
+    if (interrupted_) return run.stop(model::EndReason::interrupted);
     if (++since_look_ < look_every_) return;
     since_look_ = 0;
     const auto now = Clock::now();
@@ -145,56 +150,62 @@ class Pulse : public Observer<Real> {
     if (call_python(PyErr_CheckSignals) != 0) {
       PyErr_Clear();
       interrupted_ = true;
-      run.interrupt();
+      run.stop(model::EndReason::interrupted);
     } else if (!progress_.is_none()) {
       try {
-        call(progress_, static_cast<double>(impact.time), impact.index + 1);
+        call(progress_, impact.time(), impact.index() + 1);
       } catch (const py::error_already_set& error) {
         if (!is_control_c(error)) throw;
         interrupted_ = true;
-        run.interrupt();
+        run.stop(model::EndReason::interrupted);
       }
     }
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int look_every_ = std::is_same_v<Real, double> ? 1024 : 16;
+  int look_every_;
   bool& interrupted_;
   py::object progress_;
   Clock::time_point last_ = Clock::now();
   int since_look_ = 0;
 };
 
+/// The run that an observer of Python is called with.
+struct RunOfPython {
+  AnyRun& run;
+  Numbers numbers;
+};
+
 /// A callable that receives each impact and the run.
-template <class Real>
-class CallingObserver : public Observer<Real> {
+class CallingObserver : public run::Watcher {
  public:
-  CallingObserver(py::object callable, bool& interrupted)
-      : callable_(std::move(callable)), interrupted_(interrupted) {}
-  void on_impact(const Impact<Real>& impact, Run<Real>& run) override {
+  CallingObserver(py::object callable, const Numbers& numbers, bool& interrupted)
+      : callable_(std::move(callable)), numbers_(numbers), interrupted_(interrupted) {}
+  void on_impact(const SeenImpact& impact, AnyRun& run) override {
     const Locked python;
     try {
-      call(callable_, impact, py::cast(&run, py::return_value_policy::reference));
+      call(callable_, ImpactOfPython{impact.in_texts(), numbers_}, RunOfPython{run, numbers_});
     } catch (const py::error_already_set& error) {
       if (!is_control_c(error)) throw;
       interrupted_ = true;
-      run.interrupt();
+      run.stop(model::EndReason::interrupted);
     }
   }
 
  private:
   py::object callable_;
+  Numbers numbers_;
   bool& interrupted_;
 };
 
 /// An object with `restitution` and `restitution_of_slip`.
-template <class Real>
-class CallingLaw : public CustomLaw<Real> {
+class CallingLaw : public run::LawInTexts {
  public:
-  CallingLaw(const py::object& law, bool& interrupted)
+  CallingLaw(const py::object& law, const Numbers& numbers, bool& interrupted)
       : restitution_(law.attr("restitution")),
         of_slip_(law.attr("restitution_of_slip")),
+        numbers_(numbers),
         interrupted_(interrupted) {}
   /// A run may let go of it without Python's lock.
   ~CallingLaw() override {
@@ -202,41 +213,35 @@ class CallingLaw : public CustomLaw<Real> {
     restitution_ = py::none();
     of_slip_ = py::none();
   }
-  Real restitution(const Real& approach_speed) const override {
+  std::string restitution(const std::string& approach_speed) const override {
     const Locked python;
-    return ask("restitution", [&] { return call(restitution_, to_python<Real>(approach_speed)); });
+    return ask("restitution", [&] { return call(restitution_, numbers_.of(approach_speed)); });
   }
-  Real restitution_of_slip(const Real& normal_change, const Real& slip_speed,
-                           const Real& compliance) const override {
+  std::string restitution_of_slip(const std::string& normal_change, const std::string& slip_speed,
+                                  const std::string& compliance) const override {
     const Locked python;
     return ask("restitution_of_slip", [&] {
-      return call(of_slip_, to_python<Real>(normal_change), to_python<Real>(slip_speed),
-                  to_python<Real>(compliance));
+      return call(of_slip_, numbers_.of(normal_change), numbers_.of(slip_speed), numbers_.of(compliance));
     });
   }
 
  private:
   /// An impact needs an answer: after Ctrl-C the law is asked again, and the run ends after the impact.
   template <class Ask>
-  Real ask(const char* what, const Ask& of_law) const {
+  std::string ask(const char* what, const Ask& of_law) const {
     try {
-      return from_python<Real>(of_law(), what);
+      return numbers_.text_of(of_law(), what);
     } catch (const py::error_already_set& error) {
       if (!is_control_c(error)) throw;
       interrupted_ = true;
     }
-    return from_python<Real>(of_law(), what);
+    return numbers_.text_of(of_law(), what);
   }
 
   py::object restitution_, of_slip_;
+  Numbers numbers_;
   bool& interrupted_;
 };
-
-template <class Real>
-std::shared_ptr<const CustomLaw<Real>> law_of(const py::object& law, bool& interrupted) {
-  if (law.is_none()) return nullptr;
-  return std::make_shared<CallingLaw<Real>>(law, interrupted);
-}
 
 struct Wishes {
   std::string folder;  ///< of the outputs; none when empty
@@ -245,34 +250,35 @@ struct Wishes {
   py::object ball_ball, ball_wall, progress;
 };
 
-template <class Real>
-py::dict run_in(Case the_case, const Wishes& wishes) {
-  if (wishes.report) {
-    auto spec = CaseAccess::spec(the_case);
-    report::add_report_outputs(spec);
-    the_case = CaseAccess::make(std::move(spec));
-  }
+py::dict run_in(casefile::CaseSpec spec, const std::string& precision, const Wishes& wishes) {
+  if (wishes.report) report::add_report_outputs(spec);
+  const Numbers numbers{precision != "double"};
   bool interrupted = false;
-  const Laws<Real> laws{law_of<Real>(wishes.ball_ball, interrupted),
-                        law_of<Real>(wishes.ball_wall, interrupted)};
-  Collector<Real> collector;
-  Pulse<Real> pulse(wishes.progress, interrupted);
-  std::vector<std::unique_ptr<CallingObserver<Real>>> callables;
+  const auto law_of = [&](const py::object& law) {
+    return law.is_none() ? nullptr : std::make_shared<CallingLaw>(law, numbers, interrupted);
+  };
+  run::RunSetup setup;
+  setup.ball_ball = law_of(wishes.ball_ball), setup.ball_wall = law_of(wishes.ball_wall);
+  Collector collector(numbers);
+  Pulse pulse(wishes.progress, numbers, interrupted);
+  std::vector<std::unique_ptr<CallingObserver>> callables;
   for (const auto& o : wishes.observers)
-    callables.push_back(std::make_unique<CallingObserver<Real>>(o, interrupted));
+    callables.push_back(std::make_unique<CallingObserver>(o, numbers, interrupted));
 
-  std::unique_ptr<Run<Real>> run;
+  std::unique_ptr<AnyRun> run;
   {
     const Unlocked others;
-    run = std::make_unique<Run<Real>>(the_case, laws);
+    run = run::make_run(precision, spec, setup);
+    run->begin();
     if (!wishes.folder.empty()) run->write_to(wishes.folder);
     if (wishes.events) run->attach(collector);
     for (auto& callable : callables) run->attach(*callable);
     run->attach(pulse);
     run->finish();
     if (!wishes.folder.empty())
-      RunAccess::commit<Real>(*run, [&] {
+      run->commit([&] {
         if (wishes.report) report::put_report(wishes.folder);
+        return std::string();
       });
   }
   if (PyErr_CheckSignals() != 0) {  // Ctrl-C when the run was already over
@@ -280,42 +286,20 @@ py::dict run_in(Case the_case, const Wishes& wishes) {
     interrupted = true;
   }
   py::dict result;
-  result["summary"] = run->summary().json;
-  result["events"] = events_of<Real>(std::move(collector.events));
-  result["states"] = states_of<Real>(*run);
-  result["time"] = to_python<Real>(run->time());
+  result["summary"] = run->summary_json();
+  result["events"] = collector.events();
+  result["states"] = states_of(*run, numbers);
+  result["time"] = numbers.of(run->time());
   result["interrupted"] = interrupted;
   return result;
 }
 
-template <class Real>
-void add_scalar(Module& m, const std::string& name) {
-  auto impact = py::class_<Impact<Real>>(m, ("Impact_" + name).c_str());
-  for_each_member<Real>([&](const char* title, const auto& which) {
-    impact.def_property_readonly(title, [which](const Impact<Real>& i) { return member<Real>(i, which); });
-  });
-  py::class_<Run<Real>>(m, ("Run_" + name).c_str())
-      .def_property_readonly("time", [](const Run<Real>& run) { return to_python<Real>(run.time()); })
-      .def_property_readonly("ball_count", &Run<Real>::ball_count)
-      .def("ball",
-           [](const Run<Real>& run, int k) {
-             if (k < 0 || k >= run.ball_count()) throw py::index_error("no such ball");
-             const auto s = run.ball(k);
-             return py::make_tuple(to_python<Real>(s.position), to_python<Real>(s.velocity),
-                                   to_python<Real>(s.spin));
-           })
-      .def("stop", &Run<Real>::stop);
-}
-
-py::dict run(const Case& the_case, const std::string& precision, const std::string& folder, bool events,
-             bool report, const std::vector<py::object>& observers, const py::object& ball_ball,
-             const py::object& ball_wall, const py::object& progress) {
+py::dict run_case(const Case& the_case, const std::string& precision, const std::string& folder, bool events,
+                  bool report, const std::vector<py::object>& observers, const py::object& ball_ball,
+                  const py::object& ball_wall, const py::object& progress) {
   const Wishes wishes{folder, events, report, observers, ball_ball, ball_wall, progress};
-  return with_scalar(precision, [&]<class Real>() {
-    const auto& spec = CaseAccess::spec(the_case);
-    const auto shown = casefile::only_right_digits<Real>(spec);
-    return casefile::with_memory_for(spec, [&] { return run_in<Real>(the_case, wishes); });
-  });
+  const auto& spec = CaseAccess::spec(the_case);
+  return casefile::with_memory_for(spec, [&] { return run_in(spec, precision, wishes); });
 }
 
 const Binding runs([](Module& m) {
@@ -323,14 +307,24 @@ const Binding runs([](Module& m) {
                        slip_speed, separation_speed, restitution_tangential, normal_impulse,
                        tangential_impulse, milling_dose, supplied_energy, wall_work);
   PYBIND11_NUMPY_DTYPE(BallState<double>, position, velocity, spin);
-#define EDMILL_ADD(Real) add_scalar<Real>(m, std::string(ScalarName<Real>::value));
-  EDMILL_FOR_EACH_SCALAR(EDMILL_ADD)
-#undef EDMILL_ADD
+  auto impact = py::class_<ImpactOfPython>(m, "Impact");
+  for_each_member<std::string>([&](const char* title, const auto& which) {
+    impact.def_property_readonly(title, [which](const ImpactOfPython& i) { return i.member(which); });
+  });
+  py::class_<RunOfPython>(m, "Running")
+      .def_property_readonly("time", [](const RunOfPython& r) { return r.numbers.of(r.run.time()); })
+      .def_property_readonly("ball_count", [](const RunOfPython& r) { return r.run.ball_count(); })
+      .def("ball",
+           [](const RunOfPython& r, int k) {
+             if (k < 0 || k >= r.run.ball_count()) throw py::index_error("no such ball");
+             return r.numbers.of(r.run.ball(k));
+           })
+      .def("stop", [](const RunOfPython& r) { r.run.stop(model::EndReason::stopped); });
   m.attr("event_dtype") = py::dtype::of<Impact<double>>();
   m.attr("state_dtype") = py::dtype::of<BallState<double>>();
   m.attr("precisions") = py::tuple(py::cast(casefile::precisions()));
   m.def("is_precision", &casefile::is_precision);
-  m.def("run", &run);
+  m.def("run", &run_case);
 });
 
 }  // namespace

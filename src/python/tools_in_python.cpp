@@ -6,14 +6,12 @@
 #include <string>
 #include <tuple>
 
-#include "api/case_access.hpp"
 #include "app/audit.hpp"
 #include "app/certify.hpp"
 #include "app/check_case.hpp"
 #include "app/digits.hpp"
 #include "app/prove.hpp"
 #include "app/run.hpp"
-#include "app/sensitivity.hpp"
 #include "app/study.hpp"
 #include "base/errors.hpp"
 #include "compare/comparison.hpp"
@@ -27,7 +25,9 @@
 #include "prove/certificate.hpp"
 #include "python/binding.hpp"
 #include "report/report_page.hpp"
+#include "run/case_access.hpp"
 #include "run/run_folder.hpp"
+#include "run/sensitivity.hpp"
 
 namespace py = pybind11;
 
@@ -134,10 +134,10 @@ py::dict shadow(const Case& the_case, const std::string& precision, const std::s
 /// quantities, and of both balls' states, as texts
 py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, std::size_t events,
                       unsigned digits) {
-  app::SensitivityOptions options;
+  run::SensitivityOptions options;
   options.by = by, options.events = events, options.digits = digits;
   const auto found =
-      with_interrupt(options, [&](const auto& o) { return app::sensitivity(CaseAccess::spec(the_case), o); });
+      with_interrupt(options, [&](const auto& o) { return run::sensitivity(CaseAccess::spec(the_case), o); });
   py::list of_numbers;
   for (std::size_t k = 0; k < by.size(); ++k) {
     std::vector<std::string> quantities, states;

@@ -7,7 +7,6 @@
 
 namespace edmill::report {
 
-template <class Real>
-std::string result_table(const io::Summary<Real>& summary);
+std::string result_table(const io::Summary<double>& summary);
 
 }  // namespace edmill::report

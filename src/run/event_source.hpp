@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/scalar_list.hpp"
@@ -43,12 +44,14 @@ class EventSource {
   virtual void continue_in(unsigned digits) = 0;
 };
 
-/// @param spec       the balls are placed in this scalar, from the exact quantities of the case
+/// @param precision  name of the scalar, in which the balls are placed from the exact quantities of the case
 /// @param to_end     whether the run ends where the case does; otherwise it continues on request
 /// @param interrupt  ends it when it becomes true
 /// @throws InterruptedError when it becomes true at the start
+std::unique_ptr<EventSource> make_source(const std::string& precision, const casefile::CaseSpec& spec,
+                                         bool to_end, const std::atomic<bool>* interrupt = nullptr);
 template <class Real>
-std::unique_ptr<EventSource> make_source(const casefile::CaseSpec& spec, bool to_end,
-                                         const std::atomic<bool>* interrupt = nullptr);
+std::unique_ptr<EventSource> make_source_in(const casefile::CaseSpec& spec, bool to_end,
+                                            const std::atomic<bool>* interrupt);
 
 }  // namespace edmill::run

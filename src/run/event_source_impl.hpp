@@ -1,4 +1,4 @@
-// Implementation of make_source; included by the instantiation files only.
+// Implementation of make_source_in; included by the instantiation files only.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "casefile/build_case.hpp"
 #include "engine/simulation.hpp"
-#include "run/collision_log.hpp"
+#include "output/collision_log.hpp"
 #include "run/event_source.hpp"
 #include "run/stop_rules.hpp"
 
@@ -92,7 +92,7 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
     }
     ++impacts_;
     if (!wanted_) return;
-    const auto record = record_of<Real>(impact, simulation);
+    const auto record = output::record_of<Real>(impact, simulation);
     Event event{.ball = record.ball, .with_wall = record.with_wall, .partner = record.partner};
     for (std::size_t k = 0; k < model::logged_count; ++k) event[k] = Number(record[k]);
     event.by_rule = record.by_rule;
@@ -114,8 +114,8 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
 };
 
 template <class Real>
-std::unique_ptr<EventSource> make_source(const casefile::CaseSpec& spec, bool to_end,
-                                         const std::atomic<bool>* interrupt) {
+std::unique_ptr<EventSource> make_source_in(const casefile::CaseSpec& spec, bool to_end,
+                                            const std::atomic<bool>* interrupt) {
   return std::make_unique<RunningCase<Real>>(spec, to_end, interrupt);
 }
 

@@ -36,6 +36,7 @@ class RunFolder {
   const std::filesystem::path& place() const { return place_; }
   /// Whether the file system keeps other processes out.
   bool locked() const { return locks_.front().held(); }
+  bool has_checkpoint() const { return checkpoint_.has_value(); }
   /// Instructions to the driver about checkpoints. They must not outlive this folder.
   Checkpoints checkpoints();
 

@@ -32,6 +32,9 @@ void note_totals(const engine::Simulation<Real>& simulation, const run::RunStati
   summary.deepest_overlap = simulation.counts().deepest_overlap;
   summary.total_impacts = simulation.counts().impacts;
   summary.escalations = simulation.escalations();
+  const auto &first = summary.energy_at_start, &last = summary.energy_at_end;
+  summary.energy_closure = summary.wall_work - summary.milling_dose + summary.supplied_energy -
+                           ((last.kinetic + last.potential) - (first.kinetic + first.potential));
 }
 
 /// Summary of a case, with nothing counted yet.
@@ -88,6 +91,14 @@ io::Summary<Real> empty_summary(const casefile::CaseSpec& spec, const casefile::
   return summary;
 }
 
+/// Adds what follows from the numbers.
+template <class Real>
+void finish_summary(io::Summary<Real>& summary, model::EndReason end_reason, const std::string& error) {
+  summary.end_reason = end_reason;
+  summary.warnings = warnings_of(measures_of(summary));
+  summary.error = summary.stall ? io::stall_message(summary) : error;
+}
+
 template <class Real>
 Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
                       const Guests<Real>& guests) {
@@ -112,9 +123,7 @@ Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCas
     result.summary = empty_summary(spec, built);
     result.saved = {built.start, built.states};
   }
-  result.summary.end_reason = end_reason;
-  result.summary.warnings = warnings_of(measures_of(result.summary));
-  result.summary.error = result.summary.stall ? io::stall_message(result.summary) : error;
+  finish_summary(result.summary, end_reason, error);
   return result;
 }
 

@@ -36,7 +36,7 @@ Measures measures_of(const io::Summary<Real>& s) {
                        : share(Real(s.touched_impacts), Real(s.total_collisions())),
           share(s.stall_dose, s.milling_dose),
           share(s.supplied_energy, s.energy_scale()),
-          share(s.energy_closure(), s.energy_scale()),
+          share(s.energy_closure, s.energy_scale()),
           s.energy_scale_name(),
           s.has_dose(),
           s.total_impacts > 0

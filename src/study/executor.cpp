@@ -14,11 +14,6 @@
 #include "base/errors.hpp"
 #include "base/scalar_list.hpp"
 
-namespace edmill {
-extern template std::string to_text<double>(const double&);
-extern template double from_text<double>(const std::string&);
-}  // namespace edmill
-
 namespace edmill::study {
 
 namespace {

@@ -7,10 +7,6 @@
 #include "casefile/case_spec.hpp"
 #include "study/study.hpp"
 
-namespace edmill {
-extern template double casefile::Quantity::to<double>() const;
-}
-
 namespace edmill::study {
 
 namespace {

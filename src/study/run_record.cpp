@@ -5,13 +5,8 @@
 #include <numeric>
 
 #include "base/errors.hpp"
-#include "base/scalar_list.hpp"
 #include "base/version.hpp"
 #include "io/json_text.hpp"
-
-namespace edmill {
-extern template std::string to_text<double>(const double&);
-}  // namespace edmill
 
 namespace edmill::study {
 
@@ -40,6 +35,37 @@ Quantity wall_rate(int wall) {
 }
 
 }  // namespace
+
+RunRecord record_of(const io::Summary<double>& s) {
+  RunRecord r;
+  r.digest = s.provenance.case_digest;
+  r.end_reason = model::name(s.end_reason);
+  switch (s.end_reason) {
+    case model::EndReason::inelastic_collapse:
+    case model::EndReason::stalled:
+    case model::EndReason::max_cpu_time:
+    case model::EndReason::undecided:
+    case model::EndReason::interrupted:
+      r.status = r.end_reason;
+      break;
+    default:
+      r.status = "done";
+  }
+  r.message = s.error;
+  if (s.collapse)
+    r.message = "ball " + std::to_string(s.collapse->ball) + " came to rest in a series of impacts";
+  r.start_time = s.start_time;
+  r.end_time = s.end_time;
+  r.collisions = s.collisions;
+  r.milling_dose = s.milling_dose;
+  r.wall_work = s.wall_work;
+  r.powder_mass = s.powder_mass;
+  r.ball_mass = s.ball_mass;
+  if (s.intervals.any()) r.dose_rate_half_width = s.intervals.dose_rate.half_width;
+  r.milling_time = s.milling_time();
+  r.cpu_seconds = s.cpu_seconds;
+  return r;
+}
 
 RunRecord failed_run(const std::string& digest, const std::string& status, const std::string& message) {
   RunRecord record;

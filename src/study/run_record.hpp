@@ -33,40 +33,7 @@ struct RunRecord {
   }
 };
 
-template <class Real>
-RunRecord record_of(const io::Summary<Real>& s) {
-  const auto in_double = [](const std::optional<Real>& x) {
-    return x ? std::optional<double>(static_cast<double>(*x)) : std::nullopt;
-  };
-  RunRecord r;
-  r.digest = s.provenance.case_digest;
-  r.end_reason = model::name(s.end_reason);
-  switch (s.end_reason) {
-    case model::EndReason::inelastic_collapse:
-    case model::EndReason::stalled:
-    case model::EndReason::max_cpu_time:
-    case model::EndReason::undecided:
-    case model::EndReason::interrupted:
-      r.status = r.end_reason;
-      break;
-    default:
-      r.status = "done";
-  }
-  r.message = s.error;
-  if (s.collapse)
-    r.message = "ball " + std::to_string(s.collapse->ball) + " came to rest in a series of impacts";
-  r.start_time = static_cast<double>(s.start_time);
-  r.end_time = static_cast<double>(s.end_time);
-  r.collisions = s.collisions;
-  r.milling_dose = static_cast<double>(s.milling_dose);
-  r.wall_work = static_cast<double>(s.wall_work);
-  r.powder_mass = in_double(s.powder_mass);
-  r.ball_mass = in_double(s.ball_mass);
-  if (s.intervals.any()) r.dose_rate_half_width = s.intervals.dose_rate.half_width;
-  r.milling_time = in_double(s.milling_time());
-  r.cpu_seconds = s.cpu_seconds;
-  return r;
-}
+RunRecord record_of(const io::Summary<double>& summary);
 
 /// The record of a run that could not start.
 RunRecord failed_run(const std::string& digest, const std::string& status, const std::string& message);

@@ -1,21 +1,13 @@
 // The collision log of a case in double, and on standard error its summary: extending_test builds it with
-// changed sources, for which the whole program in all its scalars would take too long. usage: collision_bits
-// CASE.toml COLLISIONS [SETTING...]
+// changed sources. usage: collision_bits CASE.toml COLLISIONS [SETTING...]
 #include <cstdlib>
 #include <iostream>
 
 #include "base/scalar_list.hpp"
 //
-#include "base/scalar_text.hpp"
-#include "base/wide_trigonometry.hpp"
-#include "casefile/build_case_impl.hpp"
-#include "dynamics/decision_ladder_impl.hpp"
-#include "dynamics/wall_search_impl.hpp"
-#include "engine/simulation_impl.hpp"
-#include "io/final_state_impl.hpp"
-#include "io/summary_impl.hpp"
-#include "run/collision_log.hpp"
-#include "run/simulate_impl.hpp"
+#include "casefile/build_case.hpp"
+#include "output/collision_log.hpp"
+#include "run/simulate.hpp"
 
 namespace {
 
@@ -26,7 +18,7 @@ class Log : public edmill::engine::Observer<double> {
   explicit Log(std::uint64_t collisions) : collisions_(collisions) {}
 
   void on_impact(const edmill::engine::Impact<double>& impact, Simulation<double>& simulation) override {
-    std::cout << edmill::run::collision_line(impact, simulation, false) << '\n';
+    std::cout << edmill::output::collision_line(impact, simulation, false) << '\n';
     if (impact.index + 1 == collisions_) simulation.request_stop(edmill::engine::EndReason::stopped);
   }
 
@@ -42,7 +34,7 @@ int main(int argc, char** argv) {
   Log log(std::strtoull(argv[2], nullptr, 10));
   edmill::run::Guests<double> guests;
   guests.observers.push_back(&log);
-  std::cout << edmill::run::collision_log_header(false) << '\n';
+  std::cout << edmill::output::collision_log_header(false) << '\n';
   const auto result = edmill::run::simulate<double>(spec, built, guests);
   std::cerr << edmill::io::summary_json(result.summary);
 }

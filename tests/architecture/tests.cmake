@@ -19,20 +19,9 @@ add_test(NAME extending_long
                  ${DEBIAN_PYTHON3})
 set_tests_properties(extending_long PROPERTIES LABELS long TIMEOUT 1800)
 
-# A program of the core in double alone, for other trees and compilers.
-set(collision_bits_sources)
-foreach(room base engine io casefile tangent output)
-  file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
-  list(APPEND collision_bits_sources ${of_room})
-  if(room STREQUAL casefile)
-    edmill_group(bits_${room} ${of_room})
-  endif()
-endforeach()
-list(FILTER collision_bits_sources EXCLUDE REGEX "/checkpoint_file.cpp$")
-list(APPEND collision_bits_sources ${CMAKE_SOURCE_DIR}/src/run/warnings.cpp)
-add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp ${collision_bits_sources} ${EDMILL_VERSION_SOURCE})
-set_target_properties(collision_bits PROPERTIES UNITY_BUILD ${EDMILL_UNITY} UNITY_BUILD_MODE GROUP)
-target_link_libraries(collision_bits PRIVATE edmill_settings tomlplusplus::tomlplusplus hdf5::hdf5 pugixml::pugixml ZLIB::ZLIB ${EDMILL_ZSTD})
+# A program of the core, for other trees and compilers.
+add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp)
+target_link_libraries(collision_bits PRIVATE edmill_core)
 
 # In CI the processor that differs most: its bytes are in the other order.
 add_test(NAME same_bits_test

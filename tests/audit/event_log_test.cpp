@@ -7,8 +7,8 @@
 
 #include "base/errors.hpp"
 #include "model/vessel.hpp"
+#include "output/collision_log.hpp"
 #include "program.hpp"
-#include "run/collision_log.hpp"
 
 namespace edmill::audit {
 namespace {
@@ -34,7 +34,7 @@ class EventLogReading : public ProgramTest {
 TEST_F(EventLogReading, KnowsTheColumnsOfTheProgramsOwnLog) {
   std::string names;
   for (const auto& name : column_names()) names += "," + name;
-  EXPECT_EQ("index" + names, run::collision_log_header(true));
+  EXPECT_EQ("index" + names, output::collision_log_header(true));
 }
 
 TEST_F(EventLogReading, ColumnsAreMappedWithTheirUnits) {

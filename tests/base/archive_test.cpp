@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "casefile/random.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "casefile/random.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::numerics {
 namespace {

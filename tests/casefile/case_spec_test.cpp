@@ -9,7 +9,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/rational.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill {
 namespace {

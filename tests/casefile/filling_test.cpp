@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include "casefile/random.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::casefile {
 namespace {

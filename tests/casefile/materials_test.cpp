@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill {
 namespace {

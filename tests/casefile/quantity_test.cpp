@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "casefile/rational.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::casefile {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "random_physics.hpp"
 
 namespace edmill::dynamics {

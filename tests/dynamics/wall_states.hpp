@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "core.hpp"
 #include "dynamics/any_wall_search.hpp"
-#include "instances/instances.hpp"
 #include "mill_parts.hpp"
 
 namespace edmill::dynamics {

@@ -13,7 +13,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/random.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::engine {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/interruption.hpp"
 #include "casefile/build_case.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "spex_case.hpp"
 
 namespace edmill::engine {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::engine {
 namespace {

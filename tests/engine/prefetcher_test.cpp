@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "casefile/case_spec.hpp"
+#include "core.hpp"
 #include "event_recorder.hpp"
-#include "instances/instances.hpp"
 
 namespace edmill::engine {
 namespace {

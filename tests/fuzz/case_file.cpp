@@ -1,8 +1,8 @@
 // Case files: whatever the text, one clear error or a case whose balls find their places.
 #include "base/errors.hpp"
 #include "casefile/study_spec.hpp"
+#include "core.hpp"
 #include "input.hpp"
-#include "instances/instances.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace edmill;

@@ -1,7 +1,7 @@
 // What the readers need in double.
 #include "casefile/build_case_impl.hpp"
 #include "casefile/quantity_value.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "io/final_state_impl.hpp"
 
 namespace edmill {

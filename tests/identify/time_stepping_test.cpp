@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::identify {
 namespace {

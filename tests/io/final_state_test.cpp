@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill {
 namespace {

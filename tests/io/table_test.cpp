@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core.hpp"
 #include "hdf5_table.hpp"
-#include "instances/instances.hpp"
 #include "io/table_hdf5.hpp"
 
 namespace edmill::io {

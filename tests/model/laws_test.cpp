@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "model/contact_law.hpp"
 
 namespace edmill::model {

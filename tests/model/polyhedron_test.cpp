@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "model/vessels/box.hpp"
 #include "random_physics.hpp"
 

@@ -2,7 +2,7 @@
 // it.
 #include <gtest/gtest.h>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "model/motion.hpp"
 #include "random_physics.hpp"
 #include "spex_case.hpp"

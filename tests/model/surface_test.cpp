@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "model/vessel.hpp"
 #include "random_physics.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "output/accumulator.hpp"
 
 namespace edmill::output {

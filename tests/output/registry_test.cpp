@@ -7,7 +7,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/output_entry.hpp"
-#include "instances/tools/instances.hpp"
+#include "core.hpp"
 #include "program.hpp"
 #include "spex_case.hpp"
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "base/statistics.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "io/summary.hpp"
 #include "run/simulate.hpp"
 

@@ -24,8 +24,9 @@ TEST_P(DroppedDigits, WereLostBefore) {
   const auto [name, end] = GetParam();
   const auto spec = example(name, end);
   SideBySide runs(spec, "mpfr:90", "mpfr:110", true);
-  const auto kept_narrow = source_in("mpfr:90", spec, true), kept_wide = source_in("mpfr:110", spec, true),
-             exact = source_in("mpfr:200", spec, true);
+  const auto kept_narrow = run::make_source("mpfr:90", spec, true),
+             kept_wide = run::make_source("mpfr:110", spec, true),
+             exact = run::make_source("mpfr:200", spec, true);
   Agreement kept, wide;
   for (auto events = runs.next(64); !events.empty(); events = runs.next(64)) {
     const auto one = kept_narrow->next(64), two = kept_wide->next(64), right = exact->next(64);

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::testing {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::testing {
 

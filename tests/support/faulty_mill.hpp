@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "core.hpp"
 #include "dynamics/impulse.hpp"
-#include "instances/instances.hpp"
 #include "mill_parts.hpp"
-#include "run/collision_log.hpp"
+#include "output/collision_log.hpp"
 
 namespace edmill::testing {
 
@@ -53,7 +53,7 @@ class FaultyMill {
   /// Writes `count` impacts. @return how many were handled with a periodic fault
   int write_log(const std::filesystem::path& place, int count) {
     std::ofstream out(place);
-    out << run::collision_log_header(true) << '\n';
+    out << output::collision_log_header(true) << '\n';
     for (int written = 0; written < count;) {
       const Contact next = first_contact();
       advance(next.time);

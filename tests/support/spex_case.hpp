@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::testing {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "tangent/spectrum.hpp"
 
 namespace edmill::testing {

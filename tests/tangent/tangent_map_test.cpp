@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "any_mills.hpp"
-#include "app/sensitivity.hpp"
+#include "run/sensitivity.hpp"
 #include "tangent_run.hpp"
 
 namespace edmill::tangent {
@@ -14,7 +14,7 @@ struct Start {
   const char* name;
 };
 
-/// Derivatives of the states after the first impacts, as `app::sensitivity` has them.
+/// Derivatives of the states after the first impacts, as `run::sensitivity` has them.
 std::vector<std::vector<double>> by_dual_numbers(const casefile::CaseSpec& spec, std::size_t impacts,
                                                  const Start& start) {
   const auto built = casefile::build_case<double>(spec);
@@ -66,10 +66,10 @@ TEST_P(TangentMaps, AgreeWithDifferencesInManyDigits) {
                        "[[balls]]\ncount = 6\ndiameter = \"9 mm\"\nrandom_speed = \"0.3 m/s\"\n");
   for (const Start& start :
        {Start{2, 0, "initial.2.x"}, Start{4, 4, "initial.4.vy"}, Start{1, 8, "initial.1.wz"}}) {
-    app::SensitivityOptions options;
+    run::SensitivityOptions options;
     options.by = {start.name};
     options.events = impacts;
-    const auto expected = app::sensitivity(spec, options);
+    const auto expected = run::sensitivity(spec, options);
     const auto found = by_dual_numbers(spec, impacts, start);
     ASSERT_EQ(found.size(), impacts);
     for (std::size_t k = 0; k < impacts; ++k) {

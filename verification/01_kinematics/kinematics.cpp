@@ -5,7 +5,7 @@
 #include <random>
 
 #include "claim.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "spex_case.hpp"
 
 namespace edmill::verification {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "claim.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "mill_parts.hpp"
 #include "oracle_question.hpp"
 

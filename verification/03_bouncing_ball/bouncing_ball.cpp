@@ -1,8 +1,8 @@
 // Claim 03: a bouncing ball against closed forms on a still floor, and against an independent 100-digit map
 // on the swinging cap.
 #include "claim.hpp"
+#include "core.hpp"
 #include "event_recorder.hpp"
-#include "instances/instances.hpp"
 
 namespace edmill::verification {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "claim.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::verification {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "claim.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "mill_parts.hpp"
 
 namespace edmill::verification {

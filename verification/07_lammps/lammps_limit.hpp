@@ -10,7 +10,7 @@
 
 #include "base/statistics.hpp"
 #include "claim.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "lammps_library.hpp"
 
 namespace edmill::verification {

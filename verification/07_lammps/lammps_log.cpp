@@ -6,11 +6,11 @@
 #include <fstream>
 #include <map>
 
+#include "core.hpp"
 #include "identify/identify.hpp"
-#include "instances/instances.hpp"
 #include "lammps_contacts.hpp"
 #include "lammps_limit.hpp"
-#include "run/collision_log.hpp"
+#include "output/collision_log.hpp"
 
 namespace edmill::verification {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "lammps_contacts.hpp"
 #include "lammps_limit.hpp"
 

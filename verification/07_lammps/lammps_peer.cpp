@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "claim.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "lammps_contacts.hpp"
 #include "lammps_limit.hpp"
 

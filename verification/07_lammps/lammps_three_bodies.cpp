@@ -5,7 +5,7 @@
 
 #include "casefile/random.hpp"
 #include "claim.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 #include "lammps_contacts.hpp"
 #include "lammps_limit.hpp"
 

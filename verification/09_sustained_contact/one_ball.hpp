@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "claim.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::verification {
 

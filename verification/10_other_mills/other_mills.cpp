@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "claim.hpp"
+#include "core.hpp"
 #include "event_recorder.hpp"
-#include "instances/instances.hpp"
 #include "run/run_statistics.hpp"
 
 namespace edmill::verification {

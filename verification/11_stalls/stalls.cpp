@@ -3,7 +3,7 @@
 
 #include "base/statistics.hpp"
 #include "claim.hpp"
-#include "instances/instances.hpp"
+#include "core.hpp"
 
 namespace edmill::verification {
 namespace {

@@ -1,12 +1,12 @@
 // The command `edmill sensitivity`.
 #pragma once
 
-#include "app/sensitivity.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/run_command.hpp"
 #include "io/terminal.hpp"
+#include "run/sensitivity.hpp"
 
 namespace edmill::cli {
 
@@ -38,7 +38,7 @@ struct Sensitivity {
         options.progress = [](const std::string& precision, std::size_t events) {
           io::tell("\r\x1b[K{}: {} events ", precision, events);
         };
-      const auto found = app::sensitivity(spec, options);
+      const auto found = run::sensitivity(spec, options);
       if (show) io::tell("\r\x1b[K");
       if (!quiet_ && !found.interrupted)
         io::print("{} events in {}; derivatives to {} digits: {}\n", found.events.size(), found.precision,
@@ -49,7 +49,7 @@ struct Sensitivity {
 
  private:
   CaseArgument given_;
-  app::SensitivityOptions options_;
+  run::SensitivityOptions options_;
   bool quiet_ = false;
 };
 

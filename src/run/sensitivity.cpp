@@ -1,24 +1,20 @@
-#include "app/sensitivity.hpp"
+#include "run/sensitivity.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 
-#include "app/side_by_side.hpp"
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/value_of_key.hpp"
 #include "engine/simulation.hpp"
-#include "instances/instances.hpp"
 #include "io/named_file.hpp"
-#include "run/collision_log.hpp"
+#include "output/collision_log.hpp"
 
-namespace edmill::app {
+namespace edmill::run {
 
 namespace {
-
-using run::Event;
 
 constexpr unsigned most_digits_of_step = 380;  // decimals in a case have at most 400
 
@@ -26,13 +22,13 @@ constexpr unsigned most_digits_of_step = 380;  // decimals in a case have at mos
 constexpr std::string_view coordinates[] = {"x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"};
 
 /// A number by which a run is differentiated.
-struct Number {
+struct Parameter {
   std::string key, unit;
   int ball = -1, coordinate = -1;  ///< of the initial state
 };
 
-Number number_of(const casefile::CaseSpec& spec, const std::string& key) {
-  Number number{key, "", -1, -1};
+Parameter number_of(const casefile::CaseSpec& spec, const std::string& key) {
+  Parameter number{key, "", -1, -1};
   constexpr std::string_view begin = "initial.";
   if (!key.starts_with(begin)) {
     number.unit = casefile::value_of_key(spec, key).unit;
@@ -61,7 +57,7 @@ class Watch : public engine::Observer<mpfr> {
       : wanted_(events), options_(options), precision_(std::move(precision)) {}
 
   void on_impact(const engine::Impact<mpfr>& impact, engine::Simulation<mpfr>& simulation) override {
-    events.push_back(run::record_of<mpfr>(impact, simulation));
+    events.push_back(output::record_of<mpfr>(impact, simulation));
     if (events.size() >= wanted_ || (options_.interrupt && *options_.interrupt))
       simulation.request_stop(engine::EndReason::stopped);
     if (events.size() % 16 == 0) options_.progress(precision_, events.size());
@@ -130,7 +126,7 @@ class Differentiator {
     return {built.the_case.mill, built.the_case.balls,
             std::vector<tangent::Tangent<mpfr>>(built.states.size())};
   }
-  Perturbation perturbed(const Number& number, const Built& base, unsigned step_digits) const {
+  Perturbation perturbed(const Parameter& number, const Built& base, unsigned step_digits) const {
     const mpfr step = mpfr(1) / mpfr(std::string("1e") + std::to_string(step_digits));
     if (number.ball < 0) return with_parameter(number.key, base, step, step_digits);
     auto same = without_change(base);
@@ -200,7 +196,7 @@ class Differentiator {
 
   const casefile::CaseSpec& spec_;
   const SensitivityOptions& options_;
-  std::vector<Number> numbers_;
+  std::vector<Parameter> numbers_;
 };
 
 void write(std::ostream& out, const casefile::CaseSpec& spec, const SensitivityOptions& options,
@@ -257,4 +253,4 @@ Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptio
   return found;
 }
 
-}  // namespace edmill::app
+}  // namespace edmill::run

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/linearised.hpp"
 #include "casefile/case_spec.hpp"
+#include "run/linearised.hpp"
 
-namespace edmill::app {
+namespace edmill::run {
 
 struct SensitivityOptions {
   /// Keys of numbers in the case file, "contact.restitution", or "initial.3.vx": of ball 3 at the start one
@@ -36,4 +36,4 @@ struct Sensitivities {
 /// @throws UndecidedError when a rule orders two contacts at one time
 Sensitivities sensitivity(const casefile::CaseSpec& spec, const SensitivityOptions& options);
 
-}  // namespace edmill::app
+}  // namespace edmill::run

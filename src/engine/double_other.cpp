@@ -1,5 +1,5 @@
-#include "dynamics/wall_search_impl.hpp"
-#include "instances/instances.hpp"
+// Beside these searches that of the SPEX would be inlined less.
+#include "engine/instances.hpp"
 
 EDMILL_GENERAL_SEARCH(template, double)
 

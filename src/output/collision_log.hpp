@@ -7,7 +7,7 @@
 #include "engine/simulation.hpp"
 #include "model/impact_record.hpp"
 
-namespace edmill::run {
+namespace edmill::output {
 
 /// @param states  for the ball and for its partner position, velocity and spin before, velocity and spin
 /// after
@@ -60,4 +60,4 @@ std::string collision_line(const engine::Impact<Real>& impact, const engine::Sim
   return line;
 }
 
-}  // namespace edmill::run
+}  // namespace edmill::output

@@ -10,7 +10,7 @@
 #include "run/event_source.hpp"
 #include "tangent/tangent_map.hpp"
 
-namespace edmill::app {
+namespace edmill::run {
 
 /// What a parameter of the case, or a number of the initial state, changes.
 struct Perturbation {
@@ -53,4 +53,4 @@ class Linearised : public engine::Observer<mpfr> {
   std::vector<std::vector<EventDerivative>> events_;
 };
 
-}  // namespace edmill::app
+}  // namespace edmill::run

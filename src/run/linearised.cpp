@@ -1,10 +1,9 @@
-#include "app/linearised.hpp"
+#include "run/linearised.hpp"
 
 #include "base/wide_trigonometry.hpp"
 #include "engine/simulation.hpp"
-#include "instances/instances.hpp"
 
-namespace edmill::app {
+namespace edmill::run {
 
 namespace {
 
@@ -146,4 +145,4 @@ void Linearised::on_impact(const engine::Impact<mpfr>& impact, engine::Simulatio
     events_.back().push_back(derivative(impact, bodies, which));
 }
 
-}  // namespace edmill::app
+}  // namespace edmill::run

@@ -1,6 +1,6 @@
-#include "instances/implementations.hpp"
+#include "engine/instances.hpp"
 
-EDMILL_INSTANCES(template, double)
-
+template class edmill::engine::Simulation<double>;
+template class edmill::dynamics::DecisionLadder<double>;
 template class edmill::dynamics::WallSearch<edmill::model::SpexMotion<double>,
                                             edmill::model::CylinderVessel<double>>;

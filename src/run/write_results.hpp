@@ -9,13 +9,13 @@
 #include "output/outputs.hpp"
 #include "run/run_folder.hpp"
 
-namespace edmill::output {
+namespace edmill::run {
 
 /// Nothing is put in place before everything is written. The summary comes last: results that it tells of are
 /// there.
 /// @param goes_on  the run can be resumed
 template <class Real>
-void write_results(run::RunFolder& folder, Outputs<Real>& outputs, const io::SavedState<Real>& saved,
+void write_results(RunFolder& folder, output::Outputs<Real>& outputs, const io::SavedState<Real>& saved,
                    const DriveClock<Real>& clock, const std::string& summary_json,
                    const casefile::CaseSpec& spec, bool goes_on) {
   outputs.complete(goes_on);
@@ -25,4 +25,4 @@ void write_results(run::RunFolder& folder, Outputs<Real>& outputs, const io::Sav
   folder.commit(outputs.places(), [&] { outputs.commit(goes_on); });
 }
 
-}  // namespace edmill::output
+}  // namespace edmill::run

@@ -1,4 +1,0 @@
-#include "instances/implementations.hpp"
-
-EDMILL_GENERAL_SEARCH(template, mpfr)
-EDMILL_INSTANCES(template, mpfr)

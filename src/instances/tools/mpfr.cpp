@@ -1,3 +1,0 @@
-#include "instances/tools/implementations.hpp"
-
-EDMILL_TOOL_INSTANCES(template, mpfr)

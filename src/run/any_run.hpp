@@ -1,0 +1,109 @@
+// A run whose scalar is chosen by name: what commands and other languages hold.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "casefile/case_spec.hpp"
+#include "edmill/contact_law.hpp"
+#include "edmill/impact.hpp"
+#include "io/checkpoint_file.hpp"
+#include "io/summary.hpp"
+
+namespace edmill::run {
+
+/// How far a run is.
+struct Progress {
+  double now;                 ///< simulated time [s]
+  std::optional<double> end;  ///< of it; nothing when only other rules stop the run
+  std::uint64_t collisions;   ///< since the start of the run
+  double milling_dose;        ///< since the program started it, or resumed it [J]
+};
+
+/// A contact law of a program, with numbers as decimal texts in all digits of the run's scalar.
+using LawInTexts = CustomLaw<std::string>;
+
+/// What a run has besides its case.
+struct RunSetup {
+  const std::atomic<bool>* interrupt = nullptr;                   ///< ends the run when it becomes true
+  double max_cpu_time = std::numeric_limits<double>::infinity();  ///< of the run [s]
+  std::function<void(const Progress&)> progress{};                ///< called now and then
+  std::shared_ptr<const LawInTexts> ball_ball{}, ball_wall{};     ///< in place of the case's
+};
+
+class AnyRun;
+
+/// An impact as watchers see it.
+class SeenImpact {
+ public:
+  virtual ~SeenImpact() = default;
+  virtual std::uint64_t index() const = 0;
+  virtual double time() const = 0;                   ///< [s]
+  virtual Impact<double> in_double() const = 0;      ///< rounded to double
+  virtual Impact<std::string> in_texts() const = 0;  ///< in all digits of the scalar
+};
+
+class Watcher {
+ public:
+  virtual ~Watcher() = default;
+  /// Just after the impact.
+  virtual void on_impact(const SeenImpact& impact, AnyRun& run) = 0;
+};
+
+/// A case from its initial state to its results, in one scalar. Numbers leave it as doubles, or as texts with
+/// all digits of the scalar.
+class AnyRun {
+ public:
+  virtual ~AnyRun() = default;
+
+  /// Has the outputs of the case, case.toml, final_state.csv and summary.json written into a folder. To be
+  /// called before the run begins.
+  /// @param checkpoint  what checkpoints hold besides the state; with a state, the run continues from there
+  /// @param without_locks  called where the file system does not keep a second run out of the folder
+  /// @throws InputError when a file cannot be written, another process or run writes into the folder, or an
+  /// unfinished run has left its checkpoint there
+  virtual void write_to(const std::filesystem::path& folder,
+                        std::optional<io::Checkpoint> checkpoint = std::nullopt,
+                        const std::function<void(const std::filesystem::path&)>& without_locks = {}) = 0;
+  /// Watchers receive every impact, in the order of attachment; they must outlive the run.
+  virtual void attach(Watcher& watcher) = 0;
+
+  /// Predicts the first contacts. @throws UndecidedError when no scalar can decide about one
+  virtual void begin() = 0;
+  /// Simulates to the end that the case asks for.
+  /// @throws UndecidedError when no scalar can make a decision; the summary covers the time up to then
+  virtual void finish() = 0;
+  /// Ends the run after the present impact; for watchers.
+  virtual void stop(model::EndReason why) = 0;
+
+  virtual int ball_count() const = 0;
+  virtual std::string time() const = 0;  ///< [s]
+  /// State of a ball now.
+  virtual BallState<std::string> ball(int i) const = 0;
+  virtual io::Summary<double> summary() const = 0;
+  virtual std::string summary_json() const = 0;  ///< as in summary.json
+
+  /// Whether it can be resumed from its checkpoint.
+  virtual bool goes_on() const = 0;
+  /// Puts the files in place, and removes those of an earlier run that this one does not have; to be called
+  /// once, at the end.
+  /// @param when_written  called while no other run can write into the folder, and a killed run could still
+  /// continue; what it returns is in the checkpoint until that is removed
+  virtual void commit(const std::function<std::string()>& when_written) = 0;
+};
+
+/// @param precision  name of the scalar, one of casefile::precisions()
+/// @throws InputError when the balls find no room or the scalar cannot resolve the case
+std::unique_ptr<AnyRun> make_run(const std::string& precision, const casefile::CaseSpec& spec,
+                                 const RunSetup& setup = {});
+template <class Real>
+std::unique_ptr<AnyRun> make_run_in(const casefile::CaseSpec& spec, const RunSetup& setup);
+
+}  // namespace edmill::run

@@ -1,0 +1,3 @@
+#include "run/instances.hpp"
+
+EDMILL_RUN(edmill::float128)

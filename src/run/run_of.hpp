@@ -1,0 +1,348 @@
+// A run in one scalar; included by the instantiation files only.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "base/standard_arithmetic.hpp"
+#include "casefile/joints.hpp"
+#include "edmill/run.hpp"
+#include "io/summary_impl.hpp"
+#include "run/any_run.hpp"
+#include "run/progress_watch.hpp"
+#include "run/simulate_impl.hpp"
+#include "run/write_results.hpp"
+
+namespace edmill::run {
+
+namespace detail {
+
+/// As programs see it, each number converted by `of`.
+template <class To, class Real, class Of>
+Impact<To> to_public(const engine::Impact<Real>& i, const Real& time, const Of& of) {
+  const auto& o = i.outcome;
+  return {i.index,
+          of(time),
+          i.ball,
+          i.with_wall,
+          i.partner,
+          {of(i.normal[0]), of(i.normal[1]), of(i.normal[2])},
+          of(o.approach_speed),
+          of(o.slip_speed),
+          of(o.separation_speed),
+          of(o.restitution_tangential),
+          of(o.normal_impulse),
+          of(o.tangential_impulse),
+          of(o.milling_dose),
+          of(o.supplied_energy),
+          of(o.wall_work)};
+}
+template <class To, class Real, class Of>
+BallState<To> to_public(const model::BallState<Real>& s, const Of& of) {
+  const auto vector = [&](const Vec3<Real>& v) { return Vector<To>{of(v[0]), of(v[1]), of(v[2])}; };
+  return {vector(s.position), vector(s.velocity), vector(s.spin)};
+}
+
+/// Numbers of turns are exact until the scalar is chosen.
+template <class Real>
+model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) {
+  using casefile::Quantity;
+  const auto exactly = [](const TurnsPerPeriod& t) {
+    if (t.of < 1)
+      throw InputError("joint: found turns per " + std::to_string(t.of) + " periods, expected 1 or more");
+    return Quantity{t.turns, t.of};
+  };
+  model::Joints<Quantity> phases{{}, Quantity{1}};
+  model::Joints<Real> joints{{}, period};
+  for (const auto& j : given) {
+    model::Joint<Quantity> phase;
+    phase.rotates = j.rotates, phase.speed = exactly(j.speed);
+    model::Joint<Real> joint{j.rotates, j.axis, j.shift, j.angle, Real(0)};
+    for (const auto& h : j.harmonics) {
+      phase.swings.push_back({Quantity{1}, exactly(h.frequency), Quantity{0}});
+      joint.swings.push_back({h.amplitude, Real(0), h.phase});
+    }
+    if (!j.rotates && j.speed.turns != 0)
+      throw InputError("joint: found a translation with turns per period, expected harmonics");
+    if ((j.rotates || !joint.swings.empty()) && j.axis == std::array<Real, 3>{})
+      throw InputError("joint: found an axis of no length");
+    phases.list.push_back(std::move(phase)), joints.list.push_back(std::move(joint));
+  }
+  phases = casefile::with_phases(std::move(phases));
+  for (std::size_t k = 0; k < joints.list.size(); ++k) {
+    joints.list[k].per_period = phases.list[k].per_period;
+    for (std::size_t s = 0; s < joints.list[k].swings.size(); ++s)
+      joints.list[k].swings[s].per_period = phases.list[k].swings[s].per_period;
+  }
+  return model::ChainMotion<Real>(joints);
+}
+
+/// What a case says of the walls of its own vessel.
+/// @throws InputError when the program's vessel would have it
+template <class Real>
+void forget_walls(model::Mill<Real>& mill, const model::AnyVessel<Real>& own) {
+  auto& of_walls = mill.pairs.of_walls;
+  if (mill.vessel.pistons() ||
+      std::any_of(of_walls.begin(), of_walls.end(), [](int law) { return law >= 0; }))
+    throw InputError(
+        "vessel of the program: found a case whose walls move or have materials, expected a case without");
+  if (!mill.pairs.empty())
+    of_walls.assign(mill.pairs.materials * static_cast<std::size_t>(own.wall_count()), -1);
+  mill.vessel = own;
+}
+
+/// The case with the parts that the user gives.
+template <class Real>
+casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts<Real>& own) {
+  auto mill = casefile::build_mill<Real>(spec);
+  if (own.laws.ball_ball) mill.ball_ball.law = model::LawOfProgram<Real>{own.laws.ball_ball};
+  if (own.laws.ball_wall) mill.ball_wall.law = model::LawOfProgram<Real>{own.laws.ball_wall};
+  if (!own.planes.empty()) {
+    std::vector<typename model::PolyhedronVessel<Real>::Plane> planes;
+    for (const auto& [n, distance] : own.planes) planes.push_back({{n[0], n[1], n[2]}, distance});
+    forget_walls<Real>(mill, model::PolyhedronVessel<Real>(planes));
+  } else if (own.vessel) {
+    const auto& half = own.vessel->half_sizes;
+    forget_walls<Real>(mill, model::AlgebraicVessel<Real>(own.vessel->walls, {half[0], half[1], half[2]}));
+  }
+  if (!own.joints.empty()) mill.motion = to_motion<Real>(own.joints, mill.motion.period());
+  return casefile::build_case_in<Real>(mill, spec);
+}
+
+}  // namespace detail
+
+template <class Real>
+class SeenIn : public SeenImpact {
+ public:
+  SeenIn(const engine::Impact<Real>& impact, const Real& time) : impact_(impact), time_(time) {}
+  std::uint64_t index() const override { return impact_.index; }
+  double time() const override { return static_cast<double>(time_); }
+  Impact<double> in_double() const override {
+    return detail::to_public<double>(impact_, time_, [](const Real& x) { return static_cast<double>(x); });
+  }
+  Impact<std::string> in_texts() const override {
+    return detail::to_public<std::string>(impact_, time_, to_text<Real>);
+  }
+
+ private:
+  const engine::Impact<Real>& impact_;
+  Real time_;
+};
+
+/// A law in texts as a law in numbers.
+template <class Real>
+class LawOfTexts : public CustomLaw<Real> {
+ public:
+  explicit LawOfTexts(std::shared_ptr<const LawInTexts> law) : law_(std::move(law)) {}
+  Real restitution(const Real& approach_speed) const override {
+    return number(law_->restitution(to_text<Real>(approach_speed)), "restitution");
+  }
+  Real restitution_of_slip(const Real& normal_change, const Real& slip_speed,
+                           const Real& compliance) const override {
+    return number(law_->restitution_of_slip(to_text<Real>(normal_change), to_text<Real>(slip_speed),
+                                            to_text<Real>(compliance)),
+                  "restitution_of_slip");
+  }
+
+ private:
+  static Real number(const std::string& text, const char* what) {
+    try {
+      return from_text<Real>(text);
+    } catch (const std::invalid_argument&) {
+      throw InputError("contact law of the program: " + std::string(what) + ": found " + text +
+                       ", expected a number");
+    }
+  }
+
+  std::shared_ptr<const LawInTexts> law_;
+};
+
+template <class Real>
+class RunOf : public AnyRun, private engine::Observer<Real> {
+ public:
+  RunOf(const casefile::CaseSpec& spec, const OwnParts<Real>& own, const RunSetup& setup)
+      : RunOf(std::make_shared<const casefile::CaseSpec>(spec), own, setup) {}
+  RunOf(std::shared_ptr<const casefile::CaseSpec> spec, const OwnParts<Real>& own, const RunSetup& setup = {})
+      : spec_(std::move(spec)),
+        built_(detail::build(*spec_, own)),
+        own_laws_(own.laws.ball_ball || own.laws.ball_wall) {
+    guests_.interrupt = setup.interrupt;
+    guests_.observers.push_back(this);
+    if (setup.progress) {
+      std::optional<double> end;
+      if (spec_->end_time) end = spec_->end_time->template to<double>();
+      progress_.emplace(setup.progress, end);
+      guests_.observers.push_back(&*progress_);
+    }
+    if (setup.max_cpu_time < std::numeric_limits<double>::infinity())
+      guests_.observers.push_back(&cpu_limit_.emplace(setup.max_cpu_time));
+  }
+
+  /// The arithmetic of the run, for a call from elsewhere.
+  struct Scope {
+    StandardArithmetic arithmetic;
+    decltype(std::declval<const ChosenDigits<Real>&>().use()) digits;
+  };
+  Scope use() const { return {{}, digits_.use()}; }
+
+  void write_to(const std::filesystem::path& folder, std::optional<io::Checkpoint> checkpoint,
+                const std::function<void(const std::filesystem::path&)>& without_locks) override {
+    const auto scope = use();
+    EDMILL_REQUIRE(end_reason_ == model::EndReason::paused && !advanced_ && !outputs_,
+                   "write_to is called once, before the run advances");
+    folder_.emplace(folder, *spec_, std::move(checkpoint));
+    if (without_locks && !folder_->locked()) without_locks(folder_->place());
+    guests_.checkpoints = folder_->checkpoints();
+    try {
+      const DriveClock<Real> clock(built_.the_case.mill.motion.period());
+      outputs_.emplace(*spec_, built_.the_case.mill.vessel, folder_->place(), clock.seconds(built_.start));
+    } catch (...) {
+      folder_.reset();  // free for others
+      throw;
+    }
+  }
+  void attach(Watcher& watcher) override { watchers_.push_back(&watcher); }
+  /// Called for each impact after the outputs, by the public Run.
+  void attach(std::function<void(const Impact<Real>&)> call) { call_ = std::move(call); }
+
+  void begin() override {
+    const auto scope = use();
+    if (!driver_) driver_.emplace(built_, guests_);
+  }
+  void finish() override { advance(std::nullopt); }
+  /// @param limit  nothing for the end of the case @return whether the run can go on
+  bool advance(const std::optional<Real>& limit) {
+    const auto scope = use();
+    if (end_reason_ != model::EndReason::paused) return false;
+    try {
+      begin();
+      advanced_ = true;
+      const auto& simulation = driver_->simulation();
+      if (limit && !(*limit > now())) return true;
+      if (limit) asked_ = {simulation.clock().at(*limit), *limit};
+      end_reason_ = limit ? driver_->go(asked_.first) : driver_->go();
+    } catch (const UndecidedError& undecided) {
+      end_reason_ = model::EndReason::undecided;
+      error_ = undecided.what();
+      throw;
+    }
+    return end_reason_ == model::EndReason::paused;
+  }
+  void stop(model::EndReason why) override { driver_->simulation().request_stop(why); }
+
+  int ball_count() const override { return static_cast<int>(built_.states.size()); }
+  std::string time() const override {
+    const auto scope = use();
+    return to_text<Real>(now());
+  }
+  /// As it was asked for, where the run stands there: the sum of periods and a rest is rounded.
+  Real now() const {
+    const auto& now = driver_->simulation().now();
+    const auto& end = built_.the_case.stop.end_time;
+    if (end && now == *end) return spec_->end_time->template to<Real>();
+    return now == asked_.first ? asked_.second : driver_->simulation().seconds();
+  }
+  BallState<std::string> ball(int i) const override {
+    const auto scope = use();
+    return detail::to_public<std::string>(state_of(i), to_text<Real>);
+  }
+  model::BallState<Real> state_of(int i) const {
+    EDMILL_REQUIRE(i >= 0 && i < ball_count(), "the number of a ball");
+    return driver_->simulation().state_at(i, driver_->simulation().now());
+  }
+
+  io::Summary<double> summary() const override {
+    const auto scope = use();
+    return io::in_double(result());
+  }
+  std::string summary_json() const override {
+    const auto scope = use();
+    return io::summary_json(result());
+  }
+  /// So far, with its warnings.
+  io::Summary<Real> result() const {
+    auto s = driver_ ? summary_of(*spec_, built_, *driver_) : empty_summary(*spec_, built_);
+    if (driver_) s.end_time = now();
+    finish_summary(s, end_reason_, error_);
+    return s;
+  }
+
+  bool goes_on() const override {
+    return folder_ && folder_->has_checkpoint() && end_reason_ == model::EndReason::interrupted;
+  }
+  void commit(const std::function<std::string()>& when_written) override {
+    const auto scope = use();
+    EDMILL_REQUIRE(outputs_, "write_to was called");
+    const DriveClock<Real> clock(built_.the_case.mill.motion.period());
+    io::SavedState<Real> saved{built_.start, built_.states};
+    if (driver_) {
+      const auto& simulation = driver_->simulation();
+      outputs_->on_end(simulation);
+      saved.time = simulation.now();
+      for (int k = 0; k < ball_count(); ++k) saved.states[static_cast<std::size_t>(k)] = state_of(k);
+    }
+    write_results<Real>(*folder_, *outputs_, saved, clock, summary_json(), *spec_, goes_on());
+    const std::string left = when_written();
+    if (!goes_on()) folder_->remove_checkpoint(left);
+    outputs_.reset();
+    folder_.reset();
+  }
+
+ private:
+  void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+    if (own_laws_) require_no_gain(impact);
+    if (outputs_ && !spec_->outputs.empty()) outputs_->on_impact(impact, simulation);
+    if (watchers_.empty() && !call_) return;
+    const Real time = simulation.seconds();
+    if (call_) call_(detail::to_public<Real>(impact, time, [](const Real& x) -> const Real& { return x; }));
+    const SeenIn<Real> seen(impact, time);
+    for (auto* watcher : watchers_) watcher->on_impact(seen, *this);
+  }
+  void archive(Archive& a) override {
+    if (outputs_ && !spec_->outputs.empty()) a(*outputs_);
+  }
+
+  /// A law with e_t beyond -1 may give an impact more energy than it had.
+  static void require_no_gain(const engine::Impact<Real>& impact) {
+    const auto& o = impact.outcome;
+    const Real rounding =
+        (o.normal_impulse * o.approach_speed + o.tangential_impulse * o.slip_speed) / 1000000000;
+    if (!(o.milling_dose >= -rounding))
+      throw InputError("contact law of the program: impact " + std::to_string(impact.index) + " of ball " +
+                       std::to_string(impact.ball) + " and " + (impact.with_wall ? "wall " : "ball ") +
+                       std::to_string(impact.partner) + " gains " + to_text<Real>(-o.milling_dose) +
+                       " J: e_t is " + to_text<Real>(o.restitution_tangential) + ", expected -1 to 1");
+  }
+
+  ChosenDigits<Real> digits_;
+  std::shared_ptr<const casefile::CaseSpec> spec_;
+  casefile::InitialCase<Real> built_;
+  bool own_laws_;
+  Guests<Real> guests_;
+  std::optional<ProgressWatch<Real>> progress_;
+  std::optional<CpuLimit<Real>> cpu_limit_;
+  std::optional<RunFolder> folder_;
+  std::optional<output::Outputs<Real>> outputs_;
+  std::vector<Watcher*> watchers_;
+  std::function<void(const Impact<Real>&)> call_;
+  std::optional<RunDriver<Real>> driver_;
+  bool advanced_ = false;
+  std::pair<Instant<Real>, Real> asked_{Instant<Real>::long_ago(), Real(0)};  ///< of the last advance [s]
+  model::EndReason end_reason_ = model::EndReason::paused;
+  std::string error_;
+};
+
+template <class Real>
+std::unique_ptr<AnyRun> make_run_in(const casefile::CaseSpec& spec, const RunSetup& setup) {
+  const auto law = [](const std::shared_ptr<const LawInTexts>& texts) {
+    return texts ? std::make_shared<LawOfTexts<Real>>(texts) : nullptr;
+  };
+  return std::make_unique<RunOf<Real>>(
+      spec, OwnParts<Real>{{}, {}, {}, {law(setup.ball_ball), law(setup.ball_wall)}}, setup);
+}
+
+}  // namespace edmill::run
