@@ -27,7 +27,4 @@ int run_resume(const RunCommand& command);
 void until_precision(const std::string& precision, const casefile::CaseSpec& spec,
                      std::vector<std::string>& settings);
 
-/// Name for the outputs of a case: the stem of its file.
-std::string name_of(const std::string& case_file);
-
 }  // namespace edmill::cli

@@ -7,7 +7,6 @@
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/run_command.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {
@@ -51,10 +50,10 @@ struct Bifurcation {
       const bool show = shows_progress(quiet_);
       if (show)
         options.progress = [&](std::size_t step) {
-          io::tell("\r\x1b[K{} of {} values ", step, options.steps);
+          io::tell("{}{} of {} values ", no_line, step, options.steps);
         };
       const auto found = app::bifurcation(spec, options);
-      if (show) io::tell("\r\x1b[K");
+      if (show) io::tell("{}", no_line);
       if (quiet_ || found.interrupted) return ok;
       io::print("{} phases: {}\n", found.points.size(), options.file);
       if (found.ended > 0) io::print("{} runs ended before they had all phases\n", found.ended);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "casefile/case_spec.hpp"
 #include "casefile/memory_for.hpp"
 #include "cli/signals.hpp"
+#include "io/input_file.hpp"
 
 namespace edmill::cli {
 
@@ -23,6 +25,11 @@ struct CaseArgument {
   }
   casefile::CaseSpec read() const { return casefile::read_case(file, overrides); }
 };
+
+/// Name for the outputs of a case: the stem of its file.
+inline std::string name_of(const std::string& case_file) {
+  return io::is_stream(case_file) ? "stdin" : std::filesystem::path(case_file).stem().string();
+}
 
 /// For work that does not report interruptions itself. @return the exit code of work()
 template <class Options, class Work>

@@ -5,7 +5,6 @@
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/run_command.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {
@@ -36,10 +35,10 @@ struct Sensitivity {
       const bool show = shows_progress(quiet_);
       if (show)
         options.progress = [](const std::string& precision, std::size_t events) {
-          io::tell("\r\x1b[K{}: {} events ", precision, events);
+          io::tell("{}{}: {} events ", no_line, precision, events);
         };
       const auto found = app::sensitivity(spec, options);
-      if (show) io::tell("\r\x1b[K");
+      if (show) io::tell("{}", no_line);
       if (!quiet_ && !found.interrupted)
         io::print("{} events in {}; derivatives to {} digits: {}\n", found.events.size(), found.precision,
                   options.digits, options.file);
