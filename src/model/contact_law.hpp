@@ -86,20 +86,13 @@ struct ContactLaw {
   }
 };
 
-namespace detail {
-
-template <class To, template <class> class Law, class From, class Convert>
-Law<To> convert_law(const Law<From>& from, const Convert& convert) {
-  return converted<Law, To>(from, convert);
-}
-
-}  // namespace detail
-
 /// The law with each of its numbers converted.
 template <class To, class From, class Convert>
 ContactLaw<To> convert_law(const ContactLaw<From>& from, const Convert& convert) {
   ContactLaw<To> to;
-  std::visit([&](const auto& law) { to.law = detail::convert_law<To>(law, convert); }, from.law);
+  std::visit(
+      [&]<template <class> class Law>(const Law<From>& law) { to.law = converted<Law, To>(law, convert); },
+      from.law);
   to.least_separation = convert(from.least_separation);
   return to;
 }
