@@ -11,7 +11,6 @@
 #include "casefile/build_case.hpp"
 #include "casefile/case_of_run.hpp"
 #include "casefile/case_parts.hpp"
-#include "casefile/check_case.hpp"
 #include "casefile/joints.hpp"
 #include "casefile/key_reader.hpp"
 #include "casefile/output_entry.hpp"

@@ -274,4 +274,8 @@ CaseSpec read_case(const std::string& path, const std::vector<std::string>& over
 CaseSpec parse_case(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides = {});
 
+/// For a case whose numbers have been changed since it was read: what a file with these numbers would be
+/// refused for.
+std::vector<std::string> problems_of(const CaseSpec& spec);
+
 }  // namespace edmill::casefile

@@ -1,5 +1,7 @@
 #include "casefile/section.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <sstream>
@@ -232,13 +234,12 @@ Colour Section::colour(const std::string& key, const Colour& fallback) {
 std::string Section::choice(const std::string& key, const std::vector<std::string>& choices) {
   const auto* node = find(key);
   if (!node) return choices.front();
-  std::string list;
-  for (const auto& c : choices) list += (list.empty() ? "" : ", ") + ("\"" + c + "\"");
   const auto* string = node->as_string();
   if (string && std::find(choices.begin(), choices.end(), string->get()) != choices.end())
     return string->get();
-  document_->report(node, full(key), string ? "\"" + string->get() + "\"" : kind_of(*node),
-                    (choices.size() > 1 ? "one of " : "") + list);
+  document_->report(
+      node, full(key), string ? "\"" + string->get() + "\"" : kind_of(*node),
+      fmt::format("{}\"{}\"", choices.size() > 1 ? "one of " : "", fmt::join(choices, "\", \"")));
   return choices.front();
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "io/atomic_file.hpp"
 #include "output/frames_output.hpp"
 

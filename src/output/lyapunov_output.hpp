@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/batches.hpp"
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "io/summary.hpp"
 #include "output/table_output.hpp"
 #include "tangent/spectrum.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/compensated_sum.hpp"
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "output/table_output.hpp"
 
 namespace edmill::output {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/trigonometry.hpp"
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "model/ball_variables.hpp"
 #include "output/accumulator.hpp"
 #include "output/balls_before.hpp"
