@@ -143,12 +143,8 @@ struct AuditSpec {
     row(Parameter{"gap_tolerance", Dimension::length, "largest gap or overlap of bodies in contact",
                   Range::positive, nullptr, "by rounding"},
         a.gap_tolerance);
-    row(Parameter{"first_ball",
-                  Dimension::none,
-                  "number of the log's first ball",
-                  {0, largest_count},
-                  nullptr,
-                  "0"},
+    row(Parameter{"first_ball", Dimension::none, "number of the log's first ball", Range(0, largest_count),
+                  nullptr, "0"},
         a.first_ball);
     row(Parameter{"walls", Dimension::none, "numbers of the walls by id: `\"1, 2, 3\"`", Range::any, nullptr,
                   "those of edmill"},
@@ -232,15 +228,12 @@ struct CaseSpec {
         c.statistics_start);
     row(Parameter{"end_time", Dimension::time,
                   "the run ends here; this or another stop rule, a key `max_...`, is required, and the first "
-                  "that is "
-                  "met ends the run"},
+                  "that is met ends the run"},
         c.end_time);
-    row(
-        Parameter{
-            "initial_state", Dimension::none,
-            "a `final_state.csv` to start from, relative to the case file; the properties of the balls stay "
-            "those of the case",
-            Range::any, nullptr, "none", Parameter::Digest::none},
+    row(Parameter{"initial_state", Dimension::none,
+                  "a `final_state.csv` to start from, relative to the case file; the properties of the balls "
+                  "stay those of the case",
+                  Range::any, nullptr, "none", Parameter::Digest::none},
         c.initial_state);
   }
 

@@ -98,15 +98,13 @@ inline std::string outputs() {
 inline std::string reference(const CLI::App& app) {
   using namespace detail;
   return "# Reference\n\nPrinted by `edmill reference` from the tables with which the program reads command "
-         "lines "
-         "and files. Variables have a page\nof their own: [variables.md](variables.md).\n\n## Commands\n\n" +
+         "lines and files. Variables have a page\nof their own: [variables.md](variables.md).\n\n## "
+         "Commands\n\n" +
          commands(app) + "## Exit codes\n\n" + codes() + "## Types of outputs\n\n" + outputs() +
          "## Keys of files\n\nCase files, sweep files and optimisation files are TOML. A quantity is a text "
-         "with a "
-         "unit, `\"38 mm\"`; a number without\nunit may be plain. Components of vectors without a unit are "
-         "SI. "
-         "Decimals are exact in every scalar, and have a point. Powers can be written `m/s2`, `m/s^2` or "
-         "`m/s\u00b2`.\n\n"
+         "with a unit, `\"38 mm\"`; a number without\nunit may be plain. Components of vectors without a "
+         "unit are SI. Decimals are exact in every scalar, and have a point. Powers can be written `m/s2`, "
+         "`m/s^2` or `m/s\u00b2`.\n\n"
          "### Units\n\n" +
          units() + sections();
 }

@@ -79,9 +79,8 @@ std::string markdown() {
   const auto& all = catalogue();
   std::string out =
       "# Machines\n\nWritten by `edmill machines --markdown`. Mills that [edmill new](usage.md) knows, with "
-      "the "
-      "source of each number. Data sheets round, and a mill wears: measure your own machine where the result "
-      "matters.\n";
+      "the source of each number. Data sheets round, and a mill wears: measure your own machine where the "
+      "result matters.\n";
   for (const auto& m : all.machines) {
     out += fmt::format("\n## {}\n\n`--mill {}`, {} to {}.\n\n| key | value | source |\n|---|---|---|\n",
                        m.name, m.key, m.slowest, m.fastest);
@@ -91,8 +90,7 @@ std::string markdown() {
   }
   out +=
       "\n## Balls\n\n`--balls 10x12.7mm:zirconia`; steel unless a material is given.\n\n| material | density "
-      "| "
-      "source |\n|---|---|---|\n";
+      "| source |\n|---|---|---|\n";
   for (const auto& m : all.materials)
     out += fmt::format("| {} | {} | {} |\n", code(m.key), m.density, m.source);
   out +=

@@ -106,8 +106,7 @@ struct Import {
     command
         .add_option("dump", options_.dump,
                     "frames: `dump custom` of LAMMPS (text or binary) or LIGGGHTS, or a table, also "
-                    "compressed; - for "
-                    "standard input; or a list of contacts with walls, as Lethe writes it")
+                    "compressed; - for standard input; or a list of contacts with walls, as Lethe writes it")
         ->required();
     given_.add_to(command, "--case");
     command.add_option("--out", out_, "log of contacts (CSV); contacts.csv unless given");

@@ -40,10 +40,9 @@ struct Run {
     command.add_option("--checkpoint", run_.checkpoint, every + "; never unless given")->excludes(shadow);
     command.add_flag("--report", run_.report, "write report.html, and the tables that it shows");
     command.add_flag("--quiet", run_.quiet, quiet_run);
-    command.add_option(
-        "--until-precision", precision_,
-        "run until the 95 % interval of the dose rate is this part of it, \"1%\" or 0.01: up to "
-        "100 times the case's end time, or to the run.end_time of --set");
+    command.add_option("--until-precision", precision_,
+                       "run until the 95 % interval of the dose rate is this part of it, \"1%\" or 0.01: up "
+                       "to 100 times the case's end time, or to the run.end_time of --set");
     command.add_option("--target-dose", target_,
                        "target dose of the powder, \"10 kJ/g\": also report the milling time");
   }

@@ -18,9 +18,8 @@ struct Sensitivity {
     given_.add_to(command);
     command
         .add_option("--by", options_.by,
-                    "key of a parameter of the case, \"contact.restitution\", or \"initial.3.vx\", of ball "
-                    "3 at the "
-                    "start; can be repeated")
+                    "key of a parameter of the case, \"contact.restitution\", or \"initial.3.vx\", of ball 3 "
+                    "at the start; can be repeated")
         ->required();
     command.add_option("--events", options_.events, "how many")->required()->check(CLI::Range(1, 1000000));
     command.add_option("--digits", options_.digits, "of each derivative; 17 unless given")

@@ -23,12 +23,8 @@ struct PowderLoad : CoulombSlip<Number> {
 
   template <class Law, class Visit>
   static void parameters(Law& law, Visit&& visit) {
-    visit(Parameter{"charge_ratio",
-                    Dimension::none,
-                    "mass of the balls over that of the powder",
-                    {2.5, 10},
-                    nullptr,
-                    "that of the case"},
+    visit(Parameter{"charge_ratio", Dimension::none, "mass of the balls over that of the powder",
+                    Range(2.5, 10), nullptr, "that of the case"},
           law.charge_ratio);
     CoulombSlip<Number>::parameters(law, visit);
   }
