@@ -131,18 +131,15 @@ std::vector<std::string> Section::keys() const {
 }
 
 std::optional<std::string> Section::setting_of(const toml::node& node, const std::string& path) {
-  if (const auto* text = node.as_string(); text && text->get().find_first_of("\n\r") != std::string::npos) {
-    document_->report(&node, path, "a text of several lines", "a text in one line");
-    return std::nullopt;
-  }
+  if (const auto* text = node.as_string(); text && text->get().find_first_of("\n\r") != std::string::npos)
+    return refuse(node, path, "a text of several lines", "a text in one line");
   const bool in_one_line = node.source().begin.line == node.source().end.line;
   const auto* array = node.as_array();
   const bool of_tables = array && !array->empty() && array->get(0)->is_table();
   if (node.is_string() || node.is_number() || node.is_boolean() || (array && in_one_line && !of_tables))
     return document_->raw(node, path);
   if (of_tables) return list_of(*array, path);
-  document_->report(&node, path, kind_of(node), "a value of this key");
-  return std::nullopt;
+  return refuse(node, path, kind_of(node), "a value of this key");
 }
 
 /// An array of tables in one line, "[{count = 2, diameter = "12.7 mm"}]".
@@ -151,10 +148,7 @@ std::optional<std::string> Section::list_of(const toml::array& entries, const st
   for (std::size_t k = 0; k < entries.size(); ++k) {
     const auto* table = entries.get(k)->as_table();
     const std::string place = path + "." + std::to_string(k);
-    if (!table) {
-      document_->report(entries.get(k), place, kind_of(*entries.get(k)), "a table");
-      return std::nullopt;
-    }
+    if (!table) return refuse(*entries.get(k), place, kind_of(*entries.get(k)), "a table");
     std::string row;
     for (const auto& [key, value] : *table) {
       const auto text = setting_of(value, place + "." + std::string(key.str()));
