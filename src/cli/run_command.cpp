@@ -1,5 +1,3 @@
-#include "cli/run_command.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +9,7 @@
 #include "app/run.hpp"
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
-#include "cli/commands/case_argument.hpp"
+#include "cli/commands/run.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/failures.hpp"
 #include "cli/progress_line.hpp"

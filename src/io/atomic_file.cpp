@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
 #include <utility>
 
@@ -18,17 +17,10 @@ namespace {
 
 /// Copies `size` bytes of a file from `begin` on. @throws std::runtime_error
 void copy_part(const fs::path& from, const fs::path& to, std::uintmax_t begin, std::uintmax_t size) {
-  std::ifstream in(from, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(begin));
   std::ofstream out(to, std::ios::binary | std::ios::trunc);
-  std::string bytes;
-  for (auto left = size; left > 0 && in && out; left -= bytes.size()) {
-    bytes.resize(std::min<std::uintmax_t>(left, 1 << 20));
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out << bytes;
-  }
+  const bool whole = read_part(from, begin, size, [&](const std::string& bytes) { out << bytes; });
   out.close();
-  if (!in || !out) throw not_written(to);
+  if (!whole || !out) throw not_written(to);
 }
 
 /// The content of `place`, then that of `addition`, under the latter's name.

@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "io/file_buffer.hpp"
-#include "io/hdf5_handle.hpp"
+#include "io/hdf5_parts.hpp"
 
 namespace edmill::io {
 
