@@ -33,8 +33,7 @@ const char* kept(std::string text) {
 }
 
 /// What `work` puts into JSON, or the problems that it found.
-template <class Work>
-const char* answer(const Work& work) {
+const char* answer(const auto& work) {
   JsonText problems;
   try {
     JsonText json;

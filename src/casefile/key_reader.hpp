@@ -50,10 +50,9 @@ class KeyReader {
   bool complete_ = true;
 };
 
-template <class Keyed>
-void read_keys(Section& section, Keyed& keyed) {
+void read_keys(Section& section, auto& keyed) {
   KeyReader read(section);
-  Keyed::keys(keyed, read);
+  keyed.keys(keyed, read);
 }
 
 /// Reports values out of range that were not read from a file.

@@ -46,8 +46,7 @@ int tell(const app::RunResult& result, const RunCommand& command) {
 }
 
 /// Does `work` with a progress line on a terminal.
-template <class Work>
-int with_progress(app::RunOptions& options, const RunCommand& command, const Work& work) {
+int with_progress(app::RunOptions& options, const RunCommand& command, const auto& work) {
   std::optional<ProgressLine> line;
   if (shows_progress(command.quiet)) {
     line.emplace();
@@ -87,8 +86,7 @@ class ReservedFolder {
 };
 
 /// For runs that write nothing. @return what `work` finds in the case
-template <class Work>
-auto after_trials(const casefile::CaseSpec& spec, bool quiet, const Work& work) {
+auto after_trials(const casefile::CaseSpec& spec, bool quiet, const auto& work) {
   app::DigitsOptions options;
   options.interrupt = &interrupt_flag();
   listen_for_signals();

@@ -27,8 +27,7 @@ bool all_digits(const std::string& text) {
 /// Calls visit(path) for a path and for what links make of it, until it answers true or there is no link
 /// left.
 /// @return false when the links do not end
-template <class Visit>
-bool follow(fs::path path, const Visit& visit) {
+bool follow(fs::path path, const auto& visit) {
   std::error_code error;
   for (int link = 0; link < 40; ++link) {
     if (visit(path) || !fs::is_symlink(fs::symlink_status(path, error))) return true;

@@ -130,8 +130,7 @@ inline hid_t make_group(hid_t file, const char* name) {
 }
 
 /// Bytes of a file that `fill(file)` writes: in memory, so that they go to disk as one atomic file.
-template <class Fill>
-std::string hdf5_image(Fill&& fill) {
+std::string hdf5_image(const auto& fill) {
   hdf5_begin();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   hdf5_check(H5Pset_fapl_core(access, 1 << 16, false));

@@ -73,8 +73,7 @@ class JsonText {
     text_ += quoted(key) + ": " + std::string(value);
   }
 
-  template <class Value, class Text>
-  void put_list(std::string_view key, const std::vector<Value>& values, const Text& text_of) {
+  void put_list(std::string_view key, const auto& values, const auto& text_of) {
     std::string list;
     for (const auto& value : values) list += (list.empty() ? "" : ", ") + text_of(value);
     put(key, "[" + list + "]");

@@ -15,8 +15,7 @@ std::string text_of(const toml::table& table, std::string_view key) {
 }
 
 /// Entries of an array of tables.
-template <class F>
-void each(const toml::table& root, std::string_view key, const F& f) {
+void each(const toml::table& root, std::string_view key, const auto& f) {
   if (const auto* entries = root[key].as_array())
     for (const auto& entry : *entries) f(*entry.as_table());
 }

@@ -56,8 +56,7 @@ struct ContactLaw {
     return std::visit([](const auto& l) { return l.name; }, law);
   }
   /// Calls visit(Parameter, value) for every parameter of the law.
-  template <class Visit>
-  void parameters(Visit&& visit) const {
+  void parameters(auto&& visit) const {
     std::visit([&](const auto& l) { l.parameters(l, visit); }, law);
   }
 

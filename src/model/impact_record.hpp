@@ -40,8 +40,7 @@ inline constexpr std::array<LoggedVector, 5> logged_vectors{{
 
 /// Calls `use` with the names "x" to "wz_after" of the ball and "partner_x" to "partner_wz_after", in the
 /// order of the columns.
-template <class Use>
-void for_logged_vectors(Use&& use) {
+void for_logged_vectors(auto&& use) {
   for (const std::string body : {"", "partner_"})
     for (const auto& vector : logged_vectors)
       for (const char* axis : {"x", "y", "z"})

@@ -128,13 +128,11 @@ class AnyMotion {
 // The concept says what these take. Results are named: to ask whether this is a Motion then needs no bodies,
 // which every source would instantiate again. First those of a pose, then those of the motion.
 #define EDMILL_BY_POSE(Result, name)                                                    \
-  template <class... A>                                                                 \
-  Result name(const Pose& pose, const A&... a) const {                                  \
+  Result name(const Pose& pose, const auto&... a) const {                               \
     return at(pose, [&](const auto& m, const auto& own) { return m.name(own, a...); }); \
   }
 #define EDMILL_OF_MOTION(Result, name)                         \
-  template <class... A>                                        \
-  Result name(const A&... a) const {                           \
+  Result name(const auto&... a) const {                        \
     return visit([&](const auto& m) { return m.name(a...); }); \
   }
   EDMILL_BY_POSE(Vec3<Real>, axis_x)

@@ -70,8 +70,7 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
     if (!hdf5_) file_.stream() << table_.csv_head();
   }
   /// The next cells of the row, from left to right.
-  template <class... Cell>
-  void put(const Cell&... cells) {
+  void put(const auto&... cells) {
     table_.put(cells...);
     if (hdf5_ || !table_.at_row_end()) return;
     file_.stream() << table_.csv_rows();

@@ -76,9 +76,8 @@ class TrendsBallsOutput : public TableOutput<Real> {
     return c.with_ball && (s == Statistic::minimum || s == Statistic::maximum);
   }
 
-  template <class StateOf>
   void write_row(const engine::Simulation<Real>& simulation, std::uint64_t impacts, const Real& time,
-                 StateOf&& state_of) {
+                 auto&& state_of) {
     std::vector<model::BallState<Real>> states;
     for (int i = 0; i < simulation.ball_count(); ++i) states.push_back(state_of(i));
     this->put(time, impacts);

@@ -36,8 +36,7 @@ namespace edmill::python {
 namespace {
 
 /// @return how many runs failed
-template <class Command>
-std::size_t study(const std::string& file, const std::string& folder, int jobs, const Command& command) {
+std::size_t study(const std::string& file, const std::string& folder, int jobs, const auto& command) {
   const auto result = with_interrupt(app::StudyOptions{file, folder, jobs, true}, command);
   return result ? result->counts.failed : 0;
 }

@@ -32,14 +32,12 @@ inline std::string name_of(const std::string& case_file) {
 }
 
 /// For work that does not report interruptions itself. @return the exit code of work()
-template <class Options, class Work>
-int interruptible(Options& options, const Work& work) {
+int interruptible(auto& options, const auto& work) {
   options.interrupt = &interrupt_flag();
   listen_for_signals();
   return after_signals(work());
 }
-template <class Options, class Command>
-int interruptible(const casefile::CaseSpec& spec, Options& options, const Command& command) {
+int interruptible(const casefile::CaseSpec& spec, auto& options, const auto& command) {
   return interruptible(
       options, [&] { return casefile::with_memory_for(spec, [&] { return command(spec, options); }); });
 }

@@ -23,8 +23,7 @@ inline void write_to(const std::string& name, const std::string& text) {
 }
 
 /// An option that is a quantity with a unit, "50 us", kept in SI.
-template <class Target>
-CLI::Option* add_quantity(CLI::App& command, const std::string& name, Target& target,
+CLI::Option* add_quantity(CLI::App& command, const std::string& name, auto& target,
                           casefile::Dimension dimension, const std::string& what) {
   return command.add_option_function<std::string>(
       name,

@@ -18,8 +18,7 @@ struct ElasticPlastic : CoulombSlip<Number> {
   Number modulus{1};         ///< E* [Pa]
   Number yield_pressure{1};  ///< p_y [Pa] at the centre of the contact
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
+  static void parameters(auto& law, auto&& visit) {
     visit(effective_modulus, law.modulus);
     visit(Parameter{"yield_pressure", Dimension::pressure, "contact pressure at which yielding begins",
                     Range::positive},

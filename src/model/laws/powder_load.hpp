@@ -21,8 +21,7 @@ struct PowderLoad : CoulombSlip<Number> {
 
   Number charge_ratio{5};  ///< mass of the balls over that of the powder
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
+  static void parameters(auto& law, auto&& visit) {
     visit(Parameter{"charge_ratio", Dimension::none, "mass of the balls over that of the powder",
                     Range(2.5, 10), nullptr, "that of the case"},
           law.charge_ratio);

@@ -20,16 +20,12 @@ struct RestitutionBySpeed : CoulombSlip<Number> {
 
   LawTable<Number> points;  ///< approach speed [m/s], rising, and e_n
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
+  static void parameters(auto& law, auto&& visit) {
     for (auto& point : law.points)
       for (std::size_t k = 0; k < 2; ++k) visit(table_rows[k], point[k]);
     CoulombSlip<Number>::parameters(law, visit);
   }
-  template <class From>
-  void take_shape(const RestitutionBySpeed<From>& from) {
-    points.resize(from.points.size());
-  }
+  void take_shape(const auto& from) { points.resize(from.points.size()); }
 
   /// @pre there are points
   Number restitution(const Number& approach_speed) const { return value_at(points, approach_speed); }

@@ -19,8 +19,7 @@ struct Viscoelastic : CoulombSlip<Number> {
   Number modulus{1};           ///< E* [Pa]
   Number dissipative_time{1};  ///< A [s]
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
+  static void parameters(auto& law, auto&& visit) {
     visit(effective_modulus, law.modulus);
     visit(Parameter{"dissipative_time", Dimension::time, "A of the dissipative force", Range::positive},
           law.dissipative_time);

@@ -34,8 +34,7 @@ template <class Number>
 struct Spex8000 : detail::SpexSizes<Number> {
   static constexpr const char* name = "spex8000";
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(detail::spex_arm, part.arm);
     visit(detail::spex_theta, part.theta_max);
     visit(detail::spex_gamma, part.gamma_max);
@@ -49,8 +48,7 @@ template <class Number>
 struct Spex2d : detail::SpexSizes<Number> {
   static constexpr const char* name = "spex_2d";
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(detail::spex_arm, part.arm);
     visit(detail::spex_theta, part.theta_max);
     visit(detail::no_angle, part.gamma_max);
@@ -63,8 +61,7 @@ template <class Number>
 struct StillMill : detail::SpexSizes<Number> {
   static constexpr const char* name = "still";
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(Parameter{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
                     Range::not_negative, "0 m"},
           part.arm);

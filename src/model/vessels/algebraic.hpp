@@ -286,8 +286,7 @@ class AlgebraicVessel {
   }
 
   const Wall& of(int wall) const { return shape_->walls[static_cast<std::size_t>(wall)]; }
-  template <class F>
-  PerWall<Real> each(const F& f) const {
+  PerWall<Real> each(const auto& f) const {
     PerWall<Real> values;
     for (const auto& wall : shape_->walls) values.push_back(f(wall));
     return values;

@@ -277,12 +277,8 @@ struct Polyhedron {
   static constexpr const char* name = "polyhedron";
   std::vector<Face<Number>> faces;
 
-  template <class Other>
-  void take_shape(const Polyhedron<Other>& other) {
-    faces.resize(other.faces.size());
-  }
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  void take_shape(const auto& other) { faces.resize(other.faces.size()); }
+  static void parameters(auto& part, auto&& visit) {
     for (auto& face : part.faces) {
       visit(Parameter{"normal", Dimension::none, ""}, face.normal);
       visit(Parameter{"point", Dimension::length, ""}, face.point);
