@@ -17,11 +17,9 @@ namespace {
 py::tuple deck_of(const Case& the_case, const std::string& code, const std::string& name, double contact_time,
                   double speed, std::optional<double> duration, std::optional<double> frames, int steps,
                   int facets) {
-  dem::DeckOptions options;
-  options.code = code, options.name = name, options.contact_time = contact_time, options.speed = speed;
-  options.duration = duration.value_or(0), options.frame_interval = frames.value_or(0);
-  options.steps = steps, options.facets = facets;
-  const auto deck = dem::make_deck(CaseAccess::spec(the_case), options);
+  const auto deck = dem::make_deck(
+      CaseAccess::spec(the_case),
+      {code, name, contact_time, speed, duration.value_or(0), frames.value_or(0), steps, facets});
   py::list files;
   for (const auto& file : deck.files) files.append(py::make_tuple(file.name, file.text));
   return py::make_tuple(files, deck.command, deck.notes);
@@ -30,9 +28,7 @@ py::tuple deck_of(const Case& the_case, const std::string& code, const std::stri
 py::dict import_dump(const Case& the_case, const std::string& dump, const std::string& out,
                      const std::string& deck, std::optional<double> time_step,
                      std::optional<std::string> units, bool in_vessel) {
-  dem::ImportOptions options;
-  options.dump = dump, options.deck = deck, options.time_step = time_step, options.units = units;
-  options.in_vessel = in_vessel;
+  const dem::ImportOptions options{dump, deck, time_step, units, in_vessel};
   const auto imported = with_interrupt(options, [&](const dem::ImportOptions& o) {
     io::NamedFile file(out);
     dem::ContactLogWriter log;
