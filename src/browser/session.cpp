@@ -10,7 +10,6 @@
 #include "base/errors.hpp"
 #include "base/version.hpp"
 #include "casefile/build_case.hpp"
-#include "casefile/case_of_run.hpp"
 #include "model/parts/surface.hpp"
 #include "output/vessel_frame.hpp"
 

@@ -9,7 +9,6 @@
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
-#include "casefile/case_of_run.hpp"
 #include "casefile/case_parts.hpp"
 #include "casefile/joints.hpp"
 #include "casefile/key_reader.hpp"

@@ -11,8 +11,8 @@
 #include "casefile/output_spec.hpp"
 #include "casefile/parts.hpp"
 #include "casefile/quantity.hpp"
+#include "model/case.hpp"
 #include "model/contact_law.hpp"
-#include "model/counted_dose.hpp"
 #include "model/parts/partners.hpp"
 #include "model/stop_rules.hpp"
 
@@ -270,5 +270,19 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
 /// For a case whose numbers have been changed since it was read: what a file with these numbers would be
 /// refused for.
 std::vector<std::string> problems_of(const CaseSpec& spec);
+
+/// The text of a case file, followed by the settings over it as comments, for readers.
+std::string text_with_settings(const CaseSpec& spec);
+
+/// The case that a run left in its folder: `text_with_settings` as a file. The file that the run began from
+/// is not looked for; what cannot be known without it, the digest, is empty then.
+/// @param settings  over the file, as the run had them
+/// @throws InputError also when the case has another digest
+CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
+                          const std::string& digest);
+
+/// Adds the entries [[output]] of a text to a case.
+/// @throws InputError when one is wrong, or its file's name is taken
+void add_outputs(const std::string& text, const std::string& name, CaseSpec& spec);
 
 }  // namespace edmill::casefile

@@ -1,10 +1,8 @@
 // Contact laws: how fast two bodies leave an impact, and how much of their slip is left. (2.23'), (2.24')
 #pragma once
 
-#include <cstddef>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "model/laws/constant.hpp"
 #include "model/laws/custom.hpp"
@@ -38,18 +36,14 @@ Number restitution_of(const Law& law, const Number& approach_speed, const Contac
 }
 
 namespace detail {
-template <class Law, class Variant>
-struct VariantWith;
 template <class Law, class... Others>
-struct VariantWith<Law, std::variant<Others...>> {
-  using type = std::variant<Others..., Law>;
-};
+std::variant<Others..., Law> with(const std::variant<Others...>&);
 }  // namespace detail
 
 /// @tparam Number  the scalar of a run, or the exact quantity of a case file
 template <class Number>
 struct ContactLaw {
-  typename detail::VariantWith<LawOfProgram<Number>, NamedLaws<Number>>::type law;
+  decltype(detail::with<LawOfProgram<Number>>(std::declval<NamedLaws<Number>>())) law;
   Number least_separation{0};  ///< v_s [m/s]: bodies leave an impact no slower; theory.md, section 6
 
   const char* name() const {

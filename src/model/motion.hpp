@@ -73,16 +73,12 @@ using NamedMotions = std::variant<Spex8000<Number>,   //
 template <class Real>
 using MotionVariant = std::variant<SpexMotion<Real>, ChainMotion<Real>>;
 
-template <class Variant>
-struct PosesOf;
 template <class... M>
-struct PosesOf<std::variant<M...>> {
-  using type = std::variant<typename M::Pose...>;
-};
+std::variant<typename M::Pose...> poses_of(const std::variant<M...>&);
 
 /// The pose of any motion, in the order of MotionVariant.
 template <class Real>
-using AnyPose = typename PosesOf<MotionVariant<Real>>::type;
+using AnyPose = decltype(poses_of(std::declval<MotionVariant<Real>>()));
 
 /// Any motion, chosen when the case is read.
 template <class Real>

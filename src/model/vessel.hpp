@@ -7,7 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "base/errors.hpp"
 #include "model/vessels/algebraic.hpp"
 #include "model/vessels/box.hpp"
 #include "model/vessels/cylinder.hpp"

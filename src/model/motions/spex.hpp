@@ -2,8 +2,6 @@
 // Source: Barahona 2011, section 2.2.2 and (2.2)-(2.16), as corrected in docs/theory.md, section 1.
 #pragma once
 
-#include <cstddef>
-
 #include "base/archive.hpp"
 #include "base/instant.hpp"
 #include "base/scalar.hpp"
