@@ -47,8 +47,7 @@ class Session : private Observer<double> {
   void advance_one_impact();
   /// The present state as JSON: places, the vessel's frame, rates with intervals, counts by approach speed.
   void frame(io::JsonText& json);
-  /// The case with the settings in it, as a file that the command line runs: with the same log, if one is
-  /// written.
+  /// The case with the settings in it, as a file that the command line runs: with the same log, if any.
   std::string case_text() const;
   /// The summary, and the SHA-256 of collisions.csv as the command line writes it. Nothing can follow.
   void finish(io::JsonText& json);

@@ -267,8 +267,7 @@ CaseSpec read_case(const std::string& path, const std::vector<std::string>& over
 CaseSpec parse_case(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides = {});
 
-/// For a case whose numbers have been changed since it was read: what a file with these numbers would be
-/// refused for.
+/// For a case that has been changed since it was read: what a file with its numbers would be refused for.
 std::vector<std::string> problems_of(const CaseSpec& spec);
 
 /// The text of a case file, followed by the settings over it as comments, for readers.

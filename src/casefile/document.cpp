@@ -1,5 +1,4 @@
-// Files as they are read, settings over them, "section.key=value", and values that are passed on as they
-// were written.
+// Files as they are read, settings over them, "section.key=value", and values passed on as written.
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>

@@ -59,8 +59,7 @@ int with_progress(app::RunOptions& options, const RunCommand& command, const aut
   return with_signal(tell(result, command));
 }
 
-/// Keeps a folder for a run whose digits are sought first: what would refuse it is told before. Leaves no
-/// empty folders.
+/// Keeps a folder for a run whose digits are sought first: what refuses it is told before. Leaves none empty.
 class ReservedFolder {
  public:
   ReservedFolder(const RunCommand& command, const casefile::CaseSpec& spec) {

@@ -80,8 +80,7 @@ void AtomicFile::commit() {
   complete();
   if (dropped_ || destination_.through) return;
   if (append_ && kept_) {
-    // The temporary file stays until the checkpoint goes: a resumed run sees by it that its rows are in
-    // place.
+    // The temporary file stays until the checkpoint goes: by it a resumed run sees that its rows are there.
     const fs::path second = temporary_name(destination_.place);
     std::error_code no_links;
     fs::create_hard_link(temporary_, second, no_links);
@@ -123,8 +122,7 @@ void AtomicFile::archive(Archive& a) {
     kept_ = true;
 }
 
-/// What a run left of the file, under the temporary name: with the first `size` bytes, if they are those that
-/// it wrote.
+/// What a run left of the file, under the temporary name: with the first `size` bytes, if it wrote them.
 std::optional<Sha256> AtomicFile::found_beginning(std::uint64_t size, const std::string& digest,
                                                   const fs::path& fresh) const {
   const auto& place = destination_.place;

@@ -21,8 +21,7 @@ bool all_digits(const std::string& text) {
   return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Calls visit(path) for a path and for what links make of it, until it answers true or there is no link
-/// left.
+/// Calls visit(path) for a path and for what links make of it, until it answers true or no link is left.
 /// @return false when the links do not end
 bool follow(fs::path path, const auto& visit) {
   std::error_code error;

@@ -1,5 +1,4 @@
-// JSON written in order and with numbers of any precision, as JSON allows but common libraries do not
-// write.
+// JSON written in order and with numbers of any precision, which common libraries do not write.
 #pragma once
 
 #include <string>

@@ -93,8 +93,7 @@ class AnimationOutput : public FramesOutput<Real> {
     to_fractions(paths_.contact);
     const auto& motion = simulation.mill().motion;
     const auto& vessel = simulation.mill().vessel;
-    // As many keys of the vessel as frames, and enough for turns of the drive, or of a piston's, between
-    // them.
+    // As many keys of the vessel as frames, and enough for turns of the drive or a piston between them.
     double frequency = 1 / static_cast<double>(motion.period());
     if (const auto* pistons = vessel.pistons())
       for (const auto& piston : pistons->given())

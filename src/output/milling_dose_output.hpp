@@ -9,8 +9,7 @@
 
 namespace edmill::output {
 
-/// What the table can show; a field has no value where nothing defines it, such as specific doses without
-/// powder.
+/// What the table can show; a field has no value where nothing defines it: specific doses without powder.
 inline const std::vector<Column>& dose_fields() {
   using enum Column::Type;
   static const std::vector<Column> fields{

@@ -1,5 +1,4 @@
-// Sums, averages, extremes, rates and shares of variables, for each wall, all walls, other balls and all.
-// (thesis D.4.3)
+// Sums, averages, extremes, rates and shares of variables, for walls, other balls and all. (thesis D.4.3)
 #pragma once
 
 #include <vector>

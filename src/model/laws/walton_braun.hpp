@@ -5,8 +5,7 @@
 
 namespace edmill::model {
 
-/// Source: Walton and Braun 1986; Barahona 2011, (2.24), for balls of any mass as in docs/theory.md, section
-/// 5.
+/// Source: Walton and Braun 1986; Barahona 2011, (2.24), for balls of any mass as in theory.md, section 5.
 template <class Number>
 struct WaltonBraun {
   static constexpr const char* name = "walton-braun";

@@ -117,8 +117,7 @@ class SpexMotion {
     const auto along = [&](int k) { return Real(x[k] * n[0] + y[k] * n[1] + z[k] * n[2]); };
     return {along(0), along(1), along(2)};
   }
-  /// Inertial position of a point fixed in the vessel frame: P = R_z(theta) [ (l,0,0) + R_x(gamma) p ].
-  /// (2.7')
+  /// Inertial position of a point of the vessel frame: P = R_z(theta) [ (l,0,0) + R_x(gamma) p ]. (2.7')
   Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) const {
     const Real along_arm = arm_ + p[0];
     const Real b = p[1] * pose.cos_gamma - p[2] * pose.sin_gamma;

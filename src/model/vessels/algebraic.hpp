@@ -325,8 +325,7 @@ class AlgebraicVessel {
     }
     return low;
   }
-  /// Diameter of the largest ball, by a walk uphill from the best place of a lattice, and volume, by
-  /// counting.
+  /// Diameter of the largest ball, by a walk uphill from the best place of a lattice, and volume, by count.
   std::pair<Real, Real> measures() const {
     constexpr int steps = 48;
     const auto& half = shape_->half_sizes;

@@ -37,8 +37,7 @@ class PolyhedronVessel {
     std::string found, expected;
   };
 
-  /// @throws InputError when the planes do not close a vessel about the origin, or one of them is no wall of
-  /// it
+  /// @throws InputError when the planes do not close a vessel about the origin, or one is no wall of it
   explicit PolyhedronVessel(const std::vector<Plane>& planes) {
     if (const auto problem = fill(planes))
       throw InputError("vessel: found " + problem->found + ", expected " + problem->expected);
@@ -85,8 +84,7 @@ class PolyhedronVessel {
     for (auto& plane : smaller.planes_) plane.distance -= by;
     return smaller;
   }
-  /// A closed room that is not empty has a corner. Where planes were moved inwards, the origin may be
-  /// outside.
+  /// A closed room that is not empty has a corner. Where planes moved inwards, the origin may be outside.
   bool is_empty() const {
     const auto faces = make_faces();
     return std::all_of(faces.begin(), faces.end(), [](const Polygon& face) { return face.empty(); });
