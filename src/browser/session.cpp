@@ -78,11 +78,6 @@ void first_impacts(const std::string& text, const std::vector<std::string>& sett
   json.integers("partner", found.partners);
 }
 
-void SpeedClasses::add(double speed) {
-  const double place = std::log10(std::max(speed, 1e-3) / 1e-3) * count / 4;
-  ++impacts[static_cast<std::size_t>(std::min(place, count - 1.0))];
-}
-
 Session::Session(const std::string& text, const std::vector<std::string>& settings, bool log)
     : spec_(read(text, settings, log)),
       mill_(casefile::build_mill<double>(spec_)),
@@ -133,7 +128,10 @@ void Session::scene(io::JsonText& json) const {
 void Session::on_impact(const Impact<double>& impact, Run<double>&) {
   ++impacts_;
   last_ = impact;
-  if (impact.time >= spec_.statistics_start.to<double>()) classes_.add(impact.approach_speed);
+  if (impact.time < spec_.statistics_start.to<double>()) return;
+  constexpr int count = std::tuple_size_v<decltype(by_speed_)>;
+  const double place = std::log10(std::max(impact.approach_speed, 1e-3) / 1e-3) * count / 4;
+  ++by_speed_[static_cast<std::size_t>(std::min(place, count - 1.0))];
 }
 
 void Session::advance_to(double time) {
@@ -186,7 +184,7 @@ void Session::frame(io::JsonText& json) {
     json.numbers("collisions", collisions);
     json.numbers("dose_by_partner", summary.dose_by_partner);
   }
-  json.numbers("speeds", {classes_.impacts.begin(), classes_.impacts.end()});
+  json.numbers("speeds", {by_speed_.begin(), by_speed_.end()});
 }
 
 void Session::finish(io::JsonText& json) {

@@ -12,14 +12,6 @@
 
 namespace edmill::browser {
 
-/// Impacts by approach speed, in classes of equal ratio from 1 mm/s to 10 m/s.
-struct SpeedClasses {
-  static constexpr int count = 40;
-  std::array<std::uint64_t, count> impacts{};
-
-  void add(double speed);
-};
-
 /// The first impacts of a case as JSON: lists `time` [s], `ball`, `partner`, a wall as -1 - its number.
 /// @throws InputError
 void first_impacts(const std::string& text, const std::vector<std::string>& settings, int most,
@@ -58,7 +50,7 @@ class Session : private Observer<double> {
   casefile::CaseSpec spec_;
   model::Mill<double> mill_;
   Run<double> run_;
-  SpeedClasses classes_;
+  std::array<std::uint64_t, 40> by_speed_{};  ///< impacts, in classes of equal ratio from 1 mm/s to 10 m/s
   std::uint64_t impacts_ = 0;
   Impact<double> last_{};
   bool log_, going_on_ = true, finished_ = false;

@@ -65,7 +65,6 @@ std::string table() {
     out += fmt::format("{:<16}{}, {} to {}\n", m.key, m.name, m.slowest, m.fastest);
     std::string before;
     for (const auto& s : m.settings) {
-      const auto value = s.note.empty() ? s.value : s.value + ", " + s.note;
       out += fmt::format("  {:<18}{:<26}{}\n", s.key, s.value, s.source == before ? "\"" : s.source);
       if (!s.note.empty()) out += fmt::format("  {:<18}  {}\n", "", s.note);
       before = s.source;
