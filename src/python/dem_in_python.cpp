@@ -28,7 +28,9 @@ py::tuple deck_of(const Case& the_case, const std::string& code, const std::stri
 py::dict import_dump(const Case& the_case, const std::string& dump, const std::string& out,
                      const std::string& deck, std::optional<double> time_step,
                      std::optional<std::string> units, bool in_vessel) {
-  const dem::ImportOptions options{dump, deck, time_step, units, in_vessel};
+  dem::ImportOptions options;
+  options.dump = dump, options.deck = deck, options.time_step = time_step, options.units = units;
+  options.in_vessel = in_vessel;
   const auto imported = with_interrupt(options, [&](const dem::ImportOptions& o) {
     io::NamedFile file(out);
     dem::ContactLogWriter log;

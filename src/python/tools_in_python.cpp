@@ -130,7 +130,8 @@ py::dict shadow(const Case& the_case, const std::string& precision, const std::s
 /// quantities, and of both balls' states, as texts
 py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, std::size_t events,
                       unsigned digits) {
-  const app::SensitivityOptions options{by, events, digits};
+  app::SensitivityOptions options;
+  options.by = by, options.events = events, options.digits = digits;
   const auto found =
       with_interrupt(options, [&](const auto& o) { return app::sensitivity(CaseAccess::spec(the_case), o); });
   py::list of_numbers;
