@@ -5,7 +5,6 @@
 
 #include "base/errors.hpp"
 #include "browser/session.hpp"
-#include "casefile/case_of_run.hpp"
 #include "casefile/section.hpp"
 
 namespace edmill::browser {

@@ -28,18 +28,19 @@ const char* kept(std::string text) {
   return last.c_str();
 }
 
-/// The result of `work`, or the problems that it found.
-template <class Work>
-const char* answer(const Work& work) {
-  JsonText json;
+/// What `work` puts into JSON, or the problems that it found.
+const char* answer(const auto& work) {
+  JsonText problems;
   try {
-    return kept(work());
+    JsonText json;
+    work(json);
+    return kept(json.finish());
   } catch (const edmill::InputError& error) {
-    json.texts("problems", error.problems());
+    problems.texts("problems", error.problems());
   } catch (const std::exception& error) {
-    json.texts("problems", {error.what()});
+    problems.texts("problems", {error.what()});
   }
-  return kept(json.finish());
+  return kept(problems.finish());
 }
 
 /// The case is the file /case of the page's own memory, settings over it are the lines of /settings.
@@ -68,66 +69,59 @@ extern "C" {
 
 /// @param log  whether collisions.csv is written, for its digest
 EMSCRIPTEN_KEEPALIVE const char* edmill_begin(int log) {
-  return answer([&] {
+  return answer([&](JsonText& json) {
     session.reset();
     std::filesystem::remove_all("/run");
     session = std::make_unique<edmill::browser::Session>(case_text(), settings(), log != 0);
-    return session->scene();
+    session->scene(json);
   });
 }
 
 /// To a time [s], or for a negative one by one impact.
 EMSCRIPTEN_KEEPALIVE const char* edmill_advance(double time) {
-  return answer([&] {
+  return answer([&](JsonText& json) {
     if (time < 0)
       running().advance_one_impact();
     else
       running().advance_to(time);
-    return session->frame();
+    session->frame(json);
   });
 }
 
 EMSCRIPTEN_KEEPALIVE const char* edmill_case() {
-  return answer([&] {
-    JsonText json;
-    json.text("case", running().case_text());
-    return json.finish();
-  });
+  return answer([&](JsonText& json) { json.text("case", running().case_text()); });
 }
 
 EMSCRIPTEN_KEEPALIVE const char* edmill_finish() {
-  return answer([&] { return running().finish(); });
+  return answer([&](JsonText& json) { running().finish(json); });
 }
 
 EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(int most) {
-  return answer([&] { return edmill::browser::first_impacts(case_text(), settings(), most); });
+  return answer([&](JsonText& json) { edmill::browser::first_impacts(case_text(), settings(), most, json); });
 }
 
 /// The log is the file /log.
 /// @param identify  whether the mistake behind violations is looked for
 EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
-  return answer([&] {
+  return answer([&](JsonText& json) {
     const auto spec = edmill::casefile::parse_case(case_text(), "case.toml", settings());
     auto options = edmill::audit::options_of(spec);
     options.log = "/log";
     const auto built = edmill::casefile::build_case<double>(spec);
     auto audited = edmill::audit::audit(built.the_case, built.states, options);
     audited.case_name = spec.file, audited.log_name = "log";
-    JsonText json;
     json.text("verdict", edmill::audit::name_of(audited.verdict));
     std::string table = edmill::audit::table(audited);
     if (identify != 0 && audited.verdict == edmill::audit::Verdict::violations)
       table += edmill::identify::table(edmill::identify::identify(spec, options, tell_stage));
     json.text("table", table);
-    return json.finish();
   });
 }
 
 /// The certificate is the file /certificate.
 EMSCRIPTEN_KEEPALIVE const char* edmill_check() {
-  return answer([&] {
+  return answer([&](JsonText& json) {
     std::ifstream in("/certificate");
-    JsonText json;
     try {
       json.text("verdict", checker::check(in));
     } catch (const checker::Rejected& why) {
@@ -136,20 +130,17 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_check() {
       throw edmill::InputError(
           "found a line that is not JSON, expected a file of `edmill prove --certificate`");
     }
-    return json.finish();
   });
 }
 
 /// The logs are the files /reference and /log.
 EMSCRIPTEN_KEEPALIVE const char* edmill_compare() {
-  return answer([&] {
+  return answer([&](JsonText& json) {
     edmill::compare::Options options;
     options.a = "/reference", options.b = "/log";
     const auto comparison = edmill::compare::compare(options);
-    JsonText json;
     json.text("verdict", edmill::compare::name_of(comparison.verdict));
     json.text("table", edmill::compare::table(comparison));
-    return json.finish();
   });
 }
 }

@@ -9,8 +9,6 @@
 #include "base/errors.hpp"
 #include "base/version.hpp"
 #include "casefile/build_case.hpp"
-#include "casefile/case_of_run.hpp"
-#include "io/json_text.hpp"
 #include "model/parts/surface.hpp"
 #include "output/vessel_frame.hpp"
 #include "run/case_access.hpp"
@@ -63,21 +61,15 @@ std::string content_of(const std::string& place) {
   return text.str();
 }
 
-std::string first_impacts(const std::string& text, const std::vector<std::string>& settings, int most) {
+void first_impacts(const std::string& text, const std::vector<std::string>& settings, int most,
+                   io::JsonText& json) {
   Run<double> run(CaseAccess::make(casefile::parse_case(text, "case.toml", settings)));
   FirstImpacts found(most);
   run.attach(found);
   run.finish();
-  io::JsonText json;
   json.numbers("time", found.times);
   json.integers("ball", found.balls);
   json.integers("partner", found.partners);
-  return json.finish();
-}
-
-void SpeedClasses::add(double speed) {
-  const double place = std::log10(std::max(speed, 1e-3) / 1e-3) * count / 4;
-  ++impacts[static_cast<std::size_t>(std::min(place, count - 1.0))];
 }
 
 Session::Session(const std::string& text, const std::vector<std::string>& settings, bool log)
@@ -89,8 +81,7 @@ Session::Session(const std::string& text, const std::vector<std::string>& settin
   run_.attach(*this);
 }
 
-std::string Session::scene() const {
-  io::JsonText json;
+void Session::scene(io::JsonText& json) const {
   json.text("version", version());
   json.text("case_digest", spec_.digest);
   json.number("period", mill_.motion.period());
@@ -126,13 +117,15 @@ std::string Session::scene() const {
     json.end();
   }
   json.end();
-  return json.finish();
 }
 
 void Session::on_impact(const Impact<double>& impact, Run<double>&) {
   ++impacts_;
   last_ = impact;
-  if (impact.time >= spec_.statistics_start.to<double>()) classes_.add(impact.approach_speed);
+  if (impact.time < spec_.statistics_start.to<double>()) return;
+  constexpr int count = std::tuple_size_v<decltype(by_speed_)>;
+  const double place = std::log10(std::max(impact.approach_speed, 1e-3) / 1e-3) * count / 4;
+  ++by_speed_[static_cast<std::size_t>(std::min(place, count - 1.0))];
 }
 
 void Session::advance_to(double time) {
@@ -150,8 +143,7 @@ void Session::advance_one_impact() {
 
 std::string Session::case_text() const { return text_with_values(spec_, log_); }
 
-std::string Session::frame() {
-  io::JsonText json;
+void Session::frame(io::JsonText& json) {
   const double now = run_.time();
   const auto summary = run_.summary();
   json.number("time", now);
@@ -186,18 +178,15 @@ std::string Session::frame() {
     json.numbers("collisions", collisions);
     json.numbers("dose_by_partner", summary.dose_by_partner);
   }
-  json.numbers("speeds", {classes_.impacts.begin(), classes_.impacts.end()});
-  return json.finish();
+  json.numbers("speeds", {by_speed_.begin(), by_speed_.end()});
 }
 
-std::string Session::finish() {
+void Session::finish(io::JsonText& json) {
   if (!finished_) run_.commit();
   finished_ = true;
   const auto log = content_of(std::string(folder) + "/collisions.csv");
-  io::JsonText json;
   if (!log.empty()) json.text("digest", sha256(log));
   json.text("summary", content_of(std::string(folder) + "/summary.json"));
-  return json.finish();
 }
 
 }  // namespace edmill::browser

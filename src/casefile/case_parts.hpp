@@ -23,8 +23,7 @@ void require_travel(std::vector<Section>& entries, const CaseSpec& spec);
 /// [contact], [contact.ball_ball], [contact.ball_wall] and [[contact.pair]].
 /// @pre all that they may refer to has been read: materials, vessel, powder and balls
 void read_contact(Section contact, CaseSpec& spec);
-/// What a file may give a part, a law or a ball, asked of values that no file gave: reports what it would
-/// refuse.
+/// What a file may give a part, a law or a ball, asked of values from no file: reports what it would refuse.
 void check(Section mill, const MotionSpec& motion);
 void check(Section vessel, const VesselSpec& shape);
 void check(Section contact, const ContactSpec& law, const CaseSpec& spec);

@@ -11,8 +11,8 @@
 #include "casefile/output_spec.hpp"
 #include "casefile/parts.hpp"
 #include "casefile/quantity.hpp"
+#include "model/case.hpp"
 #include "model/contact_law.hpp"
-#include "model/counted_dose.hpp"
 #include "model/parts/partners.hpp"
 #include "model/stop_rules.hpp"
 
@@ -143,12 +143,8 @@ struct AuditSpec {
     row(Parameter{"gap_tolerance", Dimension::length, "largest gap or overlap of bodies in contact",
                   Range::positive, nullptr, "by rounding"},
         a.gap_tolerance);
-    row(Parameter{"first_ball",
-                  Dimension::none,
-                  "number of the log's first ball",
-                  {0, largest_count},
-                  nullptr,
-                  "0"},
+    row(Parameter{"first_ball", Dimension::none, "number of the log's first ball", Range(0, largest_count),
+                  nullptr, "0"},
         a.first_ball);
     row(Parameter{"walls", Dimension::none, "numbers of the walls by id: `\"1, 2, 3\"`", Range::any, nullptr,
                   "those of edmill"},
@@ -232,15 +228,12 @@ struct CaseSpec {
         c.statistics_start);
     row(Parameter{"end_time", Dimension::time,
                   "the run ends here; this or another stop rule, a key `max_...`, is required, and the first "
-                  "that is "
-                  "met ends the run"},
+                  "that is met ends the run"},
         c.end_time);
-    row(
-        Parameter{
-            "initial_state", Dimension::none,
-            "a `final_state.csv` to start from, relative to the case file; the properties of the balls stay "
-            "those of the case",
-            Range::any, nullptr, "none", Parameter::Digest::none},
+    row(Parameter{"initial_state", Dimension::none,
+                  "a `final_state.csv` to start from, relative to the case file; the properties of the balls "
+                  "stay those of the case",
+                  Range::any, nullptr, "none", Parameter::Digest::none},
         c.initial_state);
   }
 
@@ -273,5 +266,22 @@ CaseSpec read_case(const std::string& path, const std::vector<std::string>& over
 /// Reads and checks the text of a case; `name` stands for the file in messages.
 CaseSpec parse_case(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides = {});
+
+/// For a case that has been changed since it was read: what a file with its numbers would be refused for.
+std::vector<std::string> problems_of(const CaseSpec& spec);
+
+/// The text of a case file, followed by the settings over it as comments, for readers.
+std::string text_with_settings(const CaseSpec& spec);
+
+/// The case that a run left in its folder: `text_with_settings` as a file. The file that the run began from
+/// is not looked for; what cannot be known without it, the digest, is empty then.
+/// @param settings  over the file, as the run had them
+/// @throws InputError also when the case has another digest
+CaseSpec read_case_of_run(const std::string& path, const std::vector<std::string>& settings,
+                          const std::string& digest);
+
+/// Adds the entries [[output]] of a text to a case.
+/// @throws InputError when one is wrong, or its file's name is taken
+void add_outputs(const std::string& text, const std::string& name, CaseSpec& spec);
 
 }  // namespace edmill::casefile

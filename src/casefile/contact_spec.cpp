@@ -100,7 +100,8 @@ void require_diameters(Section& s, const CaseSpec& spec) {
   for (const auto& batch : spec.batches) check(batch, rational(batch.diameter_spread));
 }
 
-ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spec) {
+/// @param missing  called with the key of what its law needs and is not given, and what was expected
+ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spec, const auto& missing) {
   ContactSpec result;
   result.least_separation = given.least_separation;
   for_each_kind<Laws>([&](auto law) {
@@ -117,14 +118,14 @@ ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spe
           contact.problem(p.key, fmt::format("{:.4g} from [[balls]] and [powder]", value.to<double>()),
                           expected(p));
       } else {
-        contact.problem(p.key, "nothing", expected(p));
+        missing(p.key, expected(p));
       }
     });
     if constexpr (requires { law.points; }) {
       if (const auto found = given.tables.find(law.table); found != given.tables.end())
         law.points = found->second;
       else
-        contact.problem(law.table, "nothing", law.table_form);
+        missing(law.table, law.table_form);
     }
     if constexpr (std::is_same_v<decltype(law), model::PowderLoad<Quantity>>)
       require_diameters(contact, spec);
@@ -133,17 +134,18 @@ ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spe
   return result;
 }
 
+ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spec) {
+  return to_spec(contact, given, spec, [&](const std::string& key, const std::string& expected) {
+    contact.problem(key, "nothing", expected);
+  });
+}
+
 /// Whether all that its law needs is given.
 bool is_complete(const GivenLaw& given, const CaseSpec& spec) {
+  Document ignored;
+  Section nothing(ignored, nullptr, "contact");
   bool complete = true;
-  for_each_kind<Laws>([&](const auto& law) {
-    if (given.name != law.name) return;
-    law.parameters(law, [&](const Parameter& p, const Quantity&) {
-      complete = complete && (given.parameters.contains(p.key) || p.fallback ||
-                              (p.key == std::string("charge_ratio") && charge_ratio(spec)));
-    });
-    if constexpr (requires { law.points; }) complete = complete && given.tables.contains(law.table);
-  });
+  to_spec(nothing, given, spec, [&](const auto&...) { complete = false; });
   return complete;
 }
 

@@ -1,4 +1,4 @@
-// Files as they are read, and values that are passed on as they were written.
+// Files as they are read, settings over them, "section.key=value", and values passed on as written.
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
@@ -21,25 +21,77 @@ std::string hint_of(const Document& document, std::size_t line) {
   return comma ? " and a comma in a number, where a decimal point is expected" : "";
 }
 
+/// The place of "3" in an array; none where there is no such entry.
+std::optional<std::size_t> entry_of(const toml::array& array, const std::string& index) {
+  if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos)
+    return std::nullopt;
+  const std::size_t place = std::stoul(index);
+  return place < array.size() ? std::optional(place) : std::nullopt;
+}
+
+/// The value of a setting: TOML, or else a text.
+void put(toml::node& parent, const std::string& key, auto&& value) {
+  if (auto* table = parent.as_table())
+    table->insert_or_assign(key, std::forward<decltype(value)>(value));
+  else
+    parent.as_array()->replace(parent.as_array()->cbegin() + static_cast<std::ptrdiff_t>(std::stoul(key)),
+                               std::forward<decltype(value)>(value));
+}
+
+void apply(toml::table& root, Document& document, const std::string& text) {
+  const auto equals = text.find('=');
+  const auto complain = [&](const std::string& found) {
+    document.problems.push_back("--set " + text + ": found " + found + ", expected section.key=value");
+  };
+  if (equals == std::string::npos) return complain("no '='");
+  if (equals == 0) return complain("no key");
+  const std::string value = text.substr(equals + 1);
+  std::istringstream parts(text.substr(0, equals));
+  std::vector<std::string> keys;
+  for (std::string key; std::getline(parts, key, '.');) keys.push_back(key);
+  toml::node* parent = &root;
+  std::string path;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (const auto* array = parent->as_array()) {
+      const auto entry = entry_of(*array, keys[k]);
+      if (!entry) return complain("no entry '" + keys[k] + "' of '" + keys[k - 1] + "'");
+      keys[k] = std::to_string(*entry);  // "00" is entry 0
+    } else if (!parent->as_table()) {
+      return complain("'" + keys[k - 1] + "', which is no section");
+    }
+    path += (path.empty() ? "" : ".") + keys[k];
+    if (k + 1 == keys.size()) break;
+    auto* table = parent->as_table();
+    auto* next = table ? table->get(keys[k]) : parent->as_array()->get(std::stoul(keys[k]));
+    parent = next ? next : &table->insert(keys[k], toml::table{}).first->second;
+  }
+  toml::table parsed;
+  try {
+    parsed = toml::parse("value = " + value);
+  } catch (const toml::parse_error&) {
+  }
+  const auto* read = parsed.size() == 1 ? parsed.get("value") : nullptr;
+  const auto* list = parent->as_array();
+  if (list && list->get(std::stoul(keys.back()))->is_table() && !(read && read->is_table()))
+    return complain("a value for '" + path + "', which is a section");
+  std::erase_if(document.overrides, [&](const auto& o) { return o.first.starts_with(path + "."); });
+  document.overrides[path] = value;
+  if (read)
+    put(*parent, keys.back(), std::move(*parsed.get("value")));
+  else
+    put(*parent, keys.back(), value);
+}
+
 }  // namespace
 
 std::string kind_of(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "an array";
-    case toml::node_type::string:
-      return "a text";
-    case toml::node_type::integer:
-      return "an integer";
-    case toml::node_type::floating_point:
-      return "a number";
-    case toml::node_type::boolean:
-      return "true or false";
-    default:
-      return "a date or time";
-  }
+  return node.is_table()            ? "a table"
+         : node.is_array()          ? "an array"
+         : node.is_string()         ? "a text"
+         : node.is_integer()        ? "an integer"
+         : node.is_floating_point() ? "a number"
+         : node.is_boolean()        ? "true or false"
+                                    : "a date or time";
 }
 
 std::string read_file(const std::string& path, const std::string& kind) {
@@ -60,6 +112,13 @@ toml::table parse_toml(const std::string& text, const std::string& kind, Documen
   }
 }
 
+toml::table parse_toml(const std::string& text, const std::string& kind,
+                       const std::vector<std::string>& settings, Document& document) {
+  auto table = parse_toml(text, kind, document);
+  for (const auto& setting : settings) apply(table, document, setting);
+  return table;
+}
+
 std::vector<std::string> Section::keys() const {
   std::vector<std::pair<toml::source_position, std::string>> found;
   if (table_)
@@ -71,18 +130,15 @@ std::vector<std::string> Section::keys() const {
 }
 
 std::optional<std::string> Section::setting_of(const toml::node& node, const std::string& path) {
-  if (const auto* text = node.as_string(); text && text->get().find_first_of("\n\r") != std::string::npos) {
-    document_->report(&node, path, "a text of several lines", "a text in one line");
-    return std::nullopt;
-  }
+  if (const auto* text = node.as_string(); text && text->get().find_first_of("\n\r") != std::string::npos)
+    return refuse(node, path, "a text of several lines", "a text in one line");
   const bool in_one_line = node.source().begin.line == node.source().end.line;
   const auto* array = node.as_array();
   const bool of_tables = array && !array->empty() && array->get(0)->is_table();
   if (node.is_string() || node.is_number() || node.is_boolean() || (array && in_one_line && !of_tables))
     return document_->raw(node, path);
   if (of_tables) return list_of(*array, path);
-  document_->report(&node, path, kind_of(node), "a value of this key");
-  return std::nullopt;
+  return refuse(node, path, kind_of(node), "a value of this key");
 }
 
 /// An array of tables in one line, "[{count = 2, diameter = "12.7 mm"}]".
@@ -91,10 +147,7 @@ std::optional<std::string> Section::list_of(const toml::array& entries, const st
   for (std::size_t k = 0; k < entries.size(); ++k) {
     const auto* table = entries.get(k)->as_table();
     const std::string place = path + "." + std::to_string(k);
-    if (!table) {
-      document_->report(entries.get(k), place, kind_of(*entries.get(k)), "a table");
-      return std::nullopt;
-    }
+    if (!table) return refuse(*entries.get(k), place, kind_of(*entries.get(k)), "a table");
     std::string row;
     for (const auto& [key, value] : *table) {
       const auto text = setting_of(value, place + "." + std::string(key.str()));

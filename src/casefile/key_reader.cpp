@@ -137,18 +137,6 @@ void KeyReader::operator()(const Parameter& p, std::string& value) {
 
 void KeyReader::operator()(const Parameter& p, Colour& value) { value = section_.colour(p.key, value); }
 
-std::string kind_of(const Parameter& p, const Quantity&) {
-  return p.range == Range::count ? "count" : noun(p.dimension);
-}
-std::string kind_of(const Parameter& p, const std::array<Quantity, 3>&) {
-  return "three " + noun(p.dimension) + "s";
-}
-std::string kind_of(const Parameter&, std::uint64_t) { return "count"; }
-std::string kind_of(const Parameter&, int) { return "count"; }
-std::string kind_of(const Parameter&, bool) { return "true or false"; }
-std::string kind_of(const Parameter&, const std::string&) { return "text"; }
-std::string kind_of(const Parameter&, const Colour&) { return "colour"; }
-
 std::string default_of(const Parameter& p, bool optional) {
   if (p.otherwise) return p.otherwise;
   if (!p.fallback) return optional ? "none" : "required";

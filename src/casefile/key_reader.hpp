@@ -50,10 +50,9 @@ class KeyReader {
   bool complete_ = true;
 };
 
-template <class Keyed>
-void read_keys(Section& section, Keyed& keyed) {
+void read_keys(Section& section, auto& keyed) {
   KeyReader read(section);
-  Keyed::keys(keyed, read);
+  keyed.keys(keyed, read);
 }
 
 /// Reports values out of range that were not read from a file.
@@ -73,13 +72,21 @@ struct KeyChecker {
 };
 
 /// What a member takes, for readers: "count", "three lengths", "true or false".
-std::string kind_of(const Parameter& p, const Quantity&);
-std::string kind_of(const Parameter& p, const std::array<Quantity, 3>&);
-std::string kind_of(const Parameter& p, std::uint64_t);
-std::string kind_of(const Parameter& p, int);
-std::string kind_of(const Parameter& p, bool);
-std::string kind_of(const Parameter& p, const std::string&);
-std::string kind_of(const Parameter& p, const Colour&);
+template <class Value>
+std::string kind_of(const Parameter& p, const Value&) {
+  if constexpr (std::is_same_v<Value, Quantity>) {
+    return p.range == Range::count ? "count" : noun(p.dimension);
+  } else if constexpr (std::is_same_v<Value, std::array<Quantity, 3>>) {
+    return "three " + noun(p.dimension) + "s";
+  } else if constexpr (std::is_same_v<Value, Colour>) {
+    return "colour";
+  } else {
+    static_assert(std::is_integral_v<Value> || std::is_same_v<Value, std::string>);
+    return std::is_same_v<Value, std::string> ? "text"
+           : std::is_same_v<Value, bool>      ? "true or false"
+                                              : "count";
+  }
+}
 template <class Value>
 std::string kind_of(const Parameter& p, const std::optional<Value>&) {
   return kind_of(p, Value{});

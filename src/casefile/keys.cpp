@@ -272,10 +272,7 @@ std::string section_of(const std::string& path) {
 
 }  // namespace
 
-const std::vector<SectionText>& section_texts() {
-  static const std::vector<SectionText> list(std::begin(texts), std::end(texts));
-  return list;
-}
+std::span<const SectionText> section_texts() { return texts; }
 
 const std::vector<Key>& keys() { return table().rows(); }
 

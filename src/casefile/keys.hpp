@@ -2,6 +2,7 @@
 // of the program, and the reference (`edmill reference`) is made from this table.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,7 +23,7 @@ struct SectionText {
 };
 
 /// In the order in which a reader wants them.
-const std::vector<SectionText>& section_texts();
+std::span<const SectionText> section_texts();
 /// By section. Keys of motions, vessels, laws and outputs stand with these.
 const std::vector<Key>& keys();
 /// @param path  of a section as messages name it, "output.0.columns.1"

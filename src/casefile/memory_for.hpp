@@ -21,8 +21,7 @@ class OutOfMemory : public std::bad_alloc {
 };
 
 /// Does work on a case. @throws OutOfMemory when it takes more memory than there is
-template <class Work>
-auto with_memory_for(const CaseSpec& spec, const Work& work) {
+auto with_memory_for(const CaseSpec& spec, const auto& work) {
   try {
     return work();
   } catch (const std::bad_alloc&) {

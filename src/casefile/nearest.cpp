@@ -1,5 +1,7 @@
 #include "casefile/nearest.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -56,8 +58,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
 }
 
 std::string nearest_of(const std::string& word, const std::vector<std::string>& candidates) {
-  std::string list;
-  for (const auto& candidate : candidates) list += (list.empty() ? "" : ", ") + candidate;
+  const auto list = fmt::format("{}", fmt::join(candidates, ", "));
   const auto best = nearest(word, candidates);
   return best.empty() ? "one of: " + list : "'" + best + "', or another of: " + list;
 }

@@ -46,8 +46,7 @@ Variant read_part(Section& given) {
   return chosen;
 }
 
-template <class Variant>
-std::string described(const Variant& part) {
+std::string described(const auto& part) {
   std::string text;
   for_each_parameter(part, [&](const model::Parameter& p, const std::vector<Quantity>& values) {
     if (!p.key) return;

@@ -1,9 +1,7 @@
 // Motions and vessels as a case file says them.
 #pragma once
 
-#include <array>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -19,10 +17,8 @@ using VesselSpec = model::NamedVessels<Quantity>;
 /// Calls visit(kind) with a value of each type that a variant can hold, in their order.
 template <class Variant, class Visit>
 void for_each_kind(const Visit& visit) {
-  [&]<std::size_t... kind>(std::index_sequence<kind...>) {
-    (visit(std::variant_alternative_t<kind, Variant>{}), ...);
-  }
-  (std::make_index_sequence<std::variant_size_v<Variant>>{});
+  const auto visit_all = [&]<class... Kind>(const std::variant<Kind...>*) { (visit(Kind{}), ...); };
+  visit_all(static_cast<const Variant*>(nullptr));
 }
 
 /// The names of these types.
@@ -52,15 +48,13 @@ inline const Quantity& period_of(const MotionSpec& motion) {
 }
 
 /// Calls visit(parameter, values) for each, with one value or three.
-template <class... Part, class Visit>
-void for_each_parameter(const std::variant<Part...>& part, Visit&& visit) {
-  struct Call {
-    Visit& visit;
-    void operator()(const model::Parameter& p, const Quantity& value) { visit(p, std::vector{value}); }
-    void operator()(const model::Parameter& p, const std::array<Quantity, 3>& values) {
-      visit(p, std::vector(values.begin(), values.end()));
-    }
-  } call{visit};
+template <class... Part>
+void for_each_parameter(const std::variant<Part...>& part, const auto& visit) {
+  const auto call = [&](const model::Parameter& p, const auto& value) {
+    std::vector<Quantity> values;
+    model::for_each_number(value, [&](const Quantity& number) { values.push_back(number); });
+    visit(p, values);
+  };
   std::visit([&](const auto& p) { p.parameters(p, call); }, part);
 }
 

@@ -100,8 +100,7 @@ class Crowd {
     return false;
   }
 
-  /// Pairs that can come too close before any ball has gone half the skin, by cells as wide as the widest
-  /// pair.
+  /// Pairs that can come too close before any ball has gone half the skin, by cells as wide as the widest.
   void find_pairs() {
     begin_.clear();
     for (const auto& ball : balls_) begin_.push_back(ball.place);

@@ -1,5 +1,7 @@
 #include "casefile/section.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <sstream>
@@ -103,15 +105,10 @@ std::vector<Section> Section::sections(const std::string& key, bool may_be_empty
 
 std::optional<Quantity> Section::quantity_in(const toml::node& node, const std::string& path,
                                              Dimension dimension, ParseQuantity* parse) {
-  if (!node.is_string() && !node.is_number()) {
-    document_->report(&node, path, kind_of(node), describe(dimension));
-    return std::nullopt;
-  }
+  if (!node.is_string() && !node.is_number()) return refuse(node, path, kind_of(node), describe(dimension));
   const auto result = parse(document_->raw(node, path), dimension, document_->sizes);
-  if (const auto* problem = std::get_if<QuantityProblem>(&result)) {
-    document_->report(&node, path, problem->found, describe(dimension));
-    return std::nullopt;
-  }
+  if (const auto* problem = std::get_if<QuantityProblem>(&result))
+    return refuse(node, path, problem->found, describe(dimension));
   return std::get<Quantity>(result);
 }
 
@@ -140,11 +137,9 @@ std::optional<QuantityVector> Section::vector(const std::string& key, Dimension 
   if (!node) return std::nullopt;
   const std::string expected = "an array of three numbers or texts, each " + describe(dimension);
   const auto* array = node->as_array();
-  if (!array || array->size() != 3) {
-    document_->report(node, full(key),
-                      array ? "an array of " + std::to_string(array->size()) : kind_of(*node), expected);
-    return std::nullopt;
-  }
+  if (!array || array->size() != 3)
+    return refuse(*node, full(key), array ? "an array of " + std::to_string(array->size()) : kind_of(*node),
+                  expected);
   QuantityVector vector;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto value = item(*array, full(key), k, dimension);
@@ -180,12 +175,10 @@ std::optional<std::uint64_t> Section::count(const std::string& key) {
   const auto* node = find(key);
   if (!node) return std::nullopt;
   const auto* integer = node->as_integer();
-  if (!integer || integer->get() < 0) {
-    document_->report(node, full(key),
-                      node->is_value() ? "\"" + document_->raw(*node, full(key)) + "\"" : kind_of(*node),
-                      "an integer, 0 or more");
-    return std::nullopt;
-  }
+  if (!integer || integer->get() < 0)
+    return refuse(*node, full(key),
+                  node->is_value() ? "\"" + document_->raw(*node, full(key)) + "\"" : kind_of(*node),
+                  "an integer, 0 or more");
   return static_cast<std::uint64_t>(integer->get());
 }
 
@@ -193,15 +186,11 @@ std::optional<std::string> Section::text(const std::string& key) {
   const auto* node = find(key);
   if (!node) return std::nullopt;
   const auto* string = node->as_string();
-  if (!string || string->get().empty()) {
-    document_->report(node, full(key), string ? "an empty text" : kind_of(*node), "a text");
-    return std::nullopt;
-  }
+  if (!string || string->get().empty())
+    return refuse(*node, full(key), string ? "an empty text" : kind_of(*node), "a text");
   const auto control = [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; };
-  if (std::any_of(string->get().begin(), string->get().end(), control)) {
-    document_->report(node, full(key), "a text with control characters", "a text in one line");
-    return std::nullopt;
-  }
+  if (std::any_of(string->get().begin(), string->get().end(), control))
+    return refuse(*node, full(key), "a text with control characters", "a text in one line");
   return string->get();
 }
 
@@ -232,13 +221,12 @@ Colour Section::colour(const std::string& key, const Colour& fallback) {
 std::string Section::choice(const std::string& key, const std::vector<std::string>& choices) {
   const auto* node = find(key);
   if (!node) return choices.front();
-  std::string list;
-  for (const auto& c : choices) list += (list.empty() ? "" : ", ") + ("\"" + c + "\"");
   const auto* string = node->as_string();
   if (string && std::find(choices.begin(), choices.end(), string->get()) != choices.end())
     return string->get();
-  document_->report(node, full(key), string ? "\"" + string->get() + "\"" : kind_of(*node),
-                    (choices.size() > 1 ? "one of " : "") + list);
+  document_->report(
+      node, full(key), string ? "\"" + string->get() + "\"" : kind_of(*node),
+      fmt::format("{}\"{}\"", choices.size() > 1 ? "one of " : "", fmt::join(choices, "\", \"")));
   return choices.front();
 }
 

@@ -116,6 +116,12 @@ class Section {
  private:
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   const toml::node* find(const std::string& key);
+  /// Reports a value, in place of what it was to give.
+  std::nullopt_t refuse(const toml::node& node, const std::string& path, const std::string& found,
+                        const std::string& expected) {
+    document_->report(&node, path, found, expected);
+    return std::nullopt;
+  }
   using ParseQuantity = QuantityResult(std::string_view text, Dimension dimension, SizeLimit limit);
   /// Nothing when the value is no quantity, which is reported.
   std::optional<Quantity> quantity_in(const toml::node& node, const std::string& path, Dimension dimension,

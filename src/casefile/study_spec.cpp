@@ -131,17 +131,14 @@ void read_variable(Section s, OptimizeSpec& spec) {
   for (const auto& other : spec.variables)
     s.require(other.key != variable.key, "key", "a key that no other variable has");
   variable.integer = s.flag("integer");
+  variable.values = s.settings("values");
   if (s.has("values")) {
-    variable.values = s.settings("values");
     for (const auto* key : {"low", "high", "integer"})
       if (s.has(key)) s.problem(key, "both 'values' and '" + std::string(key) + "'", "one of them");
-  } else {
-    s.settings("values");
-  }
-  if (!s.has("values"))
-    read_range(s, variable);
-  else
     s.setting("low"), s.setting("high");
+  } else {
+    read_range(s, variable);
+  }
   s.reject_unknown_keys();
   spec.variables.push_back(std::move(variable));
 }

@@ -12,6 +12,7 @@
 namespace edmill::casefile {
 
 using model::Parameter;
+using model::Range;
 
 inline constexpr int most_runs = 1000000;
 
@@ -50,9 +51,8 @@ struct SweepSpec : StudySpec {
 
   static void keys(auto& s, auto&& row) {
     study_keys(s, row);
-    row(
-        Parameter{
-            "replicas", Dimension::none, "runs of each point, with successive seeds", {1, most_runs}, "1"},
+    row(Parameter{"replicas", Dimension::none, "runs of each point, with successive seeds",
+                  Range(1, most_runs), "1"},
         s.replicas);
   }
 };

@@ -22,18 +22,11 @@ enum ExitCode : int {
 
 /// Of a run that ended so.
 constexpr ExitCode code_of(model::EndReason reason) {
-  switch (reason) {
-    case model::EndReason::undecided:
-      return undecided;
-    case model::EndReason::stalled:
-      return stalled;
-    case model::EndReason::interrupted:
-      return interrupted;
-    case model::EndReason::inelastic_collapse:
-      return inelastic_collapse;
-    default:
-      return ok;
-  }
+  return reason == model::EndReason::undecided            ? undecided
+         : reason == model::EndReason::stalled            ? stalled
+         : reason == model::EndReason::interrupted        ? interrupted
+         : reason == model::EndReason::inelastic_collapse ? inelastic_collapse
+                                                          : ok;
 }
 
 struct ExitCodeText {

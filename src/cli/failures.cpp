@@ -50,6 +50,11 @@ void print_problem(const std::string& problem) {
   io::tell("edmill: {}\n", line);
 }
 
+int tell_undecided(const std::string& why) {
+  io::tell("edmill: {}; nothing is written\n", why);
+  return undecided;
+}
+
 int exit_code_of(const std::function<int()>& command) {
   const std::string no_memory = "found too little memory, expected more";
   try {

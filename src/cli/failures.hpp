@@ -13,6 +13,9 @@ void throw_for_lack_of_memory();
 /// In one line; control characters are escaped.
 void print_problem(const std::string& problem);
 
+/// Says why a command has no result. @return the exit code
+int tell_undecided(const std::string& why);
+
 /// Does a command, and prints what it throws. @return the exit code
 int exit_code_of(const std::function<int()>& command);
 

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
-
 #include "io/terminal.hpp"
 
 namespace edmill::cli {
@@ -14,7 +12,7 @@ bool shows_progress(bool quiet) { return !quiet && ::isatty(STDERR_FILENO); }
 ProgressLine::ProgressLine() : shown_(Clock::now()) {}
 
 ProgressLine::~ProgressLine() {
-  if (visible_) io::tell("\r\033[K");
+  if (visible_) io::tell("{}", no_line);
 }
 
 void ProgressLine::show(double now, const std::optional<double>& end, std::uint64_t collisions,
@@ -39,8 +37,7 @@ void ProgressLine::show(double now, const std::optional<double>& end, std::uint6
 }
 
 void ProgressLine::show(const std::string& text) {
-  io::tell("\r\033[K{}", text);
-  std::fflush(stderr);
+  io::tell("{}{}", no_line, text);
   visible_ = true;
 }
 

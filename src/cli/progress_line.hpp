@@ -8,6 +8,9 @@
 
 namespace edmill::cli {
 
+/// Takes a line of progress away.
+inline constexpr const char* no_line = "\r\x1b[K";
+
 /// Whether progress is to be shown: standard error is a terminal, and nobody asked for quiet.
 bool shows_progress(bool quiet);
 

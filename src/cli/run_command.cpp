@@ -1,5 +1,3 @@
-#include "cli/run_command.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,14 +5,14 @@
 #include <optional>
 
 #include "app/certify.hpp"
+#include "app/digits.hpp"
 #include "app/run.hpp"
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
+#include "cli/commands/run.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/precision_commands.hpp"
+#include "cli/failures.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/signals.hpp"
-#include "io/input_file.hpp"
 #include "io/terminal.hpp"
 #include "run/run_folder.hpp"
 
@@ -48,8 +46,7 @@ int tell(const app::RunResult& result, const RunCommand& command) {
 }
 
 /// Does `work` with a progress line on a terminal.
-template <class Work>
-int with_progress(app::RunOptions& options, const RunCommand& command, const Work& work) {
+int with_progress(app::RunOptions& options, const RunCommand& command, const auto& work) {
   std::optional<ProgressLine> line;
   if (shows_progress(command.quiet)) {
     line.emplace();
@@ -62,8 +59,7 @@ int with_progress(app::RunOptions& options, const RunCommand& command, const Wor
   return with_signal(tell(result, command));
 }
 
-/// Keeps a folder for a run whose digits are sought first: what would refuse it is told before. Leaves no
-/// empty folders.
+/// Keeps a folder for a run whose digits are sought first: what refuses it is told before. Leaves none empty.
 class ReservedFolder {
  public:
   ReservedFolder(const RunCommand& command, const casefile::CaseSpec& spec) {
@@ -88,11 +84,47 @@ class ReservedFolder {
   std::optional<run::RunFolder> folder_;
 };
 
-}  // namespace
-
-std::string name_of(const std::string& case_file) {
-  return io::is_stream(case_file) ? "stdin" : std::filesystem::path(case_file).stem().string();
+/// For runs that write nothing. @return what `work` finds in the case
+auto after_trials(const casefile::CaseSpec& spec, bool quiet, const auto& work) {
+  app::DigitsOptions options;
+  options.interrupt = &interrupt_flag();
+  listen_for_signals();
+  if (shows_progress(quiet))
+    options.progress = [](const std::string& precision, std::size_t events, double expected) {
+      io::tell("{}{}: {} of about {:.0f} events ", no_line, precision, events, expected);
+    };
+  auto found = casefile::with_memory_for(spec, [&] { return work(options); });
+  if (shows_progress(quiet)) io::tell("{}", no_line);
+  return found;
 }
+
+/// Prints what the run will take. @param precision  empty where the case asks for digits
+/// @return an exit code
+int run_estimate(const casefile::CaseSpec& spec, const std::string& precision, bool quiet) {
+  const auto estimate = after_trials(
+      spec, quiet, [&](const auto& options) { return app::estimate_run(spec, precision, options); });
+  if (estimate.interrupted) return after_signals(interrupted);
+  io::print("{}", estimate.text());
+  return after_signals(precision.empty() && !estimate.undecided.empty() ? undecided : ok);
+}
+
+/// Finds the precision of a case that asks for digits, and prints the evidence.
+/// @return an exit code; `undecided` when no number of digits suffices
+int choose_digits(casefile::CaseSpec& spec, bool quiet, std::string& precision) {
+  const auto found =
+      after_trials(spec, quiet, [&](const auto& options) { return app::find_digits(spec, options); });
+  if (found.interrupted) {
+    io::tell("edmill: interrupted before the digits were found; nothing is written\n");
+    return after_signals(interrupted);
+  }
+  if (!found.undecided.empty()) return tell_undecided(found.undecided);
+  if (!quiet) io::print("{}", found.text());
+  precision = found.precision;
+  spec.right_digits = found.right();
+  return ok;
+}
+
+}  // namespace
 
 void until_precision(const std::string& precision, const casefile::CaseSpec& spec,
                      std::vector<std::string>& settings) {
@@ -134,8 +166,11 @@ int run_case(casefile::CaseSpec spec, const RunCommand& given) {
         app::first_checkpoint(spec, command.overrides, scalar, command.report, command.checkpoint);
   }
   int code = with_progress(options, command, [&] { return app::run(scalar, spec, options); });
-  if (code == ok && !command.shadow.empty())
-    code = with_signal(run_shadow(spec, scalar, command.shadow, options.interrupt));
+  if (code == ok && !command.shadow.empty()) {
+    const auto result = app::shadow(spec, scalar, command.shadow, options.interrupt);
+    io::print("{}", result.text());
+    code = with_signal(result.interrupted ? interrupted : ok);
+  }
   return code;
 }
 

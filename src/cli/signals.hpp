@@ -9,8 +9,7 @@ namespace edmill::cli {
 /// place of killing; a SIGHUP that the program was started with ignored, as by nohup, stays so, whatever
 /// libraries do.
 void begin_with_signals();
-/// Ends the program as a pipe that nobody reads ends others; returns where that signal was ignored at the
-/// start.
+/// Ends the program as a pipe that nobody reads ends others; returns if it was ignored at the start.
 void end_by_pipe_signal();
 
 /// Becomes true at the first signal after `listen_for_signals`, or when another rank has seen one; a second

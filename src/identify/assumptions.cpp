@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "audit/mechanics.hpp"
-#include "casefile/check_case.hpp"
 
 namespace edmill::identify {
 

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
 #include <utility>
 
@@ -18,17 +17,10 @@ namespace {
 
 /// Copies `size` bytes of a file from `begin` on. @throws std::runtime_error
 void copy_part(const fs::path& from, const fs::path& to, std::uintmax_t begin, std::uintmax_t size) {
-  std::ifstream in(from, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(begin));
   std::ofstream out(to, std::ios::binary | std::ios::trunc);
-  std::string bytes;
-  for (auto left = size; left > 0 && in && out; left -= bytes.size()) {
-    bytes.resize(std::min<std::uintmax_t>(left, 1 << 20));
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out << bytes;
-  }
+  const bool whole = read_part(from, begin, size, [&](const std::string& bytes) { out << bytes; });
   out.close();
-  if (!in || !out) throw not_written(to);
+  if (!whole || !out) throw not_written(to);
 }
 
 /// The content of `place`, then that of `addition`, under the latter's name.
@@ -88,8 +80,7 @@ void AtomicFile::commit() {
   complete();
   if (dropped_ || destination_.through) return;
   if (append_ && kept_) {
-    // The temporary file stays until the checkpoint goes: a resumed run sees by it that its rows are in
-    // place.
+    // The temporary file stays until the checkpoint goes: by it a resumed run sees that its rows are there.
     const fs::path second = temporary_name(destination_.place);
     std::error_code no_links;
     fs::create_hard_link(temporary_, second, no_links);
@@ -131,8 +122,7 @@ void AtomicFile::archive(Archive& a) {
     kept_ = true;
 }
 
-/// What a run left of the file, under the temporary name: with the first `size` bytes, if they are those that
-/// it wrote.
+/// What a run left of the file, under the temporary name: with the first `size` bytes, if it wrote them.
 std::optional<Sha256> AtomicFile::found_beginning(std::uint64_t size, const std::string& digest,
                                                   const fs::path& fresh) const {
   const auto& place = destination_.place;

@@ -24,8 +24,7 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
 
-  /// @throws std::runtime_error when anything was not written: a long run must not continue to its end for
-  /// nothing
+  /// @throws std::runtime_error when anything was not written: a long run must not go on for nothing
   std::ostream& stream() {
     if (!stream_) fail();
     return stream_;

@@ -10,8 +10,7 @@
 
 namespace edmill::io {
 
-/// Files are written into a temporary folder; `commit` moves them into place. Other files that are there
-/// stay.
+/// Files are written into a temporary folder; `commit` moves them into place. Other files stay.
 class AtomicFolder {
  public:
   /// @throws InputError when the temporary folder cannot be made

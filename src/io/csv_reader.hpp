@@ -1,5 +1,4 @@
-// A CSV file with a header, read row by row in bounded memory; every problem is reported with file, line and
-// column.
+// A CSV file with a header, read row by row in bounded memory; problems are told with file, line and column.
 #pragma once
 
 #include <cstdint>

@@ -17,8 +17,6 @@ class GzipDecoder : public Decoder {
   GzipDecoder() {
     if (inflateInit2(&stream_, 15 + 16) != Z_OK) throw std::bad_alloc();
   }
-  GzipDecoder(const GzipDecoder&) = delete;
-  GzipDecoder& operator=(const GzipDecoder&) = delete;
   ~GzipDecoder() override { inflateEnd(&stream_); }
 
   std::size_t decode(std::string_view& in, std::span<char> out) override {
@@ -40,12 +38,10 @@ class GzipDecoder : public Decoder {
       throw std::runtime_error(stream_.msg ? stream_.msg : "wrong data");
     return out.size() - stream_.avail_out;
   }
-  bool at_end() const override { return at_end_; }
   const char* name() const override { return "gzip"; }
 
  private:
   z_stream stream_{};
-  bool at_end_ = false;
 };
 
 class ZstdDecoder : public Decoder {
@@ -53,8 +49,6 @@ class ZstdDecoder : public Decoder {
   ZstdDecoder() : stream_(ZSTD_createDStream()) {
     if (!stream_) throw std::bad_alloc();
   }
-  ZstdDecoder(const ZstdDecoder&) = delete;
-  ZstdDecoder& operator=(const ZstdDecoder&) = delete;
   ~ZstdDecoder() override { ZSTD_freeDStream(stream_); }
 
   std::size_t decode(std::string_view& in, std::span<char> out) override {
@@ -67,12 +61,10 @@ class ZstdDecoder : public Decoder {
     at_end_ = left == 0;
     return to.pos;
   }
-  bool at_end() const override { return at_end_; }
   const char* name() const override { return "zstd"; }
 
  private:
   ZSTD_DStream* stream_;
-  bool at_end_ = false;
 };
 
 }  // namespace

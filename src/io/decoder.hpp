@@ -9,14 +9,20 @@ namespace edmill::io {
 
 class Decoder {
  public:
+  Decoder() = default;
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
   virtual ~Decoder() = default;
   /// Takes from the front of `in` and fills `out` from its beginning.
   /// @return how many bytes came out
   /// @throws std::runtime_error with what is wrong with damaged data
   virtual std::size_t decode(std::string_view& in, std::span<char> out) = 0;
   /// Whether the data may end here.
-  virtual bool at_end() const = 0;
+  bool at_end() const { return at_end_; }
   virtual const char* name() const = 0;
+
+ protected:
+  bool at_end_ = false;
 };
 
 /// The decoder for data that begin so; null for text.

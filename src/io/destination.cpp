@@ -3,8 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
@@ -20,15 +18,12 @@ namespace fs = std::filesystem;
 namespace {
 
 bool all_digits(const std::string& text) {
-  return !text.empty() && text.size() < 10 &&
-         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
+  return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Calls visit(path) for a path and for what links make of it, until it answers true or there is no link
-/// left.
+/// Calls visit(path) for a path and for what links make of it, until it answers true or no link is left.
 /// @return false when the links do not end
-template <class Visit>
-bool follow(fs::path path, const Visit& visit) {
+bool follow(fs::path path, const auto& visit) {
   std::error_code error;
   for (int link = 0; link < 40; ++link) {
     if (visit(path) || !fs::is_symlink(fs::symlink_status(path, error))) return true;

@@ -18,8 +18,7 @@ struct Destination {
   /// @throws InputError for a folder and for links that lead nowhere
   explicit Destination(std::filesystem::path given);
 
-  /// Where its file is made: beside the place, or among the system's temporary files for what is written
-  /// through.
+  /// Where its file is made: beside the place, or among the system's temporary files if written through.
   std::filesystem::path temporary() const;
   /// A descriptor of what is written through, or -1 with errno.
   int open_through() const;

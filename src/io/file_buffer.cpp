@@ -85,18 +85,23 @@ void write_plain(const std::filesystem::path& file, std::string_view bytes) {
   if (!buffer.close()) throw_not_written(file, buffer.error());
 }
 
-std::optional<Sha256> digest_of(const std::filesystem::path& file, std::uint64_t begin, std::uint64_t size) {
+bool read_part(const std::filesystem::path& file, std::uint64_t begin, std::uint64_t size,
+               const std::function<void(const std::string& bytes)>& use) {
   std::ifstream in(file, std::ios::binary);
   in.seekg(static_cast<std::streamoff>(begin));
   std::string bytes;
-  Sha256 digest;
   for (std::uint64_t left = size; left > 0; left -= bytes.size()) {
     bytes.resize(std::min<std::uint64_t>(left, 1 << 16));
-    if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) return std::nullopt;
-    digest.add(bytes);
+    if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) return false;
+    use(bytes);
   }
-  if (!in) return std::nullopt;
-  return digest;
+  return static_cast<bool>(in);
+}
+
+std::optional<Sha256> digest_of(const std::filesystem::path& file, std::uint64_t begin, std::uint64_t size) {
+  Sha256 digest;
+  const bool whole = read_part(file, begin, size, [&](const std::string& bytes) { digest.add(bytes); });
+  return whole ? std::optional(digest) : std::nullopt;
 }
 
 }  // namespace edmill::io

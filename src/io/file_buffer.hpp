@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <streambuf>
@@ -64,7 +65,10 @@ class FileBuffer : public std::streambuf {
 /// Writes a whole file, which need not be atomic. @throws std::runtime_error
 void write_plain(const std::filesystem::path& file, std::string_view bytes);
 
-/// The digest of the first bytes of a file, which can go on; nothing when it is shorter.
+/// Calls use(bytes) with parts of `size` bytes of a file from `begin` on. @return false where it is shorter
+bool read_part(const std::filesystem::path& file, std::uint64_t begin, std::uint64_t size,
+               const std::function<void(const std::string& bytes)>& use);
+/// The digest of these bytes of a file, which can go on; nothing when it is shorter.
 std::optional<Sha256> digest_of(const std::filesystem::path& file, std::uint64_t begin, std::uint64_t size);
 
 }  // namespace edmill::io

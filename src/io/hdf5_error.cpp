@@ -2,14 +2,13 @@
 #include <cstring>
 
 #include "io/file_buffer.hpp"
-#include "io/hdf5_handle.hpp"
+#include "io/hdf5_parts.hpp"
 
 namespace edmill::io {
 
 namespace {
 
-/// HDF5 keeps the error of the system only in the texts of its stack of errors: "errno = 27, error message =
-/// ...".
+/// HDF5 keeps the error of the system only in texts of its stack: "errno = 27, error message = ...".
 herr_t find_errno(unsigned, const H5E_error2_t* entry, void* error) {
   const char* text = entry->desc ? std::strstr(entry->desc, "errno = ") : nullptr;
   if (text) std::sscanf(text, "errno = %d", static_cast<int*>(error));

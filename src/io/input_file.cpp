@@ -74,17 +74,13 @@ class Spooled {
     static Spooled spooled;
     return spooled;
   }
-  void begin() {
+  /// @param change  of the number of spools
+  /// @return how many there are
+  int count(int change = 0) {
     const std::lock_guard lock(mutex_);
-    ++users_;
-  }
-  void end() {
-    const std::lock_guard lock(mutex_);
-    if (--users_ == 0) files_.clear();
-  }
-  bool is_active() {
-    const std::lock_guard lock(mutex_);
-    return users_ > 0;
+    users_ += change;
+    if (users_ == 0) files_.clear();
+    return users_;
   }
   /// A descriptor of the temporary file, which stays its own; -1 with errno when the stream cannot be read.
   int file_of(const std::string& path) {
@@ -145,9 +141,9 @@ fs::path folder_of(const std::string& path) {
 
 void end_waits_by(const std::atomic<bool>& flag) { waits_end = &flag; }
 
-Spool::Spool() { Spooled::all().begin(); }
-Spool::~Spool() { Spooled::all().end(); }
-bool Spool::is_active() { return Spooled::all().is_active(); }
+Spool::Spool() { Spooled::all().count(1); }
+Spool::~Spool() { Spooled::all().count(-1); }
+bool Spool::is_active() { return Spooled::all().count() > 0; }
 
 class InputFile::Buffer : public std::streambuf {
  public:

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <filesystem>
 #include <istream>
 #include <memory>
@@ -10,8 +9,7 @@
 
 namespace edmill::io {
 
-/// Whether a path, or "-" for standard input, names a pipe or a device, which has no folder and can be read
-/// once.
+/// Whether a path, or "-" for standard input, names a pipe or a device: no folder, and read once.
 bool is_stream(const std::string& path);
 /// Whether it names a stream or a regular file.
 bool is_readable(const std::string& path);

@@ -1,5 +1,4 @@
-// JSON written in order and with numbers of any precision, as JSON allows but common libraries do not
-// write.
+// JSON written in order and with numbers of any precision, which common libraries do not write.
 #pragma once
 
 #include <string>
@@ -16,8 +15,7 @@ class JsonText {
   JsonText() { text_ = "{"; }
 
   void begin(std::string_view key) {
-    put_key(key);
-    text_ += "{";
+    put(key, "{");
     ++depth_;
     first_ = true;
   }
@@ -27,19 +25,10 @@ class JsonText {
     text_ += "}";
     first_ = false;
   }
-  void text(std::string_view key, std::string_view value) {
-    put_key(key);
-    text_ += quoted(value);
-  }
-  template <class Integer>
-  void integer(std::string_view key, Integer value) {
-    put_key(key);
-    text_ += std::to_string(value);
-  }
-  void flag(std::string_view key, bool value) {
-    put_key(key);
-    text_ += value ? "true" : "false";
-  }
+  void text(std::string_view key, std::string_view value) { put(key, quoted(value)); }
+  void integer(std::string_view key, auto value) { put(key, std::to_string(value)); }
+  void flag(std::string_view key, bool value) { put(key, value ? "true" : "false"); }
+  void null(std::string_view key) { put(key, "null"); }
   void integers(std::string_view key, const std::vector<int>& values) {
     put_list(key, values, [](int value) { return std::to_string(value); });
   }
@@ -51,12 +40,7 @@ class JsonText {
   template <class Real>
   void number(std::string_view key, const Real& value) {
     using std::isfinite;
-    put_key(key);
-    text_ += isfinite(value) ? to_text<Real>(value) : std::string("null");
-  }
-  void null(std::string_view key) {
-    put_key(key);
-    text_ += "null";
+    isfinite(value) ? put(key, to_text<Real>(value)) : null(key);
   }
 
   /// The whole document; nothing can be added after it.
@@ -81,19 +65,17 @@ class JsonText {
     return out + "\"";
   }
   void new_line() { text_ += "\n" + std::string(2 * depth_, ' '); }
-  void put_key(std::string_view key) {
+  void put(std::string_view key, std::string_view value) {
     if (!first_) text_ += ",";
     first_ = false;
     new_line();
-    text_ += quoted(key) + ": ";
+    text_ += quoted(key) + ": " + std::string(value);
   }
 
-  template <class Value, class Text>
-  void put_list(std::string_view key, const std::vector<Value>& values, const Text& text_of) {
-    put_key(key);
-    text_ += "[";
-    for (std::size_t k = 0; k < values.size(); ++k) text_ += (k > 0 ? ", " : "") + text_of(values[k]);
-    text_ += "]";
+  void put_list(std::string_view key, const auto& values, const auto& text_of) {
+    std::string list;
+    for (const auto& value : values) list += (list.empty() ? "" : ", ") + text_of(value);
+    put(key, "[" + list + "]");
   }
 
   std::string text_;

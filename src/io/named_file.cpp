@@ -25,9 +25,8 @@ void NamedFile::write(const std::function<void(std::ostream&)>& put) {
 }
 
 std::optional<NamedFile> file_for(const std::string& name) {
-  std::optional<NamedFile> file;
-  if (!name.empty()) file.emplace(name);
-  return file;
+  if (name.empty()) return std::nullopt;
+  return std::make_optional<NamedFile>(name);
 }
 
 }  // namespace edmill::io

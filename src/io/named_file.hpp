@@ -11,8 +11,7 @@
 
 namespace edmill::io {
 
-/// To be made before the work whose result it takes: a folder in which a run is being written is refused
-/// early.
+/// To be made before the work whose result it takes: a folder that a run writes into is refused early.
 class NamedFile {
  public:
   /// @throws InputError when a run is being written into its folder

@@ -1,8 +1,10 @@
-// Folders that are written into, and the names that files have there until they are complete.
+// Folders that are written into, the names that files have there until they are complete, and the record of
+// what edmill has put there.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace edmill::io {
 
@@ -42,5 +44,21 @@ void remove_temporaries(const std::filesystem::path& folder);
 
 /// Asks the system to write the contents of a file or a folder to disk. @throws std::runtime_error
 void sync_to_disk(const std::filesystem::path& place);
+
+/// The record: a later run takes away just what it names.
+inline constexpr const char* file_record_name = ".edmill-files";
+
+/// Adds files to the record of a folder; to be called before they are put in place. Files outside the folder
+/// are left out.
+/// @throws std::runtime_error when the record was not written
+void record_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
+
+/// Removes the recorded files that are not among these, and folders that are empty then. These become the
+/// record.
+/// @throws std::runtime_error when the record was not written
+void remove_other_files(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
+
+/// Folders below this one that hold recorded files.
+std::vector<std::filesystem::path> recorded_folders(const std::filesystem::path& folder);
 
 }  // namespace edmill::io

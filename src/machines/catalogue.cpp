@@ -15,8 +15,7 @@ std::string text_of(const toml::table& table, std::string_view key) {
 }
 
 /// Entries of an array of tables.
-template <class F>
-void each(const toml::table& root, std::string_view key, const F& f) {
+void each(const toml::table& root, std::string_view key, const auto& f) {
   if (const auto* entries = root[key].as_array())
     for (const auto& entry : *entries) f(*entry.as_table());
 }
@@ -66,7 +65,6 @@ std::string table() {
     out += fmt::format("{:<16}{}, {} to {}\n", m.key, m.name, m.slowest, m.fastest);
     std::string before;
     for (const auto& s : m.settings) {
-      const auto value = s.note.empty() ? s.value : s.value + ", " + s.note;
       out += fmt::format("  {:<18}{:<26}{}\n", s.key, s.value, s.source == before ? "\"" : s.source);
       if (!s.note.empty()) out += fmt::format("  {:<18}  {}\n", "", s.note);
       before = s.source;
@@ -79,9 +77,8 @@ std::string markdown() {
   const auto& all = catalogue();
   std::string out =
       "# Machines\n\nWritten by `edmill machines --markdown`. Mills that [edmill new](usage.md) knows, with "
-      "the "
-      "source of each number. Data sheets round, and a mill wears: measure your own machine where the result "
-      "matters.\n";
+      "the source of each number. Data sheets round, and a mill wears: measure your own machine where the "
+      "result matters.\n";
   for (const auto& m : all.machines) {
     out += fmt::format("\n## {}\n\n`--mill {}`, {} to {}.\n\n| key | value | source |\n|---|---|---|\n",
                        m.name, m.key, m.slowest, m.fastest);
@@ -91,8 +88,7 @@ std::string markdown() {
   }
   out +=
       "\n## Balls\n\n`--balls 10x12.7mm:zirconia`; steel unless a material is given.\n\n| material | density "
-      "| "
-      "source |\n|---|---|---|\n";
+      "| source |\n|---|---|---|\n";
   for (const auto& m : all.materials)
     out += fmt::format("| {} | {} | {} |\n", code(m.key), m.density, m.source);
   out +=

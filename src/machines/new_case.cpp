@@ -20,8 +20,7 @@ struct Batch {
   const Material* material;
 };
 
-template <class List>
-std::string keys_of(const List& list) {
+std::string keys_of(const auto& list) {
   std::string keys;
   for (const auto& one : list) keys += (keys.empty() ? "" : ", ") + one.key;
   return keys;

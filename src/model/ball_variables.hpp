@@ -2,11 +2,10 @@
 #pragma once
 
 #include <array>
-#include <optional>
-#include <string_view>
 
 #include "base/vector.hpp"
 #include "model/ball.hpp"
+#include "model/impact_variables.hpp"
 
 namespace edmill::model {
 
@@ -20,11 +19,7 @@ inline constexpr std::array ball_variables{
 };
 #undef EDMILL_BALL_VARIABLE
 
-inline std::optional<int> find_ball_variable(std::string_view name) {
-  for (int k = 0; k < static_cast<int>(ball_variables.size()); ++k)
-    if (ball_variables[k].name == name || ball_variables[k].thesis == name) return k;
-  return std::nullopt;
-}
+inline std::optional<int> find_ball_variable(std::string_view name) { return find_in(ball_variables, name); }
 
 /// One ball as the rows of ball_variables.def see it.
 template <class Real>

@@ -2,17 +2,30 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/instant.hpp"
 #include "base/vector.hpp"
 #include "model/ball.hpp"
-#include "model/counted_dose.hpp"
 #include "model/mill.hpp"
 #include "model/stop_rules.hpp"
 
 namespace edmill::model {
+
+/// Gentle impacts may not work the powder (thesis, section 6): a dose may count only above a limit, and only
+/// its part along the normal.
+template <class Number>
+struct CountedDose {
+  bool normal_only = false;
+  Number least{0};  ///< dose of an impact, or its normal part, from which on it counts [J]
+
+  bool all() const { return !normal_only && !(least > 0); }
+  /// @param outcome  of an impact  @return [J]
+  Number of(const auto& outcome) const {
+    const Number& dose = normal_only ? outcome.normal_dose : outcome.milling_dose;
+    return dose < least ? Number(0) : dose;
+  }
+};
 
 /// The first rule that is met ends the run; at least one is set.
 template <class Real>

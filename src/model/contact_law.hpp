@@ -1,10 +1,8 @@
 // Contact laws: how fast two bodies leave an impact, and how much of their slip is left. (2.23'), (2.24')
 #pragma once
 
-#include <cstddef>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "model/laws/constant.hpp"
 #include "model/laws/custom.hpp"
@@ -38,26 +36,21 @@ Number restitution_of(const Law& law, const Number& approach_speed, const Contac
 }
 
 namespace detail {
-template <class Law, class Variant>
-struct VariantWith;
 template <class Law, class... Others>
-struct VariantWith<Law, std::variant<Others...>> {
-  using type = std::variant<Others..., Law>;
-};
+std::variant<Others..., Law> with(const std::variant<Others...>&);
 }  // namespace detail
 
 /// @tparam Number  the scalar of a run, or the exact quantity of a case file
 template <class Number>
 struct ContactLaw {
-  typename detail::VariantWith<LawOfProgram<Number>, NamedLaws<Number>>::type law;
+  decltype(detail::with<LawOfProgram<Number>>(std::declval<NamedLaws<Number>>())) law;
   Number least_separation{0};  ///< v_s [m/s]: bodies leave an impact no slower; theory.md, section 6
 
   const char* name() const {
     return std::visit([](const auto& l) { return l.name; }, law);
   }
   /// Calls visit(Parameter, value) for every parameter of the law.
-  template <class Visit>
-  void parameters(Visit&& visit) const {
+  void parameters(auto&& visit) const {
     std::visit([&](const auto& l) { l.parameters(l, visit); }, law);
   }
 
@@ -86,20 +79,13 @@ struct ContactLaw {
   }
 };
 
-namespace detail {
-
-template <class To, template <class> class Law, class From, class Convert>
-Law<To> convert_law(const Law<From>& from, const Convert& convert) {
-  return converted<Law, To>(from, convert);
-}
-
-}  // namespace detail
-
 /// The law with each of its numbers converted.
 template <class To, class From, class Convert>
 ContactLaw<To> convert_law(const ContactLaw<From>& from, const Convert& convert) {
   ContactLaw<To> to;
-  std::visit([&](const auto& law) { to.law = detail::convert_law<To>(law, convert); }, from.law);
+  std::visit(
+      [&]<template <class> class Law>(const Law<From>& law) { to.law = converted<Law, To>(law, convert); },
+      from.law);
   to.least_separation = convert(from.least_separation);
   return to;
 }

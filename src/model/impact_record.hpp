@@ -38,10 +38,8 @@ inline constexpr std::array<LoggedVector, 5> logged_vectors{{
     {"spin_after", "rad/s", "w", "_after"},
 }};
 
-/// Calls `use` with the names "x" to "wz_after" of the ball and "partner_x" to "partner_wz_after", in the
-/// order of the columns.
-template <class Use>
-void for_logged_vectors(Use&& use) {
+/// Calls `use` with the names "x" to "wz_after" and "partner_x" to "partner_wz_after", as columns come.
+void for_logged_vectors(auto&& use) {
   for (const std::string body : {"", "partner_"})
     for (const auto& vector : logged_vectors)
       for (const char* axis : {"x", "y", "z"})

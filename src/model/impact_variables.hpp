@@ -30,11 +30,12 @@ inline constexpr std::array impact_variables{
 #undef EDMILL_COUNT
 #undef EDMILL_VARIABLE
 
-/// Place in `impact_variables` of a name, ours or the thesis's.
-inline std::optional<int> find_variable(std::string_view name) {
-  for (int k = 0; k < static_cast<int>(impact_variables.size()); ++k)
-    if (!name.empty() && (impact_variables[k].name == name || impact_variables[k].thesis == name)) return k;
+/// Place in a list of variables of a name, ours or the thesis's.
+std::optional<int> find_in(const auto& variables, std::string_view name) {
+  for (int k = 0; k < static_cast<int>(variables.size()); ++k)
+    if (!name.empty() && (variables[k].name == name || variables[k].thesis == name)) return k;
   return std::nullopt;
 }
+inline std::optional<int> find_variable(std::string_view name) { return find_in(impact_variables, name); }
 
 }  // namespace edmill::model

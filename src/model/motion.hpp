@@ -73,16 +73,12 @@ using NamedMotions = std::variant<Spex8000<Number>,   //
 template <class Real>
 using MotionVariant = std::variant<SpexMotion<Real>, ChainMotion<Real>>;
 
-template <class Variant>
-struct PosesOf;
 template <class... M>
-struct PosesOf<std::variant<M...>> {
-  using type = std::variant<typename M::Pose...>;
-};
+std::variant<typename M::Pose...> poses_of(const std::variant<M...>&);
 
 /// The pose of any motion, in the order of MotionVariant.
 template <class Real>
-using AnyPose = typename PosesOf<MotionVariant<Real>>::type;
+using AnyPose = decltype(poses_of(std::declval<MotionVariant<Real>>()));
 
 /// Any motion, chosen when the case is read.
 template <class Real>
@@ -128,13 +124,11 @@ class AnyMotion {
 // The concept says what these take. Results are named: to ask whether this is a Motion then needs no bodies,
 // which every source would instantiate again. First those of a pose, then those of the motion.
 #define EDMILL_BY_POSE(Result, name)                                                    \
-  template <class... A>                                                                 \
-  Result name(const Pose& pose, const A&... a) const {                                  \
+  Result name(const Pose& pose, const auto&... a) const {                               \
     return at(pose, [&](const auto& m, const auto& own) { return m.name(own, a...); }); \
   }
 #define EDMILL_OF_MOTION(Result, name)                         \
-  template <class... A>                                        \
-  Result name(const A&... a) const {                           \
+  Result name(const auto&... a) const {                        \
     return visit([&](const auto& m) { return m.name(a...); }); \
   }
   EDMILL_BY_POSE(Vec3<Real>, axis_x)

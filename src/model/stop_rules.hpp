@@ -21,8 +21,7 @@ using StopRuleList = std::tuple<MaxCollisions, MaxMillingDose, MaxBallSpeed, Dos
 inline constexpr std::size_t stop_rule_count = std::tuple_size_v<StopRuleList>;
 
 /// Calls f(rule, its place in the list) for each.
-template <class F>
-constexpr void for_each_stop_rule(F&& f) {
+constexpr void for_each_stop_rule(auto&& f) {
   [&]<std::size_t... place>(std::index_sequence<place...>) {
     (f(std::tuple_element_t<place, StopRuleList>{}, place), ...);
   }

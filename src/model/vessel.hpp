@@ -7,7 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "base/errors.hpp"
 #include "model/vessels/algebraic.hpp"
 #include "model/vessels/box.hpp"
 #include "model/vessels/cylinder.hpp"
@@ -188,13 +187,11 @@ class AnyVessel {
 // The concept says what these take. Results are named, as those of AnyMotion. First single values, then one
 // for each wall or kind of wall.
 #define EDMILL_OF_VESSEL(Result, name)                         \
-  template <class... A>                                        \
-  Result name(const A&... a) const {                           \
+  Result name(const auto&... a) const {                        \
     return visit([&](const auto& v) { return v.name(a...); }); \
   }
 #define EDMILL_OF_WALLS(Result, name)                                  \
-  template <class... A>                                                \
-  Result name(const A&... a) const {                                   \
+  Result name(const auto&... a) const {                                \
     return visit([&](const auto& v) { return listed(v.name(a...)); }); \
   }
   EDMILL_OF_VESSEL(int, wall_count)
@@ -222,9 +219,8 @@ class AnyVessel {
 #undef EDMILL_OF_WALLS
 
  private:
-  template <class Array>
-  static auto listed(const Array& values) {
-    return PerWall<typename Array::value_type>(values.begin(), values.end());
+  static auto listed(const auto& values) {
+    return PerWall<std::decay_t<decltype(values[0])>>(values.begin(), values.end());
   }
 
   VesselVariant<Real> vessel_;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "io/atomic_file.hpp"
 #include "output/frames_output.hpp"
 
@@ -93,8 +93,7 @@ class AnimationOutput : public FramesOutput<Real> {
     to_fractions(paths_.contact);
     const auto& motion = simulation.mill().motion;
     const auto& vessel = simulation.mill().vessel;
-    // As many keys of the vessel as frames, and enough for turns of the drive, or of a piston's, between
-    // them.
+    // As many keys of the vessel as frames, and enough for turns of the drive or a piston between them.
     double frequency = 1 / static_cast<double>(motion.period());
     if (const auto* pistons = vessel.pistons())
       for (const auto& piston : pistons->given())

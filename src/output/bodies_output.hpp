@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/compensated_sum.hpp"
+#include "output/by_partner.hpp"
 #include "output/table_output.hpp"
 
 namespace edmill::output {
@@ -39,8 +39,8 @@ class BodiesOutput : public TableOutput<Real> {
                  {"area", number, "m2", "of its surface"}},
                 {this->window(until)});
     const Real time = until - this->timer().from();
-    const auto put = [&](const char* kind, std::size_t body, const Share& share, const Real& area) {
-      const Real dose = share.dose.value();
+    const auto put = [&](const char* kind, std::size_t body, const Tally<Real>& share, const Real& area) {
+      const Real dose = share.energy.value();
       this->put(kind, static_cast<std::uint64_t>(body), share.impacts, dose,
                 io::value_if(time > 0, [&] { return Real(dose / time); }), area);
     };
@@ -52,16 +52,8 @@ class BodiesOutput : public TableOutput<Real> {
   }
 
  private:
-  struct Share {
-    std::uint64_t impacts = 0;
-    numerics::CompensatedSum<Real> dose;
-
-    void add(const Real& half) { ++impacts, dose += half; }
-    void archive(Archive& a) { a(impacts, dose); }
-  };
-
   std::vector<model::WallSurface<Real>> surfaces_;  ///< by wall
-  std::vector<Share> on_balls_, on_walls_;
+  std::vector<Tally<Real>> on_balls_, on_walls_;
 };
 
 }  // namespace edmill::output

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/batches.hpp"
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "io/summary.hpp"
 #include "output/table_output.hpp"
 #include "tangent/spectrum.hpp"
@@ -20,12 +20,9 @@ struct LyapunovKeys {
   static void keys(auto& t, auto&& row) {
     row(
         casefile::Parameter{
-            "exponents",
-            Dimension::none,
-            "how many, the largest first; of N balls there are 9 N, and more than that are all of "
-            "them",
-            {1, 9000},
-            "1"},
+            "exponents", Dimension::none,
+            "how many, the largest first; of N balls there are 9 N, and more than that are all of them",
+            casefile::Range(1, 9000), "1"},
         t.exponents);
   }
 };

@@ -4,13 +4,12 @@
 #include <algorithm>
 
 #include "base/compensated_sum.hpp"
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "output/table_output.hpp"
 
 namespace edmill::output {
 
-/// What the table can show; a field has no value where nothing defines it, such as specific doses without
-/// powder.
+/// What the table can show; a field has no value where nothing defines it: specific doses without powder.
 inline const std::vector<Column>& dose_fields() {
   using enum Column::Type;
   static const std::vector<Column> fields{

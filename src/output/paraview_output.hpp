@@ -1,7 +1,7 @@
 // Frames for ParaView: NAME.pvd, and a folder NAME with balls and vessel of each frame as VTP.
 #pragma once
 
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "io/atomic_file.hpp"
 #include "io/atomic_folder.hpp"
 #include "output/frames_output.hpp"

@@ -36,8 +36,7 @@ class SceneOutput : public Output<Real> {
   const std::vector<model::Mesh>& walls() const { return walls_; }
 
   /// Calls f(wall, moved) with how far each piston stands from its wall's place [m].
-  template <class F>
-  static void for_each_piston(const model::AnyVessel<Real>& vessel, const Real& time, F&& f) {
+  static void for_each_piston(const model::AnyVessel<Real>& vessel, const Real& time, auto&& f) {
     const auto* pistons = vessel.pistons();
     for (std::size_t k = 0; pistons && k < pistons->count(); ++k) {
       const int wall = pistons->wall(k);
@@ -49,8 +48,7 @@ class SceneOutput : public Output<Real> {
 
   /// Nobody looks at it yet: look_at.
   /// @param state_of  state of a ball by its id at `time`
-  template <class StateOf>
-  Scene scene(const engine::Simulation<Real>& simulation, const Real& time, StateOf&& state_of) const {
+  Scene scene(const engine::Simulation<Real>& simulation, const Real& time, auto&& state_of) const {
     const auto& mill = simulation.mill();
     const auto now = static_cast<double>(time);
     Scene s{{walls_at(mill.vessel, time), run_.vessel_colour, vessel_frame(mill.motion, now)},

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "io/atomic_file.hpp"
 #include "output/scene_output.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "output/by_partner.hpp"
 #include "output/log_bins.hpp"
 #include "output/table_output.hpp"

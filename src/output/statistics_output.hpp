@@ -1,10 +1,9 @@
-// Sums, averages, extremes, rates and shares of variables, for each wall, all walls, other balls and all.
-// (thesis D.4.3)
+// Sums, averages, extremes, rates and shares of variables, for walls, other balls and all. (thesis D.4.3)
 #pragma once
 
 #include <vector>
 
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "output/accumulator.hpp"
 #include "output/by_partner.hpp"
 #include "output/table_output.hpp"

@@ -9,7 +9,7 @@
 #include "io/atomic_file.hpp"
 #include "io/table_hdf5.hpp"
 #include "model/impact_variables.hpp"
-#include "output/output.hpp"
+#include "output/one_file_output.hpp"
 
 namespace edmill::output {
 
@@ -46,33 +46,31 @@ inline std::string meaning_of(std::string_view variable) {
 
 /// CSV, which takes each row when it is complete, or HDF5 when the file's name ends in .h5, made at the end.
 template <class Real>
-class TableOutput : public Output<Real> {
+class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
  public:
   TableOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
               const RunContext<Real>& run)
-      : Output<Real>(spec, run), hdf5_(spec.hdf5()), file_(folder / spec.folder / spec.file, spec.append) {
+      : OneFileOutput<Real, io::AtomicFile>(spec, folder, run, spec.append), hdf5_(spec.hdf5()) {
     if (hdf5_) notes_ = run.notes;
   }
   void complete() override {
     if (hdf5_) file_.stream() << io::hdf5_columns(table_, notes_);
     file_.complete();
   }
-  void commit() override { file_.commit(); }
-  std::vector<std::filesystem::path> places() const override { return file_.places(); }
   void archive(Archive& a) override {
     Output<Real>::archive(a);
     a(file_, table_);
   }
 
  protected:
+  void archive_record(Archive& a) override = 0;
   /// To be called once: in the constructor when rows come during the run, else before the first row.
   void begin(std::vector<io::Column> columns, std::vector<std::string> comments = {}) {
     table_ = io::Table<Real>(std::move(columns), std::move(comments));
     if (!hdf5_) file_.stream() << table_.csv_head();
   }
   /// The next cells of the row, from left to right.
-  template <class... Cell>
-  void put(const Cell&... cells) {
+  void put(const auto&... cells) {
     table_.put(cells...);
     if (hdf5_ || !table_.at_row_end()) return;
     file_.stream() << table_.csv_rows();
@@ -95,8 +93,9 @@ class TableOutput : public Output<Real> {
   }
 
  private:
+  using OneFileOutput<Real, io::AtomicFile>::file_;
+
   bool hdf5_;
-  io::AtomicFile file_;
   io::Table<Real> table_;
   std::vector<io::FileNote> notes_;  ///< of HDF5
 };

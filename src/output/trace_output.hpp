@@ -1,7 +1,7 @@
 // Where one ball is: at each of its impacts, or at the end of each interval. (thesis D.4.8)
 #pragma once
 
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "output/balls_before.hpp"
 #include "output/table_output.hpp"
 

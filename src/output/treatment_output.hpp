@@ -15,10 +15,9 @@ struct TreatmentKeys {
   CoverageKeys cells;
 
   static void keys(auto& t, auto&& row) {
-    row(casefile::Parameter{"share_per_impact",
-                            Dimension::none,
+    row(casefile::Parameter{"share_per_impact", Dimension::none,
                             "fraction of the powder's volume that one impact works",
-                            {1e-12, 1}},
+                            casefile::Range(1e-12, 1)},
         t.share);
     row(casefile::Parameter{"threshold", Dimension::energy, "impacts that dissipate less work no powder",
                             model::Range::not_negative, "0 J"},

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/trigonometry.hpp"
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "model/ball_variables.hpp"
 #include "output/accumulator.hpp"
 #include "output/balls_before.hpp"
@@ -76,9 +76,8 @@ class TrendsBallsOutput : public TableOutput<Real> {
     return c.with_ball && (s == Statistic::minimum || s == Statistic::maximum);
   }
 
-  template <class StateOf>
   void write_row(const engine::Simulation<Real>& simulation, std::uint64_t impacts, const Real& time,
-                 StateOf&& state_of) {
+                 auto&& state_of) {
     std::vector<model::BallState<Real>> states;
     for (int i = 0; i < simulation.ball_count(); ++i) states.push_back(state_of(i));
     this->put(time, impacts);

@@ -1,7 +1,7 @@
 // Values of single impacts: of each, or of the first after each interval. (thesis D.4.6)
 #pragma once
 
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "output/table_output.hpp"
 
 namespace edmill::output {

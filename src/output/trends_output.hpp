@@ -1,7 +1,7 @@
 // Statistics of each interval of time, or from the start up to its end. (thesis D.4.5)
 #pragma once
 
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "output/accumulator.hpp"
 #include "output/table_output.hpp"
 

@@ -1,7 +1,7 @@
 // What the balls do to the vessel. docs/outputs.md, "vessel_load"
 #pragma once
 
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "output/table_output.hpp"
 
 namespace edmill::output {

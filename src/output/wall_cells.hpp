@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "casefile/output_columns.hpp"
+#include "casefile/output_entry.hpp"
 #include "output/output.hpp"
 
 namespace edmill::output {

@@ -1,6 +1,6 @@
 #include "prove/impact.hpp"
 
-#include "model/stall.hpp"
+#include "model/mill.hpp"
 #include "prove/exact_text.hpp"
 
 namespace edmill::prove {

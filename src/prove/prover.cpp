@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "model/stall.hpp"
+#include "model/mill.hpp"
 #include "prove/exact_text.hpp"
 
 namespace edmill::prove {

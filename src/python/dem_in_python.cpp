@@ -17,11 +17,9 @@ namespace {
 py::tuple deck_of(const Case& the_case, const std::string& code, const std::string& name, double contact_time,
                   double speed, std::optional<double> duration, std::optional<double> frames, int steps,
                   int facets) {
-  dem::DeckOptions options;
-  options.code = code, options.name = name, options.contact_time = contact_time, options.speed = speed;
-  options.duration = duration.value_or(0), options.frame_interval = frames.value_or(0);
-  options.steps = steps, options.facets = facets;
-  const auto deck = dem::make_deck(CaseAccess::spec(the_case), options);
+  const auto deck = dem::make_deck(
+      CaseAccess::spec(the_case),
+      {code, name, contact_time, speed, duration.value_or(0), frames.value_or(0), steps, facets});
   py::list files;
   for (const auto& file : deck.files) files.append(py::make_tuple(file.name, file.text));
   return py::make_tuple(files, deck.command, deck.notes);

@@ -36,8 +36,7 @@ namespace edmill::python {
 namespace {
 
 /// @return how many runs failed
-template <class Command>
-std::size_t study(const std::string& file, const std::string& folder, int jobs, const Command& command) {
+std::size_t study(const std::string& file, const std::string& folder, int jobs, const auto& command) {
   const auto result = with_interrupt(app::StudyOptions{file, folder, jobs, true}, command);
   return result ? result->counts.failed : 0;
 }
@@ -61,10 +60,8 @@ std::string compare(const std::string& a, const std::string& b, double tolerance
 std::string audit(const Case& the_case, const std::string& log, const std::vector<std::string>& columns,
                   std::optional<double> tolerance, std::optional<double> gap_tolerance,
                   std::optional<int> first_ball, const std::string& walls, bool from_start, bool identify) {
-  app::AuditOptions options;
-  options.log = log, options.columns = columns, options.tolerance = tolerance;
-  options.gap_tolerance = gap_tolerance, options.first_ball = first_ball, options.walls = walls;
-  options.from_start = from_start, options.identify = identify;
+  const app::AuditOptions options{log,        columns, tolerance,  gap_tolerance,
+                                  first_ball, walls,   from_start, identify};
   const auto& spec = CaseAccess::spec(the_case);
   return with_interrupt(options, [&](const app::AuditOptions& o) {
     const io::Spool pipes;
@@ -103,8 +100,7 @@ py::list bodies_of(const std::vector<run::Event>& events) {
 /// @return what each pair of scalars agrees on, and the events, numbers as texts of all their digits
 /// @throws UndecidedError when no two scalars agree
 py::tuple certify(const Case& the_case, std::size_t collisions, int digits, const std::string& file) {
-  app::CertifyOptions options;
-  options.file = file, options.collisions = collisions, options.digits = digits;
+  const app::CertifyOptions options{file, collisions, digits};
   const auto found =
       with_interrupt(options, [&](const auto& o) { return app::certify(CaseAccess::spec(the_case), o); });
   if (!found.undecided.empty()) throw UndecidedError(found.undecided);
@@ -182,14 +178,9 @@ py::dict estimate(const Case& the_case, const std::string& precision) {
   return facts;
 }
 
-py::list check(const Case& the_case) {
-  const auto checked = [&] {
-    const Unlocked others;
-    return app::check(CaseAccess::spec(the_case));
-  }();
-  py::list facts;
-  for (const auto& fact : checked.facts) facts.append(fact);
-  return facts;
+std::vector<std::pair<std::string, std::string>> check(const Case& the_case) {
+  const Unlocked others;
+  return app::check(CaseAccess::spec(the_case)).facts;
 }
 
 /// @return the events as CSV, the bits of the proof and those that are left

@@ -6,7 +6,6 @@
 
 #include "io/atomic_file.hpp"
 #include "io/checkpoint_file.hpp"
-#include "io/file_record.hpp"
 #include "io/output_folder.hpp"
 #include "report/animation.hpp"
 #include "report/embedded.hpp"

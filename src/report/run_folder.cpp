@@ -7,7 +7,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
-#include "casefile/case_of_run.hpp"
+#include "casefile/case_spec.hpp"
 #include "report/embedded.hpp"
 
 namespace edmill::report {

@@ -5,7 +5,6 @@
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
 #include "io/atomic_file.hpp"
-#include "io/file_record.hpp"
 
 namespace edmill::run {
 

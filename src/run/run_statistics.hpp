@@ -9,7 +9,7 @@
 #include "base/compensated_sum.hpp"
 #include "engine/observer.hpp"
 #include "io/summary.hpp"
-#include "model/counted_dose.hpp"
+#include "model/case.hpp"
 #include "model/parts/partners.hpp"
 
 namespace edmill::run {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "casefile/case_of_run.hpp"
+#include "casefile/case_spec.hpp"
 #include "io/final_state.hpp"
 #include "io/summary.hpp"
 #include "output/outputs.hpp"

@@ -11,7 +11,6 @@
 #include "casefile/case_spec.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint_file.hpp"
-#include "io/file_record.hpp"
 #include "io/table_hdf5.hpp"
 #include "io/terminal.hpp"
 

@@ -50,21 +50,21 @@ model::ContactLaw<Real> draw_law() {
       law.law = model::ConstantRestitution<Real>{draw<Real>(Real(0), Real(1)), draw<Real>(Real(-1), Real(1))};
       break;
     case 1:
-      law.law = model::RestitutionBySpeed<Real>{{{Real(1) / 10, draw<Real>(Real(0), Real(1))},
+      law.law = model::RestitutionBySpeed<Real>{slip,
+                                                {{Real(1) / 10, draw<Real>(Real(0), Real(1))},
                                                  {Real(1), draw<Real>(Real(0), Real(1))},
-                                                 {Real(5), draw<Real>(Real(0), Real(1))}},
-                                                slip};
+                                                 {Real(5), draw<Real>(Real(0), Real(1))}}};
       break;
     case 2:
-      law.law = model::Viscoelastic<Real>{draw<Real>(Real(1000000), Real(1000000000)),
-                                          draw<Real>(Real(0), Real(1) / 10000), slip};
+      law.law = model::Viscoelastic<Real>{slip, draw<Real>(Real(1000000), Real(1000000000)),
+                                          draw<Real>(Real(0), Real(1) / 10000)};
       break;
     case 3:
-      law.law = model::ElasticPlastic<Real>{draw<Real>(Real(1000000000), Real(100000000000)),
-                                            draw<Real>(Real(1000000), Real(1000000000)), slip};
+      law.law = model::ElasticPlastic<Real>{slip, draw<Real>(Real(1000000000), Real(100000000000)),
+                                            draw<Real>(Real(1000000), Real(1000000000))};
       break;
     case 4:
-      law.law = model::PowderLoad<Real>{draw<Real>(Real(5) / 2, Real(10)), slip};
+      law.law = model::PowderLoad<Real>{slip, draw<Real>(Real(5) / 2, Real(10))};
       break;
     case 5:
       law.law = model::RestitutionBySlip<Real>{draw<Real>(Real(0), Real(1)),

@@ -67,7 +67,7 @@ TEST(Viscoelastic, BeginsAsTheSeriesDoes) {
 
 // In SI units, for two bodies and a wall: the equation of motion itself with the stiffness of Hertz.
 TEST(Viscoelastic, ScalesWithBodiesAndSpeed) {
-  const Viscoelastic<double> law{2e8, 4e-6, no_slip};
+  const Viscoelastic<double> law{no_slip, 2e8, 4e-6};
   for (const auto& bodies : {ContactBodies<double>{4e-4, 2.4e-3}, ContactBodies<double>{2e-4, 2e-3, 3e-3}})
     for (const double speed : {0.01, 0.5, 3.0}) {
       const double radius = bodies.with_wall() ? 2.4e-3 : 1.2e-3;
@@ -82,7 +82,7 @@ TEST(Viscoelastic, ScalesWithBodiesAndSpeed) {
 // flattened radius. The restitution is the root of what is given back over what was put in.
 TEST(ElasticPlastic, GivesBackTheEnergyOfUnloading) {
   const double modulus = 1e11, pressure = 2e9, radius = 2e-3, mass = 5e-4, pi = std::acos(-1.0);
-  const ElasticPlastic<double> law{modulus, pressure, no_slip};
+  const ElasticPlastic<double> law{no_slip, modulus, pressure};
   const ContactBodies<double> bodies{mass, radius};
   const double a = pi * pressure * radius / (2 * modulus), depth = a * a / radius;
   const double yield_force = 4.0 / 3 * modulus * std::sqrt(radius) * std::pow(depth, 1.5);
@@ -104,7 +104,7 @@ TEST(ElasticPlastic, GivesBackTheEnergyOfUnloading) {
 }
 
 TEST(ElasticPlastic, FallsWithTheFourthRootOfTheSpeed) {
-  const ElasticPlastic<double> law{1e11, 1e8, no_slip};
+  const ElasticPlastic<double> law{no_slip, 1e11, 1e8};
   const ContactBodies<double> bodies{5e-4, 2e-3};
   const double at = law.restitution(10, bodies), beyond = law.restitution(160, bodies);
   EXPECT_NEAR(at / beyond, 2, 1e-3);
@@ -112,14 +112,14 @@ TEST(ElasticPlastic, FallsWithTheFourthRootOfTheSpeed) {
 
 // (6 3^(1/2) / 5)^(1/2) (2 (6/5)^(1/2))^(-1/4) = 1.1850: the limit of e_n (v/v_y)^(1/4) at large speed.
 TEST(ElasticPlastic, HasTheFactorOfTheClosedForm) {
-  const ElasticPlastic<double> law{1e11, 1e8, no_slip};
+  const ElasticPlastic<double> law{no_slip, 1e11, 1e8};
   const ContactBodies<double> bodies{5e-4, 2e-3};
   const double speed = 1e4, ratio = speed / law.yield_speed(bodies);
   EXPECT_NEAR(law.restitution(speed, bodies) * std::pow(ratio, 0.25), 1.1850, 1e-4);
 }
 
 TEST(RestitutionBySpeed, IsTheTableAndMonotoneBetweenItsPoints) {
-  const RestitutionBySpeed<double> law{{{{0.1, 0.9}}, {{1, 0.7}}, {{2, 0.65}}, {{8, 0.25}}}, no_slip};
+  const RestitutionBySpeed<double> law{no_slip, {{{0.1, 0.9}}, {{1, 0.7}}, {{2, 0.65}}, {{8, 0.25}}}};
   EXPECT_EQ(law.restitution(0), 0.9);
   for (const auto& point : law.points) EXPECT_EQ(law.restitution(point[0]), point[1]);
   EXPECT_EQ(law.restitution(100), 0.25);
@@ -153,12 +153,12 @@ TEST(PowderLoad, IsTheTableOfTheThesis) {
   const double ratios[3] = {2.5, 5, 10}, millimetres[4] = {2.36, 3.16, 4.76, 9.52};
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column) {
-      const PowderLoad<double> law{ratios[row], no_slip};
+      const PowderLoad<double> law{no_slip, ratios[row]};
       const double radius = millimetres[column] / 2000;
       EXPECT_NEAR(law.restitution(1, {1, radius}), table[row][column], 1e-15);
       EXPECT_NEAR(law.restitution(3, {1, radius, radius}), table[row][column], 1e-15);
     }
-  const PowderLoad<double> between{3.75, no_slip};
+  const PowderLoad<double> between{no_slip, 3.75};
   EXPECT_NEAR(between.restitution(1, {1, 3.96e-3 / 2}), (0.54 + 0.53 + 0.60 + 0.56) / 4, 1e-14);
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cli/list_variables.hpp"
+#include "cli/commands/check.hpp"
 #include "hdf5_table.hpp"
 #include "run_with_outputs.hpp"
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "casefile/case_spec.hpp"
 #include "casefile/memory_for.hpp"
 #include "cli/signals.hpp"
+#include "io/input_file.hpp"
 
 namespace edmill::cli {
 
@@ -24,15 +26,18 @@ struct CaseArgument {
   casefile::CaseSpec read() const { return casefile::read_case(file, overrides); }
 };
 
+/// Name for the outputs of a case: the stem of its file.
+inline std::string name_of(const std::string& case_file) {
+  return io::is_stream(case_file) ? "stdin" : std::filesystem::path(case_file).stem().string();
+}
+
 /// For work that does not report interruptions itself. @return the exit code of work()
-template <class Options, class Work>
-int interruptible(Options& options, const Work& work) {
+int interruptible(auto& options, const auto& work) {
   options.interrupt = &interrupt_flag();
   listen_for_signals();
   return after_signals(work());
 }
-template <class Options, class Command>
-int interruptible(const casefile::CaseSpec& spec, Options& options, const Command& command) {
+int interruptible(const casefile::CaseSpec& spec, auto& options, const auto& command) {
   return interruptible(
       options, [&] { return casefile::with_memory_for(spec, [&] { return command(spec, options); }); });
 }

@@ -1,9 +1,15 @@
 // The commands that show what is certain about a case.
 #pragma once
 
+#include "app/certify.hpp"
+#include "app/prove.hpp"
+#include "base/errors.hpp"
+#include "casefile/precisions.hpp"
 #include "cli/commands/case_argument.hpp"
-#include "cli/precision_commands.hpp"
-#include "cli/run_command.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/failures.hpp"
+#include "cli/progress_line.hpp"
+#include "io/terminal.hpp"
 
 namespace edmill::cli {
 
@@ -19,16 +25,33 @@ struct Certify {
     command.add_option("--digits", options_.digits, "to how many digits; 25 unless given")
         ->check(CLI::Range(1, 100000));
     command.add_option("--out", options_.file, "file; out/<case name>.reference.csv unless given");
-    command.add_flag("--quiet", options_.quiet, "no progress and no report");
+    command.add_flag("--quiet", quiet_, "no progress and no report");
   }
   int run() {
     if (options_.file.empty()) options_.file = "out/" + name_of(given_.file) + ".reference.csv";
-    return interruptible(given_.read(), options_, run_certify);
+    return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) -> int {
+      const bool show = shows_progress(quiet_);
+      if (show)
+        options.progress = [&](const std::string& precision, std::size_t events) {
+          const auto all = options.collisions == 0 ? "" : fmt::format(" of {}", options.collisions);
+          io::tell("{}{}: {}{} events ", no_line, precision, events, all);
+        };
+      const auto result = app::certify(spec, options, [&](const app::Evidence& evidence) {
+        if (show) io::tell("{}", no_line);
+        if (!quiet_) io::print("{} ({:.1f} s)\n", evidence.text(), evidence.seconds);
+      });
+      if (show) io::tell("{}", no_line);
+      if (result.interrupted) return ok;
+      if (!result.undecided.empty()) return tell_undecided(result.undecided);
+      if (!quiet_) io::print("certified: {}\n", options.file);
+      return ok;
+    });
   }
 
  private:
   CaseArgument given_;
-  CertifyOptions options_;
+  app::CertifyOptions options_;
+  bool quiet_ = false;
 };
 
 struct Prove {
@@ -38,7 +61,7 @@ struct Prove {
   void add_options(CLI::App& command) {
     given_.add_to(command);
     auto* check = command.add_option(
-        "--check", options_.checked,
+        "--check", checked_,
         "prove nothing, but check whether the header of this certificate is that of the case");
     command.add_option("--collisions", options_.collisions, "how many events")
         ->check(CLI::Range(1, 10000000))
@@ -52,15 +75,62 @@ struct Prove {
     command.add_option("--most-bits", options_.most_bits, "largest number of bits; 16384 unless given")
         ->check(CLI::Range(128, 1048576))
         ->excludes(check);
-    command.add_flag("--compare", options_.compare, "also report how many events each precision gets right")
+    command.add_flag("--compare", compare_, "also report how many events each precision gets right")
         ->excludes(check);
-    command.add_flag("--quiet", options_.quiet, "no progress and no report");
+    command.add_flag("--quiet", quiet_, "no progress and no report");
   }
-  int run() { return interruptible(given_.read(), options_, run_prove); }
+  int run() {
+    return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) {
+      return checked_.empty() ? prove(spec, options) : check_header(spec);
+    });
+  }
 
  private:
+  int prove(const casefile::CaseSpec& spec, app::ProveOptions& options) const {
+    if (options.collisions == 0)
+      throw InputError(
+          "prove: found neither --collisions nor --check, expected how many events, or a certificate");
+    const bool show = shows_progress(quiet_);
+    if (show)
+      options.progress = [&](long bits, std::size_t events) {
+        if (events % 16 == 0) io::tell("\r{} bits: {} of {} events ", bits, events, options.collisions);
+      };
+    const auto result = app::prove(spec, options);
+    const auto& proof = result.proof;
+    if (show) io::tell("{}", no_line);
+    if (!quiet_)
+      for (const auto& attempt : proof.attempts)
+        io::print("{} bits: {} events{}\n", attempt.bits, attempt.events,
+                  attempt.undecided.empty() ? "" : "; undecided: " + attempt.undecided);
+    if (proof.interrupted) return ok;
+    if (!proof.impossible.empty()) return tell_undecided(proof.impossible);
+    if (quiet_) return ok;
+    io::print("proven: {} events in {} bits, {:.2f} bits lost per event ({:.1f} s)\n", proof.events.size(),
+              proof.bits,
+              static_cast<double>(proof.bits - proof.accuracy) / static_cast<double>(proof.events.size()),
+              result.seconds);
+    if (compare_)
+      for (const auto& precision : casefile::precisions())
+        io::print("{:<9} {} events right\n", precision, app::right_events(precision, spec, proof));
+    return ok;
+  }
+
+  /// Whether the certificate is one of this case.
+  int check_header(const casefile::CaseSpec& spec) const {
+    const auto differences = app::check_certificate(spec, checked_);
+    for (const auto& line : differences) io::print("{}\n", line);
+    if (!quiet_ && differences.empty())
+      io::print("{} is of the case {}; check_certificate says whether its events are proven\n", checked_,
+                spec.file);
+    if (!quiet_ && !differences.empty()) io::print("{} is of another case than {}\n", checked_, spec.file);
+    return differences.empty() ? ok : outputs_differ;
+  }
+
   CaseArgument given_;
-  ProveOptions options_;
+  app::ProveOptions options_;
+  std::string checked_;   ///< a certificate whose header is to be that of the case; else one is proven
+  bool compare_ = false;  ///< also print how many events each scalar gets right
+  bool quiet_ = false;
 };
 
 }  // namespace edmill::cli

@@ -1,17 +1,29 @@
 // The commands between edmill and DEM codes.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <variant>
 
 #include "casefile/quantity.hpp"
 #include "cli/commands/case_argument.hpp"
-#include "cli/dem_command.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/progress_line.hpp"
+#include "dem/deck.hpp"
+#include "dem/import_dump.hpp"
+#include "dem/limit.hpp"
+#include "io/named_file.hpp"
+#include "io/terminal.hpp"
 
 namespace edmill::cli {
 
+/// Writes a text into a file; into none where the name is empty.
+inline void write_to(const std::string& name, const std::string& text) {
+  if (auto file = io::file_for(name)) file->write([&](std::ostream& out) { out << text; });
+}
+
 /// An option that is a quantity with a unit, "50 us", kept in SI.
-template <class Target>
-CLI::Option* add_quantity(CLI::App& command, const std::string& name, Target& target,
+CLI::Option* add_quantity(CLI::App& command, const std::string& name, auto& target,
                           casefile::Dimension dimension, const std::string& what) {
   return command.add_option_function<std::string>(
       name,
@@ -39,13 +51,8 @@ struct Export {
     command.add_option("--to", options_.code, "DEM code")
         ->required()
         ->check(CLI::IsMember(std::vector<std::string>(dem::deck_codes.begin(), dem::deck_codes.end())));
-    command.add_option("--out", options_.folder, "folder for the deck; the working directory unless given");
-    command.add_option("--name", options_.name, "of the files; deck unless given")
-        ->check([](const std::string& text) {
-          return text.find_first_of("/ \t'\"") == std::string::npos && !text.empty()
-                     ? ""
-                     : "expected a plain file name";
-        });
+    command.add_option("--out", folder_, "folder for the deck; the working directory unless given");
+    command.add_option("--name", options_.name, "of the files; deck unless given")->check(problem_of_name);
     add_quantity(command, "--contact-time", options_.contact_time, Dimension::time,
                  "how long the largest ball touches a wall; \"50 us\" unless given");
     add_quantity(command, "--contact-speed", options_.speed, Dimension::speed,
@@ -61,13 +68,33 @@ struct Export {
             "--facets", options_.facets,
             "of a cylinder where the code has only triangles; 128 in LIGGGHTS and 24 in YADE unless given")
         ->check(CLI::Range(8, 4096));
-    command.add_flag("--quiet", options_.quiet, "print nothing");
+    command.add_flag("--quiet", quiet_, "print nothing");
   }
-  int run() { return run_export(given_.read(), options_); }
+  int run() {
+    const auto spec = given_.read();
+    const auto deck = dem::make_deck(spec, options_);
+    const std::filesystem::path folder(folder_);
+    for (const auto& file : deck.files) write_to((folder / file.name).string(), file.text);
+    if (quiet_) return ok;
+    for (const auto& file : deck.files) io::print("wrote {}\n", (folder / file.name).string());
+    for (const auto& note : deck.notes) io::print("note: {}\n", note);
+    io::print(
+        "run it there:    {}\nthen:            edmill import {}.dump --case {} --deck {} --out "
+        "{}.contacts.csv\n",
+        deck.command, options_.name, spec.file, deck.files.front().name, options_.name);
+    return ok;
+  }
 
  private:
+  static std::string problem_of_name(const std::string& text) {
+    const bool plain = text.find_first_of("/ \t'\"") == std::string::npos && !text.empty();
+    return plain ? "" : "expected a plain file name";
+  }
+
   CaseArgument given_;
-  ExportOptions options_;
+  dem::DeckOptions options_;
+  std::string folder_ = ".";
+  bool quiet_ = false;
 };
 
 struct Import {
@@ -78,28 +105,45 @@ struct Import {
     command
         .add_option("dump", options_.dump,
                     "frames: `dump custom` of LAMMPS (text or binary) or LIGGGHTS, or a table, also "
-                    "compressed; - for "
-                    "standard input; or a list of contacts with walls, as Lethe writes it")
+                    "compressed; - for standard input; or a list of contacts with walls, as Lethe writes it")
         ->required();
     given_.add_to(command, "--case");
-    command.add_option("--out", options_.out, "log of contacts (CSV); contacts.csv unless given");
+    command.add_option("--out", out_, "log of contacts (CSV); contacts.csv unless given");
     command.add_option("--deck", options_.deck, "input of the code, which gives time step, units and frame");
     add_quantity(command, "--timestep", options_.time_step, casefile::Dimension::time,
                  "of a dump that has no times");
     command.add_option("--units", options_.units, "of the dump; si unless the dump or the deck names them")
         ->check(CLI::IsMember({"si", "cgs", "micro", "nano"}));
-    command.add_option("--frame", options_.frame, "frame of the dump; laboratory unless the deck names it")
+    command.add_option("--frame", frame_, "frame of the dump; laboratory unless the deck names it")
         ->check(CLI::IsMember({"laboratory", "vessel"}));
-    command.add_flag("--quiet", options_.quiet, "no progress line and no table");
+    command.add_flag("--quiet", quiet_, "no progress line and no table");
   }
   int run() {
-    if (options_.out.empty()) options_.out = "contacts.csv";
-    return interruptible(given_.read(), options_, run_import);
+    if (out_.empty()) out_ = "contacts.csv";
+    options_.in_vessel = frame_ == "vessel";
+    return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) {
+      std::optional<ProgressLine> line;
+      if (shows_progress(quiet_)) {
+        line.emplace();
+        options.progress = [&line](double time, std::uint64_t contacts) {
+          line->show(time, std::nullopt, contacts);
+        };
+      }
+      io::NamedFile file(out_);
+      dem::ContactLogWriter log;
+      const auto imported = dem::import_dump(spec, options, log);
+      line.reset();
+      file.write([&](std::ostream& out) { log.write(out, imported.facts); });
+      if (!quiet_) io::print("{}", dem::table(imported, out_));
+      return ok;
+    });
   }
 
  private:
   CaseArgument given_;
-  ImportOptions options_;
+  dem::ImportOptions options_;
+  std::string out_, frame_;
+  bool quiet_ = false;
 };
 
 struct Limit {
@@ -107,21 +151,28 @@ struct Limit {
   static constexpr const char* what = "extrapolate logs of contacts to contacts of no duration";
 
   void add_options(CLI::App& command) {
-    command.add_option("logs", options_.logs, "logs of contacts of one deck with several contact times")
+    command.add_option("logs", logs_, "logs of contacts of one deck with several contact times")
         ->required()
         ->expected(2, 100);
-    command.add_option("--edmill", options_.run,
-                       "run of edmill, or its collision log, to compare the limit with");
-    add_quantity(command, "--from", options_.from, casefile::Dimension::time,
-                 "time to begin at; all unless given");
-    command.add_option("--json", options_.json, "file for the result in JSON");
-    command.add_option("--draw", options_.svg, "file for a drawing (SVG)");
-    command.add_flag("--quiet", options_.quiet, "no table");
+    command.add_option("--edmill", run_, "run of edmill, or its collision log, to compare the limit with");
+    add_quantity(command, "--from", from_, casefile::Dimension::time, "time to begin at; all unless given");
+    command.add_option("--json", json_, "file for the result in JSON");
+    command.add_option("--draw", svg_, "file for a drawing (SVG)");
+    command.add_flag("--quiet", quiet_, "no table");
   }
-  int run() { return run_limit(options_); }
+  int run() {
+    const auto limit = dem::limit_of(logs_, run_, from_);
+    write_to(json_, dem::to_json(limit));
+    write_to(svg_, dem::to_svg(limit));
+    if (!quiet_) io::print("{}", dem::table(limit));
+    return ok;
+  }
 
  private:
-  LimitOptions options_;
+  std::vector<std::string> logs_;
+  std::string run_, json_, svg_;
+  double from_ = 0;
+  bool quiet_ = false;
 };
 
 }  // namespace edmill::cli

@@ -12,8 +12,7 @@ struct ConstantRestitution {
   Number normal{1};      ///< e_n
   Number tangential{1};  ///< e_t
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
+  static void parameters(auto& law, auto&& visit) {
     visit(Parameter{"restitution", Dimension::none, "e_n", {0, 1}}, law.normal);
     visit(Parameter{"restitution_tangential", Dimension::none, "e_t", {-1, 1}}, law.tangential);
   }

@@ -22,8 +22,7 @@ struct CoulombSlip {
   Number friction{0};         ///< mu
   Number min_tangential{-1};  ///< beta, the lowest e_t
 
-  template <class Slip, class Visit>
-  static void parameters(Slip& slip, Visit&& visit) {
+  static void parameters(auto& slip, auto&& visit) {
     visit(Parameter{"friction", Dimension::none, "mu", {0, 1000000}}, slip.friction);
     visit(Parameter{"min_tangential", Dimension::none, "least e_t", {-1, 1}, "-1"}, slip.min_tangential);
   }

@@ -17,8 +17,7 @@ struct LawOfProgram {
 
   std::shared_ptr<const edmill::CustomLaw<Real>> law;
 
-  template <class Law, class Visit>
-  static void parameters(Law&, Visit&&) {}
+  static void parameters(auto&, auto&&) {}
 
   /// @throws InputError unless the program's answer is in [0, 1]
   Real restitution(const Real& approach_speed) const {

@@ -12,20 +12,18 @@ namespace edmill::model {
 /// Hertz's force up to a contact pressure, a constant pressure beyond, elastic unloading: e_n is 1 below the
 /// yield speed and falls as v^(-1/4) far above it. Source: Thornton 1997, (40) and (33).
 template <class Number>
-struct ElasticPlastic {
+struct ElasticPlastic : CoulombSlip<Number> {
   static constexpr const char* name = "elastic-plastic";
 
   Number modulus{1};         ///< E* [Pa]
   Number yield_pressure{1};  ///< p_y [Pa] at the centre of the contact
-  CoulombSlip<Number> slip;
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
+  static void parameters(auto& law, auto&& visit) {
     visit(effective_modulus, law.modulus);
     visit(Parameter{"yield_pressure", Dimension::pressure, "contact pressure at which yielding begins",
                     Range::positive},
           law.yield_pressure);
-    law.slip.parameters(law.slip, visit);
+    CoulombSlip<Number>::parameters(law, visit);
   }
 
   /// v_y [m/s], at which the energy of the approach takes Hertz's pressure to p_y:
@@ -45,10 +43,6 @@ struct ElasticPlastic {
     const Number unloading = ratio / (ratio + 2 * sqrt((6 - square) / 5));
     const Number e = sqrt(6 * sqrt(Number(3)) / 5 * (1 - square / 6) * sqrt(unloading));
     return e < 1 ? e : Number(1);
-  }
-  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
-                             const Number& compliance) const {
-    return slip.restitution_of_slip(normal_change, slip_speed, compliance);
   }
 };
 

@@ -11,7 +11,7 @@ namespace edmill::model {
 /// Table 5.3 of Barahona 2011 after Ward et al. 2005: balls of steel with Al-Fe2O3. Between its points e_n
 /// is linear in the charge ratio and in the diameter; balls of two diameters count with the mean of both.
 template <class Number>
-struct PowderLoad {
+struct PowderLoad : CoulombSlip<Number> {
   static constexpr const char* name = "powder-load";
   static constexpr std::array<int, 3> charge_ratios{25, 50, 100};                ///< [1/10]
   static constexpr std::array<int, 4> diameters{2360, 3160, 4760, 9520};         ///< [um]
@@ -20,18 +20,12 @@ struct PowderLoad {
                                                               {80, 74, 64, 55}}};
 
   Number charge_ratio{5};  ///< mass of the balls over that of the powder
-  CoulombSlip<Number> slip;
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
-    visit(Parameter{"charge_ratio",
-                    Dimension::none,
-                    "mass of the balls over that of the powder",
-                    {2.5, 10},
-                    nullptr,
-                    "that of the case"},
+  static void parameters(auto& law, auto&& visit) {
+    visit(Parameter{"charge_ratio", Dimension::none, "mass of the balls over that of the powder",
+                    Range(2.5, 10), nullptr, "that of the case"},
           law.charge_ratio);
-    law.slip.parameters(law.slip, visit);
+    CoulombSlip<Number>::parameters(law, visit);
   }
 
   Number restitution(const Number&, const ContactBodies<Number>& bodies) const {
@@ -42,10 +36,6 @@ struct PowderLoad {
       return Number(e[size.below] * (1 - size.share) + e[size.below + 1] * size.share);
     };
     return (of_row(load.below) * (1 - load.share) + of_row(load.below + 1) * load.share) / 100;
-  }
-  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
-                             const Number& compliance) const {
-    return slip.restitution_of_slip(normal_change, slip_speed, compliance);
   }
 
  private:

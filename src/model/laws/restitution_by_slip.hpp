@@ -22,16 +22,12 @@ struct RestitutionBySlip {
   Number normal{0};
   LawTable<Number> points;  ///< |g_t| / |g_n|, rising, and e_t
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
+  static void parameters(auto& law, auto&& visit) {
     visit(Parameter{"restitution", Dimension::none, "e_n", {0, 1}}, law.normal);
     for (auto& point : law.points)
       for (std::size_t k = 0; k < 2; ++k) visit(table_rows[k], point[k]);
   }
-  template <class From>
-  void take_shape(const RestitutionBySlip<From>& from) {
-    points.resize(from.points.size());
-  }
+  void take_shape(const auto& from) { points.resize(from.points.size()); }
 
   const Number& restitution(const Number&) const { return normal; }
   /// @pre there are points

@@ -9,7 +9,7 @@ namespace edmill::model {
 /// Straight lines between the points of the table, constant below the first and above the last one: what
 /// grows or falls in the table does so between its points, and another code has the same law in three lines.
 template <class Number>
-struct RestitutionBySpeed {
+struct RestitutionBySpeed : CoulombSlip<Number> {
   static constexpr const char* name = "restitution-by-speed";
   static constexpr const char* table = "restitution_by_speed";
   static constexpr Parameter table_rows[] = {
@@ -19,25 +19,16 @@ struct RestitutionBySpeed {
       "points [speed, restitution], speeds rising from 0 or more, restitutions from 0 to 1";
 
   LawTable<Number> points;  ///< approach speed [m/s], rising, and e_n
-  CoulombSlip<Number> slip;
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
+  static void parameters(auto& law, auto&& visit) {
     for (auto& point : law.points)
       for (std::size_t k = 0; k < 2; ++k) visit(table_rows[k], point[k]);
-    law.slip.parameters(law.slip, visit);
+    CoulombSlip<Number>::parameters(law, visit);
   }
-  template <class From>
-  void take_shape(const RestitutionBySpeed<From>& from) {
-    points.resize(from.points.size());
-  }
+  void take_shape(const auto& from) { points.resize(from.points.size()); }
 
   /// @pre there are points
   Number restitution(const Number& approach_speed) const { return value_at(points, approach_speed); }
-  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
-                             const Number& compliance) const {
-    return slip.restitution_of_slip(normal_change, slip_speed, compliance);
-  }
 };
 
 }  // namespace edmill::model

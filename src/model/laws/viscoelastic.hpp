@@ -13,19 +13,17 @@ namespace edmill::model {
 /// restitution depends on v* = (3/2 A)^(1/2) ((k/M)^2 v)^(1/10) alone. Sources: Ramirez, Poeschel,
 /// Brilliantov and Schwager 1999; the rational approximation by Mueller and Poeschel 2011.
 template <class Number>
-struct Viscoelastic {
+struct Viscoelastic : CoulombSlip<Number> {
   static constexpr const char* name = "viscoelastic";
 
   Number modulus{1};           ///< E* [Pa]
   Number dissipative_time{1};  ///< A [s]
-  CoulombSlip<Number> slip;
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
+  static void parameters(auto& law, auto&& visit) {
     visit(effective_modulus, law.modulus);
     visit(Parameter{"dissipative_time", Dimension::time, "A of the dissipative force", Range::positive},
           law.dissipative_time);
-    law.slip.parameters(law.slip, visit);
+    CoulombSlip<Number>::parameters(law, visit);
   }
 
   Number restitution(const Number& approach_speed, const ContactBodies<Number>& bodies) const {
@@ -41,10 +39,6 @@ struct Viscoelastic {
     const auto c = [](int millionths) { return Number(millionths) / 1000000; };
     const Number one = 1 + c(501086) * v;
     return one / (one + v * v * (c(1153450) + v * (c(577977) + v * c(532178))));
-  }
-  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
-                             const Number& compliance) const {
-    return slip.restitution_of_slip(normal_change, slip_speed, compliance);
   }
 };
 

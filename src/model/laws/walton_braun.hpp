@@ -5,8 +5,7 @@
 
 namespace edmill::model {
 
-/// Source: Walton and Braun 1986; Barahona 2011, (2.24), for balls of any mass as in docs/theory.md, section
-/// 5.
+/// Source: Walton and Braun 1986; Barahona 2011, (2.24), for balls of any mass as in theory.md, section 5.
 template <class Number>
 struct WaltonBraun {
   static constexpr const char* name = "walton-braun";
@@ -15,8 +14,7 @@ struct WaltonBraun {
   Number friction{0};         ///< mu
   Number min_tangential{-1};  ///< lowest e_t
 
-  template <class Law, class Visit>
-  static void parameters(Law& law, Visit&& visit) {
+  static void parameters(auto& law, auto&& visit) {
     visit(Parameter{"restitution", Dimension::none, "e_n", {0, 1}}, law.normal);
     visit(Parameter{"friction", Dimension::none, "mu", {0, 1000000}}, law.friction);
     visit(Parameter{"min_tangential", Dimension::none, "least e_t", {-1, 1}, "-1"}, law.min_tangential);

@@ -18,6 +18,12 @@ Real magnitude(const Real& x) {
   return x < 0 ? Real(-x) : x;
 }
 
+/// A vector that is turned about an axis. (Rodrigues)
+template <class Real>
+Vec3<Real> turned_about(const Vec3<Real>& v, const Vec3<Real>& axis, const numerics::SinCos<Real>& angle) {
+  return v * angle.cos + cross<Real>(axis, v) * angle.sin + axis * Real(dot<Real>(axis, v) * (1 - angle.cos));
+}
+
 /// Bounds on the sizes of vectors in the frame that moves: of the angular velocity and its first three
 /// derivatives, of the acceleration of the origin and its first two, all as the frame itself sees them.
 template <class Real>
@@ -44,7 +50,7 @@ struct ChainBounds {
       if (!joint.rotates) {
         shift(joint, rates);
       } else if (!(rates[1] > 0)) {
-        if (common) *common = turned_back(*common, axis, joint.angle);
+        if (common) *common = turned_about<Real>(*common, axis, numerics::sin_cos_turns<Real>(-joint.angle));
       } else {
         parallel = parallel && (!common || are_parallel(*common, axis));
         if (common && dot<Real>(*common, axis) < 0) sum = -sum;
@@ -108,11 +114,6 @@ struct ChainBounds {
   }
   static bool are_parallel(const Vec3<Real>& a, const Vec3<Real>& b) {
     return squared_norm<Real>(cross<Real>(a, b)) < 64 * epsilon<Real>() * epsilon<Real>();
-  }
-  static Vec3<Real> turned_back(const Vec3<Real>& v, const Vec3<Real>& axis, const Real& turns) {
-    const auto angle = numerics::sin_cos_turns<Real>(-turns);
-    return v * angle.cos + cross<Real>(axis, v) * angle.sin +
-           axis * Real(dot<Real>(axis, v) * (1 - angle.cos));
   }
 
   /// k-th derivative of a product. (Leibniz)
@@ -186,17 +187,13 @@ SweptBox<Real> swept_box(const Joints<Real>& joints, const Vec3<Real>& sizes) {
     const Real farthest = norm<Real>(Vec3<Real>(middle.cwiseAbs() + half));
     // By the constant angle, and by the most that the swings add; or all around.
     const auto angle = numerics::sin_cos_turns<Real>(joint->angle);
-    const auto turned = [&](const Vec3<Real>& v) {
-      return Vec3<Real>(v * angle.cos + cross<Real>(axis, v) * angle.sin +
-                        axis * Real(dot<Real>(axis, v) * (1 - angle.cos)));
-    };
     const Real more = joint->speed == 0 ? Real(2 * numerics::pi<Real>() * swing * farthest) : 2 * farthest;
     Vec3<Real> reach = Vec3<Real>::Constant(more);
     for (int k = 0; k < 3; ++k) {
       const Vec3<Real> unit = Vec3<Real>::Unit(k);
-      reach += turned(unit).cwiseAbs() * half[k];
+      reach += turned_about<Real>(unit, axis, angle).cwiseAbs() * half[k];
     }
-    const Vec3<Real> centre = turned(middle);
+    const Vec3<Real> centre = turned_about<Real>(middle, axis, angle);
     // What is at a height along the axis stays there, and what is at a distance from it keeps that.
     for (int k = 0; k < 3; ++k) {
       const Real height = magnitude<Real>(axis[k]) * bound_along(axis, middle, half);

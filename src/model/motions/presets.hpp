@@ -22,8 +22,7 @@ struct Chain {
   static constexpr const char* name = "chain";
   Joints<Number> given;
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     for (auto& joint : part.given.list) {
       visit(Parameter{joint.rotates ? "rotate" : "translate", Dimension::none, ""}, joint.axis);
       visit(Parameter{"shift", Dimension::length, ""}, joint.shift);
@@ -45,8 +44,7 @@ struct Planetary {
   static constexpr const char* name = "planetary";
   Number radius, period, ratio;
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(Parameter{"radius", Dimension::length, "of the disc, to the centre of the jar", Range::positive},
           part.radius);
     visit(Parameter{"speed", Dimension::angular_speed, "of the disc, about Y", Range::drive}, part.period);
@@ -71,8 +69,7 @@ struct Drum {
   static constexpr const char* name = "drum";
   Number period;
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(Parameter{"speed", Dimension::angular_speed, "of the drum, about its y axis, horizontal along Z",
                     Range::drive},
           part.period);
@@ -93,8 +90,7 @@ struct Vibratory {
   std::array<Number, 3> amplitude, quarter;
   Number period;
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(Parameter{"amplitude", Dimension::length, "A of the centre's position, A sin(w t) + B cos(w t)"},
           part.amplitude);
     visit(Parameter{"amplitude_quarter", Dimension::length, "B of it", Range::any, "0 m"}, part.quarter);

@@ -2,8 +2,6 @@
 // Source: Barahona 2011, section 2.2.2 and (2.2)-(2.16), as corrected in docs/theory.md, section 1.
 #pragma once
 
-#include <cstddef>
-
 #include "base/archive.hpp"
 #include "base/instant.hpp"
 #include "base/scalar.hpp"
@@ -65,12 +63,40 @@ class SpexMotion {
   const Real& angular_speed() const { return angular_speed_; }  ///< w = 2 pi / period [rad/s]
 
   /// (2.2), (2.5)
-  Pose pose(const Instant<Real>& when) const;
+  Pose pose(const Instant<Real>& when) const {
+    const auto phase = numerics::sin_cos_turns<Real>(when.offset * frequency_);
+    const Real alpha = theta_max_ * phase.cos;
+    const Real gamma = gamma_max_ * phase.sin;
+    const auto a = numerics::sin_cos<Real>(alpha), g = numerics::sin_cos<Real>(gamma);
+    const Real alpha_rate = -theta_speed_ * phase.sin;
+    const Real gamma_rate = gamma_speed_ * phase.cos;
+    return {
+        a.sin, a.cos, g.sin, g.cos, alpha_rate, gamma_rate, -speed_squared_ * alpha, -speed_squared_ * gamma};
+  }
   /// The pose at an instant, given the one at `known` in the same period. Both angles swing harmonically,
   /// alpha'' = -w^2 alpha, so with x = w dt they grow by alpha' sin(x) / w + alpha'' (1 - cos(x)) / w^2.
   /// Error: two roundings more than `pose`. @param with_rates  asks for rates and accelerations too
   template <bool with_rates = true>
-  Pose pose_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known) const;
+  Pose pose_nearby(const Instant<Real>& when, const Pose& pose_known, const Instant<Real>& known) const {
+    const Real dt = when.offset - known.offset;
+    const double short_dt = static_cast<double>(dt), x = static_cast<double>(angular_speed_) * short_dt;
+    if (!numerics::is_short_turn<Real>(angular_speed_, dt, x)) [[unlikely]]
+      return pose(when);
+    const Real first = dt - Real(short_dt * (x * x) / 6);                        // sin(x) / w
+    const Real second = dt * dt / 2 - Real(short_dt * short_dt * (x * x) / 24);  // (1 - cos(x)) / w^2
+    Pose next = pose_known;
+    const auto swing = [&](Real& sine, Real& cosine, Real& rate, Real& acceleration) {
+      const Real grown = rate * first + acceleration * second;
+      numerics::turn<Real>(sine, cosine, grown);
+      if constexpr (with_rates) {
+        rate += acceleration * first - speed_squared_ * (rate * second);
+        acceleration -= speed_squared_ * grown;
+      }
+    };
+    swing(next.sin_alpha, next.cos_alpha, next.theta_rate, next.theta_acceleration);
+    swing(next.sin_gamma, next.cos_gamma, next.gamma_rate, next.gamma_acceleration);
+    return next;
+  }
   /// `position_in_vessel` at the pose of `pose_nearby`.
   Vec3<Real> position_nearby(const Instant<Real>& when, const Pose& pose, const Instant<Real>& known,
                              const Vec3<Real>& position) const {
@@ -91,26 +117,89 @@ class SpexMotion {
     const auto along = [&](int k) { return Real(x[k] * n[0] + y[k] * n[1] + z[k] * n[2]); };
     return {along(0), along(1), along(2)};
   }
-  /// Inertial position of a point fixed in the vessel frame: P = R_z(theta) [ (l,0,0) + R_x(gamma) p ].
-  /// (2.7')
-  Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) const;
+  /// Inertial position of a point of the vessel frame: P = R_z(theta) [ (l,0,0) + R_x(gamma) p ]. (2.7')
+  Vec3<Real> to_inertial(const Pose& pose, const Vec3<Real>& p) const {
+    const Real along_arm = arm_ + p[0];
+    const Real b = p[1] * pose.cos_gamma - p[2] * pose.sin_gamma;
+    const Real height = p[1] * pose.sin_gamma + p[2] * pose.cos_gamma;
+    return {-pose.sin_alpha * along_arm - pose.cos_alpha * b, pose.cos_alpha * along_arm - pose.sin_alpha * b,
+            height};
+  }
   /// (2.16'): where a body is in the vessel.
-  Vec3<Real> position_in_vessel(const Pose& pose, const Vec3<Real>& position) const;
+  Vec3<Real> position_in_vessel(const Pose& pose, const Vec3<Real>& position) const {
+    const Real a = position[1] * pose.cos_alpha - position[0] * pose.sin_alpha;
+    const Real b = -(position[0] * pose.cos_alpha + position[1] * pose.sin_alpha);
+    return {a - arm_, b * pose.cos_gamma + position[2] * pose.sin_gamma,
+            position[2] * pose.cos_gamma - b * pose.sin_gamma};
+  }
   /// (2.16') and its time derivative for a body at `position` moving with `velocity`.
   VesselFrameState<Real> to_vessel_frame(const Pose& pose, const Vec3<Real>& position,
-                                         const Vec3<Real>& velocity) const;
+                                         const Vec3<Real>& velocity) const {
+    const Real a = position[1] * pose.cos_alpha - position[0] * pose.sin_alpha;
+    const Real b = -(position[0] * pose.cos_alpha + position[1] * pose.sin_alpha);
+    const Real a_rate = (velocity[1] * pose.cos_alpha - velocity[0] * pose.sin_alpha) + pose.theta_rate * b;
+    const Real b_rate = -(velocity[0] * pose.cos_alpha + velocity[1] * pose.sin_alpha) - pose.theta_rate * a;
+    const Real y = b * pose.cos_gamma + position[2] * pose.sin_gamma;
+    const Real z = position[2] * pose.cos_gamma - b * pose.sin_gamma;
+    const Real y_rate = (b_rate * pose.cos_gamma + velocity[2] * pose.sin_gamma) + pose.gamma_rate * z;
+    const Real z_rate = (velocity[2] * pose.cos_gamma - b_rate * pose.sin_gamma) - pose.gamma_rate * y;
+    return {{a - arm_, y, z}, {a_rate, y_rate, z_rate}};
+  }
   /// Second time derivative of a body's vessel-frame position while it falls freely.
   /// @param state  of to_vessel_frame for the same body and pose
   Vec3<Real> vessel_frame_acceleration(const Pose& pose, const VesselFrameState<Real>& state,
-                                       const Vec3<Real>& velocity, const Vec3<Real>& gravity) const;
+                                       const Vec3<Real>& velocity, const Vec3<Real>& gravity) const {
+    const auto &p = state.position, &u = state.velocity;
+    const Real &sa = pose.sin_alpha, &ca = pose.cos_alpha, &sg = pose.sin_gamma, &cg = pose.cos_gamma;
+    const Real a = p[0] + arm_, b = p[1] * cg - p[2] * sg;
+    const Real velocity_a = velocity[1] * ca - velocity[0] * sa,
+               velocity_b = -(velocity[0] * ca + velocity[1] * sa);
+    const Real gravity_a = gravity[1] * ca - gravity[0] * sa,
+               gravity_b = -(gravity[0] * ca + gravity[1] * sa);
+    const Real b_rate = velocity_b - pose.theta_rate * a;
+    const Real a_second =
+        gravity_a + pose.theta_rate * velocity_b + (pose.theta_acceleration * b + pose.theta_rate * b_rate);
+    const Real b_second =
+        gravity_b - pose.theta_rate * velocity_a - (pose.theta_acceleration * a + pose.theta_rate * u[0]);
+    // y' = b' cos + V_Z sin + gamma' z and z' = V_Z cos - b' sin - gamma' y, once more.
+    const Real turned = velocity[2] * cg - b_rate * sg, raised = b_rate * cg + velocity[2] * sg;
+    const Real y_second = (b_second * cg + gravity[2] * sg) + pose.gamma_rate * turned +
+                          (pose.gamma_acceleration * p[2] + pose.gamma_rate * u[2]);
+    const Real z_second = (gravity[2] * cg - b_second * sg) - pose.gamma_rate * raised -
+                          (pose.gamma_acceleration * p[1] + pose.gamma_rate * u[1]);
+    return {a_second, y_second, z_second};
+  }
   /// Inertial angular velocity of the vessel: theta' about Z plus gamma' about x'.
   static Vec3<Real> angular_velocity(const Pose& pose) {
     return {-pose.sin_alpha * pose.gamma_rate, pose.cos_alpha * pose.gamma_rate, pose.theta_rate};
   }
   /// Inertial velocity of the vessel's material point at `point`: V = W_Z x P + (R_z W_x') x (P - C).
-  Vec3<Real> wall_velocity(const Pose& pose, const Vec3<Real>& point) const;
+  Vec3<Real> wall_velocity(const Pose& pose, const Vec3<Real>& point) const {
+    const Vec3<Real> centre{-pose.sin_alpha * arm_, pose.cos_alpha * arm_, Real(0)};
+    const Vec3<Real> about_z{Real(0), Real(0), pose.theta_rate};
+    const Vec3<Real> about_arm{-pose.sin_alpha * pose.gamma_rate, pose.cos_alpha * pose.gamma_rate, Real(0)};
+    const Vec3<Real> from_centre = point - centre;
+    return cross<Real>(about_z, point) + cross<Real>(about_arm, from_centre);
+  }
   /// Inertial acceleration of the vessel's material point at `point` [m/s^2].
-  Vec3<Real> wall_acceleration(const Pose& pose, const Vec3<Real>& point) const;
+  Vec3<Real> wall_acceleration(const Pose& pose, const Vec3<Real>& point) const {
+    const Vec3<Real> centre{-pose.sin_alpha * arm_, pose.cos_alpha * arm_, Real(0)};
+    const Vec3<Real> about_z{Real(0), Real(0), pose.theta_rate};
+    const Vec3<Real> omega = angular_velocity(pose);
+    const Vec3<Real> axis = axis_x(pose);
+    // d/dt omega: the arm axis itself turns about Z.
+    const Vec3<Real> about_arm = axis * pose.gamma_rate;
+    const Vec3<Real> omega_rate = Vec3<Real>(Real(0), Real(0), pose.theta_acceleration) +
+                                  Vec3<Real>(axis * pose.gamma_acceleration) +
+                                  cross<Real>(about_z, about_arm);
+    const Vec3<Real> centre_velocity = cross<Real>(about_z, centre);
+    const Vec3<Real> centre_acceleration =
+        cross<Real>(Vec3<Real>(Real(0), Real(0), pose.theta_acceleration), centre) +
+        cross<Real>(about_z, centre_velocity);
+    const Vec3<Real> d = point - centre;
+    const Vec3<Real> turning = cross<Real>(omega, d);
+    return centre_acceleration + cross<Real>(omega_rate, d) + cross<Real>(omega, turning);
+  }
 
   /// Bound on the sum of both angles [rad].
   Real angles() const { return theta_max_ + gamma_max_; }
@@ -135,11 +224,63 @@ class SpexMotion {
     return period_ / 8 < quarter ? Real(period_ / 8) : quarter;
   }
   /// @param sizes  of the vessel from its centre, along its axes [m]
-  SweptBox<Real> swept(const Vec3<Real>& sizes, const Real& vessel_reach) const;
+  SweptBox<Real> swept(const Vec3<Real>& sizes, const Real& vessel_reach) const {
+    const Real swing = theta_max_ < 1 ? theta_max_ : Real(1);
+    const Real tilt = gamma_max_ < 1 ? gamma_max_ : Real(1);
+    const Real sideways = arm_ * swing + vessel_reach;
+    const Real upright = sizes[2] + sizes[1] * tilt;
+    const Real along = sizes[0] + (sizes[1] + sizes[2] * tilt) * swing;
+    const Real nearest = arm_ * (1 - swing * swing) - along;
+    return {{-sideways, nearest, Real(-upright)}, {sideways, Real(arm_ + along), upright}};
+  }
   /// For a ball whose speed stays below `speed` [m/s] over a window of `length` [s] that it enters inside a
   /// vessel of these sizes. Derivation: docs/theory.md, section 3.
   CoordinateBounds<Real> coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach,
-                                           const Real& gravity, const Real& speed, const Real& length) const;
+                                           const Real& gravity, const Real& speed, const Real& length) const {
+    using numerics::Majorant;
+    using numerics::product_bound;
+    const Real& w = angular_speed_;
+    Majorant<Real> alpha, gamma, sine, cosine;
+    Real power{1};
+    for (int k = 0; k < 5; ++k, power *= w) {
+      alpha[k] = theta_max_ * power;
+      gamma[k] = gamma_max_ * power;
+    }
+    numerics::fill_sin_cos(gamma, sine, cosine);
+
+    // How far outside the vessel the path may get within the window: |p'| <= U.
+    const Real shrink = 1 - (alpha[1] + gamma[1]) * length;
+    const Real frame_speed = (speed + alpha[1] * (arm_ + vessel_reach) + gamma[1] * vessel_reach) / shrink;
+    const Real excursion = frame_speed * length;
+
+    // Gravity and velocity in the frame that turns with theta: G' = alpha' G, V' = G + alpha' V.
+    Majorant<Real> g, v, v_z, a, b, x, y, z;
+    g[0] = gravity;
+    v[0] = speed;
+    v_z = {speed, g[0], Real(0), Real(0), Real(0)};
+    x[0] = sizes[0] + excursion;
+    y[0] = sizes[1] + excursion;
+    z[0] = sizes[2] + excursion;
+    a[0] = arm_ + x[0];
+    b[0] = y[0] + sine[0] * z[0];
+    for (int k = 0; k < 4; ++k) {
+      g[k + 1] = product_bound(alpha, 1, g, k);
+      v[k + 1] = g[k] + product_bound(alpha, 1, v, k);
+      a[k + 1] = v[k] + product_bound(alpha, 1, b, k);
+      b[k + 1] = v[k] + product_bound(alpha, 1, a, k);
+      x[k + 1] = a[k + 1];
+      // The bounds on b' enter through b shifted by one derivative.
+      Real y_next = product_bound(v_z, 0, sine, k) + product_bound(gamma, 1, z, k);
+      Real z_next = product_bound(v_z, 0, cosine, k) + product_bound(gamma, 1, y, k);
+      for (int j = 0; j <= k; ++j) {
+        y_next += numerics::binomial[k][j] * b[j + 1] * cosine[k - j];
+        z_next += numerics::binomial[k][j] * b[j + 1] * sine[k - j];
+      }
+      y[k + 1] = y_next;
+      z[k + 1] = z_next;
+    }
+    return {x, y, z};
+  }
 
   /// Bound on the speed of a ball in the vessel frame [m/s].
   Real speed_in_vessel(const FlightBounds<Real>& f) const { return f.speed + turning() * f.reach; }
@@ -150,10 +291,31 @@ class SpexMotion {
   /// Rounding of a coordinate in the vessel frame. The constants are counted in docs/theory.md, section 4; a
   /// test compares them with measured errors.
   /// @param u  half the distance from 1 to the next number
-  ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& f) const;
+  ErrorBounds<Real> coordinate_errors(const Real& u, const FlightBounds<Real>& f) const {
+    const Real angle = 10 + 16 * angles();  // ulps of 1 that the pose and the products leave
+    const Real time = f.elapsed + 3 * f.lag;
+    const Real position = 6 * f.reach + 4 * (f.gravity * f.elapsed * f.elapsed) + f.speed * time;
+    const Real y = u * (angle * f.reach + 2 * position);
+    const Real y_rate = u * ((angle + 4) * f.speed + 28 * turning() * f.reach + 2 * turning() * position +
+                             4 * f.gravity * f.elapsed);
+    const Real y_second = u * (32 + 16 * angles()) * f.vessel_acceleration + 4 * turning() * y_rate +
+                          2 * turning() * (angular_speed_ + turning()) * y;
+    return {y, y_rate, y_second};
+  }
   /// What rounding a wider flight and motion to this scalar adds to these bounds, at offsets that stand for
   /// themselves in both. Derivation: docs/theory.md, section 4.
-  ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& f) const;
+  ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& f) const {
+    const Real angle = 9 * angles();
+    const Real time = period_ + f.lag;  // ulps of 1 s that the start and the whole periods leave
+    const Real y =
+        u * ((angle + 3) * f.reach + f.speed * (f.elapsed + time) + 2 * (f.gravity * f.elapsed * f.elapsed));
+    const Real y_rate = u * ((angle + 2) * f.speed + (angle + 10) * turning() * f.reach +
+                             f.gravity * (2 * f.elapsed + time)) +
+                        turning() * y;
+    const Real y_second = u * (32 + 9 * angles()) * f.vessel_acceleration + 4 * turning() * y_rate +
+                          2 * turning() * (angular_speed_ + turning()) * y;
+    return {y, y_rate, y_second};
+  }
 
  private:
   Real arm_{0}, theta_max_{0}, gamma_max_{0};
@@ -162,212 +324,5 @@ class SpexMotion {
   Real speed_squared_{0};                 ///< [rad^2/s^2]
   Real turning_{0};
 };
-
-template <class Real>
-auto SpexMotion<Real>::swept(const Vec3<Real>& sizes, const Real& vessel_reach) const -> SweptBox<Real> {
-  const Real swing = theta_max_ < 1 ? theta_max_ : Real(1);
-  const Real tilt = gamma_max_ < 1 ? gamma_max_ : Real(1);
-  const Real sideways = arm_ * swing + vessel_reach;
-  const Real upright = sizes[2] + sizes[1] * tilt;
-  const Real along = sizes[0] + (sizes[1] + sizes[2] * tilt) * swing;
-  const Real nearest = arm_ * (1 - swing * swing) - along;
-  return {{-sideways, nearest, Real(-upright)}, {sideways, Real(arm_ + along), upright}};
-}
-
-template <class Real>
-ErrorBounds<Real> SpexMotion<Real>::coordinate_errors(const Real& u, const FlightBounds<Real>& f) const {
-  const Real angle = 10 + 16 * angles();  // ulps of 1 that the pose and the products leave
-  const Real time = f.elapsed + 3 * f.lag;
-  const Real position = 6 * f.reach + 4 * (f.gravity * f.elapsed * f.elapsed) + f.speed * time;
-  const Real y = u * (angle * f.reach + 2 * position);
-  const Real y_rate = u * ((angle + 4) * f.speed + 28 * turning() * f.reach + 2 * turning() * position +
-                           4 * f.gravity * f.elapsed);
-  const Real y_second = u * (32 + 16 * angles()) * f.vessel_acceleration + 4 * turning() * y_rate +
-                        2 * turning() * (angular_speed_ + turning()) * y;
-  return {y, y_rate, y_second};
-}
-
-template <class Real>
-ErrorBounds<Real> SpexMotion<Real>::state_errors(const Real& u, const FlightBounds<Real>& f) const {
-  const Real angle = 9 * angles();
-  const Real time = period_ + f.lag;  // ulps of 1 s that the start and the whole periods leave
-  const Real y =
-      u * ((angle + 3) * f.reach + f.speed * (f.elapsed + time) + 2 * (f.gravity * f.elapsed * f.elapsed));
-  const Real y_rate =
-      u * ((angle + 2) * f.speed + (angle + 10) * turning() * f.reach + f.gravity * (2 * f.elapsed + time)) +
-      turning() * y;
-  const Real y_second = u * (32 + 9 * angles()) * f.vessel_acceleration + 4 * turning() * y_rate +
-                        2 * turning() * (angular_speed_ + turning()) * y;
-  return {y, y_rate, y_second};
-}
-
-template <class Real>
-auto SpexMotion<Real>::coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach,
-                                         const Real& gravity, const Real& speed, const Real& length) const
-    -> CoordinateBounds<Real> {
-  using numerics::Majorant;
-  using numerics::product_bound;
-  const Real& w = angular_speed_;
-  Majorant<Real> alpha, gamma, sine, cosine;
-  Real power{1};
-  for (int k = 0; k < 5; ++k, power *= w) {
-    alpha[k] = theta_max_ * power;
-    gamma[k] = gamma_max_ * power;
-  }
-  numerics::fill_sin_cos(gamma, sine, cosine);
-
-  // How far outside the vessel the path may get within the window: |p'| <= U.
-  const Real shrink = 1 - (alpha[1] + gamma[1]) * length;
-  const Real frame_speed = (speed + alpha[1] * (arm_ + vessel_reach) + gamma[1] * vessel_reach) / shrink;
-  const Real excursion = frame_speed * length;
-
-  // Gravity and velocity in the frame that turns with theta: G' = alpha' G, V' = G + alpha' V.
-  Majorant<Real> g, v, v_z, a, b, x, y, z;
-  g[0] = gravity;
-  v[0] = speed;
-  v_z = {speed, g[0], Real(0), Real(0), Real(0)};
-  x[0] = sizes[0] + excursion;
-  y[0] = sizes[1] + excursion;
-  z[0] = sizes[2] + excursion;
-  a[0] = arm_ + x[0];
-  b[0] = y[0] + sine[0] * z[0];
-  for (int k = 0; k < 4; ++k) {
-    g[k + 1] = product_bound(alpha, 1, g, k);
-    v[k + 1] = g[k] + product_bound(alpha, 1, v, k);
-    a[k + 1] = v[k] + product_bound(alpha, 1, b, k);
-    b[k + 1] = v[k] + product_bound(alpha, 1, a, k);
-    x[k + 1] = a[k + 1];
-    // The bounds on b' enter through b shifted by one derivative.
-    Real y_next = product_bound(v_z, 0, sine, k) + product_bound(gamma, 1, z, k);
-    Real z_next = product_bound(v_z, 0, cosine, k) + product_bound(gamma, 1, y, k);
-    for (int j = 0; j <= k; ++j) {
-      y_next += numerics::binomial[k][j] * b[j + 1] * cosine[k - j];
-      z_next += numerics::binomial[k][j] * b[j + 1] * sine[k - j];
-    }
-    y[k + 1] = y_next;
-    z[k + 1] = z_next;
-  }
-  return {x, y, z};
-}
-
-template <class Real>
-inline SpexPose<Real> SpexMotion<Real>::pose(const Instant<Real>& when) const {
-  const auto phase = numerics::sin_cos_turns<Real>(when.offset * frequency_);
-  const Real alpha = theta_max_ * phase.cos;
-  const Real gamma = gamma_max_ * phase.sin;
-  const auto a = numerics::sin_cos<Real>(alpha), g = numerics::sin_cos<Real>(gamma);
-  const Real alpha_rate = -theta_speed_ * phase.sin;
-  const Real gamma_rate = gamma_speed_ * phase.cos;
-  return {
-      a.sin, a.cos, g.sin, g.cos, alpha_rate, gamma_rate, -speed_squared_ * alpha, -speed_squared_ * gamma};
-}
-
-template <class Real>
-template <bool with_rates>
-inline SpexPose<Real> SpexMotion<Real>::pose_nearby(const Instant<Real>& when, const Pose& pose_known,
-                                                    const Instant<Real>& known) const {
-  const Real dt = when.offset - known.offset;
-  const double short_dt = static_cast<double>(dt), x = static_cast<double>(angular_speed_) * short_dt;
-  if (!numerics::is_short_turn<Real>(angular_speed_, dt, x)) [[unlikely]]
-    return pose(when);
-  const Real first = dt - Real(short_dt * (x * x) / 6);                        // sin(x) / w
-  const Real second = dt * dt / 2 - Real(short_dt * short_dt * (x * x) / 24);  // (1 - cos(x)) / w^2
-  Pose next = pose_known;
-  const auto swing = [&](Real& sine, Real& cosine, Real& rate, Real& acceleration) {
-    const Real grown = rate * first + acceleration * second;
-    numerics::turn<Real>(sine, cosine, grown);
-    if constexpr (with_rates) {
-      rate += acceleration * first - speed_squared_ * (rate * second);
-      acceleration -= speed_squared_ * grown;
-    }
-  };
-  swing(next.sin_alpha, next.cos_alpha, next.theta_rate, next.theta_acceleration);
-  swing(next.sin_gamma, next.cos_gamma, next.gamma_rate, next.gamma_acceleration);
-  return next;
-}
-
-template <class Real>
-inline Vec3<Real> SpexMotion<Real>::to_inertial(const Pose& pose, const Vec3<Real>& p) const {
-  const Real along_arm = arm_ + p[0];
-  const Real b = p[1] * pose.cos_gamma - p[2] * pose.sin_gamma;
-  const Real height = p[1] * pose.sin_gamma + p[2] * pose.cos_gamma;
-  return {-pose.sin_alpha * along_arm - pose.cos_alpha * b, pose.cos_alpha * along_arm - pose.sin_alpha * b,
-          height};
-}
-
-template <class Real>
-inline Vec3<Real> SpexMotion<Real>::position_in_vessel(const Pose& pose, const Vec3<Real>& position) const {
-  const Real a = position[1] * pose.cos_alpha - position[0] * pose.sin_alpha;
-  const Real b = -(position[0] * pose.cos_alpha + position[1] * pose.sin_alpha);
-  return {a - arm_, b * pose.cos_gamma + position[2] * pose.sin_gamma,
-          position[2] * pose.cos_gamma - b * pose.sin_gamma};
-}
-
-template <class Real>
-inline VesselFrameState<Real> SpexMotion<Real>::to_vessel_frame(const Pose& pose, const Vec3<Real>& position,
-                                                                const Vec3<Real>& velocity) const {
-  const Real a = position[1] * pose.cos_alpha - position[0] * pose.sin_alpha;
-  const Real b = -(position[0] * pose.cos_alpha + position[1] * pose.sin_alpha);
-  const Real a_rate = (velocity[1] * pose.cos_alpha - velocity[0] * pose.sin_alpha) + pose.theta_rate * b;
-  const Real b_rate = -(velocity[0] * pose.cos_alpha + velocity[1] * pose.sin_alpha) - pose.theta_rate * a;
-  const Real y = b * pose.cos_gamma + position[2] * pose.sin_gamma;
-  const Real z = position[2] * pose.cos_gamma - b * pose.sin_gamma;
-  const Real y_rate = (b_rate * pose.cos_gamma + velocity[2] * pose.sin_gamma) + pose.gamma_rate * z;
-  const Real z_rate = (velocity[2] * pose.cos_gamma - b_rate * pose.sin_gamma) - pose.gamma_rate * y;
-  return {{a - arm_, y, z}, {a_rate, y_rate, z_rate}};
-}
-
-template <class Real>
-inline Vec3<Real> SpexMotion<Real>::vessel_frame_acceleration(const Pose& pose,
-                                                              const VesselFrameState<Real>& state,
-                                                              const Vec3<Real>& velocity,
-                                                              const Vec3<Real>& gravity) const {
-  const auto &p = state.position, &u = state.velocity;
-  const Real &sa = pose.sin_alpha, &ca = pose.cos_alpha, &sg = pose.sin_gamma, &cg = pose.cos_gamma;
-  const Real a = p[0] + arm_, b = p[1] * cg - p[2] * sg;
-  const Real velocity_a = velocity[1] * ca - velocity[0] * sa,
-             velocity_b = -(velocity[0] * ca + velocity[1] * sa);
-  const Real gravity_a = gravity[1] * ca - gravity[0] * sa, gravity_b = -(gravity[0] * ca + gravity[1] * sa);
-  const Real b_rate = velocity_b - pose.theta_rate * a;
-  const Real a_second =
-      gravity_a + pose.theta_rate * velocity_b + (pose.theta_acceleration * b + pose.theta_rate * b_rate);
-  const Real b_second =
-      gravity_b - pose.theta_rate * velocity_a - (pose.theta_acceleration * a + pose.theta_rate * u[0]);
-  // y' = b' cos + V_Z sin + gamma' z and z' = V_Z cos - b' sin - gamma' y, once more.
-  const Real turned = velocity[2] * cg - b_rate * sg, raised = b_rate * cg + velocity[2] * sg;
-  const Real y_second = (b_second * cg + gravity[2] * sg) + pose.gamma_rate * turned +
-                        (pose.gamma_acceleration * p[2] + pose.gamma_rate * u[2]);
-  const Real z_second = (gravity[2] * cg - b_second * sg) - pose.gamma_rate * raised -
-                        (pose.gamma_acceleration * p[1] + pose.gamma_rate * u[1]);
-  return {a_second, y_second, z_second};
-}
-
-template <class Real>
-inline Vec3<Real> SpexMotion<Real>::wall_velocity(const Pose& pose, const Vec3<Real>& point) const {
-  const Vec3<Real> centre{-pose.sin_alpha * arm_, pose.cos_alpha * arm_, Real(0)};
-  const Vec3<Real> about_z{Real(0), Real(0), pose.theta_rate};
-  const Vec3<Real> about_arm{-pose.sin_alpha * pose.gamma_rate, pose.cos_alpha * pose.gamma_rate, Real(0)};
-  const Vec3<Real> from_centre = point - centre;
-  return cross<Real>(about_z, point) + cross<Real>(about_arm, from_centre);
-}
-
-template <class Real>
-inline Vec3<Real> SpexMotion<Real>::wall_acceleration(const Pose& pose, const Vec3<Real>& point) const {
-  const Vec3<Real> centre{-pose.sin_alpha * arm_, pose.cos_alpha * arm_, Real(0)};
-  const Vec3<Real> about_z{Real(0), Real(0), pose.theta_rate};
-  const Vec3<Real> omega = angular_velocity(pose);
-  const Vec3<Real> axis = axis_x(pose);
-  // d/dt omega: the arm axis itself turns about Z.
-  const Vec3<Real> about_arm = axis * pose.gamma_rate;
-  const Vec3<Real> omega_rate = Vec3<Real>(Real(0), Real(0), pose.theta_acceleration) +
-                                Vec3<Real>(axis * pose.gamma_acceleration) + cross<Real>(about_z, about_arm);
-  const Vec3<Real> centre_velocity = cross<Real>(about_z, centre);
-  const Vec3<Real> centre_acceleration =
-      cross<Real>(Vec3<Real>(Real(0), Real(0), pose.theta_acceleration), centre) +
-      cross<Real>(about_z, centre_velocity);
-  const Vec3<Real> d = point - centre;
-  const Vec3<Real> turning = cross<Real>(omega, d);
-  return centre_acceleration + cross<Real>(omega_rate, d) + cross<Real>(omega, turning);
-}
 
 }  // namespace edmill::model

@@ -1,7 +1,6 @@
 // What a case file and a reader need to know of one of its keys.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "base/dimension.hpp"
@@ -51,40 +50,29 @@ inline constexpr Parameter effective_modulus{"effective_modulus", Dimension::pre
                                              "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j",
                                              Range::positive};
 
-namespace detail {
-
-template <class To, class From, class Convert>
-struct ReadNumbers {
-  const Convert& convert;
-  std::vector<To> values;
-  void operator()(const auto&, const From& value) { values.push_back(convert(value)); }
-  void operator()(const auto&, const std::array<From, 3>& value) {
-    for (const From& x : value) values.push_back(convert(x));
+/// Calls use(number) with a number, or with each of three.
+void for_each_number(auto& value, const auto& use) {
+  if constexpr (requires { value.begin(); }) {
+    for (auto& number : value) use(number);
+  } else {
+    use(value);
   }
-};
-template <class To>
-struct WriteNumbers {
-  const std::vector<To>& values;
-  std::size_t next = 0;
-  void operator()(const auto&, To& value) { value = values[next++]; }
-  void operator()(const auto&, std::array<To, 3>& value) {
-    for (To& x : value) x = values[next++];
-  }
-};
-
-}  // namespace detail
+}
 
 /// The part with each number converted. A part lists its parameters by
 /// `parameters(part, visit)`, which calls visit(parameter, number) or visit(parameter, three numbers) for
 /// each. A part with lists takes their lengths by `take_shape(from)`.
 template <template <class> class Part, class To, class From, class Convert>
 Part<To> converted(const Part<From>& from, const Convert& convert) {
-  detail::ReadNumbers<To, From, Convert> read{convert, {}};
-  Part<From>::parameters(from, read);
-  detail::WriteNumbers<To> write{read.values};
+  std::vector<To> values;
+  Part<From>::parameters(from, [&](const auto&, const auto& value) {
+    for_each_number(value, [&](const From& number) { values.push_back(convert(number)); });
+  });
   Part<To> to{};
   if constexpr (requires { to.take_shape(from); }) to.take_shape(from);
-  Part<To>::parameters(to, write);
+  auto next = values.begin();
+  Part<To>::parameters(
+      to, [&](const auto&, auto& value) { for_each_number(value, [&](To& number) { number = *next++; }); });
   return to;
 }
 

@@ -44,9 +44,6 @@ class Partners {
   std::vector<PartnerInfo> list_;
 };
 
-template <class V>
-Partners partners_of(const V& vessel) {
-  return Partners(vessel.walls());
-}
+Partners partners_of(const auto& vessel) { return Partners(vessel.walls()); }
 
 }  // namespace edmill::model

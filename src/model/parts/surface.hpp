@@ -325,10 +325,7 @@ class WallSurface {
   }
 
  private:
-  template <class Function>
-  auto visit(const Function& function) const {
-    return std::visit(function, kind_);
-  }
+  auto visit(const auto& function) const { return std::visit(function, kind_); }
 
   Kind kind_;
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <boost/container/static_vector.hpp>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -286,8 +285,7 @@ class AlgebraicVessel {
   }
 
   const Wall& of(int wall) const { return shape_->walls[static_cast<std::size_t>(wall)]; }
-  template <class F>
-  PerWall<Real> each(const F& f) const {
+  PerWall<Real> each(const auto& f) const {
     PerWall<Real> values;
     for (const auto& wall : shape_->walls) values.push_back(f(wall));
     return values;
@@ -327,8 +325,7 @@ class AlgebraicVessel {
     }
     return low;
   }
-  /// Diameter of the largest ball, by a walk uphill from the best place of a lattice, and volume, by
-  /// counting.
+  /// Diameter of the largest ball, by a walk uphill from the best place of a lattice, and volume, by count.
   std::pair<Real, Real> measures() const {
     constexpr int steps = 48;
     const auto& half = shape_->half_sizes;

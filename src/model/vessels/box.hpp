@@ -103,8 +103,7 @@ struct Box {
   static constexpr const char* name = "box";
   std::array<Number, 3> size;
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(Parameter{"size", Dimension::length, "edges along x, y, z", Range::positive}, part.size);
   }
   BoxVessel<Number> vessel() const { return {{size[0] / 2, size[1] / 2, size[2] / 2}}; }

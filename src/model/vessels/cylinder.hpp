@@ -128,8 +128,7 @@ struct Cylinder {
   static constexpr const char* name = "cylinder";
   Number diameter, height;
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
     visit(Parameter{"height", Dimension::length, "inside", Range::positive}, part.height);
   }

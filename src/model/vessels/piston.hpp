@@ -1,7 +1,6 @@
 // Flat walls of a vessel that move along their normals.
 #pragma once
 
-#include <array>
 #include <utility>
 #include <vector>
 

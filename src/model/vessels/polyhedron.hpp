@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <boost/container/static_vector.hpp>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,8 +37,7 @@ class PolyhedronVessel {
     std::string found, expected;
   };
 
-  /// @throws InputError when the planes do not close a vessel about the origin, or one of them is no wall of
-  /// it
+  /// @throws InputError when the planes do not close a vessel about the origin, or one is no wall of it
   explicit PolyhedronVessel(const std::vector<Plane>& planes) {
     if (const auto problem = fill(planes))
       throw InputError("vessel: found " + problem->found + ", expected " + problem->expected);
@@ -86,8 +84,7 @@ class PolyhedronVessel {
     for (auto& plane : smaller.planes_) plane.distance -= by;
     return smaller;
   }
-  /// A closed room that is not empty has a corner. Where planes were moved inwards, the origin may be
-  /// outside.
+  /// A closed room that is not empty has a corner. Where planes moved inwards, the origin may be outside.
   bool is_empty() const {
     const auto faces = make_faces();
     return std::all_of(faces.begin(), faces.end(), [](const Polygon& face) { return face.empty(); });
@@ -277,12 +274,8 @@ struct Polyhedron {
   static constexpr const char* name = "polyhedron";
   std::vector<Face<Number>> faces;
 
-  template <class Other>
-  void take_shape(const Polyhedron<Other>& other) {
-    faces.resize(other.faces.size());
-  }
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  void take_shape(const auto& other) { faces.resize(other.faces.size()); }
+  static void parameters(auto& part, auto&& visit) {
     for (auto& face : part.faces) {
       visit(Parameter{"normal", Dimension::none, ""}, face.normal);
       visit(Parameter{"point", Dimension::length, ""}, face.point);

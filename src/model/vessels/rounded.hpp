@@ -344,8 +344,7 @@ struct Capsule {
   static constexpr const char* name = "capsule";
   Number diameter, height;
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
     visit(Parameter{"height", Dimension::length, "over all", Range::positive}, part.height);
   }
@@ -360,8 +359,7 @@ struct RoundedCylinder {
   static constexpr const char* name = "rounded_cylinder";
   Number diameter, height, edge;
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
     visit(Parameter{"height", Dimension::length, "inside", Range::positive}, part.height);
     visit(Parameter{"edge_radius", Dimension::length, "of the edges of the caps", Range::positive},

@@ -92,8 +92,7 @@ struct Sphere {
   static constexpr const char* name = "sphere";
   Number diameter;
 
-  template <class Part, class Visit>
-  static void parameters(Part& part, Visit&& visit) {
+  static void parameters(auto& part, auto&& visit) {
     visit(Parameter{"diameter", Dimension::length, "inside", Range::positive}, part.diameter);
   }
   SphereVessel<Number> vessel() const { return {diameter / 2}; }

@@ -137,8 +137,7 @@ def _certified(row: Mapping[str, Any]) -> CertifiedEvent:
 def certify(case: Case | Mapping | str | os.PathLike, collisions: int | None = None, *, digits: int = 25,
             file: str | os.PathLike | None = None) -> Certification:
     """As `edmill certify`: raises the precision until two scalars agree on the first events, all of the case unless
-    `collisions` are given, to `digits` digits. `file` gets
-    the sequence as the command writes it. Raises UndecidedError where no two scalars agree."""
+    `collisions` are given, to `digits` digits. `file` gets the sequence as the command writes it. Raises UndecidedError where no two scalars agree."""
     case = case_of(case)
     collisions = 0 if collisions is None else whole("collisions", collisions, 1, LARGEST)
     digits = whole("digits", digits, 1, 100_000)

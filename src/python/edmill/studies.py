@@ -78,8 +78,7 @@ def _with_settings(section: dict[str, Any], name: str, case: Case) -> dict[str, 
 
 def sweep(source: Mapping | str | os.PathLike, folder: str | os.PathLike, jobs: int = 0) -> Study:
     """As `edmill sweep`: every combination of a grid. `source` is a file or a dictionary of its sections, in which
-    `case` may be a Case. Runs that the
-    folder has already are not done again. `jobs` threads, all cores for 0."""
+    `case` may be a Case. Runs that the folder has already are not done again. `jobs` threads, all cores for 0."""
     return _study(_edmill.sweep, "sweep", source, folder, jobs)
 
 

@@ -9,6 +9,7 @@ field TimeValue or TIME of the file, or the last number in its name times the ti
 from __future__ import annotations
 
 import argparse
+import itertools
 import os
 import pathlib
 import re
@@ -103,18 +104,10 @@ def frames_of(files: Iterable[str | os.PathLike], timestep: float | None = None)
             raise BadFrame(f"{paths[0]}: found {problem}, expected a .pvd with a file and a timestep in each DataSet") from problem
     else:
         listed = [(None, file) for file in sorted(paths, key=_in_order)]
-    waiting: tuple[float, list, list[str]] | None = None
-    for said, file in listed:
-        rows, own, columns = table_of(file)
-        time = _time_of(file, own if said is None else said, timestep)
-        if waiting and waiting[0] == time and waiting[2] == columns:  # parts of one frame
-            waiting[1].append(rows)
-            continue
-        if waiting:
-            yield waiting[0], numpy.vstack(waiting[1]), waiting[2]
-        waiting = (time, [rows], columns)
-    if waiting:
-        yield waiting[0], numpy.vstack(waiting[1]), waiting[2]
+    tables = ((table_of(file), said, file) for said, file in listed)
+    parts = ((_time_of(file, own if said is None else said, timestep), columns, rows) for (rows, own, columns), said, file in tables)
+    for (time, columns), of_frame in itertools.groupby(parts, key=lambda part: part[:2]):
+        yield time, numpy.vstack([rows for _, _, rows in of_frame]), columns
 
 
 def main(arguments: list[str] | None = None) -> int:
