@@ -7,10 +7,6 @@
 #include "io/json_text.hpp"
 #include "io/junit_text.hpp"
 
-namespace edmill {
-extern template std::string to_text<double>(const double&);
-}
-
 namespace edmill::compare {
 
 namespace {
