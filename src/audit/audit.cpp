@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "audit/auditor.hpp"
-#include "audit/naming.hpp"
 #include "base/instant.hpp"
 
 namespace edmill::audit {
@@ -99,7 +98,7 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
   result.log_name = file;
   result.available = available;
   const auto partners = model::partners_of(the_case.mill.vessel);
-  Auditor auditor(the_case, result.available, result.tolerances, result.findings);
+  Auditor auditor(Judge{the_case, result.available, result.tolerances, result.findings});
   if (states)
     auditor.begin(*states, DriveClock<double>(the_case.mill.motion.period()).seconds(the_case.initial_time));
   bool any_pairs = false;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -15,6 +16,15 @@ std::string describe(const Finding& f) {
   if (std::isfinite(f.found)) text += fmt::format(": found {:.9g}", f.found);
   if (std::isfinite(f.expected)) text += fmt::format(", expected {:.9g}", f.expected);
   return text;
+}
+
+/// "touch (12), approach (7)": of the checks that have such a number.
+std::string list_of_checks(const Findings& findings, std::uint64_t (Findings::*number)(Check) const) {
+  std::vector<std::string> list;
+  for (std::size_t k = 0; k < check_count; ++k)
+    if (const auto n = (findings.*number)(static_cast<Check>(k)); n > 0)
+      list.push_back(fmt::format("{} ({})", checks[k].name, n));
+  return fmt::format("{}", fmt::join(list, ", "));
 }
 
 double share_of(const Audit& a, Kind kind) {
@@ -46,11 +56,7 @@ std::string unresolved_checks(const Audit& a) {
         "\n  times are known to {:.2g} s by their rounding, places of walls to {:.2g} m: the tolerances "
         "allow for it\n",
         Tolerances::time(latest), places);
-  std::string list;
-  for (std::size_t k = 0; k < check_count; ++k)
-    if (const auto n = a.findings.unresolved_number(static_cast<Check>(k)); n > 0)
-      list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", info(static_cast<Check>(k)).name, n);
-  if (!list.empty())
+  if (const auto list = list_of_checks(a.findings, &Findings::unresolved_number); !list.empty())
     out += fmt::format("\n  could not be checked, since what is allowed is as large as what is checked: {}\n",
                        list);
   return out;
@@ -87,20 +93,16 @@ std::string table(const Audit& a) {
   if (!a.diagnoses.empty()) out += "\n  the log looks like\n";
   for (const auto& d : a.diagnoses)
     out += fmt::format("    {} ({} of {}): {}\n", d.name, d.events, d.of, d.text);
-  if (!a.not_made.empty() && a.events > 0) out += "\n  not checked, since columns are missing\n";
-  if (a.events > 0)
+  if (!a.not_made.empty() && a.events > 0) {
+    out += "\n  not checked, since columns are missing\n";
     for (const Check check : a.not_made)
       out += fmt::format("    {:<24}needs {}\n", info(check).name, info(check).columns);
+  }
   if (a.undecided > 0) out += fmt::format("\n  {} searches for missed impacts are undecided\n", a.undecided);
   out += unresolved_checks(a);
-  out += fmt::format("\n  checked");
-  bool first = true;
-  for (std::size_t k = 0; k < check_count; ++k)
-    if (const auto n = a.findings.judged_number(static_cast<Check>(k)); n > 0) {
-      out += fmt::format("{} {} ({})", first ? ":" : ",", info(static_cast<Check>(k)).name, n);
-      first = false;
-    }
-  return out + fmt::format("\n  verdict: {}\n", name_of(a.verdict));
+  const auto made = list_of_checks(a.findings, &Findings::judged_number);
+  return out +
+         fmt::format("\n  checked{}{}\n  verdict: {}\n", made.empty() ? "" : ": ", made, name_of(a.verdict));
 }
 
 namespace {
@@ -160,12 +162,12 @@ void put_energies(io::JsonText& json, const Audit& a) {
 void put_checks(io::JsonText& json, const Audit& a) {
   json.begin("checked");
   for (std::size_t k = 0; k < check_count; ++k)
-    json.integer(info(static_cast<Check>(k)).name, a.findings.judged_number(static_cast<Check>(k)));
+    json.integer(checks[k].name, a.findings.judged_number(static_cast<Check>(k)));
   json.end();
   json.begin("unresolved");
   for (std::size_t k = 0; k < check_count; ++k)
     if (const auto n = a.findings.unresolved_number(static_cast<Check>(k)); n > 0)
-      json.integer(info(static_cast<Check>(k)).name, n);
+      json.integer(checks[k].name, n);
   json.end();
   json.begin("not_checked");
   for (const Check check : a.not_made) json.text(info(check).name, info(check).columns);

@@ -7,10 +7,16 @@
 
 namespace edmill::audit {
 
-class Auditor {
+class Auditor : Judge {
  public:
-  Auditor(const model::Case<double>& the_case, const Available& available, const Tolerances& tolerances,
-          Findings& findings);
+  explicit Auditor(const Judge& shared)
+      : Judge(shared),
+        impacts_(shared),
+        flights_(shared),
+        stalls_(case_.mill, case_.balls.size()),
+        last_(case_.balls.size()),
+        with_wall_(case_.mill.vessel.walls().size()),
+        rotations_(findings_.examples()) {}
 
   /// The log begins with these states.
   void begin(const std::vector<model::BallState<double>>& states, double time);
@@ -48,16 +54,7 @@ class Auditor {
   Touch judge_off_the_wall(LoggedEvent& event, Scene& scene, double gap, double allowed);
   bool another_body_is_there(LoggedEvent& event, double allowed, double gap);
   void note_delay(const LoggedEvent& event, const Scene& scene, double depth);
-  const model::BallProperties<double>& ball(int k) const { return case_.balls[static_cast<std::size_t>(k)]; }
-  void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-            const char* note = "") {
-    findings_.add(finding(kind, event, size, found, expected, note));
-  }
 
-  const model::Case<double>& case_;
-  const Available& available_;
-  Tolerances tolerances_;
-  Findings& findings_;
   ImpactJudge impacts_;
   Flights flights_;
   StallHistory stalls_;

@@ -214,13 +214,12 @@ std::optional<LoggedEvent> EventLog::read() {
       event[q] = unknown;
       good = read_value(first_value + q - model::approach_speed, event[q], event);
     }
-    for (std::size_t body = 0; body < (event.with_wall ? 1u : 2u) && good; ++body)
+    for (std::size_t body = 0; body < event.count() && good; ++body)
       for (std::size_t vector = 0; vector < 5; ++vector) {
         if (!(available_.body[body].*state_flags[vector])) continue;
         auto& state = event.body[body].*state_vectors[vector];
         for (std::size_t axis = 0; axis < 3; ++axis)
-          good = good && read_value(first_state + 15 * body + 3 * vector + axis,
-                                    state[static_cast<Eigen::Index>(axis)], event);
+          good = good && read_value(first_state + 15 * body + 3 * vector + axis, state[axis], event);
       }
     if (!good) continue;
     if (event.time < latest_) event.earlier_by = latest_ - event.time;

@@ -32,6 +32,10 @@ struct LoggedEvent : model::ImpactRecord<double> {
   double earlier_by = 0;          ///< than a line above it, when above 0 [s]
   std::string problem;            ///< "found nan in column vx_before": of an event that cannot be checked
   bool unknown_body = false;      ///< the problem is a ball or wall that does not exist
+
+  std::size_t count() const { return with_wall ? 1 : 2; }  ///< of balls
+  /// Number of the ball of a body.
+  int ball_at(std::size_t place) const { return place == 0 ? ball : partner; }
 };
 
 /// Which values a log has.

@@ -16,16 +16,12 @@ struct KnownMistake {
   Kind kind;
   const char* note;
   Where where;
-  Formula (*formula)(const ContactGeometry&, std::size_t ball);
-  WallVelocity wall = WallVelocity::nested;
+  Formula (*formula)(const LoggedImpact&, std::size_t ball);
+  const WallVelocity* wall = nullptr;  ///< in place of the right one
 };
 
-Formula right(const ContactGeometry&, std::size_t) { return {}; }
-double alone(const ContactGeometry& impact, std::size_t ball) {
+double alone(const LoggedImpact& impact, std::size_t ball) {
   return 1 + 1 / impact.ball[ball].reduced_inertia;
-}
-KnownMistake velocity_of_wall(WallVelocity formula) {
-  return {Kind::wall_velocity, name_of(formula), Where::walls, right, formula};
 }
 
 const std::vector<KnownMistake>& known_mistakes() {
@@ -57,8 +53,9 @@ const std::vector<KnownMistake>& known_mistakes() {
            return Formula{.share = {impact.effective_mass / impact.ball[1].mass,
                                     impact.effective_mass / impact.ball[0].mass}};
          }}};
-    for (int k = 1; k < wall_velocity_count; ++k)
-      all.push_back(velocity_of_wall(static_cast<WallVelocity>(k)));
+    for (std::size_t k = 1; k < wall_velocities.size(); ++k)
+      all.push_back({Kind::wall_velocity, wall_velocities[k].note, Where::walls,
+                     [](const auto&, auto) { return Formula{}; }, &wall_velocities[k]});
     return all;
   }();
   return list;
@@ -66,78 +63,68 @@ const std::vector<KnownMistake>& known_mistakes() {
 
 /// What comes of an impact with the mistake, as the code saw it. Of a number of two balls either one.
 struct Way {
-  ContactGeometry impact;
+  LoggedImpact impact;
   std::array<BodyState, 2> outcome;
 };
 using Ways = boost::container::static_vector<Way, 2>;
 
-Ways ways_of(const KnownMistake& mistake, const LoggedEvent& event, const Scene& scene,
-             const model::ContactLaw<double>& law) {
+Ways ways_of(const KnownMistake& mistake, const Scene& scene) {
   Ways ways;
-  const bool with_wall = scene.impact.with_wall;
-  if (mistake.where == (with_wall ? Where::balls : Where::walls)) return ways;
-  ContactGeometry impact = scene.impact;
-  if (mistake.wall != WallVelocity::nested)
-    impact.set_wall_velocity(mistake.wall, scene.nested, scene.printed, event.body[0].position);
+  LoggedImpact impact = scene.impact;
+  if (mistake.where == (impact.with_wall() ? Where::balls : Where::walls)) return ways;
+  if (mistake.wall) impact.set_wall_velocity(*mistake.wall, scene.nested, scene.printed);
   for (std::size_t ball = 0; ball < impact.count(); ++ball)
-    ways.push_back({impact, outcome(impact, law, event, mistake.formula(impact, ball))});
+    ways.push_back({impact, outcome(impact, mistake.formula(impact, ball))});
   return ways;
 }
 
 }  // namespace
 
-std::size_t ImpactJudge::known_mistake_count() { return known_mistakes().size(); }
+ImpactJudge::ImpactJudge(const Judge& shared)
+    : Judge(shared),
+      suspicions_(known_mistakes().size(), Suspicion(findings_.examples())),
+      net_dose_(findings_.examples()),
+      dose_without_rule_(findings_.examples()) {}
 
-auto ImpactJudge::explaining(const LoggedEvent& event, const Scene& scene, double allowed, bool violated)
+auto ImpactJudge::explaining(const Scene& scene, double allowed, bool violated)
     -> std::optional<Explanation> {
-  const auto& l = law(scene.impact);
-  const auto due = outcome(scene.impact, l, event, {});
-  const double off = distance(scene.impact, event.body, due);
+  const auto& logged = scene.impact.event->body;
+  const auto due = outcome(scene.impact, {});
+  const double off = distance(scene.impact, logged, due);
   std::optional<Explanation> found;
   ++explained_impacts_;
   for (std::size_t k = 0; k < suspicions_.size(); ++k) {
     // What nothing has pointed to is looked at in the first impacts only.
     if (!violated && !suspicions_[k].is_suspected() && explained_impacts_ > 200) continue;
-    const Ways ways = ways_of(known_mistakes()[k], event, scene, l);
+    const KnownMistake& mistake = known_mistakes()[k];
+    const Ways ways = ways_of(mistake, scene);
     bool shows = !ways.empty();
     const Way* best = nullptr;
     double left = std::numeric_limits<double>::infinity();
     for (const Way& way : ways) {
       shows = shows && distance(scene.impact, due, way.outcome) > allowed;
-      const double of_way = distance(way.impact, event.body, way.outcome);
+      const double of_way = distance(way.impact, logged, way.outcome);
       if (of_way < left) left = of_way, best = &way;
     }
     // Bodies that separate faster than v_s when the mistake is assumed keep their velocities, which proves
     // nothing.
-    if (best && dot(best->impact.before(event), best->impact.normal) > l.least_separation + allowed) continue;
+    if (best && best->impact.g_n() > scene.impact.law->least_separation + allowed) continue;
     const bool explains = violated && best && vanishes(off, left, allowed);
     if (explains && !found)
-      found = Explanation{k, known_mistakes()[k].kind, known_mistakes()[k].note, best->impact, off, left};
+      found = Explanation{mistake.kind, mistake.note, &suspicions_[k], best->impact, off, left};
     else if (shows && !explains)
       suspicions_[k].contradicted();
   }
   return found;
 }
 
-/// The bodies separate at e_n |g_n| where v_s applies, or the reverse.
-bool ImpactJudge::leaves_by_the_other_branch(const LoggedEvent& event, const ContactGeometry& impact,
-                                             double off, double allowed) const {
-  const auto& l = law(impact);
-  const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
-  const double by_restitution = l.restitution(-g_n, impact.bodies()) * -g_n;
-  const double other =
-      separation_speed(l, impact, g_n) > by_restitution ? by_restitution : l.least_separation;
-  return l.least_separation > 0 && vanishes(off, std::abs(left - other), allowed);
-}
-
 /// Reports a wrong speed of separation. The law's other branch, or another least speed, is named if the log
 /// as a whole has it.
-void ImpactJudge::tell_normal(const LoggedEvent& event, const ContactGeometry& impact, double off,
-                              double allowed, Findings& plain) {
-  const auto& l = law(impact);
-  const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
-  const double due = separation_speed(l, impact, g_n);
-  const double by_restitution = l.restitution(-g_n, impact.bodies()) * -g_n;
+void ImpactJudge::tell_normal(const LoggedImpact& impact, double off, double allowed, Findings& plain) {
+  const LoggedEvent& event = *impact.event;
+  const double g_n = impact.g_n(), left = impact.g_n_after();
+  const double due = impact.separation_speed(g_n), by_restitution = impact.by_restitution(g_n);
+  const double least = impact.law->least_separation;
   const auto as_found = g_n != 0 ? finding(Kind::normal_restitution, event, off, -left / g_n, -due / g_n)
                                  : finding(Kind::normal_restitution, event, off, unknown, unknown);
   if (&plain != &findings_) return plain.add(as_found);
@@ -145,14 +132,14 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const ContactGeometry& i
     suspicion.explains(off, left_off).add(finding(Kind::separation_law, event, off, left, due, note, true));
     suspicion.plain().add(as_found);
   };
-  SeparationSuspicions& of_law = separations_.try_emplace(number_of(l), findings_.examples()).first->second;
-  const double to_branch = std::abs(left - by_restitution), to_least = std::abs(left - l.least_separation);
+  auto& of_law = separations_.try_emplace(number_of_law(impact), findings_.examples()).first->second;
+  const double to_branch = std::abs(left - by_restitution), to_least = std::abs(left - least);
   if (due > by_restitution && vanishes(off, to_branch, allowed)) {
     if (of_law.speed < std::numeric_limits<double>::infinity() && by_restitution < of_law.speed - allowed)
       of_law.least.contradicted();
     return name(of_law.least, to_branch, "separates at e_n |g_n|, which is below v_s");
   }
-  if (l.least_separation > 0 && due <= by_restitution && vanishes(off, to_least, allowed))
+  if (least > 0 && due <= by_restitution && vanishes(off, to_least, allowed))
     return name(of_law.always, to_least, "separates at v_s, which is below e_n |g_n|");
   if (left <= by_restitution + allowed) return plain.add(as_found);
   constexpr const char* another = "separates at another least separation speed than the case's";
@@ -164,21 +151,18 @@ void ImpactJudge::tell_normal(const LoggedEvent& event, const ContactGeometry& i
 }
 
 /// Impacts at which a suspected law of separation would show and the log has another one.
-void ImpactJudge::see_separation(const LoggedEvent& event, const ContactGeometry& impact, double allowed) {
-  const auto& l = law(impact);
-  const auto place = separations_.find(number_of(l));
+void ImpactJudge::see_separation(const LoggedImpact& impact, double allowed) {
+  const auto place = separations_.find(number_of_law(impact));
   if (place == separations_.end()) return;
   SeparationSuspicions& of_law = place->second;
-  const double g_n = dot(impact.before(event), impact.normal), left = dot(impact.after(event), impact.normal);
-  const double by_restitution = l.restitution(-g_n, impact.bodies()) * -g_n;
-  const double due = separation_speed(l, impact, g_n);
+  const double g_n = impact.g_n(), left = impact.g_n_after(), due = impact.separation_speed(g_n);
   const auto see = [&](Suspicion& suspicion, double with_it) {
     const bool fits = std::abs(left - with_it) <= allowed;
     if (suspicion.is_suspected() && std::abs(due - with_it) > allowed && !fits) suspicion.contradicted();
   };
   const bool known = of_law.speed < std::numeric_limits<double>::infinity();
-  see(of_law.least, std::max({by_restitution, known ? of_law.speed : 0.0, g_n}));
-  see(of_law.always, std::max(l.least_separation, g_n));
+  see(of_law.least, std::max({impact.by_restitution(g_n), known ? of_law.speed : 0.0, g_n}));
+  see(of_law.always, std::max(impact.law->least_separation, g_n));
 }
 
 void ImpactJudge::finish() {
@@ -197,22 +181,19 @@ void ImpactJudge::finish() {
 }
 
 /// The wall's speed along n that the logged speeds imply, where the law of impacts holds with it.
-std::optional<double> ImpactJudge::other_wall_speed(const LoggedEvent& event, const ContactGeometry& impact,
-                                                    const Residuals& off, double allowed) const {
-  if (!event.with_wall || !available_.approach_speed || !available_.slip_speed) return std::nullopt;
-  const auto& l = law(impact);
-  const double v_n = dot(event.body[0].velocity_before, impact.normal);
-  const double v_n_after = dot(event.body[0].velocity_after, impact.normal);
-  const double wall = v_n + event.approach_speed, separation = v_n_after - wall;
-  const double normal_left = std::abs(separation - separation_speed(l, impact, -event.approach_speed));
+std::optional<double> ImpactJudge::other_wall_speed(const LoggedImpact& impact, const Residuals& off,
+                                                    double allowed) const {
+  if (!impact.with_wall() || !available_.approach_speed || !available_.slip_speed) return std::nullopt;
+  const LoggedEvent& event = *impact.event;
+  const double wall = impact.along(event.body[0].velocity_before) + event.approach_speed,
+               separation = impact.along(event.body[0].velocity_after) - wall;
+  const double normal_left = std::abs(separation - impact.separation_speed(-event.approach_speed));
   // The slip before the impact follows from its change, with e_t of the logged speeds.
-  const Vec g = impact.before(event), g_after = impact.after(event);
-  const Vec changed =
-      (g_after - impact.normal * dot(g_after, impact.normal)) - (g - impact.normal * dot(g, impact.normal));
-  const double e_t = tangential_restitution(l, impact, impact.compliance, separation + event.approach_speed,
-                                            event.slip_speed);
+  const Vec g = impact.before(), changed = impact.across(impact.after()) - impact.across(g);
+  const double e_t =
+      impact.tangential_restitution(impact.compliance, separation + event.approach_speed, event.slip_speed);
   const double slip_left = std::abs(size(changed) - std::abs(1 - e_t) * event.slip_speed);
-  const double logged_off = std::abs(event.approach_speed + dot(g, impact.normal));
+  const double logged_off = std::abs(event.approach_speed + impact.along(g));
   const double all_off = std::max({off.normal, off.tangential, logged_off});
   if (!vanishes(all_off, std::max(normal_left, slip_left), allowed)) return std::nullopt;
   return wall;

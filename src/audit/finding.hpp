@@ -1,7 +1,9 @@
-// The kinds of findings of an audit, and their storage: counts and the worst examples of each kind.
+// The findings of an audit: counts and the worst examples of each kind, and when they may be given a name.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string_view>
@@ -9,67 +11,40 @@
 
 namespace edmill::audit {
 
-/// docs/audit.md defines each kind.
+#define EDMILL_KIND(name, unit, meaning, check) name,
 enum class Kind : std::size_t {
-  out_of_order,
-  duplicate,
-  unknown_body,
-  not_finite,
-  late_event,
-  early_event,
-  wrong_partner,
-  rotation_order,
-  not_approaching,
-  normal_restitution,
-  separation_law,
-  tangential_restitution,
-  tangential_sign,
-  unequal_balls,
-  wall_velocity,
-  momentum,
-  spin_change,
-  approach_speed,
-  slip_speed,
-  milling_dose,
-  wall_work,
-  non_ballistic,
-  lost_spin,
-  missed_event,
+#include "audit/findings.def"
 };
-inline constexpr std::size_t kind_count = 24;
-
-/// The checks; the share of a kind is relative to how often its check was made.
+#undef EDMILL_KIND
+/// The share of a kind is relative to how often its check was made.
+#define EDMILL_CHECK(id, name, columns) id,
 enum class Check : std::size_t {
-  order,
-  bodies,
-  touch,
-  approach,
-  normal_law,
-  tangential_law,
-  momentum,
-  spin_change,
-  approach_speed,
-  slip_speed,
-  milling_dose,
-  wall_work,
-  flight,
-  spin_kept,
-  missed,
+#include "audit/findings.def"
 };
-inline constexpr std::size_t check_count = 15;
+#undef EDMILL_CHECK
 
 struct KindInfo {
   std::string_view name, unit;  ///< unit of its size
   std::string_view meaning;     ///< in a few words
   Check check;                  ///< that finds it
 };
-const KindInfo& info(Kind kind);
-
+#define EDMILL_KIND(name, unit, meaning, check) KindInfo{#name, unit, meaning, Check::check},
+inline constexpr std::array kinds{
+#include "audit/findings.def"
+};
+#undef EDMILL_KIND
 struct CheckInfo {
   std::string_view name;
   std::string_view columns;  ///< that it needs
 };
-const CheckInfo& info(Check check);
+#define EDMILL_CHECK(id, name, columns) CheckInfo{name, columns},
+inline constexpr std::array checks{
+#include "audit/findings.def"
+};
+#undef EDMILL_CHECK
+inline constexpr std::size_t kind_count = kinds.size(), check_count = checks.size();
+inline const KindInfo& info(Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+inline const CheckInfo& info(Check check) { return checks[static_cast<std::size_t>(check)]; }
 
 struct Finding {
   Kind kind;
@@ -121,6 +96,51 @@ class Findings {
   std::size_t examples_;
   std::array<Tally, kind_count> tallies_;
   std::array<std::uint64_t, check_count> judged_{}, unresolved_{};
+};
+
+// When a mistake may be named. docs/audit.md, "What a log looks like"
+
+/// A mistake explains a violation where the violation vanishes when the mistake is assumed: what is left is
+/// within the tolerance, and at most a tenth of what was off. Within a coarse tolerance alone anything may
+/// lie.
+inline bool vanishes(double off, double left, double allowed) { return left <= allowed && 10 * left <= off; }
+
+/// Nine tenths of a log, the rest of which may have another cause.
+inline bool accounts_for(std::uint64_t explained, std::uint64_t of) {
+  return explained > 0 && 10 * explained >= 9 * of;
+}
+
+/// A mistake while a log is read. It is named at the end of the log, where it accounts for the places at
+/// which it would show and the evidence is strong; else what it seemed to explain is reported as it was
+/// found.
+class Suspicion {
+ public:
+  explicit Suspicion(std::size_t examples) : named_(examples), plain_(examples) {}
+
+  /// A violation of size `off` vanishes with the mistake up to `left`. @return where to report it as such
+  Findings& explains(double off, double left) {
+    ++shows_, ++explained_;
+    // A coincidence of one number within a tenth of its size happens in a tenth of all cases.
+    decades_ += std::log10(off / std::max(left, 1e-17 * off));
+    return named_;
+  }
+  /// Where to report the same violation without a name.
+  Findings& plain() { return plain_; }
+  /// The log has no sign of the mistake where it would show.
+  void contradicted() { ++shows_; }
+
+  bool is_suspected() const { return explained_ > 0; }
+  bool is_named() const { return fits() && decades_ >= least_decades; }
+  /// Nothing speaks against it, be there evidence or not.
+  bool fits() const { return accounts_for(explained_, shows_); }
+  const Findings& findings() const { return findings(is_named()); }
+  const Findings& findings(bool named) const { return named ? named_ : plain_; }
+
+ private:
+  static constexpr double least_decades = 6;  ///< an exact log has more at a single impact
+  Findings named_, plain_;
+  std::uint64_t shows_ = 0, explained_ = 0;
+  double decades_ = 0;
 };
 
 }  // namespace edmill::audit

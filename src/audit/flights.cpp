@@ -25,22 +25,18 @@ double smallest_sum(const model::Case<double>& c) {
 
 }  // namespace
 
-Flights::Flights(const model::Case<double>& the_case, const Available& available,
-                 const Tolerances& tolerances, Findings& findings)
-    : case_(the_case),
-      available_(available),
-      tolerances_(tolerances),
-      findings_(findings),
-      clock_(the_case.mill.motion.period()),
-      ladder_(the_case.mill, smallest_sum(the_case), 32.0),
+Flights::Flights(const Judge& shared)
+    : Judge(shared),
+      clock_(case_.mill.motion.period()),
+      ladder_(case_.mill, smallest_sum(case_), 32.0),
       top_speed_(32),
-      tracks_(the_case.balls.size()),
-      flown_through_(the_case.mill.vessel.walls().size()),
-      looks_(look_notes.size(), Suspicion(findings.examples())) {}
+      tracks_(case_.balls.size()),
+      flown_through_(case_.mill.vessel.walls().size()),
+      looks_(look_notes.size(), Suspicion(findings_.examples())) {}
 
 Vec Flights::position_at(int ball, double time) const {
   const Track& track = of(ball);
-  return dynamics::position_after(track.flight, case_.mill.gravity, time - track.start);
+  return position_after(track.flight, time - track.start);
 }
 
 void Flights::begin(int ball, double time, const BodyState& state, const Available::Body& has) {
@@ -80,7 +76,7 @@ void Flights::judge(int ball, const FlightEnd& end) {
   const double speed = size(track.flight.velocity) + tolerances_.gravity * (time - track.start);
   const double slack =
       tolerances_.touch(time, true) + tolerances_.position(time, speed * (time - track.start), speed);
-  if (slack > case_.balls[static_cast<std::size_t>(ball)].radius / 2) {
+  if (slack > radius_of(ball) / 2) {
     findings_.unresolved(Check::missed);
     track.pending.clear();
     return judge_state(ball, track, end, off, true);
@@ -108,13 +104,13 @@ void Flights::judge(int ball, const FlightEnd& end) {
 bool Flights::report_missed_wall(int ball, Track& track, const Contact& missed, const FlightEnd& end,
                                  double off, double& missed_at) {
   const bool explained = off > 0 && explained_by_walls(ball, track, end);
-  if (off == 0) ++flown_through_[static_cast<std::size_t>(missed.partner)];
+  if (off == 0) ++flown_through_[missed.partner];
   if (!explained && off > 0 && missed.depth <= 2 * off) return false;
   track.held = missed_finding(ball, missed, end,
                               explained  ? "the state changes as in this impact, which is not logged"
                               : off == 0 ? "the ball flew through the wall"
-                                         : "");
-  track.held->explained = explained;
+                                         : "",
+                              explained);
   missed_at = missed.time;
   return true;
 }
@@ -124,24 +120,23 @@ bool Flights::report_missed_ball(int ball, const Contact& pair, const FlightEnd&
                                  double& missed_at) {
   Track& other = of(pair.partner);
   if (off > 0 && explained_by_ball(ball, pair, end)) {
-    auto missed = missed_finding(ball, pair, end, "the state changes as in this impact, which is not logged");
-    missed.explained = true;
-    findings_.add(missed);
+    findings_.add(
+        missed_finding(ball, pair, end, "the state changes as in this impact, which is not logged", true));
     if (!other.broken || pair.time < other.broken_from) other.broken_from = pair.time;
     other.broken = true;
     missed_at = pair.time;
     return true;
   }
   if ((off > 0 && pair.depth <= 2 * off) || other.pending.size() >= pending_kept) return false;
-  const auto finding = missed_finding(ball, pair, end, off == 0 ? "the balls flew through each other" : "");
-  other.pending.push_back({finding, pair.depth});
+  const char* note = off == 0 ? "the balls flew through each other" : "";
+  other.pending.push_back({missed_finding(ball, pair, end, note, false), pair.depth});
   missed_at = pair.time;
   return off > 0;
 }
 
 /// Missed impacts that were found with other balls' flights are confirmed if this flight agrees with the log.
 void Flights::settle_pending(Track& track, const FlightEnd& end, double off, double missed_at) {
-  const int other = end.body == 0 ? end.event->partner : end.event->ball;
+  const int other = end.partner();
   for (const auto& p : track.pending) {
     const bool told_late = end.late && !end.event->with_wall && p.finding.ball == other;
     if (!told_late && p.finding.time <= missed_at && (off == 0 || p.depth > 2 * off))
@@ -164,30 +159,27 @@ void Flights::finish() {
   for (const auto& look : looks_) findings_.take(look.findings());
 }
 
-Finding Flights::missed_finding(int ball, const Contact& contact, const FlightEnd& end,
-                                const char* note) const {
-  return {Kind::missed_event, contact.depth,   end.event->line, contact.time, ball,
-          contact.with_wall,  contact.partner, unknown,         unknown,      note};
+Finding Flights::missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note,
+                                bool explained) const {
+  return {Kind::missed_event, contact.depth, end.event->line, contact.time, ball,     contact.with_wall,
+          contact.partner,    unknown,       unknown,         note,         explained};
 }
 
 /// Position, velocity and spin at the end of a flight.
 /// @param off  becomes the distance from the end of the flight, 0 when within the tolerances
 void Flights::judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it) {
   const LoggedEvent& event = *end.event;
-  const BodyState& state = event.body[end.body];
+  const BodyState& state = end.state();
   const auto& has = available_.body[end.body];
   const double time = event.time, dt = time - track.start;
   const double speed = std::max(size(track.flight.velocity), size(state.velocity_before));
   const auto finding = [&](Kind kind, double amount, double found, const char* note) {
-    return Finding{
-        kind,  amount, event.line, time, ball, event.with_wall, end.body == 0 ? event.partner : event.ball,
-        found, 0,      note};
+    return Finding{kind, amount, event.line, time, ball, event.with_wall, end.partner(), found, 0, note};
   };
   off = 0;
   if (has.position && has.velocity_before) {
     const double dp = size(Vec(state.position - position_at(ball, time)));
-    const double dv =
-        size(Vec(state.velocity_before - dynamics::velocity_after(track.flight, case_.mill.gravity, dt)));
+    const double dv = size(Vec(state.velocity_before - velocity_after(track.flight, dt)));
     const double fastest = speed + tolerances_.gravity * dt;
     const bool good =
         dp <= tolerances_.position(time, speed * dt, fastest) && dv <= tolerances_.velocity(time, fastest);
@@ -200,7 +192,7 @@ void Flights::judge_state(int ball, const Track& track, const FlightEnd& end, do
   }
   if (tell_it && has.spin_before && track.spin_known) {
     findings_.judged(Check::spin_kept);
-    const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
+    const double radius = radius_of(ball);
     const double change = radius * size(Vec(state.spin_before - track.spin));
     if (change >
         tolerances_.relative * std::max({speed, radius * size(track.spin), radius * size(state.spin_before)}))

@@ -8,6 +8,10 @@
 #include "audit/impact_judge.hpp"
 #include "dynamics/decision_ladder.hpp"
 
+namespace edmill::dynamics {
+extern template class DecisionLadder<double>;
+}
+
 namespace edmill::audit {
 
 /// The last logged state of a ball.
@@ -33,15 +37,17 @@ struct FlightEnd {
   std::size_t body;        ///< 0 the event's ball, 1 its partner
   bool late = false;       ///< the event is late: its bodies have met before, which is reported
   bool displaced = false;  ///< the walls of the log are displaced, which is reported
+
+  const BodyState& state() const { return event->body[body]; }
+  int partner() const { return body == 0 ? event->partner : event->ball; }  ///< ball or wall
 };
 
-class Flights {
+class Flights : Judge {
  public:
-  Flights(const model::Case<double>& the_case, const Available& available, const Tolerances& tolerances,
-          Findings& findings);
+  explicit Flights(const Judge& shared);
 
-  Track& of(int ball) { return tracks_[static_cast<std::size_t>(ball)]; }
-  const Track& of(int ball) const { return tracks_[static_cast<std::size_t>(ball)]; }
+  Track& of(int ball) { return tracks_[ball]; }
+  const Track& of(int ball) const { return tracks_[ball]; }
   int balls() const { return static_cast<int>(tracks_.size()); }
 
   /// Position of a ball, extrapolated from its last known state [m]. @pre its state is known
@@ -83,11 +89,14 @@ class Flights {
   std::optional<Contact> first_ball(int ball, const Track& track, const FlightEnd& end, double slack);
   bool explained_by_walls(int ball, const Track& track, const FlightEnd& end);
   bool explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const;
+  BodyState before_impact(const State& state, double time) const;
+  State after_impact(const LoggedEvent& event) const;
   bool arrives(const State& state, const FlightEnd& end) const;
   void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it);
   void tell_flight(const Track& track, const BodyState& state, const Finding& finding, bool good);
   double look(std::size_t k, const Track& track, const BodyState& state, double dt, double& shows);
-  Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note) const;
+  Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note,
+                         bool explained) const;
   bool report_missed_wall(int ball, Track& track, const Contact& missed, const FlightEnd& end, double off,
                           double& missed_at);
   bool report_missed_ball(int ball, const Contact& pair, const FlightEnd& end, double off, double& missed_at);
@@ -97,10 +106,13 @@ class Flights {
   bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const;
   double deepest(int ball, const Track& track, int wall, double from, double until) const;
 
-  const model::Case<double>& case_;
-  const Available& available_;
-  Tolerances tolerances_;
-  Findings& findings_;
+  Vec position_after(const dynamics::Flight<double>& flight, double dt) const {
+    return dynamics::position_after(flight, case_.mill.gravity, dt);
+  }
+  Vec velocity_after(const dynamics::Flight<double>& flight, double dt) const {
+    return dynamics::velocity_after(flight, case_.mill.gravity, dt);
+  }
+
   DriveClock<double> clock_;
   dynamics::DecisionLadder<double> ladder_;
   double top_speed_;

@@ -1,22 +1,48 @@
 // Checks a single impact: the contact law, conservation, and the values logged with it.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <optional>
 
 #include "audit/finding.hpp"
 #include "audit/mechanics.hpp"
-#include "audit/naming.hpp"
 #include "audit/stall_history.hpp"
 #include "audit/tolerances.hpp"
 #include "base/compensated_sum.hpp"
 
 namespace edmill::audit {
 
+inline Finding finding(Kind kind, const LoggedEvent& event, double size, double found, double expected,
+                       const char* note = "", bool explained = false) {
+  return {kind,          size,  event.line, event.time, event.ball, event.with_wall,
+          event.partner, found, expected,   note,       explained};
+}
+
+/// What all judges of a log share.
+class Judge {
+ public:
+  Judge(const model::Case<double>& the_case, const Available& available, const Tolerances& tolerances,
+        Findings& findings)
+      : case_(the_case), available_(available), tolerances_(tolerances), findings_(findings) {}
+
+ protected:
+  void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
+            const char* note = "") {
+    findings_.add(finding(kind, event, size, found, expected, note));
+  }
+  double radius_of(int ball) const { return case_.balls[ball].radius; }
+
+  const model::Case<double>& case_;
+  const Available& available_;
+  Tolerances tolerances_;
+  Findings& findings_;
+};
+
 /// An impact and where it takes place.
 struct Scene {
-  ContactGeometry impact;  ///< with the right velocity of the wall
+  LoggedImpact impact;  ///< with the right velocity of the wall
   VesselFrame nested, printed;
   bool displaced = false;  ///< checked in the printed frame, where that code has its walls
   Friction friction = Friction::acts;
@@ -40,29 +66,12 @@ struct Energies {
   }
 };
 
-inline Finding finding(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-                       const char* note = "", bool explained = false) {
-  return {kind,          size,  event.line, event.time, event.ball, event.with_wall,
-          event.partner, found, expected,   note,       explained};
-}
-
-class ImpactJudge {
+class ImpactJudge : Judge {
  public:
-  ImpactJudge(const model::Mill<double>& mill, const Available& available, const Tolerances& tolerances,
-              Findings& findings)
-      : mill_(mill),
-        available_(available),
-        tolerances_(tolerances),
-        findings_(findings),
-        suspicions_(known_mistake_count(), Suspicion(findings.examples())),
-        net_dose_(findings.examples()),
-        dose_without_rule_(findings.examples()) {}
+  explicit ImpactJudge(const Judge& shared);
 
   /// Judges an impact by the states of the bodies.
-  void judge(const LoggedEvent& event, Scene scene);
-  /// Judges the dose by the logged speeds, where the log or this impact has no states.
-  void judge_speeds(const LoggedEvent& event, const ContactGeometry& impact);
-  const model::ContactLaw<double>& law(const ContactGeometry& impact) const { return law_of(mill_, impact); }
+  void judge(Scene scene);
   /// At the end of the log.
   void finish();
 
@@ -73,15 +82,15 @@ class ImpactJudge {
   struct Residuals {
     double normal = 0, tangential = 0, momentum = 0, spin = 0;
     double restitution_tangential = 1;  ///< that applies
-    double largest() const;
+    double largest() const { return std::max({normal, tangential, momentum, spin}); }
   };
   /// A mistake that reproduces a violating impact.
   struct Explanation {
-    std::size_t mistake;
     Kind kind;
     const char* note;
-    ContactGeometry impact;  ///< as that code saw it
-    double off, left;        ///< without the mistake and with it [m/s]
+    Suspicion* mistake;
+    LoggedImpact impact;  ///< as that code saw it
+    double off, left;     ///< without the mistake and with it [m/s]
   };
   struct Known {
     bool velocities, spins;  ///< before and after, of all bodies
@@ -93,48 +102,36 @@ class ImpactJudge {
     double energy;  ///< [J]
   };
 
-  /// Number of a law of the mill: of balls, with walls, pairs of materials.
-  std::ptrdiff_t number_of(const model::ContactLaw<double>& law) const {
-    if (&law == &mill_.ball_ball) return 0;
-    return &law == &mill_.ball_wall ? 1 : 2 + (&law - mill_.pairs.laws.data());
-  }
-  Residuals residuals(const LoggedEvent& event, const ContactGeometry& impact, const Known& known,
-                      bool parting) const;
-  static std::size_t known_mistake_count();
+  Residuals residuals(const LoggedImpact& impact, const Known& known, bool parting) const;
   /// The known mistake that reproduces the logged outcome, if one does. What does not is noted, also of an
   /// impact that is not violated.
-  std::optional<Explanation> explaining(const LoggedEvent& event, const Scene& scene, double allowed,
-                                        bool violated);
-  bool fits_without_friction(const LoggedEvent& event, const ContactGeometry& impact,
-                             const Known& known) const;
-  bool tell_broken_equations(const LoggedEvent& event, const Scene& scene, const Residuals& off,
-                             double allowed, Findings& plain);
-  void tell_normal(const LoggedEvent& event, const ContactGeometry& impact, double off, double allowed,
-                   Findings& plain);
-  void see_separation(const LoggedEvent& event, const ContactGeometry& impact, double allowed);
-  std::optional<double> other_wall_speed(const LoggedEvent& event, const ContactGeometry& impact,
-                                         const Residuals& off, double allowed) const;
-  bool judge_outcome(const LoggedEvent& event, const Scene& scene, const Known& known, const Allowed& allowed,
-                     ContactGeometry& theirs);
-  void judge_logged_speeds(const LoggedEvent& event, const ContactGeometry& impact, const Known& known,
-                           double allowed, bool wall_velocity_told);
-  void judge_energies(const LoggedEvent& event, const ContactGeometry& right, const ContactGeometry& theirs,
-                      double allowed);
-  void judge_dose(const LoggedEvent& event, const ContactGeometry& right, const ContactGeometry& theirs,
-                  double allowed);
+  std::optional<Explanation> explaining(const Scene& scene, double allowed, bool violated);
+  bool fits_without_friction(const LoggedImpact& impact, const Known& known) const;
+  bool tell_broken_equations(const LoggedImpact& impact, const Residuals& off, double allowed,
+                             Findings& plain);
+  void tell_normal(const LoggedImpact& impact, double off, double allowed, Findings& plain);
+  void see_separation(const LoggedImpact& impact, double allowed);
+  std::optional<double> other_wall_speed(const LoggedImpact& impact, const Residuals& off,
+                                         double allowed) const;
+  bool judge_outcome(const Scene& scene, const Known& known, const Allowed& allowed, LoggedImpact& theirs);
+  void judge_speeds(const LoggedImpact& impact);
+  void judge_logged_speeds(const LoggedImpact& impact, const Known& known, double allowed,
+                           bool wall_velocity_told);
+  void judge_energies(const LoggedImpact& right, const LoggedImpact& theirs, double allowed);
+  void judge_dose(const LoggedImpact& right, const LoggedImpact& theirs, double allowed);
   void tell_dose(const LoggedEvent& event, double off, double expected, double allowed, double left,
                  double changes, Suspicion& mistake, const char* note);
   void leave_unresolved(const Known& known);
-  bool leaves_by_the_other_branch(const LoggedEvent& event, const ContactGeometry& impact, double off,
-                                  double allowed) const;
-  void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected) {
-    findings_.add(finding(kind, event, size, found, expected));
+  double by_wall(const LoggedImpact& impact, double scale) const {
+    return impact.with_wall()
+               ? tolerances_.of_wall(impact.event->time, scale, impact.bend, impact.ball[0].radius)
+               : 0;
+  }
+  /// Of an impact whose dose follows from its speeds [J].
+  double allowed_dose(const LoggedImpact& impact, double speed) const {
+    return 4 * tolerances_.relative * impact.effective_mass * speed * speed;
   }
 
-  const model::Mill<double>& mill_;
-  const Available& available_;
-  Tolerances tolerances_;
-  Findings& findings_;
   Energies energies_;
   std::vector<Suspicion> suspicions_;  ///< by known mistake
   std::uint64_t explained_impacts_ = 0;
@@ -145,7 +142,13 @@ class ImpactJudge {
     Suspicion always;  ///< the case's least speed after every impact
     double speed = std::numeric_limits<double>::infinity(), g_n = 0;
   };
-  std::map<std::ptrdiff_t, SeparationSuspicions> separations_;  ///< by law of the impacts
+  /// Number of the law of an impact: of balls, with walls, pairs of materials.
+  std::ptrdiff_t number_of_law(const LoggedImpact& impact) const {
+    const auto& mill = case_.mill;
+    if (impact.law == &mill.ball_ball) return 0;
+    return impact.law == &mill.ball_wall ? 1 : 2 + (impact.law - mill.pairs.laws.data());
+  }
+  std::map<std::ptrdiff_t, SeparationSuspicions> separations_;  ///< by number of the law
   Suspicion net_dose_, dose_without_rule_;
 };
 

@@ -50,9 +50,17 @@ VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_prin
   return frame;
 }
 
-double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
+double wall_gap(const VesselFrame& frame, const model::Case<double>& the_case, int wall, int ball,
                 const Vec& position) {
-  return -vessel.inset(radius).overlap(wall, inside(frame, position)) - frame.of_wall(wall).value;
+  const auto room = the_case.mill.vessel.inset(the_case.balls[ball].radius);
+  return -room.overlap(wall, inside(frame, position)) - frame.of_wall(wall).value;
+}
+
+double gap_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame) {
+  const auto& [one, two] = event.body;
+  if (event.with_wall) return wall_gap(frame, the_case, event.partner, event.ball, one.position);
+  return size(Vec(one.position - two.position)) - the_case.balls[event.ball].radius -
+         the_case.balls[event.partner].radius;
 }
 
 Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
@@ -78,180 +86,152 @@ double wall_bend(const VesselFrame& frame, const model::AnyVessel<double>& vesse
   return std::sqrt(square) / step;
 }
 
-const char* name_of(WallVelocity formula) {
-  static constexpr std::array<const char*, wall_velocity_count> names = {
-      "",
-      "a wall at rest",
-      "the velocity of the vessel's centre for every point",
-      "the wall's velocity without the rotation by gamma",
-      "the wall's velocity without the rotation by theta",
-      "the wall's velocity with the opposite sign",
-      "the wall's velocity with the opposite sign of gamma'",
-      "gamma' about the inertial X axis instead of x'",
-      "the wall's velocity at the ball's centre instead of the contact point",
-      "the derivative of the printed matrix (2.14)"};
-  return names[static_cast<std::size_t>(formula)];
+namespace {
+
+Vec velocity_at(const WallPoint& p, const Vec& place) {
+  return p.nested.centre_velocity + cross(p.nested.angular_velocity, Vec(place - p.nested.centre));
+}
+Vec from_centre(const WallPoint& p) { return p.contact - p.nested.centre; }
+Vec by_roll(const WallPoint& p) { return cross(Vec(p.nested.x * p.nested.roll_rate), from_centre(p)); }
+Vec by_roll_about_X(const WallPoint& p) {
+  return cross(Vec(Vec(1, 0, 0) * p.nested.roll_rate), from_centre(p));
 }
 
-Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselFrame& printed,
-                  const Vec& point, const Vec& ball_centre) {
-  const auto at = [&](const Vec& place) {
-    return Vec(nested.centre_velocity + cross(nested.angular_velocity, Vec(place - nested.centre)));
-  };
-  const Vec X{1, 0, 0}, d = point - nested.centre;
-  const Vec roll = cross(Vec(nested.x * nested.roll_rate), d);
-  switch (formula) {
-    case WallVelocity::nested:
-      return at(point);
-    case WallVelocity::none:
-      return {0, 0, 0};
-    case WallVelocity::of_the_centre:
-      return nested.centre_velocity;
-    case WallVelocity::without_gamma:
-      return at(point) - roll;
-    case WallVelocity::without_theta:
-      return at(point) - cross(nested.swing, point);
-    case WallVelocity::reversed:
-      return -at(point);
-    case WallVelocity::gamma_reversed:
-      return at(point) - 2 * roll;
-    case WallVelocity::gamma_about_X:
-      return at(point) - roll + cross(Vec(X * nested.roll_rate), d);
-    case WallVelocity::at_the_ball_centre:
-      return at(ball_centre);
-    case WallVelocity::of_the_printed_matrix: {
-      // P = C + R_x R_z p: R_z p rotates about Z, then everything but C rotates about X.
-      const Vec turned_z = cross(Vec(X * nested.roll_rate), d);
-      // The axis Z of the inner rotation as R_x leaves it is the printed frame's z.
-      return nested.centre_velocity + turned_z + cross(Vec(printed.z * nested.swing[2]), d);
-    }
-  }
-  return {0, 0, 0};
+}  // namespace
+
+const std::array<WallVelocity, 10> wall_velocities = {{
+    {"", [](const WallPoint& p) { return velocity_at(p, p.contact); }},
+    {"a wall at rest", [](const WallPoint&) { return Vec(0, 0, 0); }},
+    {"the velocity of the vessel's centre for every point",
+     [](const WallPoint& p) { return p.nested.centre_velocity; }},
+    {"the wall's velocity without the rotation by gamma",
+     [](const WallPoint& p) { return Vec(velocity_at(p, p.contact) - by_roll(p)); }},
+    {"the wall's velocity without the rotation by theta",
+     [](const WallPoint& p) { return Vec(velocity_at(p, p.contact) - cross(p.nested.swing, p.contact)); }},
+    {"the wall's velocity with the opposite sign",
+     [](const WallPoint& p) { return Vec(-velocity_at(p, p.contact)); }},
+    {"the wall's velocity with the opposite sign of gamma'",
+     [](const WallPoint& p) { return Vec(velocity_at(p, p.contact) - 2 * by_roll(p)); }},
+    {"gamma' about the inertial X axis instead of x'",
+     [](const WallPoint& p) { return Vec(velocity_at(p, p.contact) - by_roll(p) + by_roll_about_X(p)); }},
+    {"the wall's velocity at the ball's centre instead of the contact point",
+     [](const WallPoint& p) { return velocity_at(p, p.ball_centre); }},
+    {"the derivative of the printed matrix (2.14)",
+     [](const WallPoint& p) {
+       // P = C + R_x R_z p: R_z p rotates about Z, then everything but C rotates about X. The axis Z of the
+       // inner rotation as R_x leaves it is the printed frame's z.
+       return Vec(p.nested.centre_velocity + by_roll_about_X(p) +
+                  cross(Vec(p.printed.z * p.nested.swing[2]), from_centre(p)));
+     }},
+}};
+
+void LoggedImpact::set_wall_velocity(const WallVelocity& formula, const VesselFrame& nested,
+                                     const VesselFrame& printed) {
+  const Vec& ball_centre = event->body[0].position;
+  wall_velocity = formula.at({nested, printed, ball_centre - normal * ball[0].radius, ball_centre}) +
+                  normal * nested.of_wall(event->partner).rate;
 }
 
-void ContactGeometry::set_masses() {
-  if (with_wall) {
-    effective_mass = ball[0].mass;
-    compliance = 1 + 1 / ball[0].reduced_inertia;
-    return;
-  }
-  effective_mass = 1 / (1 / ball[0].mass + 1 / ball[1].mass);
-  compliance = 1;
-  for (const auto& b : ball) compliance += effective_mass / (b.mass * b.reduced_inertia);
-}
-
-void ContactGeometry::set_wall_velocity(WallVelocity formula, const VesselFrame& nested,
-                                        const VesselFrame& printed, const Vec& ball_centre) {
-  const Vec point = ball_centre - normal * ball[0].radius;
-  wall_velocity = audit::wall_velocity(formula, nested, printed, point, ball_centre) +
-                  piston_velocity(nested, wall, normal);
-}
-
-ContactGeometry geometry_of(const LoggedEvent& event, const model::Case<double>& the_case,
-                            const VesselFrame& frame, bool placed) {
-  ContactGeometry impact;
-  impact.with_wall = event.with_wall;
-  impact.ball[0] = the_case.balls[static_cast<std::size_t>(event.ball)];
-  impact.normal = {1, 0, 0};
+LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_case,
+                       const VesselFrame& frame, bool placed) {
+  const auto& mill = the_case.mill;
+  LoggedImpact impact;
+  impact.event = &event;
+  auto& [ball, partner] = impact.ball;
+  ball = the_case.balls[event.ball];
   const Vec& place = event.body[0].position;
   if (event.with_wall) {
-    impact.wall = event.partner;
-    if (placed) {
-      const auto& vessel = the_case.mill.vessel;
-      impact.normal = wall_normal(frame, vessel, event.partner, impact.ball[0].radius, place);
-      impact.bend = wall_bend(frame, vessel, event.partner, impact.ball[0].radius, place);
-      impact.set_wall_velocity(WallVelocity::nested, frame, frame, place);
-    }
-  } else {
-    impact.ball[1] = the_case.balls[static_cast<std::size_t>(event.partner)];
-    const Vec apart = place - event.body[1].position;
-    const double distance = size(apart);
-    if (placed && distance > 0) impact.normal = apart * (1 / distance);
+    impact.law = &mill.law_with_wall(ball, event.partner);
+    impact.effective_mass = ball.mass;
+    impact.compliance = 1 + 1 / ball.reduced_inertia;
+    if (!placed) return impact;
+    impact.normal = wall_normal(frame, mill.vessel, event.partner, ball.radius, place);
+    impact.bend = wall_bend(frame, mill.vessel, event.partner, ball.radius, place);
+    impact.set_wall_velocity(wall_velocities[0], frame, frame);
+    return impact;
   }
-  impact.set_masses();
+  partner = the_case.balls[event.partner];
+  impact.law = &mill.law_between(ball, partner);
+  impact.effective_mass = 1 / (1 / ball.mass + 1 / partner.mass);
+  impact.compliance = 1;
+  for (const auto& b : impact.ball) impact.compliance += impact.effective_mass / (b.mass * b.reduced_inertia);
+  const Vec apart = place - event.body[1].position;
+  const double distance = size(apart);
+  if (placed && distance > 0) impact.normal = apart * (1 / distance);
   return impact;
 }
 
-const model::ContactLaw<double>& law_of(const model::Mill<double>& mill, const ContactGeometry& impact) {
-  return impact.with_wall ? mill.law_with_wall(impact.ball[0], impact.wall)
-                          : mill.law_between(impact.ball[0], impact.ball[1]);
+namespace {
+
+/// The ball's contact point is at -R n from its centre, the partner's at +R n.
+Vec contact_velocity(const LoggedImpact& impact, Vec BodyState::*velocity, Vec BodyState::*spin) {
+  const auto& [one, two] = impact.event->body;
+  const Vec own = one.*velocity - cross(one.*spin, impact.normal) * impact.ball[0].radius;
+  if (impact.with_wall()) return own - impact.wall_velocity;
+  return own - (two.*velocity + cross(two.*spin, impact.normal) * impact.ball[1].radius);
 }
 
-Vec ContactGeometry::contact_velocity(const Vec& v_i, const Vec& w_i, const Vec& v_j, const Vec& w_j) const {
-  // The ball's contact point is at -R n from its centre, the partner's at +R n.
-  const Vec own = v_i - cross(w_i, normal) * ball[0].radius;
-  if (with_wall) return own - wall_velocity;
-  return own - (v_j + cross(w_j, normal) * ball[1].radius);
+}  // namespace
+
+Vec LoggedImpact::before() const {
+  return contact_velocity(*this, &BodyState::velocity_before, &BodyState::spin_before);
+}
+Vec LoggedImpact::after() const {
+  return contact_velocity(*this, &BodyState::velocity_after, &BodyState::spin_after);
 }
 
-Vec ContactGeometry::before(const LoggedEvent& e) const {
-  return contact_velocity(e.body[0].velocity_before, e.body[0].spin_before, e.body[1].velocity_before,
-                          e.body[1].spin_before);
-}
-Vec ContactGeometry::after(const LoggedEvent& e) const {
-  return contact_velocity(e.body[0].velocity_after, e.body[0].spin_after, e.body[1].velocity_after,
-                          e.body[1].spin_after);
-}
-
-double separation_speed(const model::ContactLaw<double>& law, const ContactGeometry& impact, double g_n) {
-  // Bodies that already separate, by rounding, do not leave more slowly.
-  return std::max({law.restitution(-g_n, impact.bodies()) * -g_n, law.least_separation, g_n});
-}
-
-double tangential_restitution(const model::ContactLaw<double>& law, const ContactGeometry& impact,
-                              double compliance, double bounce, double slip_speed) {
-  if (impact.in_stall) return 1;
+double LoggedImpact::tangential_restitution(double c, double bounce, double slip_speed) const {
+  if (in_stall) return 1;
   // A formula of its own where balls slide, so that a mistake in the law that runs use is seen.
-  if (const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law.law)) {
-    const double reversal = coulomb->friction * compliance * bounce;  // reduction of the slip by full sliding
+  if (const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&law->law)) {
+    const double reversal = coulomb->friction * c * bounce;  // reduction of the slip by full sliding
     if (reversal >= (1 - coulomb->min_tangential) * slip_speed) return coulomb->min_tangential;
     return 1 - reversal / slip_speed;
   }
-  return law.restitution_of_slip(bounce, slip_speed, compliance);
+  return law->restitution_of_slip(bounce, slip_speed, c);
 }
 
-std::array<BodyState, 2> outcome(const ContactGeometry& impact, const model::ContactLaw<double>& law,
-                                 const LoggedEvent& event, const Formula& formula) {
-  const Vec g = impact.before(event);
-  const double g_n = dot(g, impact.normal);
+std::array<BodyState, 2> outcome(const LoggedImpact& impact, const Formula& formula) {
+  const Vec g = impact.before();
+  const double g_n = impact.along(g);
   const Vec slip = g - impact.normal * g_n;
-  const double bounce = separation_speed(law, impact, g_n) - g_n;
-  const double in_friction = formula.friction_of_restitution
-                                 ? -(1 + law.restitution(-g_n, impact.bodies())) * std::min(g_n, 0.0)
-                                 : bounce;
+  const double bounce = impact.separation_speed(g_n) - g_n;
+  const double in_friction =
+      formula.friction_of_restitution ? -(1 + impact.restitution(g_n)) * std::min(g_n, 0.0) : bounce;
   const double c_in_law = formula.compliance_in_e_t > 0 ? formula.compliance_in_e_t : impact.compliance;
   const double c = formula.compliance_in_impulse > 0 ? formula.compliance_in_impulse : impact.compliance;
-  const double e_t = tangential_restitution(law, impact, c_in_law, in_friction, size(slip));
+  const double e_t = impact.tangential_restitution(c_in_law, in_friction, size(slip));
   const Vec normal_part = impact.normal * bounce, tangential_part = slip * (-(1 - e_t) / c);
-  auto result = event.body;
-  for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
+  auto result = impact.event->body;
+  for (std::size_t k = 0; k < impact.count(); ++k) {
     const auto& ball = impact.ball[k];
+    auto& body = result[k];
     const double side = k == 0 ? 1 : -1;
     const double share = formula.share[k] >= 0 ? formula.share[k] : impact.effective_mass / ball.mass;
-    result[k].velocity_after = event.body[k].velocity_before +
-                               (normal_part + tangential_part * formula.velocity_sign) * (side * share);
+    body.velocity_after =
+        body.velocity_before + (normal_part + tangential_part * formula.velocity_sign) * (side * share);
     // Torque of the tangential impulse on an arm of -R n, of the other ball +R n: the same sign.
     const Vec torque = cross(Vec(impact.normal * -1.0), tangential_part);
-    result[k].spin_after = event.body[k].spin_before +
-                           torque * (formula.spin_sign * share / (ball.radius * ball.reduced_inertia));
+    body.spin_after =
+        body.spin_before + torque * (formula.spin_sign * share / (ball.radius * ball.reduced_inertia));
   }
   return result;
 }
 
-double distance(const ContactGeometry& impact, const std::array<BodyState, 2>& one,
+double distance(const LoggedImpact& impact, const std::array<BodyState, 2>& one,
                 const std::array<BodyState, 2>& other) {
   double worst = 0;
-  for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
+  for (std::size_t k = 0; k < impact.count(); ++k) {
     worst = std::max(worst, size(Vec(one[k].velocity_after - other[k].velocity_after)));
     worst = std::max(worst, impact.ball[k].radius * size(Vec(one[k].spin_after - other[k].spin_after)));
   }
   return worst;
 }
 
-double velocity_scale(const ContactGeometry& impact, const LoggedEvent& event, bool with_spins) {
+double velocity_scale(const LoggedImpact& impact, bool with_spins) {
   double scale = size(impact.wall_velocity);
-  for (std::size_t k = 0; k < (impact.with_wall ? 1u : 2u); ++k) {
-    const auto& body = event.body[k];
+  for (std::size_t k = 0; k < impact.count(); ++k) {
+    const auto& body = impact.event->body[k];
     scale = std::max({scale, size(body.velocity_before), size(body.velocity_after)});
     if (with_spins)
       scale = std::max({scale, impact.ball[k].radius * size(body.spin_before),
@@ -260,11 +240,11 @@ double velocity_scale(const ContactGeometry& impact, const LoggedEvent& event, b
   return scale;
 }
 
-double kinetic_change(const LoggedEvent& event, const ContactGeometry& impact) {
+double kinetic_change(const LoggedImpact& impact) {
   double change = 0;
   for (std::size_t k = 0; k < impact.count(); ++k) {
     const auto& ball = impact.ball[k];
-    const auto& b = event.body[k];
+    const auto& b = impact.event->body[k];
     // (a - b).(a + b) loses fewer digits than a.a - b.b.
     change += ball.mass / 2 *
               dot(Vec(b.velocity_after - b.velocity_before), Vec(b.velocity_after + b.velocity_before));
@@ -274,27 +254,25 @@ double kinetic_change(const LoggedEvent& event, const ContactGeometry& impact) {
   return change;
 }
 
-double work_of_wall(const LoggedEvent& event, const ContactGeometry& impact) {
-  if (!impact.with_wall) return 0;
-  return impact.ball[0].mass *
-         dot(impact.wall_velocity, Vec(event.body[0].velocity_after - event.body[0].velocity_before));
+double work_of_wall(const LoggedImpact& impact) {
+  if (!impact.with_wall()) return 0;
+  const auto& body = impact.event->body[0];
+  return impact.ball[0].mass * dot(impact.wall_velocity, Vec(body.velocity_after - body.velocity_before));
 }
 
-Speeds speeds_before(const LoggedEvent& event, const ContactGeometry& impact) {
-  const Vec g = impact.before(event);
-  const double g_n = dot(g, impact.normal);
-  return {g_n, size(Vec(g - impact.normal * g_n))};
+Speeds speeds_before(const LoggedImpact& impact) {
+  const Vec g = impact.before();
+  return {impact.along(g), size(impact.across(g))};
 }
 
-double supplied(const ContactGeometry& impact, double g_n, double separation) {
+double supplied(const LoggedImpact& impact, double g_n, double separation) {
   return std::max(0.0, impact.effective_mass / 2 * (separation - g_n) * (separation + g_n));
 }
 
-double dose_by_law(const ContactGeometry& impact, const model::ContactLaw<double>& law,
-                   const Speeds& speeds) {
-  const double separation = separation_speed(law, impact, speeds.g_n);
+double dose_by_law(const LoggedImpact& impact, const Speeds& speeds) {
+  const double separation = impact.separation_speed(speeds.g_n);
   const double bounce = separation - speeds.g_n;
-  const double e_t = tangential_restitution(law, impact, impact.compliance, bounce, speeds.slip);
+  const double e_t = impact.tangential_restitution(impact.compliance, bounce, speeds.slip);
   const double normal = std::max(0.0, (-speeds.g_n - separation) * bounce);
   return impact.effective_mass / 2 *
          (normal + (1 - e_t * e_t) / impact.compliance * speeds.slip * speeds.slip);

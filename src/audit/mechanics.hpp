@@ -3,6 +3,7 @@
 // Equations: docs/theory.md, sections 1, 2 and 5.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct VesselFrame {
   std::vector<model::Moved<double>> moved{};
 
   model::Moved<double> of_wall(int wall) const {
-    return moved.empty() ? model::Moved<double>{} : moved[static_cast<std::size_t>(wall)];
+    return moved.empty() ? model::Moved<double>{} : moved[wall];
   }
 };
 
@@ -36,8 +37,10 @@ struct VesselFrame {
 VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed);
 
 /// Gap of a ball to a wall [m]; negative for an overlap. (2.17'), (2.19'), (2.21)
-double wall_gap(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
+double wall_gap(const VesselFrame& frame, const model::Case<double>& the_case, int wall, int ball,
                 const Vec& position);
+/// Gap of the bodies of an event [m].
+double gap_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame);
 /// Unit, from the wall to the ball.
 Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
                 const Vec& position);
@@ -46,71 +49,65 @@ Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel
 double wall_bend(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
                  const Vec& position);
 
-/// Velocities of the wall in different codes; the first is right: V = W_Z x P + (R_z W_x') x (P - C).
-enum class WallVelocity {
-  nested,
-  none,
-  of_the_centre,
-  without_gamma,
-  without_theta,
-  reversed,
-  gamma_reversed,
-  gamma_about_X,
-  at_the_ball_centre,
-  of_the_printed_matrix,
+/// Where a wall's velocity is wanted: the frames of the vessel, the contact point P, and the ball's centre.
+struct WallPoint {
+  const VesselFrame &nested, &printed;
+  Vec contact, ball_centre;
 };
-inline constexpr int wall_velocity_count = 10;
-const char* name_of(WallVelocity formula);
-/// @param point  contact point on the wall; the ball's centre is `point + normal R`
-Vec wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselFrame& printed,
-                  const Vec& point, const Vec& ball_centre);
+/// A velocity of the wall that a code may have.
+struct WallVelocity {
+  const char* note;
+  Vec (*at)(const WallPoint& point);
+};
+/// The first is right: V = W_Z x P + (R_z W_x') x (P - C). The last is the derivative of the printed matrix.
+extern const std::array<WallVelocity, 10> wall_velocities;
 
-/// Velocity of a wall in its vessel, which comes on top of the above. @param normal  into the vessel
-inline Vec piston_velocity(const VesselFrame& frame, int wall, const Vec& normal) {
-  return normal * frame.of_wall(wall).rate;
-}
-
-/// The impact of a logged event as input of the contact law: bodies, geometry, and the wall's velocity.
-struct ContactGeometry {
-  bool with_wall = false;
-  int wall = -1;                                      ///< id, of an impact with one
-  std::array<model::BallProperties<double>, 2> ball;  ///< the partner only for balls
-  Vec normal;                                         ///< unit, from the partner to the ball
-  double bend = 0;                                    ///< of a wall's normal with the ball's place [1/m]
+/// A logged event as input of the contact law: bodies, geometry, and the wall's velocity. The event and the
+/// law must outlive it.
+struct LoggedImpact {
+  const LoggedEvent* event = nullptr;
+  const model::ContactLaw<double>* law = nullptr;       ///< of the case
+  std::array<model::BallProperties<double>, 2> ball{};  ///< the partner only for balls
+  Vec normal{1, 0, 0};                                  ///< unit, from the partner to the ball
+  double bend = 0;                                      ///< of a wall's normal with the ball's place [1/m]
   Vec wall_velocity{0, 0, 0};
   bool in_stall = false;  ///< friction rests
   /// M, and c = 1 + M/(m_i J_i) + M/(m_j J_j), for a wall 1 + 1/J_i
   double effective_mass = 0, compliance = 0;
 
-  void set_masses();
   /// Sets the velocity of the wall that a code has by this formula, with that in its vessel.
-  void set_wall_velocity(WallVelocity formula, const VesselFrame& nested, const VesselFrame& printed,
-                         const Vec& ball_centre);
-  std::size_t count() const { return with_wall ? 1 : 2; }  ///< of balls
-  model::ContactBodies<double> bodies() const {
-    return {effective_mass, ball[0].radius, with_wall ? -1 : ball[1].radius};
+  void set_wall_velocity(const WallVelocity& formula, const VesselFrame& nested, const VesselFrame& printed);
+  bool with_wall() const { return event->with_wall; }
+  std::size_t count() const { return event->count(); }  ///< of balls
+  Vec before() const;                                   ///< relative velocity of the contact points. (2.27)
+  Vec after() const;
+  double along(const Vec& v) const { return dot(v, normal); }
+  Vec across(const Vec& v) const { return v - normal * dot(v, normal); }
+  double g_n() const { return along(before()); }  ///< negative while the bodies approach
+  double g_n_after() const { return along(after()); }
+  /// e_n for a speed before the impact, and the speed e_n |g_n| after it [m/s].
+  double restitution(double g_n) const { return law->restitution(-g_n, bodies()); }
+  double by_restitution(double g_n) const { return restitution(g_n) * -g_n; }
+  /// Speed along the normal at which the contact points separate, max(e_n |g_n|, v_s) [m/s]. (2.23')
+  double separation_speed(double g_n) const {
+    // Bodies that already separate, by rounding, do not leave more slowly.
+    return std::max({by_restitution(g_n), law->least_separation, g_n});
   }
-  /// Relative velocity of the contact points. (2.27)
-  Vec contact_velocity(const Vec& v_i, const Vec& w_i, const Vec& v_j, const Vec& w_j) const;
-  Vec before(const LoggedEvent& e) const;
-  Vec after(const LoggedEvent& e) const;
+  /// e_t of the law for a normal impulse of `bounce` times the effective mass. (2.24')
+  /// @param bounce  |g_n| + g_n' [m/s]
+  /// @param c       the compliance, or what a code has in its place
+  double tangential_restitution(double c, double bounce, double slip_speed) const;
+
+ private:
+  model::ContactBodies<double> bodies() const {
+    return {effective_mass, ball[0].radius, with_wall() ? -1 : ball[1].radius};
+  }
 };
 
 /// The impact of an event, with the right velocity of the wall.
 /// @param placed  whether the log has the places of its bodies; else the normal is any
-ContactGeometry geometry_of(const LoggedEvent& event, const model::Case<double>& the_case,
-                            const VesselFrame& frame, bool placed);
-
-const model::ContactLaw<double>& law_of(const model::Mill<double>& mill, const ContactGeometry& impact);
-
-/// Speed along the normal at which the contact points separate, max(e_n |g_n|, v_s) [m/s]. (2.23')
-/// @param g_n  before the impact; negative while the bodies approach
-double separation_speed(const model::ContactLaw<double>& law, const ContactGeometry& impact, double g_n);
-
-/// e_t of the law for an impact that gives the normal impulse `bounce` times the effective mass. (2.24')
-/// @param bounce  |g_n| + g_n' [m/s]
-double tangential_restitution(const model::ContactLaw<double>& law, const ContactGeometry& impact,
-                              double compliance, double bounce, double slip_speed);
+LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_case,
+                       const VesselFrame& frame, bool placed);
 
 /// A formula for the outcome of an impact: the right one, or one with a mistake.
 struct Formula {
@@ -123,29 +120,28 @@ struct Formula {
 };
 
 /// Velocities and spins after the impact.
-std::array<BodyState, 2> outcome(const ContactGeometry& impact, const model::ContactLaw<double>& law,
-                                 const LoggedEvent& event, const Formula& formula);
+std::array<BodyState, 2> outcome(const LoggedImpact& impact, const Formula& formula);
 
 /// Largest difference of velocities after an impact, with spins times the radius [m/s].
-double distance(const ContactGeometry& impact, const std::array<BodyState, 2>& one,
+double distance(const LoggedImpact& impact, const std::array<BodyState, 2>& one,
                 const std::array<BodyState, 2>& other);
 
 /// Magnitude of the velocities involved [m/s], to which tolerances are relative.
-double velocity_scale(const ContactGeometry& impact, const LoggedEvent& event, bool with_spins);
+double velocity_scale(const LoggedImpact& impact, bool with_spins);
 
 /// Kinetic energy that the balls of a logged impact gain [J].
-double kinetic_change(const LoggedEvent& event, const ContactGeometry& impact);
+double kinetic_change(const LoggedImpact& impact);
 /// Work of the wall on the ball of a logged impact [J]. (A.82)
-double work_of_wall(const LoggedEvent& event, const ContactGeometry& impact);
+double work_of_wall(const LoggedImpact& impact);
 
 /// Speeds of the contact points before an impact [m/s].
 struct Speeds {
   double g_n, slip;
 };
-Speeds speeds_before(const LoggedEvent& event, const ContactGeometry& impact);
+Speeds speeds_before(const LoggedImpact& impact);
 /// Energy that an impact adds along the normal [J]; 0 where it dissipates.
-double supplied(const ContactGeometry& impact, double g_n, double separation);
+double supplied(const LoggedImpact& impact, double g_n, double separation);
 /// Milling dose of an impact at these speeds [J]. (2.30'), (2.36')
-double dose_by_law(const ContactGeometry& impact, const model::ContactLaw<double>& law, const Speeds& speeds);
+double dose_by_law(const LoggedImpact& impact, const Speeds& speeds);
 
 }  // namespace edmill::audit

@@ -32,11 +32,11 @@ std::optional<std::pair<double, int>> Flights::wall_contact(const dynamics::Flig
 
 /// The ball is searched with its radius reduced by the tolerance, so that a contact is certainly an overlap.
 auto Flights::first_wall(int ball, const Track& track, double until, double slack) -> std::optional<Contact> {
-  const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
+  const double radius = radius_of(ball);
   const auto frame = nested_at(track.start);
   double overlap = 0;
   for (int wall = 0; wall < walls(); ++wall)
-    overlap = std::max(overlap, -wall_gap(frame, case_.mill.vessel, wall, radius, track.flight.position));
+    overlap = std::max(overlap, -wall_gap(frame, case_, wall, ball, track.flight.position));
   const double smaller = radius - overlap - slack;
   if (smaller < radius / 2) return std::nullopt;  // outside the vessel, which was reported before
   const auto contact = wall_contact(track.flight, track.start, smaller, until);
@@ -46,13 +46,12 @@ auto Flights::first_wall(int ball, const Track& track, double until, double slac
 }
 
 double Flights::deepest(int ball, const Track& track, int wall, double from, double until) const {
-  const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
   constexpr int samples = 32;
   double depth = 0;
   for (int k = 0; k <= samples; ++k) {
     const double time = from + (until - from) * k / samples;
-    const Vec position = dynamics::position_after(track.flight, case_.mill.gravity, time - track.start);
-    depth = std::max(depth, -wall_gap(nested_at(time), case_.mill.vessel, wall, radius, position));
+    const Vec position = position_after(track.flight, time - track.start);
+    depth = std::max(depth, -wall_gap(nested_at(time), case_, wall, ball, position));
   }
   return depth;
 }
@@ -61,14 +60,13 @@ double Flights::deepest(int ball, const Track& track, int wall, double from, dou
 /// of them.
 bool Flights::stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const {
   if (!printed_walls_) return false;
-  const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
   constexpr int samples = 32;
   for (int k = 0; k <= samples; ++k) {
     const double time = track.start + (until - track.start) * k / samples;
     const auto frame = printed_at(time);
-    const Vec position = dynamics::position_after(track.flight, case_.mill.gravity, time - track.start);
+    const Vec position = position_after(track.flight, time - track.start);
     for (int wall = 0; wall < walls(); ++wall)
-      if (wall_gap(frame, case_.mill.vessel, wall, radius, position) < -slack) return false;
+      if (wall_gap(frame, case_, wall, ball, position) < -slack) return false;
   }
   return true;
 }
@@ -76,7 +74,7 @@ bool Flights::stays_in_printed_vessel(int ball, const Track& track, double until
 auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, double slack)
     -> std::optional<Contact> {
   const double until = end.event->time;
-  const double radius = case_.balls[static_cast<std::size_t>(ball)].radius;
+  const double radius = radius_of(ball);
   const auto& pairs = ladder_.pairs();
   const auto seen_at_start = pairs.state(track.flight, track.flight.start);
   std::optional<Contact> first;
@@ -88,7 +86,7 @@ auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, dou
     const double to = theirs.broken ? std::min(until, theirs.broken_from) : until;
     if (from >= to) continue;
     const auto& now = later ? theirs.flight.start : track.flight.start;
-    const double sum = radius + case_.balls[static_cast<std::size_t>(other)].radius;
+    const double sum = radius + radius_of(other);
     // The other ball's place has an uncertain time of its own.
     const double off = slack + 2 * tolerances_.time(until) * size(theirs.flight.velocity);
     if (off > sum / 2) continue;
@@ -103,9 +101,7 @@ auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, dou
     if (first && first->time <= from + answer.delay) continue;
     const Vec apart = position_at(ball, from) - position_at(other, from);
     if (size(apart) < sum - off) continue;  // they overlapped already, which was reported before
-    const bool the_end =
-        !end.event->with_wall && (end.body == 0 ? end.event->partner : end.event->ball) == other;
-    if (the_end && end.late) continue;
+    if (end.late && !end.event->with_wall && end.partner() == other) continue;
     const Vec relative = (track.flight.velocity + case_.mill.gravity * (from - track.start)) -
                          (theirs.flight.velocity + case_.mill.gravity * (from - theirs.start));
     const double nearest = std::clamp(-dot(apart, relative) / dot(relative, relative), 0.0, to - from);
@@ -117,12 +113,26 @@ auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, dou
 /// Whether a ball in this state reaches the logged end of the flight.
 bool Flights::arrives(const State& state, const FlightEnd& end) const {
   const double dt = end.event->time - state.start;
-  const auto& logged = end.event->body[end.body];
+  const auto& logged = end.state();
   const double near = std::max(1e-6, 10 * tolerances_.relative);
-  const Vec velocity = dynamics::velocity_after(state.flight, case_.mill.gravity, dt);
-  return size(Vec(logged.position - dynamics::position_after(state.flight, case_.mill.gravity, dt))) <=
-             near * tolerances_.reach &&
+  const Vec velocity = velocity_after(state.flight, dt);
+  return size(Vec(logged.position - position_after(state.flight, dt))) <= near * tolerances_.reach &&
          size(Vec(logged.velocity_before - velocity)) <= 10 * near * std::max(size(velocity), 1.0);
+}
+
+/// A ball in this state as it comes into an impact.
+BodyState Flights::before_impact(const State& state, double time) const {
+  BodyState body;
+  body.position = position_after(state.flight, time - state.start);
+  body.velocity_before = velocity_after(state.flight, time - state.start);
+  body.spin_before = state.spin;
+  return body;
+}
+
+/// The ball of an impact as it leaves.
+auto Flights::after_impact(const LoggedEvent& event) const -> State {
+  const auto after = outcome(impact_of(event, case_, nested_at(event.time), true), {})[0];
+  return {{after.position, after.velocity_after, clock_.at(event.time)}, after.spin_after, event.time};
 }
 
 /// Tries up to four impacts with walls that are not in the log.
@@ -130,20 +140,15 @@ bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& 
   if (!track.spin_known) return false;
   State state{track.flight, track.spin, track.start};
   for (int k = 0; k < 4; ++k) {
-    const auto contact = wall_contact(state.flight, state.start,
-                                      case_.balls[static_cast<std::size_t>(ball)].radius, end.event->time);
+    const auto contact = wall_contact(state.flight, state.start, radius_of(ball), end.event->time);
     if (!contact) return false;
-    const double time = contact->first, dt = time - state.start;
     LoggedEvent event;
+    event.time = contact->first;
     event.ball = ball;
     event.with_wall = true;
     event.partner = contact->second;
-    event.body[0].position = dynamics::position_after(state.flight, case_.mill.gravity, dt);
-    event.body[0].velocity_before = dynamics::velocity_after(state.flight, case_.mill.gravity, dt);
-    event.body[0].spin_before = state.spin;
-    const auto impact = geometry_of(event, case_, nested_at(time), true);
-    const auto after = outcome(impact, law_of(case_.mill, impact), event, {});
-    state = {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time};
+    event.body[0] = before_impact(state, event.time);
+    state = after_impact(event);
     if (arrives(state, end)) return true;
   }
   return false;
@@ -153,32 +158,19 @@ bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& 
 bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const {
   const Track &own = of(ball), &other = of(contact.partner);
   if (!own.spin_known || !other.spin_known) return false;
-  LoggedEvent event;
-  ContactGeometry impact;
-  impact.ball = {case_.balls[static_cast<std::size_t>(ball)],
-                 case_.balls[static_cast<std::size_t>(contact.partner)]};
-  impact.set_masses();
   // The contact of the actual balls, slightly before that of the reduced ones.
-  const double sum = impact.ball[0].radius + impact.ball[1].radius;
-  Vec apart = position_at(ball, contact.time) - position_at(contact.partner, contact.time);
-  const auto velocity = [&](const Track& track) {
-    return dynamics::velocity_after(track.flight, case_.mill.gravity, contact.time - track.start);
-  };
-  const Vec relative = velocity(own) - velocity(other);
+  const double sum = radius_of(ball) + radius_of(contact.partner);
+  const Vec apart = position_at(ball, contact.time) - position_at(contact.partner, contact.time);
+  const Vec relative = velocity_after(own.flight, contact.time - own.start) -
+                       velocity_after(other.flight, contact.time - other.start);
   const double closing = -dot(apart, relative) / size(apart);
-  const double time = closing > 0 ? contact.time - (sum - size(apart)) / closing : contact.time;
-  const std::array<const Track*, 2> tracks = {&own, &other};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double dt = time - tracks[k]->start;
-    event.body[k].position = dynamics::position_after(tracks[k]->flight, case_.mill.gravity, dt);
-    event.body[k].velocity_before = dynamics::velocity_after(tracks[k]->flight, case_.mill.gravity, dt);
-    event.body[k].spin_before = tracks[k]->spin;
-  }
-  apart = event.body[0].position - event.body[1].position;
-  impact.normal = apart * (1 / size(apart));
-  const auto after = outcome(impact, law_of(case_.mill, impact), event, {});
-  return arrives(
-      {{event.body[0].position, after[0].velocity_after, clock_.at(time)}, after[0].spin_after, time}, end);
+  LoggedEvent event;
+  event.time = closing > 0 ? contact.time - (sum - size(apart)) / closing : contact.time;
+  event.ball = ball;
+  event.partner = contact.partner;
+  event.body = {before_impact({own.flight, own.spin, own.start}, event.time),
+                before_impact({other.flight, other.spin, other.start}, event.time)};
+  return arrives(after_impact(event), end);
 }
 
 }  // namespace edmill::audit

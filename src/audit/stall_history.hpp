@@ -22,7 +22,7 @@ class StallHistory {
   /// All flights begin at `time`: the log has what follows from then on.
   void begin(double time) { std::fill(balls_.begin(), balls_.end(), Ball{time, 0, 0}); }
   /// Events of the ball are missing.
-  void forget(int ball) { balls_[static_cast<std::size_t>(ball)] = {unknown, 0, mill_.stall.impacts}; }
+  void forget(int ball) { balls_[ball] = {unknown, 0, mill_.stall.impacts}; }
 
   /// The next event. @param relative  tolerance of logged times
   Friction take(const LoggedEvent& event, const model::ContactLaw<double>& law, double relative) {
@@ -40,7 +40,7 @@ class StallHistory {
   };
 
   Friction count(int k, double time, const model::ContactLaw<double>& law, double relative) {
-    Ball& ball = balls_[static_cast<std::size_t>(k)];
+    Ball& ball = balls_[k];
     const int enough = mill_.stall.impacts;
     const double flight = time - ball.time, off = 2 * Tolerances::time(time) + relative * std::abs(flight);
     const bool may_have_moved =

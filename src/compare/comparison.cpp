@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include "base/errors.hpp"
 #include "base/statistics.hpp"
@@ -60,17 +63,78 @@ BatchTimes common_times(const LogScan& a, const LogScan& b, const Options& optio
   return {from, length, static_cast<std::size_t>(count)};
 }
 
+/// The next event within the limits.
+std::optional<Event> next_within(LogReader& reader, const Limits& limits) {
+  auto event = reader.next();
+  while (event && limits.from && event->time < *limits.from) event = reader.next();
+  if (event && limits.until && event->time > *limits.until) return std::nullopt;
+  return event;
+}
+
+/// Least squares of a straight line, point by point.
+class Line {
+ public:
+  void add(double x, double y) {
+    ++n_;
+    const double dx = x - mean_x_;
+    mean_x_ += dx / n_;
+    mean_y_ += (y - mean_y_) / n_;
+    xx_ += dx * (x - mean_x_);
+    xy_ += dx * (y - mean_y_);
+  }
+  double points() const { return n_; }
+  double slope() const { return xy_ / xx_; }
+
+ private:
+  double n_ = 0, mean_x_ = 0, mean_y_ = 0, xx_ = 0, xy_ = 0;
+};
+
+/// The events of both logs in order. A value of an event is compared with the larger of itself in A and the
+/// mean magnitude of its column in A.
+/// @param c  has the options and both scans. @throws InputError when a log cannot be read
+EventComparison compare_events(const Comparison& c) {
+  LogReader log_a(c.options.a), log_b(c.options.b);
+  const Limits& limits = c.options.limits;
+  EventComparison result;
+  Line growth;
+  for (;;) {
+    const auto a = next_within(log_a, limits), b = next_within(log_b, limits);
+    if (!a || !b) break;  // events beyond the end of either log are not compared
+    if (!a->same_bodies(*b)) {
+      if (!result.first) result.first = {*a, *b, "partners", std::numeric_limits<double>::quiet_NaN()};
+      break;
+    }
+    ++result.same_partners;
+    if (result.first) continue;
+    OfEach<double> difference{};
+    for (std::size_t v = 0; v < model::logged_count; ++v) {
+      if (!c.a.has[v] || !c.b.has[v]) continue;
+      const double scale = std::max(std::abs((*a)[v]), c.a.mean_magnitude[v]);
+      const double distance = std::abs((*a)[v] - (*b)[v]);
+      if (distance > 0)
+        difference[v] = scale > 0 ? distance / scale : std::numeric_limits<double>::infinity();
+    }
+    const auto worst = std::max_element(difference.begin(), difference.end());
+    if (*worst > c.options.tolerance) {
+      const auto v = static_cast<std::size_t>(worst - difference.begin());
+      result.first = {*a, *b, std::string(model::logged_quantities[v].name), *worst};
+      continue;
+    }
+    for (std::size_t v = 0; v < model::logged_count; ++v)
+      result.largest[v] = std::max(result.largest[v], difference[v]);
+    if (*worst > 0) growth.add(static_cast<double>(result.agreeing), std::log10(*worst));
+    ++result.agreeing;
+    result.horizon = a->time;
+  }
+  if (growth.points() >= 10) result.digits_lost_per_event = growth.slope();
+  return result;
+}
+
 template <class Get>
 BatchValues values_of(const std::vector<Batch>& batches, const Get& get) {
   BatchValues values;
   for (const auto& batch : batches) values.push_back(get(batch));
   return values;
-}
-
-Quantity named(const std::string& name, const std::string& unit) {
-  Quantity q;
-  q.name = name, q.unit = unit;
-  return q;
 }
 
 /// Makes the rows of the table; the verdicts follow when all rows exist.
@@ -79,44 +143,37 @@ class Judge {
   Judge(const std::vector<Batch>& a, const std::vector<Batch>& b, double tolerance)
       : a_(a), b_(b), tolerance_(tolerance) {}
 
-  /// A mean over the batches. @param events  that it rests on, in A and B together
-  void mean(const std::string& name, const std::string& unit, double events, const BatchValues& a,
-            const BatchValues& b) {
-    Quantity q = named(name, unit);
+  /// A mean over the batches. @param reason  why it cannot be compared, or empty
+  /// @param events  that it rests on, in A and B together
+  /// @param values_in  gives its values of a log's batches
+  template <class ValuesIn>
+  void mean(const std::string& name, const std::string& unit, const std::string& reason, double events,
+            const ValuesIn& values_in) {
+    if (!reason.empty()) return skip(name, unit, reason);
+    const BatchValues a = values_in(a_), b = values_in(b_);
     BatchValues differences;
     for (std::size_t k = 0; k < a.size(); ++k) differences.push_back(b[k] - a[k]);
     const auto of_a = numerics::estimate(a), of_b = numerics::estimate(b),
                of_both = numerics::estimate(differences);
-    q.a = of_a.mean, q.a_half_width = of_a.half_width;
-    q.b = of_b.mean, q.b_half_width = of_b.half_width;
-    q.difference = of_both.mean, q.half_width = of_both.half_width;
     // The tolerance on single events also applies to their mean.
-    const double scale = std::max(std::abs(*q.a), std::abs(*q.b));
-    const bool within = std::abs(*q.difference) <= tolerance_ * scale;
-    add(std::move(q), events, within ? 1 : paired_t_probability(differences));
+    const double scale = std::max(std::abs(*of_a.mean), std::abs(*of_b.mean));
+    const bool within = std::abs(*of_both.mean) <= tolerance_ * scale;
+    add({name, unit, of_a.mean, of_b.mean, of_a.half_width, of_b.half_width, of_both.mean,
+         of_both.half_width},
+        events, within ? 1 : paired_t_probability(differences));
   }
 
-  void spectrum(const std::string& name, Spectrum spectrum, double events) {
+  void spectrum(const std::string& name, const std::string& reason, Spectrum spectrum, double events) {
+    if (!reason.empty()) return skip(name, "1", reason);
     const auto empty = [&](const std::vector<Batch>& batches) {
       return std::all_of(batches.begin(), batches.end(), [&](const Batch& batch) {
         const auto& values = batch.spectra[spectrum];
         return std::all_of(values.begin(), values.end(), [](double v) { return v == 0; });
       });
     };
-    if (empty(a_) || empty(b_)) {
-      skip(name, "1", "no impacts in one log");
-      return;
-    }
-    Quantity q = named(name, "1");
+    if (empty(a_) || empty(b_)) return skip(name, "1", "no impacts in one log");
     const auto test = test_spectra(a_, b_, spectrum);
-    q.difference = test.distance, q.half_width = test.limit;
-    add(std::move(q), events, test.probability);
-  }
-
-  void skip(const std::string& name, const std::string& unit, const std::string& reason) {
-    Quantity q = named(name, unit);
-    q.reason = reason;
-    rows_.push_back(std::move(q));
+    add({name, "1", {}, {}, {}, {}, test.distance, test.limit}, events, test.probability);
   }
 
   /// @param same  every event agrees, so there is nothing to test
@@ -138,13 +195,11 @@ class Judge {
     return std::move(rows_);
   }
 
-  static double events(const std::vector<Batch>& batches) {
-    double sum = 0;
-    for (const auto& batch : batches) sum += batch.all_events();
-    return sum;
-  }
-
  private:
+  void skip(const std::string& name, const std::string& unit, const std::string& reason) {
+    rows_.push_back({name, unit});
+    rows_.back().reason = reason;
+  }
   void add(Quantity q, double events, double probability) {
     q.verdict = Verdict::too_few;
     if (events >= fewest_events_per_batch * static_cast<double>(a_.size())) q.probability = probability;
@@ -165,49 +220,43 @@ std::vector<Quantity> judge(const Comparison& c) {
   const auto a = cut_into_batches(c.options.a, c.times, walls, speed_classes, dose_classes);
   const auto b = cut_into_batches(c.options.b, c.times, walls, speed_classes, dose_classes);
   Judge judge(a, b, c.options.tolerance);
-  const double length = c.times.length, all = Judge::events(a) + Judge::events(b);
-
-  const auto events_with = [&](int partner) {
+  const auto sum_of = [](const std::vector<Batch>& batches, const auto& get) {
     double sum = 0;
-    for (const auto* batches : {&a, &b})
-      for (const auto& batch : *batches) sum += batch.events[partner];
+    for (const auto& batch : batches) sum += get(batch);
     return sum;
   };
+  const auto events = [](const Batch& batch) { return batch.all_events(); };
+  const double length = c.times.length, of_a = sum_of(a, events), of_b = sum_of(b, events), all = of_a + of_b;
+
+  double between_balls = 0;  // after the loop: they are the last partner
   for (int k = 0; k <= walls; ++k) {
-    const auto rate = [&](const Batch& batch) { return batch.events[k] / length; };
-    const double events = events_with(k);
-    const auto name = "collision_rate_" + model::partner_key(k, walls);
-    if (events > 0)
-      judge.mean(name, "1/s", events, values_of(a, rate), values_of(b, rate));
-    else
-      judge.skip(name, "1/s", "no such collisions");
+    const auto with_partner = [k](const Batch& batch) { return batch.events[k]; };
+    between_balls = sum_of(a, with_partner) + sum_of(b, with_partner);
+    judge.mean("collision_rate_" + model::partner_key(k, walls), "1/s",
+               between_balls > 0 ? "" : "no such collisions", between_balls, [&](const auto& batches) {
+                 return values_of(batches, [&](const Batch& batch) { return batch.events[k] / length; });
+               });
   }
   const auto missing = [&](std::size_t v) {
+    if (c.a.has[v] && c.b.has[v]) return std::string();
     return "no " + std::string(model::logged_quantities[v].name) + (c.a.has[v] ? " in B" : " in A");
   };
   const auto power = [&](std::size_t v, const std::string& name, double Batch::*energy) {
-    const auto rate = [&](const Batch& batch) { return batch.*energy / length; };
-    if (c.a.has[v] && c.b.has[v])
-      judge.mean(name, "W", all, values_of(a, rate), values_of(b, rate));
-    else
-      judge.skip(name, "W", missing(v));
+    judge.mean(name, "W", missing(v), all, [&](const auto& batches) {
+      return values_of(batches, [&](const Batch& batch) { return batch.*energy / length; });
+    });
   };
   power(model::milling_dose, "milling_dose_rate", &Batch::milling_dose);
   power(model::wall_work, "wall_work_rate", &Batch::wall_work);
-  const auto speed = [](const Batch& batch) { return batch.approach_speed; };
-  const auto events = [](const Batch& batch) { return batch.all_events(); };
-  if (Judge::events(a) > 0 && Judge::events(b) > 0)
-    judge.mean("mean_approach_speed", "m/s", all, ratio_values(values_of(a, speed), values_of(a, events)),
-               ratio_values(values_of(b, speed), values_of(b, events)));
-  else
-    judge.skip("mean_approach_speed", "m/s", "no collisions in one log");
-  const double between_balls = events_with(walls);
-  judge.spectrum("wall_approach_speed_spectrum", wall_speeds, all - between_balls);
-  judge.spectrum("ball_approach_speed_spectrum", ball_speeds, between_balls);
-  if (c.a.has[model::milling_dose] && c.b.has[model::milling_dose])
-    judge.spectrum("milling_dose_spectrum", doses, all);
-  else
-    judge.skip("milling_dose_spectrum", "1", missing(model::milling_dose));
+  judge.mean("mean_approach_speed", "m/s", of_a > 0 && of_b > 0 ? "" : "no collisions in one log", all,
+             [&](const auto& batches) {
+               return ratio_values(
+                   values_of(batches, [](const Batch& batch) { return batch.approach_speed; }),
+                   values_of(batches, events));
+             });
+  judge.spectrum("wall_approach_speed_spectrum", "", wall_speeds, all - between_balls);
+  judge.spectrum("ball_approach_speed_spectrum", "", ball_speeds, between_balls);
+  judge.spectrum("milling_dose_spectrum", missing(model::milling_dose), doses, all);
   return judge.rows(c.events.agree_throughout());
 }
 
@@ -235,7 +284,7 @@ Comparison compare(const Options& options) {
   c.options = options;
   std::tie(c.a, c.b) = scan_both(options);
   c.times = common_times(c.a, c.b, options);
-  c.events = compare_events(options.a, options.b, c.a, c.b, options.limits, options.tolerance);
+  c.events = compare_events(c);
   if (options.events) {
     const bool enough = c.events.agreeing >= *options.events;
     c.events_verdict = enough ? Verdict::agree : c.events.first ? Verdict::differ : Verdict::too_few;

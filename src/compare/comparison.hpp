@@ -2,9 +2,32 @@
 #pragma once
 
 #include "compare/batches.hpp"
-#include "compare/event_by_event.hpp"
 
 namespace edmill::compare {
+
+/// Times [s] that a comparison is restricted to.
+struct Limits {
+  std::optional<double> from, until;
+};
+
+struct FirstDifference {
+  Event a, b;
+  std::string quantity;  ///< "partners" for different bodies, or the name of the value that differs most
+  double relative_difference;  ///< of that value; nan for partners
+};
+
+struct EventComparison {
+  std::uint64_t agreeing = 0;            ///< events before the first difference
+  double horizon = 0;                    ///< time of the last of them in A [s]
+  std::optional<FirstDifference> first;  ///< nothing when the logs agree to the end of the shorter one
+  std::uint64_t same_partners = 0;       ///< events before the bodies differ; at least `agreeing`
+  OfEach<double> largest{};              ///< relative difference of each value up to the horizon
+  /// Slope of log10 of the largest relative difference of an event over the events, by least squares from the
+  /// first that is not 0 to the horizon [1/event]; needs ten such events.
+  std::optional<double> digits_lost_per_event;
+
+  bool agree_throughout() const { return !first && agreeing > 0; }
+};
 
 struct Options {
   std::filesystem::path a, b;  ///< folders of runs, or logs; A is the reference
@@ -19,13 +42,14 @@ std::string_view name_of(Verdict verdict);
 
 struct Quantity {
   std::string name, unit;
-  std::optional<double> a, b;                        ///< means over the common time; nothing for a spectrum
-  std::optional<double> a_half_width, b_half_width;  ///< of the 95 % intervals of the means
+  std::optional<double> a = {}, b = {};  ///< means over the common time; nothing for a spectrum
+  std::optional<double> a_half_width = {}, b_half_width = {};  ///< of the 95 % intervals of the means
   /// B - A and its 95 % interval; for a spectrum Kolmogorov's distance, and what 5 % of permutations exceed.
-  std::optional<double> difference, half_width;
-  std::optional<double> probability;  ///< of such a difference by chance, after Holm; nothing if not tested
+  std::optional<double> difference = {}, half_width = {};
+  std::optional<double> probability =
+      {};  ///< of such a difference by chance, after Holm; nothing if not tested
   Verdict verdict = Verdict::not_compared;
-  std::string reason;  ///< of not_compared
+  std::string reason = {};  ///< of not_compared
 };
 
 struct Comparison {

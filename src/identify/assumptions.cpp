@@ -11,7 +11,7 @@ namespace edmill::identify {
 
 Vec3<double> Axes::of(const Vec3<double>& v) const {
   Vec3<double> turned;
-  for (std::size_t k = 0; k < 3; ++k) turned[static_cast<Eigen::Index>(k)] = sign[k] * v[from[k]];
+  for (std::size_t k = 0; k < 3; ++k) turned[k] = sign[k] * v[from[k]];
   return turned;
 }
 
@@ -28,7 +28,7 @@ void to_laboratory(audit::LoggedEvent& event, LogFrame from, const model::Mill<d
     body.position = turned(body.position);
     if (moves) body.position += frame.centre;
     const Vec3<double> of_vessel =
-        moves ? audit::wall_velocity(audit::WallVelocity::nested, frame, frame, body.position, body.position)
+        moves ? audit::wall_velocities[0].at({frame, frame, body.position, body.position})
               : Vec3<double>(0, 0, 0);
     for (auto* v : {&body.velocity_before, &body.velocity_after}) *v = turned(*v) + of_vessel;
     for (auto* w : {&body.spin_before, &body.spin_after}) {

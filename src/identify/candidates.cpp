@@ -6,8 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "audit/naming.hpp"
-
 namespace edmill::identify {
 
 namespace {
@@ -15,6 +13,15 @@ namespace {
 template <class List, class Key>
 void sort_by(List& list, const Key& key) {
   std::stable_sort(list.begin(), list.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+}
+
+/// The items of the least misfits, the best first.
+template <class Item>
+std::vector<Item> best_of(std::vector<std::pair<double, Item>> order, std::size_t most) {
+  sort_by(order, [](const auto& row) { return row.first; });
+  std::vector<Item> best;
+  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) best.push_back(std::move(order[k].second));
+  return best;
 }
 
 double misfit_of(const Residuals& sample, const Assumptions& assumed) {
@@ -267,10 +274,7 @@ std::vector<const Parameter*> Candidates::telling_from_afar(const Assumptions& b
       best = std::min(best, misfit_with(sample, base, p, value));
     if (best < here - strong_evidence) order.emplace_back(best, &p);
   }
-  sort_by(order, [](const auto& row) { return row.first; });
-  std::vector<const Parameter*> list;
-  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) list.push_back(order[k].second);
-  return list;
+  return best_of(std::move(order), most);
 }
 
 namespace {
@@ -300,11 +304,8 @@ std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, cons
   const auto sample = residuals_.on(samples_.whole());
   const auto rows = sample.rows(base);
   const auto slopes = slopes_of(sample, base, parameters);
-  struct Ranked {
-    double misfit;
-    std::size_t parameter, part;
-  };
-  std::vector<Ranked> order;
+  using InPart = std::pair<const Parameter*, SharedSubset>;
+  std::vector<std::pair<double, InPart>> order;
   std::vector<std::size_t> holding;  // parts with so much of what is off
   const std::uint64_t off = static_cast<std::uint64_t>(
       std::count_if(rows.begin(), rows.end(), [](double r) { return std::abs(r) > 1; }));
@@ -327,13 +328,13 @@ std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, cons
       }
       if (!some || !others) continue;
       std::vector<double> change;
-      order.push_back({linear_misfit(rows, sample.kinds(), {&slope}, change), p, s});
+      const double left = linear_misfit(rows, sample.kinds(), {&slope}, change);
+      order.emplace_back(left, InPart(&parameters[p], parts_[s]));
     }
   }
-  sort_by(order, [](const auto& r) { return r.misfit; });
   std::vector<Parameter> best;
-  for (std::size_t k = 0; k < std::min(most, order.size()); ++k)
-    best.push_back(restricted_to(parts_[order[k].part], parameters[order[k].parameter], parts_.size()));
+  for (const auto& [parameter, part] : best_of(std::move(order), most))
+    best.push_back(restricted_to(part, *parameter, parts_.size()));
   for (auto& p : telling_from_afar_in_parts(base, parameters, holding, most / 2))
     best.push_back(std::move(p));
   return best;
@@ -356,10 +357,7 @@ std::vector<Parameter> Candidates::telling_from_afar_in_parts(const Assumptions&
         best = std::min(best, misfit_with(few, base, restricted, value));
       if (best < here - strong_evidence) order.emplace_back(best, std::move(restricted));
     }
-  sort_by(order, [](const auto& row) { return row.first; });
-  std::vector<Parameter> list;
-  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) list.push_back(std::move(order[k].second));
-  return list;
+  return best_of(std::move(order), most);
 }
 
 auto Candidates::ranked_pairs(const std::vector<Parameter>& parameters) const -> std::vector<Pair> {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "audit/audit.hpp"
-#include "identify/causes.hpp"
 #include "identify/fit.hpp"
 
 namespace edmill::identify {

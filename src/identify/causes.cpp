@@ -1,5 +1,3 @@
-#include "identify/causes.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <variant>
 
 #include "audit/mechanics.hpp"
+#include "identify/parameters.hpp"
 
 namespace edmill::identify {
 
@@ -171,8 +170,8 @@ void add_frames(const audit::Available& has, std::vector<Mistake>& list) {
   if (has.body[0].velocity_before && has.body[0].velocity_after)
     list.push_back({"the log's states", "before and after the impact exchanged",
                     [](Assumptions& a) { a.log.reversed_in_time = true; }});
-  for (int formula = 1; formula < audit::wall_velocity_count; ++formula)
-    list.push_back({"velocity of the wall (2.27)", audit::name_of(static_cast<audit::WallVelocity>(formula)),
+  for (std::size_t formula = 1; formula < audit::wall_velocities.size(); ++formula)
+    list.push_back({"velocity of the wall (2.27)", audit::wall_velocities[formula].note,
                     [formula](Assumptions& a) { a.terms.wall_velocity_formula = formula; }});
 }
 
@@ -197,7 +196,7 @@ void add_exchanged_balls(const Assumptions& nominal, std::vector<Mistake>& list)
   if (count > most) return;
   for (int i = 0; i < count; ++i)
     for (int j = i + 1; j < count; ++j)
-      if (!(nominal.balls[static_cast<std::size_t>(i)] == nominal.balls[static_cast<std::size_t>(j)]))
+      if (!(nominal.balls[i] == nominal.balls[j]))
         list.push_back({"the log's numbers of balls",
                         fmt::format("balls {} and {} taken for each other", i, j), [=](Assumptions& a) {
                           a.log.exchanged = {i, j};
@@ -207,12 +206,12 @@ void add_exchanged_balls(const Assumptions& nominal, std::vector<Mistake>& list)
 }  // namespace
 
 std::vector<Mistake> mistakes_of(const Assumptions& nominal, const std::vector<Parameter>& parameters,
-                                 const audit::EventsAtHand& log) {
+                                 const audit::Available& has) {
   std::vector<Mistake> list;
   add_motions(nominal, list);
-  add_columns(log.available, list);
-  add_axes(log.available, list);
-  add_frames(log.available, list);
+  add_columns(has, list);
+  add_axes(has, list);
+  add_frames(has, list);
   add_equal_balls(nominal, list);
   add_exchanged_balls(nominal, list);
   add_units(parameters, list);

@@ -1,6 +1,7 @@
 #include "identify/fit.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,8 +57,7 @@ struct Problem {
   int values() const { return static_cast<int>(residuals.count()); }
   std::vector<double> values_at(const Eigen::VectorXd& x) const {
     std::vector<double> values;
-    for (std::size_t k = 0; k < model.free.size(); ++k)
-      values.push_back(x[static_cast<Eigen::Index>(k)] * model.free[k]->change);
+    for (std::size_t k = 0; k < model.free.size(); ++k) values.push_back(x[k] * model.free[k]->change);
     return values;
   }
   Eigen::VectorXd rows_of(const std::vector<double>& values) const {
@@ -82,7 +82,7 @@ struct Problem {
       const double step = possible_step(model.with(values), free, values[k], 1e-7);
       auto moved = values;
       moved[k] += step * free.change;
-      columns.col(static_cast<Eigen::Index>(k)) = (rows_of(moved) - here) / step;
+      columns.col(k) = (rows_of(moved) - here) / step;
     }
     return columns;
   }
@@ -116,11 +116,10 @@ std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const std::vector<d
   const Eigen::MatrixXd influence = inverse * j.transpose() * w.asDiagonal();
   std::vector<double> half;
   for (Eigen::Index c = 0; c < p; ++c) {
-    const auto& parameter = *model.free[static_cast<std::size_t>(c)];
+    const auto& parameter = *model.free[c];
     const double random = 3 * std::sqrt(std::max(0.0, inverse(c, c))) * noise,
                  shift = influence.row(c).cwiseAbs().sum() * noise;
-    const double rounding =
-        2e-15 * std::max(std::abs(values[static_cast<std::size_t>(c)]), std::abs(parameter.value));
+    const double rounding = 2e-15 * std::max(std::abs(values[c]), std::abs(parameter.value));
     half.push_back((random + shift) * parameter.change + rounding);
   }
   return half;
@@ -150,8 +149,7 @@ Fit fit(const Residuals& residuals, const Model& model, std::vector<double> star
   const auto p = static_cast<Eigen::Index>(model.free.size());
   Problem problem{residuals, model};
   Eigen::VectorXd x(p);
-  for (Eigen::Index k = 0; k < p; ++k)
-    x[k] = start[static_cast<std::size_t>(k)] / model.free[static_cast<std::size_t>(k)]->change;
+  for (Eigen::Index k = 0; k < p; ++k) x[k] = start[k] / model.free[k]->change;
   auto rows = residuals.rows(model.with(start));
   const auto scales = scales_for(rows);
   constexpr std::size_t most_rounds = 25;
@@ -218,10 +216,10 @@ double linear_misfit(const std::vector<double>& rows, const std::vector<RowKind>
     for (std::size_t i = 0; i < n; ++i) {
       const double w = 1 / (1 + left[i] * left[i] / (s * s));
       for (Eigen::Index k = 0; k < p; ++k) {
-        const double jk = (*columns[static_cast<std::size_t>(k)])[i];
+        const double jk = (*columns[k])[i];
         if (jk == 0) continue;
         b[k] -= w * jk * rows[i];
-        for (Eigen::Index l = 0; l <= k; ++l) a(k, l) += w * jk * (*columns[static_cast<std::size_t>(l)])[i];
+        for (Eigen::Index l = 0; l <= k; ++l) a(k, l) += w * jk * (*columns[l])[i];
       }
     }
     const Eigen::VectorXd now = a.selfadjointView<Eigen::Lower>().ldlt().solve(b);
@@ -229,7 +227,7 @@ double linear_misfit(const std::vector<double>& rows, const std::vector<RowKind>
     x = now;
     for (std::size_t i = 0; i < n; ++i) {
       left[i] = rows[i];
-      for (Eigen::Index k = 0; k < p; ++k) left[i] += (*columns[static_cast<std::size_t>(k)])[i] * x[k];
+      for (Eigen::Index k = 0; k < p; ++k) left[i] += (*columns[k])[i] * x[k];
     }
   }
   change.assign(x.data(), x.data() + p);

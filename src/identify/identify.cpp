@@ -89,7 +89,7 @@ class Search {
     std::vector<Parameter> numbers;
     for (const auto& p : parameters_)
       if (p.equation.empty() && p.is_of_case()) numbers.push_back(p);
-    auto mistakes = mistakes_of(nominal_, numbers, log_);
+    auto mistakes = mistakes_of(nominal_, numbers, log_.available);
     std::erase_if(mistakes, [&](const Mistake& m) { return !m.on(nominal_).is_case(); });
     const auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
     result.interrupted = is_interrupted(), result.too_few = found.too_few;
@@ -127,7 +127,7 @@ class Search {
   }
 
   std::vector<Candidate> singles() {
-    mistakes_ = mistakes_of(nominal_, parameters_, log_);
+    mistakes_ = mistakes_of(nominal_, parameters_, log_.available);
     promising_ = candidates_->promising(nominal_, mistakes_, 8);
     std::vector<Candidate> tried;
     for (const auto& t : promising_) tried.push_back(with(t.mistake));

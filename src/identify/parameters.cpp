@@ -22,7 +22,7 @@ void each_number(Part& part, F&& f) {
     F& f;
     void operator()(const model::Parameter& p, Quantity& q) const { f(p, q, -1); }
     void operator()(const model::Parameter& p, std::array<Quantity, 3>& q) const {
-      for (int axis = 0; axis < 3; ++axis) f(p, q[static_cast<std::size_t>(axis)], axis);
+      for (int axis = 0; axis < 3; ++axis) f(p, q[axis], axis);
     }
   } visit{f};
   std::visit([&](auto& own) { own.parameters(own, visit); }, part);
@@ -54,26 +54,29 @@ void add_numbers(const std::string& section, const Assumptions& nominal, Member 
   });
 }
 
+Vec3<double> gravity_of(const Assumptions& a) {
+  const auto& g = a.spec.gravity;
+  return {g[0].to<double>(), g[1].to<double>(), g[2].to<double>()};
+}
+
 void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
-  Vec3<double> g;
-  for (int k = 0; k < 3; ++k) g[k] = nominal.spec.gravity[static_cast<std::size_t>(k)].to<double>();
+  const Vec3<double> g = gravity_of(nominal);
   const double size = norm<double>(g);
   const auto put = [](Assumptions& a, const Vec3<double>& to) {
-    for (int k = 0; k < 3; ++k) a.spec.gravity[static_cast<std::size_t>(k)] = exactly(to[k]);
+    for (int k = 0; k < 3; ++k) a.spec.gravity[k] = exactly(to[k]);
   };
   if (size == 0) {
     for (int axis = 0; axis < 3; ++axis) {
-      auto p = number(
-          with_axis("run.gravity", axis), "gravity, which the case has not", Dimension::acceleration, 0,
-          [=](Assumptions& a, double x) { a.spec.gravity[static_cast<std::size_t>(axis)] = exactly(x); });
+      auto p =
+          number(with_axis("run.gravity", axis), "gravity, which the case has not", Dimension::acceleration,
+                 0, [=](Assumptions& a, double x) { a.spec.gravity[axis] = exactly(x); });
       p.change = 10;
       list.push_back(std::move(p));
     }
     return;
   }
   list.push_back(number("run.gravity", "size", Dimension::acceleration, size, [=](Assumptions& a, double x) {
-    Vec3<double> now;
-    for (int k = 0; k < 3; ++k) now[k] = a.spec.gravity[static_cast<std::size_t>(k)].to<double>();
+    Vec3<double> now = gravity_of(a);
     if (norm<double>(now) == 0) now = g;
     put(a, Vec3<double>(now * (x / norm<double>(now))));
   }));
@@ -82,12 +85,10 @@ void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
   std::sort(axes.begin(), axes.end(), [&](int i, int j) { return std::abs(g[i]) < std::abs(g[j]); });
   const int along = axes[2];
   for (int tilt = 0; tilt < 2; ++tilt) {
-    const int axis = axes[static_cast<std::size_t>(tilt)];
+    const int axis = axes[tilt];
     auto p = number(with_axis("run.gravity, tilted towards", axis), "direction", Dimension::angle, 0,
                     [=](Assumptions& a, double x) {
-                      Vec3<double> now;
-                      for (int k = 0; k < 3; ++k)
-                        now[k] = a.spec.gravity[static_cast<std::size_t>(k)].to<double>();
+                      Vec3<double> now = gravity_of(a);
                       const double c = std::cos(x), s = std::sin(x), side = g[along] < 0 ? -1 : 1;
                       const double u = now[axis], v = now[along] * side;
                       now[axis] = c * u + s * v, now[along] = (c * v - s * u) * side;

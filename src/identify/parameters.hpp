@@ -1,4 +1,4 @@
-// The numbers of a case that can be fitted to a log.
+// The numbers of a case that can be fitted to a log, and mistakes that it may be made with.
 #pragma once
 
 #include <functional>
@@ -36,6 +36,21 @@ struct Parameter {
   std::vector<double> values_from_afar() const;
 };
 
+/// A mistake that is made or not.
+struct Mistake {
+  std::string key;   ///< "mill, order of rotations"
+  std::string text;  ///< "R_x(gamma) R_z(theta) in place of R_z(theta) R_x(gamma)"
+  std::function<void(Assumptions&)> make;
+  bool by_factor = false;  ///< of a number, as a wrong unit makes it
+  bool of_motion = false;  ///< it makes another mill, which has not the numbers of the case's
+
+  /// The assumptions with it.
+  Assumptions on(Assumptions base) const {
+    make(base);
+    return base;
+  }
+};
+
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.
 std::vector<Parameter> parameters_of(const Assumptions& nominal);
 
@@ -57,6 +72,14 @@ std::vector<Parameter> term_parameters();
 /// The same in a part of the log alone. @param choices  number of parts that were tried
 Parameter restricted_to(const SharedSubset& part, const Parameter& parameter, std::size_t choices);
 
+/// Mistakes other than wrong numbers that can be told apart in a log with these columns: orders, signs,
+/// directions, units, and what columns stand for.
+std::vector<Mistake> mistakes_of(const Assumptions& nominal, const std::vector<Parameter>& parameters,
+                                 const audit::Available& has);
+
+/// "reversed", "left out", "doubled", "halved", where an interval holds such a factor and little else; else
+/// empty.
+std::string word_for(double factor, double half_width);
 /// "100.500 +- 0.001 mm": in the usual unit of its dimension.
 std::string value_text(Dimension dimension, double value, double half_width);
 /// "100 mm"

@@ -61,10 +61,9 @@ class Replay {
       ball.material = own.material;
       const Vec3<double> place = in_vessel ? mill.motion.to_inertial(pose, places_[k]) : states_[k].position;
       for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        ball.position[a] = exactly(place[axis]);
-        ball.velocity[a] = exactly(states_[k].velocity[axis]);
-        ball.spin[a] = exactly(states_[k].spin[axis]);
+        ball.position[axis] = exactly(place[axis]);
+        ball.velocity[axis] = exactly(states_[k].velocity[axis]);
+        ball.spin[axis] = exactly(states_[k].spin[axis]);
       }
       spec.balls.push_back(std::move(ball));
     }
@@ -101,8 +100,8 @@ class Replay {
     std::vector<std::vector<std::size_t>> of_ball(states_.size());
     std::vector<bool> lost(states_.size(), false);
     for (std::size_t k = 0; k < log_.size(); ++k) {
-      of_ball[static_cast<std::size_t>(log_[k].ball)].push_back(k);
-      if (!log_[k].with_wall) of_ball[static_cast<std::size_t>(log_[k].partner)].push_back(k);
+      of_ball[log_[k].ball].push_back(k);
+      if (!log_[k].with_wall) of_ball[log_[k].partner].push_back(k);
     }
     for (const auto& impact : list) {
       const auto ball = static_cast<std::size_t>(impact.ball);
@@ -113,7 +112,7 @@ class Replay {
         continue;
       }
       ++next[ball], ++seen[ball];
-      if (!impact.with_wall) ++next[static_cast<std::size_t>(impact.partner)];
+      if (!impact.with_wall) ++next[impact.partner];
       off.push_back(impact.time - log_[k].time);
       places.push_back(k);
     }

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "identify/causes.hpp"
+#include "audit/audit.hpp"
+#include "identify/parameters.hpp"
 
 namespace edmill::identify {
 

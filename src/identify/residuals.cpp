@@ -7,15 +7,13 @@
 
 namespace edmill::identify {
 
-using audit::ContactGeometry;
 using audit::LoggedEvent;
+using audit::LoggedImpact;
 using audit::Vec;
 
 namespace {
 
 constexpr double out_of_range = 1e15;
-
-int ball_of(const LoggedEvent& event, std::size_t body) { return body == 0 ? event.ball : event.partner; }
 
 }  // namespace
 
@@ -60,15 +58,13 @@ LogResiduals::LogResiduals(const audit::EventsAtHand& log, const audit::Toleranc
       for (std::size_t ball = 0; ball < last.size(); ++ball) stalls.forget(static_cast<int>(ball));
       continue;
     }
-    for (std::size_t body = 0; body < (event.with_wall ? 1u : 2u); ++body) {
-      auto& own = last[static_cast<std::size_t>(ball_of(event, body))];
+    for (std::size_t body = 0; body < event.count(); ++body) {
+      auto& own = last[event.ball_at(body)];
       before_[k][body] = own;
       own = {static_cast<long>(k), body};
     }
-    const auto friction =
-        stalls.take(event, audit::law_of(nominal.mill, audit::geometry_of(event, nominal, {}, false)),
-                    tolerances.relative);
-    in_stall_[k] = friction == audit::Friction::rests;
+    const auto& law = *audit::impact_of(event, nominal, {}, false).law;
+    in_stall_[k] = stalls.take(event, law, tolerances.relative) == audit::Friction::rests;
     branches_[k] = branches_of(event);
   }
 }
@@ -76,19 +72,17 @@ LogResiduals::LogResiduals(const audit::EventsAtHand& log, const audit::Toleranc
 Branches LogResiduals::branches_of(const LoggedEvent& event) const {
   const auto& has = log_.available;
   if (!has.positions(event.with_wall) || !has.velocities_before(event.with_wall)) return {};
-  const auto impact = audit::geometry_of(
+  const auto impact = audit::impact_of(
       event, nominal_,
       event.with_wall ? audit::vessel_at(nominal_.mill, event.time, false) : audit::VesselFrame{}, true);
-  const auto& law = audit::law_of(nominal_.mill, impact);
-  const auto speeds = audit::speeds_before(event, impact);
-  const double separation = audit::separation_speed(law, impact, speeds.g_n);
-  const double bounce = separation - speeds.g_n;
+  const auto speeds = audit::speeds_before(impact);
+  const double separation = impact.separation_speed(speeds.g_n), bounce = separation - speeds.g_n;
   // Twice the impulse changes nothing where contacts stick.
   const auto e_t = [&](double impulse) {
-    return audit::tangential_restitution(law, impact, impact.compliance, impulse, speeds.slip);
+    return impact.tangential_restitution(impact.compliance, impulse, speeds.slip);
   };
   return {true, has.spins(event.with_wall) && e_t(bounce) == e_t(2 * bounce),
-          separation > law.restitution(-speeds.g_n, impact.bodies()) * -speeds.g_n};
+          separation > impact.by_restitution(speeds.g_n)};
 }
 
 Residuals LogResiduals::on(const std::vector<std::size_t>& events) const {
@@ -142,7 +136,7 @@ std::vector<double> Residuals::of_whole(const Assumptions& assumed) const {
 namespace {
 
 /// The outcome of an impact with other terms.
-audit::Formula formula_of(const Terms& terms, const ContactGeometry& impact) {
+audit::Formula formula_of(const Terms& terms, const LoggedImpact& impact) {
   audit::Formula formula;
   formula.velocity_sign = terms.friction * terms.friction_on_velocity;
   formula.spin_sign = terms.friction * terms.torque;
@@ -151,7 +145,7 @@ audit::Formula formula_of(const Terms& terms, const ContactGeometry& impact) {
     formula.compliance_in_e_t = std::max(1e-3, 1 + less * terms.compliance_in_limit);
   if (terms.compliance_in_impulse != 1)
     formula.compliance_in_impulse = std::max(1e-3, 1 + less * terms.compliance_in_impulse);
-  if (!impact.with_wall && terms.equal_balls != Terms::EqualBalls::no) {
+  if (!impact.with_wall() && terms.equal_balls != Terms::EqualBalls::no) {
     const double alone = 1 + 1 / impact.ball[0].reduced_inertia;
     if (terms.equal_balls == Terms::EqualBalls::masses)
       formula.share = {0.5, 0.5};
@@ -166,13 +160,11 @@ audit::Formula formula_of(const Terms& terms, const ContactGeometry& impact) {
 }
 
 /// The wall's velocity becomes that of a code with other terms.
-void assume_wall_velocity(const LoggedEvent& event, const model::Mill<double>& mill, const Terms& terms,
-                          ContactGeometry& impact) {
+void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, LoggedImpact& impact) {
   if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
-    const double time = event.time - terms.wall_velocity_delay;
-    impact.set_wall_velocity(static_cast<audit::WallVelocity>(terms.wall_velocity_formula),
-                             audit::vessel_at(mill, time, false), audit::vessel_at(mill, time, true),
-                             event.body[0].position);
+    const double time = impact.event->time - terms.wall_velocity_delay;
+    impact.set_wall_velocity(audit::wall_velocities[terms.wall_velocity_formula],
+                             audit::vessel_at(mill, time, false), audit::vessel_at(mill, time, true));
   }
   impact.wall_velocity *= terms.wall_velocity;
 }
@@ -186,56 +178,46 @@ void LogResiduals::event_rows(std::size_t k, const Given& given, Writer& out) co
   const bool placed = log_.available.positions(event.with_wall);
   const auto frame =
       event.with_wall && placed ? audit::vessel_at(model.mill, event.time, false) : audit::VesselFrame{};
-  auto impact = audit::geometry_of(event, model, frame, placed);
+  auto impact = audit::impact_of(event, model, frame, placed);
   impact.in_stall = in_stall_[k];
-  if (event.with_wall && placed) assume_wall_velocity(event, model.mill, given.terms, impact);
+  if (event.with_wall && placed) assume_wall_velocity(model.mill, given.terms, impact);
   out.at = {k, -1, false};
-  if (placed) {
-    double gap;
-    if (event.with_wall)
-      gap = audit::wall_gap(frame, model.mill.vessel, event.partner, impact.ball[0].radius,
-                            event.body[0].position);
-    else
-      gap = audit::size(Vec(event.body[0].position - event.body[1].position)) - impact.ball[0].radius -
-            impact.ball[1].radius;
-    out.add(RowKind::touch, gap - given.terms.contact_gap, tolerances_.touch(event.time, event.with_wall));
-  }
-  const auto& law = audit::law_of(model.mill, impact);
+  if (placed)
+    out.add(RowKind::touch, audit::gap_of(event, model, frame) - given.terms.contact_gap,
+            tolerances_.touch(event.time, event.with_wall));
   if (placed && log_.available.velocities_before(event.with_wall))
-    impact_rows(event, impact, law, given.terms, out);
+    impact_rows(impact, given.terms, out);
   else
-    speed_rows(event, impact, law, given.terms, out);
+    speed_rows(impact, given.terms, out);
   for (std::size_t body = 0; body < impact.count(); ++body) flight_rows(k, body, event, given, out);
 }
 
-void LogResiduals::impact_rows(const LoggedEvent& event, const ContactGeometry& impact,
-                               const model::ContactLaw<double>& law, const Terms& terms, Writer& out) const {
+void LogResiduals::impact_rows(const LoggedImpact& impact, const Terms& terms, Writer& out) const {
   const auto& has = log_.available;
+  const LoggedEvent& event = *impact.event;
   const bool after = has.velocities_after(event.with_wall), spins = has.spins(event.with_wall);
-  const double scale = audit::velocity_scale(impact, event, spins);
+  const double scale = audit::velocity_scale(impact, spins);
   const double by_wall =
       event.with_wall ? tolerances_.of_wall(event.time, scale, impact.bend, impact.ball[0].radius) : 0;
   const double allowed = tolerances_.relative * scale + by_wall;
-  LoggedEvent seen = event;  // by the velocity of the contact point
-  for (auto& body : seen.body) body.spin_before *= terms.arm;
-  const auto speeds = audit::speeds_before(seen, impact);
+  LoggedEvent seen_event = event;  // by the velocity of the contact point
+  for (auto& body : seen_event.body) body.spin_before *= terms.arm;
+  LoggedImpact seen = impact;
+  seen.event = &seen_event;
+  const auto speeds = audit::speeds_before(seen);
   if (after && spins) {
-    const auto formula = formula_of(terms, impact);
-    const auto expected = audit::outcome(impact, law, seen, formula);
+    const auto expected = audit::outcome(seen, formula_of(terms, impact));
     for (std::size_t b = 0; b < impact.count(); ++b) {
+      const auto &logged = event.body[b], &due = expected[b];
       out.at.body = static_cast<int>(b);
-      const Vec spin_change = expected[b].spin_after - seen.body[b].spin_before;
-      out.add(RowKind::law, Vec(event.body[b].velocity_after - expected[b].velocity_after), allowed);
-      out.add(
-          RowKind::law,
-          Vec((event.body[b].spin_after - event.body[b].spin_before - spin_change) * impact.ball[b].radius),
-          allowed);
+      const Vec spin_change = due.spin_after - seen_event.body[b].spin_before;
+      out.add(RowKind::law, Vec(logged.velocity_after - due.velocity_after), allowed);
+      out.add(RowKind::law,
+              Vec((logged.spin_after - logged.spin_before - spin_change) * impact.ball[b].radius), allowed);
     }
     out.at.body = -1;
   } else if (after) {
-    out.add(RowKind::law,
-            audit::dot(impact.after(event), impact.normal) - audit::separation_speed(law, impact, speeds.g_n),
-            allowed);
+    out.add(RowKind::law, impact.g_n_after() - impact.separation_speed(speeds.g_n), allowed);
     if (!event.with_wall) {
       Vec momentum(0, 0, 0);
       for (std::size_t b = 0; b < 2; ++b)
@@ -248,27 +230,26 @@ void LogResiduals::impact_rows(const LoggedEvent& event, const ContactGeometry& 
     out.add(RowKind::speed, event.approach_speed + speeds.g_n * terms.approach_speed, allowed);
   if (has.slip_speed && spins)
     out.add(RowKind::speed, event.slip_speed - speeds.slip * terms.slip_speed, allowed);
-  if (after && spins)
-    energy_rows(event, impact, law, speeds, terms, 4 * allowed * impact.effective_mass * scale, out);
+  if (after && spins) energy_rows(impact, speeds, terms, 4 * allowed * impact.effective_mass * scale, out);
 }
 
-void LogResiduals::energy_rows(const LoggedEvent& event, const ContactGeometry& impact,
-                               const model::ContactLaw<double>& law, const audit::Speeds& speeds,
-                               const Terms& terms, double allowed, Writer& out) const {
-  const double work = audit::work_of_wall(event, impact);
+void LogResiduals::energy_rows(const LoggedImpact& impact, const audit::Speeds& speeds, const Terms& terms,
+                               double allowed, Writer& out) const {
+  const LoggedEvent& event = *impact.event;
+  const double work = audit::work_of_wall(impact);
   if (log_.available.milling_dose) {
-    LoggedEvent without_spin = event;
-    for (auto& body : without_spin.body) body.spin_before = body.spin_after = Vec(0, 0, 0);
-    const double kinetic = audit::kinetic_change(event, impact),
-                 of_spin = kinetic - audit::kinetic_change(without_spin, impact);
-    const double supplied =
-        audit::supplied(impact, speeds.g_n, audit::dot(impact.after(event), impact.normal));
+    LoggedEvent still_event = event;
+    for (auto& body : still_event.body) body.spin_before = body.spin_after = Vec(0, 0, 0);
+    LoggedImpact still = impact;
+    still.event = &still_event;
+    const double kinetic = audit::kinetic_change(impact), of_spin = kinetic - audit::kinetic_change(still);
+    const double supplied = audit::supplied(impact, speeds.g_n, impact.g_n_after());
     const double dose = work * terms.work_in_dose - kinetic - of_spin * (terms.spin_in_dose - 1) +
                         supplied * terms.supply_in_dose;
     double off = event.milling_dose - dose * terms.dose;
     // A code whose impulse is wrong may have its dose from the law of the case.
     if (terms.change_impulse())
-      if (const double other = event.milling_dose - terms.dose * audit::dose_by_law(impact, law, speeds);
+      if (const double other = event.milling_dose - terms.dose * audit::dose_by_law(impact, speeds);
           std::abs(other) < std::abs(off))
         off = other;
     out.add(RowKind::energy, off, allowed);
@@ -278,16 +259,15 @@ void LogResiduals::energy_rows(const LoggedEvent& event, const ContactGeometry& 
 }
 
 /// Without states the dose follows from the logged speeds.
-void LogResiduals::speed_rows(const LoggedEvent& event, const ContactGeometry& impact,
-                              const model::ContactLaw<double>& law, const Terms& terms, Writer& out) const {
+void LogResiduals::speed_rows(const LoggedImpact& impact, const Terms& terms, Writer& out) const {
   const auto& has = log_.available;
   if (!has.approach_speed || !has.slip_speed || !has.milling_dose) return;
+  const LoggedEvent& event = *impact.event;
   const auto true_of = [](double logged, double factor) { return factor == 0 ? logged : logged / factor; };
   const double approach = true_of(event.approach_speed, terms.approach_speed);
   const double slip = true_of(event.slip_speed, terms.slip_speed);
-  const double speed = std::max({std::abs(approach), slip, law.least_separation});
-  out.add(RowKind::energy,
-          event.milling_dose - terms.dose * audit::dose_by_law(impact, law, {-approach, slip}),
+  const double speed = std::max({std::abs(approach), slip, impact.law->least_separation});
+  out.add(RowKind::energy, event.milling_dose - terms.dose * audit::dose_by_law(impact, {-approach, slip}),
           4 * tolerances_.relative * impact.effective_mass * speed * speed);
 }
 
@@ -299,7 +279,7 @@ void LogResiduals::flight_rows(std::size_t k, std::size_t body, const LoggedEven
   const auto& had = log_.available.body[begin.body];
   if (!had.position || !had.velocity_after) return;
   out.at = {k, static_cast<int>(body), true};
-  LoggedEvent earlier = log_.events[static_cast<std::size_t>(begin.event)];
+  LoggedEvent earlier = log_.events[begin.event];
   given.change.apply(earlier, given.model.mill);
   const auto &from = earlier.body[begin.body], &to = event.body[body];
   const auto& terms = given.terms;
@@ -315,7 +295,7 @@ void LogResiduals::flight_rows(std::size_t k, std::size_t body, const LoggedEven
   const Vec fallen = g * (terms.gravity_in_velocities * (dt - terms.age_of_velocities));
   out.add(RowKind::velocity, Vec(to.velocity_before - (from.velocity_after + fallen)), allowed);
   if (has.spin_before && had.spin_after) {
-    const double radius = given.model.balls[static_cast<std::size_t>(ball_of(event, body))].radius;
+    const double radius = given.model.balls[event.ball_at(body)].radius;
     const double spin = radius * std::max(audit::size(to.spin_before), audit::size(from.spin_after));
     out.add(RowKind::velocity, Vec((to.spin_before - from.spin_after * terms.spin_in_flight) * radius),
             allowed + tolerances_.velocity(event.time, spin));

@@ -8,8 +8,6 @@ namespace {
 
 using audit::LoggedEvent;
 
-int ball_at(const LoggedEvent& event, int body) { return body == 1 ? event.partner : event.ball; }
-
 bool takes_part(const LoggedEvent& event, int ball) {
   return event.ball == ball || (!event.with_wall && event.partner == ball);
 }
@@ -33,7 +31,7 @@ std::vector<SharedSubset> subsets_of(const model::Case<double>& the_case,
   of_impacts("between balls", [](const LoggedEvent& e, std::size_t) { return !e.with_wall; });
   const auto walls = the_case.mill.vessel.walls();
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
-    of_impacts("at " + walls[static_cast<std::size_t>(wall)].meaning,
+    of_impacts("at " + walls[wall].meaning,
                [wall](const LoggedEvent& e, std::size_t) { return e.with_wall && e.partner == wall; });
   of_impacts("where contacts stick",
              [&](const LoggedEvent&, std::size_t k) { return branches[k].known && branches[k].sticks; });
@@ -47,8 +45,7 @@ std::vector<SharedSubset> subsets_of(const model::Case<double>& the_case,
   });
   const auto& balls = the_case.balls;
   of_impacts("between balls that are not alike", [&balls](const LoggedEvent& e, std::size_t) {
-    return !e.with_wall &&
-           !(balls[static_cast<std::size_t>(e.ball)] == balls[static_cast<std::size_t>(e.partner)]);
+    return !e.with_wall && !(balls[e.ball] == balls[e.partner]);
   });
   // Rows of both bodies, those of the energy, follow from what happens to either.
   add("on the partner", true, false,
@@ -62,7 +59,7 @@ std::vector<SharedSubset> subsets_of(const model::Case<double>& the_case,
                [ball](const LoggedEvent& e, std::size_t) { return takes_part(e, ball); });
     add(fmt::format("on ball {}", ball), true, true, [&events, ball](const RowPlace& at) {
       const auto& event = events[at.event];
-      return at.body < 0 ? takes_part(event, ball) : ball_at(event, at.body) == ball;
+      return at.body < 0 ? takes_part(event, ball) : event.ball_at(at.body) == ball;
     });
   }
   return list;

@@ -1,5 +1,3 @@
-#include "identify/terms.hpp"
-
 #include <cmath>
 
 #include "identify/parameters.hpp"

@@ -10,7 +10,6 @@
 
 #include "audit/delays.hpp"
 #include "audit/mechanics.hpp"
-#include "audit/naming.hpp"
 
 namespace edmill::identify {
 
@@ -94,12 +93,11 @@ class Measured {
     std::vector<long> last(the_case.balls.size(), -1);
     for (std::size_t k = 0; k < log.events.size(); ++k) {
       const auto& event = log.events[k];
-      for (std::size_t body = 0; body < (event.with_wall ? 1u : 2u); ++body) {
-        const int ball = body == 0 ? event.ball : event.partner;
+      for (std::size_t body = 0; body < event.count(); ++body) {
+        const int ball = event.ball_at(body);
         if (!event.problem.empty() || ball < 0 || ball >= static_cast<int>(last.size())) continue;
-        if (const long from = last[static_cast<std::size_t>(ball)]; from >= 0)
-          flight(static_cast<std::size_t>(from), k, ball);
-        last[static_cast<std::size_t>(ball)] = static_cast<long>(k);
+        if (last[ball] >= 0) flight(last[ball], k, ball);
+        last[ball] = static_cast<long>(k);
       }
     }
   }
@@ -119,30 +117,25 @@ class Measured {
     auto& [normal, carrier] = normals_.back();
     const auto& one = event.body[0];
     Contact& contact = contacts_[k];
-    const auto& ball = case_.balls[static_cast<std::size_t>(event.ball)];
-    double gap;
+    if (!event.with_wall && one.position == event.body[1].position) return;  // it has no normal
+    const auto frame =
+        event.with_wall ? audit::vessel_at(case_.mill, event.time, false) : audit::VesselFrame{};
+    const double gap = audit::gap_of(event, case_, frame);
+    const auto impact = audit::impact_of(event, case_, frame, true);
+    const auto& [ball, other] = impact.ball;
+    normal = impact.normal;
+    contact.effective_mass = ball.mass, contact.effective_radius = ball.radius;
     if (event.with_wall) {
-      const auto frame = audit::vessel_at(case_.mill, event.time, false);
-      gap = audit::wall_gap(frame, case_.mill.vessel, event.partner, ball.radius, one.position);
-      const auto impact = audit::geometry_of(event, case_, frame, true);
-      normal = impact.normal;
       carrier = impact.wall_velocity;
-      contact.effective_mass = ball.mass, contact.effective_radius = ball.radius;
+      contact.approach = -audit::dot(Vec(one.velocity_before - carrier), normal);
     } else {
-      const auto& other = case_.balls[static_cast<std::size_t>(event.partner)];
       const auto& two = event.body[1];
-      const Vec apart = one.position - two.position;
-      const double distance = audit::size(apart);
-      if (!(distance > 0)) return;
-      gap = distance - ball.radius - other.radius;
-      normal = apart * (1 / distance);
       carrier = (one.velocity_before * ball.mass + two.velocity_before * other.mass) *
                 (1 / (ball.mass + other.mass));
       contact.effective_mass = ball.mass * other.mass / (ball.mass + other.mass);
       contact.effective_radius = ball.radius * other.radius / (ball.radius + other.radius);
       contact.approach = -audit::dot(Vec(one.velocity_before - two.velocity_before), normal);
     }
-    if (event.with_wall) contact.approach = -audit::dot(Vec(one.velocity_before - carrier), normal);
     const bool late = gap < -tolerances_.touch(event.time, event.with_wall);
     // Grazes have no time at which they begin.
     if (contact.approach > audit::size(one.velocity_before) / 10)

@@ -3,17 +3,24 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/errors.hpp"
-#include "prove/exact_text.hpp"
 
 namespace edmill::prove {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// "1a2b -8c 3ff -98": midpoint and radius, each a whole number times a power of two, all in hexadecimal, as
+/// Arb writes them.
+std::string text_of(const Enclosure& value) {
+  const std::unique_ptr<char, void (*)(void*)> text(arb_dump_str(value.arb()), flint_free);
+  return text.get();
+}
 
 Json texts(const QuantityVector& v) { return {v[0].text(), v[1].text(), v[2].text()}; }
 Json texts(const Vector& v) { return {text_of(v[0]), text_of(v[1]), text_of(v[2])}; }
@@ -115,6 +122,24 @@ Json read_header(std::istream& in) {
   return header;
 }
 
+/// "2.560368941527883137177675704e-03,1.2e-40": the midpoint to `digits` places and a radius that encloses
+/// `value` about what is printed.
+std::string decimal_of(const Enclosure& value, int digits) {
+  const std::unique_ptr<char, void (*)(void*)> middle(arf_get_str(arb_midref(value.arb()), digits + 1),
+                                                      flint_free);
+  Enclosure printed, difference;
+  arb_set_str(printed.arb(), middle.get(), 8 * digits + 64);
+  arb_sub(difference.arb(), value.arb(), printed.arb(), 64);
+  mag_t bound;
+  mag_init(bound);
+  arb_get_mag(bound, difference.arb());
+  arf_t radius;
+  arf_init_set_mag_shallow(radius, bound);
+  const double size = arf_get_d(radius, ARF_RND_UP);
+  mag_clear(bound);
+  return fmt::format("{},{:.1e}", middle.get(), size * 1.05);
+}
+
 /// A row of a JSON patch that would turn the case's header into the one that was found.
 std::string text_of_difference(const Json& row, const Json& expected) {
   const std::string path = row.at("path");
@@ -161,10 +186,7 @@ void write_events(std::ostream& out, const Proof& proof, int digits) {
   const Enclosure start = enclosure_of(proof.exact.start);
   for (std::size_t k = 0; k < proof.events.size(); ++k) {
     const auto& e = proof.events[k];
-    const auto number = [&](const Enclosure& value) {
-      const auto text = decimal_of(value, digits);
-      return text.middle + "," + text.radius;
-    };
+    const auto number = [&](const Enclosure& value) { return decimal_of(value, digits); };
     fmt::print(out, "{},{},{},{},{},{},{}\n", k, number(start + e.time), e.ball,
                e.with_wall ? "wall" : "ball", e.partner, number(e.approach_speed), number(e.slip_speed));
   }

@@ -4,9 +4,11 @@
 #include <arb.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 
 #include "base/vector.hpp"
+#include "casefile/quantity.hpp"
 
 namespace edmill::prove {
 
@@ -50,11 +52,7 @@ class Enclosure {
   friend Enclosure operator-(const Enclosure& a, const Enclosure& b) { return by(arb_sub, a, b); }
   friend Enclosure operator*(const Enclosure& a, const Enclosure& b) { return by(arb_mul, a, b); }
   friend Enclosure operator/(const Enclosure& a, const Enclosure& b) { return by(arb_div, a, b); }
-  Enclosure operator-() const {
-    Enclosure result;
-    arb_neg(result.ball_, ball_);
-    return result;
-  }
+  Enclosure operator-() const { return by(arb_neg, *this); }
   Enclosure& operator+=(const Enclosure& b) { return *this = *this + b; }
   Enclosure& operator-=(const Enclosure& b) { return *this = *this - b; }
   Enclosure& operator*=(const Enclosure& b) { return *this = *this * b; }
@@ -66,35 +64,24 @@ class Enclosure {
   bool is_not_negative() const { return arb_is_nonnegative(ball_); }
   bool is_not_positive() const { return arb_is_nonpositive(ball_); }
 
-  /// The midpoint, exact.
-  Enclosure middle() const {
-    Enclosure result;
-    arb_get_mid_arb(result.ball_, ball_);
-    return result;
-  }
-  /// The radius, exact.
-  Enclosure radius() const {
-    Enclosure result;
-    arb_get_rad_arb(result.ball_, ball_);
-    return result;
-  }
-  /// The ends, exact.
-  Enclosure low() const {
-    Enclosure result;
-    arb_sub(result.ball_, middle().ball_, radius().ball_, ARF_PREC_EXACT);
-    return result;
-  }
-  Enclosure high() const {
-    Enclosure result;
-    arb_add(result.ball_, middle().ball_, radius().ball_, ARF_PREC_EXACT);
-    return result;
-  }
+  // Midpoint, radius and ends are exact.
+  Enclosure middle() const { return by(arb_get_mid_arb, *this); }
+  Enclosure radius() const { return by(arb_get_rad_arb, *this); }
+  Enclosure low() const { return by(arb_sub, middle(), radius(), ARF_PREC_EXACT); }
+  Enclosure high() const { return by(arb_add, middle(), radius(), ARF_PREC_EXACT); }
 
  private:
   template <class Operation>
-  static Enclosure by(const Operation& operation, const Enclosure& a, const Enclosure& b) {
+  static Enclosure by(const Operation& operation, const Enclosure& a) {
     Enclosure result;
-    operation(result.ball_, a.ball_, b.ball_, Precision::bits());
+    operation(result.ball_, a.ball_);
+    return result;
+  }
+  template <class Operation>
+  static Enclosure by(const Operation& operation, const Enclosure& a, const Enclosure& b,
+                      slong bits = Precision::bits()) {
+    Enclosure result;
+    operation(result.ball_, a.ball_, b.ball_, bits);
     return result;
   }
   arb_t ball_;
@@ -144,6 +131,12 @@ namespace edmill::prove {
 using Vector = Vec3<Enclosure>;
 using Matrix = Eigen::Matrix<Enclosure, 3, 3>;
 
-inline Vector zero_vector() { return {Enclosure(), Enclosure(), Enclosure()}; }
+/// Encloses an exact quantity, to the bits in force.
+Enclosure enclosure_of(const casefile::Quantity& quantity);
+Vector enclosure_of(const std::array<casefile::Quantity, 3>& exact);
+
+/// A slightly wider enclosure with few digits: the midpoint goes 20 bits beyond the radius, one of an exact
+/// number to `bits`; the radius grows by 2^-20 and is rounded up to ten bits.
+Enclosure rounded_out(const Enclosure& value, slong bits);
 
 }  // namespace edmill::prove

@@ -17,12 +17,11 @@ using boost::multiprecision::cpp_int;
 using casefile::CaseSpec;
 using model::Joint;
 
-Quantity number(int n, int d = 1) { return {n, d}; }
 /// Without what does not move: a certificate lists no zeros.
 std::vector<Joint<Quantity>> moving_joints(const casefile::MotionSpec& motion) {
   auto joints = casefile::joints_of(motion);
   for (auto& joint : joints) {
-    if (joint.axis[0].zero() && joint.axis[1].zero() && joint.axis[2].zero()) joint.axis[0] = number(1);
+    if (joint.axis[0].zero() && joint.axis[1].zero() && joint.axis[2].zero()) joint.axis[0] = 1;
     std::erase_if(joint.swings, [](const auto& swing) { return swing.amplitude.zero(); });
   }
   return joints;
@@ -31,13 +30,11 @@ std::vector<Joint<Quantity>> moving_joints(const casefile::MotionSpec& motion) {
 /// An axis from -1, the origin, to 1, at this distance.
 ExactWall plane(std::size_t axis, int side, const Quantity& distance) {
   ExactWall wall;
-  wall.normal[axis] = number(side);
+  wall.normal[axis] = side;
   wall.size = distance;
   return wall;
 }
-ExactWall round_wall(ExactWall::Kind kind, const Quantity& diameter) {
-  return {kind, {}, {}, diameter / number(2)};
-}
+ExactWall round_wall(ExactWall::Kind kind, const Quantity& diameter) { return {kind, {}, {}, diameter / 2}; }
 
 /// The walls of a vessel in their order, and half its sizes where balls are placed at random by them.
 struct Vessel {
@@ -46,21 +43,21 @@ struct Vessel {
 };
 
 Vessel vessel_of(const model::Cylinder<Quantity>& v) {
-  const Quantity half = v.height / number(2), radius = v.diameter / number(2);
+  const Quantity half = v.height / 2, radius = v.diameter / 2;
   return {{plane(1, -1, half), plane(1, 1, half), round_wall(ExactWall::cylinder, v.diameter)},
           QuantityVector{radius, half, radius}};
 }
 Vessel vessel_of(const model::Box<Quantity>& v) {
   Vessel vessel{{}, QuantityVector{}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Quantity half = v.size[axis] / number(2);
+    const Quantity half = v.size[axis] / 2;
     (*vessel.half)[axis] = half;
     for (const int side : {-1, 1}) vessel.walls.push_back(plane(axis, side, half));
   }
   return vessel;
 }
 Vessel vessel_of(const model::Sphere<Quantity>& v) {
-  const Quantity radius = v.diameter / number(2);
+  const Quantity radius = v.diameter / 2;
   return {{round_wall(ExactWall::sphere, v.diameter)}, QuantityVector{radius, radius, radius}};
 }
 Vessel vessel_of(const model::Polyhedron<Quantity>& v) {
@@ -138,7 +135,7 @@ QuantityVector exact_place(const Vec3<mpfr>& local, const QuantityVector& room, 
 
 ExactBall ball_of(const casefile::BallSpec& spec) {
   ExactBall ball;
-  ball.radius = spec.diameter / number(2);
+  ball.radius = spec.diameter / 2;
   ball.density = spec.density;
   ball.reduced_inertia = spec.reduced_inertia;
   ball.velocity = spec.velocity;

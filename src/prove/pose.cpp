@@ -1,12 +1,6 @@
 #include "prove/pose.hpp"
 
-#include "prove/exact_text.hpp"
-
 namespace edmill::prove {
-
-Vector enclosure_of(const QuantityVector& exact) {
-  return {enclosure_of(exact[0]), enclosure_of(exact[1]), enclosure_of(exact[2])};
-}
 
 namespace {
 
@@ -39,49 +33,21 @@ Matrix product(const Matrix& a, const Matrix& b) {
   return result;
 }
 
-}  // namespace
-
-Motion::Motion(const ExactCase& exact) : start_(enclosure_of(exact.start)) {
-  arb_const_pi(turn_.arb(), Precision::bits());
-  turn_ = turn_ + turn_;
-  for (const auto& given : exact.joints) {
-    Joint joint{given.rotates,
-                enclosure_of(given.axis),
-                enclosure_of(given.shift),
-                enclosure_of(given.angle),
-                enclosure_of(given.speed),
-                {}};
-    joint.axis = joint.axis / norm<Enclosure>(joint.axis);
-    for (const auto& s : given.swings)
-      joint.swings.push_back({enclosure_of(s.amplitude), enclosure_of(s.frequency), enclosure_of(s.phase)});
-    joints_.push_back(std::move(joint));
-  }
-}
-
-auto Motion::moved(const Joint& joint, const Enclosure& clock) const -> Moved {
-  Moved result{joint.angle + joint.speed * clock, joint.speed, Enclosure()};
-  for (const auto& swing : joint.swings) {
-    const auto phase = sin_cos_turns(swing.frequency * clock + swing.phase);
-    const Enclosure speed = turn_ * swing.frequency, rate = swing.amplitude * speed;
-    result.value += swing.amplitude * phase.sin;
-    result.rate += rate * phase.cos;
-    result.second -= rate * speed * phase.sin;
-  }
-  return result;
-}
-
-void Motion::rotate(Pose& pose, const Joint& joint, const Moved& moved, const Enclosure& turn) {
-  const Vector axis = turned(pose.axes, joint.axis);
-  const Vector relative = axis * Enclosure(moved.rate * turn);
-  pose.omega_rate += axis * Enclosure(moved.second * turn) + cross<Enclosure>(pose.omega, relative);
+/// About an axis of the frame so far. @param angle  [turns]
+/// @param speed, acceleration  [rad/s], [rad/s^2]
+void rotate(Pose& pose, const Vector& about, const Enclosure& angle, const Enclosure& speed,
+            const Enclosure& acceleration) {
+  const Vector axis = turned(pose.axes, about);
+  const Vector relative = axis * speed;
+  pose.omega_rate += axis * acceleration + cross<Enclosure>(pose.omega, relative);
   pose.omega += relative;
-  pose.axes = product(pose.axes, rotation(joint.axis, sin_cos_turns(moved.value)));
+  pose.axes = product(pose.axes, rotation(about, sin_cos_turns(angle)));
 }
 
-void Motion::shift(Pose& pose, const Joint& joint, const Moved& moved) {
-  const Vector d = turned(pose.axes, joint.shift + joint.axis * moved.value);
-  const Vector rate = turned(pose.axes, joint.axis * moved.rate),
-               second = turned(pose.axes, joint.axis * moved.second);
+/// By a vector of the frame so far, which has these derivatives in it.
+void shift(Pose& pose, const Vector& by, const Vector& by_rate, const Vector& by_second) {
+  const Vector d = turned(pose.axes, by), rate = turned(pose.axes, by_rate),
+               second = turned(pose.axes, by_second);
   const Vector carried = cross<Enclosure>(pose.omega, d);
   pose.acceleration += second + cross<Enclosure>(pose.omega, Vector(rate * Enclosure(2))) +
                        cross<Enclosure>(pose.omega_rate, d) + cross<Enclosure>(pose.omega, carried);
@@ -89,14 +55,42 @@ void Motion::shift(Pose& pose, const Joint& joint, const Moved& moved) {
   pose.centre += d;
 }
 
+}  // namespace
+
+Motion::Motion(const ExactCase& exact) : start_(enclosure_of(exact.start)) {
+  arb_const_pi(turn_.arb(), Precision::bits());
+  turn_ = turn_ + turn_;
+  const auto to_enclosure = [](const Quantity& exact) { return enclosure_of(exact); };
+  for (const auto& given : exact.joints) {
+    Joint joint{given.rotates,
+                enclosure_of(given.axis),
+                enclosure_of(given.shift),
+                enclosure_of(given.angle),
+                enclosure_of(given.speed),
+                model::converted_swings<Enclosure>(given.swings, to_enclosure)};
+    joint.axis = joint.axis / norm<Enclosure>(joint.axis);
+    joints_.push_back(std::move(joint));
+  }
+}
+
 Pose Motion::pose(const Enclosure& time) const {
-  Pose pose{Matrix::Identity(), zero_vector(), zero_vector(), zero_vector(), zero_vector(), zero_vector()};
+  Pose pose;
+  pose.axes = Matrix::Identity();
   const Enclosure clock = start_ + time;
   for (const auto& joint : joints_) {
+    // [turns] or [m]
+    Enclosure value = joint.angle + joint.speed * clock, rate = joint.speed, second;
+    for (const auto& swing : joint.swings) {
+      const auto phase = sin_cos_turns(swing.frequency * clock + swing.phase);
+      const Enclosure speed = turn_ * swing.frequency, fastest = swing.amplitude * speed;
+      value += swing.amplitude * phase.sin;
+      rate += fastest * phase.cos;
+      second -= fastest * speed * phase.sin;
+    }
     if (joint.rotates)
-      rotate(pose, joint, moved(joint, clock), turn_);
+      rotate(pose, joint.axis, value, rate * turn_, second * turn_);
     else
-      shift(pose, joint, moved(joint, clock));
+      shift(pose, joint.shift + joint.axis * value, joint.axis * rate, joint.axis * second);
   }
   return pose;
 }

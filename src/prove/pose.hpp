@@ -37,27 +37,15 @@ class Motion {
   }
 
  private:
-  struct Swing {
-    Enclosure amplitude, frequency, phase;
-  };
   struct Joint {
     bool rotates;
     Vector axis, shift;
     Enclosure angle, speed;
-    std::vector<Swing> swings;
+    std::vector<model::Swing<Enclosure>> swings;
   };
-  /// Value and rates of a joint: [turns] or [m].
-  struct Moved {
-    Enclosure value, rate, second;
-  };
-  Moved moved(const Joint& joint, const Enclosure& clock) const;
-  static void rotate(Pose& pose, const Joint& joint, const Moved& moved, const Enclosure& turn);
-  static void shift(Pose& pose, const Joint& joint, const Moved& moved);
 
   Enclosure start_, turn_;  ///< [s], 2 pi
   std::vector<Joint> joints_;
 };
-
-Vector enclosure_of(const QuantityVector& exact);
 
 }  // namespace edmill::prove

@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "base/errors.hpp"
-#include "prove/exact_text.hpp"
 #include "run/event_source.hpp"
 
 namespace edmill::prove {
@@ -40,8 +39,8 @@ Attempt attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, cons
   return result;
 }
 
-}  // namespace
-
+/// Where to look for each event: the first ones of a run in the widest scalar; none when it is interrupted.
+/// @throws InputError when the case ends before
 std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptions& options,
                                 std::string& impossible) {
   const std::size_t collisions = options.collisions;
@@ -75,6 +74,8 @@ std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptio
   }
   return list;
 }
+
+}  // namespace
 
 Proof prove(const casefile::CaseSpec& spec, const ProofOptions& options) {
   Proof proof;

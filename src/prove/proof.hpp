@@ -37,11 +37,6 @@ struct Proof {
                            ///< look; no proof then
 };
 
-/// Where to look for each event: the first ones of a run in the widest scalar; none when it is interrupted.
-/// @throws InputError when the case ends before
-std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptions& options,
-                                std::string& impossible);
-
 /// Proves the first events with 128 bits, and twice as many until all are proven; then once more with as many
 /// as the last try used.
 /// @throws InputError for a case that `prove` does not know

@@ -5,11 +5,8 @@
 #include <algorithm>
 
 #include "model/mill.hpp"
-#include "prove/exact_text.hpp"
 
 namespace edmill::prove {
-
-thread_local slong Precision::current = 64;
 
 namespace {
 
@@ -33,6 +30,57 @@ Vector rounded_out(const Vector& v, slong bits) {
   return {rounded_out(v[0], bits), rounded_out(v[1], bits), rounded_out(v[2], bits)};
 }
 
+/// max(e_n a, v_s)
+Enclosure separation_speed(const Law& law, const Enclosure& approach) {
+  Enclosure by_restitution = law.restitution * approach;
+  if (law.least_separation.is_zero() || less(law.least_separation, by_restitution)) return by_restitution;
+  if (less(by_restitution, law.least_separation)) return law.least_separation;
+  throw Undecided{"whether the restitution or the least separation speed decides"};
+}
+
+/// (1 - e_t)/c
+Enclosure slip_gain(const Law& law, const Enclosure& change, const Enclosure& slip,
+                    const Enclosure& compliance) {
+  const Enclosure reversed = 1 - law.tangential;
+  if (!law.coulomb) return reversed / compliance;
+  if (law.friction.is_zero()) return Enclosure();
+  const Enclosure available = law.friction * compliance * change, needed = reversed * slip;
+  if (arb_ge(available.arb(), needed.arb())) return reversed / compliance;
+  if (less(available, needed)) return law.friction * change / slip;
+  throw Undecided{"whether the contact slides or sticks"};
+}
+
+/// Whether a flight was long enough for its ball to move, by the rule on stalls. @throws Undecided
+bool has_moved(const Law& law, const Enclosure& flight_time) {
+  const Enclosure reached = flight_time * Enclosure(model::StallRule().acceleration);
+  if (law.least_separation.is_zero() || less(law.least_separation, reached)) return true;
+  if (less(reached, law.least_separation)) return false;
+  throw Undecided{"whether a ball has had time to move"};
+}
+
+/// What an impact does to velocities and spins. (2.23'), (2.24'), (2.28'); docs/certificates.md, "Impulse"
+struct Impulse {
+  Vector push;  ///< P: change of velocity of a body of the effective mass [m/s]
+  Vector turn;  ///< Q: n x S gain [m/s]
+  Enclosure approach_speed, slip_speed;
+};
+
+/// @param normal      n, unit, from the partner to ball i
+/// @param contact     G, velocity of the surfaces at the contact against each other [m/s]
+/// @param compliance  c = 1 + M/(m_i J_i) + M/(m_j J_j)
+/// @param in_stall    friction rests
+/// @throws Undecided
+Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, const Enclosure& compliance,
+                bool in_stall) {
+  const Enclosure approach = -dot<Enclosure>(contact, normal);
+  if (!approach.is_positive()) throw Undecided{"whether the bodies approach each other"};
+  const Enclosure change = approach + separation_speed(law, approach);
+  const Vector slip = contact + normal * approach;
+  const Enclosure slip_speed = norm<Enclosure>(slip);
+  const Enclosure gain = in_stall ? Enclosure() : slip_gain(law, change, slip_speed, compliance);
+  return {normal * change - slip * gain, cross<Enclosure>(normal, slip) * gain, approach, slip_speed};
+}
+
 }  // namespace
 
 auto Prover::tools(const ExactCase& exact, slong bits) -> Tools {
@@ -44,7 +92,9 @@ auto Prover::tools(const ExactCase& exact, slong bits) -> Tools {
     result.density.push_back(enclosure_of(ball.density));
     result.inertia.push_back(enclosure_of(ball.reduced_inertia));
   }
-  for (const auto& law : exact.laws) result.laws.emplace_back(law);
+  for (const auto& law : exact.laws)
+    result.laws.push_back({law.coulomb, enclosure_of(law.restitution), enclosure_of(law.tangential),
+                           enclosure_of(law.friction), enclosure_of(law.least_separation)});
   return result;
 }
 
@@ -76,21 +126,20 @@ slong Prover::accuracy() const {
 }
 
 Gap Prover::gap_at(const Meeting& next, const Enclosure& time) const {
-  const Flight& one = tracks_[static_cast<std::size_t>(next.ball)].flight;
+  const Flight& one = tracks_[next.ball].flight;
   if (next.with_wall) {
     const auto seen = Motion::in_vessel(fine_.motion.pose(time), one.position_at(time, fine_.gravity),
                                         one.velocity_at(time, fine_.gravity), fine_.gravity);
-    return fine_.walls[static_cast<std::size_t>(next.ball)].gap(static_cast<std::size_t>(next.partner), seen);
+    return fine_.walls[next.ball].gap(next.partner, seen);
   }
-  const Flight& two = tracks_[static_cast<std::size_t>(next.partner)].flight;
+  const Flight& two = tracks_[next.partner].flight;
   // The motion against each other is uniform: from the middle of a bracket without gravity.
   const Enclosure middle = time.middle();
   const Vector relative = one.velocity_at(middle, fine_.gravity) - two.velocity_at(middle, fine_.gravity);
   PairGap pair{one.position_at(middle, fine_.gravity) - two.position_at(middle, fine_.gravity) +
                    relative * Enclosure(time - middle),
                relative, Enclosure()};
-  const Enclosure reach = fine_.radius[static_cast<std::size_t>(next.ball)] +
-                          fine_.radius[static_cast<std::size_t>(next.partner)];
+  const Enclosure reach = fine_.radius[next.ball] + fine_.radius[next.partner];
   pair.square = reach * reach;
   return {pair.value(), 2 * pair.half_rate(), 2 * squared_norm<Enclosure>(pair.relative)};
 }
@@ -131,12 +180,11 @@ Enclosure Prover::bracket(const Meeting& next) const {
 }
 
 std::vector<std::string> Prover::exclude_walls(int ball, const Enclosure& end, int end_wall) const {
-  const auto own = static_cast<std::size_t>(ball);
-  const Track& track = tracks_[own];
+  const Track& track = tracks_[ball];
   const Span quick{track.coarse, track.begin, end, track.wall, end_wall};
   const Span exact{track.flight, track.begin, end, track.wall, end_wall};
-  WallExclusion first(coarse_.motion, coarse_.walls[own], coarse_.gravity, quick),
-      second(fine_.motion, fine_.walls[own], fine_.gravity, exact);
+  WallExclusion first(coarse_.motion, coarse_.walls[ball], coarse_.gravity, quick),
+      second(fine_.motion, fine_.walls[ball], fine_.gravity, exact);
   std::vector<std::string> texts;
   for (std::size_t wall = 0; wall < exact_.walls.size(); ++wall) {
     {
@@ -152,30 +200,29 @@ std::vector<std::string> Prover::exclude_walls(int ball, const Enclosure& end, i
 
 /// All flights of other balls that have not ended: those that end earlier asked for this one then.
 void Prover::exclude_balls(int ball, int partner, const Enclosure& end, long through) const {
-  const auto own = static_cast<std::size_t>(ball);
-  const Track& track = tracks_[own];
-  for (std::size_t k = 0; k < tracks_.size(); ++k) {
+  const Track& track = tracks_[ball];
+  for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
     const Track& other = tracks_[k];
-    if (static_cast<int>(k) == ball || static_cast<int>(k) == partner) continue;
+    if (k == ball || k == partner) continue;
     if (std::max(track.event, other.event) >= through) continue;
     // Balls that have just left each other: their distance grows for ever.
-    if (track.with == static_cast<int>(k) && other.with == ball && track.event == other.event) continue;
+    if (track.with == k && other.with == ball && track.event == other.event) continue;
     const Enclosure& begin = track.event > other.event ? track.begin : other.begin;
     bool proven;
     {
       const Precision scope(coarse_.bits);
-      proven = apart(track.coarse, other.coarse, coarse_.radius[own] + coarse_.radius[k], coarse_.gravity,
+      proven = apart(track.coarse, other.coarse, coarse_.radius[ball] + coarse_.radius[k], coarse_.gravity,
                      begin, end);
     }
     if (!proven)
       proven =
-          apart(track.flight, other.flight, fine_.radius[own] + fine_.radius[k], fine_.gravity, begin, end);
+          apart(track.flight, other.flight, fine_.radius[ball] + fine_.radius[k], fine_.gravity, begin, end);
     if (!proven) throw Undecided{fmt::format("whether balls {} and {} meet before", ball, k)};
   }
 }
 
 /// Counts the ball's impacts that came without time to move, for the rule on stalls.
-bool Prover::friction_rests(std::size_t ball, const Law& law, const Enclosure& time) {
+bool Prover::friction_rests(int ball, const Law& law, const Enclosure& time) {
   Track& track = tracks_[ball];
   if (has_moved(law, time - track.since)) {
     track.unmoved = 0;
@@ -185,7 +232,7 @@ bool Prover::friction_rests(std::size_t ball, const Law& law, const Enclosure& t
 }
 
 ProvenEvent Prover::impact_on_wall(const Meeting& next, const Enclosure& time) {
-  const auto own = static_cast<std::size_t>(next.ball), wall = static_cast<std::size_t>(next.partner);
+  const int own = next.ball, wall = next.partner;
   const Flight& flight = tracks_[own].flight;
   const Enclosure middle = time.middle(), d = time - middle;
   const Vector position = flight.position_at(middle, fine_.gravity),
@@ -208,7 +255,7 @@ ProvenEvent Prover::impact_on_wall(const Meeting& next, const Enclosure& time) {
 }
 
 ProvenEvent Prover::impact_of_balls(const Meeting& next, const Enclosure& time) {
-  const auto i = static_cast<std::size_t>(next.ball), j = static_cast<std::size_t>(next.partner);
+  const int i = next.ball, j = next.partner;
   const Flight &one = tracks_[i].flight, &two = tracks_[j].flight;
   const Enclosure middle = time.middle(), d = time - middle;
   const Vector g = fine_.gravity;
@@ -236,7 +283,7 @@ ProvenEvent Prover::impact_of_balls(const Meeting& next, const Enclosure& time) 
 void Prover::follow(const ProvenEvent& event) {
   const Enclosure begin = event.time.low();
   for (std::size_t k = 0; k < event.after.size(); ++k) {
-    Track& track = tracks_[static_cast<std::size_t>(k == 0 ? event.ball : event.partner)];
+    Track& track = tracks_[k == 0 ? event.ball : event.partner];
     track.flight = event.after[k];
     track.coarse = rounded(track.flight, coarse_bits);
     track.begin = begin;
@@ -276,10 +323,10 @@ ProvenEvent Prover::take(const Meeting& next) {
 std::vector<std::vector<std::string>> Prover::finish() {
   const Precision scope(fine_.bits);
   std::vector<std::vector<std::string>> windows(tracks_.size());
-  for (std::size_t k = 0; k < tracks_.size(); ++k) {
+  for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
     if (tracks_[k].event + 1 == events_ && events_ > 0) continue;
-    windows[k] = exclude_walls(static_cast<int>(k), last_end_, -1);
-    exclude_balls(static_cast<int>(k), -1, last_end_, events_ - 1);
+    windows[k] = exclude_walls(k, last_end_, -1);
+    exclude_balls(k, -1, last_end_, events_ - 1);
   }
   return windows;
 }

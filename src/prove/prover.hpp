@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "prove/exclusion.hpp"
-#include "prove/impact.hpp"
+#include "prove/flight.hpp"
 
 namespace edmill::prove {
 
@@ -22,6 +21,12 @@ struct ProvenEvent : Meeting {
   Enclosure approach_speed, slip_speed;           ///< before the impact [m/s]
   std::vector<Flight> after;                      ///< of the ball and of a partner that is a ball
   std::vector<std::vector<std::string>> windows;  ///< of the flights that end, by body and wall
+};
+
+/// A contact law at the precision in force.
+struct Law {
+  bool coulomb;
+  Enclosure restitution, tangential, friction, least_separation;
 };
 
 /// The state of a proof after some events: all balls in flights that enclose the true ones.
@@ -69,7 +74,7 @@ class Prover {
   ProvenEvent impact_on_wall(const Meeting& next, const Enclosure& time);
   ProvenEvent impact_of_balls(const Meeting& next, const Enclosure& time);
   void follow(const ProvenEvent& event);
-  bool friction_rests(std::size_t ball, const Law& law, const Enclosure& time);
+  bool friction_rests(int ball, const Law& law, const Enclosure& time);
 
   const ExactCase& exact_;
   slong bits_;

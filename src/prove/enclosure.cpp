@@ -1,13 +1,12 @@
-#include "prove/exact_text.hpp"
-
-#include <fmt/format.h>
+#include "prove/enclosure.hpp"
 
 #include <algorithm>
-#include <memory>
 
 #include "casefile/rational.hpp"
 
 namespace edmill::prove {
+
+thread_local slong Precision::current = 64;
 
 namespace {
 
@@ -41,9 +40,8 @@ Enclosure enclosure_of(const casefile::Quantity& quantity) {
   return result;
 }
 
-std::string text_of(const Enclosure& value) {
-  const std::unique_ptr<char, void (*)(void*)> text(arb_dump_str(value.arb()), flint_free);
-  return text.get();
+Vector enclosure_of(const std::array<casefile::Quantity, 3>& exact) {
+  return {enclosure_of(exact[0]), enclosure_of(exact[1]), enclosure_of(exact[2])};
 }
 
 Enclosure rounded_out(const Enclosure& value, slong bits) {
@@ -64,22 +62,6 @@ Enclosure rounded_out(const Enclosure& value, slong bits) {
   arf_clear(ten);
   mag_set_ui_2exp_si(arb_radref(result.arb()), fmpz_get_ui(mantissa.v), fmpz_get_si(exponent.v));
   return result;
-}
-
-DecimalText decimal_of(const Enclosure& value, int digits) {
-  const std::unique_ptr<char, void (*)(void*)> middle(arf_get_str(arb_midref(value.arb()), digits + 1),
-                                                      flint_free);
-  Enclosure printed, difference;
-  arb_set_str(printed.arb(), middle.get(), 8 * digits + 64);
-  arb_sub(difference.arb(), value.arb(), printed.arb(), 64);
-  mag_t bound;
-  mag_init(bound);
-  arb_get_mag(bound, difference.arb());
-  arf_t radius;
-  arf_init_set_mag_shallow(radius, bound);
-  const double size = arf_get_d(radius, ARF_RND_UP);
-  mag_clear(bound);
-  return {middle.get(), fmt::format("{:.1e}", size * 1.05)};
 }
 
 }  // namespace edmill::prove
