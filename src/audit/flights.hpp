@@ -8,10 +8,6 @@
 #include "audit/impact_judge.hpp"
 #include "dynamics/decision_ladder.hpp"
 
-namespace edmill::dynamics {
-extern template class DecisionLadder<double>;
-}
-
 namespace edmill::audit {
 
 /// The last logged state of a ball.
