@@ -17,7 +17,10 @@ edmill_take_headers(boost/version.hpp fmt/format.h toml++/toml.h Eigen/Core)
 add_library(edmill_core_settings INTERFACE)
 target_compile_definitions(edmill_core_settings INTERFACE EDMILL_WITHOUT_MPFR EDMILL_PORTABLE_FLOAT128 FMT_HEADER_ONLY
                                                           TOML_HEADER_ONLY=0 TOML_ENABLE_FORMATTERS=0 EIGEN_DONT_VECTORIZE)
-target_include_directories(edmill_core_settings INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/include)
+target_include_directories(edmill_core_settings INTERFACE ${CMAKE_SOURCE_DIR}/include)
+foreach(library core files case run pages judge program bindings)
+  target_include_directories(edmill_core_settings INTERFACE ${CMAKE_SOURCE_DIR}/src/${library})
+endforeach()
 target_include_directories(edmill_core_settings SYSTEM INTERFACE ${headers})
 target_compile_options(edmill_core_settings INTERFACE ${edmill_bits} ${edmill_warnings})
 if(EMSCRIPTEN)
@@ -27,10 +30,11 @@ endif()
 
 include(cmake/Rooms.cmake)
 
-# edmill_take_rooms(target room...)
+# edmill_take_rooms(target library/room...)
 function(edmill_take_rooms target)
-  foreach(room ${ARGN})
-    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
+  foreach(folder ${ARGN})
+    get_filename_component(room ${folder} NAME)
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cpp)
     # What needs other libraries, for which core_alone/absent.cpp stands, MPFR and programs.
     list(FILTER sources EXCLUDE REGEX "(table_hdf5|hdf5_error|decoder|event_file|x3d_scene|vtk_scene|mpfr|linearised|sensitivity|make_run|main)[.]cpp$")
     target_sources(${target} PRIVATE ${sources})
@@ -43,19 +47,18 @@ endfunction()
 
 # Linkers keep the first copy of an inline function: that of double comes before those of wide scalars, which WebAssembly compiles
 # for size (functions of double that they share took three times as long).
-set(src ${CMAKE_SOURCE_DIR}/src)
-add_library(edmill_core OBJECT ${src}/engine/double.cpp ${src}/engine/double_other.cpp ${src}/run/double.cpp ${src}/output/double.cpp
-            ${EDMILL_VERSION_SOURCE})
+set(double src/core/engine/double.cpp src/core/engine/double_other.cpp src/run/run/double.cpp src/run/output/double.cpp)
+set(wide src/core/engine/float128.cpp src/core/engine/mpfr50.cpp src/run/run/float128.cpp src/run/output/float128.cpp)
+edmill_alone(${double} ${wide})
+add_library(edmill_core OBJECT ${double} ${EDMILL_VERSION_SOURCE})
 target_link_libraries(edmill_core PUBLIC edmill_core_settings)
 target_precompile_headers(edmill_core PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <sstream>
   <string> <variant> <vector> <boost/container/static_vector.hpp> <boost/multiprecision/cpp_int.hpp> <boost/multiprecision/cpp_bin_float.hpp>
   <boost/multiprecision/eigen.hpp> <Eigen/Geometry> <fmt/format.h> <toml++/toml.h>)
-edmill_take_rooms(edmill_core base model dynamics engine casefile io run tangent output core_alone)
-edmill_alone(src/engine/double.cpp src/engine/double_other.cpp src/run/double.cpp src/output/double.cpp)
-set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/core_alone/toml.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
-set(wide ${src}/engine/float128.cpp ${src}/engine/mpfr50.cpp ${src}/run/float128.cpp ${src}/output/float128.cpp)
-set_property(SOURCE ${wide} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
-add_executable(edmill_core_alone ${src}/core_alone/main.cpp ${src}/app/run.cpp ${src}/report/result_table.cpp ${src}/run/make_run.cpp)
+edmill_take_rooms(edmill_core core/base core/model core/dynamics core/engine core/tangent files/io case/casefile run/output run/run bindings/core_alone)
+set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/bindings/core_alone/toml.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+add_executable(edmill_core_alone src/bindings/core_alone/main.cpp src/program/app/run.cpp src/pages/report/result_table.cpp
+               src/run/run/make_run.cpp)
 set_target_properties(edmill_core_alone PROPERTIES OUTPUT_NAME edmill-core)
 target_link_libraries(edmill_core_alone PRIVATE edmill_core)
 
@@ -66,7 +69,7 @@ if(EMSCRIPTEN)
   edmill_take_headers(unsupported/Eigen/NonLinearOptimization)
   add_executable(edmill_page)
   target_link_libraries(edmill_page PRIVATE edmill_core)
-  edmill_take_rooms(edmill_page browser audit compare identify)
+  edmill_take_rooms(edmill_page bindings/browser judge/audit judge/compare judge/identify)
   # The checker of certificates, which has no code of edmill.
   file(GLOB checker CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/verification/checker/*.cpp)
   list(FILTER checker EXCLUDE REGEX "/main.cpp$")
@@ -81,8 +84,8 @@ if(EMSCRIPTEN)
                       -sEXPORTED_RUNTIME_METHODS=ccall,FS -sEXPORTED_FUNCTIONS=_malloc,_free)
   set(page ${CMAKE_BINARY_DIR}/edmill.html)
   find_program(PYTHON3 python3 NO_CMAKE_FIND_ROOT_PATH REQUIRED)
-  file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/browser/*.html ${CMAKE_SOURCE_DIR}/src/browser/*.css ${CMAKE_SOURCE_DIR}/src/browser/*.js)
-  add_custom_command(OUTPUT ${page} DEPENDS edmill_page ${parts} ${CMAKE_SOURCE_DIR}/src/browser/assemble.py
-                     COMMAND ${PYTHON3} ${CMAKE_SOURCE_DIR}/src/browser/assemble.py ${CMAKE_BINARY_DIR}/edmill_page ${page} VERBATIM)
+  file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/bindings/browser/*.html ${CMAKE_SOURCE_DIR}/src/bindings/browser/*.css ${CMAKE_SOURCE_DIR}/src/bindings/browser/*.js)
+  add_custom_command(OUTPUT ${page} DEPENDS edmill_page ${parts} ${CMAKE_SOURCE_DIR}/src/bindings/browser/assemble.py
+                     COMMAND ${PYTHON3} ${CMAKE_SOURCE_DIR}/src/bindings/browser/assemble.py ${CMAKE_BINARY_DIR}/edmill_page ${page} VERBATIM)
   add_custom_target(page ALL DEPENDS ${page})
 endif()

@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 add_library(edmill INTERFACE)
 add_library(edmill::edmill ALIAS edmill)
-target_link_libraries(edmill INTERFACE edmill_core)
+target_link_libraries(edmill INTERFACE edmill_run)
 target_include_directories(edmill INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(edmill INTERFACE cxx_std_20)
 
@@ -16,7 +16,7 @@ install(FILES ${CMAKE_BINARY_DIR}/edmill.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/m
 install(FILES ${CMAKE_BINARY_DIR}/edmill.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME edmill
         COMPONENT program)
 
-install(TARGETS edmill edmill_core edmill_settings EXPORT edmill-targets COMPONENT dev)
+install(TARGETS edmill edmill_run edmill_case edmill_files edmill_core edmill_settings EXPORT edmill-targets COMPONENT dev)
 install(DIRECTORY include/edmill TYPE INCLUDE COMPONENT dev)
 install(EXPORT edmill-targets NAMESPACE edmill:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/edmill COMPONENT dev)
 configure_package_config_file(cmake/edmill-config.cmake.in ${CMAKE_BINARY_DIR}/edmill-config.cmake

@@ -1,18 +1,22 @@
 # Several sources in one compilation: most of the compile time of a small one goes into the headers that it shares with others.
 option(EDMILL_UNITY "compile sources of a room several at a time" ON)
 
-# edmill_library(name room...): a static library of the sources of these folders of src/.
+# edmill_library(name room... LINK library...): a static library of these folders of src/<name>, and what it may include.
 function(edmill_library name)
-  add_library(${name} STATIC)
-  foreach(room ${ARGN})
-    file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  set(library edmill_${name})
+  add_library(${library} STATIC)
+  foreach(room ${ARG_UNPARSED_ARGUMENTS})
+    file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/${room}/*.cpp)
     list(FILTER of_room EXCLUDE REGEX "/main.cpp$")
-    target_sources(${name} PRIVATE ${of_room})
+    target_sources(${library} PRIVATE ${of_room})
     edmill_group(${room} ${of_room})
   endforeach()
-  target_link_libraries(${name} PUBLIC edmill_settings)
-  target_compile_options(${name} PRIVATE ${edmill_warnings} $<$<CONFIG:Release>:-O1>)
-  set_target_properties(${name} PROPERTIES UNITY_BUILD ${EDMILL_UNITY} UNITY_BUILD_MODE GROUP)
+  target_include_directories(${library} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src/${name}>)
+  target_link_libraries(${library} PUBLIC ${ARG_LINK})
+  target_compile_options(${library} PRIVATE ${edmill_warnings} $<$<CONFIG:Release>:-O1>)
+  set_target_properties(${library} PROPERTIES UNITY_BUILD ${EDMILL_UNITY} UNITY_BUILD_MODE GROUP)
+  edmill_reuse_precompiled(${library} edmill_precompiled)
 endfunction()
 
 # edmill_group(room source...): groups of eight, so that a change does not compile too many others again.

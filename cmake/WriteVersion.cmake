@@ -3,4 +3,4 @@ execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --exclude=* O
 if(NOT EDMILL_COMMIT)
   set(EDMILL_COMMIT unknown)
 endif()
-configure_file(${SOURCE}/src/base/version.cpp.in ${TARGET} @ONLY)
+configure_file(${SOURCE}/src/core/base/version.cpp.in ${TARGET} @ONLY)

@@ -46,12 +46,12 @@ build_tools() {
   local source=$PWD main=CMakeFiles/edmill_cli.dir/src/cli/main.cpp.o module=CMakeFiles/edmill_python.dir/src/python/module.cpp.o
   local name
   name=$(basename "$build"/python/edmill/_edmill*.so)
-  compiled src/cli/main.cpp as $main
-  compiled src/python/count_in_python.cpp as $module
+  compiled src/program/cli/main.cpp as $main
+  compiled src/bindings/python/count_in_python.cpp as $module
   cd "$build"
-  eval "$(command_of edmill | sed -e "s|$main|$tools/src/cli/main.cpp.o|" -e "s|-o edmill |-o $tools/edmill |")"
+  eval "$(command_of edmill | sed -e "s|$main|$tools/src/program/cli/main.cpp.o|" -e "s|-o edmill |-o $tools/edmill |")"
   eval "$(command_of "python/edmill/$name" |
-    sed -e "s|$module|& $tools/src/python/count_in_python.cpp.o|" -e "s|-o [^ ]*|-o $tools/src/python/edmill/$name|")"
+    sed -e "s|$module|& $tools/src/bindings/python/count_in_python.cpp.o|" -e "s|-o [^ ]*|-o $tools/src/bindings/python/edmill/$name|")"
   cd "$source"
 }
 build_tools >"$tools/log" 2>&1 &
@@ -86,5 +86,5 @@ grep -q '"end_reason": "max_spin"' "$folder/spin.json" || fail "max_spin did not
 
 wait $tools_build || fail "$(tail -n 30 "$tools/log")"
 [ "$("$tools/edmill" count docs/examples/demo.toml)" = 28 ] || fail "edmill count"
-[ "$(PYTHONPATH=$tools/src/python "$4" -c "import edmill; print(edmill.count('docs/examples/demo.toml'))")" = 28 ] || fail "edmill.count"
+[ "$(PYTHONPATH=$tools/src/bindings/python "$4" -c "import edmill; print(edmill.count('docs/examples/demo.toml'))")" = 28 ] || fail "edmill.count"
 echo "the changes of docs/extending.md apply and work"

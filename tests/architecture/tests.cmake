@@ -1,6 +1,5 @@
 # Tests of the source tree.
 set(architecture ${CMAKE_CURRENT_SOURCE_DIR}/architecture)
-add_test(NAME layers_test COMMAND ${architecture}/layers_test.sh)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME source_test COMMAND Python3::Interpreter ${architecture}/source_test.py ${CMAKE_SOURCE_DIR})
 add_test(NAME oldest_python_test COMMAND Python3::Interpreter ${architecture}/oldest_python_test.py ${CMAKE_SOURCE_DIR})
@@ -21,7 +20,7 @@ set_tests_properties(extending_long PROPERTIES LABELS long TIMEOUT 1800)
 
 # A program of the core, for other trees and compilers.
 add_executable(collision_bits EXCLUDE_FROM_ALL ${architecture}/collision_bits.cpp)
-target_link_libraries(collision_bits PRIVATE edmill_core)
+target_link_libraries(collision_bits PRIVATE edmill_run)
 
 # In CI the processor that differs most: its bytes are in the other order.
 add_test(NAME same_bits_test

@@ -1,5 +1,5 @@
 // Checkpoints: the file around the state, with a digest that fits, and the case in it. What is in the state:
-// tests/engine/saved_state_test.cpp.
+// tests/core/engine/saved_state_test.cpp.
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
