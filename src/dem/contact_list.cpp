@@ -8,9 +8,9 @@
 
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
-#include "dem/contact_audit.hpp"
 #include "dem/contact_list_reader.hpp"
 #include "dem/import_dump.hpp"
+#include "dem/statistics.hpp"
 
 namespace edmill::dem {
 
@@ -92,14 +92,6 @@ std::map<int, int> walls_of(const std::vector<ListedContact>& list, const FlatWa
   return found;
 }
 
-double factor_of(const std::vector<ListedContact>& list, const auto& said, const auto& expected) {
-  std::vector<double> factors;
-  for (const auto& c : list)
-    if (const std::optional<double> value = said(c)) factors.push_back(*value / expected(c));
-  const double factor = factors.empty() ? 1 : median_of(std::move(factors)).value;
-  return std::abs(factor - 1) < 1e-5 ? 1 : factor;  // as lists write numbers
-}
-
 /// Contacts of a ball that overlap in time are a group; long ones rest.
 ContactClass class_of(const std::vector<ListedContact>& list, std::size_t k, double usual) {
   const auto& c = list[k];
@@ -145,15 +137,13 @@ Imported import_contact_list(const casefile::CaseSpec& spec, const ImportOptions
   facts.dump = options.dump;
   facts.statistics.contact_time = median_of(std::move(durations)).value;
   facts.statistics.gravity = built.the_case.mill.gravity;  // a list does not show it
-  const auto ball_of = [&](const ListedContact& c) -> const auto& {
-    return balls[static_cast<std::size_t>(c.ball)];
-  };
-  facts.mass_factor = factor_of(
-      list, [](const ListedContact& c) { return c.mass; },
-      [&](const ListedContact& c) { return ball_of(c).mass; });
-  facts.radius_factor = factor_of(
-      list, [](const ListedContact& c) { return c.diameter; },
-      [&](const ListedContact& c) { return 2 * ball_of(c).radius; });
+  std::vector<double> masses, diameters;
+  for (const auto& c : list) {
+    const auto& ball = balls[static_cast<std::size_t>(c.ball)];
+    if (c.mass) masses.push_back(*c.mass / ball.mass);
+    if (c.diameter) diameters.push_back(*c.diameter / (2 * ball.radius));
+  }
+  facts.mass_factor = factor_of(std::move(masses)), facts.radius_factor = factor_of(std::move(diameters));
   facts.first = list.front().begin, facts.last = list.back().end;
   for (std::size_t k = 0; k < list.size(); ++k) {
     auto contact = contact_of(list[k], vessel, walls, wall_of.at(list[k].boundary));

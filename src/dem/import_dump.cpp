@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
 #include "dem/contact_list_reader.hpp"
+#include "dem/statistics.hpp"
 
 namespace edmill::dem {
 
@@ -15,15 +16,12 @@ namespace {
 /// Frames from which the statistics of all are taken.
 constexpr std::size_t first_frames = 4000;
 
-/// The median of what the dump says over what the case says; 1 where it says nothing.
-double factor_of(const std::vector<double>& dump, const std::vector<model::BallProperties<double>>& balls,
-                 const auto& of) {
-  if (dump.empty()) return 1;
-  std::vector<double> factors;
-  for (std::size_t k = 0; k < balls.size(); ++k) factors.push_back(dump[k] / of(balls[k]));
-  const double factor = middle_of(std::move(factors));
-  // As dumps write numbers.
-  return std::abs(factor - 1) < 1e-5 ? 1 : factor;
+/// What the dump says over what the case says, of each ball; empty where it says nothing.
+std::vector<double> ratios_of(std::vector<double> dump,
+                              const std::vector<model::BallProperties<double>>& balls,
+                              double model::BallProperties<double>::*own) {
+  for (std::size_t k = 0; k < dump.size(); ++k) dump[k] /= balls[k].*own;
+  return dump;
 }
 
 }  // namespace
@@ -64,8 +62,8 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
   facts.dump = options.dump;
   facts.facets = facets;
   facts.statistics = statistics_of(head, built.the_case.mill.gravity);
-  facts.mass_factor = factor_of(reader.masses(), balls, [](const auto& b) { return b.mass; });
-  facts.radius_factor = factor_of(reader.radii(), balls, [](const auto& b) { return b.radius; });
+  facts.mass_factor = factor_of(ratios_of(reader.masses(), balls, &model::BallProperties<double>::mass));
+  facts.radius_factor = factor_of(ratios_of(reader.radii(), balls, &model::BallProperties<double>::radius));
   ContactFinder finder(vessel, facts.statistics, [&](const Contact& contact) {
     ++facts.contacts;
     ++result.counts[static_cast<std::size_t>(contact.kind)];
