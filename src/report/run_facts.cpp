@@ -19,39 +19,25 @@ class Reader {
   Reader(std::string file, const json& root) : file_(std::move(file)), root_(root) {}
 
   /// @param path  "/collisions/wall_0"
-  void number(const std::string& path, double& value) {
-    if (const json* found = find(path, "a number", [](const json& j) { return j.is_number(); }))
-      value = found->get<double>();
-  }
-  void text(const std::string& path, std::string& value) {
-    if (const json* found = find(path, "a text", [](const json& j) { return j.is_string(); }))
-      value = found->get<std::string>();
-  }
-  void texts(const std::string& path, std::vector<std::string>& values) {
-    const auto all_texts = [](const json& j) {
-      return j.is_array() && std::all_of(j.begin(), j.end(), [](const json& one) { return one.is_string(); });
-    };
-    if (const json* found = find(path, "a list of texts", all_texts))
-      values = found->get<std::vector<std::string>>();
-  }
-  void flag(const std::string& path, bool& value) {
-    if (const json* found = find(path, "true or false", [](const json& j) { return j.is_boolean(); }))
-      value = found->get<bool>();
-  }
+  void number(const std::string& path, double& value) { read(path, "a number", value); }
+  void text(const std::string& path, std::string& value) { read(path, "a text", value); }
   void end_reason(const std::string& path, model::EndReason& value) {
-    const auto known = [](const json& j) {
-      return j.is_string() && model::end_reason_named(j.get<std::string>()).has_value();
-    };
-    if (const json* found = find(path, "why the run ended", known))
-      value = *model::end_reason_named(found->get<std::string>());
+    constexpr const char* expected = "why the run ended";
+    std::string name;
+    if (!read(path, expected, name)) return;
+    if (const auto reason = model::end_reason_named(name))
+      value = *reason;
+    else
+      add_problem(path, expected);
   }
-  void texts_by_key(const std::string& path, std::map<std::string, std::string>& values) {
-    const auto all_texts = [](const json& j) {
-      return j.is_object() &&
-             std::all_of(j.begin(), j.end(), [](const json& one) { return one.is_string(); });
-    };
-    if (const json* found = find(path, "texts by their kinds", all_texts))
-      values = found->get<std::map<std::string, std::string>>();
+  /// @return whether a value was found that JSON has as a T
+  template <class T>
+  bool read(const std::string& path, const std::string& expected, T& value) try {
+    value = root_.at(json::json_pointer(path)).get<T>();
+    return true;
+  } catch (const json::exception&) {
+    add_problem(path, expected);
+    return false;
   }
   bool has_number(const std::string& path) const {
     return has(path) && root_.at(json::json_pointer(path)).is_number();
@@ -62,15 +48,12 @@ class Reader {
   }
 
  private:
-  template <class Test>
-  const json* find(const std::string& path, const std::string& expected, Test&& test) {
-    const json* found = has(path) ? &root_.at(json::json_pointer(path)) : nullptr;
-    if (found && test(*found)) return found;
+  void add_problem(const std::string& path, const std::string& expected) {
     std::string key = path.substr(1);
     std::replace(key.begin(), key.end(), '/', '.');
-    problems_.push_back(fmt::format("{}: {}: found {}, expected {}", file_, key,
-                                    found ? found->dump().substr(0, 40) : "nothing", expected));
-    return nullptr;
+    const std::string found =
+        has(path) ? root_.at(json::json_pointer(path)).dump().substr(0, 40) : std::string("nothing");
+    problems_.push_back(fmt::format("{}: {}: found {}, expected {}", file_, key, found, expected));
   }
 
   std::string file_;
@@ -86,7 +69,7 @@ void read_intervals(Reader& reader, RunFacts& f) {
                              "wall_work_rate", "collision_rate/total"})
       if (const std::string path = std::string("/intervals/") + rate; reader.has(path))
         reader.number(path, f.half_widths[rate]);
-    reader.texts_by_key("/warnings", f.warnings);
+    reader.read("/warnings", "texts by their kinds", f.warnings);
   }
   if (reader.has("/target")) {
     reader.number("/target/dose", f.target_dose.emplace());
@@ -111,8 +94,8 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
                                    {"/case_digest", &f.case_digest},
                                    {"/precision", &f.precision}})
     reader.text(key, *value);
-  reader.texts("/settings", f.settings);
-  reader.flag("/reported", f.reported);
+  reader.read("/settings", "a list of texts", f.settings);
+  reader.read("/reported", "true or false", f.reported);
   reader.end_reason("/end_reason", f.end_reason);
   if (reader.has("/error")) reader.text("/error", f.error);
   for (const auto& [key, value] : {std::pair{"/seed", &f.seed},
