@@ -4,7 +4,7 @@
 #include "base/with_scalar.hpp"
 #include "casefile/memory_for.hpp"
 #include "instances/instances.hpp"
-#include "report/study_page.hpp"
+#include "report/report_page.hpp"
 #include "run/cpu_limit.hpp"
 #include "study/optimizer.hpp"
 

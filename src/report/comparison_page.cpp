@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/version.hpp"
 #include "io/named_file.hpp"
@@ -17,37 +18,6 @@ using plot::add;
 using plot::readable;
 
 namespace {
-
-/// A rate that the page compares.
-struct Compared {
-  std::string name, unit;
-  std::optional<RateOf> (*of)(const RunFacts& f);
-};
-
-std::optional<RateOf> per_time(const RunFacts& f, double amount, const char* rate) {
-  if (!(f.duration() > 0)) return std::nullopt;
-  return RateOf{amount / f.duration(), f.half_width(rate)};
-}
-
-const Compared compared[] = {
-    {"milling dose rate", "W",
-     [](const RunFacts& f) { return per_time(f, f.milling_dose, "milling_dose_rate"); }},
-    {"specific milling dose rate", "W/kg",
-     [](const RunFacts& f) {
-       return f.powder_mass ? per_time(f, f.milling_dose / *f.powder_mass, "specific_milling_dose_rate")
-                            : std::nullopt;
-     }},
-    {"milling time", "h",
-     [](const RunFacts& f) -> std::optional<RateOf> {
-       if (!f.milling_time) return std::nullopt;
-       RateOf time{*f.milling_time / 3600, f.milling_time_half_width};
-       if (time.half_width) *time.half_width /= 3600;
-       return time;
-     }},
-    {"power from the walls", "W",
-     [](const RunFacts& f) { return per_time(f, f.wall_work, "wall_work_rate"); }},
-    {"collisions", "1/s",
-     [](const RunFacts& f) { return per_time(f, f.all_collisions(), "collision_rate/total"); }}};
 
 /// "run 2 of out/a", by what tells the folders apart.
 std::vector<std::string> names_of(const std::vector<RunFolder>& runs) {
@@ -77,12 +47,14 @@ void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
                   const std::vector<std::string>& names) {
   auto section = add_section(main, "rates", "Rates");
   Rows rows;
-  for (const auto& c : compared) {
-    const auto first = c.of(runs.front().facts);
-    std::vector<std::string> row{c.name + " [" + c.unit + "]"};
+  const auto first_run = main_rates(runs.front().facts);
+  for (std::size_t k = 0; k < first_run.size(); ++k) {
+    const auto& [name, unit, first] = first_run[k];
+    if (name.starts_with("inverse")) continue;
+    std::vector<std::string> row{name + " [" + unit + "]"};
     bool any = false;
     for (const auto& run : runs) {
-      const auto rate = c.of(run.facts);
+      const auto rate = main_rates(run.facts)[k].rate;
       any = any || rate;
       row.push_back(!rate ? "\u2013" : text_of(*rate));
       if (&run != &runs.front()) row.push_back(rate && first ? against(*rate, *first) : "\u2013");
@@ -112,7 +84,7 @@ void draw_dose_rates(pugi::xml_node grid, const std::vector<RunFolder>& runs,
   chart.x = {"run", 0.4, static_cast<double>(runs.size()) + 0.6, false};
   chart.y.title = "milling dose rate [W]";
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const auto rate = compared[0].of(runs[k].facts);
+    const auto rate = main_rates(runs[k].facts).front().rate;
     if (!rate) continue;
     add_point(chart, static_cast<double>(k) + 1, 0.25, *rate, fmt::format("{}: {}", k + 1, names[k]),
               run_colour(k));
@@ -145,7 +117,7 @@ void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs,
 void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs,
                      const std::vector<std::string>& names) {
   std::vector<std::string> keys;
-  std::vector<std::vector<std::pair<std::string, std::string>>> facts;
+  std::vector<std::map<std::string, std::string>> facts;
   for (const auto& run : runs) {
     auto& own = facts.emplace_back();
     auto rows = case_rows(run);
@@ -154,11 +126,8 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs,
     rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", run.facts.seed, run.facts.precision)});
     rows.push_back({"program", fmt::format("edmill {} ({})", run.facts.version, run.facts.commit)});
     for (const auto& row : rows) {
-      const auto found = std::ranges::find(own, row[0], [](const auto& fact) { return fact.first; });
-      if (found == own.end())
-        own.emplace_back(row[0], row[1]);
-      else
-        found->second += "; " + row[1];
+      const auto [fact, is_first] = own.emplace(row[0], row[1]);
+      if (!is_first) fact->second += "; " + row[1];
       if (std::ranges::find(keys, row[0]) == keys.end()) keys.push_back(row[0]);
     }
   }
@@ -166,7 +135,7 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs,
   for (const auto& key : keys) {
     std::vector<std::string> row{key};
     for (const auto& own : facts) {
-      const auto found = std::ranges::find(own, key, [](const auto& fact) { return fact.first; });
+      const auto found = own.find(key);
       row.push_back(found == own.end() ? "\u2013" : found->second);
     }
     if (std::adjacent_find(row.begin() + 1, row.end(), std::not_equal_to<>()) != row.end())

@@ -15,6 +15,10 @@ namespace edmill::report {
 struct RateOf {
   double value;
   std::optional<double> half_width;  ///< of the 95 % interval
+
+  RateOf in_units_of(double unit) const {
+    return {value / unit, half_width ? std::optional(*half_width / unit) : std::nullopt};
+  }
 };
 
 /// Names and units as in docs/files.md.

@@ -19,8 +19,6 @@ void add_animation(pugi::xml_node main, const RunFolder& run);
 void add_rates(pugi::xml_node main, const RunFolder& run);
 void add_spectra(pugi::xml_node main, const RunFolder& run);
 void add_vessel(pugi::xml_node main, const RunFolder& run);
-/// The dose of each ball, in a section.
-void add_balls(pugi::xml_node section, const RunFolder& run);
 /// How often powder has been hit, where the case has such an output.
 void add_treatment(pugi::xml_node main, const RunFolder& run);
 /// How fast neighbouring motions diverge from the run's, where the case has such an output.
@@ -55,8 +53,19 @@ std::string name_of(const model::PartnerInfo& partner);
 /// The colour of a partner in charts, by its place; balls have the same beside any walls.
 std::string partner_colour(const model::Partners& partners, int place);
 
+struct MainRate {
+  std::string name, unit;
+  std::optional<RateOf> rate;  ///< nothing where the run lacks what it needs
+};
+/// The rates by which mills are compared, of any run in the same order.
+std::vector<MainRate> main_rates(const RunFacts& facts);
 /// "27.92 ± 0.23"
 std::string text_of(const RateOf& rate);
+/// "Milling dose rate"
+std::string capitalised(std::string text);
+/// A histogram of bars that are equally wide, from `first` on.
+plot::Curve bars(const std::string& name, const std::string& colour, double first, double width,
+                 const std::vector<double>& heights);
 /// A short line at the rate, within its interval.
 /// @param half_length  of the line, in units of x
 void add_point(plot::Chart& chart, double x, double half_length, const RateOf& rate, const std::string& name,
