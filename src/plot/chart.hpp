@@ -73,5 +73,10 @@ pugi::xml_node add_drawing(pugi::xml_node parent, const std::string& id, const s
 
 /// "12.3", for places in a drawing.
 std::string pixel(double place);
+/// A <text> of a style [px].
+pugi::xml_node add_text(pugi::xml_node parent, const char* style, double x, double y,
+                        const std::string& text);
+/// The title of a y axis, which reads upwards [px].
+void add_y_title(pugi::xml_node axis, double x, double y, const std::string& text);
 
 }  // namespace edmill::plot
