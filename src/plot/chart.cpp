@@ -137,6 +137,27 @@ void add_y_title(pugi::xml_node axis, double x, double y, const std::string& tex
       fmt::format("rotate(-90 {} {})", pixel(x), pixel(y)).c_str();
 }
 
+Points hull_of(Points points) {
+  std::sort(points.begin(), points.end());
+  Points hull;
+  const auto add_side = [&](const auto& begin, const auto& end) {
+    const std::size_t base = hull.size();
+    for (auto p = begin; p != end; ++p) {
+      while (hull.size() >= base + 2) {
+        const auto &a = hull[hull.size() - 2], &b = hull.back();
+        if ((b.first - a.first) * (p->second - a.second) - (b.second - a.second) * (p->first - a.first) > 0)
+          break;
+        hull.pop_back();
+      }
+      hull.push_back(*p);
+    }
+    hull.pop_back();  // begins the other side
+  };
+  add_side(points.begin(), points.end());
+  add_side(points.rbegin(), points.rend());
+  return hull;
+}
+
 double fraction(const Axis& axis, double value) {
   if (!axis.logarithmic) return (value - axis.low) / (axis.high - axis.low);
   return value > 0 ? std::log(value / axis.low) / std::log(axis.high / axis.low) : -1;

@@ -58,6 +58,9 @@ struct Frame {
   void make_room(const std::vector<Tick>& x, const std::vector<Tick>& y);
 };
 
+/// The convex polygon around points, against the clock.
+Points hull_of(Points points);
+
 /// Where a value stands along an axis, 0 at its low end and 1 at its high end.
 double fraction(const Axis& axis, double value);
 
