@@ -69,10 +69,8 @@ void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
   add_table(section, "rates-of-runs", "Rates of the runs", headings, rows);
   add(section, "p", {{"class", "note"}},
       "\u00b1: 95 % interval of the run. A difference is significant where the 95 % interval of the "
-      "difference, "
-      "the half-widths added in quadrature, leaves out zero; of twenty comparisons of equal mills one is so "
-      "by "
-      "chance.");
+      "difference, the half-widths added in quadrature, leaves out zero; of twenty comparisons of equal "
+      "mills one is so by chance.");
 }
 
 /// Each dose rate as a point with its interval, at the number of the run.

@@ -95,8 +95,7 @@ void add_exponents(pugi::xml_node main, const RunFolder& run) {
   }
   add(section, "p", {{"class", "note"}},
       "The distance of two motions that begin close together grows by e in 1/exponent seconds, on the "
-      "average. "
-      "Errors of a code, and of its rounding, grow so, too.");
+      "average. Errors of a code, and of its rounding, grow so, too.");
 }
 
 }  // namespace edmill::report

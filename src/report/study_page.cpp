@@ -167,8 +167,7 @@ std::string study_page(const study::Study& study, const std::string& kind, const
   add_table(section, "rates-of-points", "Rates", headings, rows);
   add(section, "p", {{"class", "note"}},
       "\u00b1: 95 % interval by Student\u2019s t over the runs of a point; of a single run, its own "
-      "interval. "
-      "All numbers:");
+      "interval. All numbers:");
   auto files = add(section, "ul");
   add(add(files, "li"), "a", {{"href", study.name() + ".csv"}}, study.name() + ".csv: a row for each point");
   add(add(files, "li"), "a", {{"href", "runs.csv"}}, "runs.csv: a row for each run");
