@@ -33,7 +33,7 @@ class FlatWalls {
  public:
   FlatWalls(const MovingVessel& vessel, const std::string& file) : vessel_(vessel) {
     // Walls that turn or are round have other velocities and normals at other places.
-    const Vector middle{0, 0, 0}, beside{1e-4, 2e-4, -1.5e-4};
+    const Vector beside{1e-4, 2e-4, -1.5e-4};
     for (const double time : {0.0, 0.00123, 0.0345}) {
       const auto pose = vessel.at(time);
       const Vector turned = vessel.wall_velocity(pose, middle) - vessel.wall_velocity(pose, beside);
@@ -53,19 +53,18 @@ class FlatWalls {
   /// Speed of a ball away from a wall [m/s].
   double away(double time, const BallState& state, int wall) const {
     const auto pose = vessel_.at(time);
-    const Vector middle{0, 0, 0};
     return dot<double>(Vector(state.velocity - vessel_.wall_velocity(pose, middle)),
                        vessel_.normal(pose, 0, wall, middle));
   }
   /// A place at which a ball touches a wall.
   Vector touching(double time, std::size_t ball, int wall) const {
     const auto pose = vessel_.at(time);
-    const Vector middle{0, 0, 0};
     return -vessel_.normal(pose, ball, wall, middle) * vessel_.gap(pose, ball, wall, middle);
   }
 
  private:
   const MovingVessel& vessel_;
+  const Vector middle{0, 0, 0};
 };
 
 /// The wall of the case for each boundary: the one that its contacts approach and leave.
