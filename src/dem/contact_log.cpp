@@ -51,6 +51,10 @@ std::vector<double> numbers_of(const std::string& line) {
   return numbers;
 }
 
+void check_temporary_file(bool good) {
+  if (!good) throw std::runtime_error("a temporary file could not be written");
+}
+
 ContactLogFacts read_facts(const std::string& file) {
   io::InputFile in(file, "a log of contacts");
   std::string line;
@@ -124,8 +128,7 @@ void ContactLogWriter::add(const Contact& c) {
   put(line, c.partner_before, states_of_pair);
   put(line, c.partner_after, states_of_pair);
   line += '\n';
-  if (std::fwrite(line.data(), 1, line.size(), rows_.get()) != line.size())
-    throw std::runtime_error("a temporary file could not be written");
+  check_temporary_file(std::fwrite(line.data(), 1, line.size(), rows_.get()) == line.size());
 }
 
 void ContactLogWriter::write(std::ostream& out, const ContactLogFacts& f) {
@@ -136,15 +139,12 @@ void ContactLogWriter::write(std::ostream& out, const ContactLogFacts& f) {
       first_line, one_line(f.dump), f.frames, f.contacts, f.first, f.last, s.interval,
       fmt::join(s.gravity, " "), fmt::join(s.gravity_half_width, " "), s.contact_time, s.kick, f.mass_factor,
       f.radius_factor, f.facets, fmt::join(f.doses, " "), header());
-  const auto check = [&](bool good) {
-    if (!good) throw std::runtime_error("a temporary file could not be written");
-  };
-  check(std::fflush(rows_.get()) == 0);
+  check_temporary_file(std::fflush(rows_.get()) == 0);
   std::rewind(rows_.get());
   std::array<char, 65536> block;
   while (const auto size = std::fread(block.data(), 1, block.size(), rows_.get()))
     out.write(block.data(), static_cast<std::streamsize>(size));
-  check(std::ferror(rows_.get()) == 0);
+  check_temporary_file(std::ferror(rows_.get()) == 0);
 }
 
 bool is_contact_log(const std::string& file) {

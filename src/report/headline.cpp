@@ -9,10 +9,6 @@ using plot::add;
 using plot::brief;
 using plot::readable;
 
-std::string title_of(const RunFolder& run) {
-  return std::filesystem::path(run.facts.case_file).filename().string();
-}
-
 void add_headline(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
   auto section = add_section(main, "results", "Results");

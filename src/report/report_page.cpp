@@ -102,7 +102,8 @@ std::string report_page(const RunFolder& run) {
   add_energy(main, run);
   add_case(main, run);
   const bool plays = static_cast<bool>(main.select_node("//div[@id='player']"));
-  return page_of({title_of(run), subtitle_of(run), run.facts.version, run.facts.commit, document,
+  const auto title = std::filesystem::path(run.facts.case_file).filename().string();
+  return page_of({title, subtitle_of(run), run.facts.version, run.facts.commit, document,
                   plays ? player() : "", plays ? "The animation is played by three.js (MIT licence)." : ""});
 }
 

@@ -9,9 +9,6 @@
 
 namespace edmill::report {
 
-/// Title of the page: the case file's name.
-std::string title_of(const RunFolder& run);
-
 void add_headline(pugi::xml_node main, const RunFolder& run);
 void add_ward(pugi::xml_node main, const RunFolder& run);
 void add_warnings(pugi::xml_node main, const RunFolder& run);
