@@ -48,34 +48,28 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
   EDMILL_REQUIRE(frames.size() > 2, "three frames");
   FrameStatistics s;
   std::vector<double> intervals;
-  std::array<std::vector<double>, 3> accelerations;
+  std::vector<double> accelerations[3];
   const std::size_t balls = frames[0].balls.size();
   for (std::size_t k = 1; k < frames.size(); ++k) {
     const double dt = frames[k].time - frames[k - 1].time;
     intervals.push_back(dt);
-    for (std::size_t i = 0; i < balls; ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<Eigen::Index>(axis);
-        accelerations[axis].push_back((frames[k].balls[i].velocity[a] - frames[k - 1].balls[i].velocity[a]) /
-                                      dt);
-      }
+    for (std::size_t i = 0; i < balls; ++i) {
+      const Vector acceleration = (frames[k].balls[i].velocity - frames[k - 1].balls[i].velocity) / dt;
+      for (int axis = 0; axis < 3; ++axis) accelerations[axis].push_back(acceleration[axis]);
+    }
   }
   s.interval = median_of(intervals).value;
   // Free flight is most of the time: the median is gravity, and half of the scatter's quantiles its
   // sharpness.
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<Eigen::Index>(axis);
-    s.gravity[a] = median_of(accelerations[axis]).value;
+  for (int axis = 0; axis < 3; ++axis) {
+    s.gravity[axis] = median_of(accelerations[axis]).value;
     std::vector<double> off;
-    for (const double value : accelerations[axis]) off.push_back(std::abs(value - s.gravity[a]));
-    s.gravity_half_width[a] =
+    for (const double value : accelerations[axis]) off.push_back(std::abs(value - s.gravity[axis]));
+    s.gravity_half_width[axis] =
         1.96 * 1.2533 * 1.4826 * median_of(off).value / std::sqrt(static_cast<double>(off.size()));
   }
-  bool as_expected = true;
-  for (Eigen::Index a = 0; a < 3; ++a)
-    as_expected =
-        as_expected && std::abs(s.gravity[a] - expected_gravity[a]) <= 3 * s.gravity_half_width[a] + 1e-6;
-  if (as_expected) s.gravity = expected_gravity;
+  const Vector off = (s.gravity - expected_gravity).cwiseAbs(), known_to = 3 * s.gravity_half_width;
+  if ((off.array() <= known_to.array() + 1e-6).all()) s.gravity = expected_gravity;
   std::vector<double> changes;
   for (std::size_t k = 1; k < frames.size(); ++k)
     for (std::size_t i = 0; i < balls; ++i)

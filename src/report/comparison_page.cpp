@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 
 #include "base/version.hpp"
 #include "io/named_file.hpp"
@@ -19,17 +20,15 @@ using plot::readable;
 
 namespace {
 
-/// "run 2 of out/a", by what tells the folders apart.
-std::vector<std::string> names_of(const std::vector<RunFolder>& runs) {
-  std::vector<std::string> names;
+/// By the folders, and where these have the same name by their whole paths.
+void name_runs(std::vector<RunFolder>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto own = (runs[k].place / "").parent_path().filename().string();
     const bool alone = std::ranges::count_if(runs, [&](const RunFolder& r) {
                          return (r.place / "").parent_path().filename() == own;
                        }) == 1;
-    names.push_back(alone ? own : fmt::format("{} ({})", runs[k].place.string(), k + 1));
+    runs[k].name = alone ? own : fmt::format("{} ({})", runs[k].place.string(), k + 1);
   }
-  return names;
 }
 
 /// "+12 %", with a word where the difference may be noise.
@@ -43,8 +42,7 @@ std::string against(const RateOf& rate, const RateOf& first) {
   return !apart ? change + ", no interval" : *apart ? change : change + ", not significant";
 }
 
-void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
-                  const std::vector<std::string>& names) {
+void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   auto section = add_section(main, "rates", "Rates");
   Rows rows;
   const auto first_run = main_rates(runs.front().facts);
@@ -62,9 +60,9 @@ void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
     if (any) rows.push_back(std::move(row));
   }
   std::vector<std::string> headings{"quantity"};
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    headings.push_back(names[k]);
-    if (k > 0) headings.push_back("against " + names[0]);
+  for (const auto& run : runs) {
+    headings.push_back(run.name);
+    if (&run != &runs.front()) headings.push_back("against " + runs.front().name);
   }
   add_table(section, "rates-of-runs", "Rates of the runs", headings, rows);
   add(section, "p", {{"class", "note"}},
@@ -74,8 +72,7 @@ void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
 }
 
 /// Each dose rate as a point with its interval, at the number of the run.
-void draw_dose_rates(pugi::xml_node grid, const std::vector<RunFolder>& runs,
-                     const std::vector<std::string>& names) {
+void draw_dose_rates(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
   plot::Chart chart;
   chart.id = "dose-rates", chart.title = "Milling dose rate";
   chart.description = "For each run a horizontal line at its milling dose rate, within its 95 % interval.";
@@ -84,15 +81,14 @@ void draw_dose_rates(pugi::xml_node grid, const std::vector<RunFolder>& runs,
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto rate = main_rates(runs[k].facts).front().rate;
     if (!rate) continue;
-    add_point(chart, static_cast<double>(k) + 1, 0.25, *rate, fmt::format("{}: {}", k + 1, names[k]),
+    add_point(chart, static_cast<double>(k) + 1, 0.25, *rate, fmt::format("{}: {}", k + 1, runs[k].name),
               run_colour(k));
     chart.y.high = std::max(chart.y.high, 1.1 * (rate->value + rate->half_width.value_or(0)));
   }
   draw(grid, chart);
 }
 
-void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs,
-                    const std::vector<std::string>& names) {
+void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
   plot::Chart chart;
   chart.id = "dose-rate", chart.title = "Milling dose rate over time";
   chart.description = "Lines of the milling dose rate of each run over the simulated time.";
@@ -102,7 +98,7 @@ void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs,
     const auto series = rate_of(runs[k], "milling_dose");
     if (!series) continue;
     const auto thin = coarser(whole(*series), 60);
-    chart.curves.push_back({names[k], run_colour(k), points_of(thin), false});
+    chart.curves.push_back({runs[k].name, run_colour(k), points_of(thin), false});
     chart.x.high = std::max(chart.x.high, thin.end.back());
     for (const double rate : thin.rate) high = std::max(high, rate);
   }
@@ -112,8 +108,7 @@ void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs,
 }
 
 /// What the cases do not have in common.
-void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs,
-                     const std::vector<std::string>& names) {
+void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   std::vector<std::string> keys;
   std::vector<std::map<std::string, std::string>> facts;
   for (const auto& run : runs) {
@@ -145,18 +140,17 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs,
     return;
   }
   std::vector<std::string> headings{"key"};
-  headings.insert(headings.end(), names.begin(), names.end());
+  for (const auto& run : runs) headings.push_back(run.name);
   add_table(section, "differences", "Differences", headings, rows);
 }
 
-void add_warnings_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
-                     const std::vector<std::string>& names) {
+void add_warnings_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   if (std::ranges::all_of(runs, [](const RunFolder& run) { return run.facts.warnings.empty(); })) return;
   auto section = add_section(main, "warnings", "Warnings");
   auto list = add(section, "ul");
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    for (const auto& [kind, text] : runs[k].facts.warnings)
-      add(list, "li", {{"data-kind", kind}}, names[k] + ": " + text);
+  for (const auto& run : runs)
+    for (const auto& [kind, text] : run.facts.warnings)
+      add(list, "li", {{"data-kind", kind}}, run.name + ": " + text);
 }
 
 }  // namespace
@@ -166,17 +160,18 @@ std::optional<bool> differ(const RateOf& a, const RateOf& b) {
   return std::abs(a.value - b.value) > std::hypot(*a.half_width, *b.half_width);
 }
 
-std::string comparison_page(const std::vector<RunFolder>& runs) {
-  const auto names = names_of(runs);
+std::string comparison_page(std::vector<RunFolder> runs) {
+  name_runs(runs);
   pugi::xml_document document;
   auto main = add(document, "main");
-  add_rates_of(main, runs, names);
+  add_rates_of(main, runs);
   auto grid = add(add_section(main, "charts", "Dose rates"), "div", {{"class", "charts"}});
-  draw_dose_rates(grid, runs, names);
-  draw_over_time(grid, runs, names);
-  add_warnings_of(main, runs, names);
-  add_differences(main, runs, names);
-  add_spectra_of(main, runs, names);
+  draw_dose_rates(grid, runs);
+  draw_over_time(grid, runs);
+  add_warnings_of(main, runs);
+  add_differences(main, runs);
+  add_spectra_of(main, runs);
+  const auto names = runs | std::views::transform(&RunFolder::name);
   return page_of({fmt::format("{} runs compared", runs.size()), fmt::format("{}", fmt::join(names, ", ")),
                   version(), commit(), document});
 }

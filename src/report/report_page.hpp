@@ -28,7 +28,7 @@ std::filesystem::path put_report(const std::filesystem::path& folder);
 /// zero. Nothing where a rate has no interval.
 std::optional<bool> differ(const RateOf& a, const RateOf& b);
 /// One page that shows runs side by side. @param runs  two or more
-std::string comparison_page(const std::vector<RunFolder>& runs);
+std::string comparison_page(std::vector<RunFolder> runs);
 /// @throws InputError when a folder is no run, or the file cannot be written
 void write_comparison(const std::vector<std::string>& folders, const std::filesystem::path& file);
 

@@ -69,6 +69,7 @@ struct RunFolder {
   RunFacts facts;
   casefile::CaseSpec spec;  ///< with the outputs of the report if the run had them
   model::Partners partners;
+  std::string name = {};  ///< among runs that are compared
 
   using Fits = std::function<bool(const casefile::OutputSpec&)>;
   /// An output of a type, of which `fits` holds, that is CSV (or X3D), not appended to others, and

@@ -39,9 +39,7 @@ using Rows = std::vector<std::vector<std::string>>;
 /// Balls, powder, vessel, mill and contacts in words: name and text.
 Rows case_rows(const RunFolder& run);
 /// Dose by energy and impacts by speed of several runs over each other, where they have such tables.
-/// @param names  of the runs
-void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
-                    const std::vector<std::string>& names);
+void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs);
 /// The colour of one of several runs in charts.
 std::string run_colour(std::size_t place);
 

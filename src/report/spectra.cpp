@@ -164,15 +164,14 @@ void add_treatment(pugi::xml_node main, const RunFolder& run) {
       "output (type = \"treatment\").");
 }
 
-void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
-                    const std::vector<std::string>& names) {
+void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   auto energies = energy_chart("of each run"), speeds = speed_chart("approach", "of each run");
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto put = [&](plot::Chart& chart, const std::optional<OutputTable>& table, const char* spectrum,
                          const char* column) {
       if (table)
         chart.curves.push_back(
-            {names[k], run_colour(k), density(*table, spectrum, column, 1 / table->duration()), true});
+            {runs[k].name, run_colour(k), density(*table, spectrum, column, 1 / table->duration()), true});
     };
     put(energies, spectra_of(runs[k], "energy", "normal"), "total", "total energy");
     put(speeds, spectra_of(runs[k], "speed", "approach"), "approach", "total impacts");
