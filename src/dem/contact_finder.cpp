@@ -166,21 +166,16 @@ bool ContactFinder::come_near(const Stretch& one, const Stretch& other) const {
 }
 
 void ContactFinder::settle() {
-  std::vector<int> groups;
-  for (const auto& stretch : stretches_)
-    if (std::find(groups.begin(), groups.end(), stretch.group) == groups.end())
-      groups.push_back(stretch.group);
-  for (const int group : groups) {
+  for (std::size_t k = 0; k < stretches_.size();) {
+    const auto in_group = [group = stretches_[k].group](const Stretch& s) { return s.group == group; };
     std::vector<Stretch> members;
-    bool open = false;
-    for (const auto& stretch : stretches_)
-      if (stretch.group == group) {
-        members.push_back(stretch);
-        open = open || stretch.open;
-      }
-    if (open) continue;
-    std::erase_if(stretches_, [&](const Stretch& stretch) { return stretch.group == group; });
-    report(members);
+    std::ranges::copy_if(stretches_, std::back_inserter(members), in_group);
+    if (std::ranges::any_of(members, &Stretch::open)) {
+      ++k;
+      continue;
+    }
+    std::erase_if(stretches_, in_group);
+    report(std::move(members));
   }
   std::fill(open_of_.begin(), open_of_.end(), -1);
   for (std::size_t k = 0; k < stretches_.size(); ++k)
@@ -275,8 +270,7 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
   return true;
 }
 
-void ContactFinder::report(const std::vector<Stretch>& members) {
-  auto group = members;
+void ContactFinder::report(std::vector<Stretch> group) {
   std::sort(group.begin(), group.end(), [](const Stretch& a, const Stretch& b) { return a.ball < b.ball; });
   Contact contact;
   std::size_t first = group[0].first, last = group[0].last;

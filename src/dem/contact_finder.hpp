@@ -72,7 +72,7 @@ class ContactFinder {
   void close(std::size_t stretch);
   bool come_near(const Stretch& one, const Stretch& other) const;
   void settle();
-  void report(const std::vector<Stretch>& group);
+  void report(std::vector<Stretch> group);
   std::vector<Touch> touches_of(const Stretch& s) const;
   double balance(const Stretch& s) const;
   bool make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const;

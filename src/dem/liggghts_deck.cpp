@@ -145,17 +145,14 @@ class Chain {
 };
 
 std::string moves_of(Chain& chain, const std::vector<WallMesh>& meshes) {
+  constexpr const char* axes[] = {"1 0 0", "0 1 0", "0 0 1"};
   std::string text;
   for (const auto& mesh : meshes) {
     for (std::size_t k = 0; k < 3; ++k)
       if (!chain.spin(k).empty())
         text += fmt::format(
             "fix turn_{0}_{1} all move/mesh mesh {0} rotate/variable origin 0 0 0 axis {2} omega {3}\n",
-            mesh.name, "xyz"[k],
-            k == 0   ? "1 0 0"
-            : k == 1 ? "0 1 0"
-                     : "0 0 1",
-            chain.spin(k));
+            mesh.name, "xyz"[k], axes[k], chain.spin(k));
     if (chain.shifts()) {
       std::string speeds;
       for (std::size_t k = 0; k < 3; ++k)

@@ -1,5 +1,7 @@
 #include "dem/moving_vessel.hpp"
 
+#include <algorithm>
+
 #include "dem/wall_mesh.hpp"
 
 namespace edmill::dem {
@@ -13,13 +15,11 @@ MovingVessel::MovingVessel(const model::Mill<double>& mill,
       surfaces_(mill.vessel.surfaces()) {
   std::vector<double> radii;
   for (const auto& ball : balls_) {
-    std::size_t k = 0;
-    while (k < radii.size() && radii[k] != ball.radius) ++k;
-    if (k == radii.size()) {
-      radii.push_back(ball.radius);
-      insets_.push_back(mill_.vessel.inset(ball.radius));
-    }
+    const auto k = static_cast<std::size_t>(std::ranges::find(radii, ball.radius) - radii.begin());
     inset_of_.push_back(k);
+    if (k < radii.size()) continue;
+    radii.push_back(ball.radius);
+    insets_.push_back(mill_.vessel.inset(ball.radius));
   }
 }
 

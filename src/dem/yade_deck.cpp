@@ -87,7 +87,6 @@ for x, r, density, v, w in BALLS:
 )";
 }
 
-/// Contacts, engines, the dump and the run.
 std::string engines_of(const DeckCase& c, const DeckOptions& options) {
   const auto& g = c.mill.gravity;
   return fmt::format(R"(frames = open('{0}.dump', 'w')

@@ -59,7 +59,6 @@ void add_player(pugi::xml_node section, const Animation& animation, double speed
       pace(speed) + ". Drag to rotate, scroll to zoom; by keyboard the arrows, + and -.");
 }
 
-/// The scripts that play the animation.
 std::string player() {
   return fmt::format("<script>\n/* {}*/\n{}\n{}</script>\n<script>\n{}</script>\n", three_licence, three_js,
                      three_orbit_js, page_js);

@@ -126,7 +126,6 @@ std::string energy_spectra(const casefile::CaseSpec& spec) {
       top - 9, top);
 }
 
-/// The entries [[output]] of the report.
 std::string outputs_for(const casefile::CaseSpec& spec) {
   const auto partners = casefile::partners_of(spec);
   std::string text = std::string(outputs_toml) + energy_spectra(spec);
