@@ -46,7 +46,7 @@ struct WallMap {
 };
 
 /// The label of a wall as a heading: "Cap \u2212y".
-std::string heading(const std::string& label) {
+std::string heading_of(const std::string& label) {
   std::string text;
   for (const char c : label) text += c == '-' ? "\u2212" : std::string(1, c);
   return capitalised(text);
@@ -66,7 +66,7 @@ std::string axis_title(const Surface& surface, int axis) {
 
 void label(WallMap& wall) {
   auto& map = wall.map;
-  const std::string name = heading(wall.info.label);
+  const std::string name = heading_of(wall.info.label);
   map.value = "dose rate [kW/m\u00b2]";
   map.highest = 0;
   map.disc = wall.has(Coordinate::radius);
