@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "dem/dose_rate.hpp"
 #include "dem/soft_contact.hpp"
 
 namespace edmill::dem {
@@ -208,21 +207,6 @@ std::vector<SlipBin> slips_of(const std::vector<Shown>& walls, const std::vector
 }
 
 }  // namespace
-
-Median median_of(std::vector<double> values) {
-  Median median;
-  median.count = values.size();
-  if (values.empty()) return median;
-  std::sort(values.begin(), values.end());
-  const auto n = static_cast<double>(values.size());
-  const auto at = [&](double place) {
-    return values[static_cast<std::size_t>(std::clamp(std::round(place), 0.0, n - 1))];
-  };
-  median.value = at((n - 1) / 2);
-  median.low = at((n - 1) / 2 - 0.98 * std::sqrt(n));
-  median.high = at((n - 1) / 2 + 0.98 * std::sqrt(n));
-  return median;
-}
 
 ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOptions& options) {
   ContactLogReader log(options.log);

@@ -7,19 +7,10 @@
 
 #include "casefile/build_case.hpp"
 #include "dem/contact_log.hpp"
+#include "dem/statistics.hpp"
 #include "io/json_text.hpp"
 
 namespace edmill::dem {
-
-/// A median with its 95 % interval by order statistics, which ask nothing of the distribution.
-struct Median {
-  double value = 0, low = 0, high = 0;
-  std::uint64_t count = 0;
-
-  bool known() const { return count >= 20; }
-  double half_width() const { return (high - low) / 2; }
-};
-Median median_of(std::vector<double> values);
 
 /// One value of the code against that of the case.
 struct Judged {

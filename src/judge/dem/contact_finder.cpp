@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/errors.hpp"
+#include "dem/statistics.hpp"
 
 namespace edmill::dem {
 
@@ -21,46 +22,54 @@ double change_of(const Frame& from, const Frame& to, std::size_t ball, const Vec
       Vector(to.balls[ball].velocity - from.balls[ball].velocity - gravity * (to.time - from.time)));
 }
 
-}  // namespace
-
-double middle_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+/// Where a gap falls to zero first, or rises from it last; nothing where it does not.
+std::optional<double> crossing(const auto& gap, double low, double high, bool falling) {
+  for (int round = 0; round < 4; ++round) {
+    double left = low, value = gap(low), found_low = 0, found_high = 0;
+    bool found = false;
+    for (int k = 1; k <= tried; ++k) {
+      const double right = low + (high - low) * k / tried, next = gap(right);
+      if (falling ? value > 0 && next <= 0 : value <= 0 && next > 0) {
+        if (!found || !falling) found_low = left, found_high = right;
+        found = true;
+      }
+      left = right, value = next;
+    }
+    if (!found) return std::nullopt;
+    low = found_low, high = found_high;
+  }
+  const double one = gap(low), other = gap(high);
+  return one == other ? low : low + (high - low) * one / (one - other);
 }
+
+}  // namespace
 
 FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& expected_gravity) {
   EDMILL_REQUIRE(frames.size() > 2, "three frames");
   FrameStatistics s;
   std::vector<double> intervals;
-  std::array<std::vector<double>, 3> accelerations;
+  std::vector<double> accelerations[3];
   const std::size_t balls = frames[0].balls.size();
   for (std::size_t k = 1; k < frames.size(); ++k) {
     const double dt = frames[k].time - frames[k - 1].time;
     intervals.push_back(dt);
-    for (std::size_t i = 0; i < balls; ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<Eigen::Index>(axis);
-        accelerations[axis].push_back((frames[k].balls[i].velocity[a] - frames[k - 1].balls[i].velocity[a]) /
-                                      dt);
-      }
+    for (std::size_t i = 0; i < balls; ++i) {
+      const Vector acceleration = (frames[k].balls[i].velocity - frames[k - 1].balls[i].velocity) / dt;
+      for (int axis = 0; axis < 3; ++axis) accelerations[axis].push_back(acceleration[axis]);
+    }
   }
-  s.interval = middle_of(intervals);
+  s.interval = median_of(intervals).value;
   // Free flight is most of the time: the median is gravity, and half of the scatter's quantiles its
   // sharpness.
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<Eigen::Index>(axis);
-    s.gravity[a] = middle_of(accelerations[axis]);
+  for (int axis = 0; axis < 3; ++axis) {
+    s.gravity[axis] = median_of(accelerations[axis]).value;
     std::vector<double> off;
-    for (const double value : accelerations[axis]) off.push_back(std::abs(value - s.gravity[a]));
-    s.gravity_half_width[a] =
-        1.96 * 1.2533 * 1.4826 * middle_of(off) / std::sqrt(static_cast<double>(off.size()));
+    for (const double value : accelerations[axis]) off.push_back(std::abs(value - s.gravity[axis]));
+    s.gravity_half_width[axis] =
+        1.96 * 1.2533 * 1.4826 * median_of(off).value / std::sqrt(static_cast<double>(off.size()));
   }
-  bool as_expected = true;
-  for (Eigen::Index a = 0; a < 3; ++a)
-    as_expected =
-        as_expected && std::abs(s.gravity[a] - expected_gravity[a]) <= 3 * s.gravity_half_width[a] + 1e-6;
-  if (as_expected) s.gravity = expected_gravity;
+  const Vector off = (s.gravity - expected_gravity).cwiseAbs(), known_to = 3 * s.gravity_half_width;
+  if ((off.array() <= known_to.array() + 1e-6).all()) s.gravity = expected_gravity;
   std::vector<double> changes;
   for (std::size_t k = 1; k < frames.size(); ++k)
     for (std::size_t i = 0; i < balls; ++i)
@@ -76,16 +85,12 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
       if (!kicked && since >= 0) stretches.push_back(frames[k - 1].time - since), since = -1;
     }
   }
-  s.contact_time = stretches.empty() ? s.interval : middle_of(stretches);
+  s.contact_time = stretches.empty() ? s.interval : median_of(stretches).value;
   return s;
 }
 
 ContactFinder::ContactFinder(const MovingVessel& vessel, const FrameStatistics& frames, Found found)
     : vessel_(vessel), frames_(frames), found_(std::move(found)), open_of_(vessel.ball_count(), -1) {}
-
-bool ContactFinder::flies(const Frame& from, const Frame& to, std::size_t ball) const {
-  return change_of(from, to, ball, frames_.gravity) <= frames_.kick;
-}
 
 void ContactFinder::add(Frame next) {
   window_.push_back(std::move(next));
@@ -94,7 +99,7 @@ void ContactFinder::add(Frame next) {
   std::vector<std::size_t> ended;
   for (std::size_t ball = 0; ball < open_of_.size(); ++ball) {
     int& open = open_of_[ball];
-    const bool flying = flies(frame(now - 1), frame(now), ball);
+    const bool flying = change_of(frame(now - 1), frame(now), ball, frames_.gravity) <= frames_.kick;
     if (!flying && open < 0) {
       open = static_cast<int>(stretches_.size());
       stretches_.push_back({ball, now - 1, now, groups_++});
@@ -126,13 +131,8 @@ void ContactFinder::close(std::size_t place) {
   for (auto& other : stretches_)
     if (other.group != stretch.group && other.first < stretch.last && stretch.first < other.last &&
         come_near(stretch, other))
-      join(stretch, other);
-}
-
-void ContactFinder::join(Stretch& one, Stretch& other) {
-  const int from = other.group, to = one.group;
-  for (auto& stretch : stretches_)
-    if (stretch.group == from) stretch.group = to;
+      for (const int from = other.group; auto& joined : stretches_)
+        if (joined.group == from) joined.group = stretch.group;
 }
 
 bool ContactFinder::come_near(const Stretch& one, const Stretch& other) const {
@@ -166,21 +166,16 @@ bool ContactFinder::come_near(const Stretch& one, const Stretch& other) const {
 }
 
 void ContactFinder::settle() {
-  std::vector<int> groups;
-  for (const auto& stretch : stretches_)
-    if (std::find(groups.begin(), groups.end(), stretch.group) == groups.end())
-      groups.push_back(stretch.group);
-  for (const int group : groups) {
+  for (std::size_t k = 0; k < stretches_.size();) {
+    const auto in_group = [group = stretches_[k].group](const Stretch& s) { return s.group == group; };
     std::vector<Stretch> members;
-    bool open = false;
-    for (const auto& stretch : stretches_)
-      if (stretch.group == group) {
-        members.push_back(stretch);
-        open = open || stretch.open;
-      }
-    if (open) continue;
-    std::erase_if(stretches_, [&](const Stretch& stretch) { return stretch.group == group; });
-    report(members);
+    std::ranges::copy_if(stretches_, std::back_inserter(members), in_group);
+    if (std::ranges::any_of(members, &Stretch::open)) {
+      ++k;
+      continue;
+    }
+    std::erase_if(stretches_, in_group);
+    report(std::move(members));
   }
   std::fill(open_of_.begin(), open_of_.end(), -1);
   for (std::size_t k = 0; k < stretches_.size(); ++k)
@@ -234,26 +229,6 @@ double ContactFinder::balance(const Stretch& s) const {
   return lost - vessel_.energy(pose, s.ball, frame(s.last).balls[s.ball]);
 }
 
-std::optional<double> ContactFinder::crossing(const std::function<double(double)>& gap, double low,
-                                              double high, bool falling) const {
-  for (int round = 0; round < 4; ++round) {
-    double left = low, value = gap(low), found_low = 0, found_high = 0;
-    bool found = false;
-    for (int k = 1; k <= tried; ++k) {
-      const double right = low + (high - low) * k / tried, next = gap(right);
-      if (falling ? value > 0 && next <= 0 : value <= 0 && next > 0) {
-        if (!found || !falling) found_low = left, found_high = right;
-        found = true;
-      }
-      left = right, value = next;
-    }
-    if (!found) return std::nullopt;
-    low = found_low, high = found_high;
-  }
-  const double one = gap(low), other = gap(high);
-  return one == other ? low : low + (high - low) * one / (one - other);
-}
-
 bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const {
   const auto& a = group[0];
   const Frame &from = frame(a.first), &to = frame(a.last);
@@ -295,8 +270,7 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
   return true;
 }
 
-void ContactFinder::report(const std::vector<Stretch>& members) {
-  auto group = members;
+void ContactFinder::report(std::vector<Stretch> group) {
   std::sort(group.begin(), group.end(), [](const Stretch& a, const Stretch& b) { return a.ball < b.ball; });
   Contact contact;
   std::size_t first = group[0].first, last = group[0].last;

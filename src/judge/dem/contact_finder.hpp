@@ -39,9 +39,6 @@ struct FrameStatistics {
   double contact_time = 0;    ///< median of the time in which a ball does not fly [s]
 };
 
-/// The median, of an even number of values the upper one of the middle. @pre not empty
-double middle_of(std::vector<double> values);
-
 /// @pre at least three frames
 FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& expected_gravity);
 
@@ -72,17 +69,13 @@ class ContactFinder {
   const Frame& frame(std::size_t number) const { return window_[number - first_]; }
   /// Whether a usual contact has frames within it.
   bool resolved() const { return frames_.contact_time >= 3 * frames_.interval; }
-  bool flies(const Frame& from, const Frame& to, std::size_t ball) const;
   void close(std::size_t stretch);
-  void join(Stretch& one, Stretch& other);
   bool come_near(const Stretch& one, const Stretch& other) const;
   void settle();
-  void report(const std::vector<Stretch>& group);
+  void report(std::vector<Stretch> group);
   std::vector<Touch> touches_of(const Stretch& s) const;
   double balance(const Stretch& s) const;
   bool make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const;
-  std::optional<double> crossing(const std::function<double(double)>& gap, double low, double high,
-                                 bool falling) const;
   void forget();
 
   const MovingVessel& vessel_;

@@ -51,6 +51,10 @@ std::vector<double> numbers_of(const std::string& line) {
   return numbers;
 }
 
+void check_temporary_file(bool good) {
+  if (!good) throw std::runtime_error("a temporary file could not be written");
+}
+
 ContactLogFacts read_facts(const std::string& file) {
   io::InputFile in(file, "a log of contacts");
   std::string line;
@@ -58,42 +62,36 @@ ContactLogFacts read_facts(const std::string& file) {
     throw InputError(fmt::format("{}:1: found {}, expected '{}'", file, io::in_quotes(line), first_line));
   ContactLogFacts facts;
   auto& s = facts.statistics;
+  auto &gravity = s.gravity, &width = s.gravity_half_width;
+  auto& doses = facts.doses;
+  double frames = 0, contacts = 0;
+  const std::pair<const char*, std::vector<double*>> lines[] = {
+      {"# frames ", {&frames, &contacts, &facts.first, &facts.last, &s.interval}},
+      {"# gravity ", {&gravity[0], &gravity[1], &gravity[2], &width[0], &width[1], &width[2]}},
+      {"# contact_time ", {&s.contact_time, &s.kick}},
+      {"# factors ", {&facts.mass_factor, &facts.radius_factor}},
+      {"# doses ", {&doses[0], &doses[1], &doses[2], &doses[3], &doses[4]}}};
   std::size_t known = 0;
-  const auto expect = [&](std::size_t found, std::size_t count, std::uint64_t number) {
-    if (found != count)
-      throw InputError(fmt::format("{}:{}: found {} numbers in a line of the head, expected {}", file, number,
-                                   found, count));
-    ++known;
-  };
   for (std::uint64_t number = 2; std::getline(in, line) && line.starts_with("#"); ++number) {
     const auto n = numbers_of(line);
+    for (const auto& [name, values] : lines) {
+      if (!line.starts_with(name)) continue;
+      if (n.size() != values.size())
+        throw InputError(fmt::format("{}:{}: found {} numbers in a line of the head, expected {}", file,
+                                     number, n.size(), values.size()));
+      ++known;
+      for (std::size_t k = 0; k < n.size(); ++k) *values[k] = n[k];
+    }
+    for (const double count : {frames, contacts})
+      if (!(count >= 0 && count < 1e18))
+        throw InputError(
+            fmt::format("{}:{}: found {}, expected a number of frames or contacts", file, number, count));
     if (line.starts_with("# dump ")) facts.dump = line.substr(7);
-    if (line.starts_with("# frames ")) {
-      expect(n.size(), 5, number);
-      for (const double count : {n[0], n[1]})
-        if (!(count >= 0 && count < 1e18))
-          throw InputError(
-              fmt::format("{}:{}: found {}, expected a number of frames or contacts", file, number, count));
-      facts.frames = static_cast<std::uint64_t>(n[0]), facts.contacts = static_cast<std::uint64_t>(n[1]);
-      facts.first = n[2], facts.last = n[3], s.interval = n[4];
-    }
-    if (line.starts_with("# gravity ")) {
-      expect(n.size(), 6, number);
-      s.gravity = {n[0], n[1], n[2]}, s.gravity_half_width = {n[3], n[4], n[5]};
-    }
-    if (line.starts_with("# contact_time "))
-      expect(n.size(), 2, number), s.contact_time = n[0], s.kick = n[1];
-    if (line.starts_with("# factors "))
-      expect(n.size(), 2, number), facts.mass_factor = n[0], facts.radius_factor = n[1];
     if (line.starts_with("# facets ")) {
       if (n.size() != 1 || !(n[0] == 0 || (n[0] >= 3 && n[0] <= 1e6)))
         throw InputError(fmt::format("{}:{}: found {}, expected 0 or a number of facets", file, number,
                                      io::in_quotes(line)));
       facts.facets = static_cast<int>(n[0]);
-    }
-    if (line.starts_with("# doses ")) {
-      expect(n.size(), facts.doses.size(), number);
-      std::copy(n.begin(), n.end(), facts.doses.begin());
     }
   }
   if (known != 5)
@@ -101,6 +99,7 @@ ContactLogFacts read_facts(const std::string& file) {
         "{}: found a head without all of frames, gravity, contact_time, factors and doses, expected "
         "that of `edmill import`",
         file));
+  facts.frames = static_cast<std::uint64_t>(frames), facts.contacts = static_cast<std::uint64_t>(contacts);
   return facts;
 }
 
@@ -129,29 +128,23 @@ void ContactLogWriter::add(const Contact& c) {
   put(line, c.partner_before, states_of_pair);
   put(line, c.partner_after, states_of_pair);
   line += '\n';
-  if (std::fwrite(line.data(), 1, line.size(), rows_.get()) != line.size())
-    throw std::runtime_error("a temporary file could not be written");
+  check_temporary_file(std::fwrite(line.data(), 1, line.size(), rows_.get()) == line.size());
 }
 
 void ContactLogWriter::write(std::ostream& out, const ContactLogFacts& f) {
   const auto& s = f.statistics;
   out << fmt::format(
-      "{}\n# dump {}\n# frames {} {} {} {} {}\n# gravity {} {} {} {} {} {}\n# contact_time {} {}\n"
-      "# factors {} {}\n# facets {}\n# doses",
-      first_line, one_line(f.dump), f.frames, f.contacts, f.first, f.last, s.interval, s.gravity[0],
-      s.gravity[1], s.gravity[2], s.gravity_half_width[0], s.gravity_half_width[1], s.gravity_half_width[2],
-      s.contact_time, s.kick, f.mass_factor, f.radius_factor, f.facets);
-  for (const double dose : f.doses) out << fmt::format(" {}", dose);
-  out << "\n" << header() << "\n";
-  const auto check = [&](bool good) {
-    if (!good) throw std::runtime_error("a temporary file could not be written");
-  };
-  check(std::fflush(rows_.get()) == 0);
+      "{}\n# dump {}\n# frames {} {} {} {} {}\n# gravity {} {}\n# contact_time {} {}\n"
+      "# factors {} {}\n# facets {}\n# doses {}\n{}\n",
+      first_line, one_line(f.dump), f.frames, f.contacts, f.first, f.last, s.interval,
+      fmt::join(s.gravity, " "), fmt::join(s.gravity_half_width, " "), s.contact_time, s.kick, f.mass_factor,
+      f.radius_factor, f.facets, fmt::join(f.doses, " "), header());
+  check_temporary_file(std::fflush(rows_.get()) == 0);
   std::rewind(rows_.get());
   std::array<char, 65536> block;
   while (const auto size = std::fread(block.data(), 1, block.size(), rows_.get()))
     out.write(block.data(), static_cast<std::streamsize>(size));
-  check(std::ferror(rows_.get()) == 0);
+  check_temporary_file(std::ferror(rows_.get()) == 0);
 }
 
 bool is_contact_log(const std::string& file) {

@@ -65,38 +65,86 @@ bool DeckCase::translates() const {
   return std::none_of(joints.list.begin(), joints.list.end(), [](const auto& j) { return j.rotates; });
 }
 
-std::string header_of(const DeckCase& c, const DeckOptions& options, const std::string& comment) {
+std::string header_of(const DeckCase& c, const DeckOptions& options) {
   return fmt::format(
-      "{0} {1} of edmill {2}: contacts of {3:g} s at {4:g} m/s, restitution {5:g} (balls) and {6:g} "
-      "(walls)\n{0} digest of the case {7}\n",
-      comment, c.file, version(), options.contact_time, options.speed, c.of_balls.restitution,
-      c.of_walls.restitution, c.digest);
+      "# {} of edmill {}: contacts of {:g} s at {:g} m/s, restitution {:g} (balls) and {:g} (walls)\n"
+      "# digest of the case {}\n",
+      c.file, version(), options.contact_time, options.speed, c.of_balls.restitution, c.of_walls.restitution,
+      c.digest);
 }
 
-std::array<std::string, 3> displacement_formulas(const DeckCase& c, const std::string& time,
-                                                 const std::string& sine) {
+std::array<double, 3> axis_of(const model::Joint<double>& joint) {
+  auto axis = joint.axis;
+  const double length = std::hypot(axis[0], axis[1], axis[2]);
+  for (double& part : axis) part = length > 0 ? part / length : 0;
+  return axis;
+}
+
+std::array<std::string, 3> displacement_formulas(const DeckCase& c, const std::string& time) {
   std::array<std::string, 3> sums;
   const auto add = [&](std::size_t k, const std::string& term) {
     sums[k] += (sums[k].empty() ? "" : "+") + term;
   };
   for (const auto& joint : c.joints.list) {
-    const double length = std::hypot(joint.axis[0], joint.axis[1], joint.axis[2]);
+    const auto axis = axis_of(joint);
     for (std::size_t k = 0; k < 3; ++k) {
       if (joint.shift[k] != 0) add(k, fmt::format("{}", joint.shift[k]));
-      const double along = length > 0 ? joint.axis[k] / length : 0;
-      if (along == 0) continue;
-      if (joint.speed != 0) add(k, fmt::format("{}*{}", along * joint.speed, time));
-      for (const auto& s : joint.swings) {
-        if (s.amplitude == 0) continue;
-        add(k, fmt::format("{}*{}({}*{}+{})", along * s.amplitude, sine,
-                           2 * numerics::pi<double>() * s.frequency, time,
-                           2 * numerics::pi<double>() * s.phase));
-      }
+      if (axis[k] == 0) continue;
+      if (joint.speed != 0) add(k, fmt::format("{}*{}", axis[k] * joint.speed, time));
+      for (const auto& s : joint.swings)
+        if (s.amplitude != 0)
+          add(k, fmt::format("{}*sin({}*{}+{})", axis[k] * s.amplitude, turn * s.frequency, time,
+                             turn * s.phase));
     }
   }
   for (auto& sum : sums)
     if (sum.empty()) sum = "0.0";
   return sums;
+}
+
+std::string pose_in_python(const DeckCase& c) {
+  std::string joints;
+  for (const auto& j : c.joints.list) {
+    std::string swings;
+    for (const auto& s : j.swings)
+      swings += fmt::format("({}, {}, {}), ", j.rotates ? turn * s.amplitude : s.amplitude,
+                            turn * s.frequency, turn * s.phase);
+    joints += fmt::format("    ({}, np.array([{}]), np.array([{}]), {}, {}, [{}]),\n",
+                          j.rotates ? "True" : "False", fmt::join(axis_of(j), ", "), fmt::join(j.shift, ", "),
+                          turn * j.angle, j.rotates ? turn * j.speed : j.speed, swings);
+  }
+  return fmt::format(
+      R"(from math import cos, sin
+# rotates, axis, shift, angle, speed, swings (amplitude, angular speed, phase): from the ground to the vessel
+JOINTS = [
+{}]
+def cross(a, b):
+    a, b = a.tolist(), b.tolist()  # sooner than np.cross
+    return np.array((a[1]*b[2]-a[2]*b[1], a[2]*b[0]-a[0]*b[2], a[0]*b[1]-a[1]*b[0]))
+def skew(n):
+    x, y, z = n.tolist()
+    return np.array(((0, -z, y), (z, 0, -x), (-y, x, 0)))
+def turned(n, q):
+    K = skew(n)
+    return np.eye(3)+sin(q)*K+(1-cos(q))*(K @ K)
+def pose(t):
+    R, C, w, dw, V, A = np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
+    for rotates, axis, shift, angle, speed, swings in JOINTS:
+        q, q1, q2 = angle+speed*t, speed, 0.0
+        for a, f, p in swings:
+            q, q1, q2 = q+a*sin(f*t+p), q1+a*f*cos(f*t+p), q2-a*f*f*sin(f*t+p)
+        if rotates:
+            n = R @ axis
+            dw = dw+q2*n+q1*cross(w, n)
+            w = w+q1*n
+            R = R @ turned(axis, q)
+        else:
+            d, v, a = R @ (shift+axis*q), R @ (axis*q1), R @ (axis*q2)
+            A = A+a+2*cross(w, v)+cross(dw, d)+cross(w, cross(w, d))
+            V = V+v+cross(w, d)
+            C = C+d
+    return R, C, w, dw, V, A)",
+      joints);
 }
 
 Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {

@@ -41,6 +41,8 @@ struct SoftLaw {
   double damping;  ///< soft_contact.hpp
 };
 
+inline const double turn = 2 * numerics::pi<double>();  ///< [rad]
+
 /// What all decks are written from; SI.
 struct DeckCase {
   std::string file, digest;  ///< of the case
@@ -60,8 +62,8 @@ struct DeckCase {
   bool translates() const;
 };
 
-/// The first lines of every deck, after its mark of comments: of which case it is, and with which contacts.
-std::string header_of(const DeckCase& c, const DeckOptions& options, const std::string& comment);
+/// The first lines of every deck, comments: of which case it is, and with which contacts.
+std::string header_of(const DeckCase& c, const DeckOptions& options);
 
 // One file each.
 Deck lammps_deck(const DeckCase& c, const DeckOptions& options);
@@ -74,7 +76,9 @@ std::string pose_in_python(const DeckCase& c);
 
 /// [0.003 * sin(62.8 * t + 0.5)]: the displacement of all translations along each axis at the time `t`, as
 /// LAMMPS, LIGGGHTS and Python write formulas. @pre c.translates()
-std::array<std::string, 3> displacement_formulas(const DeckCase& c, const std::string& time,
-                                                 const std::string& sine);
+std::array<std::string, 3> displacement_formulas(const DeckCase& c, const std::string& time);
+
+/// Unit; zero for a joint without one.
+std::array<double, 3> axis_of(const model::Joint<double>& joint);
 
 }  // namespace edmill::dem

@@ -19,29 +19,12 @@ namespace {
 
 /// What a frame must have of each ball, under the names that codes give it.
 struct Needed {
-  std::array<const char*, 3> names;
+  std::array<const char*, 2> names;
   bool required = true;
 };
-enum : std::size_t {
-  id,
-  x,
-  y,
-  z,
-  vx,
-  vy,
-  vz,
-  wx,
-  wy,
-  wz,
-  mass,
-  radius,
-  diameter,
-  scaled_x,
-  scaled_y,
-  scaled_z,
-  moment,
-  count
-};
+/// Places in `needed`; y and z follow x.
+constexpr std::size_t id = 0, x = 1, vx = 4, wx = 7, mass = 10, radius = 11, diameter = 12, scaled_x = 13,
+                      moment = 16, count = 17;
 constexpr Needed needed[count] = {{{"id", "ball"}},
                                   {{"x", "xu"}, false},
                                   {{"y", "yu"}, false},
@@ -157,17 +140,6 @@ void FrameReader::read_columns(const std::vector<std::string>& columns) {
          "all of id x y z vx vy vz omegax omegay omegaz");
 }
 
-void FrameReader::place(const std::vector<double>& values, model::BallState<double>& state) const {
-  const auto at = [&](std::size_t what) { return values[static_cast<std::size_t>(places_[what])]; };
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto axis = static_cast<Eigen::Index>(k);
-    state.position[axis] =
-        length_ * (places_[x + k] >= 0 ? at(x + k) : low_[k] + size_[k] * at(scaled_x + k));
-    state.velocity[axis] = speed_ * at(vx + k);
-    state.spin[axis] = at(wx + k) / time_;
-  }
-}
-
 FrameReader::Row FrameReader::row() const {
   std::vector<double> values(names_.size());
   std::size_t column = 0;
@@ -187,7 +159,13 @@ FrameReader::Row FrameReader::row_of(const std::vector<double>& values) const {
   if (!(std::abs(at(id)) < 1e15)) fail(fmt::format("ball {}", at(id)), "the number of a ball");
   Row row;
   row.id = static_cast<long>(at(id));
-  place(values, row.state);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    row.state.position[axis] =
+        length_ * (places_[x + k] >= 0 ? at(x + k) : low_[k] + size_[k] * at(scaled_x + k));
+    row.state.velocity[axis] = speed_ * at(vx + k);
+    row.state.spin[axis] = at(wx + k) / time_;
+  }
   if (places_[mass] >= 0) row.mass = mass_ * at(mass);
   if (places_[radius] >= 0) row.radius = length_ * at(radius);
   if (places_[radius] < 0 && places_[diameter] >= 0) row.radius = length_ * at(diameter) / 2;
@@ -304,10 +282,10 @@ bool FrameReader::next_of_dump(Frame& frame) {
       finish(std::move(rows), at, frame);
       return true;
     }
-    const int bounds = item.starts_with("BOX BOUNDS") ? 3 : 1;  // an item of no interest has one line, too
-    for (int k = 0; k < bounds; ++k) {
+    const bool bounds = item.starts_with("BOX BOUNDS");  // an item of no interest has one line, too
+    for (std::size_t k = 0; k < (bounds ? 3 : 1); ++k) {
       if (!line()) return false;
-      if (bounds == 3) read_bounds(static_cast<std::size_t>(k));
+      if (bounds) read_bounds(k);
     }
     if (item.starts_with("TIMESTEP")) step = number(line_);
     if (item == "TIME") time = number(line_);

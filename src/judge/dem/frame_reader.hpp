@@ -71,7 +71,6 @@ class FrameReader {
   Row row_of(const std::vector<double>& values) const;
   double time_of(std::optional<double> time, std::optional<double> step) const;
   void finish(std::vector<Row> rows, double time, Frame& frame);
-  void place(const std::vector<double>& values, model::BallState<double>& state) const;
   double number(std::string_view text) const;
 
   std::string name_;

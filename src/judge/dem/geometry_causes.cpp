@@ -29,7 +29,6 @@ struct Offset {
   double distance = 0;  ///< outward [m]
 };
 
-/// A number to vary.
 struct Candidate {
   std::string key;
   Dimension dimension;

@@ -1,4 +1,4 @@
-// A dump of frames becomes a log of contacts.
+// A dump of frames, or a list of contacts with walls, becomes a log of contacts.
 #pragma once
 
 #include <atomic>
@@ -27,16 +27,10 @@ struct Imported {
   bool interrupted = false;  ///< what was read until then is in the log
 };
 
-/// Memory does not depend on the length of the dump.
-/// @throws InputError when it cannot be read, lacks what is needed or has other balls than the case
+/// Memory does not depend on the length of a dump of frames.
+/// @throws InputError when it cannot be read, lacks what is needed or has other balls than the case, or other
+/// walls than a list needs
 Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options, ContactLogWriter& log);
-
-/// The same of a list of contacts with walls, which has no places. Its contacts can be judged where the
-/// velocity of a wall and its normal are the same at all places: flat walls that do not turn. The log has no
-/// frames, and no contacts between balls.
-/// @throws InputError when it cannot be read, lacks what is needed, or the case has other walls
-Imported import_contact_list(const casefile::CaseSpec& spec, const ImportOptions& options,
-                             ContactLogWriter& log);
 
 std::string table(const Imported& imported, const std::string& log);
 

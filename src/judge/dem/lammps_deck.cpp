@@ -108,7 +108,7 @@ fix frame all python/invoke 1 post_force drive
 Deck lammps_deck(const DeckCase& c, const DeckOptions& options) {
   const bool in_vessel = !c.translates();
   const double reach = 1.5 * c.mill.motion.reach(c.mill.vessel.reach()), g = norm<double>(c.mill.gravity);
-  std::string text = header_of(c, options, "#");
+  std::string text = header_of(c, options);
   text += fmt::format("# frame {}\n", in_vessel ? "vessel" : "laboratory");
   text += fmt::format(R"(units si
 atom_style sphere
@@ -127,7 +127,7 @@ pair_coeff * * {5}
                       -reach, reach, atoms_of(c, in_vessel), c.time_step, c.largest_radius / 2,
                       contact_of(c, options, c.of_balls));
   if (!in_vessel) {
-    const auto formulas = displacement_formulas(c, "v_t", "sin");
+    const auto formulas = displacement_formulas(c, "v_t");
     text += fmt::format("variable t equal {}+step*dt\n", c.begin);
     for (std::size_t k = 0; k < 3; ++k)
       text += fmt::format("variable move{} equal {}\n", "xyz"[k], formulas[k]);

@@ -13,8 +13,6 @@ namespace edmill::dem {
 
 namespace {
 
-const double turn = 2 * numerics::pi<double>();
-
 /// A formula; empty for zero.
 using Formula = std::string;
 using FormulaVector = std::array<Formula, 3>;
@@ -34,6 +32,7 @@ Formula number(double x) {
   if (x == 0) return "";
   return x == 1 ? "1" : fmt::format("({})", x);
 }
+FormulaVector number(const std::array<double, 3>& x) { return {number(x[0]), number(x[1]), number(x[2])}; }
 
 /// Orientation, angular velocity, and place and velocity of the vessel as variables of LIGGGHTS.
 class Chain {
@@ -98,16 +97,9 @@ class Chain {
     }
     return {named(value), named(rate)};
   }
-  static FormulaVector axis_of(const Joint& joint) {
-    const double length = std::hypot(joint.axis[0], joint.axis[1], joint.axis[2]);
-    FormulaVector axis;
-    for (std::size_t k = 0; k < 3 && length > 0; ++k) axis[k] = number(joint.axis[k] / length);
-    return axis;
-  }
-
   void add_rotation(const Joint& joint) {
     const auto [angle, rate] = coordinate(joint, turn);
-    const auto own = axis_of(joint), axis = turned(own);
+    const auto own = number(axis_of(joint)), axis = turned(own);
     for (std::size_t i = 0; i < 3; ++i) spin_[i] = named(sum(spin_[i], product(axis[i], rate)));
     if (angle.empty()) return;
     // Rodrigues: cos + (1 - cos) n n + sin [n].
@@ -133,7 +125,7 @@ class Chain {
 
   void add_translation(const Joint& joint) {
     const auto [way, rate] = coordinate(joint, 1);
-    const auto axis = axis_of(joint);
+    const auto axis = number(axis_of(joint));
     FormulaVector shift, speed;
     for (std::size_t i = 0; i < 3; ++i) {
       shift[i] = named(sum(number(joint.shift[i]), product(axis[i], way)));
@@ -153,17 +145,14 @@ class Chain {
 };
 
 std::string moves_of(Chain& chain, const std::vector<WallMesh>& meshes) {
+  constexpr const char* axes[] = {"1 0 0", "0 1 0", "0 0 1"};
   std::string text;
   for (const auto& mesh : meshes) {
     for (std::size_t k = 0; k < 3; ++k)
       if (!chain.spin(k).empty())
         text += fmt::format(
             "fix turn_{0}_{1} all move/mesh mesh {0} rotate/variable origin 0 0 0 axis {2} omega {3}\n",
-            mesh.name, "xyz"[k],
-            k == 0   ? "1 0 0"
-            : k == 1 ? "0 1 0"
-                     : "0 0 1",
-            chain.spin(k));
+            mesh.name, "xyz"[k], axes[k], chain.spin(k));
     if (chain.shifts()) {
       std::string speeds;
       for (std::size_t k = 0; k < 3; ++k)
@@ -241,7 +230,7 @@ Deck liggghts_deck(const DeckCase& c, const DeckOptions& options) {
   Chain chain(c);
   const double reach = 1.5 * c.mill.motion.reach(c.mill.vessel.reach());
   Deck deck;
-  std::string text = header_of(c, options, "#") + facts_of(meshes, options.facets);
+  std::string text = header_of(c, options) + facts_of(meshes, options.facets);
   text += fmt::format(R"(atom_style granular
 atom_modify map array
 communicate single vel yes

@@ -8,9 +8,8 @@
 
 #include "base/errors.hpp"
 #include "compare/log_reader.hpp"
-#include "dem/contact_audit.hpp"
 #include "dem/contact_log.hpp"
-#include "dem/dose_rate.hpp"
+#include "dem/statistics.hpp"
 #include "io/json_text.hpp"
 #include "plot/chart.hpp"
 

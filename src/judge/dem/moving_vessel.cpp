@@ -1,5 +1,7 @@
 #include "dem/moving_vessel.hpp"
 
+#include <algorithm>
+
 #include "dem/wall_mesh.hpp"
 
 namespace edmill::dem {
@@ -13,17 +15,15 @@ MovingVessel::MovingVessel(const model::Mill<double>& mill,
       surfaces_(mill.vessel.surfaces()) {
   std::vector<double> radii;
   for (const auto& ball : balls_) {
-    std::size_t k = 0;
-    while (k < radii.size() && radii[k] != ball.radius) ++k;
-    if (k == radii.size()) {
-      radii.push_back(ball.radius);
-      insets_.push_back(mill_.vessel.inset(ball.radius));
-    }
+    const auto k = static_cast<std::size_t>(std::ranges::find(radii, ball.radius) - radii.begin());
     inset_of_.push_back(k);
+    if (k < radii.size()) continue;
+    radii.push_back(ball.radius);
+    insets_.push_back(mill_.vessel.inset(ball.radius));
   }
 }
 
-MovingVessel::Pose MovingVessel::at(double time) const { return {mill_.motion.pose(clock_.at(time))}; }
+MovingVessel::Pose MovingVessel::at(double time) const { return mill_.motion.pose(clock_.at(time)); }
 
 const model::Tube<double>* MovingVessel::prism(int wall) const {
   return facets_ > 0 ? std::get_if<model::Tube<double>>(&surfaces_[static_cast<std::size_t>(wall)].kind())
@@ -39,11 +39,11 @@ double MovingVessel::gap_in_vessel(std::size_t ball, int wall, const Vector& pla
 }
 
 double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
-  return gap_in_vessel(ball, wall, mill_.motion.position_in_vessel(pose.pose, position));
+  return gap_in_vessel(ball, wall, mill_.motion.position_in_vessel(pose, position));
 }
 
 std::vector<double> MovingVessel::gaps(const Pose& pose, std::size_t ball, const Vector& position) const {
-  const Vector p = mill_.motion.position_in_vessel(pose.pose, position);
+  const Vector p = mill_.motion.position_in_vessel(pose, position);
   std::vector<double> gaps(static_cast<std::size_t>(walls()));
   for (int wall = 0; wall < walls(); ++wall)
     gaps[static_cast<std::size_t>(wall)] = gap_in_vessel(ball, wall, p);
@@ -51,26 +51,25 @@ std::vector<double> MovingVessel::gaps(const Pose& pose, std::size_t ball, const
 }
 
 Vector MovingVessel::normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
-  const Vector p = mill_.motion.position_in_vessel(pose.pose, position);
+  const Vector p = mill_.motion.position_in_vessel(pose, position);
   const auto* tube = prism(wall);
   return mill_.motion.direction_to_inertial(
-      pose.pose, tube ? Vector(-facet_normal(*tube, facets_, p)) : inset(ball).normal(wall, p));
+      pose, tube ? Vector(-facet_normal(*tube, facets_, p)) : inset(ball).normal(wall, p));
 }
 
 Vector MovingVessel::wall_velocity(const Pose& pose, const Vector& place) const {
-  return mill_.motion.wall_velocity(pose.pose, place);
+  return mill_.motion.wall_velocity(pose, place);
 }
 
 Vector MovingVessel::in_axes(const Pose& pose, const Vector& v) const {
   const auto& m = mill_.motion;
-  return {dot<double>(m.axis_x(pose.pose), v), dot<double>(m.axis_y(pose.pose), v),
-          dot<double>(m.axis_z(pose.pose), v)};
+  return {dot<double>(m.axis_x(pose), v), dot<double>(m.axis_y(pose), v), dot<double>(m.axis_z(pose), v)};
 }
 
 double MovingVessel::energy(const Pose& pose, std::size_t ball, const BallState& state) const {
   const auto& b = balls_[ball];
-  const Vector u = mill_.motion.to_vessel_frame(pose.pose, state.position, state.velocity).velocity;
-  const Vector s = state.spin - mill_.motion.angular_velocity(pose.pose);
+  const Vector u = mill_.motion.to_vessel_frame(pose, state.position, state.velocity).velocity;
+  const Vector s = state.spin - mill_.motion.angular_velocity(pose);
   return b.mass / 2 * squared_norm<double>(u) +
          b.reduced_inertia * b.mass * b.radius * b.radius / 2 * squared_norm<double>(s);
 }
@@ -79,15 +78,14 @@ double MovingVessel::work(const Pose& from, const BallState& before, const Pose&
                           std::size_t ball, const Vector& gravity) const {
   const auto& m = mill_.motion;
   // Coriolis's force does no work.
-  const Vector force = in_axes(from, gravity - m.wall_acceleration(from.pose, before.position)) +
-                       in_axes(to, gravity - m.wall_acceleration(to.pose, after.position));
-  const Vector way =
-      m.position_in_vessel(to.pose, after.position) - m.position_in_vessel(from.pose, before.position);
+  const Vector force = in_axes(from, gravity - m.wall_acceleration(from, before.position)) +
+                       in_axes(to, gravity - m.wall_acceleration(to, after.position));
+  const Vector way = m.position_in_vessel(to, after.position) - m.position_in_vessel(from, before.position);
   const auto& b = balls_[ball];
   double work = b.mass / 2 * dot<double>(force, way);
   // The torque -J w' on a spin relative to the vessel.
-  const Vector turn = m.angular_velocity(to.pose) - m.angular_velocity(from.pose);
-  const Vector spins = before.spin - m.angular_velocity(from.pose) + after.spin - m.angular_velocity(to.pose);
+  const Vector turn = m.angular_velocity(to) - m.angular_velocity(from);
+  const Vector spins = before.spin - m.angular_velocity(from) + after.spin - m.angular_velocity(to);
   work -= b.reduced_inertia * b.mass * b.radius * b.radius / 2 * dot<double>(turn, spins);
   return work;
 }
@@ -95,10 +93,9 @@ double MovingVessel::work(const Pose& from, const BallState& before, const Pose&
 BallState MovingVessel::inertial(const Pose& pose, const BallState& seen) const {
   const auto& m = mill_.motion;
   BallState state;
-  state.position = m.to_inertial(pose.pose, seen.position);
-  state.velocity =
-      m.direction_to_inertial(pose.pose, seen.velocity) + m.wall_velocity(pose.pose, state.position);
-  state.spin = m.direction_to_inertial(pose.pose, seen.spin) + m.angular_velocity(pose.pose);
+  state.position = m.to_inertial(pose, seen.position);
+  state.velocity = m.direction_to_inertial(pose, seen.velocity) + m.wall_velocity(pose, state.position);
+  state.spin = m.direction_to_inertial(pose, seen.spin) + m.angular_velocity(pose);
   return state;
 }
 

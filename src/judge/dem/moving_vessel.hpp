@@ -18,9 +18,7 @@ class MovingVessel {
   MovingVessel(const model::Mill<double>& mill, const std::vector<model::BallProperties<double>>& balls,
                int facets = 0);
 
-  struct Pose {
-    model::AnyPose<double> pose;
-  };
+  using Pose = model::AnyPose<double>;
   Pose at(double time) const;
 
   /// Gap of a ball's surface from each wall; negative for an overlap [m].

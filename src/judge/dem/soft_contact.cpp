@@ -11,8 +11,7 @@ namespace edmill::dem {
 namespace {
 
 /// x with f(x) = value, of an f that falls between low and high.
-template <class F>
-double where_falling(const F& f, double value, double low, double high) {
+double where_falling(const auto& f, double value, double low, double high) {
   for (int k = 0; k < 60; ++k) {
     const double middle = (low + high) / 2;
     (f(middle) > value ? low : high) = middle;

@@ -30,6 +30,10 @@ std::vector<Vec3<double>> square_of(const model::Disc<double>& disc, int facets)
   return corners;
 }
 
+bool any_round(const std::vector<WallMesh>& meshes) {
+  return std::ranges::any_of(meshes, [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
+}
+
 }  // namespace
 
 std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int facets) {
@@ -58,14 +62,6 @@ std::vector<WallMesh> meshes_of(const model::AnyVessel<double>& vessel, int face
     if (!mesh->triangles.empty()) meshes.push_back(std::move(*mesh));
   return meshes;
 }
-
-namespace {
-
-bool any_round(const std::vector<WallMesh>& meshes) {
-  return std::ranges::any_of(meshes, [](const WallMesh& mesh) { return mesh.smooth_angle > 0; });
-}
-
-}  // namespace
 
 std::vector<std::string> notes_on(const std::vector<WallMesh>& meshes, int facets) {
   if (!any_round(meshes)) return {};

@@ -15,7 +15,7 @@ namespace {
 
 /// Planes across the axes, which move as the vessel does.
 std::string planes_of(const DeckCase& c, const model::BoxVessel<double>& box) {
-  const auto formulas = displacement_formulas(c, "t", "sin");
+  const auto formulas = displacement_formulas(c, "t");
   return fmt::format(R"(HALF = ({}, {}, {})
 def place(t): return Vector3({}, {}, {})
 walls = []
@@ -87,7 +87,6 @@ for x, r, density, v, w in BALLS:
 )";
 }
 
-/// Contacts, engines, the dump and the run.
 std::string engines_of(const DeckCase& c, const DeckOptions& options) {
   const auto& g = c.mill.gravity;
   return fmt::format(R"(frames = open('{0}.dump', 'w')
@@ -143,7 +142,7 @@ Deck yade_deck(const DeckCase& c, const DeckOptions& options) {
     deck.files.push_back({options.name + "_walls.stl", stl_text(all)});
     deck.notes = notes_on(meshes, options.facets);
   }
-  std::string text = header_of(c, options, "#") + facts_of(meshes, options.facets);
+  std::string text = header_of(c, options) + facts_of(meshes, options.facets);
   text += fmt::format(R"(from math import *
 import numpy as np
 BEGIN, FRICTION, WALL_FRICTION = {}, {}, {}

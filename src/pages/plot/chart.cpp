@@ -28,6 +28,10 @@ class Places {
   double y(double value) const {
     return frame.bottom - bounded(fraction(chart_.y, value)) * (frame.bottom - frame.top);
   }
+  /// "M12 34": a step of a path.
+  std::string step(const char* pen, double x_value, double y_value) const {
+    return fmt::format("{}{} {}", pen, pixel(x(x_value)), pixel(y(y_value)));
+  }
   Frame frame;
 
  private:
@@ -48,7 +52,7 @@ std::string path_of(const Curve& curve, const Places& places) {
   const auto& points = curve.points;
   bool pen_down = false;
   const auto go = [&](double x, double y) {
-    path += fmt::format("{}{} {}", pen_down ? "L" : "M", pixel(places.x(x)), pixel(places.y(y)));
+    path += places.step(pen_down ? "L" : "M", x, y);
     pen_down = true;
   };
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -67,10 +71,8 @@ std::string path_of(const Curve& curve, const Places& places) {
 std::string path_of(const Band& band, const Places& places) {
   std::string path;
   for (std::size_t k = 0; k < band.x.size(); ++k)
-    path +=
-        fmt::format("{}{} {}", k == 0 ? "M" : "L", pixel(places.x(band.x[k])), pixel(places.y(band.high[k])));
-  for (std::size_t k = band.x.size(); k-- > 0;)
-    path += fmt::format("L{} {}", pixel(places.x(band.x[k])), pixel(places.y(band.low[k])));
+    path += places.step(k == 0 ? "M" : "L", band.x[k], band.high[k]);
+  for (std::size_t k = band.x.size(); k-- > 0;) path += places.step("L", band.x[k], band.low[k]);
   return path + "Z";
 }
 
@@ -85,28 +87,18 @@ void add_axes(pugi::xml_node svg, const Chart& chart, const Places& places) {
   for (const auto& tick : x_ticks(chart.x)) {
     const double x = places.x(tick.place);
     add_line(x_axis, "tick", x, f.bottom, x, f.bottom + (tick.label.empty() ? 3 : 5));
-    if (!tick.label.empty())
-      add(x_axis, "text", {{"class", "label"}, {"x", pixel(x)}, {"y", pixel(f.bottom + 18)}}, tick.label);
+    if (!tick.label.empty()) add_text(x_axis, "label", x, f.bottom + 18, tick.label);
   }
   for (const auto& tick : y_ticks(chart.y)) {
     const double y = places.y(tick.place);
     if (!tick.label.empty()) add_line(y_axis, "grid", f.left, y, f.right, y);
     add_line(y_axis, "tick", f.left - (tick.label.empty() ? 3 : 5), y, f.left, y);
-    if (!tick.label.empty())
-      add(y_axis, "text", {{"class", "label"}, {"x", pixel(f.left - 8)}, {"y", pixel(y + 4)}}, tick.label);
+    if (!tick.label.empty()) add_text(y_axis, "label", f.left - 8, y + 4, tick.label);
   }
   add_line(x_axis, "spine", f.left, f.bottom, f.right, f.bottom);
   add_line(y_axis, "spine", f.left, f.top, f.left, f.bottom);
-  const double middle = (f.top + f.bottom) / 2;
-  add(x_axis, "text",
-      {{"class", "axis-title"}, {"x", pixel((f.left + f.right) / 2)}, {"y", pixel(f.height - 8)}},
-      chart.x.title);
-  add(y_axis, "text",
-      {{"class", "axis-title"},
-       {"x", "12"},
-       {"y", pixel(middle)},
-       {"transform", fmt::format("rotate(-90 12 {})", pixel(middle))}},
-      chart.y.title);
+  add_text(x_axis, "axis-title", (f.left + f.right) / 2, f.height - 8, chart.x.title);
+  add_y_title(y_axis, 12, (f.top + f.bottom) / 2, chart.y.title);
 }
 
 void add_legend(pugi::xml_node figure, const Chart& chart) {
@@ -133,6 +125,37 @@ std::string pixel(double place) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;
+}
+
+pugi::xml_node add_text(pugi::xml_node parent, const char* style, double x, double y,
+                        const std::string& text) {
+  return add(parent, "text", {{"class", style}, {"x", pixel(x)}, {"y", pixel(y)}}, text);
+}
+
+void add_y_title(pugi::xml_node axis, double x, double y, const std::string& text) {
+  add_text(axis, "axis-title", x, y, text).append_attribute("transform") =
+      fmt::format("rotate(-90 {} {})", pixel(x), pixel(y)).c_str();
+}
+
+Points hull_of(Points points) {
+  std::sort(points.begin(), points.end());
+  Points hull;
+  const auto add_side = [&](const auto& begin, const auto& end) {
+    const std::size_t base = hull.size();
+    for (auto p = begin; p != end; ++p) {
+      while (hull.size() >= base + 2) {
+        const auto &a = hull[hull.size() - 2], &b = hull.back();
+        if ((b.first - a.first) * (p->second - a.second) - (b.second - a.second) * (p->first - a.first) > 0)
+          break;
+        hull.pop_back();
+      }
+      hull.push_back(*p);
+    }
+    hull.pop_back();  // begins the other side
+  };
+  add_side(points.begin(), points.end());
+  add_side(points.rbegin(), points.rend());
+  return hull;
 }
 
 double fraction(const Axis& axis, double value) {
@@ -172,11 +195,7 @@ void draw(pugi::xml_node parent, const Chart& chart) {
     const double x = places.x(mark.x);
     add_line(inside, "mark", x, f.top, x, f.bottom);
     const bool room = x < (f.left + f.right) / 2;
-    add(inside, "text",
-        {{"class", room ? "mark-text" : "mark-text before"},
-         {"x", pixel(x + (room ? 5 : -5))},
-         {"y", pixel(f.top + 10)}},
-        mark.text);
+    add_text(inside, room ? "mark-text" : "mark-text before", x + (room ? 5 : -5), f.top + 10, mark.text);
   }
   for (const auto& curve : chart.curves)
     add(inside, "path",

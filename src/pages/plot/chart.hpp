@@ -58,6 +58,9 @@ struct Frame {
   void make_room(const std::vector<Tick>& x, const std::vector<Tick>& y);
 };
 
+/// The convex polygon around points, against the clock.
+Points hull_of(Points points);
+
 /// Where a value stands along an axis, 0 at its low end and 1 at its high end.
 double fraction(const Axis& axis, double value);
 
@@ -73,5 +76,10 @@ pugi::xml_node add_drawing(pugi::xml_node parent, const std::string& id, const s
 
 /// "12.3", for places in a drawing.
 std::string pixel(double place);
+/// A <text> of a style [px].
+pugi::xml_node add_text(pugi::xml_node parent, const char* style, double x, double y,
+                        const std::string& text);
+/// The title of a y axis, which reads upwards [px].
+void add_y_title(pugi::xml_node axis, double x, double y, const std::string& text);
 
 }  // namespace edmill::plot

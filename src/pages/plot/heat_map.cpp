@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace edmill::plot {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 void add_cell(pugi::xml_node parent, const std::string& path, const HeatMap& map, const HeatCell& cell) {
   auto node = add(parent, "path", {{"d", path}, {"fill", heat_colour(cell.value / map.highest)}});
@@ -49,13 +50,9 @@ void add_scale(pugi::xml_node svg, const HeatMap& map, double x, double top, dou
          {"height", pixel(height + 0.5)},
          {"fill", heat_colour((k + 0.5) / parts)}});
   for (const auto& tick : linear_ticks(0, map.highest, 6))
-    add(scale, "text",
-        {{"class", "label after"},
-         {"x", pixel(x + bar + bar_gap)},
-         {"y", pixel(bottom - (bottom - top) * tick.place / map.highest + 4)}},
-        tick.label);
-  add(scale, "text",
-      {{"class", "axis-title end"}, {"x", pixel(x + scale_width(map))}, {"y", pixel(top - 12)}}, map.value);
+    add_text(scale, "label after", x + bar + bar_gap, bottom - (bottom - top) * tick.place / map.highest + 4,
+             tick.label);
+  add_text(scale, "axis-title end", x + scale_width(map), top - 12, map.value);
 }
 
 void draw_disc(pugi::xml_node figure, const HeatMap& map) {
@@ -68,11 +65,10 @@ void draw_disc(pugi::xml_node figure, const HeatMap& map) {
   auto axis = add(svg, "g", {{"class", "axis x-axis"}});
   for (int k = 0; k < 4; ++k) {
     const double c = std::cos(k * pi / 2), s = std::sin(k * pi / 2);
-    add(axis, "text",
-        {{"class", "label"}, {"x", pixel(cx + (radius + 20) * c)}, {"y", pixel(cy - (radius + 12) * s + 4)}},
-        fmt::format("{}\u00b0", 90 * k));
+    add_text(axis, "label", cx + (radius + 20) * c, cy - (radius + 12) * s + 4,
+             fmt::format("{}\u00b0", 90 * k));
   }
-  add(axis, "text", {{"class", "axis-title"}, {"x", pixel(cx)}, {"y", pixel(height - 6)}}, map.x.title);
+  add_text(axis, "axis-title", cx, height - 6, map.x.title);
   add_scale(svg, map, scale_left, 50, 226);
 }
 
@@ -100,17 +96,10 @@ void draw_sheet(pugi::xml_node figure, const HeatMap& map) {
              map, c);
   auto x_axis = add(svg, "g", {{"class", "axis x-axis"}}), y_axis = add(svg, "g", {{"class", "axis y-axis"}});
   for (const auto& tick : x_ticks(map, right - left))
-    add(x_axis, "text", {{"class", "label"}, {"x", pixel(x(tick.place))}, {"y", pixel(bottom + 16)}},
-        tick.label);
-  for (const auto& tick : rows)
-    add(y_axis, "text", {{"class", "label"}, {"x", pixel(left - 6)}, {"y", pixel(y(tick.place) + 4)}},
-        tick.label);
-  add(x_axis, "text", {{"class", "axis-title"}, {"x", pixel((left + right) / 2)}, {"y", pixel(height - 8)}},
-      map.x.title);
-  const std::string middle = pixel((top + bottom) / 2);
-  add(y_axis, "text",
-      {{"class", "axis-title"}, {"x", "14"}, {"y", middle}, {"transform", "rotate(-90 14 " + middle + ")"}},
-      map.y.title);
+    add_text(x_axis, "label", x(tick.place), bottom + 16, tick.label);
+  for (const auto& tick : rows) add_text(y_axis, "label", left - 6, y(tick.place) + 4, tick.label);
+  add_text(x_axis, "axis-title", (left + right) / 2, height - 8, map.x.title);
+  add_y_title(y_axis, 14, (top + bottom) / 2, map.y.title);
   add_scale(svg, map, scale_left, top, bottom);
 }
 

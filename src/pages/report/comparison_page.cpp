@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <ranges>
 
 #include "base/version.hpp"
 #include "io/named_file.hpp"
@@ -18,48 +20,15 @@ using plot::readable;
 
 namespace {
 
-/// A rate that the page compares.
-struct Compared {
-  std::string name, unit;
-  std::optional<RateOf> (*of)(const RunFacts& f);
-};
-
-std::optional<RateOf> per_time(const RunFacts& f, double amount, const char* rate) {
-  if (!(f.duration() > 0)) return std::nullopt;
-  return RateOf{amount / f.duration(), f.half_width(rate)};
-}
-
-const Compared compared[] = {
-    {"milling dose rate", "W",
-     [](const RunFacts& f) { return per_time(f, f.milling_dose, "milling_dose_rate"); }},
-    {"specific milling dose rate", "W/kg",
-     [](const RunFacts& f) {
-       return f.powder_mass ? per_time(f, f.milling_dose / *f.powder_mass, "specific_milling_dose_rate")
-                            : std::nullopt;
-     }},
-    {"milling time", "h",
-     [](const RunFacts& f) -> std::optional<RateOf> {
-       if (!f.milling_time) return std::nullopt;
-       RateOf time{*f.milling_time / 3600, f.milling_time_half_width};
-       if (time.half_width) *time.half_width /= 3600;
-       return time;
-     }},
-    {"power from the walls", "W",
-     [](const RunFacts& f) { return per_time(f, f.wall_work, "wall_work_rate"); }},
-    {"collisions", "1/s",
-     [](const RunFacts& f) { return per_time(f, f.all_collisions(), "collision_rate/total"); }}};
-
-/// "run 2 of out/a", by what tells the folders apart.
-std::vector<std::string> names_of(const std::vector<RunFolder>& runs) {
-  std::vector<std::string> names;
+/// By the folders, and where these have the same name by their whole paths.
+void name_runs(std::vector<RunFolder>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto own = (runs[k].place / "").parent_path().filename().string();
     const bool alone = std::ranges::count_if(runs, [&](const RunFolder& r) {
                          return (r.place / "").parent_path().filename() == own;
                        }) == 1;
-    names.push_back(alone ? own : fmt::format("{} ({})", runs[k].place.string(), k + 1));
+    runs[k].name = alone ? own : fmt::format("{} ({})", runs[k].place.string(), k + 1);
   }
-  return names;
 }
 
 /// "+12 %", with a word where the difference may be noise.
@@ -73,16 +42,17 @@ std::string against(const RateOf& rate, const RateOf& first) {
   return !apart ? change + ", no interval" : *apart ? change : change + ", not significant";
 }
 
-void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
-                  const std::vector<std::string>& names) {
+void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   auto section = add_section(main, "rates", "Rates");
   Rows rows;
-  for (const auto& c : compared) {
-    const auto first = c.of(runs.front().facts);
-    std::vector<std::string> row{c.name + " [" + c.unit + "]"};
+  const auto first_run = main_rates(runs.front().facts);
+  for (std::size_t k = 0; k < first_run.size(); ++k) {
+    const auto& [name, unit, first] = first_run[k];
+    if (name.starts_with("inverse")) continue;
+    std::vector<std::string> row{name + " [" + unit + "]"};
     bool any = false;
     for (const auto& run : runs) {
-      const auto rate = c.of(run.facts);
+      const auto rate = main_rates(run.facts)[k].rate;
       any = any || rate;
       row.push_back(!rate ? "\u2013" : text_of(*rate));
       if (&run != &runs.front()) row.push_back(rate && first ? against(*rate, *first) : "\u2013");
@@ -90,39 +60,35 @@ void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
     if (any) rows.push_back(std::move(row));
   }
   std::vector<std::string> headings{"quantity"};
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    headings.push_back(names[k]);
-    if (k > 0) headings.push_back("against " + names[0]);
+  for (const auto& run : runs) {
+    headings.push_back(run.name);
+    if (&run != &runs.front()) headings.push_back("against " + runs.front().name);
   }
   add_table(section, "rates-of-runs", "Rates of the runs", headings, rows);
   add(section, "p", {{"class", "note"}},
       "\u00b1: 95 % interval of the run. A difference is significant where the 95 % interval of the "
-      "difference, "
-      "the half-widths added in quadrature, leaves out zero; of twenty comparisons of equal mills one is so "
-      "by "
-      "chance.");
+      "difference, the half-widths added in quadrature, leaves out zero; of twenty comparisons of equal "
+      "mills one is so by chance.");
 }
 
 /// Each dose rate as a point with its interval, at the number of the run.
-void draw_dose_rates(pugi::xml_node grid, const std::vector<RunFolder>& runs,
-                     const std::vector<std::string>& names) {
+void draw_dose_rates(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
   plot::Chart chart;
   chart.id = "dose-rates", chart.title = "Milling dose rate";
   chart.description = "For each run a horizontal line at its milling dose rate, within its 95 % interval.";
   chart.x = {"run", 0.4, static_cast<double>(runs.size()) + 0.6, false};
   chart.y.title = "milling dose rate [W]";
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const auto rate = compared[0].of(runs[k].facts);
+    const auto rate = main_rates(runs[k].facts).front().rate;
     if (!rate) continue;
-    add_point(chart, static_cast<double>(k) + 1, 0.25, *rate, fmt::format("{}: {}", k + 1, names[k]),
+    add_point(chart, static_cast<double>(k) + 1, 0.25, *rate, fmt::format("{}: {}", k + 1, runs[k].name),
               run_colour(k));
     chart.y.high = std::max(chart.y.high, 1.1 * (rate->value + rate->half_width.value_or(0)));
   }
   draw(grid, chart);
 }
 
-void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs,
-                    const std::vector<std::string>& names) {
+void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
   plot::Chart chart;
   chart.id = "dose-rate", chart.title = "Milling dose rate over time";
   chart.description = "Lines of the milling dose rate of each run over the simulated time.";
@@ -132,7 +98,7 @@ void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs,
     const auto series = rate_of(runs[k], "milling_dose");
     if (!series) continue;
     const auto thin = coarser(whole(*series), 60);
-    chart.curves.push_back({names[k], run_colour(k), points_of(thin), false});
+    chart.curves.push_back({runs[k].name, run_colour(k), points_of(thin), false});
     chart.x.high = std::max(chart.x.high, thin.end.back());
     for (const double rate : thin.rate) high = std::max(high, rate);
   }
@@ -142,10 +108,9 @@ void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs,
 }
 
 /// What the cases do not have in common.
-void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs,
-                     const std::vector<std::string>& names) {
+void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   std::vector<std::string> keys;
-  std::vector<std::vector<std::pair<std::string, std::string>>> facts;
+  std::vector<std::map<std::string, std::string>> facts;
   for (const auto& run : runs) {
     auto& own = facts.emplace_back();
     auto rows = case_rows(run);
@@ -154,11 +119,8 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs,
     rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", run.facts.seed, run.facts.precision)});
     rows.push_back({"program", fmt::format("edmill {} ({})", run.facts.version, run.facts.commit)});
     for (const auto& row : rows) {
-      const auto found = std::ranges::find(own, row[0], [](const auto& fact) { return fact.first; });
-      if (found == own.end())
-        own.emplace_back(row[0], row[1]);
-      else
-        found->second += "; " + row[1];
+      const auto [fact, is_first] = own.emplace(row[0], row[1]);
+      if (!is_first) fact->second += "; " + row[1];
       if (std::ranges::find(keys, row[0]) == keys.end()) keys.push_back(row[0]);
     }
   }
@@ -166,7 +128,7 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs,
   for (const auto& key : keys) {
     std::vector<std::string> row{key};
     for (const auto& own : facts) {
-      const auto found = std::ranges::find(own, key, [](const auto& fact) { return fact.first; });
+      const auto found = own.find(key);
       row.push_back(found == own.end() ? "\u2013" : found->second);
     }
     if (std::adjacent_find(row.begin() + 1, row.end(), std::not_equal_to<>()) != row.end())
@@ -178,18 +140,17 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs,
     return;
   }
   std::vector<std::string> headings{"key"};
-  headings.insert(headings.end(), names.begin(), names.end());
+  for (const auto& run : runs) headings.push_back(run.name);
   add_table(section, "differences", "Differences", headings, rows);
 }
 
-void add_warnings_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
-                     const std::vector<std::string>& names) {
+void add_warnings_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   if (std::ranges::all_of(runs, [](const RunFolder& run) { return run.facts.warnings.empty(); })) return;
   auto section = add_section(main, "warnings", "Warnings");
   auto list = add(section, "ul");
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    for (const auto& [kind, text] : runs[k].facts.warnings)
-      add(list, "li", {{"data-kind", kind}}, names[k] + ": " + text);
+  for (const auto& run : runs)
+    for (const auto& [kind, text] : run.facts.warnings)
+      add(list, "li", {{"data-kind", kind}}, run.name + ": " + text);
 }
 
 }  // namespace
@@ -199,17 +160,18 @@ std::optional<bool> differ(const RateOf& a, const RateOf& b) {
   return std::abs(a.value - b.value) > std::hypot(*a.half_width, *b.half_width);
 }
 
-std::string comparison_page(const std::vector<RunFolder>& runs) {
-  const auto names = names_of(runs);
+std::string comparison_page(std::vector<RunFolder> runs) {
+  name_runs(runs);
   pugi::xml_document document;
   auto main = add(document, "main");
-  add_rates_of(main, runs, names);
+  add_rates_of(main, runs);
   auto grid = add(add_section(main, "charts", "Dose rates"), "div", {{"class", "charts"}});
-  draw_dose_rates(grid, runs, names);
-  draw_over_time(grid, runs, names);
-  add_warnings_of(main, runs, names);
-  add_differences(main, runs, names);
-  add_spectra_of(main, runs, names);
+  draw_dose_rates(grid, runs);
+  draw_over_time(grid, runs);
+  add_warnings_of(main, runs);
+  add_differences(main, runs);
+  add_spectra_of(main, runs);
+  const auto names = runs | std::views::transform(&RunFolder::name);
   return page_of({fmt::format("{} runs compared", runs.size()), fmt::format("{}", fmt::join(names, ", ")),
                   version(), commit(), document});
 }

@@ -71,12 +71,8 @@ void add_histogram(pugi::xml_node grid, const std::vector<std::vector<double>>& 
   histogram.description = "Histogram of the largest finite-time exponent over the intervals.";
   histogram.x = {"growth over an interval [1/s]", *low, *low + width * static_cast<double>(bins), false};
   histogram.y.title = "share of the intervals";
-  plot::Curve curve{"", "c0", {}, true};
-  for (std::size_t k = 0; k < bins; ++k)
-    curve.points.emplace_back(*low + width * static_cast<double>(k),
-                              counts[k] / static_cast<double>(largest.size()));
-  curve.points.emplace_back(histogram.x.high, 0);
-  histogram.curves.push_back(std::move(curve));
+  for (double& count : counts) count /= static_cast<double>(largest.size());
+  histogram.curves.push_back(bars("", "c0", *low, width, counts));
   fit_heights(histogram);
   draw(grid, histogram);
 }
@@ -99,8 +95,7 @@ void add_exponents(pugi::xml_node main, const RunFolder& run) {
   }
   add(section, "p", {{"class", "note"}},
       "The distance of two motions that begin close together grows by e in 1/exponent seconds, on the "
-      "average. "
-      "Errors of a code, and of its rounding, grow so, too.");
+      "average. Errors of a code, and of its rounding, grow so, too.");
 }
 
 }  // namespace edmill::report

@@ -9,41 +9,6 @@ using plot::add;
 using plot::brief;
 using plot::readable;
 
-namespace {
-
-struct Card {
-  std::string name, unit;
-  double value;
-  std::optional<double> half_width;
-};
-
-std::vector<Card> cards_of(const RunFolder& run) {
-  const auto& f = run.facts;
-  const double time = f.duration();
-  if (!(time > 0)) return {};
-  const double dose_rate = f.milling_dose / time;
-  std::vector<Card> cards{{"Milling dose rate", "W", dose_rate, f.half_width("milling_dose_rate")}};
-  if (dose_rate > 0)
-    cards.push_back(
-        {"Inverse milling dose rate", "s/J", 1 / dose_rate, f.half_width("inverse_milling_dose_rate")});
-  if (f.powder_mass)
-    cards.push_back({"Specific milling dose rate", "W/kg", dose_rate / *f.powder_mass,
-                     f.half_width("specific_milling_dose_rate")});
-  if (f.milling_time)
-    cards.push_back({"Milling time", "h", *f.milling_time / 3600,
-                     f.milling_time_half_width ? std::optional<double>(*f.milling_time_half_width / 3600)
-                                               : std::nullopt});
-  cards.push_back({"Power from the walls", "W", f.wall_work / time, f.half_width("wall_work_rate")});
-  cards.push_back({"Collisions", "1/s", f.all_collisions() / time, f.half_width("collision_rate/total")});
-  return cards;
-}
-
-}  // namespace
-
-std::string title_of(const RunFolder& run) {
-  return std::filesystem::path(run.facts.case_file).filename().string();
-}
-
 void add_headline(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
   auto section = add_section(main, "results", "Results");
@@ -52,18 +17,18 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
                   brief(f.start_time, 12), brief(f.end_time, 12)));
   auto list = add(section, "dl", {{"class", "cards"}});
   bool any = false;
-  for (const auto& card : cards_of(run)) {
+  for (const auto& [name, unit, rate] : main_rates(f)) {
+    if (!rate || !(f.duration() > 0)) continue;
     auto box = add(list, "div", {{"class", "card"}});
-    add(box, "dt", {}, card.name);
-    auto value = add(box, "dd", {{"data-unit", card.unit}, {"data-value", fmt::format("{}", card.value)}});
-    if (card.half_width)
-      value.append_attribute("data-interval") = fmt::format("{}", *card.half_width).c_str();
-    const auto [number, width] = plot::with_interval(card.value, card.half_width.value_or(0));
+    add(box, "dt", {}, capitalised(name));
+    auto value = add(box, "dd", {{"data-unit", unit}, {"data-value", fmt::format("{}", rate->value)}});
+    const auto [number, width] = plot::with_interval(rate->value, rate->half_width.value_or(0));
     add(value, "strong", {}, number);
-    add(value, "span", {{"class", "unit"}}, " " + card.unit);
-    if (card.half_width) {
+    add(value, "span", {{"class", "unit"}}, " " + unit);
+    if (rate->half_width) {
       any = true;
-      add(box, "dd", {{"class", "interval"}}, "\u00b1 " + width + " " + card.unit);
+      value.append_attribute("data-interval") = fmt::format("{}", *rate->half_width).c_str();
+      add(box, "dd", {{"class", "interval"}}, "\u00b1 " + width + " " + unit);
     }
   }
   if (any)

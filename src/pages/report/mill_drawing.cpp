@@ -20,9 +20,7 @@ using plot::add;
 using plot::pixel;
 using Points = std::vector<Vec3<double>>;
 
-struct Flat {
-  double x, y;
-};
+using Flat = plot::Points::value_type;
 
 /// Which axes point to the right and up.
 struct View {
@@ -101,25 +99,6 @@ Pictured picture(const model::Mill<double>& mill) {
   return p;
 }
 
-/// The convex hull, counterclockwise.
-std::vector<Flat> hull_of(std::vector<Flat> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Flat& a, const Flat& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  std::vector<Flat> hull;
-  const auto extend = [&](const Flat& p, std::size_t kept) {
-    const auto turns_left = [&] {
-      const Flat &a = hull[hull.size() - 2], &b = hull.back();
-      return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0;
-    };
-    while (hull.size() >= kept + 2 && !turns_left()) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const auto& p : points) extend(p, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto p = points.rbegin(); p != points.rend(); ++p) extend(*p, lower);
-  return hull;
-}
-
 /// One view in its panel of the drawing.
 class Panel {
  public:
@@ -133,10 +112,12 @@ class Panel {
     add(svg_, "path", {{"class", style}, {"d", path}});
   }
   void outline(const char* style, const Points& points) {
-    std::vector<Flat> flat;
+    plot::Points flat;
     for (const auto& p : points) flat.push_back(view_.of(p));
+    auto hull = plot::hull_of(std::move(flat));
+    hull.push_back(hull.front());
     std::string path;
-    for (const auto& p : hull_of(flat)) path += text(path.empty() ? "M" : "L", p);
+    for (const auto& p : hull) path += text(path.empty() ? "M" : "L", p);
     add(svg_, "path", {{"class", style}, {"d", path + "Z"}});
   }
   void joint(const JointMark& mark, std::size_t number) {
@@ -153,8 +134,8 @@ class Panel {
   }
 
  private:
-  double x(const Flat& p) const { return left_ + margin + panel / 2 + (p.x - middle_.x) * scale_; }
-  double y(const Flat& p) const { return heading + panel / 2 - (p.y - middle_.y) * scale_; }
+  double x(const Flat& p) const { return left_ + margin + panel / 2 + (p.first - middle_.first) * scale_; }
+  double y(const Flat& p) const { return heading + panel / 2 - (p.second - middle_.second) * scale_; }
   std::string text(const char* pen, const Flat& p) const {
     return fmt::format("{}{} {}", pen, pixel(x(p)), pixel(y(p)));
   }

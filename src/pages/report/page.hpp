@@ -15,7 +15,4 @@ struct Page {
 
 std::string page_of(const Page& page);
 
-/// Ends each section with a folded list of the terms that its text uses.
-void add_terms(pugi::xml_node main);
-
 }  // namespace edmill::report

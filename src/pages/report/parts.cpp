@@ -1,4 +1,5 @@
 // Common parts of the sections of a report.
+#include <cctype>
 
 #include "model/impact_variables.hpp"
 #include "report/sections.hpp"
@@ -20,6 +21,39 @@ std::string partner_colour(const model::Partners& partners, int place) {
 }
 
 std::string run_colour(std::size_t place) { return "c" + std::to_string(place % 8); }
+
+std::vector<MainRate> main_rates(const RunFacts& f) {
+  const auto per_time = [&](double amount, const char* name) -> std::optional<RateOf> {
+    if (!(f.duration() > 0)) return std::nullopt;
+    return RateOf{amount / f.duration(), f.half_width(name)};
+  };
+  const auto dose = per_time(f.milling_dose, "milling_dose_rate");
+  std::optional<RateOf> inverse, specific, time;
+  if (dose && dose->value > 0) inverse = {1 / dose->value, f.half_width("inverse_milling_dose_rate")};
+  if (dose && f.powder_mass)
+    specific = {dose->value / *f.powder_mass, f.half_width("specific_milling_dose_rate")};
+  if (f.milling_time) time = RateOf{*f.milling_time, f.milling_time_half_width}.in_units_of(3600);
+  return {{"milling dose rate", "W", dose},
+          {"inverse milling dose rate", "s/J", inverse},
+          {"specific milling dose rate", "W/kg", specific},
+          {"milling time", "h", time},
+          {"power from the walls", "W", per_time(f.wall_work, "wall_work_rate")},
+          {"collisions", "1/s", per_time(f.all_collisions(), "collision_rate/total")}};
+}
+
+std::string capitalised(std::string text) {
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+plot::Curve bars(const std::string& name, const std::string& colour, double first, double width,
+                 const std::vector<double>& heights) {
+  plot::Curve curve{name, colour, {}, true};
+  const auto place = [&](std::size_t k) { return first + width * static_cast<double>(k); };
+  for (std::size_t k = 0; k < heights.size(); ++k) curve.points.emplace_back(place(k), heights[k]);
+  curve.points.emplace_back(place(heights.size()), 0);
+  return curve;
+}
 
 std::string text_of(const RateOf& rate) {
   const auto [value, width] = plot::with_interval(rate.value, rate.half_width.value_or(0));

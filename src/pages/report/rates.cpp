@@ -81,7 +81,7 @@ std::vector<double> areas_of(const RunFolder& run) {
 void add_partners(pugi::xml_node section, const RunFolder& run) {
   const auto& f = run.facts;
   const auto areas = areas_of(run);
-  std::vector<std::vector<std::string>> rows;
+  Rows rows;
   const auto row = [&](const std::string& name, double collisions, double dose, double area) {
     const bool timed = f.duration() > 0;
     rows.push_back({name, brief(collisions, 12), timed ? readable(collisions / f.duration()) : "\u2013",
@@ -110,7 +110,7 @@ void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
   const auto* output = run.output("rates_above", [](const auto& o) { return o.only.empty(); });
   if (!output) return add_missing(section, "rates above speed cutoffs", "type = \"rates_above\"");
   const auto table = read_table(run.file_of(*output), "a table of rates above cutoffs");
-  std::vector<std::vector<std::string>> rows;
+  Rows rows;
   for (const auto& numbers : table.numbers) {
     std::vector<std::string> row{brief(numbers[0])};
     for (int k = 0; k < run.partners.count(); ++k)
@@ -161,7 +161,6 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
   draw(grid, chart);
 }
 
-/// Speeds of the balls at their impacts.
 void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
   const int variable = *model::find_variable("ball_speed_before");
   const auto* output = run.output("frequency", [&](const casefile::OutputSpec& o) {

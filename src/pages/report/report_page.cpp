@@ -58,7 +58,6 @@ void add_player(pugi::xml_node section, const Animation& animation, double speed
       pace(speed) + ". Drag to rotate, scroll to zoom; by keyboard the arrows, + and -.");
 }
 
-/// The scripts that play the animation.
 std::string player() {
   return fmt::format("<script>\n/* {}*/\n{}\n{}</script>\n<script>\n{}</script>\n", three_licence, three_js,
                      three_orbit_js, page_js);
@@ -101,7 +100,8 @@ std::string report_page(const RunFolder& run) {
   add_energy(main, run);
   add_case(main, run);
   const bool plays = static_cast<bool>(main.select_node("//div[@id='player']"));
-  return page_of({title_of(run), subtitle_of(run), run.facts.version, run.facts.commit, document,
+  const auto title = std::filesystem::path(run.facts.case_file).filename().string();
+  return page_of({title, subtitle_of(run), run.facts.version, run.facts.commit, document,
                   plays ? player() : "", plays ? "The animation is played by three.js (MIT licence)." : ""});
 }
 

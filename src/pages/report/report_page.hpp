@@ -1,4 +1,4 @@
-// `edmill report`: the files of a run, or of several side by side, as one self-contained HTML page.
+// Self-contained HTML pages: of a run, of several side by side, of a study.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,10 @@
 #include <vector>
 
 #include "report/run_folder.hpp"
+
+namespace edmill::study {
+class Study;
+}  // namespace edmill::study
 
 namespace edmill::report {
 
@@ -24,8 +28,13 @@ std::filesystem::path put_report(const std::filesystem::path& folder);
 /// zero. Nothing where a rate has no interval.
 std::optional<bool> differ(const RateOf& a, const RateOf& b);
 /// One page that shows runs side by side. @param runs  two or more
-std::string comparison_page(const std::vector<RunFolder>& runs);
+std::string comparison_page(std::vector<RunFolder> runs);
 /// @throws InputError when a folder is no run, or the file cannot be written
 void write_comparison(const std::vector<std::string>& folders, const std::filesystem::path& file);
+
+/// The page of a sweep or an optimisation: rates of all points with their intervals.
+/// @param kind     "Sweep"
+/// @param finding  lines of text, such as what an optimisation found; none when empty
+std::string study_page(const study::Study& study, const std::string& kind, const std::string& finding);
 
 }  // namespace edmill::report

@@ -77,30 +77,6 @@ Json pistons_of(const MovingVessel& vessel, std::size_t frames, double steps) {
   return pistons;
 }
 
-using Outline = std::vector<Vec3<double>>;
-
-/// The convex polygon about points in the plane of x and y, against the clock.
-Outline hull_of(Outline points) {
-  std::sort(points.begin(), points.end(),
-            [](const auto& a, const auto& b) { return std::pair(a[0], a[1]) < std::pair(b[0], b[1]); });
-  Outline hull;
-  const auto add_side = [&](const auto& begin, const auto& end) {
-    const std::size_t base = hull.size();
-    for (auto p = begin; p != end; ++p) {
-      while (hull.size() >= base + 2) {
-        const Vec3<double> last = hull.back() - hull[hull.size() - 2], next = *p - hull.back();
-        if (last[0] * next[1] - last[1] * next[0] > 0) break;
-        hull.pop_back();
-      }
-      hull.push_back(*p);
-    }
-    hull.pop_back();  // begins the other side
-  };
-  add_side(points.begin(), points.end());
-  add_side(points.rbegin(), points.rend());
-  return hull;
-}
-
 }  // namespace
 
 void add_frames(pugi::xml_node parent, const Animation& animation) {
@@ -142,27 +118,31 @@ void add_still(pugi::xml_node parent, const Animation& animation) {
   const Vec3<double> centre = pose.translation();
   // In percent of the picture, whose strokes have one width for vessels of any size; y upwards.
   const double reach = 1.25 * vessel.reach(), percent = 50 / reach;
-  const auto x = [&](const Vec3<double>& place) { return percent * (place[0] - centre[0] + reach); };
-  const auto y = [&](const Vec3<double>& place) { return percent * (centre[1] + reach - place[1]); };
+  const auto x = [&](double place) { return percent * (place - centre[0] + reach); };
+  const auto y = [&](double place) { return percent * (centre[1] + reach - place); };
   auto svg = add(parent, "svg",
                  {{"class", "still"},
                   {"viewBox", "0 0 100 100"},
                   {"role", "img"},
                   {"aria-label", "The vessel and its balls at the beginning of the animation"}});
-  const auto outline = [&](const Outline& points) {
+  const auto outline = [&](const plot::Points& points) {
     std::string path;
-    for (const auto& p : points) path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", x(p), y(p));
+    for (const auto& p : points)
+      path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", x(p.first), y(p.second));
     add(svg, "path", {{"class", "vessel"}, {"d", path + "Z"}});
   };
-  Outline all;
-  std::vector<Outline> flat;
+  plot::Points all;
+  std::vector<plot::Points> flat;
   for (const auto& wall : vessel.walls) {
-    Outline points;
-    for (const auto& point : wall.points) points.push_back(pose * point);
+    plot::Points points;
+    for (const auto& point : wall.points) {
+      const Vec3<double> place = pose * point;
+      points.emplace_back(place[0], place[1]);
+    }
     all.insert(all.end(), points.begin(), points.end());
     if (wall.faces.size() == 1) flat.push_back(std::move(points));
   }
-  outline(hull_of(std::move(all)));
+  outline(plot::hull_of(std::move(all)));
   for (const auto& wall : flat) outline(wall);
   std::vector<std::pair<Vec3<double>, const MovingSphere*>> spheres;
   for (const auto& sphere : animation.spheres) spheres.emplace_back(sphere.place.at(0), &sphere);
@@ -171,8 +151,8 @@ void add_still(pugi::xml_node parent, const Animation& animation) {
   for (const auto& [place, sphere] : spheres)
     add(svg, "circle",
         {{"class", "ball"},
-         {"cx", fmt::format("{:.2f}", x(place))},
-         {"cy", fmt::format("{:.2f}", y(place))},
+         {"cx", fmt::format("{:.2f}", x(place[0]))},
+         {"cy", fmt::format("{:.2f}", y(place[1]))},
          {"r", fmt::format("{:.2f}", percent * sphere->radius)},
          {"fill", sphere->colour}});
 }

@@ -9,9 +9,6 @@
 
 namespace edmill::report {
 
-/// Title of the page: the case file's name.
-std::string title_of(const RunFolder& run);
-
 void add_headline(pugi::xml_node main, const RunFolder& run);
 void add_ward(pugi::xml_node main, const RunFolder& run);
 void add_warnings(pugi::xml_node main, const RunFolder& run);
@@ -19,8 +16,6 @@ void add_animation(pugi::xml_node main, const RunFolder& run);
 void add_rates(pugi::xml_node main, const RunFolder& run);
 void add_spectra(pugi::xml_node main, const RunFolder& run);
 void add_vessel(pugi::xml_node main, const RunFolder& run);
-/// The dose of each ball, in a section.
-void add_balls(pugi::xml_node section, const RunFolder& run);
 /// How often powder has been hit, where the case has such an output.
 void add_treatment(pugi::xml_node main, const RunFolder& run);
 /// How fast neighbouring motions diverge from the run's, where the case has such an output.
@@ -44,9 +39,7 @@ using Rows = std::vector<std::vector<std::string>>;
 /// Balls, powder, vessel, mill and contacts in words: name and text.
 Rows case_rows(const RunFolder& run);
 /// Dose by energy and impacts by speed of several runs over each other, where they have such tables.
-/// @param names  of the runs
-void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
-                    const std::vector<std::string>& names);
+void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs);
 /// The colour of one of several runs in charts.
 std::string run_colour(std::size_t place);
 
@@ -55,8 +48,19 @@ std::string name_of(const model::PartnerInfo& partner);
 /// The colour of a partner in charts, by its place; balls have the same beside any walls.
 std::string partner_colour(const model::Partners& partners, int place);
 
+struct MainRate {
+  std::string name, unit;
+  std::optional<RateOf> rate;  ///< nothing where the run lacks what it needs
+};
+/// The rates by which mills are compared, of any run in the same order.
+std::vector<MainRate> main_rates(const RunFacts& facts);
 /// "27.92 ± 0.23"
 std::string text_of(const RateOf& rate);
+/// "Milling dose rate"
+std::string capitalised(std::string text);
+/// A histogram of bars that are equally wide, from `first` on.
+plot::Curve bars(const std::string& name, const std::string& colour, double first, double width,
+                 const std::vector<double>& heights);
 /// A short line at the rate, within its interval.
 /// @param half_length  of the line, in units of x
 void add_point(plot::Chart& chart, double x, double half_length, const RateOf& rate, const std::string& name,

@@ -69,21 +69,40 @@ std::optional<OutputTable> spectra_of(const RunFolder& run, const std::string& o
   return found;
 }
 
-void add_energies(pugi::xml_node grid, const OutputTable& table, const model::Partners& partners) {
-  plot::Chart by_partner;
-  by_partner.id = "energy-spectrum", by_partner.title = "Dose by the energy of the impact";
-  by_partner.description =
-      "Histograms on a logarithmic scale of impact energy: dose rate per decade with each wall and between "
-      "balls.";
-  by_partner.x.title = "energy that the impact dissipates [J]";
-  by_partner.y.title = "dose rate [W per decade]";
-  const double per_second = 1 / table.duration();
-  for (int k = 0; k < partners.count(); ++k)
-    by_partner.curves.push_back({name_of(partners[k]), partner_colour(partners, k),
-                                 density(table, "total", partners[k].key + " energy", per_second), true});
-  fit(by_partner);
-  draw(grid, by_partner);
+/// @param whose  "of each run"
+plot::Chart energy_chart(const std::string& whose) {
+  plot::Chart chart;
+  chart.id = "energy-spectrum", chart.title = "Dose by the energy of the impact";
+  chart.description =
+      "Histograms on a logarithmic scale of impact energy: dose rate per decade " + whose + ".";
+  chart.x.title = "energy that the impact dissipates [J]", chart.y.title = "dose rate [W per decade]";
+  return chart;
+}
 
+/// @param spectrum  "approach" or "slip"
+plot::Chart speed_chart(const std::string& spectrum, const std::string& whose) {
+  plot::Chart chart;
+  chart.id = spectrum + "-speeds", chart.title = "Impacts by " + spectrum + " speed";
+  chart.description = "Histograms on logarithmic scales: impacts per second and decade " + whose + ".";
+  chart.x.title = spectrum + " speed [m/s]", chart.y.title = "impacts [1/s per decade]";
+  chart.y.logarithmic = true;
+  return chart;
+}
+
+/// @param quantity  "energy" or "impacts"
+void draw_partners(pugi::xml_node grid, plot::Chart chart, const OutputTable& table,
+                   const std::string& spectrum, const std::string& quantity,
+                   const model::Partners& partners) {
+  for (int k = 0; k < partners.count(); ++k)
+    chart.curves.push_back({name_of(partners[k]), partner_colour(partners, k),
+                            density(table, spectrum, partners[k].key + " " + quantity, 1 / table.duration()),
+                            true});
+  fit(chart);
+  draw(grid, chart);
+}
+
+void add_energies(pugi::xml_node grid, const OutputTable& table, const model::Partners& partners) {
+  draw_partners(grid, energy_chart("with each wall and between balls"), table, "total", "energy", partners);
   plot::Chart by_direction;
   by_direction.id = "energy-parts", by_direction.title = "Normal and tangential dose";
   by_direction.description =
@@ -94,31 +113,15 @@ void add_energies(pugi::xml_node grid, const OutputTable& table, const model::Pa
   for (const auto& [spectrum, colour] :
        {std::pair{"normal", "c0"}, std::pair{"tangential", "c1"}, std::pair{"total", "c4"}})
     by_direction.curves.push_back(
-        {spectrum, colour, density(table, spectrum, "total energy", per_second), true});
+        {spectrum, colour, density(table, spectrum, "total energy", 1 / table.duration()), true});
   fit(by_direction);
   draw(grid, by_direction);
 }
 
 void add_speeds(pugi::xml_node grid, const OutputTable& table, const model::Partners& partners) {
-  for (const auto& [spectrum, title] :
-       {std::pair{"approach", "Impacts by approach speed"}, std::pair{"slip", "Impacts by slip speed"}}) {
-    plot::Chart chart;
-    chart.id = std::string(spectrum) + "-speeds", chart.title = title;
-    chart.description = fmt::format(
-        "Histograms on logarithmic scales: impacts per second and decade of {} speed, with each wall and "
-        "between "
-        "balls.",
-        spectrum);
-    chart.x.title = std::string(spectrum) + " speed [m/s]";
-    chart.y.title = "impacts [1/s per decade]";
-    chart.y.logarithmic = true;
-    for (int k = 0; k < partners.count(); ++k)
-      chart.curves.push_back({name_of(partners[k]), partner_colour(partners, k),
-                              density(table, spectrum, partners[k].key + " impacts", 1 / table.duration()),
-                              true});
-    fit(chart);
-    draw(grid, chart);
-  }
+  for (const std::string spectrum : {"approach", "slip"})
+    draw_partners(grid, speed_chart(spectrum, "of " + spectrum + " speed, with each wall and between balls"),
+                  table, spectrum, "impacts", partners);
 }
 
 }  // namespace
@@ -148,14 +151,10 @@ void add_treatment(pugi::xml_node main, const RunFolder& run) {
   double top = 0;
   for (const auto& [name, column, colour] :
        {std::tuple{"mixed between impacts", "mixed", "c0"}, std::tuple{"stays in place", "in_place", "c1"}}) {
-    plot::Curve curve{name, colour, {}, true};
-    const auto place = table.column(column);
-    for (std::size_t k = 0; k < table.numbers.size(); ++k) {
-      curve.points.emplace_back(static_cast<double>(k), table.numbers[k][place]);
-      top = std::max(top, table.numbers[k][place]);
-    }
-    curve.points.emplace_back(chart.x.high, 0);
-    chart.curves.push_back(std::move(curve));
+    std::vector<double> parts;
+    for (const auto& row : table.numbers) parts.push_back(row[table.column(column)]);
+    for (const double part : parts) top = std::max(top, part);
+    chart.curves.push_back(bars(name, colour, 0, 1, parts));
   }
   chart.y.high = top > 0 ? 1.1 * top : 1;
   auto section = add_section(main, "treatment", "How evenly the powder is treated");
@@ -165,23 +164,14 @@ void add_treatment(pugi::xml_node main, const RunFolder& run) {
       "output (type = \"treatment\").");
 }
 
-void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs,
-                    const std::vector<std::string>& names) {
-  plot::Chart energies, speeds;
-  energies.id = "energy-spectrum", energies.title = "Dose by the energy of the impact";
-  energies.description =
-      "Histograms on a logarithmic scale of impact energy: dose rate per decade of each run.";
-  energies.x.title = "energy that the impact dissipates [J]", energies.y.title = "dose rate [W per decade]";
-  speeds.id = "approach-speeds", speeds.title = "Impacts by approach speed";
-  speeds.description = "Histograms on logarithmic scales: impacts per second and decade of each run.";
-  speeds.x.title = "approach speed [m/s]", speeds.y.title = "impacts [1/s per decade]";
-  speeds.y.logarithmic = true;
+void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
+  auto energies = energy_chart("of each run"), speeds = speed_chart("approach", "of each run");
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto put = [&](plot::Chart& chart, const std::optional<OutputTable>& table, const char* spectrum,
                          const char* column) {
       if (table)
         chart.curves.push_back(
-            {names[k], run_colour(k), density(*table, spectrum, column, 1 / table->duration()), true});
+            {runs[k].name, run_colour(k), density(*table, spectrum, column, 1 / table->duration()), true});
     };
     put(energies, spectra_of(runs[k], "energy", "normal"), "total", "total energy");
     put(speeds, spectra_of(runs[k], "speed", "approach"), "approach", "total impacts");

@@ -1,5 +1,4 @@
-#include "report/study_page.hpp"
-
+// The page of a sweep or an optimisation.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +9,9 @@
 #include "base/version.hpp"
 #include "casefile/quantity.hpp"
 #include "report/page.hpp"
+#include "report/report_page.hpp"
 #include "report/sections.hpp"
+#include "study/study.hpp"
 
 namespace edmill::report {
 
@@ -32,8 +33,7 @@ constexpr Shown shown[] = {{"milling_dose_rate", "milling dose rate", "W", 1},
 std::optional<RateOf> rate_of_point(const Point& point, const Shown& what) {
   const auto e = numerics::estimate(point.values(study::quantity_named(what.quantity)));
   if (!e.mean) return std::nullopt;
-  RateOf rate{*e.mean / what.size, e.half_width};
-  if (rate.half_width) *rate.half_width /= what.size;
+  auto rate = RateOf{*e.mean, e.half_width}.in_units_of(what.size);
   if (point.done() != 1) return rate;
   const auto& run =
       std::ranges::find_if(point.runs, [](const auto& r) { return r.record && r.record->done(); });
@@ -74,8 +74,7 @@ struct Places {
 void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Places& places,
                  const Shown& what) {
   plot::Chart chart;
-  chart.id = what.quantity, chart.title = what.name;
-  chart.title[0] = static_cast<char>(std::toupper(chart.title[0]));
+  chart.id = what.quantity, chart.title = capitalised(what.name);
   chart.description =
       fmt::format("For each point a short line at its {}, within its 95 % interval.", what.name);
   const auto [low, high] = std::ranges::minmax(places.x);
@@ -168,8 +167,7 @@ std::string study_page(const study::Study& study, const std::string& kind, const
   add_table(section, "rates-of-points", "Rates", headings, rows);
   add(section, "p", {{"class", "note"}},
       "\u00b1: 95 % interval by Student\u2019s t over the runs of a point; of a single run, its own "
-      "interval. "
-      "All numbers:");
+      "interval. All numbers:");
   auto files = add(section, "ul");
   add(add(files, "li"), "a", {{"href", study.name() + ".csv"}}, study.name() + ".csv: a row for each point");
   add(add(files, "li"), "a", {{"href", "runs.csv"}}, "runs.csv: a row for each run");

@@ -2,7 +2,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/memory_for.hpp"
-#include "report/study_page.hpp"
+#include "report/report_page.hpp"
 #include "run/any_run.hpp"
 #include "study/optimizer.hpp"
 

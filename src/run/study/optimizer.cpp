@@ -39,8 +39,7 @@ class Search {
       if (stopped() || round == spec_.refinements || !refine()) break;
       study_.run();
     }
-    Optimum optimum;
-    optimum.best = best();
+    Optimum optimum{best(), {}, ""};
     if (optimum.best) optimum.contenders = contenders(*optimum.best);
     optimum.why = study_.interrupted() ? "interrupted"
                   : out_of_budget_     ? "the budget of runs_max is used up"
@@ -172,10 +171,10 @@ class Search {
     std::vector<std::size_t> group;
     const auto count = study_.points().size();
     const double significance = 0.05 / static_cast<double>(std::max<std::size_t>(count - 1, 1));
-    for (std::size_t k = 0; k < count; ++k) {
-      if (k == leader || study_.points()[k].failed() > 0 || values(k).empty()) continue;
-      if (!numerics::differ(values(k), values(leader), significance)) group.push_back(k);
-    }
+    for (std::size_t k = 0; k < count; ++k)
+      if (k != leader && study_.points()[k].failed() == 0 && !values(k).empty() &&
+          !numerics::differ(values(k), values(leader), significance))
+        group.push_back(k);
     return group;
   }
 
@@ -200,18 +199,15 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
 }
 
 /// Says so where the best value of a variable is the end of its range.
-std::string bound_of(const casefile::OptimizeVariable& v, const Point& point) {
+std::string bound_of(const OptimizeVariable& v, const std::string& value) {
   if (!v.values.empty()) return "";
-  for (const auto& [key, value] : point.settings) {
-    if (key != v.key) continue;
-    const auto number = casefile::parse_decimal(value.substr(0, value.size() - v.unit.size()));
-    const double x = number ? number->to<double>() : 0, slack = 1e-9 * (v.high - v.low);
-    for (const auto& [end, name] : {std::pair{v.low, "low"}, std::pair{v.high, "high"}})
-      if (number && std::abs(x - end) <= slack)
-        return fmt::format(
-            "  {} is at the end '{}' of its range: there may be more beyond it; widen the range\n", key,
-            name);
-  }
+  const auto number = casefile::parse_decimal(value.substr(0, value.size() - v.unit.size()));
+  const double slack = 1e-9 * (v.high - v.low);
+  for (const auto& [end, name] : {std::pair{v.low, "low"}, std::pair{v.high, "high"}})
+    if (number && std::abs(number->to<double>() - end) <= slack)
+      return fmt::format(
+          "  {} is at the end '{}' of its range: there may be more beyond it; widen the range\n", v.key,
+          name);
   return "";
 }
 
@@ -226,7 +222,8 @@ std::string describe(const OptimizeSpec& spec, const Study& study, const Optimum
   std::string text = fmt::format("largest {} of {} points, 95 % interval; the search ended: {}\n",
                                  spec.objective, study.points().size(), optimum.why);
   text += line_of(spec, study, *optimum.best);
-  for (const auto& v : spec.variables) text += bound_of(v, study.points()[*optimum.best]);
+  const auto& settings = study.points()[*optimum.best].settings;
+  for (std::size_t k = 0; k < settings.size(); ++k) text += bound_of(spec.variables[k], settings[k].second);
   text += optimum.contenders.empty() ? "every other point is smaller, at 5 % for all comparisons together\n"
                                      : "indistinguishable from it, at 5 % for all comparisons together:\n";
   for (const auto k : optimum.contenders) text += line_of(spec, study, k);

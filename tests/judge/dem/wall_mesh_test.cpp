@@ -61,7 +61,7 @@ diameter = "8 mm"
         const double apart = std::abs(dot<double>(Place(inside - triangle[0]), n)) - radius;
         if (apart < least) least = apart, nearest = n;
       }
-      const Place place = mill.motion.to_inertial(pose.pose, inside);
+      const Place place = mill.motion.to_inertial(pose, inside);
       int near = 0;
       for (int wall = 0; wall < vessel.walls(); ++wall) {
         if (!std::holds_alternative<model::Tube<double>>(
@@ -70,10 +70,10 @@ diameter = "8 mm"
         ++near;
         ASSERT_NEAR(vessel.gap(pose, 0, wall, place), least, 1e-15)
             << facets << " facets, seed " << seed << ", place " << k;
-        const Place n = mill.motion.direction_to_inertial(pose.pose, nearest);
+        const Place n = mill.motion.direction_to_inertial(pose, nearest);
         ASSERT_NEAR(std::abs(dot<double>(vessel.normal(pose, 0, wall, place), n)), 1, 1e-12);
         ASSERT_LT(dot<double>(vessel.normal(pose, 0, wall, place),
-                              Place(place - mill.motion.to_inertial(pose.pose, Place(0, inside[1], 0)))),
+                              Place(place - mill.motion.to_inertial(pose, Place(0, inside[1], 0)))),
                   0);
       }
       ASSERT_EQ(near, 1);
