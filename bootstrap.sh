@@ -81,22 +81,19 @@ install_missing() {
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${chosen[@]}"
 }
 
-build() { # preset [option...]
-  say "configuring and building (preset $1); the first time takes up to half an hour on two cores"
-  cmake --preset "$@" >/dev/null
+build() { # preset
+  say "configuring and building (preset $1); the first time takes 5 to 20 minutes on two cores"
+  cmake --preset "$1" >/dev/null
   cmake --build --preset "$1"
 }
 
 case "${1:-}" in
   build | demo)
     install_missing "${program_packages[@]}"
-    quick=OFF
-    [ "$1" = build ] || quick=ON
-    build release "-DEDMILL_QUICK=$quick"
+    build release
     if [ "$1" = demo ]; then
       say "running docs/examples/demo.toml: 28 balls, 10 s simulated"
       build/release/edmill run docs/examples/demo.toml
-      say "precisions beyond double are compiled without optimisation so far: ./bootstrap.sh build makes them twice as fast"
     fi
     ;;
   test)
