@@ -7,6 +7,7 @@ find_package(pybind11 2.10 REQUIRED)
 
 file(GLOB python_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/bindings/python/*.cpp)
 pybind11_add_module(edmill_python MODULE NO_EXTRAS ${python_sources})
+target_include_directories(edmill_python PRIVATE ${CMAKE_SOURCE_DIR}/src/bindings)
 target_link_libraries(edmill_python PRIVATE edmill_program)
 target_compile_options(edmill_python PRIVATE ${edmill_warnings} $<$<CONFIG:Release>:-O1>)
 set(python_package ${CMAKE_BINARY_DIR}/python/edmill)

@@ -10,25 +10,24 @@ namespace edmill::casefile {
 
 namespace detail {
 
-/// A type with twice the digits of a scalar and `more`.
+#if defined(EDMILL_WITHOUT_MPFR)
+/// With twice the digits of a scalar and `more`.
 template <class Real, unsigned more>
-struct WideOf {
-  using type = mpfr_of<2 * std::numeric_limits<Real>::digits10 + more>;
-};
-template <class Real, unsigned more>
-using Wide = typename WideOf<Real, more>::type;
-
-/// Chooses these digits for a scope, where they can be chosen.
+using Wide = mpfr_of<2 * std::numeric_limits<Real>::digits10 + more>;
 template <class Real>
 struct WideDigits {
   explicit WideDigits(unsigned) {}
   Real rounded(const auto& value) const { return static_cast<Real>(value); }
 };
-
-#if !defined(EDMILL_WITHOUT_MPFR)
-template <unsigned more>
-struct WideOf<mpfr, more> {
-  using type = mpfr;
+#else
+template <class Real, unsigned more>
+using Wide = mpfr;
+/// Chooses twice the digits of a scalar and `more` for a scope.
+template <class Real>
+struct WideDigits {
+  explicit WideDigits(unsigned more) : wide(2 * std::numeric_limits<Real>::digits10 + more) {}
+  Real rounded(const mpfr& value) const { return static_cast<Real>(value); }
+  mpfr::Digits wide;
 };
 template <>
 struct WideDigits<mpfr> {

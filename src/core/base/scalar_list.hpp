@@ -86,6 +86,21 @@ struct MpfrConversion<float128> {
     }
     return sum;
   }
+  static float128 rounded(const mpfr& value) {
+    if (!isfinite(value) || value == mpfr(0)) return float128(static_cast<double>(value));
+    mpfr rest;
+    rest.set_precision(113);
+    mpfr_set(rest.data(), value.data(), MPFR_RNDN);
+    const long exponent = exponent_of(rest);
+    mpfr_mul_2si(rest.data(), rest.data(), -exponent, MPFR_RNDN);
+    float128 sum(0);
+    for (int part = 0; part < 3; ++part) {
+      const double leading = mpfr_get_d(rest.data(), MPFR_RNDN);
+      sum += leading;
+      mpfr_sub_d(rest.data(), rest.data(), leading, MPFR_RNDN);
+    }
+    return ldexp(sum, static_cast<int>(exponent));
+  }
 };
 
 template <>

@@ -24,8 +24,8 @@ struct AuditOptions {
   bool identify = false;  ///< search for the cause
   std::size_t examples = 3;
   const std::atomic<bool>* interrupt = nullptr;
-  std::function<void(double time, std::uint64_t events)> progress;
-  identify::Progress searching;  ///< called at each stage of a search for the cause
+  std::function<void(double time, std::uint64_t events)> progress{};
+  identify::Progress searching{};  ///< called at each stage of a search for the cause
 };
 
 struct Audited {

@@ -344,7 +344,7 @@ class Page(unittest.TestCase):
         self.assertIn("200 of 200 impacts", self.text("prove-said"))
 
     def test_certificates_are_checked(self):
-        shipped = ROOT / "src/browser/three_balls.certificate"
+        shipped = ROOT / "src/bindings/browser/three_balls.certificate"
         told = subprocess.run([EDMILL, "check", ROOT / "regression/reference/three_balls.toml"], text=True, capture_output=True, check=True)
         self.assertIn(json.loads(shipped.read_text().splitlines()[0])["digest"], told.stdout)
         checked = lambda: self.wait(lambda: self.text("certificate-said") not in ("", "Checking."), 60) or self.text("certificate-said")

@@ -33,7 +33,7 @@ function page_with(cost) {
       return {answer: {time, impacts: ++impacts, ended: time > 1e6}, milliseconds: cost * step};
     },
   });
-  vm.runInContext(fs.readFileSync(path.join(process.argv[2], 'src/browser/page.js'), 'utf8'), context);
+  vm.runInContext(fs.readFileSync(path.join(process.argv[2], 'src/bindings/browser/page.js'), 'utf8'), context);
   return {elements, steps};
 }
 

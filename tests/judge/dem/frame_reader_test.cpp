@@ -96,7 +96,7 @@ TEST_F(FrameReaderTest, AFileThatIsCutOffEndsBeforeItsLastFrame) {
 }
 
 TEST_F(FrameReaderTest, BinaryDumpsAreTheTextTheyStandFor) {
-  const std::string made = EDMILL_SOURCE_DIR "/tests/dem/two_balls";  // by LAMMPS
+  const std::string made = EDMILL_SOURCE_DIR "/tests/judge/dem/two_balls";  // by LAMMPS
   dem::FrameReader text(made + ".dump", {std::nullopt, "si"}, 2),
       binary(made + ".bin", {std::nullopt, "si"}, 2);
   dem::Frame expected, found;
@@ -118,7 +118,7 @@ TEST_F(FrameReaderTest, BinaryDumpsAreTheTextTheyStandFor) {
 }
 
 TEST_F(FrameReaderTest, ABinaryDumpThatIsCutOffOrDamaged) {
-  std::ifstream in(EDMILL_SOURCE_DIR "/tests/dem/two_balls.bin", std::ios::binary);
+  std::ifstream in(EDMILL_SOURCE_DIR "/tests/judge/dem/two_balls.bin", std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(in), {}};
   constexpr std::size_t last_frame = 389;
   for (std::size_t size = whole.size() - last_frame; size < whole.size(); ++size) {

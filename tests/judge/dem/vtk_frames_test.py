@@ -17,7 +17,7 @@ except ImportError:
     sys.exit(77)
 
 HERE = pathlib.Path(__file__).resolve().parent
-TOOL = HERE.parents[2] / "src/python/edmill/vtk_frames.py"
+TOOL = HERE.parents[2] / "src/bindings/python/edmill/vtk_frames.py"
 failed = []
 
 

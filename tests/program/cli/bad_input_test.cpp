@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path broken_folder = fs::path(EDMILL_SOURCE_DIR) / "tests/casefile/broken";
+const fs::path broken_folder = fs::path(EDMILL_SOURCE_DIR) / "tests/case/casefile/broken";
 const fs::path valid_case = fs::path(EDMILL_SOURCE_DIR) / "docs/examples/demo.toml";
 
 std::string contents(const fs::path& path) {

@@ -13,7 +13,7 @@ from trials import Trials, case, edmill
 BALLS = 20_000
 TRIALS = int(sys.argv[2]) if len(sys.argv) > 2 else 1
 SEED = int(sys.argv[3]) if len(sys.argv) > 3 else 20261126
-NEEDED = 70_000_000  # [bytes] more than any of the commands can do without, beside the program itself
+NEEDED = 40_000_000  # [bytes] more than any of the commands can do without, beside the program itself
 
 COMMANDS = ("run case.toml --out out --quiet", "check case.toml",
             "certify case.toml --collisions 3 --out events.csv",

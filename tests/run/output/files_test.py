@@ -23,7 +23,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 CASE = ROOT / "docs" / "examples" / "files.toml"
-SCHEMAS = [ROOT / "tests" / "output" / "x3d" / "nodes.xsd"]
+SCHEMAS = [ROOT / "tests" / "run" / "output" / "x3d" / "nodes.xsd"]
 if "X3D_SCHEMA" in os.environ:
     SCHEMAS.append(pathlib.Path(os.environ["X3D_SCHEMA"]))
 GRAVITY = np.array([0, -9.8, 0])
