@@ -4,6 +4,7 @@ kind: of tables and lists, set by an option, zero, at an end of their range, and
 
 usage: sensitivity_test.py EDMILL [whole]
 """
+import functools
 import pathlib
 import re
 import sys
@@ -79,10 +80,10 @@ def with_settings(text, settings):
 QUANTITIES = ("time", "approach_speed", "slip_speed", "milling_dose", "wall_work")
 
 
-def events(t, name, settings, key, value, unit):
-    text = f'{key}="{value} {unit}"' if unit else f"{key}={value:f}"
+@functools.lru_cache(None)
+def events(name, *settings):
     done = edmill("run", f"{name}.toml", "--quiet", "--out", "out", "--precision", "mpfr50",
-                  *sets(*settings, text, f"run.max_collisions={EVENTS}", 'output=[{type="collisions"}]'))
+                  *sets(*settings, f"run.max_collisions={EVENTS}", 'output=[{type="collisions"}]'))
     return rows("out/collisions.csv")[:EVENTS] if done.returncode == 0 else None
 
 
@@ -92,7 +93,8 @@ def compare(t, name, settings, key, value, unit):
     t.check(done.returncode == 0, f"{what}: {done.stderr}")
     found = rows("d.csv")
     step = max(abs(value), Decimal(1)) * Decimal("1e-17")
-    before, middle, after = (events(t, name, settings, key, value + sign * step, unit) for sign in (-1, 0, 1))
+    with_number = lambda number: events(name, *settings, f'{key}="{number} {unit}"' if unit else f"{key}={number:f}")
+    before, middle, after = with_number(value - step), events(name, *settings), with_number(value + step)
     t.check(middle and (before or after), f"{what}: no run with other values")
     for quantity in QUANTITIES:
         slope = lambda a, b: [(Decimal(y[quantity]) - Decimal(x[quantity])) / step for x, y in zip(a, b)] if a and b else None
