@@ -2,7 +2,7 @@
 """Runs with checkpoints and a report that are killed, interrupted and resumed end like an uninterrupted run; so do studies and
 reports.
 
-usage: kill_test.py EDMILL [KILLS]    of runs, 12 unless given, and a third of that of studies and of reports each
+usage: kill_test.py EDMILL [KILLS]    of runs, 6 unless given, and a third of that of studies and of reports each
 Moments are drawn with a fixed seed, but the machine's load decides what a moment hits.
 """
 import os
@@ -16,7 +16,7 @@ import time
 
 from program import Trials, edmill, results, same, start, summary
 
-kills_wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 12
+kills_wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 6
 rng = random.Random(20110101)
 
 CASE = """
@@ -190,7 +190,7 @@ def kills_of_runs():
 
 def interrupts_of_runs():
     interrupts = runs = 0
-    while interrupts < 6:
+    while interrupts < 4:
         number = [signal.SIGINT, signal.SIGTERM][runs % 2]
         place = folder(f"interrupted-{runs}")
         runs += 1

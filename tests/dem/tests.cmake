@@ -1,4 +1,4 @@
-edmill_test(lasting_contacts_test dem/lasting_contacts_test.cpp LONG TIMEOUT 600)
+edmill_test(lasting_contacts_test dem/lasting_contacts_test.cpp LONG SLOW TIMEOUT 600)
 edmill_test(soft_contact_test dem/soft_contact_test.cpp)
 edmill_test(wall_mesh_test dem/wall_mesh_test.cpp)
 edmill_test(frame_reader_test dem/frame_reader_test.cpp)
