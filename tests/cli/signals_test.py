@@ -5,6 +5,7 @@ usage: signals_test.py EDMILL
 """
 import os
 import pathlib
+import re
 import resource
 import shutil
 import signal
@@ -27,6 +28,14 @@ def begun(place, *options, **settings):
     return process
 
 
+def until_taken(process):
+    """No signal waits."""
+    status = pathlib.Path(f"/proc/{process.pid}/status")
+    while re.search(r"^S\w\wPnd:\s*0*[1-9a-f]", status.read_text(), re.M):
+        time.sleep(0.005)
+    time.sleep(0.02)
+
+
 def ended(process):
     error = process.communicate(timeout=60)[1]
     return process.returncode, error
@@ -39,7 +48,7 @@ def saves(t, number, expected):
         if number not in (signal.SIGINT, signal.SIGTERM):  # batch systems repeat them, and lose patience
             for _ in range(20):
                 process.send_signal(number)
-            time.sleep(0.05)  # of two that wait, the later one would be handled first
+            until_taken(process)  # of two that wait, the later one would be handled first
             process.send_signal(signal.SIGTERM)
         code, error = ended(process)
         t.check(code == 128 + number and error == "", f"{number.name} {options}: exit code {code} {error}")
