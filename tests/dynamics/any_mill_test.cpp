@@ -148,7 +148,7 @@ void expect_rounding_below_bounds(const model::Mill<double>& mill, double least,
   EXPECT_GT(worst_gap, least);
 }
 
-TEST_P(AnyMill, RoundingErrorsStayBelowTheirBounds) { expect_rounding_below_bounds(mill, 0.003, 5000); }
+TEST_P(AnyMill, RoundingErrorsStayBelowTheirBounds) { expect_rounding_below_bounds(mill, 0.001, 5000); }
 TEST_P(AnyMill, LongRoundingErrorsStayBelowTheirBounds) { expect_rounding_below_bounds(mill, 0.003, 50000); }
 
 /// As a program can give them; those of a case are reduced when it is read.
