@@ -86,8 +86,8 @@ def few_lines():
 
 
 def unreadable_lines():
-    rows = run(DEMO, "run.max_collisions=600", 'mill.arm="100.5 mm"')
-    for row in rows[1:101]:
+    rows = run(DEMO, "run.max_collisions=300", 'mill.arm="100.5 mm"')
+    for row in rows[1:51]:
         row[rows[0].index("vx_before")] = "nan"
     rows[1][rows[0].index("time")] = "nan"
     write(rows)
