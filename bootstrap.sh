@@ -3,6 +3,7 @@
 #
 #   ./bootstrap.sh demo    install what is missing, build, run the demo case
 #   ./bootstrap.sh test    install what is missing, build with tests, run all but the long studies
+#   ./bootstrap.sh test fast  the same, but of the tests those that together take a minute
 #   ./bootstrap.sh verify  the same set-up, LAMMPS, LIGGGHTS and YADE, then the long studies
 #   ./bootstrap.sh analyse the same set-up, then clang-tidy, and the tests with the checks of the standard library
 #   ./bootstrap.sh build   install what is missing, build the program: build/release/edmill
@@ -100,7 +101,7 @@ case "${1:-}" in
     install_missing "${program_packages[@]}" "${test_packages[@]}"
     build ci
     say "running the tests"
-    ctest --preset ci
+    ctest --preset "${2:-ci}"
     ;;
   verify)
     install_missing "${program_packages[@]}" "${test_packages[@]}" "${long_packages[@]}"
@@ -119,7 +120,7 @@ case "${1:-}" in
     ctest --preset debug
     ;;
   *)
-    sed -n '2,8s/^# \{0,1\}//p' "$0"
+    sed -n '2,9s/^# \{0,1\}//p' "$0"
     exit 2
     ;;
 esac

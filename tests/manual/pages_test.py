@@ -32,7 +32,7 @@ SETUP = {  # commands that this test does not run: which test does
     "./bootstrap.sh *": ".ci/run", "apt-get install *": "packages_test", "python3 -m venv *": "python_wheel_test",
     "venv/bin/pip install *": "python_wheel_test", "python3 -m pip wheel *": "python_wheel_test", "cmake --preset *": ".ci/run", "cmake -S . -B build/core *": "same_bits_long", "NODE_PATH=*": "browser_mill_long", "build/core/edmill-core *": "same_bits_long", "cmake --build *": ".ci/run",
     "ctest *": ".ci/run", "cpack*": "packages_test", "tests/architecture/debian_test.sh *": "debian_bookworm_long and debian_trixie_long",
-    "python3 tests/pages/report/report_browser_test.py *": "report_browser_test",
+    "PYTHONPATH=tests/support python3 tests/pages/report/report_browser_test.py *": "report_browser_test",
 }
 OTHERS = ("cmake", "diff", "text", "xml", "")
 BASE = """[run]

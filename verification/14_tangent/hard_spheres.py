@@ -12,13 +12,12 @@ import math
 import pathlib
 import random
 import statistics
-import subprocess
 import sys
 import tempfile
 
 from kinetic_theory import largest_exponent
+from program import edmill
 
-EDMILL = pathlib.Path(sys.argv[1]).resolve()
 BALLS, DIAMETER, SEEDS = 32, 0.004, 4
 STUDENT = 3.182  # of three degrees of freedom, 95 %
 CASE = """[run]
@@ -62,7 +61,7 @@ def case(density, end, seed):
 def of_a_run(folder, density, end, seed):
     """Of the exponents: the sum, per ball, and the largest; over the collisions of a ball with others in a second."""
     (folder / "case.toml").write_text(case(density, end, seed))
-    subprocess.run([EDMILL, "run", "case.toml", "--out", "out", "--quiet"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    edmill("run", "case.toml", "--out", "out", "--quiet", cwd=folder, code=0)
     with open(folder / "out/lyapunov.csv") as file:
         exponents = [float(row["per_second [1/s]"]) for row in csv.DictReader(line for line in file if not line.startswith("#"))]
     pairs = json.loads((folder / "out/summary.json").read_text())["collisions"]["ball_ball"]

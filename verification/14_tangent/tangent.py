@@ -4,17 +4,16 @@ orbit of one period has multipliers in closed form.
 
 usage: tangent.py EDMILL
 """
-import csv
 import math
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
 from decimal import Decimal, getcontext
 
+from program import rows, said, sets
+
 getcontext().prec = 160
-EDMILL = pathlib.Path(sys.argv[1]).resolve()
 QUANTITIES = ("time", "approach_speed", "slip_speed", "milling_dose", "wall_work")
 STEP = Decimal(10) ** -50
 
@@ -106,18 +105,6 @@ OF_PISTON = {"vessel.piston.0.distance": "6 mm", "mill.speed": "900 rpm", "conta
              "vessel.piston.0.swing.0.amplitude": "5 mm"}
 
 
-def edmill(*arguments):
-    done = subprocess.run([EDMILL, *map(str, arguments)], capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise RuntimeError(f"edmill {' '.join(map(str, arguments))}: {done.stderr}")
-    return done.stdout
-
-
-def rows(file):
-    with open(file, encoding="utf-8") as stream:
-        return list(csv.DictReader(line for line in stream if not line.startswith("#")))
-
-
 def setting(key, number, unit):
     return f'{key}="{number} {unit}"' if unit else f"{key}={number}"
 
@@ -129,8 +116,8 @@ class Derivatives(unittest.TestCase):
         self.folder = pathlib.Path(place.name)
 
     def log(self, case, events, *settings):
-        edmill("run", case, "--precision", "mpfr:150", "--out", self.folder / "run", "--quiet", "--set", f"run.max_collisions={events}",
-               "--set", 'output=[{type="collisions"}]', *(word for s in settings for word in ("--set", s)))
+        said("run", case, "--precision", "mpfr:150", "--out", self.folder / "run", "--quiet",
+             *sets(f"run.max_collisions={events}", 'output=[{type="collisions"}]', *settings))
         return rows(self.folder / "run" / "collisions.csv")
 
     def case_from_state(self, text):
@@ -148,8 +135,8 @@ class Derivatives(unittest.TestCase):
     def check(self, text, numbers, events=50):
         case = self.case_from_state(text)
         keys = list(numbers) + ["initial.1.x", "initial.3.vy", "initial.0.wz"]
-        edmill("sensitivity", case, "--events", events, "--digits", 30, "--out", self.folder / "d.csv", "--quiet",
-               *(word for key in keys for word in ("--by", key)))
+        said("sensitivity", case, "--events", events, "--digits", 30, "--out", self.folder / "d.csv", "--quiet",
+             *(word for key in keys for word in ("--by", key)))
         derivatives = rows(self.folder / "d.csv")
         branches = set()
         for k, key in enumerate(keys):
@@ -242,8 +229,8 @@ least_separation = "0 m/s"
 diameter = "{2 * self.RADIUS} m"
 position = [0, "{height:.100f} m", 0]
 """)
-            edmill("sensitivity", case, "--by", "initial.0.vy", "--by", "initial.0.y", "--events", events, "--digits", 30, "--out",
-                   case.with_suffix(".csv"), "--quiet")
+            said("sensitivity", case, "--by", "initial.0.vy", "--by", "initial.0.y", "--events", events, "--digits", 30, "--out",
+                 case.with_suffix(".csv"), "--quiet")
             table = rows(case.with_suffix(".csv"))
         times = [Decimal(row["time"]) for row in table]
         for one, other in zip(times, times[1:]):

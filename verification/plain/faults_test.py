@@ -2,17 +2,20 @@
 """`edmill audit --identify` on logs of plain_mill, which shares no code with edmill, with mistakes planted in its equations, in some of
 its impacts, and in the columns of its log: each is named with its value, and nothing else is.
 
-usage: faults_test.py EDMILL PLAIN_MILL [--every K] [--thin] [--clean N]     K: one in K faults, for a quick run
+usage: faults_test.py EDMILL PLAIN_MILL [--every K] [--thin K] [--clean N]     K: one in K faults, for a quick run
 """
 import argparse
 import csv
 import json
+import os
 import pathlib
 import random
 import subprocess
 import sys
-import tempfile
 
+from program import Trials, edmill, rows, sets
+
+PLAIN_MILL = os.path.realpath(sys.argv[2])
 CASE = '''[run]
 end_time = "100 s"
 gravity = "9.8 m/s2"
@@ -93,38 +96,37 @@ def key_of(term, place):
     return name + PLACES[place]
 
 
-class Trials:
-    def __init__(self, edmill, plain, folder):
-        self.edmill, self.plain, self.folder = edmill, plain, folder
+def start(seed):
+    """A case and the states of its balls after a microsecond, in which nothing happens."""
+    pathlib.Path("case.toml").write_text(CASE.format(seed))
+    edmill("run", "case.toml", "--precision", "mpfr100", "--quiet", "--out", "start", *sets('run.start_time="0 s"', 'run.end_time="1 us"'), code=0)
 
-    def start(self, seed):
-        """A case and the states of its balls after a microsecond, in which nothing happens."""
-        case = self.folder / "case.toml"
-        case.write_text(CASE.format(seed))
-        subprocess.run([self.edmill, "run", case, "--precision", "mpfr100", "--quiet", "--out", self.folder / "start", "--set",
-                        'run.start_time="0 s"', "--set", 'run.end_time="1 us"'], check=True)
 
-    def log(self, fault="none", value="1", place="all", events=1500):
-        done = subprocess.run([self.plain, self.folder / "start/final_state.csv", str(events), *PLAIN, "--fault", fault, "--fault-value", value,
-                               "--where", place], capture_output=True, text=True, check=True)
-        (self.folder / "log.csv").write_text(done.stdout)
-        return list(csv.DictReader(done.stdout.splitlines()))
+def log(fault="none", value="1", place="all", events=1500):
+    done = subprocess.run([PLAIN_MILL, "start/final_state.csv", str(events), *PLAIN, "--fault", fault, "--fault-value", value, "--where", place],
+                          capture_output=True, text=True, check=True)
+    pathlib.Path("log.csv").write_text(done.stdout)
+    return rows("log.csv")
 
-    def write(self, rows):
-        with open(self.folder / "log.csv", "w", newline="") as out:
-            writer = csv.DictWriter(out, rows[0])
-            writer.writeheader()
-            writer.writerows(rows)
 
-    def identified(self, *options):
-        done = subprocess.run([self.edmill, "audit", self.folder / "case.toml", self.folder / "log.csv", "--identify", "--quiet", "--json",
-                               self.folder / "found.json", *options], capture_output=True, text=True)
-        if done.returncode not in (0, 6):
-            sys.exit(done.stderr)
-        return json.loads((self.folder / "found.json").read_text())["identified"]
+def write(lines):
+    with open("log.csv", "w", newline="") as out:
+        writer = csv.DictWriter(out, lines[0])
+        writer.writeheader()
+        writer.writerows(lines)
 
-    def causes(self, *options):
-        return self.identified(*options)["causes"]
+
+def identified():
+    done = edmill("audit", "case.toml", "log.csv", "--identify", "--quiet", "--json", "found.json")
+    if done.returncode not in (0, 6):
+        sys.exit(done.stderr)
+    return json.loads(pathlib.Path("found.json").read_text())["identified"]
+
+
+def causes_found():
+    """The causes, and what is said of the first."""
+    causes = identified()["causes"]
+    return causes, causes["1"]["text"] if causes else "no cause"
 
 
 def check(good, name, text):
@@ -185,59 +187,55 @@ def main():
     parser.add_argument("edmill")
     parser.add_argument("plain_mill")
     parser.add_argument("--every", type=int, default=1)
-    parser.add_argument("--thin", action="store_true", help="also logs that begin late or have few columns")
+    parser.add_argument("--thin", type=int, default=1, help="one in so many of the logs that begin late or have few columns")
     parser.add_argument("--clean", type=int, default=2, help="logs without a fault, and as many that are rounded")
     args = parser.parse_args()
-    with tempfile.TemporaryDirectory() as name:
-        trials = Trials(args.edmill, args.plain_mill, pathlib.Path(name))
-        trials.start(1)
-        for term, value, place in FAULTS[::args.every]:
-            trials.log(term, value, place)
-            causes = trials.causes()
-            text = causes["1"]["text"] if causes else "no cause"
-            other = SAME.get(f"{term} {value} {place}")
-            good = named(causes, {key_of(term, place): float(value)}) or (other is not None and other in text)
-            check(good, f"{term} {value} {place}", text)
-        for k, (term, value, place) in enumerate(FAULTS if args.thin else []):
-            thin = list(THIN)[k % len(THIN)]
-            trials.write(THIN[thin](trials.log(term, value, place)))
-            causes = trials.causes()
-            text = causes["1"]["text"] if causes else "no cause"
-            # A log in which nothing happens elsewhere says nothing of where a fault is.
-            keys = {key_of(term, place), NAMES[term]}
-            good = any(named(causes, {key: float(value)}) for key in keys) or SAME.get(f"{term} {value} {place}", "?") in text
-            check(good or (not causes and is_hidden(term, place, thin)), f"{thin}: {term} {value} {place}", text)
-        for terms, values, places in (PAIRS + THREES if args.every == 1 else PAIRS[::2 * args.every]):
-            trials.log(terms, values, places)
-            causes = trials.causes()
-            wanted = {key_of(*pair): float(value) for value, *pair in zip(values.split(","), terms.split(","), places.split(","))}
-            check(named(causes, wanted), f"{terms} {values} {places}", causes["1"]["text"] if causes else "no cause")
-        rows = trials.log()
-        for fault, (change, wanted) in COLUMNS.items():
-            trials.write(columns(rows, change))
-            causes = trials.causes()
-            text = causes["1"]["text"] if causes else "no cause"
-            check(text.startswith(wanted), fault, text)
-        numbers = random.Random(20261126)
-        print("seed of the rounding and of the times: 20261126")
-        for off in (1e-8, 1e-6)[: 2 if args.every == 1 else 1]:
-            trials.write([{**row, "time": repr(float(row["time"]) + numbers.gauss(0, off))} for row in rows])
-            found = trials.identified()
-            jitter = found["time_stepping"].get("jitter", 0)
-            check(not found["causes"] and abs(jitter / off - 1) < 0.15, f"times off by {off} s", f"{jitter} s")
-        for seed in range(2, 2 + args.clean):
-            trials.start(seed)
-            rows = trials.log()
-            causes = trials.causes()
-            check(not causes, f"clean, seed {seed}", "no cause" if not causes else causes["1"]["text"])
-            digits = numbers.choice([6, 8, 10, 12])
-            trials.write([{key: f"{float(value):.{digits}g}" if value and key not in ("index", "ball", "partner", "partner_kind") else value
-                           for key, value in row.items()} for row in rows])
-            causes = trials.causes()
-            check(not causes, f"rounded to {digits} digits, seed {seed}", "no cause" if not causes else causes["1"]["text"])
+    start(1)
+    for term, value, place in FAULTS[::args.every]:
+        log(term, value, place)
+        causes, text = causes_found()
+        other = SAME.get(f"{term} {value} {place}")
+        good = named(causes, {key_of(term, place): float(value)}) or (other is not None and other in text)
+        check(good, f"{term} {value} {place}", text)
+    for k, (term, value, place) in list(enumerate(FAULTS))[::args.thin]:
+        thin = list(THIN)[k % len(THIN)]
+        write(THIN[thin](log(term, value, place)))
+        causes, text = causes_found()
+        # A log in which nothing happens elsewhere says nothing of where a fault is.
+        keys = {key_of(term, place), NAMES[term]}
+        good = any(named(causes, {key: float(value)}) for key in keys) or SAME.get(f"{term} {value} {place}", "?") in text
+        check(good or (not causes and is_hidden(term, place, thin)), f"{thin}: {term} {value} {place}", text)
+    for terms, values, places in (PAIRS + THREES if args.every == 1 else PAIRS[::2 * args.every]):
+        log(terms, values, places)
+        causes, text = causes_found()
+        wanted = {key_of(*pair): float(value) for value, *pair in zip(values.split(","), terms.split(","), places.split(","))}
+        check(named(causes, wanted), f"{terms} {values} {places}", text)
+    lines = log()
+    for fault, (change, wanted) in COLUMNS.items():
+        write(columns(lines, change))
+        text = causes_found()[1]
+        check(text.startswith(wanted), fault, text)
+    numbers = random.Random(20261126)
+    print("seed of the rounding and of the times: 20261126")
+    for off in (1e-8, 1e-6)[: 2 if args.every == 1 else 1]:
+        write([{**row, "time": repr(float(row["time"]) + numbers.gauss(0, off))} for row in lines])
+        found = identified()
+        jitter = found["time_stepping"].get("jitter", 0)
+        check(not found["causes"] and abs(jitter / off - 1) < 0.15, f"times off by {off} s", f"{jitter} s")
+    for seed in range(2, 2 + args.clean):
+        start(seed)
+        lines = log()
+        causes, text = causes_found()
+        check(not causes, f"clean, seed {seed}", text)
+        digits = numbers.choice([6, 8, 10, 12])
+        write([{key: f"{float(value):.{digits}g}" if value and key not in ("index", "ball", "partner", "partner_kind") else value
+                for key, value in row.items()} for row in lines])
+        causes, text = causes_found()
+        check(not causes, f"rounded to {digits} digits, seed {seed}", text)
     print(f"{len(failures)} failed")
     sys.exit(bool(failures))
 
 
 if __name__ == "__main__":
-    main()
+    with Trials():
+        main()

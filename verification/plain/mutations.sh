@@ -2,8 +2,9 @@
 # Wrong versions of plain_mill: plain_mill_test must fail with each.
 # usage: mutations.sh EDMILL
 set -euo pipefail
+edmill=$(realpath "$1")
 cd "$(dirname "$0")"
-edmill=$1
+export PYTHONPATH=../../tests/support
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 status=0

@@ -5,13 +5,14 @@ usage: plain_mill_test.py EDMILL PLAIN_MILL [--digits N] [--events N]
 """
 import argparse
 import csv
-import pathlib
+import os
 import subprocess
 import sys
-import tempfile
 from decimal import Decimal
 
-EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "docs" / "examples"
+from program import EXAMPLES, Trials, edmill
+
+PLAIN_MILL = os.path.realpath(sys.argv[2])
 NAMES = ("index", "ball", "partner_kind", "partner")
 VALUES = ("time", "approach_speed", "slip_speed", "milling_dose", "wall_work")
 DEMO = "--rpm 1054 --restitution 0.53 --ball-diameter 0.00476".split()
@@ -64,24 +65,20 @@ def main():
     args = parser.parse_args()
     limit = Decimal(10) ** -args.digits
     failures = 0
-    with tempfile.TemporaryDirectory() as folder:
+    with Trials():
         for name, case, changes, events, options in CASES:
             events = events or args.events
-            def edmill(*arguments):
-                subprocess.run([args.edmill, *arguments, *changes], check=True, stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
 
             def plain(*more):
-                command = [args.plain_mill, f"{folder}/final_state.csv", str(events), *options, *more]
+                command = [PLAIN_MILL, "out/final_state.csv", str(events), *options, *more]
                 return table(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True)
                              .stdout.splitlines())
 
             # The balls fly freely for the first microsecond; its end is written with all digits.
-            edmill("run", str(EXAMPLES / case), "--precision", "mpfr100", "--set", 'run.start_time="0 s"', "--set",
-                   'run.end_time="1 us"', "--out", folder)
-            edmill("certify", str(EXAMPLES / case), "--collisions", str(events), "--digits", str(args.digits), "--out",
-                   f"{folder}/reference.csv")
-            with open(f"{folder}/reference.csv", encoding="utf-8") as file:
+            edmill("run", EXAMPLES / case, "--precision", "mpfr100", "--set", 'run.start_time="0 s"', "--set", 'run.end_time="1 us"', "--out", "out",
+                   *changes, code=0)
+            edmill("certify", EXAMPLES / case, "--collisions", events, "--digits", args.digits, "--out", "reference.csv", *changes, code=0)
+            with open("reference.csv", encoding="utf-8") as file:
                 reference = table(file)
             if len(reference) != events:
                 sys.exit(f"{name}: {len(reference)} certified events, not {events}")

@@ -21,19 +21,19 @@ import sys
 import time
 import unittest
 
+from program import EXAMPLES, SOURCE, edmill, sets
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
 TOOLCHAIN = "/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake"
-EDMILL, FOLDER = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+FOLDER = pathlib.Path(sys.argv[2]).resolve()
 
 
 def build():
     folder = FOLDER / "build"
-    subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DEDMILL_CORE_ALONE=ON", "-DCMAKE_BUILD_TYPE=None",
+    subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", "-DEDMILL_CORE_ALONE=ON", "-DCMAKE_BUILD_TYPE=None",
                     "-DCMAKE_CXX_FLAGS=-DNDEBUG -O2", f"-DCMAKE_TOOLCHAIN_FILE={TOOLCHAIN}"], check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", folder, "--target", "page"], check=True, stdout=subprocess.DEVNULL,
                    env=dict(os.environ, NODE_PATH="/usr/share/nodejs"))
@@ -42,7 +42,7 @@ def build():
 
 
 def published(name):
-    for row in csv.reader((ROOT / "regression/reference/bits.tsv").read_text().splitlines(), delimiter="\t", quoting=csv.QUOTE_NONE):
+    for row in csv.reader((SOURCE / "regression/reference/bits.tsv").read_text().splitlines(), delimiter="\t", quoting=csv.QUOTE_NONE):
         if row[0] == name and row[2] == "double":
             return row[4]
     raise KeyError(name)
@@ -113,7 +113,7 @@ class Page(unittest.TestCase):
 
     def test_a_run_has_the_published_bits_and_is_fast(self):
         case = FOLDER / "from_the_start.toml"
-        case.write_text(re.sub(r'start_time = .*', 'start_time = "0 s"', (ROOT / "docs/examples/demo.toml").read_text()))
+        case.write_text(re.sub(r'start_time = .*', 'start_time = "0 s"', (EXAMPLES / "demo.toml").read_text()))
         self.fill(pace="as fast as it can")
         self.element("open").send_keys(str(case))
         self.wait(lambda: self.text("said") == "The run has ended." or self.facts().get("impacts", "0") != "0", 30)
@@ -132,7 +132,7 @@ class Page(unittest.TestCase):
         self.wait(lambda: self.text("said") == "The run has ended.", 120)
         spent = time.time() - begin
         self.assertNotIn("SHA-256 of collisions.csv", self.facts())
-        subprocess.run([EDMILL, "run", ROOT / "docs/examples/demo.toml", "--quiet", "--out", FOLDER / "demo"], check=True)
+        edmill("run", EXAMPLES / "demo.toml", "--quiet", "--out", FOLDER / "demo", code=0)
         rate = re.search(r'"milling_dose_rate": ([\d.e+-]+)', (FOLDER / "demo/summary.json").read_text()).group(1)
         print(f"10 s simulated in {spent:.2f} s")
         self.assertTrue(self.facts()["milling dose rate"].startswith(f"{float(rate):.4g}"), self.facts())
@@ -194,7 +194,7 @@ class Page(unittest.TestCase):
                     self.assertNotIn("# --set", text)
                     saved = FOLDER / "saved.toml"
                     saved.write_text(text)
-                    subprocess.run([EDMILL, "run", saved, "--quiet", "--out", FOLDER / "saved"], check=True, stderr=subprocess.DEVNULL)
+                    edmill("run", saved, "--quiet", "--out", FOLDER / "saved", code=0)
                     content = (FOLDER / "saved/collisions.csv").read_bytes()
                     self.assertEqual(hashlib.sha256(content).hexdigest(), self.facts()["SHA-256 of collisions.csv"])
                     self.assertIn("count = 15", text)
@@ -235,7 +235,7 @@ class Page(unittest.TestCase):
         self.run_to_the_end()
         wide = FOLDER / "wide.toml"
         for key in ('precision = "float128"', "digits = 12"):
-            wide.write_text((ROOT / "docs/examples/demo.toml").read_text().replace("[run]", f"[run]\n{key}"))
+            wide.write_text((EXAMPLES / "demo.toml").read_text().replace("[run]", f"[run]\n{key}"))
             self.element("open").send_keys(str(wide))
             self.wait(lambda: "expected a run in double" in self.text("problems"), 30)
             self.browser.execute_script("problems([])")
@@ -264,9 +264,9 @@ class Page(unittest.TestCase):
         self.fill(count="", diameter="", most=100, pace="as fast as it can")
         self.run_to_the_end()
         # The mill goes on while a log is judged.
-        case = ROOT / "docs/examples/demo.toml"
-        subprocess.run([EDMILL, "run", case, "--quiet", "--out", FOLDER / "long", "--set", "run.max_collisions=3000", "--set", "contact.restitution=0.6",
-                        "--set", "contact.friction=0.3", "--set", 'output=[{type="collisions",states=true}]'], check=True)
+        case = EXAMPLES / "demo.toml"
+        edmill("run", case, "--quiet", "--out", FOLDER / "long", *sets("run.max_collisions=3000", "contact.restitution=0.6",
+               "contact.friction=0.3", 'output=[{type="collisions",states=true}]'), code=0)
         self.element("judged-case").send_keys(str(case))
         self.element("log").send_keys(str(FOLDER / "long/collisions.csv"))
         self.element("identify").click()
@@ -302,9 +302,8 @@ class Page(unittest.TestCase):
                 self.assertIn(words, self.text("problems"))
 
     def test_a_log_with_a_mistake_is_told_from_a_right_one(self):
-        case = ROOT / "docs/examples/demo.toml"
-        subprocess.run([EDMILL, "run", case, "--quiet", "--out", FOLDER / "log", "--set", "run.max_collisions=1500", "--set",
-                        'output=[{type="collisions",states=true}]'], check=True)
+        case = EXAMPLES / "demo.toml"
+        edmill("run", case, "--quiet", "--out", FOLDER / "log", *sets("run.max_collisions=1500", 'output=[{type="collisions",states=true}]'), code=0)
         right = FOLDER / "log/collisions.csv"
         wrong = FOLDER / "wrong.toml"
         wrong.write_text(case.read_text().replace("restitution = 0.53", "restitution = 0.6"))
@@ -344,8 +343,8 @@ class Page(unittest.TestCase):
         self.assertIn("200 of 200 impacts", self.text("prove-said"))
 
     def test_certificates_are_checked(self):
-        shipped = ROOT / "src/bindings/browser/three_balls.certificate"
-        told = subprocess.run([EDMILL, "check", ROOT / "regression/reference/three_balls.toml"], text=True, capture_output=True, check=True)
+        shipped = SOURCE / "src/bindings/browser/three_balls.certificate"
+        told = edmill("check", SOURCE / "regression/reference/three_balls.toml", code=0)
         self.assertIn(json.loads(shipped.read_text().splitlines()[0])["digest"], told.stdout)
         checked = lambda: self.wait(lambda: self.text("certificate-said") not in ("", "Checking."), 60) or self.text("certificate-said")
         self.element("certificate").click()

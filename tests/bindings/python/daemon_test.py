@@ -68,7 +68,7 @@ work = {
 work_of_one = sys.argv[1] not in ("sweep", "checkpoint", "report", "reports")  # which lock their folder
 for _ in range(2 if work_of_one else 1):
     threading.Thread(target=again, args=(work,), daemon=True).start()
-time.sleep(0.6)
+time.sleep(0.3)
 sys.late = Late()
 late = Late()
 print("main ends", flush=True)

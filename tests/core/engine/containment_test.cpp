@@ -9,7 +9,8 @@
 namespace edmill::engine {
 namespace {
 
-/// After every impact, the deepest overlap of any ball with any wall or ball [m].
+/// After every impact, the deepest overlap of any ball with any wall, and of the impact's balls with any ball
+/// [m]; of any two balls after every fiftieth.
 class OverlapCheck : public Observer<double> {
  public:
   void on_impact(const Impact<double>& impact, Simulation<double>& simulation) override {
@@ -24,12 +25,10 @@ class OverlapCheck : public Observer<double> {
       const double side = testing::cylinder(mill).radius - r - std::hypot(p[0], p[2]);
       const double cap = testing::cylinder(mill).half_height - r - std::abs(p[1]);
       if (side < near || cap < near) exact_wall(simulation, impact.time, i);
-      for (int j = 0; j < i; ++j) {
-        const Vec3<double> d = positions_[i] - positions_[j];
-        const double sum = r + simulation.properties(j).radius + near;
-        if (dot<double>(d, d) < sum * sum) exact_pair(simulation, impact.time, i, j);
-      }
+      if (events % 50 == 0) pairs_below(i, i, simulation, impact.time);
     }
+    pairs_below(n, impact.ball, simulation, impact.time);
+    if (!impact.with_wall) pairs_below(n, impact.partner, simulation, impact.time);
     ++events;
   }
 
@@ -38,6 +37,17 @@ class OverlapCheck : public Observer<double> {
 
  private:
   static constexpr double near = 1e-12;  // double gaps err by far less
+
+  /// The ball and all with a number below `end`.
+  void pairs_below(int end, int ball, const Simulation<double>& simulation, const Instant<double>& time) {
+    const double radius = simulation.properties(ball).radius;
+    for (int j = 0; j < end; ++j) {
+      if (j == ball) continue;
+      const Vec3<double> d = positions_[ball] - positions_[j];
+      const double sum = radius + simulation.properties(j).radius + near;
+      if (dot<double>(d, d) < sum * sum) exact_pair(simulation, time, ball, j);
+    }
+  }
 
   static Vec3<float128> position(const Simulation<double>& s, const Instant<double>& t, int i) {
     const auto flight = dynamics::flight_cast<float128>(s.flight(i));

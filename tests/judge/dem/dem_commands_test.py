@@ -7,22 +7,12 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import xml.etree.ElementTree as xml
 
-EDMILL, DUMP = (str(pathlib.Path(word).resolve()) for word in sys.argv[1:])
-CASE = str(pathlib.Path(__file__).resolve().parents[3] / "docs/examples/vibrated_box.toml")
-failures = []
+from program import EXAMPLES, Trials, edmill as run
 
-
-def check(good, text):
-    if not good:
-        failures.append(text)
-        print("FAILED", text, flush=True)
-
-
-def run(*words, **more):
-    return subprocess.run([EDMILL, *map(str, words)], capture_output=True, text=True, **more)
+DUMP = os.path.realpath(sys.argv[2])
+CASE = EXAMPLES / "vibrated_box.toml"
 
 
 def fails(text, *words, code=2):
@@ -182,9 +172,7 @@ def python():
             check("expected" in str(error), str(error))
 
 
-with tempfile.TemporaryDirectory() as folder:
-    os.chdir(folder)
+with Trials(to_the_end=True) as t:
+    check = t.check
     for part in (exports, facets, imports, verdicts, limits, python):
         part()
-print(f"{len(failures)} failed")
-sys.exit(bool(failures))

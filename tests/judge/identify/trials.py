@@ -13,9 +13,10 @@ import math
 import pathlib
 import random
 import shutil
-import subprocess
 import sys
 import zlib
+
+from program import edmill, sets
 
 EVENTS = 2000
 RAD = math.pi / 180
@@ -155,29 +156,24 @@ def changed_log(file, how, random_numbers):
         csv.writer(out, lineterminator="\n").writerows([header, *rows])
 
 
-def run(edmill, folder, text, settings, change, random_numbers, audited):
+def run(folder, text, settings, change, random_numbers, audited):
     """Makes a log and has it searched. @return the entry `identified` of the audit's document."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     (folder / "run.toml").write_text(text)
     (folder / "case.toml").write_text(audited)
-    command = [edmill, "run", "run.toml", "--quiet", "--out", "out"]
-    for setting in settings:
-        command += ["--set", setting]
-    subprocess.run(command, cwd=folder, check=True, capture_output=True)
+    edmill("run", "run.toml", "--quiet", "--out", "out", *sets(*settings), cwd=folder, code=0)
     for how in change:
         changed_log(folder / "out" / "collisions.csv", how, random_numbers)
-    done = subprocess.run([edmill, "audit", "case.toml", "out/collisions.csv", "--identify", "--quiet", "--json", "found.json",
-                           *(["--from-start"] if "few" in change else [])],
-                          cwd=folder, capture_output=True, text=True, check=False)
+    done = edmill("audit", "case.toml", "out/collisions.csv", "--identify", "--quiet", "--json", "found.json",
+                  *(["--from-start"] if "few" in change else []), cwd=folder)
     if done.returncode not in (0, 6, 7):
         raise RuntimeError(done.stderr)
     found = json.loads((folder / "found.json").read_text())["identified"]
     if len(settings) == 2 and "run.max_collisions=300" not in settings:  # what each of two changes does beside the other
         found["without"] = {}
         for setting in settings:
-            one = subprocess.run([edmill, "audit", "case.toml", "out/collisions.csv", "--quiet", "--json", "one.json", "--set", setting],
-                                 cwd=folder, capture_output=True, text=True, check=False)
+            one = edmill("audit", "case.toml", "out/collisions.csv", "--quiet", "--json", "one.json", "--set", setting, cwd=folder)
             if one.returncode in (0, 6):
                 kinds = json.loads((folder / "one.json").read_text())["violations"]
                 found["without"][setting] = sum(v["count"] for v in kinds.values())
@@ -224,7 +220,7 @@ def right(found, truths):
 
 def trial(job):
     """@return name of the trial, and what is wrong or nothing"""
-    edmill, place, kind, name, share, number, seed = job
+    place, kind, name, share, number, seed = job
     rng = random.Random(zlib.crc32(f"{seed} {kind} {name} {share} {number}".encode()))
     folder = pathlib.Path(place) / f"{zlib.crc32(repr(job).encode()):08x}"
     # Laws of two balls, and slow impacts, need many of them to show.
@@ -250,12 +246,12 @@ def trial(job):
             truths[key] = truth
         change += ["few"] if kind == "few" else []
     try:
-        found = run(edmill, folder, text, settings, change, rng, audited)
+        found = run(folder, text, settings, change, rng, audited)
         silent = not found["violations"] if kind == "mistake" else kind in ("value", "pair") and not shows(found)
         if silent and number < 20000:
-            return trial((edmill, place, kind, name, share, number + 1000, seed))
-    except (RuntimeError, subprocess.CalledProcessError) as error:
-        return kind, name, share, f"{error} {getattr(error, 'stderr', '')}"
+            return trial((place, kind, name, share, number + 1000, seed))
+    except (RuntimeError, AssertionError) as error:
+        return kind, name, share, str(error)
     if kind == "few" and name == "none":
         wrong = found["causes"]["1"]["text"] if found["causes"] else ""
     elif kind in ("clean", "rounded"):
@@ -275,27 +271,26 @@ FEW = ("none", "mill.arm", "mill.theta_max", "mill.gamma_max", "mill.speed", "co
 
 def jobs_of(a):
     rng = random.Random(a.seed)
-    common = (a.edmill, a.folder)
     for name in PARAMETERS:
         for share in (0.001, 0.05):
             for number in range(a.trials):
-                yield (*common, "value", name, share, number, a.seed)
+                yield (a.folder, "value", name, share, number, a.seed)
     for name in MISTAKES:
         for number in range(a.trials):
-            yield (*common, "mistake", name, 0, number, a.seed)
+            yield (a.folder, "mistake", name, 0, number, a.seed)
     for number in range(a.pairs):
         while True:  # a number for both kinds of contact, and one of a kind of the same name, overlap
             one, two = rng.sample(sorted(PARAMETERS), 2)
             laws = one.startswith("contact") and two.startswith("contact") and one.split(".")[-1] == two.split(".")[-1]
             if not laws and not (one.startswith("run.gravity") and two.startswith("run.gravity")):
                 break
-        yield (*common, "pair", f"{one} + {two}", 0, number, a.seed)
+        yield (a.folder, "pair", f"{one} + {two}", 0, number, a.seed)
     for name in FEW:
         for number in range(a.trials):
-            yield (*common, "few", name, 0.001 if name != "none" else 0, number, a.seed)
+            yield (a.folder, "few", name, 0.001 if name != "none" else 0, number, a.seed)
     for kind in ("clean", "rounded"):
         for number in range(a.clean):
-            yield (*common, kind, "", 0, number, a.seed)
+            yield (a.folder, kind, "", 0, number, a.seed)
 
 
 def main():
@@ -311,7 +306,7 @@ def main():
     parser.add_argument("--seed", type=int, default=20110101)
     parser.add_argument("--verbose", action="store_true")
     a = parser.parse_args()
-    a.edmill, a.folder = str(pathlib.Path(a.edmill).resolve()), str(pathlib.Path(a.folder).resolve())
+    a.folder = str(pathlib.Path(a.folder).resolve())
     jobs = [job for job in jobs_of(a) if a.only in f"{job[2]} {job[3]}"][::a.every]
     print(f"seed {a.seed}, {len(jobs)} logs of {EVENTS} impacts")
     tally = {}

@@ -8,42 +8,30 @@ FOLDER keeps the pages and a screenshot of each. Without axe.min.js the exit cod
 import base64
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
+from program import EXAMPLES, said
+from report_in_browser import browser
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
 RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
 JUDGE = """const done = arguments[1];
 axe.run(document, {runOnly: {type: 'tag', values: arguments[0]}, resultTypes: ['violations']}).then(
   found => done(found.violations.map(v => [v.id, v.help, v.nodes.map(n => n.target.join(' ') + ': ' + n.failureSummary)])))"""
 
 
-def browser(profile):
-    options = webdriver.ChromeOptions()
-    options.binary_location = "/usr/bin/chromium"
-    for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                 "--hide-scrollbars", f"--user-data-dir={profile}"):
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
-
-
-def pages(edmill, folder):
+def pages(folder):
     """Makes the pages in `folder`: their names and paths."""
     def call(*words):
-        subprocess.run([edmill, *map(str, words)], check=True, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        said(*words, cwd=folder)
 
-    demo = f'"{ROOT / "docs/examples/demo.toml"}"'
+    demo = f'"{EXAMPLES / "demo.toml"}"'
     outputs = ('output=[{type="treatment",share_per_impact=1e-4},{type="lyapunov",exponents=3},'
                '{type="lyapunov",exponents=2,interval="20 ms",file="growth.csv"}]')
-    call("run", ROOT / "docs/examples/demo.toml", "--report", "--quiet", "--out", "run", "--target-dose", "10 kJ/g",
+    call("run", EXAMPLES / "demo.toml", "--report", "--quiet", "--out", "run", "--target-dose", "10 kJ/g",
          "--set", "run.end_time=3 s", "--set", outputs)
-    call("run", ROOT / "docs/examples/planetary.toml", "--report", "--quiet", "--out", "planetary", "--set", "run.end_time=2 s")
-    call("run", ROOT / "docs/examples/demo.toml", "--quiet", "--out", "other", "--set", "run.end_time=3 s",
+    call("run", EXAMPLES / "planetary.toml", "--report", "--quiet", "--out", "planetary", "--set", "run.end_time=2 s")
+    call("run", EXAMPLES / "demo.toml", "--quiet", "--out", "other", "--set", "run.end_time=3 s",
          "--set", "contact.restitution=0.6")
     call("report", "run", "other", "--out", "comparison.html")
     (folder / "sweep.toml").write_text(f"""[sweep]
@@ -74,7 +62,7 @@ high = "9 mm"
 
 
 def main():
-    edmill, axe = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+    axe = pathlib.Path(sys.argv[2]).resolve()
     if not axe.is_file():
         print(f"{axe} is absent")
         return 77
@@ -84,7 +72,7 @@ def main():
         driver = browser(pathlib.Path(temporary) / "profile")
         driver.set_script_timeout(120)
         faults = 0
-        for name, path in pages(edmill, folder).items():
+        for name, path in pages(folder).items():
             for width in (1200, 390):
                 for scheme in ("light", "dark"):
                     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
@@ -97,13 +85,13 @@ def main():
                     driver.execute_script(axe.read_text())
                     found = driver.execute_async_script(JUDGE, RULES)
                     # The software renderer remarks on the screenshot itself.
-                    said = [line for line in driver.get_log("browser") if "GPU stall due to ReadPixels" not in line["message"]]
-                    print(f"{name}, {width} px, {scheme}: {len(found)} findings, {len(said)} messages on the console")
+                    messages = [line for line in driver.get_log("browser") if "GPU stall due to ReadPixels" not in line["message"]]
+                    print(f"{name}, {width} px, {scheme}: {len(found)} findings, {len(messages)} messages on the console")
                     for rule, text, nodes in found:
                         print(f"  {rule}: {text}", *(f"\n    {node}" for node in nodes[:5]))
-                    for message in said:
+                    for message in messages:
                         print(" ", message["message"])
-                    faults += len(found) + len(said)
+                    faults += len(found) + len(messages)
         driver.quit()
     return 1 if faults else 0
 

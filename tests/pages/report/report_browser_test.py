@@ -10,7 +10,6 @@ import base64
 import json
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import time
@@ -19,18 +18,17 @@ import xml.etree.ElementTree as ElementTree
 
 from mills import MILLS, SOME, WITHOUT_DOSE
 from page_checks import BAD_LABELS, FARTHEST
+from program import EXAMPLES, edmill, sets
 from report_in_browser import OpenReport, browser, discs, is_installed
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-EDMILL, FOLDER = sys.argv[1], None
+FOLDER = None
 
 
 def run(folder, *settings):
     """The page of the demo with other settings."""
-    given = [word for setting in settings for word in ("--set", setting)]
-    subprocess.run([EDMILL, "run", ROOT / "docs/examples/demo.toml", "--report", "--quiet", "--out", folder, *given], check=True)
+    edmill("run", EXAMPLES / "demo.toml", "--report", "--quiet", "--out", folder, *sets(*settings), code=0)
     return (folder / "report.html").as_uri()
 
 
@@ -261,7 +259,7 @@ class Report(OpenReport):
     def assert_good_runs(self, cases):
         for case in cases:
             with self.subTest(case.name):
-                subprocess.run([EDMILL, "run", case, "--report", "--quiet", "--out", self.folder / case.stem], check=True)
+                edmill("run", case, "--report", "--quiet", "--out", self.folder / case.stem, code=0)
                 self.assert_good(case.stem)
 
     def mills(self, names):
@@ -273,16 +271,15 @@ class Report(OpenReport):
     def test_9_pages_of_several_runs_are_good(self):
         for balls in (7, 14):
             run(self.folder / f"of-{balls}", "run.end_time=2 s", f"balls.0.count={balls}", 'powder.target_dose="10 kJ/g"')
-        subprocess.run([EDMILL, "report", "--quiet", "--out", self.folder / "compared.html", *(self.folder / f"of-{n}" for n in (7, 14))],
-                       check=True)
+        edmill("report", "--quiet", "--out", self.folder / "compared.html", *(self.folder / f"of-{n}" for n in (7, 14)), code=0)
         (self.folder / "speeds.sweep.toml").write_text(f'''[sweep]
-case = "{ROOT / "docs/examples/demo.toml"}"
+case = "{EXAMPLES / "demo.toml"}"
 replicas = 2
 [sweep.grid]
 "mill.speed" = ["900 rpm", "1100 rpm"]
 "run.end_time" = ["1.5 s"]
 ''')
-        subprocess.run([EDMILL, "sweep", self.folder / "speeds.sweep.toml", "--quiet", "--out", self.folder / "speeds"], check=True)
+        edmill("sweep", self.folder / "speeds.sweep.toml", "--quiet", "--out", self.folder / "speeds", code=0)
         for page in ("compared.html", "speeds/sweep.html"):
             with self.subTest(page):
                 self.assert_good_page(page, page.replace("/", "-"))
@@ -329,7 +326,7 @@ replicas = 2
         self.assert_good_runs(self.mills(MILLS))
 
     def test_9_reports_of_the_examples_are_good_long(self):
-        self.assert_good_runs(case for case in sorted((ROOT / "docs/examples").glob("*.toml"))
+        self.assert_good_runs(case for case in sorted(EXAMPLES.glob("*.toml"))
                               if ".sweep" not in case.name and ".optimize" not in case.name)
 
     def test_8_without_webgl_the_still_picture_stays(self):

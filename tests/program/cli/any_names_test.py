@@ -18,7 +18,7 @@ try:
 except ImportError:
     pandas = None
 
-from trials import CASE, EDMILL, Trials, edmill
+from program import CASE, EXAMPLES, Trials, edmill
 
 #: Texts in TOML: they are valid UTF-8. Those with control characters are refused.
 TEXTS = ["plain", "label #2", "#first", '"', "  a;b  ", "{{title}}",
@@ -166,7 +166,7 @@ def make(t, text, path):
     for command in commands:
         if command[0] == "audit" and log in command:  # a log of another code
             log.write_bytes((run / "collisions.csv").read_bytes().replace(b"index,time", b"index,when", 1))
-        done = subprocess.run([EDMILL, *map(str, command), *(["--quiet"] if command[0] != "check" else [])], capture_output=True, stdin=subprocess.DEVNULL)
+        done = edmill(*command, *(["--quiet"] if command[0] != "check" else []), text=False)
         allowed = {"compare": (0, 6, 7), "audit": (0, 6, 7), "limit": (0, 6, 7), "sweep": (5,)}.get(command[0], (0,))
         t.checks += 1
         if done.returncode not in allowed:
@@ -190,13 +190,13 @@ MORE = {"collisions": "", "spectra": "", "vessel_load": "", "paraview": 'interva
         "animation": 'end_time = "20 ms"', "milling_dose": "", "bodies": "", "events": ""}
 PROBLEMS = []
 SMALL_DEM = os.path.realpath(sys.argv[2])
-BOX = pathlib.Path(__file__).resolve().parents[3].joinpath("docs/examples/vibrated_box.toml").read_bytes()
+BOX = (EXAMPLES / "vibrated_box.toml").read_bytes()
 FRAMES = {us: subprocess.run([SMALL_DEM, str(us), "2", "100", str(us)], stdout=subprocess.PIPE, check=True).stdout for us in (50, 100)}
 
 with Trials() as t:
     pathlib.Path("box.toml").write_bytes(BOX)
     pathlib.Path("longer.dump").write_bytes(FRAMES[100])
-    subprocess.run([EDMILL, *"import longer.dump --case box.toml --timestep 2us --out longer.csv --quiet".split()], check=True)
+    edmill(*"import longer.dump --case box.toml --timestep 2us --out longer.csv --quiet".split(), code=0)
     kinds = {}
     expected = make(t, "plain", b"same")
     for kind in {pathlib.Path(name).suffix for name in expected}:

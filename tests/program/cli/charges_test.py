@@ -4,23 +4,14 @@ times, runs until a precision, how evenly powder is treated.
 
 usage: charges_test.py EDMILL
 """
-import csv
-import json
 import math
 import pathlib
 import random
-import subprocess
 import sys
 import tempfile
 import unittest
 
-EDMILL = sys.argv[1]
-
-
-def edmill(*words, code=0, folder=None):
-    done = subprocess.run([EDMILL, *map(str, words)], capture_output=True, text=True, cwd=folder)
-    assert done.returncode == code, (words, done.returncode, done.stdout, done.stderr)
-    return done.stdout if code == 0 else done.stderr
+from program import rows, said, summary
 
 
 class Charges(unittest.TestCase):
@@ -30,15 +21,15 @@ class Charges(unittest.TestCase):
         self.folder = pathlib.Path(temporary.name)
 
     def new(self, name, *words):
-        (self.folder / name).write_text(edmill("new", *words))
+        (self.folder / name).write_text(said("new", *words))
         return self.folder / name
 
     def summary(self, case, *words):
-        edmill("run", case, "--quiet", "--out", self.folder / "run", *words)
-        return json.loads((self.folder / "run/summary.json").read_text())
+        said("run", case, "--quiet", "--out", self.folder / "run", *words)
+        return summary(self.folder / "run")
 
     def test_every_mill_runs_and_tells_the_milling_time(self):
-        keys = [line.split()[0] for line in edmill("machines").splitlines() if line[0] != " "]
+        keys = [line.split()[0] for line in said("machines").splitlines() if line[0] != " "]
         self.assertEqual(len(keys), 6)
         self.assertIn("spex8000m", keys)
         for mill in keys:
@@ -55,7 +46,7 @@ class Charges(unittest.TestCase):
                             (["--balls", "400x12.7mm"], "at most 0.741"), (["--powder", "5"], "--powder"), (["--speed", "fast"], "--speed"),
                             (["--target-dose", "1 kJ/g"], "--powder"), (["--powder", "5g", "--target-dose", "1 J"], "--target-dose"),
                             (["--restitution", "1.2"], "--restitution"), (["--friction", "-1"], "--friction"), (["--time", "0 s"], "--time")):
-            error = edmill("new", *words, code=2)
+            error = said("new", *words, code=2)
             self.assertIn(part, error)
             self.assertEqual(error.count("edmill: "), 1, error)
 
@@ -70,7 +61,7 @@ class Charges(unittest.TestCase):
             if numbers.random() < 0.5:
                 words += ["--powder", f"{numbers.uniform(0.5, 9):.2f} g"]
             case = self.new("case.toml", "--mill", numbers.choice(["spex8000", "pm100"]), *words)
-            self.assertIn("is a valid case", edmill("check", case))
+            self.assertIn("is a valid case", said("check", case))
 
     def test_a_point_has_its_own_list_of_balls(self):
         self.new("base.toml", "--powder", "5g", "--target-dose", "10 kJ/g", "--time", "1.5 s", "--restitution", "0.5")
@@ -90,16 +81,16 @@ balls = [{ count = 2, diameter = "12.7 mm" },
 name = "by mass"
 balls = [{ mass = "20 g", diameter = "12.7 mm", density = "8 g/cm3" }, { count = 0, diameter = "1 mm" }]
 ''')
-        said = edmill("sweep", self.folder / "charges.sweep.toml", "--estimate", "--out", self.folder / "out")
-        self.assertRegex(said, r"^6 runs, about \d+:\d\d min on \d+ threads\n$")
+        text = said("sweep", self.folder / "charges.sweep.toml", "--estimate", "--out", self.folder / "out")
+        self.assertRegex(text, r"^6 runs, about \d+:\d\d min on \d+ threads\n$")
         self.assertFalse((self.folder / "out").exists())
-        edmill("sweep", self.folder / "charges.sweep.toml", "--quiet", "--out", self.folder / "out")
-        said = edmill("sweep", self.folder / "charges.sweep.toml", "--estimate", "--out", self.folder / "out")
-        self.assertEqual(said, "6 runs reused; no run is left to do\n")
-        rows = list(csv.DictReader((self.folder / "out/sweep.csv").read_text().splitlines()))
-        self.assertEqual([row["name"] for row in rows], ["large", "mixed", "by mass"])
+        said("sweep", self.folder / "charges.sweep.toml", "--quiet", "--out", self.folder / "out")
+        text = said("sweep", self.folder / "charges.sweep.toml", "--estimate", "--out", self.folder / "out")
+        self.assertEqual(text, "6 runs reused; no run is left to do\n")
+        points = rows(self.folder / "out/sweep.csv")
+        self.assertEqual([point["name"] for point in points], ["large", "mixed", "by mass"])
         # The same by a case of its own; 20 g of 12.7 mm are 2 balls.
-        for row, words in zip(rows, (["10x12.7mm"], ["2x12.7mm", "4x6.35mm:stainless-steel"], ["2x12.7mm"])):
+        for row, words in zip(points, (["10x12.7mm"], ["2x12.7mm", "4x6.35mm:stainless-steel"], ["2x12.7mm"])):
             case = self.new("own.toml", *(w for text in words for w in ("--balls", text)), "--powder", "5g", "--target-dose", "10 kJ/g", "--time",
                             "1.5 s", "--restitution", "0.5")
             rates = [self.summary(case, "--set", f"run.seed={seed}")["milling_dose_rate"] for seed in (1, 2)]
@@ -112,9 +103,9 @@ balls = [{ mass = "20 g", diameter = "12.7 mm", density = "8 g/cm3" }, { count =
 
     def test_no_balls_at_all_are_refused(self):
         case = self.new("case.toml", "--balls", "3x5mm")
-        error = edmill("check", case, "--set", "balls.0.count=0", code=2)
+        error = said("check", case, "--set", "balls.0.count=0", code=2)
         self.assertIn("found no balls", error)
-        error = edmill("check", case, "--set", 'balls=[{count=2, mass="5 g", diameter="5 mm"}]', code=2)
+        error = said("check", case, "--set", 'balls=[{count=2, mass="5 g", diameter="5 mm"}]', code=2)
         self.assertIn("both 'count' and 'mass'", error)
 
     def test_an_optimum_at_the_end_of_its_range_is_told(self):
@@ -130,25 +121,25 @@ key = "mill.speed"
 low = "900 rpm"
 high = "1100 rpm"
 ''')
-        said = edmill("optimize", self.folder / "o.optimize.toml", "--estimate", "--out", self.folder / "out")
-        self.assertRegex(said, r"^6 runs, about .* in all at most 12 runs, about \d+:\d\d min\n$")
-        text = edmill("optimize", self.folder / "o.optimize.toml", "--out", self.folder / "out")
+        text = said("optimize", self.folder / "o.optimize.toml", "--estimate", "--out", self.folder / "out")
+        self.assertRegex(text, r"^6 runs, about .* in all at most 12 runs, about \d+:\d\d min\n$")
+        text = said("optimize", self.folder / "o.optimize.toml", "--out", self.folder / "out")
         self.assertIn("mill.speed is at the end 'high' of its range", text)
         self.assertTrue("at the end" in (self.folder / "out/optimize.html").read_text())
 
     def test_a_page_compares_runs(self):
         for name, balls in (("a", "6x9mm"), ("b", "3x9mm")):
             case = self.new("case.toml", "--balls", balls, "--time", "4 s")
-            edmill("run", case, "--report", "--quiet", "--out", self.folder / name)
-        text = edmill("report", self.folder / "a", self.folder / "b", self.folder / "a", "--out", self.folder / "page.html")
+            said("run", case, "--report", "--quiet", "--out", self.folder / name)
+        text = said("report", self.folder / "a", self.folder / "b", self.folder / "a", "--out", self.folder / "page.html")
         self.assertIn("page.html", text)
         page = (self.folder / "page.html").read_text()
-        rates = [json.loads((self.folder / name / "summary.json").read_text())["milling_dose_rate"] for name in "ab"]
+        rates = [summary(self.folder / name)["milling_dose_rate"] for name in "ab"]
         change = 100 * (rates[1] / rates[0] - 1)
         for part in (f"\u2212{-change:.1f} %<", "+0.0 %, not significant", "6 of 9 mm", "3 of 9 mm"):  # the third run is the first one
             self.assertTrue(part in page, part)
-        self.assertIn("no readable file", edmill("report", self.folder / "a", self.folder / "none", code=2))
-        self.assertIn("several runs", edmill("report", self.folder / "a", "--out", self.folder / "x.html", code=2))
+        self.assertIn("no readable file", said("report", self.folder / "a", self.folder / "none", code=2))
+        self.assertIn("several runs", said("report", self.folder / "a", "--out", self.folder / "x.html", code=2))
 
     def test_a_run_ends_at_its_precision_or_says_how_far_it_is(self):
         case = self.new("case.toml", "--balls", "6x9mm", "--time", "3 s")
@@ -159,25 +150,25 @@ high = "1100 rpm"
         self.assertEqual(s["end_reason"], "end_time")
         self.assertIn("precision", s["warnings"])
         for wrong in ("0", "100%", "1 percent", "-1%"):
-            self.assertIn("--until-precision", edmill("run", case, f"--until-precision={wrong}", code=2))
+            self.assertIn("--until-precision", said("run", case, f"--until-precision={wrong}", code=2))
 
     def test_hits_of_powder_are_poissons(self):
         case = self.new("case.toml", "--balls", "6x9mm", "--time", "2 s")
         output = 'output=[{type="treatment", share_per_impact=1e-3, most=40, angles=6, heights=4, rings=2}, {type="collisions"}]'
         self.summary(case, "--set", output)
         lines = (self.folder / "run/treatment.csv").read_text().splitlines()
-        rows = list(csv.DictReader(line for line in lines if line[0] != "#"))
-        column = {name.split(" [")[0]: name for name in rows[0]}
+        portions = rows(self.folder / "run/treatment.csv")
+        column = {name.split(" [")[0]: name for name in portions[0]}
         impacts = len((self.folder / "run/collisions.csv").read_text().splitlines()) - 1
         self.assertTrue(any(line == f"# {impacts} impacts that work powder" for line in lines), impacts)
         mean = 1e-3 * impacts
-        for row in rows[:-1]:
+        for row in portions[:-1]:
             n = int(row["hits"])
             self.assertAlmostEqual(float(row[column["mixed"]]), math.exp(-mean + n * math.log(mean) - math.lgamma(n + 1)), 9)
         for name in ("mixed", "in_place"):
-            self.assertAlmostEqual(sum(float(row[column[name]]) for row in rows), 1, 9)
+            self.assertAlmostEqual(sum(float(row[column[name]]) for row in portions), 1, 9)
         # Powder that is not mixed is treated less evenly: more of it is not hit at all.
-        self.assertGreater(float(rows[0][column["in_place"]]), float(rows[0][column["mixed"]]))
+        self.assertGreater(float(portions[0][column["in_place"]]), float(portions[0][column["mixed"]]))
 
 
 if __name__ == "__main__":

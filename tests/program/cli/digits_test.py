@@ -3,7 +3,6 @@
 
 usage: digits_test.py EDMILL [whole]
 """
-import json
 import pathlib
 import re
 import signal
@@ -12,14 +11,14 @@ import sys
 import time
 from decimal import Decimal, getcontext
 
-from trials import EDMILL, SOURCE, Trials, case, edmill, rows
+from program import EXAMPLES, Trials, case, edmill, rows, start, summary
 
 getcontext().prec = 400
 WHOLE = len(sys.argv) > 2
 LOG = 'output=[{type="collisions"}]'
 THREE = case(end="2 s" if WHOLE else "0.3 s").replace("count = 12", "count = 3")
-DEMO = (SOURCE / "docs" / "examples" / "demo.toml").read_text()
-PLANETARY = (SOURCE / "docs" / "examples" / "planetary.toml").read_text()
+DEMO = (EXAMPLES / "demo.toml").read_text()
+PLANETARY = (EXAMPLES / "planetary.toml").read_text()
 CASES = {"three": THREE,
          "demo": DEMO.replace('start_time = "0.5 s"', "").replace('end_time = "10 s"', f'end_time = "{0.3 if WHOLE else 0.06} s"'),
          "planetary": PLANETARY.replace('end_time = "2 s"', f'end_time = "{1 if WHOLE else 0.03} s"')}
@@ -51,7 +50,7 @@ def impacts(file):
 
 
 def right_digits(folder):
-    return json.loads(pathlib.Path(folder, "summary.json").read_text()).get("right_digits")
+    return summary(folder).get("right_digits")
 
 
 def log_of(t, name, *options):
@@ -124,8 +123,8 @@ def test_resume(t):
 
 
 def test_resume_in_right_digits(t):
-    child = subprocess.Popen([EDMILL, "run", "demo.toml", "--digits", "12", "--set", 'run.end_time="0.3 s"', "--out", "right",
-                              "--checkpoint", "0.01 s simulated"], stdout=subprocess.PIPE, text=True)
+    child = start("run", "demo.toml", "--digits", "12", "--set", 'run.end_time="0.3 s"', "--out", "right", "--checkpoint", "0.01 s simulated",
+                  stdout=subprocess.PIPE, text=True)
     while child.poll() is None and not pathlib.Path("right", "checkpoint").exists():
         time.sleep(0.01)
     child.send_signal(signal.SIGINT)
@@ -181,7 +180,7 @@ def test_certify_to_the_end(t):
 
 def test_bifurcation(t):
     """A ball that a table throws once a period has one phase up to where its period doubles: e = 0.46551 for 1 mm."""
-    table = SOURCE / "docs" / "examples" / "oscillating_table.toml"
+    table = EXAMPLES / "oscillating_table.toml"
     for low, high in (("0.06", "0.9"), ("0.1", "0.7"), ("0.3", "0.8"), ("1e-3", "0.123456789012")):
         done = edmill("bifurcation", table, "--over", "contact.restitution", "--from", low, "--to", high, "--steps", "3", "--skip", "0", "--keep", "1",
                       "--out", "ends.svg")
@@ -214,8 +213,8 @@ def test_other_ends(t):
             t.check(re.search(r"events +about (\d+)", estimate)[1] == str(len(log)), f"{name}: {estimate}")
     pathlib.Path("a_file").write_text("mine")
     t.refused(edmill("run", "demo.toml", "--digits", "12", "--set", 'run.end_time="9 s"', "--out", "a_file", timeout=20), "a file as folder", "a_file")
-    child = subprocess.Popen([EDMILL, "run", "demo.toml", "--digits", "12", "--set", 'run.end_time="9 s"', "--out", "interrupted"],
-                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    child = start("run", "demo.toml", "--digits", "12", "--set", 'run.end_time="9 s"', "--out", "interrupted", stdout=subprocess.PIPE,
+                  stderr=subprocess.PIPE, text=True)
     time.sleep(1.5)
     child.send_signal(signal.SIGINT)
     out, err = child.communicate(timeout=20)

@@ -7,13 +7,12 @@ import hashlib
 import os
 import pathlib
 import re
-import subprocess
 import sys
 
-from trials import EDMILL, SOURCE, Trials
+from program import EXAMPLES, SOURCE, Trials, edmill
 
 library = os.path.realpath(sys.argv[2])
-DEMO = SOURCE / "docs/examples/demo.toml"
+DEMO = EXAMPLES / "demo.toml"
 THREE = SOURCE / "regression/reference/three_balls.toml"
 COMMANDS = {
     "run": ["run", DEMO, "--quiet", "--set", "run.end_time=0.7 s", "--out", "out"],
@@ -32,9 +31,7 @@ def said(name, mode):
     place.mkdir()
     if name == "audit":
         (place / "log").symlink_to(pathlib.Path("log").resolve())
-    environment = dict(os.environ, LD_PRELOAD=library, HOST_ARITHMETIC=mode)
-    done = subprocess.run([EDMILL, *map(str, COMMANDS[name])], cwd=place, env=environment, capture_output=True,
-                          text=True)
+    done = edmill(*COMMANDS[name], cwd=place, env=dict(os.environ, LD_PRELOAD=library, HOST_ARITHMETIC=mode))
     digest = hashlib.sha256()
     for path in sorted(place.rglob("*")):
         if path.is_file():
@@ -44,9 +41,7 @@ def said(name, mode):
 
 
 with Trials() as t:
-    subprocess.run([EDMILL, "run", THREE, "--quiet", "--out", "log", "--set", "run.end_time=0.3 s",
-                    "--set", 'output=[{type="collisions", states=true}]'], check=True,
-                   capture_output=True)
+    edmill("run", THREE, "--quiet", "--out", "log", "--set", "run.end_time=0.3 s", "--set", 'output=[{type="collisions", states=true}]', code=0)
     for name in COMMANDS:
         expected = said(name, "nearest")
         t.check(expected[0] == 0, f"{name}: ends with {expected[0]}: {expected[2]}")

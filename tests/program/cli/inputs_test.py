@@ -8,10 +8,9 @@ import json
 import os
 import pathlib
 import random
-import shutil
 import subprocess
 
-from trials import EDMILL, Trials, case, edmill, results, same, shell
+from program import Trials, case, edmill, results, same, shell
 
 seed = 20110101
 rng = random.Random(seed)

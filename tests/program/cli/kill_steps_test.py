@@ -10,7 +10,7 @@ import shutil
 import signal
 import sys
 
-from trials import Trials, case, edmill, results, same
+from program import Trials, case, edmill, results, same
 
 DIES_AT = os.path.realpath(sys.argv[2])
 seed = 20110101

@@ -4,17 +4,15 @@ fails leaves everything as it was.
 
 usage: left_behind_test.py EDMILL [TRIALS]    random pairs of cases; 12 unless given
 """
-import os
 import pathlib
 import random
 import resource
 import shutil
 import signal
-import subprocess
 import sys
 import time
 
-from trials import EDMILL, OUTPUTS, Trials, case, edmill, results, same
+from program import OUTPUTS, Trials, case, edmill, results, same, start
 
 trials = int(sys.argv[2]) if len(sys.argv) > 2 else 12
 seed = 20110101
@@ -31,8 +29,7 @@ def draw():
 
 def run(place, text, options):
     pathlib.Path("case.toml").write_text(text)
-    done = edmill("run", "case.toml", "--quiet", "--out", place, *options)
-    assert done.returncode == 0, done.stderr
+    edmill("run", "case.toml", "--quiet", "--out", place, *options, code=0)
 
 
 def add_users_files(place):
@@ -91,8 +88,9 @@ def failures(t):
     as_before("the second output does not fit")
     for kill in (signal.SIGKILL, signal.SIGTERM):
         pathlib.Path("case.toml").write_text(text.replace('end_time = "2 s"', 'end_time = "1000 s"', 1))
-        process = subprocess.Popen([EDMILL, "run", "case.toml", *out])
-        while not any(pathlib.Path("old").glob("*.partial-*")):
+        earlier = set(pathlib.Path("old").glob("*.partial-*"))
+        process = start("run", "case.toml", *out)
+        while not set(pathlib.Path("old").glob("*.partial-*")) - earlier:
             time.sleep(0.002)
         if kill == signal.SIGKILL:
             process.send_signal(kill)

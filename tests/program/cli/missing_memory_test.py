@@ -8,7 +8,7 @@ import random
 import resource
 import sys
 
-from trials import Trials, case, edmill
+from program import Trials, case, edmill
 
 BALLS = 20_000
 TRIALS = int(sys.argv[2]) if len(sys.argv) > 2 else 1

@@ -9,7 +9,7 @@ import pathlib
 import subprocess
 import threading
 
-from trials import EDMILL, Trials, case, edmill, results, same, shell
+from program import Trials, case, edmill, results, same, shell, start
 
 COMMANDS = {  # each writes its result where it is told by the last argument
     "compare": "compare done done --quiet --json", "audit": "audit case.toml done --quiet --json",
@@ -112,7 +112,7 @@ def outputs_of_runs(t):
     for name in piped:
         os.mkfifo(f"piped/{name}")
     readers = {name: subprocess.Popen(["cat", f"piped/{name}"], stdout=subprocess.PIPE) for name in piped}
-    run = subprocess.Popen([EDMILL, "run", "all.toml", "--quiet", "--out", "piped"])
+    run = start("run", "all.toml", "--quiet", "--out", "piped")
     got = {}
     threads = [threading.Thread(target=lambda n=name, r=reader: got.update({n: r.communicate()[0]})) for name, reader in readers.items()]
     for thread in threads:

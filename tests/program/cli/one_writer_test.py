@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 import h5py
-from trials import EDMILL, SOURCE, Trials, case, edmill, results
+from program import Trials, case, edmill, results, start, summary
 
 no_locks = os.path.realpath(sys.argv[2])
 trials = int(sys.argv[3]) if len(sys.argv) > 3 else 10
@@ -21,21 +21,20 @@ STUDY = '[{kind}]\ncase = "case.toml"\n{rest}'
 
 def seed_of(place):
     """The one seed that all files of a folder show."""
-    import json
-    summary = json.load(open(place / "summary.json"))
+    said = summary(place)
     with h5py.File(place / "events.h5") as file:
-        seeds = {summary["seed"], int(file.attrs["seed"])}
+        seeds = {said["seed"], int(file.attrs["seed"])}
         rows = file["events/time"].shape[0]
-    seeds.add(int(next(setting for setting in summary["settings"] if "seed" in setting).split("=")[-1]))
+    seeds.add(int(next(setting for setting in said["settings"] if "seed" in setting).split("=")[-1]))
     logged = sum(1 for _ in open(place / "collisions.csv")) - 1
-    return seeds.pop() if len(seeds) == 1 and rows == logged == summary["impacts_since_start"] else None
+    return seeds.pop() if len(seeds) == 1 and rows == logged == said["impacts_since_start"] else None
 
 
 def at_once(t, trial):
     place = pathlib.Path(f"at-once-{trial}")
     checkpoint = [[], ["--checkpoint", "0.2 s simulated"]][trial % 2]
-    runs = {seed: subprocess.Popen([EDMILL, "run", "long.toml", "--quiet", "--out", place, "--set", f"run.seed={seed}",
-                                    *checkpoint], stderr=subprocess.PIPE, text=True) for seed in (11, 12, 13)}
+    runs = {seed: start("run", "long.toml", "--quiet", "--out", place, "--set", f"run.seed={seed}", *checkpoint, stderr=subprocess.PIPE, text=True)
+            for seed in (11, 12, 13)}
     ends = {seed: (run.communicate()[1], run.returncode) for seed, run in runs.items()}
     won = [seed for seed, (_, code) in ends.items() if code == 0]
     t.check(len(won) == 1, f"trial {trial}: one run wins: {ends}")

@@ -4,7 +4,6 @@ of its impacts.
 
 usage: ordinary_charges_test.py EDMILL [COUNT]
 """
-import json
 import pathlib
 import random
 import subprocess
@@ -12,7 +11,7 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-from trials import EDMILL, Trials
+from program import Trials, edmill, summary
 
 COUNT = int(sys.argv[2]) if len(sys.argv) > 2 else 24
 SEED = 20261128
@@ -65,11 +64,11 @@ def run(number):
     place.with_suffix(".toml").write_text(charge(number, random.Random(SEED + number)))
     begin = time.monotonic()
     try:
-        done = subprocess.run([EDMILL, "run", place.with_suffix(".toml"), "--quiet", "--out", place], capture_output=True, text=True, timeout=300)
+        done = edmill("run", place.with_suffix(".toml"), "--quiet", "--out", place, timeout=300)
     except subprocess.TimeoutExpired:
         return number, None, "no end after 300 s", 0, 0, 300
-    summary = json.loads((place / "summary.json").read_text()) if (place / "summary.json").exists() else {}
-    return (number, done.returncode, done.stderr, summary.get("simultaneous_contacts", 0), summary.get("impacts_since_start", 0),
+    found = summary(place) if (place / "summary.json").exists() else {}
+    return (number, done.returncode, done.stderr, found.get("simultaneous_contacts", 0), found.get("impacts_since_start", 0),
             time.monotonic() - begin)
 
 

@@ -4,18 +4,19 @@ kind: of tables and lists, set by an option, zero, at an end of their range, and
 
 usage: sensitivity_test.py EDMILL [whole]
 """
+import functools
 import pathlib
 import re
 import sys
 import tomllib
 from decimal import Decimal, getcontext
 
-from trials import SOURCE, Trials, edmill, rows
+from program import EXAMPLES, Trials, edmill, rows, sets
 
 getcontext().prec = 60
 EVERY = 1 if len(sys.argv) > 2 else 3  # of the keys of each case
 EVENTS = 4
-CASES = {name: re.sub("(?m)^start_time.*$", "", (SOURCE / "docs" / "examples" / f"{name}.toml").read_text())
+CASES = {name: re.sub("(?m)^start_time.*$", "", (EXAMPLES / f"{name}.toml").read_text())
          for name in ("demo", "planetary", "shaken_box", "vibrated_box", "materials", "oscillating_table", "ward")}
 CASES["ends"] = """[run]
 end_time = "1 s"
@@ -79,21 +80,21 @@ def with_settings(text, settings):
 QUANTITIES = ("time", "approach_speed", "slip_speed", "milling_dose", "wall_work")
 
 
-def events(t, name, settings, key, value, unit):
-    text = f'{key}="{value} {unit}"' if unit else f"{key}={value:f}"
-    arguments = [word for s in (*settings, text, f"run.max_collisions={EVENTS}", 'output=[{type="collisions"}]') for word in ("--set", s)]
-    done = edmill("run", f"{name}.toml", "--quiet", "--out", "out", "--precision", "mpfr50", *arguments)
+@functools.lru_cache(None)
+def events(name, *settings):
+    done = edmill("run", f"{name}.toml", "--quiet", "--out", "out", "--precision", "mpfr50",
+                  *sets(*settings, f"run.max_collisions={EVENTS}", 'output=[{type="collisions"}]'))
     return rows("out/collisions.csv")[:EVENTS] if done.returncode == 0 else None
 
 
 def compare(t, name, settings, key, value, unit):
     what = f"{name} {settings}: {key}"
-    done = edmill("sensitivity", f"{name}.toml", "--by", key, "--events", EVENTS, "--out", "d.csv", "--digits", "15",
-                  *[word for s in settings for word in ("--set", s)])
+    done = edmill("sensitivity", f"{name}.toml", "--by", key, "--events", EVENTS, "--out", "d.csv", "--digits", "15", *sets(*settings))
     t.check(done.returncode == 0, f"{what}: {done.stderr}")
     found = rows("d.csv")
     step = max(abs(value), Decimal(1)) * Decimal("1e-17")
-    before, middle, after = (events(t, name, settings, key, value + sign * step, unit) for sign in (-1, 0, 1))
+    with_number = lambda number: events(name, *settings, f'{key}="{number} {unit}"' if unit else f"{key}={number:f}")
+    before, middle, after = with_number(value - step), events(name, *settings), with_number(value + step)
     t.check(middle and (before or after), f"{what}: no run with other values")
     for quantity in QUANTITIES:
         slope = lambda a, b: [(Decimal(y[quantity]) - Decimal(x[quantity])) / step for x, y in zip(a, b)] if a and b else None
@@ -107,8 +108,7 @@ def compare(t, name, settings, key, value, unit):
 
 def begins_late(t):
     """Where a run begins from a file, the drive's period moves its start."""
-    done = edmill("run", "planetary.toml", "--quiet", "--out", "first", "--set", 'run.end_time="0.31 s"', "--precision", "mpfr50")
-    t.check(done.returncode == 0, done.stderr)
+    edmill("run", "planetary.toml", "--quiet", "--out", "first", "--set", 'run.end_time="0.31 s"', "--precision", "mpfr50", code=0)
     state = ['run.initial_state="first/final_state.csv"']
     for key, unit in (("mill.speed", "rpm"), ("mill.ratio", "")):
         compare(t, "planetary", state, key, Decimal(300) if unit else Decimal(-2), unit)

@@ -3,30 +3,37 @@
 
 usage: signals_test.py EDMILL
 """
-import json
 import os
 import pathlib
+import re
 import resource
 import shutil
 import signal
 import subprocess
 import time
 
-from trials import EDMILL, Trials, case, edmill, results, same
+from program import Trials, case, edmill, results, same, start, summary
 
 SAVING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGUSR1)
 OUTPUTS = ("collisions", "events", "trends", "paraview")
 
 
-def start(place, *options, **settings):
+def begun(place, *options, **settings):
     """A run that has simulated for some time."""
-    process = subprocess.Popen([EDMILL, "run", "case.toml", "--quiet", "--out", place, *options], stderr=subprocess.PIPE, text=True,
-                               **settings)
+    process = start("run", "case.toml", "--quiet", "--out", place, *options, stderr=subprocess.PIPE, text=True, **settings)
     log = None
     while log is None or log.stat().st_size == 0:
         log = next(iter(pathlib.Path(place).glob("collisions.csv.partial-*")), None) if os.path.isdir(place) else None
         time.sleep(0.005)
     return process
+
+
+def until_taken(process):
+    """No signal waits."""
+    status = pathlib.Path(f"/proc/{process.pid}/status")
+    while re.search(r"^S\w\wPnd:\s*0*[1-9a-f]", status.read_text(), re.M):
+        time.sleep(0.005)
+    time.sleep(0.02)
 
 
 def ended(process):
@@ -36,16 +43,16 @@ def ended(process):
 
 def saves(t, number, expected):
     for options in ((), ("--checkpoint", "0.5 s simulated")):
-        process = start("run", *options)
+        process = begun("run", *options)
         process.send_signal(number)
         if number not in (signal.SIGINT, signal.SIGTERM):  # batch systems repeat them, and lose patience
             for _ in range(20):
                 process.send_signal(number)
-            time.sleep(0.05)  # of two that wait, the later one would be handled first
+            until_taken(process)  # of two that wait, the later one would be handled first
             process.send_signal(signal.SIGTERM)
         code, error = ended(process)
         t.check(code == 128 + number and error == "", f"{number.name} {options}: exit code {code} {error}")
-        t.check(json.load(open("run/summary.json"))["end_reason"] == "interrupted", f"{number.name}: results")
+        t.check(summary("run")["end_reason"] == "interrupted", f"{number.name}: results")
         t.check(os.path.exists("run/checkpoint") == bool(options), f"{number.name} {options}: checkpoint")
         t.no_partials(number.name)
         if options:
@@ -57,7 +64,7 @@ def saves(t, number, expected):
 def other_commands(t):
     pathlib.Path("my.sweep.toml").write_text('[sweep]\ncase = "case.toml"\nreplicas = 8\n')
     for command in ("sweep my.sweep.toml --out study --jobs 1 --quiet", "certify case.toml --collisions 100000 --quiet"):
-        process = subprocess.Popen([EDMILL, *command.split()], stderr=subprocess.PIPE, text=True)
+        process = start(*command.split(), stderr=subprocess.PIPE, text=True)
         time.sleep(0.7)
         process.send_signal(signal.SIGUSR1)
         code, error = ended(process)
@@ -73,8 +80,7 @@ def waits_for_input(t):
     for command in ("audit case.toml LOG", "compare LOG whole", "compare whole LOG", "import LOG --case case.toml"):
         for source in ("silent", "-"):
             for beginning in ("", log[:3000]) if source == "-" else ("",):
-                process = subprocess.Popen([EDMILL, *command.replace("LOG", source).split(), "--quiet"], stdin=subprocess.PIPE,
-                                           stderr=subprocess.PIPE, text=True)
+                process = start(*command.replace("LOG", source).split(), "--quiet", stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
                 process.stdin.write(beginning)
                 process.stdin.flush()
                 time.sleep(0.3)
@@ -97,18 +103,18 @@ with Trials() as t:
     for number in SAVING:
         saves(t, number, expected)
     # A limit of CPU time, whose signal comes again each second.
-    process = start("run", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (1, 30)))
+    process = begun("run", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (1, 30)))
     code, error = ended(process) if process.poll() is None else (process.returncode, "")
     t.check(code in (0, 128 + signal.SIGXCPU), f"a limit of CPU time: {code} {error}")
     shutil.rmtree("run")
     # nohup: a SIGHUP that is ignored at the start stays so.
-    process = start("run", preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    process = begun("run", preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
     process.send_signal(signal.SIGHUP)
     t.check(ended(process) == (0, ""), "nohup")
     t.check(same(results("run"), expected) == [], "results with nohup")
     # A second request ends it at once.
     pathlib.Path("case.toml").write_text(case(*OUTPUTS, end="600 s"))
-    process = start("twice")
+    process = begun("twice")
     os.kill(process.pid, signal.SIGSTOP)
     process.send_signal(signal.SIGTERM)
     process.send_signal(signal.SIGINT)

@@ -5,9 +5,8 @@ usage: standard_streams_test.py EDMILL
 """
 import os
 import pathlib
-import subprocess
 
-from trials import EDMILL, Trials, case, edmill, results, same, shell
+from program import Trials, case, edmill, results, same, shell
 
 PRINTING = ["--help", "--version", "run --help", "check case.toml", "reference", "manual", "completion", "variables",
             "compare done done", "audit case.toml done", "run case.toml --out out", "report done", "sweep my.sweep.toml --out study",

@@ -8,11 +8,10 @@ import pathlib
 import random
 import shutil
 import signal
-import subprocess
 import sys
 import time
 
-from trials import EDMILL, Trials, case, edmill, results, same
+from program import Trials, case, edmill, results, same, start
 
 trials = int(sys.argv[2]) if len(sys.argv) > 2 else 16
 seed = 20110101
@@ -75,8 +74,7 @@ def unfinished(place, killed, run_seed):
     """A run that was killed after a checkpoint, or interrupted."""
     os.makedirs(place)
     pathlib.Path(place, "all.csv").write_text(OTHERS)
-    process = subprocess.Popen([EDMILL, "run", "case.toml", "--quiet", "--out", place, "--checkpoint", "0.1 s simulated",
-                                "--set", f"run.seed={run_seed}"])
+    process = start("run", "case.toml", "--quiet", "--out", place, "--checkpoint", "0.1 s simulated", "--set", f"run.seed={run_seed}")
     # Until a checkpoint covers some blocks of rows in events.h5, however slow the machine is.
     while not any(p.stat().st_size > 200_000 for p in pathlib.Path(place).glob("events.h5*")):
         assert process.poll() is None, "the run ended before"

@@ -5,10 +5,10 @@ tampering; the certificates that are shipped are checked. With --all the shipped
 usage: certificates_test.py EDMILL CHECKER REFERENCE FOLDER [--all | --without-arb]
 --without-arb: CHECKER has the arithmetic by integers of its own"""
 import copy
-import csv
 import hashlib
 import json
 import lzma
+import os
 import pathlib
 import re
 import shutil
@@ -16,9 +16,11 @@ import subprocess
 import sys
 from decimal import Decimal, getcontext
 
+from program import edmill, rows
+
 getcontext().prec = 60
 WITHOUT_ARB = "--without-arb" in sys.argv
-EDMILL, CHECKER, REFERENCE, FOLDER = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
+CHECKER, REFERENCE, FOLDER = sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
 SHIPPED = {"one_ball": 500, "three_balls": 500, "balls_28": 2000, "planetary": 500, "box": 500}
 SHORT = {"one_ball": 20, "three_balls": 40, "balls_28": 60, "planetary": 40, "box": 40}
 
@@ -28,15 +30,19 @@ def fail(text):
 
 
 def prove(case, events, name, *more):
-    return subprocess.run([EDMILL, "prove", case, "--collisions", str(events), "--certificate", name, *more], text=True,
-                          capture_output=True, check=False)
+    return edmill("prove", case, "--collisions", events, "--certificate", name, *more)
+
+
+def checked(file):
+    """Exit code and text of the checker."""
+    done = subprocess.run([CHECKER, file], text=True, capture_output=True, check=False)
+    return done.returncode, (done.stdout + done.stderr).strip()
 
 
 def verdict(lines):
     """Exit code and text of the checker for these lines."""
     pathlib.Path("tampered").write_text("".join(line + "\n" for line in lines))
-    done = subprocess.run([CHECKER, "tampered"], text=True, capture_output=True, check=False)
-    return done.returncode, (done.stdout + done.stderr).strip()
+    return checked("tampered")
 
 
 def scaled(text, midpoint=0, radius=0):
@@ -156,7 +162,7 @@ def check_headers(name, case, text):
     """Whether header and case agree: every number of the header counts, and nothing else does."""
     def says(line, *more):
         pathlib.Path("header").write_text(line + "\n")
-        done = subprocess.run([EDMILL, "prove", "--check", "header", case, *more], text=True, capture_output=True, check=False)
+        done = edmill("prove", "--check", "header", case, *more)
         return done.returncode, (done.stdout + done.stderr).strip()
     header = json.loads(text[0])
     for what, line in (("as proven", text[0]), ("another name", json.dumps({**header, "case": "b.toml", "digest": "0"}))):
@@ -208,9 +214,7 @@ def check_short(name, events):
     if code != 0 or not said.startswith(f"accepted: {events} events"):
         fail(f"{name}: the checker says {said}")
     # What is proven holds what two scalars agree on.
-    certified = list(csv.DictReader(l for l in (REFERENCE / f"{name}.events.csv").open() if not l.startswith("#")))
-    proven = list(csv.DictReader(l for l in open(f"{name}.csv") if not l.startswith("#")))
-    for one, two in zip(proven, certified):
+    for one, two in zip(rows(f"{name}.csv"), rows(REFERENCE / f"{name}.events.csv")):
         if (one["ball"], one["partner_kind"], one["partner"]) != (two["ball"], two["partner_kind"], two["partner"]):
             fail(f"{name}: event {one['index']} is another one in {name}.events.csv")
         for column in ("time", "approach_speed", "slip_speed"):
@@ -296,10 +300,10 @@ def check_shipped(name, events, again):
     if f"`{digest}`" not in (REFERENCE / "README.md").read_text():
         fail(f"{name}.certificate.xz has the digest {digest}, which regression/reference/README.md does not name")
     pathlib.Path("shipped").write_bytes(lzma.decompress(packed))
-    said = subprocess.run([CHECKER, "shipped"], text=True, capture_output=True, check=False)
-    if said.returncode != 0 or not said.stdout.startswith(f"accepted: {events} events"):
-        fail(f"{name}.certificate.xz: {said.stdout}{said.stderr}")
-    told = subprocess.run([EDMILL, "check", str(REFERENCE / f"{name}.toml")], text=True, capture_output=True, check=True).stdout
+    code, said = checked("shipped")
+    if code != 0 or not said.startswith(f"accepted: {events} events"):
+        fail(f"{name}.certificate.xz: {said}")
+    told = edmill("check", REFERENCE / f"{name}.toml", code=0).stdout
     header = json.loads(pathlib.Path("shipped").open().readline())
     if header["digest"] not in told:
         fail(f"{name}.certificate.xz is of another case: edmill check prints\n{told}")
@@ -308,13 +312,12 @@ def check_shipped(name, events, again):
         if done.returncode or pathlib.Path("again").read_bytes() != pathlib.Path("shipped").read_bytes():
             fail(f"{name}: another certificate than the one that is shipped: {done.stderr}")
         print(done.stdout.splitlines()[-1])
-    print(f"claim {name}.certificate.xz: {said.stdout.strip()}")
+    print(f"claim {name}.certificate.xz: {said}")
 
 
 def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
-    import os
     os.chdir(FOLDER)
     if "--all" not in sys.argv:
         check_sliding(40)

@@ -3,7 +3,6 @@
 
 usage: files_test.py EDMILL
 """
-import csv
 import filecmp
 import math
 import os
@@ -18,12 +17,12 @@ import xml.etree.ElementTree as ElementTree
 
 import h5py
 import numpy as np
+from program import EXAMPLES, SOURCE, edmill, rows
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-CASE = ROOT / "docs" / "examples" / "files.toml"
-SCHEMAS = [ROOT / "tests" / "run" / "output" / "x3d" / "nodes.xsd"]
+CASE = EXAMPLES / "files.toml"
+SCHEMAS = [SOURCE / "tests/run/output/x3d/nodes.xsd"]
 if "X3D_SCHEMA" in os.environ:
     SCHEMAS.append(pathlib.Path(os.environ["X3D_SCHEMA"]))
 GRAVITY = np.array([0, -9.8, 0])
@@ -68,15 +67,6 @@ type = "coverage"
 """
 
 
-def edmill(*arguments):
-    subprocess.run([PROGRAM, *map(str, arguments)], check=True)
-
-
-def table(file):
-    with open(file, encoding="utf-8", newline="") as text:
-        return list(csv.DictReader(line for line in text if not line.startswith("#")))
-
-
 def numbers(text):
     return np.array(text.split(), dtype=float)
 
@@ -92,7 +82,7 @@ class Run(unittest.TestCase):
     def setUpClass(cls):
         cls.scratch = tempfile.TemporaryDirectory()
         cls.out = pathlib.Path(cls.scratch.name) / "out"
-        edmill("run", CASE, "--quiet", "--out", cls.out)
+        edmill("run", CASE, "--quiet", "--out", cls.out, code=0)
         with h5py.File(cls.out / "events.h5") as file:
             cls.events = {name: data[:] for name, data in file["events"].items()}
 
@@ -124,10 +114,10 @@ class Hdf5(Run):
                 self.assertTrue(data.chunks, data.name)
 
     def test_final_state_is_that_of_the_csv(self):
-        rows = table(self.out / "final_state.csv")
+        balls = rows(self.out / "final_state.csv")
         with h5py.File(self.out / "events.h5") as file:
             for name in ("position", "velocity", "spin"):
-                expected = [[float(row[f"{name}_{axis}"]) for axis in "xyz"] for row in rows]
+                expected = [[float(row[f"{name}_{axis}"]) for axis in "xyz"] for row in balls]
                 np.testing.assert_array_equal(file["final_" + name][:], expected)
             self.assertEqual(file["final_time"][0], 0.2)
             np.testing.assert_allclose(file["ball_diameter"][:], 28 * [0.00476], rtol=1e-15)
@@ -159,22 +149,22 @@ class Hdf5(Run):
             both += "[[output]]" + entry + "\n[[output]]" + entry + f'\nfile = "{kind}.h5"\n'
         (folder / "tables.toml").write_text(CASE.read_text().split("[[output]]")[0] + both)
         for out in ("first", "second"):
-            edmill("run", folder / "tables.toml", "--quiet", "--out", folder / out)
+            edmill("run", folder / "tables.toml", "--quiet", "--out", folder / out, code=0)
         files = sorted((folder / "first").glob("*.h5"))
         self.assertEqual(len(files), 12)
         for file in files:
             self.assertTrue(filecmp.cmp(file, folder / "second" / file.name, shallow=False), file.name)
-            rows = table(file.with_suffix(".csv"))
-            self.assertTrue(rows, file.name)
+            lines = rows(file.with_suffix(".csv"))
+            self.assertTrue(lines, file.name)
             with h5py.File(file) as data:
                 self.assertEqual(data.attrs["seed"], "1")
                 by_title = {column.attrs["title"]: column for column in data.values() if "title" in column.attrs}
-                self.assertEqual(set(by_title), set(rows[0]))
+                self.assertEqual(set(by_title), set(lines[0]))
                 for title, column in by_title.items():
                     self.assertNotIn(column.attrs["description"], ("", column.name.strip("/")))
                     if title.endswith("]"):
                         self.assertEqual(column.attrs["unit"], title[title.rindex("[") + 1:-1])
-                    cells = [row[title] for row in rows]
+                    cells = [row[title] for row in lines]
                     if column.dtype.kind == "S":
                         self.assertEqual([text.decode() for text in column[:]], cells)
                     else:
@@ -182,7 +172,7 @@ class Hdf5(Run):
 
     def test_a_second_run_writes_the_same_bytes(self):
         again = pathlib.Path(self.scratch.name) / "again"
-        edmill("run", CASE, "--quiet", "--out", again)
+        edmill("run", CASE, "--quiet", "--out", again, code=0)
         files = [file.relative_to(self.out) for file in self.out.rglob("*") if file.is_file() and file.name != "summary.json"]
         self.assertGreater(len(files), 40)
         for file in files:
@@ -221,9 +211,9 @@ class ParaView(Run):
     def test_balls_of_the_last_frame_are_those_of_the_final_state(self):
         frames = self.frames()
         found = self.balls(frames[max(frames)][0])
-        rows = table(self.out / "final_state.csv")
+        balls = rows(self.out / "final_state.csv")
         for name, title in (("position", "position"), ("velocity", "velocity [m/s]"), ("spin", "spin [rad/s]")):
-            np.testing.assert_array_equal(found[title], [[float(row[f"{name}_{axis}"]) for axis in "xyz"] for row in rows])
+            np.testing.assert_array_equal(found[title], [[float(row[f"{name}_{axis}"]) for axis in "xyz"] for row in balls])
         np.testing.assert_array_equal(found["diameter [m]"], 28 * [0.00476])
         np.testing.assert_array_equal(found["ball"], range(28))
 
@@ -363,7 +353,7 @@ class X3d(Run):
 
 class Page(Run):
     def test_python_of_the_page_runs_in_the_folder_of_a_run(self):
-        snippets = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / "files.md").read_text(), re.MULTILINE | re.DOTALL)
+        snippets = re.findall(r"^```python\n(.*?)^```", (SOURCE / "docs/files.md").read_text(), re.MULTILINE | re.DOTALL)
         self.assertEqual(len(snippets), 5)  # CSV, HDF5, JSON, VTP and PVD, X3D
         for snippet in snippets:
             self.assertLessEqual(len(snippet.splitlines()), 6)
@@ -373,5 +363,5 @@ class Page(Run):
 
 
 if __name__ == "__main__":
-    PROGRAM = sys.argv.pop(1)
+    del sys.argv[1]
     unittest.main()

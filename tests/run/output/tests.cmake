@@ -5,7 +5,4 @@ edmill_test(mill_outputs_test output/mill_outputs_test.cpp)
 edmill_test(chapter4_test output/chapter4_test.cpp)
 edmill_test(pictures_test output/pictures_test.cpp LIBRARIES pugixml::pugixml)
 edmill_test(outputs_test output/outputs_test.cpp LIBRARIES hdf5::hdf5)
-# Debian's Python, which Debian's modules are for.
-find_program(DEBIAN_PYTHON3 python3 HINTS /usr/bin REQUIRED)
-add_test(NAME files_test COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/run/output/files_test.py $<TARGET_FILE:edmill_cli>)
-set_tests_properties(files_test PROPERTIES TIMEOUT 300)
+edmill_script(files_test output/files_test.py TIMEOUT 300)

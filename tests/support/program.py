@@ -1,4 +1,6 @@
-"""What tests of the program's files share: a folder of their own, small cases, and calls of the program."""
+"""What tests share that run the program: calls of it, a folder of their own, small cases, and readers of its files. The first argument of
+each is the program. CTest tells Python where this module is; by hand: PYTHONPATH=tests/support tests/program/cli/signals_test.py build/ci/edmill
+"""
 import csv
 import json
 import os
@@ -10,7 +12,12 @@ import sys
 import tempfile
 
 EDMILL = os.path.realpath(sys.argv[1])
+<<<<<<<< HEAD:tests/program/cli/trials.py
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
+========
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = SOURCE / "docs/examples"
+>>>>>>>> lines_t:tests/support/program.py
 
 CASE = """[run]
 end_time = "{end}"
@@ -47,26 +54,33 @@ def case(*outputs, end="0.1 s"):
 
 
 class Trials:
-    """Works in a folder of its own, which goes with it unless something failed."""
+    """Works in a folder of its own, which goes with it unless something failed.
 
-    def __init__(self):
+    @param to_the_end  go on after what failed
+    """
+
+    def __init__(self, to_the_end=False):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="edmill-trials-"))
-        self.checks = 0
+        self.to_the_end, self.checks, self.failures = to_the_end, 0, 0
         os.chdir(self.folder)
 
     def __enter__(self):
         return self
 
     def __exit__(self, kind, *_):
-        if kind is None:
+        if kind is None and self.failures == 0:
             os.chdir("/")
             shutil.rmtree(self.folder, ignore_errors=True)
+        elif self.failures and kind in (None, SystemExit):
+            sys.exit(f"{self.failures} failed; files are in {self.folder}")
 
     def check(self, good, what):
         self.checks += 1
         if not good:
-            print("failed:", what, "- files are in", self.folder)
-            sys.exit(1)
+            print("failed:", what, flush=True)
+            self.failures += 1
+            if not self.to_the_end:
+                sys.exit(1)
 
     def refused(self, done, what, *words, code=2):
         """Exit code and one line with these words."""
@@ -80,9 +94,33 @@ class Trials:
         self.check(not left, f"{what}: {left}")
 
 
-def edmill(*arguments, **options):
-    options = {"capture_output": True, "text": True, "stdin": subprocess.DEVNULL} | options
-    return subprocess.run([EDMILL, *map(str, arguments)], **options)
+def command(*arguments):
+    return [EDMILL, *map(str, arguments)]
+
+
+def edmill(*arguments, code=None, **options):
+    """Runs the program to its end.
+
+    @param code  with which it has to end
+    """
+    done = subprocess.run(command(*arguments), **({"capture_output": True, "text": True, "stdin": subprocess.DEVNULL} | options))
+    assert code in (None, done.returncode), (arguments, done.returncode, done.stdout, done.stderr)
+    return done
+
+
+def said(*arguments, code=0, **options):
+    """What the program prints, or says of an error."""
+    done = edmill(*arguments, code=code, **options)
+    return done.stdout if code == 0 else done.stderr
+
+
+def start(*arguments, **options):
+    return subprocess.Popen(command(*arguments), **options)
+
+
+def sets(*settings):
+    """Options of these settings."""
+    return [word for setting in settings for word in ("--set", setting)]
 
 
 def shell(command, **options):
@@ -118,3 +156,7 @@ def rows(file):
 def same(a, b):
     """The files that differ between two results."""
     return sorted(name for name in a.keys() | b.keys() if a.get(name) != b.get(name))
+
+
+def summary(place):
+    return json.loads(pathlib.Path(place, "summary.json").read_text(encoding="utf-8"))
