@@ -12,12 +12,8 @@ import sys
 import tempfile
 
 EDMILL = os.path.realpath(sys.argv[1])
-<<<<<<<< HEAD:tests/program/cli/trials.py
-SOURCE = pathlib.Path(__file__).resolve().parents[3]
-========
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = SOURCE / "docs/examples"
->>>>>>>> lines_t:tests/support/program.py
 
 CASE = """[run]
 end_time = "{end}"
