@@ -1,5 +1,6 @@
-foreach(name event_log_test faults_test separation_test clean_logs_test late_logs_test)
+foreach(name event_log_test faults_test separation_test clean_logs_test)
   edmill_test(${name} audit/${name}.cpp TIMEOUT 300)
 endforeach()
+edmill_test(late_logs_test audit/late_logs_test.cpp SLOW TIMEOUT 300)
 edmill_test(names_test audit/names_test.cpp LONG SLOW TIMEOUT 600)
 edmill_script(wrong_script_test audit/wrong_script_test.py TIMEOUT 300)

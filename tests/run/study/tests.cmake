@@ -1,6 +1,7 @@
-foreach(name sweep_runs_test study_file_test optimizer_test sweep_statistics_test)
+foreach(name study_file_test optimizer_test sweep_statistics_test)
   edmill_test(${name} study/${name}.cpp TIMEOUT 600)
 endforeach()
+edmill_test(sweep_runs_test study/sweep_runs_test.cpp SLOW TIMEOUT 600)
 if(MPI_CXX_FOUND)
   target_compile_definitions(study_tests PRIVATE EDMILL_MPIEXEC="${MPIEXEC_EXECUTABLE}")
 endif()
