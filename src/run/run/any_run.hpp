@@ -84,8 +84,8 @@ class AnyRun {
   virtual void stop(model::EndReason why) = 0;
 
   virtual int ball_count() const = 0;
-  virtual std::string time() const = 0;  ///< [s]
-  /// State of a ball now.
+  virtual std::string time() const = 0;  ///< [s] @pre the run has begun
+  /// State of a ball now. @pre the run has begun
   virtual BallState<std::string> ball(int i) const = 0;
   virtual io::Summary<double> summary() const = 0;
   virtual std::string summary_json() const = 0;  ///< as in summary.json

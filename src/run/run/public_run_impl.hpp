@@ -11,12 +11,7 @@ namespace edmill {
 template <class Real>
 class Run<Real>::Implementation {
  public:
-  Implementation(const Case& the_case, const OwnParts<Real>& own, Run& of) : run(the_case.spec_, own) {
-    run.attach([this, &of](const Impact<Real>& impact) {
-      for (auto* observer : observers) observer->on_impact(impact, of);
-    });
-    run.begin();
-  }
+  Implementation(const Case& the_case, const OwnParts<Real>& own) : run(the_case.spec_, own) { run.begin(); }
 
   run::RunOf<Real> run;
   std::vector<Observer<Real>*> observers;
@@ -29,14 +24,19 @@ template <class Real>
 Run<Real>::Run(const Case& the_case, const OwnParts<Real>& own)
     : implementation_([&] {
         const StandardArithmetic scope;
-        return std::make_unique<Implementation>(the_case, own, *this);
+        return std::make_unique<Implementation>(the_case, own);
       }()) {}
 template <class Real>
 Run<Real>::~Run() = default;
 
 template <class Real>
 void Run<Real>::attach(Observer<Real>& observer) {
-  implementation_->observers.push_back(&observer);
+  auto& observers = implementation_->observers;
+  if (observers.empty())
+    implementation_->run.attach([this, &observers](const Impact<Real>& impact) {
+      for (auto* each : observers) each->on_impact(impact, *this);
+    });
+  observers.push_back(&observer);
 }
 template <class Real>
 void Run<Real>::write_to(const std::string& folder) {

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "base/scalar_list.hpp"
+#include "base/scalar.hpp"
 
 namespace edmill::study {
 
