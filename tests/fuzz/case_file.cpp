@@ -1,7 +1,7 @@
 // Case files: whatever the text, one clear error or a case whose balls find their places.
 #include "base/errors.hpp"
+#include "casefile/build_case.hpp"
 #include "casefile/study_spec.hpp"
-#include "core.hpp"
 #include "input.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,6 @@
 // What the readers need in double.
+#include "base/scalar_text.hpp"
 #include "casefile/build_case_impl.hpp"
-#include "casefile/quantity_value.hpp"
-#include "core.hpp"
 #include "io/final_state_impl.hpp"
 
 namespace edmill {
