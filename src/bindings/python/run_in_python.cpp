@@ -31,6 +31,7 @@ struct Numbers {
 
   py::object of(const std::string& text) const {
     if (wide) return py::module_::import("decimal").attr("Decimal")(text);
+    const StandardArithmetic scope;  // Python may ask when the run is over
     return py::float_(std::stod(text));
   }
   py::tuple of(const Vector<std::string>& v) const { return py::make_tuple(of(v[0]), of(v[1]), of(v[2])); }
