@@ -95,10 +95,13 @@ class Collector : public run::Watcher {
  public:
   explicit Collector(const Numbers& numbers) : numbers_(numbers) {}
   void on_impact(const SeenImpact& impact, AnyRun&) override {
-    if (numbers_.wide)
+    if (numbers_.wide) {
       texts_.push_back(impact.in_texts());
-    else
-      doubles_.push_back(impact.in_double());
+      return;
+    }
+    const auto seen = impact.in_double();
+    auto& row = doubles_.emplace_back();  // zero in its gaps, too: equal runs give equal bytes
+    for_each_member<double>([&](const char*, const auto& which) { row.*which = seen.*which; });
   }
   py::object events() {
     if (!numbers_.wide) return as_array(std::move(doubles_));
