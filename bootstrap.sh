@@ -113,7 +113,7 @@ case "${1:-}" in
     install_missing "${program_packages[@]}" "${test_packages[@]}" clang-tidy
     say "clang-tidy; .clang-tidy says what it looks for"
     cmake --preset analyse >/dev/null
-    run-clang-tidy -quiet -j 2 -p build/analyse 'src/(api|app|audit|base|casefile|cli|compare|engine|identify|io|output|plot|prove|report|run|study)/' 2>/dev/null |
+    run-clang-tidy -quiet -j 2 -p build/analyse 'src/(core|files|case|run|pages|judge|proof|program)/' 2>/dev/null |
       { ! grep -E 'error:|warning:'; }
     build debug
     say "running the tests"

@@ -1,7 +1,6 @@
 // A run of a case.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,8 +14,6 @@
 #include "edmill/vessel.hpp"
 
 namespace edmill {
-
-struct RunAccess;
 
 /// Laws of the user's own; empty ones leave the case's.
 template <class Real>
@@ -81,10 +78,6 @@ class Run {
   Summary<Real> summary() const;
 
  private:
-  friend struct RunAccess;
-  /// @param when_written  called while no other run can write into the folder
-  void commit(const std::function<void()>& when_written);
-
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

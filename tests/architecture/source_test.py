@@ -95,8 +95,10 @@ def find_foreign_namespaces(name, text):
 
 def find_engine(name, text):
     """A judge that shares the engine's code proves nothing; the engine tells a proof only where to look."""
-    if name.split("/")[0] in {"audit", "compare", "identify", "prove"} and '#include "engine/' in text:
-        problems.append(f"{name}: includes the engine")
+    room = name.split("/")[0]
+    for other, judges in (("engine", {"audit", "compare", "identify", "dem", "prove"}), ("run", {"audit", "compare", "dem"})):
+        if room in judges and f'#include "{other}/' in text:
+            problems.append(f"{name}: includes {other}")
 
 
 find_cycles()

@@ -4,7 +4,7 @@ theory the sum of the positive ones over the collisions of balls grows with the 
 directions by the free path over the diameter, so that per ball and collision of a ball it is -ln n + a constant in the dilute limit.
 The largest one is that of kinetic_theory.py, at the density that the centres of the balls have between the walls.
 
-usage: hard_spheres.py EDMILL
+usage: PYTHONPATH=tests/support python3 hard_spheres.py EDMILL
 """
 import csv
 import json

@@ -2,7 +2,7 @@
 """Claim 14: derivatives of runs. Against central differences of runs in 150 digits, and a ball on an oscillating table, whose
 orbit of one period has multipliers in closed form.
 
-usage: tangent.py EDMILL
+usage: PYTHONPATH=tests/support python3 tangent.py EDMILL
 """
 import math
 import pathlib

@@ -2,7 +2,7 @@
 """`edmill audit --identify` on logs of plain_mill, which shares no code with edmill, with mistakes planted in its equations, in some of
 its impacts, and in the columns of its log: each is named with its value, and nothing else is.
 
-usage: faults_test.py EDMILL PLAIN_MILL [--every K] [--thin K] [--clean N]     K: one in K faults, for a quick run
+usage: PYTHONPATH=tests/support python3 faults_test.py EDMILL PLAIN_MILL [--every K] [--thin K] [--clean N]     K: one in K faults, for a quick run
 """
 import argparse
 import csv
@@ -233,7 +233,8 @@ def main():
         causes, text = causes_found()
         check(not causes, f"rounded to {digits} digits, seed {seed}", text)
     print(f"{len(failures)} failed")
-    sys.exit(bool(failures))
+    if failures:
+        sys.exit(1)
 
 
 if __name__ == "__main__":

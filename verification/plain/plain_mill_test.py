@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Certified sequences of edmill against plain_mill: the same events, every value to 25 digits.
 
-usage: plain_mill_test.py EDMILL PLAIN_MILL [--digits N] [--events N]
+usage: PYTHONPATH=tests/support python3 plain_mill_test.py EDMILL PLAIN_MILL [--digits N] [--events N]
 """
 import argparse
 import csv

@@ -40,8 +40,9 @@ struct Numbers {
   }
   /// @throws InputError where it is no number. @param what  the function that gave it
   std::string text_of(const py::handle& x, const char* what) const {
-    if (wide && PyNumber_Check(x.ptr()) != 0) return py::str(made_by([&] { return PyObject_Str(x.ptr()); }));
-    if (PyNumber_Check(x.ptr()) != 0) {
+    const bool number = PyNumber_Check(x.ptr()) != 0;
+    if (number && wide) return py::str(made_by([&] { return PyObject_Str(x.ptr()); }));
+    if (number) {
       const double value = call_python([&] { return PyFloat_AsDouble(x.ptr()); });
       if (!PyErr_Occurred()) return to_text<double>(value);
       PyErr_Clear();
@@ -55,30 +56,35 @@ struct Numbers {
 /// Ctrl-C while Python code runs in a callback.
 bool is_control_c(const py::error_already_set& error) { return error.matches(PyExc_KeyboardInterrupt); }
 
-/// Calls f(name, member) for everything that is known of an impact.
-template <class Number, class F>
+/// Calls f(name, member of an impact in doubles, member of one in texts) for everything that is known of one.
+template <class F>
 void for_each_member(F&& f) {
-  using I = Impact<Number>;
-  f("index", &I::index), f("time", &I::time), f("ball", &I::ball), f("with_wall", &I::with_wall);
-  f("partner", &I::partner), f("normal", &I::normal), f("approach_speed", &I::approach_speed);
-  f("slip_speed", &I::slip_speed), f("separation_speed", &I::separation_speed);
-  f("restitution_tangential", &I::restitution_tangential), f("normal_impulse", &I::normal_impulse);
-  f("tangential_impulse", &I::tangential_impulse), f("milling_dose", &I::milling_dose);
-  f("supplied_energy", &I::supplied_energy), f("wall_work", &I::wall_work);
+  using D = Impact<double>;
+  using T = Impact<std::string>;
+  f("index", &D::index, &T::index), f("time", &D::time, &T::time), f("ball", &D::ball, &T::ball);
+  f("with_wall", &D::with_wall, &T::with_wall), f("partner", &D::partner, &T::partner);
+  f("normal", &D::normal, &T::normal), f("approach_speed", &D::approach_speed, &T::approach_speed);
+  f("slip_speed", &D::slip_speed, &T::slip_speed);
+  f("separation_speed", &D::separation_speed, &T::separation_speed);
+  f("restitution_tangential", &D::restitution_tangential, &T::restitution_tangential);
+  f("normal_impulse", &D::normal_impulse, &T::normal_impulse);
+  f("tangential_impulse", &D::tangential_impulse, &T::tangential_impulse);
+  f("milling_dose", &D::milling_dose, &T::milling_dose);
+  f("supplied_energy", &D::supplied_energy, &T::supplied_energy),
+      f("wall_work", &D::wall_work, &T::wall_work);
 }
-/// An impact for an observer of Python: its members become numbers of Python when they are asked for.
-struct ImpactOfPython {
-  Impact<std::string> texts;
-  Numbers numbers;
-
-  py::object member(const auto& which) const {
-    const auto& value = texts.*which;
-    if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>)
-      return py::cast(value);
-    else
-      return numbers.of(value);
-  }
-};
+/// A member of an impact as Python has it.
+template <class Value>
+py::object to_python(const Value& value) {
+  if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, Vector<std::string>>)
+    return Numbers{true}.of(value);
+  else if constexpr (std::is_same_v<Value, Vector<double>>)
+    return py::make_tuple(value[0], value[1], value[2]);
+  else
+    return py::cast(value);
+}
+using ImpactInDouble = Impact<double>;
+using ImpactInTexts = Impact<std::string>;
 
 /// The array owns what the list held: nothing is copied.
 template <class Row>
@@ -101,15 +107,14 @@ class Collector : public run::Watcher {
     }
     const auto seen = impact.in_double();
     auto& row = doubles_.emplace_back();  // zero in its gaps, too: equal runs give equal bytes
-    for_each_member<double>([&](const char*, const auto& which) { row.*which = seen.*which; });
+    for_each_member([&](const char*, auto which, auto) { row.*which = seen.*which; });
   }
   py::object events() {
     if (!numbers_.wide) return as_array(std::move(doubles_));
     py::list rows;
     for (const auto& event : texts_) {
-      const ImpactOfPython impact{event, numbers_};
       py::list row;
-      for_each_member<std::string>([&](const char*, const auto& which) { row.append(impact.member(which)); });
+      for_each_member([&](const char*, auto, auto which) { row.append(to_python(event.*which)); });
       rows.append(py::tuple(row));
     }
     return rows;
@@ -136,7 +141,7 @@ py::object states_of(const AnyRun& run, const Numbers& numbers) {
   return numbers.wide ? py::object(rows) : py::object(as_array(std::move(doubles)));
 }
 
-/// Lets Python's signal handlers run and tells of progress, ten times a second; ends the run after Ctrl-C.
+/// Calls Python's signal handlers and reports progress, ten times a second; ends the run after Ctrl-C.
 class Pulse : public run::Watcher {
  public:
   /// @param interrupted  set here, and by callbacks during which Ctrl-C came
@@ -189,7 +194,11 @@ class CallingObserver : public run::Watcher {
   void on_impact(const SeenImpact& impact, AnyRun& run) override {
     const Locked python;
     try {
-      call(callable_, ImpactOfPython{impact.in_texts(), numbers_}, RunOfPython{run, numbers_});
+      const RunOfPython seen{run, numbers_};
+      if (numbers_.wide)
+        call(callable_, impact.in_texts(), seen);
+      else
+        call(callable_, impact.in_double(), seen);
     } catch (const py::error_already_set& error) {
       if (!is_control_c(error)) throw;
       interrupted_ = true;
@@ -311,9 +320,11 @@ const Binding runs([](Module& m) {
                        slip_speed, separation_speed, restitution_tangential, normal_impulse,
                        tangential_impulse, milling_dose, supplied_energy, wall_work);
   PYBIND11_NUMPY_DTYPE(BallState<double>, position, velocity, spin);
-  auto impact = py::class_<ImpactOfPython>(m, "Impact");
-  for_each_member<std::string>([&](const char* title, const auto& which) {
-    impact.def_property_readonly(title, [which](const ImpactOfPython& i) { return i.member(which); });
+  py::class_<ImpactInDouble> in_double(m, "Impact");
+  py::class_<ImpactInTexts> in_texts(m, "WideImpact");
+  for_each_member([&](const char* name, auto number, auto text) {
+    in_double.def_property_readonly(name, [number](const ImpactInDouble& i) { return to_python(i.*number); });
+    in_texts.def_property_readonly(name, [text](const ImpactInTexts& i) { return to_python(i.*text); });
   });
   py::class_<RunOfPython>(m, "Running")
       .def_property_readonly("time", [](const RunOfPython& r) { return r.numbers.of(r.run.time()); })

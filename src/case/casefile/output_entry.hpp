@@ -1,5 +1,5 @@
 // How an entry [[output]] is read, and the keys that several types of output have. What is special to a type
-// stands with that output: output/registry.hpp
+// is where that output is: output/registry.hpp
 #pragma once
 
 #include <span>

@@ -187,8 +187,8 @@ class GapFunctions {
     return errors(elapsed, speed, mill_.vessel.per_wall(true));
   }
 
-  /// What rounding a wider flight, radius and mill to this scalar adds to these bounds, at offsets that stand
-  /// for themselves in both.
+  /// What rounding a wider flight, radius and mill to this scalar adds to these bounds, at offsets that
+  /// are the same numbers in both.
   Errors state_errors(const Real& elapsed, const Real& speed) const {
     const Real u = epsilon<Real>() / 2;
     const auto flight = bounds(elapsed, speed);

@@ -1,4 +1,4 @@
-// A CSV file with a header, read row by row in bounded memory; problems are told with file, line and column.
+// A CSV file with a header, read row by row in bounded memory; errors name file, line and column.
 #pragma once
 
 #include <cstdint>

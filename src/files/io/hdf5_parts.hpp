@@ -1,4 +1,4 @@
-// Parts of HDF5 files. Nothing in them tells the time: the same run makes the same bytes. Heavy: include it
+// Parts of HDF5 files. They hold no dates: the same run makes the same bytes. Heavy: include it
 // in source files only.
 #pragma once
 

@@ -1,15 +1,28 @@
 // From the name of a scalar to a run in it.
 #include "base/with_scalar.hpp"
-#include "casefile/right_digits.hpp"
 #include "run/any_run.hpp"
 #include "run/event_source.hpp"
 
 namespace edmill::run {
 
+namespace {
+
+/// For a scope: in files and texts only the digits that the case asks for and a few more. Nothing for scalars
+/// of a fixed number of digits, and cases that name a precision.
+template <class Real>
+auto only_right_digits(const casefile::CaseSpec& spec) {
+  auto digits = ChosenDigits<Real>();
+  if constexpr (requires { digits.shown; })
+    if (spec.digits) digits.shown = static_cast<unsigned>(*spec.digits) + 3;
+  return digits.use();
+}
+
+}  // namespace
+
 std::unique_ptr<AnyRun> make_run(const std::string& precision, const casefile::CaseSpec& spec,
                                  const RunSetup& setup) {
   return with_scalar(precision, [&]<class Real>() {
-    const auto shown = casefile::only_right_digits<Real>(spec);
+    const auto shown = only_right_digits<Real>(spec);
     return make_run_in<Real>(spec, setup);
   });
 }

@@ -1,4 +1,4 @@
-// Tells how far a run is.
+// Reports how far a run is.
 #pragma once
 
 #include <functional>

@@ -263,11 +263,13 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     const auto scope = use();
     return io::summary_json(result());
   }
-  /// So far, with its warnings.
+  /// So far, with its warnings; of a run that has ended always the same, processor time included.
   io::Summary<Real> result() const {
+    if (ended_) return *ended_;
     auto s = driver_ ? summary_of(*spec_, built_, *driver_) : empty_summary(*spec_, built_);
     if (driver_) s.end_time = now();
     finish_summary(s, end_reason_, error_);
+    if (end_reason_ != model::EndReason::paused) ended_ = s;
     return s;
   }
 
@@ -334,6 +336,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
   std::pair<Instant<Real>, Real> asked_{Instant<Real>::long_ago(), Real(0)};  ///< of the last advance [s]
   model::EndReason end_reason_ = model::EndReason::paused;
   std::string error_;
+  mutable std::optional<io::Summary<Real>> ended_;
 };
 
 template <class Real>

@@ -3,7 +3,7 @@
 published digest, impacts one by one, wrong cases, a log with a mistake and one without, two widths, light and dark, no request, an
 empty console. Debian: emscripten, node-acorn, chromium-driver, python3-selenium.
 
-usage: page_test.py EDMILL FOLDER
+usage: PYTHONPATH=tests/support python3 page_test.py EDMILL FOLDER
 FOLDER keeps the build, the page edmill.html and screenshots
 """
 import base64

@@ -151,8 +151,8 @@ void expect_rounding_below_bounds(const model::Mill<double>& mill, double least,
 TEST_P(AnyMill, RoundingErrorsStayBelowTheirBounds) { expect_rounding_below_bounds(mill, 0.001, 5000); }
 TEST_P(AnyMill, LongRoundingErrorsStayBelowTheirBounds) { expect_rounding_below_bounds(mill, 0.003, 50000); }
 
-/// As a program can give them; those of a case are reduced when it is read.
-TEST_P(AnyMill, RoundingErrorsOfManyConstantTurnsStayBelowTheirBounds) {
+/// Turns as a program can give them; those of a case are reduced when it is read.
+void expect_rounding_of_many_turns_below_bounds(const model::Mill<double>& mill, int count) {
   const auto* chain = mill.motion.get_if<model::ChainMotion<double>>();
   if (!chain) GTEST_SKIP() << "no chain";
   Draw draw(23);
@@ -164,7 +164,13 @@ TEST_P(AnyMill, RoundingErrorsOfManyConstantTurnsStayBelowTheirBounds) {
   auto turned = mill;
   turned.motion = model::ChainMotion<double>(joints);
   // A number of double is exact in both, and whole quarters of a turn are dropped exactly: the bound is far.
-  expect_rounding_below_bounds(turned, 0, 5000);
+  expect_rounding_below_bounds(turned, 0, count);
+}
+TEST_P(AnyMill, RoundingErrorsOfManyConstantTurnsStayBelowTheirBounds) {
+  expect_rounding_of_many_turns_below_bounds(mill, 5000);
+}
+TEST_P(AnyMill, LongRoundingErrorsOfManyConstantTurnsStayBelowTheirBounds) {
+  expect_rounding_of_many_turns_below_bounds(mill, 50000);
 }
 
 void expect_derivatives_below_bounds(const model::Mill<double>& mill, int count) {

@@ -6,7 +6,7 @@ target_compile_options(edmill_arb_oracle PRIVATE ${edmill_warnings} $<$<BOOL:${E
 
 edmill_test(wall_search_test dynamics/wall_search_test.cpp)
 edmill_test(wall_oracle_test dynamics/wall_oracle_test.cpp TIMEOUT 1200 SLOW LIBRARIES edmill_arb_oracle)
-# About 2000 states of each kind in double; 100 000 in all in the long test.
+# About 3000 states of each kind in double, 30 000 in all; 100 000 in the long test.
 set_property(TEST wall_oracle_test APPEND PROPERTY ENVIRONMENT EDMILL_WALL_STATES=30000)
 add_test(NAME wall_oracle_long COMMAND dynamics_tests dynamics/wall_oracle_test.cpp)
 set_tests_properties(wall_oracle_long PROPERTIES LABELS long TIMEOUT 3600)

@@ -2,7 +2,7 @@
 """The wrong script of docs/reference-data.md: the audit finds exactly its mistakes, and each fix removes its finding
 away.
 
-usage: wrong_script_test.py EDMILL
+usage: PYTHONPATH=tests/support python3 wrong_script_test.py EDMILL
 """
 import json
 import pathlib

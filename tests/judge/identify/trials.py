@@ -2,7 +2,7 @@
 """`edmill audit --identify` in random trials: logs of cases with one value or mistake other than the audited case's, with two, with
 none, and with rounding alone. The right cause must come first, with its value within its interval.
 
-usage: trials.py EDMILL FOLDER [--trials N] [--pairs N] [--clean N] [--jobs J] [--only TEXT] [--every K] [--seed S]
+usage: PYTHONPATH=tests/support python3 trials.py EDMILL FOLDER [--trials N] [--pairs N] [--clean N] [--jobs J] [--only TEXT] [--every K] [--seed S]
 N trials of each parameter, by 0.1 % and by 5 %, of each mistake, and of logs with `time, ball, partner` alone; N trials of two at
 once; N clean and N rounded logs. A log that does not tell a change from others is drawn again."""
 import argparse

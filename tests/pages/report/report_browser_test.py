@@ -3,7 +3,7 @@
 dark colours; reports of every motion and vessel; and how fast a report of 908 balls opens. Debian: chromium, chromium-driver,
 python3-selenium.
 
-usage: report_browser_test.py EDMILL [FOLDER] [--long]
+usage: PYTHONPATH=tests/support python3 report_browser_test.py EDMILL [FOLDER] [--long]
 FOLDER keeps the runs and the screenshots; with --long only the reports of all mills and of docs/examples
 """
 import base64

@@ -2,7 +2,7 @@
 """Names of any bytes, in paths, labels, materials and points of sweeps, give files of each kind that every reader reads: JSON, XML, CSV and
 HTML, of every command that writes any.
 
-usage: any_names_test.py EDMILL SMALL_DEM_DUMP
+usage: PYTHONPATH=tests/support python3 any_names_test.py EDMILL SMALL_DEM_DUMP
 """
 import csv
 import html.parser

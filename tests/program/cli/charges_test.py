@@ -2,7 +2,7 @@
 """What a person at the mill asks, by the program: new cases of all mills, wrong wishes, charges compared in a sweep and on a page, milling
 times, runs until a precision, how evenly powder is treated.
 
-usage: charges_test.py EDMILL
+usage: PYTHONPATH=tests/support python3 charges_test.py EDMILL
 """
 import math
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Each command of the program does once what it is for: a small run of each, and a fact about its result.
 
-usage: commands_test.py EDMILL SMALL_DEM_DUMP
+usage: PYTHONPATH=tests/support python3 commands_test.py EDMILL SMALL_DEM_DUMP
 """
 import json
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs in any number of digits, and runs that ask for right ones.
 
-usage: digits_test.py EDMILL [whole]
+usage: PYTHONPATH=tests/support python3 digits_test.py EDMILL [whole]
 """
 import pathlib
 import re

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Cases and logs from pipes, standard input and compressed files are read as from files.
 
-usage: inputs_test.py EDMILL
+usage: PYTHONPATH=tests/support python3 inputs_test.py EDMILL
 """
 import gzip
 import json

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A run that is killed before any of its changes to names of files, and once more while it is resumed, ends like one that was not.
 
-usage: kill_steps_test.py EDMILL DIES_AT    the library that kills
+usage: PYTHONPATH=tests/support python3 kill_steps_test.py EDMILL DIES_AT    the library that kills
 """
 import os
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Memory that is not there is told in one sentence with the number of balls, wherever it runs out.
 
-usage: missing_memory_test.py EDMILL [TRIALS [SEED]]
+usage: PYTHONPATH=tests/support python3 missing_memory_test.py EDMILL [TRIALS [SEED]]
 """
 import pathlib
 import random

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a user names as a place for a result: devices, pipes and links are written through, files are replaced whole.
 
-usage: named_files_test.py EDMILL
+usage: PYTHONPATH=tests/support python3 named_files_test.py EDMILL
 """
 import gzip
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A folder has one writer at a time: of several runs that start at once one wins, and the others are refused.
 
-usage: one_writer_test.py EDMILL NO_LOCKS [TRIALS]    NO_LOCKS is a library that takes locks from file systems
+usage: PYTHONPATH=tests/support python3 one_writer_test.py EDMILL NO_LOCKS [TRIALS]    NO_LOCKS is a library that takes locks from file systems
 """
 import fcntl
 import os

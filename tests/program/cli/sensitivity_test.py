@@ -2,7 +2,7 @@
 """The derivative with respect to any number of a case is the difference of two runs divided by that of the number, for numbers of every
 kind: of tables and lists, set by an option, zero, at an end of their range, and those that place the balls or begin the run.
 
-usage: sensitivity_test.py EDMILL [whole]
+usage: PYTHONPATH=tests/support python3 sensitivity_test.py EDMILL [whole]
 """
 import functools
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Signals that batch systems and terminals send: the run saves, and resumes with identical results.
 
-usage: signals_test.py EDMILL
+usage: PYTHONPATH=tests/support python3 signals_test.py EDMILL
 """
 import os
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Standard streams that are full or closed, and pipes that nobody reads: exit codes, messages and files.
 
-usage: standard_streams_test.py EDMILL
+usage: PYTHONPATH=tests/support python3 standard_streams_test.py EDMILL
 """
 import os
 import pathlib

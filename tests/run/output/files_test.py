@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What other tools read from the files of a run: h5py, VTK, view3dscene, xmllint, and the Python of docs/files.md.
 
-usage: files_test.py EDMILL
+usage: PYTHONPATH=tests/support python3 files_test.py EDMILL
 """
 import filecmp
 import math

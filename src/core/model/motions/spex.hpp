@@ -302,8 +302,8 @@ class SpexMotion {
                           2 * turning() * (angular_speed_ + turning()) * y;
     return {y, y_rate, y_second};
   }
-  /// What rounding a wider flight and motion to this scalar adds to these bounds, at offsets that stand for
-  /// themselves in both. Derivation: docs/theory.md, section 4.
+  /// What rounding a wider flight and motion to this scalar adds to these bounds, at offsets that are the
+  /// same numbers in both. Derivation: docs/theory.md, section 4.
   ErrorBounds<Real> state_errors(const Real& u, const FlightBounds<Real>& f) const {
     const Real angle = 9 * angles();
     const Real time = period_ + f.lag;  // ulps of 1 s that the start and the whole periods leave
