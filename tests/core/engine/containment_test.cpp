@@ -1,6 +1,6 @@
-// No ball overlaps a wall, or a ball of an impact another one, beyond rounding after any impact, and late starts are as sharp as
-// early ones. Gaps are computed from the stored flights in float128; a filter in double selects those that
-// are small.
+// No ball overlaps a wall, or a ball of an impact another one, beyond rounding after any impact, and late
+// starts are as sharp as early ones. Gaps are computed from the stored flights in float128; a filter in
+// double selects those that are small.
 #include <gtest/gtest.h>
 
 #include "mill_parts.hpp"
