@@ -83,7 +83,7 @@ install_missing() {
 }
 
 build() { # preset
-  say "configuring and building (preset $1); the first time takes 5 to 20 minutes on two cores"
+  say "configuring and building (preset $1); the first time takes 3 to 15 minutes on two cores"
   cmake --preset "$1" >/dev/null
   cmake --build --preset "$1"
 }
