@@ -1,10 +1,9 @@
-#include "dem/contact_finder.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/errors.hpp"
+#include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
 
 namespace edmill::dem {

@@ -44,9 +44,8 @@ double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vec
 
 std::vector<double> MovingVessel::gaps(const Pose& pose, std::size_t ball, const Vector& position) const {
   const Vector p = mill_.motion.position_in_vessel(pose, position);
-  std::vector<double> gaps(static_cast<std::size_t>(walls()));
-  for (int wall = 0; wall < walls(); ++wall)
-    gaps[static_cast<std::size_t>(wall)] = gap_in_vessel(ball, wall, p);
+  std::vector<double> gaps;
+  for (int wall = 0; wall < walls(); ++wall) gaps.push_back(gap_in_vessel(ball, wall, p));
   return gaps;
 }
 
