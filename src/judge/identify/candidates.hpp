@@ -19,14 +19,10 @@ class Samples {
 
   /// @param events  at least one; they must outlive the samples
   /// @param period  of the drive [s]
-  Samples(const std::vector<audit::LoggedEvent>& events, double period)
-      : events_(&events), period_(period), violating_(events.size(), false) {}
+  Samples(const std::vector<audit::LoggedEvent>& events, double period) : events_(&events), period_(period) {}
 
-  Places every() const;
-  void note_violating(std::size_t event) { violating_[event] = true; }
-  void forget_violating() { violating_.assign(violating_.size(), false); }
-  /// Draws them again.
-  void choose();
+  /// Draws them again. @param violating  events
+  void choose(std::set<std::size_t> violating);
 
   const Places& few() const { return few_; }               ///< of the whole log
   const Places& whole() const { return windows_.back(); }  ///< the same, more
@@ -40,7 +36,7 @@ class Samples {
 
   const std::vector<audit::LoggedEvent>* events_;
   double period_;
-  std::vector<bool> violating_;  ///< by event
+  std::set<std::size_t> violating_;
   std::vector<Places> windows_;
   Places few_, many_;
 };

@@ -1,6 +1,6 @@
-#include "identify/subsets.hpp"
-
 #include <fmt/format.h>
+
+#include "identify/assumptions.hpp"
 
 namespace edmill::identify {
 
