@@ -80,7 +80,8 @@ class ContactFinder {
   void settle();
   void report(std::vector<Stretch> group);
   std::vector<Touch> touches_of(const Stretch& s) const;
-  double balance(const Stretch& s) const;
+  using States = std::vector<std::pair<double, BallState>>;  ///< of a ball, by time
+  double balance(std::size_t ball, const States& states) const;
   bool make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const;
   void forget();
 

@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "dem/deck.hpp"
+#include "dem/moving_vessel.hpp"
 #include "dem/soft_contact.hpp"
 
 namespace edmill::dem {
@@ -43,11 +44,7 @@ model::BallState<double> state_in(const DeckCase& c, std::size_t ball, bool in_v
   if (!in_vessel) return s;
   const auto& motion = c.mill.motion;
   const auto seen = motion.to_vessel_frame(c.pose, s.position, s.velocity);
-  const Vec3<double> spin = s.spin - motion.angular_velocity(c.pose);
-  return {seen.position,
-          seen.velocity,
-          {dot<double>(motion.axis_x(c.pose), spin), dot<double>(motion.axis_y(c.pose), spin),
-           dot<double>(motion.axis_z(c.pose), spin)}};
+  return {seen.position, seen.velocity, in_axes(motion, c.pose, s.spin - motion.angular_velocity(c.pose))};
 }
 
 std::string atoms_of(const DeckCase& c, bool in_vessel) {
