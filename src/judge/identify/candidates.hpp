@@ -1,13 +1,16 @@
-// Numbers and mistakes that may explain a log, each fitted and judged by itself.
+// Numbers and mistakes that may explain a log, each fitted and judged by itself: by the rows of its events,
+// or, where the log has no states, by runs.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "audit/audit.hpp"
 #include "identify/fit.hpp"
+#include "identify/identify.hpp"
 
 namespace edmill::identify {
 
@@ -143,5 +146,13 @@ class Candidates {
   std::uint64_t violations_;
   double without_ = 0;
 };
+
+/// Logs without states: the case is run again with other values, from its own initial state, until its
+/// impacts are those of the log. docs/audit.md, "Causes"
+/// @param is_interrupted  asked between runs; yes ends the search
+/// @return how many impacts the case follows, and the best cause with which nine tenths can be followed
+Identification replay(const Assumptions& nominal, const std::vector<Parameter>& parameters,
+                      const std::vector<Mistake>& mistakes, const audit::EventsAtHand& log,
+                      const std::function<bool()>& is_interrupted);
 
 }  // namespace edmill::identify

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "identify/candidates.hpp"
-#include "identify/replay.hpp"
 
 namespace edmill::identify {
 
@@ -98,20 +97,11 @@ class Search {
       if (p.equation.empty() && p.is_of_case()) numbers.push_back(p);
     auto mistakes = mistakes_of(nominal_, numbers, log_.available);
     std::erase_if(mistakes, [&](const Mistake& m) { return !m.on(nominal_).is_case(); });
-    const auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
+    auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
     result.interrupted = is_interrupted(), result.too_few = found.too_few;
-    if (result.interrupted || result.too_few) return;
-    result.follows = found.without;
-    result.follows_all = found.clean;
-    if (!found.cause) return;
-    Cause cause;
-    if (const auto* p = found.cause->parameter)
-      cause.values.push_back(
-          {p->key, p->dimension, found.cause->value, found.cause->half_width, p->value, p->equation});
-    else
-      cause.mistakes.push_back(found.cause->mistake);
-    cause.follows = found.cause->follows, cause.could_follow = found.cause->of;
-    result.causes.push_back(std::move(cause));
+    if (result.interrupted) return;
+    result.follows = found.follows, result.follows_all = found.follows_all;
+    result.causes = std::move(found.causes);
   }
 
   /// The best of the fits of one more number on top of a base.

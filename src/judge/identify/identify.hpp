@@ -56,13 +56,13 @@ struct Found {
 
 /// One to three values or mistakes that explain nine tenths of the violations or more.
 struct Cause {
-  std::vector<Found> values;
-  std::vector<std::string> mistakes;   ///< "mill, sign of gamma: ..."
-  std::uint64_t explains = 0, of = 0;  ///< violations
-  double gain = 0;                     ///< of Schwarz's criterion over no cause
+  std::vector<Found> values = {};
+  std::vector<std::string> mistakes = {};  ///< "mill, sign of gamma: ..."
+  std::uint64_t explains = 0, of = 0;      ///< violations
+  double gain = 0;                         ///< of Schwarz's criterion over no cause
   /// For logs without states: how many impacts a run with the cause follows, and how many rounding lets it.
   std::uint64_t follows = 0, could_follow = 0;
-  std::vector<std::string> alike;  ///< other causes that this log cannot distinguish from it
+  std::vector<std::string> alike = {};  ///< other causes that this log cannot distinguish from it
 
   /// "mill.arm = 100.500 +- 0.001 mm in place of 100 mm"
   std::string text() const;
