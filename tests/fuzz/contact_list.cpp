@@ -1,6 +1,6 @@
 // Lists of contacts with walls, as `import` reads them.
 #include "base/errors.hpp"
-#include "dem/contact_list_reader.hpp"
+#include "dem/contacts.hpp"
 #include "input.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,6 @@
 // Logs of contacts, as `audit`, `compare` and `limit` read them.
-#include "dem/contact_log.hpp"
-
 #include "base/errors.hpp"
+#include "dem/contacts.hpp"
 #include "input.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

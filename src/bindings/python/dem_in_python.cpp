@@ -1,8 +1,8 @@
 #include <pybind11/stl.h>
 
+#include "dem/contact_rates.hpp"
 #include "dem/deck.hpp"
 #include "dem/import_dump.hpp"
-#include "dem/limit.hpp"
 #include "io/named_file.hpp"
 #include "python/binding.hpp"
 #include "run/case_access.hpp"

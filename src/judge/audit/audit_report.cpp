@@ -62,51 +62,6 @@ std::string unresolved_checks(const Audit& a) {
   return out;
 }
 
-}  // namespace
-
-std::string table(const Audit& a) {
-  std::string out =
-      fmt::format("{}: {} impacts, {:g} s to {:g} s{}\nchecked with {}, tolerance {:g}, gaps {:.3g} m\n",
-                  a.log_name, a.events, a.first, a.last, a.interrupted ? " (interrupted)" : "", a.case_name,
-                  a.tolerances.relative, a.tolerances.gap);
-  if (a.findings.total() > 0)
-    out +=
-        fmt::format("\n  {:<24}{:>10}{:>9}  {:<14}{}\n", "violation", "count", "share", "worst", "meaning");
-  for (const Kind kind : a.findings.ranked()) {
-    const Tally& tally = a.findings.of(kind);
-    out += fmt::format("  {:<24}{:>10}{:>8.3g}%  {:<14}{}\n", info(kind).name, tally.count,
-                       100 * share_of(a, kind), fmt::format("{:.3g} {}", tally.worst, info(kind).unit),
-                       info(kind).meaning);
-    for (const auto& [note, count] : tally.notes) out += fmt::format("    {} of them: {}\n", count, note);
-    for (const auto& example : tally.examples) out += fmt::format("    {}\n", describe(example));
-  }
-  const auto& e = a.energies;
-  if (e.impacts > 0)
-    out += fmt::format(
-        "\n  energy of {} impacts: wall work {:.6g} J - dose {:.6g} J + supplied {:.4g} J - gained {:.6g} J "
-        "= {:.2g} J\n    supplied by the least separation speed in {} of them\n",
-        e.impacts, e.wall_work.value(), e.milling_dose.value(), e.supplied.value(), e.kinetic_change.value(),
-        e.closure(), e.supplying);
-  if (a.energies.creating > 0)
-    out += fmt::format("\n  {} impacts create energy, {:.4g} J together\n", a.energies.creating,
-                       a.energies.created);
-  if (!a.diagnoses.empty()) out += "\n  the log looks like\n";
-  for (const auto& d : a.diagnoses)
-    out += fmt::format("    {} ({} of {}): {}\n", d.name, d.events, d.of, d.text);
-  if (!a.not_made.empty() && a.events > 0) {
-    out += "\n  not checked, since columns are missing\n";
-    for (const Check check : a.not_made)
-      out += fmt::format("    {:<24}needs {}\n", info(check).name, info(check).columns);
-  }
-  if (a.undecided > 0) out += fmt::format("\n  {} searches for missed impacts are undecided\n", a.undecided);
-  out += unresolved_checks(a);
-  const auto made = list_of_checks(a.findings, &Findings::judged_number);
-  return out +
-         fmt::format("\n  checked{}{}\n  verdict: {}\n", made.empty() ? "" : ": ", made, name_of(a.verdict));
-}
-
-namespace {
-
 void put_violations(io::JsonText& json, const Audit& a) {
   json.begin("violations");
   for (const Kind kind : a.findings.ranked()) {
@@ -175,6 +130,47 @@ void put_checks(io::JsonText& json, const Audit& a) {
 }
 
 }  // namespace
+
+std::string table(const Audit& a) {
+  std::string out =
+      fmt::format("{}: {} impacts, {:g} s to {:g} s{}\nchecked with {}, tolerance {:g}, gaps {:.3g} m\n",
+                  a.log_name, a.events, a.first, a.last, a.interrupted ? " (interrupted)" : "", a.case_name,
+                  a.tolerances.relative, a.tolerances.gap);
+  if (a.findings.total() > 0)
+    out +=
+        fmt::format("\n  {:<24}{:>10}{:>9}  {:<14}{}\n", "violation", "count", "share", "worst", "meaning");
+  for (const Kind kind : a.findings.ranked()) {
+    const Tally& tally = a.findings.of(kind);
+    out += fmt::format("  {:<24}{:>10}{:>8.3g}%  {:<14}{}\n", info(kind).name, tally.count,
+                       100 * share_of(a, kind), fmt::format("{:.3g} {}", tally.worst, info(kind).unit),
+                       info(kind).meaning);
+    for (const auto& [note, count] : tally.notes) out += fmt::format("    {} of them: {}\n", count, note);
+    for (const auto& example : tally.examples) out += fmt::format("    {}\n", describe(example));
+  }
+  const auto& e = a.energies;
+  if (e.impacts > 0)
+    out += fmt::format(
+        "\n  energy of {} impacts: wall work {:.6g} J - dose {:.6g} J + supplied {:.4g} J - gained {:.6g} J "
+        "= {:.2g} J\n    supplied by the least separation speed in {} of them\n",
+        e.impacts, e.wall_work.value(), e.milling_dose.value(), e.supplied.value(), e.kinetic_change.value(),
+        e.closure(), e.supplying);
+  if (a.energies.creating > 0)
+    out += fmt::format("\n  {} impacts create energy, {:.4g} J together\n", a.energies.creating,
+                       a.energies.created);
+  if (!a.diagnoses.empty()) out += "\n  the log looks like\n";
+  for (const auto& d : a.diagnoses)
+    out += fmt::format("    {} ({} of {}): {}\n", d.name, d.events, d.of, d.text);
+  if (!a.not_made.empty() && a.events > 0) {
+    out += "\n  not checked, since columns are missing\n";
+    for (const Check check : a.not_made)
+      out += fmt::format("    {:<24}needs {}\n", info(check).name, info(check).columns);
+  }
+  if (a.undecided > 0) out += fmt::format("\n  {} searches for missed impacts are undecided\n", a.undecided);
+  out += unresolved_checks(a);
+  const auto made = list_of_checks(a.findings, &Findings::judged_number);
+  return out +
+         fmt::format("\n  checked{}{}\n  verdict: {}\n", made.empty() ? "" : ": ", made, name_of(a.verdict));
+}
 
 void put_json(io::JsonText& json, const Audit& a) {
   json.text("format", "edmill audit 1");

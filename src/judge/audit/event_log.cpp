@@ -101,7 +101,10 @@ EventLog::EventLog(const std::filesystem::path& place, const LogConventions& con
 
 void EventLog::read_header(const LogConventions& conventions) {
   const auto& names = column_names();
-  std::vector<std::string> theirs(names.begin(), names.end());
+  auto theirs = names;
+  const auto in_header = [&header = csv_.header()](const std::string& column) {
+    return std::find(header.begin(), header.end(), column) != header.end();
+  };
   std::vector<std::string> problems;
   for (const auto& [ours, given] : conventions.columns) {
     const auto name = std::find(names.begin(), names.end(), ours);
@@ -126,13 +129,10 @@ void EventLog::read_header(const LogConventions& conventions) {
         complain("unit " + io::in_quotes(unit),
                  dimension_of(k) == Dimension::none ? "no unit" : casefile::describe(dimension_of(k)));
       // A header may name the unit too.
-      const auto& header = csv_.header();
-      if (std::find(header.begin(), header.end(), column) == header.end())
-        column = trimmed(column.substr(0, bracket));
+      if (!in_header(column)) column = trimmed(column.substr(0, bracket));
     }
     theirs[k] = column;
-    if (std::find(csv_.header().begin(), csv_.header().end(), column) == csv_.header().end())
-      complain("no such column in " + csv_.file(), "a name of its header");
+    if (!in_header(column)) complain("no such column in " + csv_.file(), "a name of its header");
   }
   if (!problems.empty()) throw InputError(problems);
 

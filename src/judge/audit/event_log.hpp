@@ -28,10 +28,10 @@ struct BodyState {
 
 /// An impact with what a log may have more: the states of its bodies.
 struct LoggedEvent : model::ImpactRecord<double> {
-  std::array<BodyState, 2> body;  ///< the ball and, for balls, its partner
-  double earlier_by = 0;          ///< than a line above it, when above 0 [s]
-  std::string problem;            ///< "found nan in column vx_before": of an event that cannot be checked
-  bool unknown_body = false;      ///< the problem is a ball or wall that does not exist
+  std::array<BodyState, 2> body{};  ///< the ball and, for balls, its partner
+  double earlier_by = 0;            ///< than a line above it, when above 0 [s]
+  std::string problem{};            ///< "found nan in column vx_before": of an event that cannot be checked
+  bool unknown_body = false;        ///< the problem is a ball or wall that does not exist
 
   std::size_t count() const { return with_wall ? 1 : 2; }  ///< of balls
   /// Number of the ball of a body.

@@ -33,15 +33,9 @@ void Findings::take(const Findings& others) {
   }
 }
 
-std::uint64_t Findings::total() const {
+std::uint64_t Findings::sum(std::uint64_t Tally::*number) const {
   std::uint64_t sum = 0;
-  for (const auto& tally : tallies_) sum += tally.count;
-  return sum;
-}
-
-std::uint64_t Findings::explained() const {
-  std::uint64_t sum = 0;
-  for (const auto& tally : tallies_) sum += tally.explained;
+  for (const auto& tally : tallies_) sum += tally.*number;
   return sum;
 }
 

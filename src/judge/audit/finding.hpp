@@ -82,9 +82,9 @@ class Findings {
   const Tally& of(Kind kind) const { return tallies_[static_cast<std::size_t>(kind)]; }
   std::uint64_t judged_number(Check check) const { return judged_[static_cast<std::size_t>(check)]; }
   std::uint64_t unresolved_number(Check check) const { return unresolved_[static_cast<std::size_t>(check)]; }
-  std::uint64_t total() const;
+  std::uint64_t total() const { return sum(&Tally::count); }
   /// Number of violations that their notes explain.
-  std::uint64_t explained() const;
+  std::uint64_t explained() const { return sum(&Tally::explained); }
   /// Kinds that were found, the most frequent first.
   std::vector<Kind> ranked() const;
 
@@ -92,6 +92,7 @@ class Findings {
 
  private:
   void keep(Tally& tally, const Finding& finding) const;
+  std::uint64_t sum(std::uint64_t Tally::*number) const;
 
   std::size_t examples_;
   std::array<Tally, kind_count> tallies_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/errors.hpp"
+
 namespace edmill::audit {
 
 namespace {
@@ -17,10 +19,10 @@ constexpr std::array<const char*, 4> look_notes = {
     "falls too far at the right velocity: first-order steps, velocity before position",
     "falls too little at the right velocity: first-order steps, position before velocity"};
 
+/// Half of the smallest sum of two balls' radii: they are reduced by tolerances.
 double smallest_sum(const model::Case<double>& c) {
-  double smallest = c.balls.front().radius;
-  for (const auto& ball : c.balls) smallest = std::min(smallest, ball.radius);
-  return smallest;  // half of that of two balls: radii are reduced by tolerances
+  const auto smaller = [](const auto& a, const auto& b) { return a.radius < b.radius; };
+  return std::min_element(c.balls.begin(), c.balls.end(), smaller)->radius;
 }
 
 }  // namespace
@@ -33,11 +35,6 @@ Flights::Flights(const Judge& shared)
       tracks_(case_.balls.size()),
       flown_through_(case_.mill.vessel.walls().size()),
       looks_(look_notes.size(), Suspicion(findings_.examples())) {}
-
-Vec Flights::position_at(int ball, double time) const {
-  const Track& track = of(ball);
-  return position_after(track.flight, time - track.start);
-}
 
 void Flights::begin(int ball, double time, const BodyState& state, const Available::Body& has) {
   Track& track = of(ball);
@@ -57,11 +54,8 @@ void Flights::begin(int ball, double time, const BodyState& state, const Availab
 }
 
 void Flights::begin_at_start(int ball, const model::BallState<double>& state, double time) {
-  BodyState body;
-  body.position = state.position;
-  body.velocity_after = state.velocity;
-  body.spin_after = state.spin;
-  begin(ball, time, body, {true, true, true, true, true});
+  begin(ball, time, {.position = state.position, .velocity_after = state.velocity, .spin_after = state.spin},
+        {true, true, true, true, true});
 }
 
 void Flights::judge(int ball, const FlightEnd& end) {
@@ -179,7 +173,7 @@ void Flights::judge_state(int ball, const Track& track, const FlightEnd& end, do
   off = 0;
   if (has.position && has.velocity_before) {
     const double dp = size(Vec(state.position - position_at(ball, time)));
-    const double dv = size(Vec(state.velocity_before - velocity_after(track.flight, dt)));
+    const double dv = size(Vec(state.velocity_before - velocity_of(track, time)));
     const double fastest = speed + tolerances_.gravity * dt;
     const bool good =
         dp <= tolerances_.position(time, speed * dt, fastest) && dv <= tolerances_.velocity(time, fastest);
@@ -243,6 +237,157 @@ void Flights::tell_flight(const Track& track, const BodyState& state, const Find
     if (first && !looks_[k].is_suspected()) step_ = 0;
   }
   if (!told) findings_.add(finding);
+}
+
+/// First contact of a ball with the walls, in (start, until].
+auto Flights::wall_contact(const Flying& own, double radius, double until) -> std::optional<Contact> {
+  auto begin = own.flight.start;
+  double rest = until - own.start;
+  while (rest > 0) {
+    const double length = std::min(rest, ladder_.walls().longest_window());
+    try {
+      const auto answer = ladder_.wall({own.flight, radius, begin, length});
+      if (answer.verdict == dynamics::Verdict::contact) {
+        const double time = own.start + clock_.elapsed(own.flight.start, answer.time);
+        if (time > until) return std::nullopt;
+        return Contact{time, true, answer.wall};
+      }
+      begin = clock_.after(begin, answer.searched);
+      rest -= answer.searched;
+    } catch (const UndecidedError&) {
+      ++undecided_;
+      return std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The ball is searched with its radius reduced by the tolerance, so that a contact is certainly an overlap.
+auto Flights::first_wall(int ball, const Track& track, double until, double slack) -> std::optional<Contact> {
+  const double radius = radius_of(ball);
+  const auto frame = nested_at(track.start);
+  double overlap = 0;
+  for (int wall = 0; wall < walls(); ++wall)
+    overlap = std::max(overlap, -wall_gap(frame, case_, wall, ball, track.flight.position));
+  const double smaller = radius - overlap - slack;
+  if (smaller < radius / 2) return std::nullopt;  // outside the vessel, which was reported before
+  auto contact = wall_contact(track, smaller, until);
+  if (contact) contact->depth = deepest(ball, track, contact->partner, contact->time, until);
+  return contact;
+}
+
+double Flights::deepest(int ball, const Track& track, int wall, double from, double until) const {
+  constexpr int samples = 32;
+  double depth = 0;
+  for (int k = 0; k <= samples; ++k) {
+    const double time = from + (until - from) * k / samples;
+    depth = std::max(depth, -wall_gap(nested_at(time), case_, wall, ball, position_of(track, time)));
+  }
+  return depth;
+}
+
+/// Whether the log's walls are those of the printed matrix, which was reported, and the flight ends inside
+/// of them.
+bool Flights::stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const {
+  if (!printed_walls_) return false;
+  constexpr int samples = 32;
+  for (int k = 0; k <= samples; ++k) {
+    const double time = track.start + (until - track.start) * k / samples;
+    const auto frame = printed_at(time);
+    const Vec position = position_of(track, time);
+    for (int wall = 0; wall < walls(); ++wall)
+      if (wall_gap(frame, case_, wall, ball, position) < -slack) return false;
+  }
+  return true;
+}
+
+auto Flights::first_ball(int ball, const Track& track, const FlightEnd& end, double slack)
+    -> std::optional<Contact> {
+  const double until = end.event->time;
+  const double radius = radius_of(ball);
+  const auto& pairs = ladder_.pairs();
+  const auto seen_at_start = pairs.state(track.flight, track.flight.start);
+  std::optional<Contact> first;
+  for (int other = 0; other < balls(); ++other) {
+    const Track& theirs = of(other);
+    if (other == ball || !theirs.state_known) continue;
+    const bool later = theirs.start > track.start;
+    const double from = later ? theirs.start : track.start;
+    const double to = theirs.broken ? std::min(until, theirs.broken_from) : until;
+    if (from >= to) continue;
+    const auto& now = later ? theirs.flight.start : track.flight.start;
+    const double sum = radius + radius_of(other);
+    // The other ball's place has an uncertain time of its own.
+    const double off = slack + 2 * tolerances_.time(until) * size(theirs.flight.velocity);
+    if (off > sum / 2) continue;
+    const auto seen = later ? pairs.state(track.flight, now) : seen_at_start;
+    dynamics::PairAnswer<double> answer;
+    try {
+      answer = ladder_.pair(seen, track.flight, theirs.flight, now, sum - off);
+    } catch (const UndecidedError&) {
+      ++undecided_;
+    }
+    if (answer.verdict != dynamics::Verdict::contact || from + answer.delay > to) continue;
+    if (first && first->time <= from + answer.delay) continue;
+    const Vec apart = position_at(ball, from) - position_at(other, from);
+    if (size(apart) < sum - off) continue;  // they overlapped already, which was reported before
+    if (end.late && !end.event->with_wall && end.partner() == other) continue;
+    const Vec relative = velocity_of(track, from) - velocity_of(theirs, from);
+    const double nearest = std::clamp(-dot(apart, relative) / dot(relative, relative), 0.0, to - from);
+    first = Contact{from + answer.delay, false, other, sum - size(Vec(apart + relative * nearest))};
+  }
+  return first;
+}
+
+/// Whether a ball reaches the logged end of the flight.
+bool Flights::arrives(const Flying& own, const FlightEnd& end) const {
+  const auto& logged = end.state();
+  const double near = std::max(1e-6, 10 * tolerances_.relative);
+  const Vec velocity = velocity_of(own, end.event->time);
+  return size(Vec(logged.position - position_of(own, end.event->time))) <= near * tolerances_.reach &&
+         size(Vec(logged.velocity_before - velocity)) <= 10 * near * std::max(size(velocity), 1.0);
+}
+
+/// A ball as it comes into an impact.
+BodyState Flights::before_impact(const Flying& own, double time) const {
+  return {
+      .position = position_of(own, time), .velocity_before = velocity_of(own, time), .spin_before = own.spin};
+}
+
+/// The ball of an impact as it leaves.
+Flying Flights::after_impact(const LoggedEvent& event) const {
+  const auto after = outcome(impact_of(event, case_, nested_at(event.time), true), {})[0];
+  return {{after.position, after.velocity_after, clock_.at(event.time)}, after.spin_after, event.time};
+}
+
+/// Tries up to four impacts with walls that are not in the log.
+bool Flights::explained_by_walls(int ball, const Track& track, const FlightEnd& end) {
+  if (!track.spin_known) return false;
+  Flying own = track;
+  for (int k = 0; k < 4; ++k) {
+    const auto contact = wall_contact(own, radius_of(ball), end.event->time);
+    if (!contact) return false;
+    LoggedEvent event{{.ball = ball, .with_wall = true, .partner = contact->partner, .time = contact->time}};
+    event.body[0] = before_impact(own, event.time);
+    own = after_impact(event);
+    if (arrives(own, end)) return true;
+  }
+  return false;
+}
+
+/// Tries the impact with a ball that is not in the log.
+bool Flights::explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const {
+  const Track &own = of(ball), &other = of(contact.partner);
+  if (!own.spin_known || !other.spin_known) return false;
+  // The contact of the actual balls, slightly before that of the reduced ones.
+  const double sum = radius_of(ball) + radius_of(contact.partner);
+  const Vec apart = position_at(ball, contact.time) - position_at(contact.partner, contact.time);
+  const Vec relative = velocity_of(own, contact.time) - velocity_of(other, contact.time);
+  const double closing = -dot(apart, relative) / size(apart);
+  const double time = closing > 0 ? contact.time - (sum - size(apart)) / closing : contact.time;
+  return arrives(after_impact({{.ball = ball, .partner = contact.partner, .time = time},
+                               {before_impact(own, time), before_impact(other, time)}}),
+                 end);
 }
 
 }  // namespace edmill::audit

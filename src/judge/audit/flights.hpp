@@ -10,12 +10,16 @@
 
 namespace edmill::audit {
 
-/// The last logged state of a ball.
-struct Track {
-  bool state_known = false, spin_known = false;
-  dynamics::Flight<double> flight{Vec::Zero(), Vec::Zero(), {}};  ///< since the last impact
+/// A ball since its last impact.
+struct Flying {
+  dynamics::Flight<double> flight{Vec::Zero(), Vec::Zero(), {}};
   Vec spin{0, 0, 0};
-  double start = 0;        ///< of the flight [s]
+  double start = 0;  ///< of the flight [s]
+};
+
+/// The last logged state of a ball.
+struct Track : Flying {
+  bool state_known = false, spin_known = false;
   double broken_from = 0;  ///< an impact of the flight at this time is not in the log [s]
   bool broken = false;
   struct Pending {  ///< a missed impact with a ball whose flight is now over
@@ -47,7 +51,7 @@ class Flights : Judge {
   int balls() const { return static_cast<int>(tracks_.size()); }
 
   /// Position of a ball, extrapolated from its last known state [m]. @pre its state is known
-  Vec position_at(int ball, double time) const;
+  Vec position_at(int ball, double time) const { return position_of(of(ball), time); }
   VesselFrame nested_at(double time) const { return vessel_at(case_.mill, time, false); }
   VesselFrame printed_at(double time) const { return vessel_at(case_.mill, time, true); }
 
@@ -74,20 +78,14 @@ class Flights : Judge {
     int partner = -1;
     double depth = 0;  ///< largest overlap of the bodies later in the flight [m]
   };
-  struct State {  ///< of a ball while an unlogged impact is tried
-    dynamics::Flight<double> flight;
-    Vec spin;
-    double start;
-  };
   std::optional<Contact> first_wall(int ball, const Track& track, double until, double slack);
-  std::optional<std::pair<double, int>> wall_contact(const dynamics::Flight<double>& flight, double start,
-                                                     double radius, double until);
+  std::optional<Contact> wall_contact(const Flying& own, double radius, double until);
   std::optional<Contact> first_ball(int ball, const Track& track, const FlightEnd& end, double slack);
   bool explained_by_walls(int ball, const Track& track, const FlightEnd& end);
   bool explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const;
-  BodyState before_impact(const State& state, double time) const;
-  State after_impact(const LoggedEvent& event) const;
-  bool arrives(const State& state, const FlightEnd& end) const;
+  BodyState before_impact(const Flying& own, double time) const;
+  Flying after_impact(const LoggedEvent& event) const;
+  bool arrives(const Flying& own, const FlightEnd& end) const;
   void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it);
   void tell_flight(const Track& track, const BodyState& state, const Finding& finding, bool good);
   double look(std::size_t k, const Track& track, const BodyState& state, double dt, double& shows);
@@ -102,11 +100,11 @@ class Flights : Judge {
   bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const;
   double deepest(int ball, const Track& track, int wall, double from, double until) const;
 
-  Vec position_after(const dynamics::Flight<double>& flight, double dt) const {
-    return dynamics::position_after(flight, case_.mill.gravity, dt);
+  Vec position_of(const Flying& own, double time) const {
+    return dynamics::position_after(own.flight, case_.mill.gravity, time - own.start);
   }
-  Vec velocity_after(const dynamics::Flight<double>& flight, double dt) const {
-    return dynamics::velocity_after(flight, case_.mill.gravity, dt);
+  Vec velocity_of(const Flying& own, double time) const {
+    return dynamics::velocity_after(own.flight, case_.mill.gravity, time - own.start);
   }
 
   DriveClock<double> clock_;

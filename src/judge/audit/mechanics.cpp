@@ -39,6 +39,23 @@ VesselFrame frame_of(const model::AnyMotion<double>& motion, const model::AnyPos
   return frame;
 }
 
+Vec velocity_at(const WallPoint& p, const Vec& place) {
+  return p.nested.centre_velocity + cross(p.nested.angular_velocity, Vec(place - p.nested.centre));
+}
+Vec from_centre(const WallPoint& p) { return p.contact - p.nested.centre; }
+Vec by_roll(const WallPoint& p) { return cross(Vec(p.nested.x * p.nested.roll_rate), from_centre(p)); }
+Vec by_roll_about_X(const WallPoint& p) {
+  return cross(Vec(Vec(1, 0, 0) * p.nested.roll_rate), from_centre(p));
+}
+
+/// The ball's contact point is at -R n from its centre, the partner's at +R n.
+Vec contact_velocity(const LoggedImpact& impact, Vec BodyState::*velocity, Vec BodyState::*spin) {
+  const auto& [one, two] = impact.event->body;
+  const Vec own = one.*velocity - cross(one.*spin, impact.normal) * impact.ball[0].radius;
+  if (impact.with_wall()) return own - impact.wall_velocity;
+  return own - (two.*velocity + cross(two.*spin, impact.normal) * impact.ball[1].radius);
+}
+
 }  // namespace
 
 VesselFrame vessel_at(const model::Mill<double>& mill, double time, bool as_printed) {
@@ -85,19 +102,6 @@ double wall_bend(const VesselFrame& frame, const model::AnyVessel<double>& vesse
   }
   return std::sqrt(square) / step;
 }
-
-namespace {
-
-Vec velocity_at(const WallPoint& p, const Vec& place) {
-  return p.nested.centre_velocity + cross(p.nested.angular_velocity, Vec(place - p.nested.centre));
-}
-Vec from_centre(const WallPoint& p) { return p.contact - p.nested.centre; }
-Vec by_roll(const WallPoint& p) { return cross(Vec(p.nested.x * p.nested.roll_rate), from_centre(p)); }
-Vec by_roll_about_X(const WallPoint& p) {
-  return cross(Vec(Vec(1, 0, 0) * p.nested.roll_rate), from_centre(p));
-}
-
-}  // namespace
 
 const std::array<WallVelocity, 10> wall_velocities = {{
     {"", [](const WallPoint& p) { return velocity_at(p, p.contact); }},
@@ -160,18 +164,6 @@ LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_
   if (placed && distance > 0) impact.normal = apart * (1 / distance);
   return impact;
 }
-
-namespace {
-
-/// The ball's contact point is at -R n from its centre, the partner's at +R n.
-Vec contact_velocity(const LoggedImpact& impact, Vec BodyState::*velocity, Vec BodyState::*spin) {
-  const auto& [one, two] = impact.event->body;
-  const Vec own = one.*velocity - cross(one.*spin, impact.normal) * impact.ball[0].radius;
-  if (impact.with_wall()) return own - impact.wall_velocity;
-  return own - (two.*velocity + cross(two.*spin, impact.normal) * impact.ball[1].radius);
-}
-
-}  // namespace
 
 Vec LoggedImpact::before() const {
   return contact_velocity(*this, &BodyState::velocity_before, &BodyState::spin_before);

@@ -151,8 +151,8 @@ class Judge {
             const ValuesIn& values_in) {
     if (!reason.empty()) return skip(name, unit, reason);
     const BatchValues a = values_in(a_), b = values_in(b_);
-    BatchValues differences;
-    for (std::size_t k = 0; k < a.size(); ++k) differences.push_back(b[k] - a[k]);
+    BatchValues differences(a.size());
+    std::transform(b.begin(), b.end(), a.begin(), differences.begin(), std::minus());
     const auto of_a = numerics::estimate(a), of_b = numerics::estimate(b),
                of_both = numerics::estimate(differences);
     // The tolerance on single events also applies to their mean.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/errors.hpp"
 #include "io/json_file.hpp"
@@ -16,23 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What counts from the summary of a run.
-struct RunSummary {
-  double statistics_start;  ///< [s]
-  int walls;                ///< that it names
-};
-
-std::optional<RunSummary> read_summary(const fs::path& summary) {
-  if (!fs::exists(summary)) return std::nullopt;
+/// What counts from the summary of a run: the begin of the statistics, and walls that it names.
+void read_summary(const fs::path& summary, LogScan& scan) {
+  if (!fs::exists(summary)) return;
   const auto root = io::read_json(summary, "the summary of a run");
   const auto found = root.find("start_time");
   if (found == root.end() || !found->is_number())
     throw InputError(fmt::format("{}: start_time: found {}, expected a time in s", summary.string(),
                                  found == root.end() ? "nothing" : io::in_quotes(found->dump())));
-  int walls = 0;
+  scan.statistics_start = found->get<double>();
   const auto counts = root.value("collisions", nlohmann::json::object());
+  int walls = 0;
   while (counts.contains(model::partner_key(walls, walls + 1))) ++walls;
-  return RunSummary{found->get<double>(), walls};
+  scan.walls = std::max(scan.walls, walls);
 }
 
 bool is_folder(const fs::path& place) {
@@ -52,12 +47,7 @@ fs::path log_in(const fs::path& place) {
 
 LogReader::LogReader(const fs::path& place)
     : csv_(log_in(place), is_folder(place) ? "a collision log ([[output]] of type \"collisions\" in the case)"
-                                           : "a collision log"),
-      last_time_(-std::numeric_limits<double>::infinity()) {
-  read_header();
-}
-
-void LogReader::read_header() {
+                                           : "a collision log") {
   columns_[model::time] = csv_.needed_column("time");
   ball_column_ = csv_.needed_column("ball").value_or(0);
   kind_column_ = csv_.needed_column("partner_kind").value_or(0);
@@ -69,10 +59,8 @@ void LogReader::read_header() {
 }
 
 std::optional<Event> LogReader::next() {
-  while (csv_.next_row()) {
-    const auto problems_before = csv_.problem_count();
-    if (auto event = parse(); event && csv_.problem_count() == problems_before) return event;
-  }
+  while (csv_.next_row())
+    if (auto event = parse()) return event;
   csv_.throw_problems();
   return std::nullopt;
 }
@@ -128,10 +116,7 @@ LogScan scan_log(const fs::path& place) {
   }
   if (scan.events > 0)
     for (double& mean : scan.mean_magnitude) mean /= static_cast<double>(scan.events);
-  if (const auto summary = is_folder(place) ? read_summary(place / "summary.json") : std::nullopt) {
-    scan.statistics_start = summary->statistics_start;
-    scan.walls = std::max(scan.walls, summary->walls);
-  }
+  if (is_folder(place)) read_summary(place / "summary.json", scan);
   return scan;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -38,13 +39,12 @@ class LogReader {
   const std::string& file() const { return csv_.file(); }
 
  private:
-  void read_header();
   std::optional<Event> parse();
 
   io::CsvReader csv_;
   OfEach<std::optional<std::size_t>> columns_;
   std::size_t ball_column_ = 0, kind_column_ = 0, partner_column_ = 0;
-  double last_time_;
+  double last_time_ = -std::numeric_limits<double>::infinity();
 };
 
 /// Result of one pass over a log.

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "casefile/build_case.hpp"
-#include "dem/contact_log.hpp"
+#include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
-#include "io/json_text.hpp"
 
 namespace edmill::dem {
 

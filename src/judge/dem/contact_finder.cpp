@@ -1,10 +1,9 @@
-#include "dem/contact_finder.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/errors.hpp"
+#include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
 
 namespace edmill::dem {
@@ -217,16 +216,16 @@ std::vector<ContactFinder::Touch> ContactFinder::touches_of(const Stretch& s) co
   return touches;
 }
 
-double ContactFinder::balance(const Stretch& s) const {
-  auto pose = vessel_.at(frame(s.first).time);
-  double lost = vessel_.energy(pose, s.ball, frame(s.first).balls[s.ball]);
-  for (std::size_t k = s.first; k < s.last; ++k) {
-    const auto next = vessel_.at(frame(k + 1).time);
-    lost +=
-        vessel_.work(pose, frame(k).balls[s.ball], next, frame(k + 1).balls[s.ball], s.ball, frames_.gravity);
+/// Energy that a ball loses on its way.
+double ContactFinder::balance(std::size_t ball, const States& states) const {
+  auto pose = vessel_.at(states.front().first);
+  double lost = vessel_.energy(pose, ball, states.front().second);
+  for (std::size_t k = 1; k < states.size(); ++k) {
+    const auto next = vessel_.at(states[k].first);
+    lost += vessel_.work(pose, states[k - 1].second, next, states[k].second, ball, frames_.gravity);
     pose = next;
   }
-  return lost - vessel_.energy(pose, s.ball, frame(s.last).balls[s.ball]);
+  return lost - vessel_.energy(pose, ball, states.back().second);
 }
 
 bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const {
@@ -252,18 +251,12 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
     const std::size_t ball = group[k].ball;
     const auto before = flown(from.balls[ball], frames_.gravity, *touch - from.time);
     const auto after = flown(to.balls[ball], frames_.gravity, *leave - to.time);
-    auto pose = vessel_.at(*touch);
-    BallState last = before;
-    double lost = vessel_.energy(pose, ball, before);
-    const auto move_to = [&](double t, const BallState& state) {
-      const auto next = vessel_.at(t);
-      lost += vessel_.work(pose, last, next, state, ball, frames_.gravity);
-      pose = next, last = state;
-    };
+    States states{{*touch, before}};
     for (std::size_t f = a.first + 1; f < a.last; ++f)
-      if (frame(f).time > *touch && frame(f).time < *leave) move_to(frame(f).time, frame(f).balls[ball]);
-    move_to(*leave, after);
-    contact.dose += lost - vessel_.energy(pose, ball, after);
+      if (frame(f).time > *touch && frame(f).time < *leave)
+        states.emplace_back(frame(f).time, frame(f).balls[ball]);
+    states.emplace_back(*leave, after);
+    contact.dose += balance(ball, states);
     (k == 0 ? contact.before : contact.partner_before) = before;
     (k == 0 ? contact.after : contact.partner_after) = after;
   }
@@ -276,7 +269,10 @@ void ContactFinder::report(std::vector<Stretch> group) {
   std::size_t first = group[0].first, last = group[0].last;
   for (const auto& s : group) {
     first = std::min(first, s.first), last = std::max(last, s.last);
-    contact.dose += balance(s);
+    States states;
+    for (std::size_t f = s.first; f <= s.last; ++f)
+      states.emplace_back(frame(f).time, frame(f).balls[s.ball]);
+    contact.dose += balance(s.ball, states);
   }
   contact.free_until = contact.begin = frame(first).time;
   contact.free_from = contact.end = frame(last).time;

@@ -61,7 +61,7 @@ double DeckCase::density(std::size_t ball) const {
 }
 
 bool DeckCase::translates() const {
-  return std::none_of(joints.list.begin(), joints.list.end(), [](const auto& j) { return j.rotates; });
+  return std::ranges::none_of(joints.list, &model::Joint<double>::rotates);
 }
 
 std::string header_of(const DeckCase& c, const DeckOptions& options) {
@@ -70,6 +70,14 @@ std::string header_of(const DeckCase& c, const DeckOptions& options) {
       "# digest of the case {}\n",
       c.file, version(), options.contact_time, options.speed, c.of_balls.restitution, c.of_walls.restitution,
       c.digest);
+}
+
+std::string weight_of(const DeckCase& c) {
+  const auto& g = c.mill.gravity;
+  const double size = norm<double>(g);
+  if (!(size > 0)) return "";
+  return fmt::format("fix weight all gravity {} vector {} {} {}\n", size, g[0] / size, g[1] / size,
+                     g[2] / size);
 }
 
 std::array<double, 3> axis_of(const model::Joint<double>& joint) {
@@ -150,6 +158,8 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
   const auto built = casefile::build_case<double>(spec);
   refuse_what_no_code_has(spec, built);
   const auto& c = built.the_case;
+  const DriveClock<double> clock(c.mill.motion.period());
+  const double begin = clock.seconds(built.start);
   DeckCase deck{
       .file = spec.file,
       .digest = spec.digest,
@@ -161,8 +171,9 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
       .joints = model::converted_joints<double>(
           model::Joints<casefile::Quantity>{casefile::joints_of(spec.mill), casefile::period_of(spec.mill)},
           [](const casefile::Quantity& q) { return q.to<double>(); }),
-      .begin = DriveClock<double>(c.mill.motion.period()).seconds(built.start),
+      .begin = begin,
       .period = casefile::period_of(spec.mill).to<double>(),
+      .pose = c.mill.motion.pose(clock.at(begin)),
       .young = 0,
       .time_step = options.contact_time / options.steps,
       .steps = 0,

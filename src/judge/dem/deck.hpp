@@ -52,6 +52,7 @@ struct DeckCase {
   model::Mill<double> mill;
   model::Joints<double> joints;  ///< of the vessel
   double begin, period;          ///< time of the states, period of the drive [s]
+  model::AnyPose<double> pose;   ///< of the vessel at the begin
   double young, time_step;       ///< [Pa], [s]
   long steps, frame_every;       ///< of the run; between frames
   double largest_radius;
@@ -65,6 +66,8 @@ struct DeckCase {
 /// The first lines of every deck, comments: of which case it is, and with which contacts.
 std::string header_of(const DeckCase& c, const DeckOptions& options);
 
+/// Gravity as a command of LAMMPS and LIGGGHTS; empty where there is none.
+std::string weight_of(const DeckCase& c);
 // One file each.
 Deck lammps_deck(const DeckCase& c, const DeckOptions& options);
 Deck liggghts_deck(const DeckCase& c, const DeckOptions& options);

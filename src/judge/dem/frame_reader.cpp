@@ -10,38 +10,22 @@
 #include <utility>
 
 #include "base/errors.hpp"
-#include "dem/binary_dump.hpp"
 #include "io/csv_reader.hpp"
 
 namespace edmill::dem {
 
 namespace {
 
-/// What a frame must have of each ball, under the names that codes give it.
-struct Needed {
-  std::array<const char*, 2> names;
-  bool required = true;
-};
-/// Places in `needed`; y and z follow x.
+/// Places in `names`; y and z follow x.
 constexpr std::size_t id = 0, x = 1, vx = 4, wx = 7, mass = 10, radius = 11, diameter = 12, scaled_x = 13,
                       moment = 16, count = 17;
-constexpr Needed needed[count] = {{{"id", "ball"}},
-                                  {{"x", "xu"}, false},
-                                  {{"y", "yu"}, false},
-                                  {{"z", "zu"}, false},
-                                  {{"vx"}},
-                                  {{"vy"}},
-                                  {{"vz"}},
-                                  {{"omegax", "wx"}},
-                                  {{"omegay", "wy"}},
-                                  {{"omegaz", "wz"}},
-                                  {{"mass"}, false},
-                                  {{"radius"}, false},
-                                  {{"diameter"}, false},
-                                  {{"xs", "xsu"}, false},
-                                  {{"ys", "ysu"}, false},
-                                  {{"zs", "zsu"}, false},
-                                  {{"time", "t"}, false}};
+/// What a frame may have of each ball, under the names that codes give it.
+constexpr std::array<const char*, 2> names[count] = {
+    {"id", "ball"}, {"x", "xu"},      {"y", "yu"},      {"z", "zu"},      {"vx"},       {"vy"},
+    {"vz"},         {"omegax", "wx"}, {"omegay", "wy"}, {"omegaz", "wz"}, {"mass"},     {"radius"},
+    {"diameter"},   {"xs", "xsu"},    {"ys", "ysu"},    {"zs", "zsu"},    {"time", "t"}};
+
+bool is_required(std::size_t what) { return what == id || (what >= vx && what < mass); }
 
 /// Apart by spaces, tabs, commas or semicolons, in quotes or without.
 std::vector<std::string> words(const std::string& line) {
@@ -69,6 +53,88 @@ int facets_of(const std::string& word, const std::string& deck) {
     throw InputError(
         fmt::format("{}: found {} facets, expected a number from 3 on", deck, io::in_quotes(word)));
   return facets;
+}
+
+// Binary dumps of LAMMPS: `dump custom FILE.bin`, revision 2 of its format (since 2021), which names its
+// columns.
+
+constexpr int most_columns = 1000;
+constexpr int longest_text = 100'000;  // of the names of the columns
+constexpr std::string_view magic = "DUMPCUSTOM";
+
+/// Thrown where the file ends.
+struct EndOfFile {};
+
+/// Numbers as the writer's machine had them: LAMMPS writes them as they are.
+class Bytes {
+ public:
+  Bytes(std::istream& in, const std::string& name) : in_(in), name_(name) {}
+
+  template <class T>
+  T take() {
+    T value;
+    read(reinterpret_cast<char*>(&value), sizeof value);
+    return value;
+  }
+  std::string text(int length) {
+    if (length < 0 || length > longest_text) fail(fmt::format("a text of {} bytes", length), "a short one");
+    std::string value(static_cast<std::size_t>(length), ' ');
+    read(value.data(), value.size());
+    return value;
+  }
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
+    throw InputError(fmt::format("{}: binary dump: found {}, expected {}", name_, found, expected));
+  }
+
+ private:
+  void read(char* to, std::size_t bytes) {
+    if (!in_.read(to, static_cast<std::streamsize>(bytes))) throw EndOfFile();
+  }
+
+  std::istream& in_;
+  const std::string& name_;
+};
+
+/// A format without names of columns begins with the step, which is not negative.
+void read_format(Bytes& in) {
+  const auto length = in.take<std::int64_t>();
+  if (length >= 0 || in.text(static_cast<int>(-std::max<std::int64_t>(length, -longest_text))) != magic)
+    in.fail("the format of LAMMPS before 2021, which does not name its columns, or another file",
+            "a dump custom of a later LAMMPS, or the text that its binary2txt makes");
+  if (const auto one = in.take<std::int32_t>(); one != 1)
+    in.fail("numbers of a machine with the other order of bytes", "those of this one");
+  if (const auto revision = in.take<std::int32_t>(); revision != 2)
+    in.fail(fmt::format("revision {}", revision), "2");
+}
+
+void read_box(Bytes& in, std::array<double, 3>& low, std::array<double, 3>& size) {
+  const auto triclinic = in.take<std::int32_t>();
+  for (int k = 0; k < 6; ++k) in.take<std::int32_t>();  // kinds of boundaries
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    low[axis] = in.take<double>();
+    size[axis] = in.take<double>() - low[axis];
+  }
+  if (triclinic != 0) in.fail("a box whose edges are not at right angles", "another");
+}
+
+/// The values of all rows. Nothing larger than the frame must be is allocated.
+std::vector<double> read_values(Bytes& in, std::size_t size) {
+  std::vector<double> values;
+  const auto chunks = in.take<std::int32_t>();
+  for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
+    const auto count = in.take<std::int32_t>();
+    if (count < 0 || static_cast<std::size_t>(count) > size - values.size())
+      in.fail(fmt::format("a part of {} values", count), fmt::format("at most {}", size));
+    for (std::int32_t k = 0; k < count; ++k) values.push_back(in.take<double>());
+  }
+  if (values.size() != size) in.fail(fmt::format("{} values", values.size()), fmt::format("{}", size));
+  return values;
+}
+
+/// Whether a file is a binary dump, by its first byte, which begins no text.
+bool begins_binary_dump(int first_byte) {
+  // The length of the format's name, negated; or a step, whose lowest byte is most often 0.
+  return first_byte == 0 || first_byte == 256 - static_cast<int>(magic.size());
 }
 
 }  // namespace
@@ -127,14 +193,14 @@ void FrameReader::read_columns(const std::vector<std::string>& columns) {
   places_.assign(count, -1);
   std::vector<std::string> missing;
   for (std::size_t k = 0; k < count; ++k) {
-    for (const char* name : needed[k].names)
+    for (const char* name : names[k])
       if (const auto found = name ? std::find(names_.begin(), names_.end(), name) : names_.end();
           found != names_.end())
         places_[k] = static_cast<int>(found - names_.begin());
-    if (needed[k].required && places_[k] < 0) missing.emplace_back(needed[k].names[0]);
+    if (is_required(k) && places_[k] < 0) missing.emplace_back(names[k][0]);
   }
   for (std::size_t k = 0; k < 3; ++k)
-    if (places_[x + k] < 0 && places_[scaled_x + k] < 0) missing.push_back(needed[x + k].names[0]);
+    if (places_[x + k] < 0 && places_[scaled_x + k] < 0) missing.emplace_back(names[x + k][0]);
   if (!missing.empty())
     fail(fmt::format("no column {}", fmt::join(missing, ", ")),
          "all of id x y z vx vy vz omegax omegay omegaz");
@@ -145,8 +211,7 @@ FrameReader::Row FrameReader::row() const {
   std::size_t column = 0;
   for (const auto& word : words(line_)) {
     if (column == values.size()) fail("more values than columns", fmt::format("{}", names_.size()));
-    const bool used = std::find(places_.begin(), places_.end(), static_cast<int>(column)) != places_.end();
-    if (used) values[column] = number(word);
+    if (std::ranges::count(places_, static_cast<int>(column)) > 0) values[column] = number(word);
     ++column;
   }
   if (column < values.size())
@@ -213,26 +278,36 @@ double FrameReader::time_of(std::optional<double> time, std::optional<double> st
   return time ? *time * time_ : *step * *format_.time_step;
 }
 
-bool FrameReader::next_of_binary(Frame& frame) {
-  BinaryFrame read;
-  if (!read_binary_frame(in_, name_, count_, read)) return false;
+bool FrameReader::next_of_binary(Frame& frame) try {
+  Bytes in(in_, name_);
+  read_format(in);
+  const auto step = static_cast<double>(in.take<std::int64_t>());
+  if (const auto balls = in.take<std::int64_t>(); balls < 0 || static_cast<std::size_t>(balls) != count_)
+    in.fail(fmt::format("{} balls", balls), fmt::format("{}, as in the case", count_));
+  read_box(in, low_, size_);
+  const auto columns = in.take<std::int32_t>();
+  if (columns < 1 || columns > most_columns)
+    in.fail(fmt::format("{} columns", columns), fmt::format("1 to {}", most_columns));
+  const auto units = in.text(in.take<std::int32_t>());
+  const auto time = in.take<char>() != 0 ? std::optional(in.take<double>()) : std::nullopt;
+  const auto titles = in.text(in.take<std::int32_t>());
+  const auto values = read_values(in, count_ * static_cast<std::size_t>(columns));
   ++line_number_;  // of the frame
-  if (!read.units.empty()) format_.units = read.units;
+  if (!units.empty()) format_.units = units;
   set_units(format_.units);
-  low_ = read.low, size_ = read.size;
-  read_columns(words(read.columns));
-  if (names_.size() != read.rows.front().size())
-    fail(fmt::format("{} names for {} columns", names_.size(), read.rows.front().size()), "one for each");
+  read_columns(words(titles));
+  if (names_.size() != static_cast<std::size_t>(columns))
+    fail(fmt::format("{} names for {} columns", names_.size(), columns), "one for each");
   std::vector<Row> rows;
-  for (const auto& values : read.rows) {
+  for (auto begin = values.begin(); begin != values.end(); begin += columns) {
     for (const int place : places_)
-      if (place >= 0 && !std::isfinite(values[static_cast<std::size_t>(place)]))
-        fail("a value that is no number", "a number");
-    rows.push_back(row_of(values));
+      if (place >= 0 && !std::isfinite(begin[place])) fail("a value that is no number", "a number");
+    rows.push_back(row_of({begin, begin + columns}));
   }
-  const double time = time_of(read.time, static_cast<double>(read.step));
-  finish(std::move(rows), time, frame);
+  finish(std::move(rows), time_of(time, step), frame);
   return true;
+} catch (const EndOfFile&) {
+  return false;
 }
 
 /// Rows of one time are a frame; the last frame ends with the file.

@@ -9,7 +9,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
-#include "dem/contact_list_reader.hpp"
+#include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
 
 namespace edmill::dem {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "casefile/case_spec.hpp"
-#include "dem/contact_log.hpp"
+#include "dem/contacts.hpp"
 
 namespace edmill::dem {
 

@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "dem/deck.hpp"
+#include "dem/moving_vessel.hpp"
 #include "dem/soft_contact.hpp"
 
 namespace edmill::dem {
@@ -42,20 +43,14 @@ model::BallState<double> state_in(const DeckCase& c, std::size_t ball, bool in_v
   const auto& s = c.states[ball];
   if (!in_vessel) return s;
   const auto& motion = c.mill.motion;
-  const auto pose = motion.pose(DriveClock<double>(motion.period()).at(c.begin));
-  const auto seen = motion.to_vessel_frame(pose, s.position, s.velocity);
-  const Vec3<double> spin = s.spin - motion.angular_velocity(pose);
-  return {seen.position,
-          seen.velocity,
-          {dot<double>(motion.axis_x(pose), spin), dot<double>(motion.axis_y(pose), spin),
-           dot<double>(motion.axis_z(pose), spin)}};
+  const auto seen = motion.to_vessel_frame(c.pose, s.position, s.velocity);
+  return {seen.position, seen.velocity, in_axes(motion, c.pose, s.spin - motion.angular_velocity(c.pose))};
 }
 
 std::string atoms_of(const DeckCase& c, bool in_vessel) {
   std::string text, sets;
   for (std::size_t k = 0; k < c.balls.size(); ++k) {
-    const auto s = state_in(c, k, in_vessel);
-    const auto& [x, v, w] = s;
+    const auto [x, v, w] = state_in(c, k, in_vessel);
     text += fmt::format("create_atoms 1 single {} {} {} units box\n", x[0], x[1], x[2]);
     sets += fmt::format(
         "set atom {0} diameter {1} density {2}\n"
@@ -107,7 +102,7 @@ fix frame all python/invoke 1 post_force drive
 
 Deck lammps_deck(const DeckCase& c, const DeckOptions& options) {
   const bool in_vessel = !c.translates();
-  const double reach = 1.5 * c.mill.motion.reach(c.mill.vessel.reach()), g = norm<double>(c.mill.gravity);
+  const double reach = 1.5 * c.mill.motion.reach(c.mill.vessel.reach());
   std::string text = header_of(c, options);
   text += fmt::format("# frame {}\n", in_vessel ? "vessel" : "laboratory");
   text += fmt::format(R"(units si
@@ -137,9 +132,7 @@ pair_coeff * * {5}
   }
   text += fmt::format("fix walls all wall/gran/region granular {} region vessel\n",
                       contact_of(c, options, c.of_walls));
-  if (!in_vessel && g > 0)
-    text += fmt::format("fix weight all gravity {} vector {} {} {}\n", g, c.mill.gravity[0] / g,
-                        c.mill.gravity[1] / g, c.mill.gravity[2] / g);
+  if (!in_vessel) text += weight_of(c);
   text += "fix motion all nve/sphere\n";
   if (in_vessel) text += frame_in_python(c);
   text += fmt::format(R"(dump frames all custom {} {}.dump id x y z vx vy vz omegax omegay omegaz mass radius

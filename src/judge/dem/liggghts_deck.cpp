@@ -2,8 +2,6 @@
 // and the velocity that is left. The formulas of both are written by joints, in its own variables.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "base/errors.hpp"
 #include "dem/deck.hpp"
 #include "dem/soft_contact.hpp"
@@ -56,7 +54,6 @@ class Chain {
   /// "v_q7" or empty.
   Formula spin(std::size_t axis) { return spin_[axis]; }
   Formula velocity(std::size_t axis) { return velocity_[axis]; }
-  bool turns() const { return !(spin_[0] + spin_[1] + spin_[2]).empty(); }
   bool shifts() const { return !(velocity_[0] + velocity_[1] + velocity_[2]).empty(); }
 
  private:
@@ -191,15 +188,10 @@ std::string granules_of(const DeckCase& c) {
 /// The meshes, placed as at the begin: their commands, and their files.
 std::string walls_of(const DeckCase& c, const DeckOptions& options, const std::vector<WallMesh>& meshes,
                      std::vector<DeckFile>& files) {
-  const auto& motion = c.mill.motion;
-  const auto pose = motion.pose(DriveClock<double>(motion.period()).at(c.begin));
   std::string text, names;
   for (const auto& mesh : meshes) {
-    auto triangles = mesh.triangles;
-    for (auto& triangle : triangles)
-      for (auto& p : triangle) p = motion.to_inertial(pose, p);
     const auto file = fmt::format("{}_{}.stl", options.name, mesh.name);
-    files.push_back({file, stl_text(triangles)});
+    files.push_back({file, stl_text({&mesh, 1}, c.mill.motion, c.pose)});
     text += fmt::format("fix {0} all mesh/surface file {1} type 2 curvature {2:.6g} curvature_tolerant yes\n",
                         mesh.name, file, mesh.smooth_angle > 0 ? mesh.smooth_angle : 0.26);
     names += " " + mesh.name;
@@ -208,14 +200,6 @@ std::string walls_of(const DeckCase& c, const DeckOptions& options, const std::v
                     "fix contacts all wall/gran model hertz tangential history mesh n_meshes {} meshes{} "
                     "tangential_damping off limitForce on\n",
                     meshes.size(), names);
-}
-
-std::string weight_of(const DeckCase& c) {
-  const auto& g = c.mill.gravity;
-  const double size = norm<double>(g);
-  if (!(size > 0)) return "";
-  return fmt::format("fix weight all gravity {} vector {} {} {}\n", size, g[0] / size, g[1] / size,
-                     g[2] / size);
 }
 
 }  // namespace

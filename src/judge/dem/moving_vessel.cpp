@@ -44,9 +44,8 @@ double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vec
 
 std::vector<double> MovingVessel::gaps(const Pose& pose, std::size_t ball, const Vector& position) const {
   const Vector p = mill_.motion.position_in_vessel(pose, position);
-  std::vector<double> gaps(static_cast<std::size_t>(walls()));
-  for (int wall = 0; wall < walls(); ++wall)
-    gaps[static_cast<std::size_t>(wall)] = gap_in_vessel(ball, wall, p);
+  std::vector<double> gaps;
+  for (int wall = 0; wall < walls(); ++wall) gaps.push_back(gap_in_vessel(ball, wall, p));
   return gaps;
 }
 
@@ -61,11 +60,6 @@ Vector MovingVessel::wall_velocity(const Pose& pose, const Vector& place) const 
   return mill_.motion.wall_velocity(pose, place);
 }
 
-Vector MovingVessel::in_axes(const Pose& pose, const Vector& v) const {
-  const auto& m = mill_.motion;
-  return {dot<double>(m.axis_x(pose), v), dot<double>(m.axis_y(pose), v), dot<double>(m.axis_z(pose), v)};
-}
-
 double MovingVessel::energy(const Pose& pose, std::size_t ball, const BallState& state) const {
   const auto& b = balls_[ball];
   const Vector u = mill_.motion.to_vessel_frame(pose, state.position, state.velocity).velocity;
@@ -78,8 +72,8 @@ double MovingVessel::work(const Pose& from, const BallState& before, const Pose&
                           std::size_t ball, const Vector& gravity) const {
   const auto& m = mill_.motion;
   // Coriolis's force does no work.
-  const Vector force = in_axes(from, gravity - m.wall_acceleration(from, before.position)) +
-                       in_axes(to, gravity - m.wall_acceleration(to, after.position));
+  const Vector force = in_axes(m, from, gravity - m.wall_acceleration(from, before.position)) +
+                       in_axes(m, to, gravity - m.wall_acceleration(to, after.position));
   const Vector way = m.position_in_vessel(to, after.position) - m.position_in_vessel(from, before.position);
   const auto& b = balls_[ball];
   double work = b.mass / 2 * dot<double>(force, way);
@@ -97,6 +91,10 @@ BallState MovingVessel::inertial(const Pose& pose, const BallState& seen) const 
   state.velocity = m.direction_to_inertial(pose, seen.velocity) + m.wall_velocity(pose, state.position);
   state.spin = m.direction_to_inertial(pose, seen.spin) + m.angular_velocity(pose);
   return state;
+}
+
+Vector in_axes(const model::AnyMotion<double>& m, const model::AnyPose<double>& pose, const Vector& v) {
+  return {dot<double>(m.axis_x(pose), v), dot<double>(m.axis_y(pose), v), dot<double>(m.axis_z(pose), v)};
 }
 
 BallState flown(const BallState& state, const Vector& gravity, double duration) {

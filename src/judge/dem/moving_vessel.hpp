@@ -44,7 +44,6 @@ class MovingVessel {
   std::size_t ball_count() const { return balls_.size(); }
 
  private:
-  Vector in_axes(const Pose& pose, const Vector& inertial) const;
   const model::AnyVessel<double>& inset(std::size_t ball) const { return insets_[inset_of_[ball]]; }
   /// The tube that a wall is where facets stand for it.
   const model::Tube<double>* prism(int wall) const;
@@ -58,6 +57,10 @@ class MovingVessel {
   int facets_;
   std::vector<model::WallSurface<double>> surfaces_;
 };
+
+/// An inertial vector in components along the vessel's axes.
+Vector in_axes(const model::AnyMotion<double>& motion, const model::AnyPose<double>& pose,
+               const Vector& inertial);
 
 /// Free flight from a state.
 BallState flown(const BallState& state, const Vector& gravity, double duration);

@@ -81,13 +81,18 @@ Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec
   return tube.frame.x * std::cos(angle) + tube.frame.z * std::sin(angle);
 }
 
-std::string stl_text(const std::vector<Triangle>& triangles) {
+std::string stl_text(std::span<const WallMesh> meshes, const model::AnyMotion<double>& motion,
+                     const model::AnyPose<double>& pose) {
   std::string text = "solid walls\n";
-  for (const auto& triangle : triangles) {
-    text += " facet normal 0 0 0\n  outer loop\n";
-    for (const auto& p : triangle) text += fmt::format("   vertex {} {} {}\n", p[0], p[1], p[2]);
-    text += "  endloop\n endfacet\n";
-  }
+  for (const auto& mesh : meshes)
+    for (const auto& triangle : mesh.triangles) {
+      text += " facet normal 0 0 0\n  outer loop\n";
+      for (const auto& corner : triangle) {
+        const auto p = motion.to_inertial(pose, corner);
+        text += fmt::format("   vertex {} {} {}\n", p[0], p[1], p[2]);
+      }
+      text += "  endloop\n endfacet\n";
+    }
   return text + "endsolid walls\n";
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "model/motion.hpp"
 #include "model/vessel.hpp"
 
 namespace edmill::dem {
@@ -30,7 +32,8 @@ std::vector<std::string> notes_on(const std::vector<WallMesh>& meshes, int facet
 /// Unit, out of the vessel: of the facet of that prism that is nearest to a place.
 Vec3<double> facet_normal(const model::Tube<double>& tube, int facets, const Vec3<double>& place);
 
-/// The text of an STL file (ASCII).
-std::string stl_text(const std::vector<Triangle>& triangles);
+/// The text of an STL file (ASCII) of these meshes, placed as in this pose.
+std::string stl_text(std::span<const WallMesh> meshes, const model::AnyMotion<double>& motion,
+                     const model::AnyPose<double>& pose);
 
 }  // namespace edmill::dem

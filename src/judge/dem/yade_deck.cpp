@@ -131,15 +131,7 @@ Deck yade_deck(const DeckCase& c, const DeckOptions& options) {
         meshes.empty() ? "vessel with walls that are round in two ways" : "motion along its own axis"));
   Deck deck;
   if (!planes) {
-    const auto& motion = c.mill.motion;
-    const auto pose = motion.pose(DriveClock<double>(motion.period()).at(c.begin));
-    std::vector<Triangle> all;
-    for (const auto& mesh : meshes)
-      for (auto triangle : mesh.triangles) {
-        for (auto& p : triangle) p = motion.to_inertial(pose, p);
-        all.push_back(triangle);
-      }
-    deck.files.push_back({options.name + "_walls.stl", stl_text(all)});
+    deck.files.push_back({options.name + "_walls.stl", stl_text(meshes, c.mill.motion, c.pose)});
     deck.notes = notes_on(meshes, options.facets);
   }
   std::string text = header_of(c, options) + facts_of(meshes, options.facets);

@@ -1,17 +1,18 @@
 // What another code may have taken differently from the case: numbers of the model, and how its log is
-// written.
+// written, in the whole log or in a part of it.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "audit/event_log.hpp"
 #include "casefile/build_case.hpp"
-#include "identify/subsets.hpp"
 
 namespace edmill::identify {
 
@@ -40,8 +41,6 @@ struct LogChange {
   LogFrame frame = LogFrame::laboratory;
   std::array<int, 2> exchanged = {-1, -1};  ///< numbers of two balls that are taken for each other
 
-  bool operator==(const LogChange&) const = default;
-  bool none() const { return *this == LogChange{}; }
   /// @param mill  of the vessel whose frame it may be
   void apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const;
 };
@@ -76,6 +75,35 @@ struct Terms {
            equal_balls != EqualBalls::no;
   }
 };
+
+// Parts of a log to which a cause may be restricted: one wall, one ball, one kind of partner, one branch of
+// the law.
+
+/// Where a row of a fit stands.
+struct RowPlace {
+  std::size_t event = 0;  ///< place in the log
+  int body = -1;          ///< 0 the event's ball, 1 its partner, -1 both
+  bool of_flight = false;
+
+  bool operator==(const RowPlace&) const = default;
+};
+
+/// The branches of the contact law that an impact took, by its states before.
+struct Branches {
+  bool known = false, sticks = false, at_least_separation = false;
+};
+
+struct Subset {
+  std::string name;  ///< "at wall 0 (cap -y)", "on ball 3"
+  std::function<bool(const RowPlace&)> holds;
+  bool of_impacts = true, of_flights = true;  ///< what it can restrict
+};
+using SharedSubset = std::shared_ptr<const Subset>;
+
+/// @param branches  by event; both must outlive the subsets
+std::vector<SharedSubset> subsets_of(const model::Case<double>& the_case,
+                                     const std::vector<audit::LoggedEvent>& events,
+                                     const std::vector<Branches>& branches);
 
 struct Assumptions;
 

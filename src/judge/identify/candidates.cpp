@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace edmill::identify {
@@ -24,14 +25,23 @@ std::vector<Item> best_of(std::vector<std::pair<double, Item>> order, std::size_
   return best;
 }
 
-double misfit_of(const Residuals& sample, const Assumptions& assumed) {
-  return misfit(sample.rows(assumed), sample.kinds());
-}
-
 double misfit_with(const Residuals& sample, const Assumptions& base, const Parameter& p, double value) {
   Assumptions moved = base;
   p.set(moved, value);
-  return misfit_of(sample, moved);
+  return misfit(sample, moved);
+}
+
+/// The least with values of a parameter over decades.
+double misfit_from_afar(const Residuals& sample, const Assumptions& base, const Parameter& p) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const double value : p.values_from_afar()) best = std::min(best, misfit_with(sample, base, p, value));
+  return best;
+}
+
+/// How many rows are off.
+std::uint64_t count_off(const std::vector<double>& rows) {
+  return static_cast<std::uint64_t>(
+      std::count_if(rows.begin(), rows.end(), [](double r) { return std::abs(r) > 1; }));
 }
 
 /// Whether the effect of a parameter can be restricted to this part of the log.
@@ -45,7 +55,53 @@ double penalty(const Residuals& sample, const Model& model) {
   return sum;
 }
 
+/// Terms, and numbers of the contact law; where both kinds of contact have one law, its numbers once.
+std::vector<Parameter> of_parts(const std::vector<Parameter>& parameters) {
+  std::set<std::string> common;
+  const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
+  for (const auto& p : parameters)
+    if (p.key.starts_with("contact.") && std::count(p.key.begin(), p.key.end(), '.') == 1)
+      common.insert(last(p.key));
+  std::vector<Parameter> list;
+  for (const auto& p : parameters) {
+    const bool of_law = p.key.starts_with("contact");
+    const bool again =
+        of_law && std::count(p.key.begin(), p.key.end(), '.') > 1 && common.contains(last(p.key));
+    if (!p.equation.empty() || (of_law && !again)) list.push_back(p);
+  }
+  return list;
+}
+
 }  // namespace
+
+void Samples::choose(std::set<std::size_t> violating) {
+  violating_ = std::move(violating);
+  const auto& events = *events_;
+  const auto known =
+      std::find_if(events.begin(), events.end(), [](const auto& e) { return std::isfinite(e.time); });
+  const double begin = known == events.end() ? 0 : known->time, end = events.back().time, span = end - begin;
+  const double first = std::max(period_, events[std::min<std::size_t>(79, events.size() - 1)].time - begin);
+  windows_.clear();
+  for (double window = first; window < span; window *= 4) windows_.push_back(sample(begin + window, 160));
+  windows_.push_back(sample(end, 300));
+  few_ = sample(end, 80);
+  many_ = sample(end, 1500);
+}
+
+auto Samples::sample(double until, std::size_t most) const -> Places {
+  Places all, violating, chosen;
+  for (std::size_t k = 0; k < events_->size() && (*events_)[k].time <= until; ++k) {
+    all.push_back(k);
+    if (violating_.contains(k)) violating.push_back(k);
+  }
+  if (all.size() <= most) return all;
+  for (const auto* list : {&violating, &all}) {
+    const std::size_t number = std::min(list->size(), list == &all ? most - chosen.size() : most / 2);
+    for (std::size_t k = 0; k < number; ++k) chosen.push_back((*list)[k * list->size() / number]);
+  }
+  const std::set<std::size_t> each(chosen.begin(), chosen.end());
+  return {each.begin(), each.end()};
+}
 
 std::set<std::string> Candidate::names() const {
   std::set<std::string> all(mistakes.begin(), mistakes.end());
@@ -77,11 +133,10 @@ Candidates::Candidates(const audit::EventsAtHand& log, const audit::Options& opt
 }
 
 void Candidates::draw_samples(const std::vector<Assumptions>& assumptions) {
-  samples_.forget_violating();
-  for (const auto& assumed : assumptions)
-    for (const std::size_t event : events_off(assumed)) samples_.note_violating(event);
-  samples_.choose();
-  without_ = misfit_of(residuals_.on(samples_.whole()), nominal_);
+  std::set<std::size_t> violating;
+  for (const auto& assumed : assumptions) violating.merge(events_off(assumed));
+  samples_.choose(std::move(violating));
+  without_ = misfit(residuals_.on(samples_.whole()), nominal_);
 }
 
 void Candidates::count_violations(Candidate& c) const {
@@ -91,12 +146,8 @@ void Candidates::count_violations(Candidate& c) const {
     c.of = events_off(nominal_).size(), c.left = events_off(assumed).size();
     return;
   }
-  const auto built = assumed.built();
-  if (!built) {
-    c.left = std::numeric_limits<std::uint64_t>::max();
-  } else if (assumed.log.none()) {
-    c.left = audit::audit(*built, log_, options_).findings.total();
-  } else {
+  c.left = std::numeric_limits<std::uint64_t>::max();
+  if (const auto built = assumed.built()) {
     audit::EventsAtHand changed = log_;
     for (auto& event : changed.events) assumed.log.apply(event, built->mill);
     c.left = audit::audit(*built, changed, options_).findings.total();
@@ -104,7 +155,9 @@ void Candidates::count_violations(Candidate& c) const {
 }
 
 std::set<std::size_t> Candidates::events_off(const Assumptions& assumed) const {
-  const auto all = residuals_.on(samples_.every());
+  Samples::Places every(log_.events.size());
+  std::iota(every.begin(), every.end(), std::size_t{0});
+  const auto all = residuals_.on(every);
   const auto rows = all.rows(assumed);
   std::set<std::size_t> off;
   for (std::size_t k = 0; k < rows.size(); ++k)
@@ -114,7 +167,7 @@ std::set<std::size_t> Candidates::events_off(const Assumptions& assumed) const {
 
 void Candidates::judge(Candidate& c) const {
   const auto sample = residuals_.on(samples_.whole());
-  c.criterion = misfit_of(sample, c.assumed()) + penalty(sample, c.model);
+  c.criterion = misfit(sample, c.assumed()) + penalty(sample, c.model);
 }
 
 Candidate Candidates::with_mistakes(const Assumptions& base, const std::vector<std::string>& names) const {
@@ -142,7 +195,7 @@ Candidate Candidates::fitted(const Model& model, const std::vector<std::string>&
 std::vector<double> Candidates::starts(const Assumptions& base, const Parameter& p) const {
   if (!p.is_speed && p.cycle == 0) {
     const auto few = residuals_.on(samples_.few());
-    double best = misfit_of(few, base) - strong_evidence, far = p.value;
+    double best = misfit(few, base) - strong_evidence, far = p.value;
     for (const double value : p.values_from_afar())
       if (const double now = misfit_with(few, base, p, value); now < best) best = now, far = value;
     if (!p.is_of_case()) return {std::isfinite(far) ? far : p.first_values.front()};
@@ -167,11 +220,10 @@ std::vector<double> Candidates::starts(const Assumptions& base, const Parameter&
     for (int k = -far_steps; k <= far_steps; ++k)
       if (k != 0) add(p.value * farthest * k / far_steps);
   }
-  const double here = tried.front().second;
   std::sort(tried.begin(), tried.end());
-  std::vector<double> best = {here};
-  for (std::size_t k = 0; k < std::min<std::size_t>(2, tried.size()); ++k)
-    if (tried[k].second != here) best.push_back(tried[k].second);
+  std::vector<double> best = {p.value};
+  for (std::size_t k = 0; k < 2; ++k)
+    if (tried[k].second != p.value) best.push_back(tried[k].second);
   return best;
 }
 
@@ -183,11 +235,11 @@ bool Candidates::accept(Candidate& c) const {
     c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
   }
   for (std::size_t k = 0; k < c.values.size(); ++k) {
-    if (c.model.free[k]->dimension == Dimension::time)  // times are rounded
-      c.half_widths[k] += 1e-15 * std::abs(log_.events.back().time);
     const auto& free = *c.model.free[k];
+    if (free.dimension == Dimension::time)  // times are rounded
+      c.half_widths[k] += 1e-15 * std::abs(log_.events.back().time);
     if (free.is_of_case() && !(std::abs(c.values[k] - free.value) > c.half_widths[k])) return false;
-    const bool is_factor = !c.model.free[k]->equation.empty() && c.model.free[k]->value == 1;
+    const bool is_factor = !free.equation.empty() && free.value == 1;
     if (is_factor && !word_for(c.values[k], c.half_widths[k]).empty()) c.plainness += 3;
     widen(c, k);
   }
@@ -202,7 +254,7 @@ void Candidates::widen(Candidate& c, std::size_t place) const {
   const auto sample = residuals_.on(samples_.many());
   auto values = c.values;
   values[place] = 0;
-  if (misfit_of(sample, c.model.with(values)) <= misfit_of(sample, c.assumed()) + 1)
+  if (misfit(sample, c.model.with(values)) <= misfit(sample, c.assumed()) + 1)
     c.half_widths[place] = std::max(c.half_widths[place], std::abs(c.values[place]));
 }
 
@@ -210,22 +262,19 @@ void Candidates::widen(Candidate& c, std::size_t place) const {
 bool Candidates::rows_vanish(const Assumptions& assumed) const {
   const auto sample = residuals_.on(samples_.many());
   const auto before = sample.rows(nominal_), with = sample.rows(assumed);
-  std::uint64_t off = 0, vanished = 0;
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    if (!(std::abs(before[k]) > 1)) continue;
-    ++off;
-    if (audit::vanishes(std::abs(before[k]), std::abs(with[k]), 1)) ++vanished;
-  }
-  return audit::accounts_for(vanished, off);
+  std::uint64_t vanished = 0;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    if (std::abs(before[k]) > 1 && audit::vanishes(std::abs(before[k]), std::abs(with[k]), 1)) ++vanished;
+  return audit::accounts_for(vanished, count_off(before));
 }
 
 std::vector<Tried> Candidates::promising(const Assumptions& base, const std::vector<Mistake>& mistakes,
                                          std::size_t most) const {
   const auto sample = residuals_.on(samples_.few());
-  const double before = misfit_of(sample, base);
+  const double before = misfit(sample, base);
   std::vector<Tried> better;
   for (const auto& mistake : mistakes) {
-    const double now = misfit_of(sample, mistake.on(base));
+    const double now = misfit(sample, mistake.on(base));
     if (now < before - strong_evidence) better.push_back({now, mistake});
   }
   sort_by(better, [](const auto& t) { return t.misfit; });
@@ -235,9 +284,7 @@ std::vector<Tried> Candidates::promising(const Assumptions& base, const std::vec
 
 Residuals Candidates::telling(const Assumptions& base) const {
   auto early = residuals_.on(samples_.early());
-  const auto rows = early.rows(base);
-  const auto off = std::count_if(rows.begin(), rows.end(), [](double r) { return std::abs(r) > 1; });
-  return off > 12 ? early : residuals_.on(samples_.whole());
+  return count_off(early.rows(base)) > 12 ? early : residuals_.on(samples_.whole());
 }
 
 std::vector<const Parameter*> Candidates::ranked(const Assumptions& base,
@@ -266,37 +313,13 @@ std::vector<const Parameter*> Candidates::telling_from_afar(const Assumptions& b
                                                             const std::vector<Parameter>& parameters,
                                                             std::size_t most) const {
   const auto sample = residuals_.on(samples_.whole());
-  const double here = misfit_of(sample, base);
+  const double here = misfit(sample, base);
   std::vector<std::pair<double, const Parameter*>> order;
-  for (const auto& p : parameters) {
-    double best = here;
-    for (const double value : p.values_from_afar())
-      best = std::min(best, misfit_with(sample, base, p, value));
-    if (best < here - strong_evidence) order.emplace_back(best, &p);
-  }
+  for (const auto& p : parameters)
+    if (const double best = misfit_from_afar(sample, base, p); best < here - strong_evidence)
+      order.emplace_back(best, &p);
   return best_of(std::move(order), most);
 }
-
-namespace {
-
-/// Terms, and numbers of the contact law; where both kinds of contact have one law, its numbers once.
-std::vector<Parameter> of_parts(const std::vector<Parameter>& parameters) {
-  std::set<std::string> common;
-  const auto last = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
-  for (const auto& p : parameters)
-    if (p.key.starts_with("contact.") && std::count(p.key.begin(), p.key.end(), '.') == 1)
-      common.insert(last(p.key));
-  std::vector<Parameter> list;
-  for (const auto& p : parameters) {
-    const bool of_law = p.key.starts_with("contact");
-    const bool again =
-        of_law && std::count(p.key.begin(), p.key.end(), '.') > 1 && common.contains(last(p.key));
-    if (!p.equation.empty() || (of_law && !again)) list.push_back(p);
-  }
-  return list;
-}
-
-}  // namespace
 
 std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, const std::vector<Parameter>& all,
                                                    std::size_t most, double share) const {
@@ -307,8 +330,7 @@ std::vector<Parameter> Candidates::ranked_in_parts(const Assumptions& base, cons
   using InPart = std::pair<const Parameter*, SharedSubset>;
   std::vector<std::pair<double, InPart>> order;
   std::vector<std::size_t> holding;  // parts with so much of what is off
-  const std::uint64_t off = static_cast<std::uint64_t>(
-      std::count_if(rows.begin(), rows.end(), [](double r) { return std::abs(r) > 1; }));
+  const auto off = count_off(rows);
   for (std::size_t s = 0; s < parts_.size(); ++s) {
     std::vector<bool> inside;
     std::uint64_t off_inside = 0;
@@ -346,16 +368,14 @@ std::vector<Parameter> Candidates::telling_from_afar_in_parts(const Assumptions&
                                                               const std::vector<std::size_t>& parts,
                                                               std::size_t most) const {
   const auto few = residuals_.on(samples_.few());
-  const double here = misfit_of(few, base);
+  const double here = misfit(few, base);
   std::vector<std::pair<double, Parameter>> order;
   for (const auto* p : telling_from_afar(base, parameters, 4))
     for (const auto part : parts) {
       if (!fits(*parts_[part], *p)) continue;
       auto restricted = restricted_to(parts_[part], *p, parts_.size());
-      double best = here - strong_evidence;
-      for (const double value : restricted.values_from_afar())
-        best = std::min(best, misfit_with(few, base, restricted, value));
-      if (best < here - strong_evidence) order.emplace_back(best, std::move(restricted));
+      if (const double best = misfit_from_afar(few, base, restricted); best < here - strong_evidence)
+        order.emplace_back(best, std::move(restricted));
     }
   return best_of(std::move(order), most);
 }
@@ -370,7 +390,7 @@ auto Candidates::ranked_pairs(const std::vector<Parameter>& parameters) const ->
       if (slopes[i].empty() || slopes[j].empty()) continue;
       std::vector<double> change;
       const double left = linear_misfit(rows, sample.kinds(), {&slopes[i], &slopes[j]}, change);
-      if (change.size() == 2) order.push_back({left, i, j, change});
+      order.push_back({left, i, j, std::move(change)});
     }
   sort_by(order, [](const auto& p) { return p.misfit; });
   return order;

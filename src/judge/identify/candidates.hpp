@@ -1,13 +1,16 @@
-// Numbers and mistakes that may explain a log, each fitted and judged by itself.
+// Numbers and mistakes that may explain a log, each fitted and judged by itself: by the rows of its events,
+// or, where the log has no states, by runs.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "audit/audit.hpp"
 #include "identify/fit.hpp"
+#include "identify/identify.hpp"
 
 namespace edmill::identify {
 
@@ -19,14 +22,10 @@ class Samples {
 
   /// @param events  at least one; they must outlive the samples
   /// @param period  of the drive [s]
-  Samples(const std::vector<audit::LoggedEvent>& events, double period)
-      : events_(&events), period_(period), violating_(events.size(), false) {}
+  Samples(const std::vector<audit::LoggedEvent>& events, double period) : events_(&events), period_(period) {}
 
-  Places every() const;
-  void note_violating(std::size_t event) { violating_[event] = true; }
-  void forget_violating() { violating_.assign(violating_.size(), false); }
-  /// Draws them again.
-  void choose();
+  /// Draws them again. @param violating  events
+  void choose(std::set<std::size_t> violating);
 
   const Places& few() const { return few_; }               ///< of the whole log
   const Places& whole() const { return windows_.back(); }  ///< the same, more
@@ -40,7 +39,7 @@ class Samples {
 
   const std::vector<audit::LoggedEvent>* events_;
   double period_;
-  std::vector<bool> violating_;  ///< by event
+  std::set<std::size_t> violating_;
   std::vector<Places> windows_;
   Places few_, many_;
 };
@@ -147,5 +146,13 @@ class Candidates {
   std::uint64_t violations_;
   double without_ = 0;
 };
+
+/// Logs without states: the case is run again with other values, from its own initial state, until its
+/// impacts are those of the log. docs/audit.md, "Causes"
+/// @param is_interrupted  asked between runs; yes ends the search
+/// @return how many impacts the case follows, and the best cause with which nine tenths can be followed
+Identification replay(const Assumptions& nominal, const std::vector<Parameter>& parameters,
+                      const std::vector<Mistake>& mistakes, const audit::EventsAtHand& log,
+                      const std::function<bool()>& is_interrupted);
 
 }  // namespace edmill::identify

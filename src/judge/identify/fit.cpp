@@ -24,11 +24,10 @@ double median_size(std::vector<double> values) {
 
 /// Scales of the weights, from those of the start down to rounding.
 std::vector<double> scales_for(const std::vector<double>& rows) {
-  double largest = 0;
   std::vector<double> off;
   for (const double r : rows)
     if (std::abs(r) > 1) off.push_back(r);
-  largest = std::max(1.0, median_size(off));
+  const double largest = std::max(1.0, median_size(off));
   std::vector<double> scales;
   for (double s = 3 * largest; s > 1; s /= 30) scales.push_back(s);
   scales.push_back(1);
@@ -88,34 +87,31 @@ struct Problem {
   }
 };
 
-std::vector<double> weights_of(const std::vector<double>& rows, double scale) {
-  std::vector<double> weights;
-  for (const double r : rows) weights.push_back(1 / (1 + r * r / (scale * scale)));
+Eigen::VectorXd weights_of(const std::vector<double>& rows, double scale) {
+  Eigen::VectorXd weights(static_cast<Eigen::Index>(rows.size()));
+  std::transform(rows.begin(), rows.end(), weights.data(),
+                 [&](double r) { return 1 / (1 + r * r / (scale * scale)); });
   return weights;
 }
 
 /// Intervals: what noise of the rows' own size leaves open, and what a shift of all rows by that size, each
 /// in the worst direction, would do; rounding of a log does shift rows of a kind together.
 std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const std::vector<double>& rows,
-                                   const std::vector<double>& weights, const Model& model,
+                                   const Eigen::VectorXd& weights, const Model& model,
                                    const std::vector<double>& values) {
-  const auto n = static_cast<Eigen::Index>(rows.size()), p = static_cast<Eigen::Index>(model.free.size());
-  Eigen::VectorXd w(n);
   double sum = 0, total = 0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    w[i] = weights[k];
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
     if (j.row(i).isZero(0)) continue;  // tells nothing of the parameters, nor of their noise
-    sum += weights[k] * rows[k] * rows[k];
-    total += weights[k];
+    sum += weights[i] * rows[i] * rows[i];
+    total += weights[i];
   }
   // A few rows may fit better than the rounding of their doubles, over the usual tolerance of 1e-9, allows.
   constexpr double rounding_of_rows = 4e-7;
   const double noise = std::max(total > 0 ? std::sqrt(sum / total) : 0, rounding_of_rows);
-  const Eigen::MatrixXd inverse = (j.transpose() * w.asDiagonal() * j).inverse();
-  const Eigen::MatrixXd influence = inverse * j.transpose() * w.asDiagonal();
+  const Eigen::MatrixXd inverse = (j.transpose() * weights.asDiagonal() * j).inverse();
+  const Eigen::MatrixXd influence = inverse * j.transpose() * weights.asDiagonal();
   std::vector<double> half;
-  for (Eigen::Index c = 0; c < p; ++c) {
+  for (Eigen::Index c = 0; c < j.cols(); ++c) {
     const auto& parameter = *model.free[c];
     const double random = 3 * std::sqrt(std::max(0.0, inverse(c, c))) * noise,
                  shift = influence.row(c).cwiseAbs().sum() * noise;
@@ -154,9 +150,7 @@ Fit fit(const Residuals& residuals, const Model& model, std::vector<double> star
   const auto scales = scales_for(rows);
   constexpr std::size_t most_rounds = 25;
   for (std::size_t round = 0; round < scales.size() + most_rounds; ++round) {
-    const auto weights = weights_of(rows, scales[std::min(round, scales.size() - 1)]);
-    problem.roots =
-        Eigen::Map<const Eigen::ArrayXd>(weights.data(), static_cast<Eigen::Index>(weights.size())).sqrt();
+    problem.roots = weights_of(rows, scales[std::min(round, scales.size() - 1)]).cwiseSqrt();
     Eigen::LevenbergMarquardt<Problem> solver(problem);
     solver.parameters.xtol = solver.parameters.ftol = 1e-15;
     Eigen::VectorXd now = x;

@@ -5,10 +5,10 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "identify/candidates.hpp"
-#include "identify/replay.hpp"
 
 namespace edmill::identify {
 
@@ -18,6 +18,12 @@ constexpr std::size_t most_events = 20000;
 constexpr double same_evidence = 2;
 
 std::string name_of(const Mistake& m) { return m.key + ": " + m.text; }
+
+/// The first of a list, at most so many.
+template <class Item>
+std::span<const Item> first_of(const std::vector<Item>& list, std::size_t most) {
+  return std::span(list).first(std::min(most, list.size()));
+}
 
 class Search {
  public:
@@ -91,20 +97,11 @@ class Search {
       if (p.equation.empty() && p.is_of_case()) numbers.push_back(p);
     auto mistakes = mistakes_of(nominal_, numbers, log_.available);
     std::erase_if(mistakes, [&](const Mistake& m) { return !m.on(nominal_).is_case(); });
-    const auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
+    auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
     result.interrupted = is_interrupted(), result.too_few = found.too_few;
-    if (result.interrupted || result.too_few) return;
-    result.follows = found.without;
-    result.follows_all = found.clean;
-    if (!found.cause) return;
-    Cause cause;
-    if (const auto* p = found.cause->parameter)
-      cause.values.push_back(
-          {p->key, p->dimension, found.cause->value, found.cause->half_width, p->value, p->equation});
-    else
-      cause.mistakes.push_back(found.cause->mistake);
-    cause.follows = found.cause->follows, cause.could_follow = found.cause->of;
-    result.causes.push_back(std::move(cause));
+    if (result.interrupted) return;
+    result.follows = found.follows, result.follows_all = found.follows_all;
+    result.causes = std::move(found.causes);
   }
 
   /// The best of the fits of one more number on top of a base.
@@ -168,14 +165,12 @@ class Search {
 
   /// A cause in a part of the log on top of another one, which may be in a part itself.
   std::vector<Candidate> pairs_in_parts() {
-    std::vector<Candidate> bases(
-        singles_.begin(),
-        singles_.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(3, singles_.size())));
+    const auto best = first_of(singles_, 3);
+    std::vector<Candidate> bases(best.begin(), best.end());
     auto some = one_more_in_parts(none(), 4, 0.2);
     sort(some);
     for (auto& c : some) bases.push_back(std::move(c));
-    for (std::size_t k = 0; k < std::min<std::size_t>(2, promising_.size()); ++k)
-      bases.push_back(with(promising_[k].mistake));
+    for (const auto& t : first_of(promising_, 2)) bases.push_back(with(t.mistake));
     std::vector<Candidate> tried;
     for (const auto& base : bases)
       for (auto& c : one_more_in_parts(base, 3, 0.9)) tried.push_back(std::move(c));
@@ -186,9 +181,8 @@ class Search {
   /// One more number or mistake on top of the best pairs.
   std::vector<Candidate> threes() {
     sort(pairs_);
-    if (pairs_.size() > 4) pairs_.erase(pairs_.begin() + 4, pairs_.end());
     std::vector<Candidate> tried;
-    for (const auto& base : pairs_) {
+    for (const auto& base : first_of(pairs_, 4)) {
       const auto names = base.names();
       for (const auto* p : candidates_->ranked(base.assumed(), parameters_, 3))
         if (!is_interrupted() && !names.contains(p->key)) tried.push_back(with_one_more(base, *p));
@@ -208,8 +202,7 @@ class Search {
   void resample(std::vector<Candidate>& accepted) {
     sort(singles_);
     std::vector<Assumptions> bases;
-    for (std::size_t k = 0; k < std::min<std::size_t>(2, singles_.size()); ++k)
-      bases.push_back(singles_[k].assumed());
+    for (const auto& c : first_of(singles_, 2)) bases.push_back(c.assumed());
     if (bases.empty()) bases.push_back(nominal_);
     candidates_->draw_samples(bases);
     for (auto* list : {&accepted, &singles_}) {
@@ -236,35 +229,31 @@ class Search {
     }
     for (auto& c : two_numbers()) tried.push_back(std::move(c));
     // A number on top of the best ones, then both together.
-    for (std::size_t k = 0; k < std::min<std::size_t>(3, singles_.size()); ++k) {
-      const auto& single = singles_[k];
+    for (const auto& single : first_of(singles_, 3)) {
       const auto* first = single.model.free[0];
       for (const auto* p : candidates_->ranked(single.assumed(), parameters_, 3))
-        if (p != first)
-          tried.push_back(
-              candidates_->fitted({nominal_, {first, p}}, {}, {single.values[0], first_value(single, *p)}));
+        if (p != first) {
+          const double start = p->is_of_case() ? p->value : candidates_->starts(single.assumed(), *p).front();
+          tried.push_back(candidates_->fitted({nominal_, {first, p}}, {}, {single.values[0], start}));
+        }
     }
     pairs_ = tried;
     return accepted_of(std::move(tried));
   }
 
-  double first_value(const Candidate& base, const Parameter& p) const {
-    return p.is_of_case() ? p.value : candidates_->starts(base.assumed(), p).front();
-  }
-
   std::vector<Candidate> two_numbers() {
     const auto order = candidates_->ranked_pairs(parameters_);
     std::vector<Candidate> found;
-    constexpr std::size_t most = 12;
-    for (std::size_t k = 0; k < std::min(most, order.size()) && !is_interrupted(); ++k) {
-      const Parameter &one = parameters_[order[k].one], &two = parameters_[order[k].two];
+    for (const auto& pair : first_of(order, 12)) {
+      if (is_interrupted()) break;
+      const Parameter &one = parameters_[pair.one], &two = parameters_[pair.two];
       const Model model{nominal_, {&one, &two}};
       auto best = candidates_->fitted(model, {}, {one.value, two.value});
       const auto from = [&](double a, double b) {
         auto other = candidates_->fitted(model, {}, {a, b});
         if (other.criterion < best.criterion) best = std::move(other);
       };
-      from(one.value + order[k].start[0] * one.change, two.value + order[k].start[1] * two.change);
+      from(one.value + pair.start[0] * one.change, two.value + pair.start[1] * two.change);
       for (const auto& single : singles_) {
         if (single.model.free[0] == &one) from(single.values[0], two.value);
         if (single.model.free[0] == &two) from(one.value, single.values[0]);

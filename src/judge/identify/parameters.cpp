@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -52,6 +53,77 @@ void add_numbers(const std::string& section, const Assumptions& nominal, Member 
     parameter.is_diameter = parameter.key == "vessel.diameter";
     list.push_back(std::move(parameter));
   });
+}
+
+/// Numbers of the joints of a mill that are not keys of its type.
+void add_joints(const Assumptions& nominal, std::vector<Parameter>& list) {
+  const auto& joints = std::get<model::Chain<Quantity>>(nominal.spec.mill).given.list;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto& joint = joints[j];
+    const auto add = [&](const std::string& key, Dimension dimension, auto member) {
+      const Quantity& value = *member(joint);
+      if (value.zero()) return;
+      const bool turns = dimension == Dimension::angle || dimension == Dimension::angular_speed;
+      const double unit = turns ? 2 * pi : 1;
+      list.push_back(number(fmt::format("mill.joint.{}.{}", j, key), "", dimension, unit * value.to<double>(),
+                            [=](Assumptions& a, double x) {
+                              auto& chain = std::get<model::Chain<Quantity>>(a.spec.mill);
+                              *member(chain.given.list[j]) = exactly(x / unit);
+                            }));
+    };
+    for (int axis = 0; axis < 3; ++axis)
+      add(with_axis("translate", axis), Dimension::length, [axis](auto& own) { return &own.shift[axis]; });
+    add("angle", Dimension::angle, [](auto& own) { return &own.angle; });
+    add("speed", joint.rotates ? Dimension::angular_speed : Dimension::speed,
+        [](auto& own) { return &own.speed; });
+    if (joint.rotates && !joint.speed.zero()) list.back().is_speed = true;
+    for (std::size_t s = 0; s < joint.swings.size(); ++s) {
+      add(fmt::format("swing.{}.amplitude", s), joint.rotates ? Dimension::angle : Dimension::length,
+          [s](auto& own) { return &own.swings[s].amplitude; });
+      add(fmt::format("swing.{}.speed", s), Dimension::angular_speed,
+          [s](auto& own) { return &own.swings[s].frequency; });
+      list.back().is_speed = true;
+    }
+  }
+}
+
+/// "x", or the direction, of which the joint's axis is one.
+std::string axis_text(const model::Joint<Quantity>& joint) {
+  std::array<double, 3> a{};
+  for (std::size_t k = 0; k < 3; ++k) a[k] = joint.axis[k].to<double>();
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a[k] != 0 && a[(k + 1) % 3] == 0 && a[(k + 2) % 3] == 0) return {"xyz"[k]};
+  return fmt::format("({:g}, {:g}, {:g})", a[0], a[1], a[2]);
+}
+
+void add_phases(const Assumptions& nominal, std::vector<Parameter>& list) {
+  const bool chain = std::holds_alternative<model::Chain<Quantity>>(nominal.spec.mill);
+  const auto joints = casefile::joints_of(nominal.spec.mill);
+  std::vector<Parameter> phases;
+  const auto add = [&](std::size_t j, std::size_t place, std::string key, const Quantity& turns) {
+    const double value = chain ? 2 * pi * turns.to<double>() : 0;
+    auto p = number(std::move(key), "", Dimension::angle, value, [=](Assumptions& a, double x) {
+      a.phases[{j, place}] = x - value;
+    });
+    p.change = 0.1, p.cycle = 2 * pi, p.has_unit = false;
+    p.prior = 1;  // of two that fit alike, the phase of the drive comes first
+    phases.push_back(std::move(p));
+  };
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto& swings = joints[j].swings;
+    const auto name = [&](const std::string& in_file, const char* moves) {
+      if (chain) return fmt::format("mill.joint.{}.{}", j, in_file);
+      return fmt::format("mill, phase of joint {}, {} {}", j, moves, axis_text(joints[j]));
+    };
+    for (std::size_t s = 0; s < swings.size(); ++s)
+      add(j, s, name(fmt::format("swing.{}.phase", s), joints[j].rotates ? "a swing about" : "a swing along"),
+          swings[s].phase);
+    const bool listed = chain && !joints[j].angle.zero();
+    if (joints[j].rotates && !joints[j].speed.zero() && !listed)
+      add(j, swings.size(), name("angle", "turning about"), joints[j].angle);
+  }
+  if (phases.size() < 2) return;  // it is that of the drive
+  for (auto& p : phases) list.push_back(std::move(p));
 }
 
 Vec3<double> gravity_of(const Assumptions& a) {
@@ -146,6 +218,26 @@ void add_all_balls(const Assumptions& nominal, std::vector<Parameter>& list) {
     for (const auto& g : groups) add_balls(g.key, g.first, g.last, *g.spec, list);
 }
 
+struct Unit {
+  Dimension dimension;
+  const char* name;
+  double size;
+};
+constexpr Unit units[] = {{Dimension::length, " mm", 1e-3},
+                          {Dimension::time, " ms", 1e-3},
+                          {Dimension::angle, " deg", pi / 180},
+                          {Dimension::speed, " m/s", 1},
+                          {Dimension::angular_speed, " rpm", 2 * pi / 60},
+                          {Dimension::acceleration, " m/s2", 1},
+                          {Dimension::density, " kg/m3", 1}};
+Unit unit_of(Dimension dimension, double value) {
+  if (dimension == Dimension::pressure)
+    return std::abs(value) < 1e9 ? Unit{dimension, " MPa", 1e6} : Unit{dimension, " GPa", 1e9};
+  for (const auto& unit : units)
+    if (unit.dimension == dimension) return unit;
+  return {dimension, "", 1};
+}
+
 }  // namespace
 
 std::vector<double> Parameter::values_from_afar() const {
@@ -187,37 +279,6 @@ std::vector<Parameter> parameters_of(const Assumptions& nominal) {
   for (auto& term : term_parameters()) list.push_back(std::move(term));
   return list;
 }
-
-namespace {
-
-struct Unit {
-  const char* name;
-  double size;
-};
-Unit unit_of(Dimension dimension, double value) {
-  switch (dimension) {
-    case Dimension::length:
-      return {" mm", 1e-3};
-    case Dimension::time:
-      return {" ms", 1e-3};
-    case Dimension::angle:
-      return {" deg", pi / 180};
-    case Dimension::speed:
-      return {" m/s", 1};
-    case Dimension::angular_speed:
-      return {" rpm", 2 * pi / 60};
-    case Dimension::acceleration:
-      return {" m/s2", 1};
-    case Dimension::density:
-      return {" kg/m3", 1};
-    case Dimension::pressure:
-      return std::abs(value) < 1e9 ? Unit{" MPa", 1e6} : Unit{" GPa", 1e9};
-    default:
-      return {"", 1};
-  }
-}
-
-}  // namespace
 
 std::string value_text(Dimension dimension, double value) {
   const Unit unit = unit_of(dimension, value);

@@ -54,9 +54,6 @@ struct Mistake {
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.
 std::vector<Parameter> parameters_of(const Assumptions& nominal);
 
-/// Those of the joints of a chain, and the phases of the joints of any mill that moves.
-void add_joints(const Assumptions& nominal, std::vector<Parameter>& list);
-void add_phases(const Assumptions& nominal, std::vector<Parameter>& list);
 /// Those of the contact laws, and one number of each other law that may stand in their place.
 void add_laws(const Assumptions& nominal, std::vector<Parameter>& list);
 /// "vessel.x" of the first of three numbers along axes; the key itself for axis -1.

@@ -1,11 +1,9 @@
-#include "identify/replay.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "identify/candidates.hpp"
 #include "run/event_source.hpp"
 
 namespace edmill::identify {
@@ -176,17 +174,18 @@ std::pair<double, double> fitted_value(const Replay& replay, const Assumptions& 
 
 }  // namespace
 
-ReplayResult replay(const Assumptions& nominal, const std::vector<Parameter>& parameters,
-                    const std::vector<Mistake>& mistakes, const audit::EventsAtHand& log,
-                    const std::function<bool()>& is_interrupted) {
+Identification replay(const Assumptions& nominal, const std::vector<Parameter>& parameters,
+                      const std::vector<Mistake>& mistakes, const audit::EventsAtHand& log,
+                      const std::function<bool()>& is_interrupted) {
   Replay runs(nominal, log);
-  ReplayResult result;
+  Identification result;
   if (runs.count() < 20) {
     result.too_few = true;
     return result;
   }
   const auto case_itself = runs.impacts(nominal, runs.count());
-  const std::size_t without = result.without = runs.follows(case_itself);
+  const std::size_t without = runs.follows(case_itself);
+  result.follows = without;
   // How far two runs agree that differ by rounding alone.
   const auto horizon = [&](const Assumptions& assumed, const std::vector<Impact>& list) {
     Assumptions other = assumed;
@@ -194,16 +193,16 @@ ReplayResult replay(const Assumptions& nominal, const std::vector<Parameter>& pa
     return std::max<std::size_t>(1, runs.common(list, runs.impacts(other, runs.count())));
   };
   const auto enough = [&](std::size_t follows, std::size_t could) { return 10 * follows >= 9 * could; };
-  result.clean = enough(without, horizon(nominal, case_itself));
-  if (result.clean) return result;
+  result.follows_all = enough(without, horizon(nominal, case_itself));
+  if (result.follows_all) return result;
 
-  auto& best = result.cause;
-  const auto consider = [&](Replayed found, const Assumptions& assumed) {
+  auto& best = result.causes;  // one at most
+  const auto consider = [&](Cause found, const Assumptions& assumed) {
     const auto list = runs.impacts(assumed, runs.count());
     found.follows = runs.follows(list);
-    if (found.follows < without + 10 || (best && found.follows <= best->follows)) return;
-    found.of = horizon(assumed, list);
-    if (enough(found.follows, found.of)) best = std::move(found);
+    if (found.follows < without + 10 || (!best.empty() && found.follows <= best[0].follows)) return;
+    found.could_follow = horizon(assumed, list);
+    if (enough(found.follows, found.could_follow)) best = {std::move(found)};
   };
   for (const bool in_vessel : {false, true}) {
     runs.in_vessel = in_vessel;
@@ -212,7 +211,7 @@ ReplayResult replay(const Assumptions& nominal, const std::vector<Parameter>& pa
       if (mistake.by_factor) continue;  // a mill that turns a thousand times as fast is not run in a hurry
       const Assumptions assumed = mistake.on(nominal);
       if (runs.follows(runs.impacts(assumed, 30)) < std::min<std::size_t>(20, runs.count())) continue;
-      consider({mistake.key + ": " + mistake.text, nullptr, 0, 0, 0, 0}, assumed);
+      consider({.mistakes = {mistake.key + ": " + mistake.text}}, assumed);
     }
     for (const auto& p : parameters) {
       if (is_interrupted()) return result;
@@ -220,7 +219,7 @@ ReplayResult replay(const Assumptions& nominal, const std::vector<Parameter>& pa
       if (!(std::abs(value - p.value) > open)) continue;
       Assumptions assumed = nominal;
       p.set(assumed, value);
-      consider({"", &p, value, open, 0, 0}, assumed);
+      consider({.values = {{p.key, p.dimension, value, open, p.value, p.equation}}}, assumed);
     }
   }
   return result;

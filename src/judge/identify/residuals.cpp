@@ -1,9 +1,8 @@
-#include "identify/residuals.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "identify/fit.hpp"
 
 namespace edmill::identify {
 
@@ -14,6 +13,40 @@ using audit::Vec;
 namespace {
 
 constexpr double out_of_range = 1e15;
+
+/// The outcome of an impact with other terms.
+audit::Formula formula_of(const Terms& terms, const LoggedImpact& impact) {
+  audit::Formula formula;
+  formula.velocity_sign = terms.friction * terms.friction_on_velocity;
+  formula.spin_sign = terms.friction * terms.torque;
+  const double less = impact.compliance - 1;
+  if (terms.compliance_in_limit != 1)
+    formula.compliance_in_e_t = std::max(1e-3, 1 + less * terms.compliance_in_limit);
+  if (terms.compliance_in_impulse != 1)
+    formula.compliance_in_impulse = std::max(1e-3, 1 + less * terms.compliance_in_impulse);
+  if (!impact.with_wall() && terms.equal_balls != Terms::EqualBalls::no) {
+    const double alone = 1 + 1 / impact.ball[0].reduced_inertia;
+    if (terms.equal_balls == Terms::EqualBalls::masses)
+      formula.share = {0.5, 0.5};
+    else
+      formula.compliance_in_e_t = alone;
+    if (terms.equal_balls == Terms::EqualBalls::friction) formula.compliance_in_impulse = alone;
+  }
+  if (terms.share != 1)
+    for (std::size_t b = 0; b < impact.count(); ++b)
+      formula.share[b] = std::max(0.0, terms.share * impact.effective_mass / impact.ball[b].mass);
+  return formula;
+}
+
+/// The wall's velocity becomes that of a code with other terms.
+void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, LoggedImpact& impact) {
+  if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
+    const double time = impact.event->time - terms.wall_velocity_delay;
+    impact.set_wall_velocity(audit::wall_velocities[terms.wall_velocity_formula],
+                             audit::vessel_at(mill, time, false), audit::vessel_at(mill, time, true));
+  }
+  impact.wall_velocity *= terms.wall_velocity;
+}
 
 }  // namespace
 
@@ -132,44 +165,6 @@ std::vector<double> Residuals::of_whole(const Assumptions& assumed) const {
   for (const std::size_t k : chosen_) log_->event_rows(k, {*model, assumed.log, assumed.terms}, out);
   return values;
 }
-
-namespace {
-
-/// The outcome of an impact with other terms.
-audit::Formula formula_of(const Terms& terms, const LoggedImpact& impact) {
-  audit::Formula formula;
-  formula.velocity_sign = terms.friction * terms.friction_on_velocity;
-  formula.spin_sign = terms.friction * terms.torque;
-  const double less = impact.compliance - 1;
-  if (terms.compliance_in_limit != 1)
-    formula.compliance_in_e_t = std::max(1e-3, 1 + less * terms.compliance_in_limit);
-  if (terms.compliance_in_impulse != 1)
-    formula.compliance_in_impulse = std::max(1e-3, 1 + less * terms.compliance_in_impulse);
-  if (!impact.with_wall() && terms.equal_balls != Terms::EqualBalls::no) {
-    const double alone = 1 + 1 / impact.ball[0].reduced_inertia;
-    if (terms.equal_balls == Terms::EqualBalls::masses)
-      formula.share = {0.5, 0.5};
-    else
-      formula.compliance_in_e_t = alone;
-    if (terms.equal_balls == Terms::EqualBalls::friction) formula.compliance_in_impulse = alone;
-  }
-  if (terms.share != 1)
-    for (std::size_t b = 0; b < impact.count(); ++b)
-      formula.share[b] = std::max(0.0, terms.share * impact.effective_mass / impact.ball[b].mass);
-  return formula;
-}
-
-/// The wall's velocity becomes that of a code with other terms.
-void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, LoggedImpact& impact) {
-  if (terms.wall_velocity_delay != 0 || terms.wall_velocity_formula != 0) {
-    const double time = impact.event->time - terms.wall_velocity_delay;
-    impact.set_wall_velocity(audit::wall_velocities[terms.wall_velocity_formula],
-                             audit::vessel_at(mill, time, false), audit::vessel_at(mill, time, true));
-  }
-  impact.wall_velocity *= terms.wall_velocity;
-}
-
-}  // namespace
 
 void LogResiduals::event_rows(std::size_t k, const Given& given, Writer& out) const {
   const auto& model = given.model;

@@ -1,5 +1,3 @@
-#include "identify/time_stepping.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "audit/delays.hpp"
 #include "audit/mechanics.hpp"
+#include "identify/identify.hpp"
 
 namespace edmill::identify {
 

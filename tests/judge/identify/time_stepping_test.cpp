@@ -1,12 +1,11 @@
 // Logs of known time steps, contact times and integrators, written here and not by a run.
-#include "identify/time_stepping.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "core.hpp"
+#include "identify/identify.hpp"
 
 namespace edmill::identify {
 namespace {

@@ -9,9 +9,9 @@
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/progress_line.hpp"
+#include "dem/contact_rates.hpp"
 #include "dem/deck.hpp"
 #include "dem/import_dump.hpp"
-#include "dem/limit.hpp"
 #include "io/named_file.hpp"
 #include "io/terminal.hpp"
 

@@ -10,7 +10,7 @@
 #include "cli/progress_line.hpp"
 #include "compare/comparison.hpp"
 #include "dem/contact_audit.hpp"
-#include "dem/contact_comparison.hpp"
+#include "dem/contact_rates.hpp"
 #include "io/input_file.hpp"
 #include "io/named_file.hpp"
 #include "io/terminal.hpp"

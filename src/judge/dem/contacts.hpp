@@ -1,13 +1,19 @@
-// From frames to contacts that last: what happened to balls between frames in which they fly.
+// Contacts that last: what happened to balls between frames in which they fly, and tables of them: what
+// `edmill import` writes and `audit`, `compare` and `limit` read, and lists of other codes, which it reads.
+// docs/dem.md
 #pragma once
 
+#include <cstdio>
 #include <deque>
 #include <functional>
-#include <optional>
+#include <memory>
+#include <ostream>
+#include <string>
 #include <vector>
 
 #include "dem/frame_reader.hpp"
 #include "dem/moving_vessel.hpp"
+#include "io/csv_reader.hpp"
 
 namespace edmill::dem {
 
@@ -74,7 +80,8 @@ class ContactFinder {
   void settle();
   void report(std::vector<Stretch> group);
   std::vector<Touch> touches_of(const Stretch& s) const;
-  double balance(const Stretch& s) const;
+  using States = std::vector<std::pair<double, BallState>>;  ///< of a ball, by time
+  double balance(std::size_t ball, const States& states) const;
   bool make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const;
   void forget();
 
@@ -87,5 +94,68 @@ class ContactFinder {
   std::vector<int> open_of_;        ///< by ball: place in stretches_, or -1
   int groups_ = 0;
 };
+
+/// What holds for a whole log.
+struct ContactLogFacts {
+  std::string dump;  ///< that it was made from
+  std::uint64_t frames = 0, contacts = 0;
+  double first = 0, last = 0;  ///< times of the frames [s]
+  FrameStatistics statistics;
+  double mass_factor = 1,
+         radius_factor = 1;  ///< of the dump's balls over the case's; 1 where it does not tell
+  int facets = 0;            ///< of the prism that stands for a round wall; 0 for a round wall
+  std::array<double, contact_class_names.size()> doses{};  ///< by class [J]
+
+  double dose() const;
+  double duration() const { return last - first; }
+  /// Made from a list of contacts with walls: no frames, no pairs, no gravity, no places.
+  bool of_list() const { return frames == 0; }
+};
+
+/// Collects rows on disk until the facts are known.
+class ContactLogWriter {
+ public:
+  ContactLogWriter();
+  void add(const Contact& contact);
+  void write(std::ostream& out, const ContactLogFacts& facts);
+
+ private:
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> rows_;
+};
+
+/// Whether a file is such a log, by its first line.
+bool is_contact_log(const std::string& file);
+
+class ContactLogReader {
+ public:
+  /// @throws InputError when it is none
+  explicit ContactLogReader(const std::string& file);
+
+  const ContactLogFacts& facts() const { return facts_; }
+  /// @throws InputError for a log of a list, whose dose rate is not that of all contacts
+  void need_frames() const;
+  /// The next contact; nothing at the end. @throws InputError with the bad lines
+  std::optional<Contact> next();
+
+ private:
+  std::optional<Contact> parse();
+
+  ContactLogFacts facts_;
+  io::CsvReader csv_;
+};
+
+/// A contact of a ball with a wall as a code has found it by itself, in SI. The states have no places.
+struct ListedContact {
+  int ball = 0, boundary = 0;  ///< numbers of the file
+  double begin = 0, end = 0;
+  model::BallState<double> before, after;
+  std::optional<double> mass, diameter;
+};
+
+/// Whether a file is a list of such contacts, by its header: Lethe's log of collisions with walls, or a table
+/// with its columns. A stream is none: it can be read once.
+bool is_contact_list(const std::string& file);
+/// By the end of the contacts. @throws InputError with the bad lines
+std::vector<ListedContact> read_contact_list(const std::string& file);
 
 }  // namespace edmill::dem
