@@ -210,8 +210,7 @@ class GapFunctions {
   }
 
   model::FlightBounds<Real> bounds(const Real& elapsed, const Real& speed) const {
-    model::FlightBounds<Real> flight{mill_.reach, mill_.gravity_size, speed, elapsed,
-                                     lag_ < 0 ? Real(-lag_) : lag_};
+    model::FlightBounds<Real> flight{mill_.reach, mill_.gravity_size, speed, elapsed, magnitude(lag_)};
     flight.vessel_speed = mill_.motion.speed_in_vessel(flight);
     flight.vessel_acceleration = mill_.motion.acceleration_in_vessel(flight);
     return flight;

@@ -8,7 +8,7 @@
 //
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include "base/taylor.hpp"
+#include "base/hermite.hpp"
 #include "dynamics/gap_functions.hpp"
 #include "dynamics/motion_bounds.hpp"
 #include "dynamics/wall_query.hpp"

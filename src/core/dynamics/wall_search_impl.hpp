@@ -340,14 +340,13 @@ auto WallSearch<M, V>::isolate_resting(const Curve& curve, const Point& left, co
                                        const Point& right) const -> Bracket {
   using std::sqrt;
   const Bounds& b = curve.bounds;
-  const auto size = [](const Real& x) { return x < 0 ? Real(-x) : x; };
   if (b.second == 0 && b.slope_error == 0) return {Verdict::none};  // at rest to the wall for good
-  const Real bend = (size(curvature) - b.curvature_error) / 2;
+  const Real bend = (magnitude(curvature) - b.curvature_error) / 2;
   if (!(bend > 0)) return {Verdict::undecided};
   // While |f''| > bend, bend s^2/2 exceeds what value and slope may be by rounding from this time on.
   const bool overlaps = left.value < -b.value_error;
-  const Real slope = size(left.slope) + b.slope_error,
-             value = overlaps ? Real(0) : Real(size(left.value) + b.value_error);
+  const Real slope = magnitude(left.slope) + b.slope_error,
+             value = overlaps ? Real(0) : Real(magnitude(left.value) + b.value_error);
   const Real until = (slope + sqrt(slope * slope + 4 * bend * value)) / bend;
   if (!(b.third * (2 * until) <= bend)) return {Verdict::undecided};
   if (curvature < 0) return {Verdict::contact, left, left, until + resolution()};

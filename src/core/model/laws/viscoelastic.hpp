@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/roots.hpp"
+#include "base/elementary.hpp"
 #include "model/laws/coulomb_slip.hpp"
 #include "model/parts/contact_bodies.hpp"
 

@@ -13,11 +13,6 @@
 
 namespace edmill::model {
 
-template <class Real>
-Real magnitude(const Real& x) {
-  return x < 0 ? Real(-x) : x;
-}
-
 /// A vector that is turned about an axis. (Rodrigues)
 template <class Real>
 Vec3<Real> turned_about(const Vec3<Real>& v, const Vec3<Real>& axis, const numerics::SinCos<Real>& angle) {

@@ -5,7 +5,6 @@
 #include "base/archive.hpp"
 #include "base/instant.hpp"
 #include "base/scalar.hpp"
-#include "base/small_turn.hpp"
 #include "base/trigonometry.hpp"
 #include "model/parts/parameter.hpp"
 #include "model/parts/vessel_frame.hpp"

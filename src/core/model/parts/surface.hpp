@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
-#include "base/frame.hpp"
 #include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
+#include "base/vector.hpp"
 
 namespace edmill::model {
 
@@ -66,7 +66,7 @@ Real turns(const Real& x, const Real& z) {
   using std::sqrt;
   const Real size = sqrt(x * x + z * z);
   if (!(size > 0)) return Real(0);
-  const Real a = x < 0 ? Real(-x) : x, b = z < 0 ? Real(-z) : z;
+  const Real a = magnitude(x), b = magnitude(z);
   const double q = static_cast<double>(a < b ? Real(a / b) : Real(b / a));
   double guess = q * (0.125 + 0.0434 * (1 - q));  // within 0.0006 turns
   if (a < b) guess = 0.25 - guess;

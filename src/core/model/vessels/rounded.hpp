@@ -195,7 +195,7 @@ class RoundedVessel {
   }
   PerWall<bool> within(const Vec3<Real>& p, const Real& way) const {
     auto near = active(p);
-    const Real y = p[1] < 0 ? Real(-p[1]) : p[1];
+    const Real y = magnitude(p[1]);
     const std::size_t border = static_cast<std::size_t>(wall_count());
     // Far inside: no wall of a core point that is farther than the way from all of the surface.
     const Vec3<Real> d = from_core(p);
