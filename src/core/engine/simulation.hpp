@@ -19,7 +19,6 @@
 #include "engine/prefetcher.hpp"
 #include "engine/stall_watch.hpp"
 #include "model/case.hpp"
-#include "model/end_reason.hpp"
 #include "model/outcome.hpp"
 
 namespace edmill::engine {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/escalations.hpp"
-#include "model/end_reason.hpp"
 #include "model/outcome.hpp"
 #include "model/parts/partners.hpp"
 
