@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/scalar.hpp"
-#include "model/parts/swing.hpp"
+#include "model/motions/joints.hpp"
 #include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
