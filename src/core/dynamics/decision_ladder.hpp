@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/escalations.hpp"
-#include "dynamics/any_wall_search.hpp"
 #include "dynamics/pair_search.hpp"
+#include "dynamics/wall_search.hpp"
 
 namespace edmill::dynamics {
 

@@ -7,7 +7,7 @@
 #include "base/errors.hpp"
 #include "base/scalar_list.hpp"
 #include "dynamics/decision_ladder.hpp"
-#include "dynamics/exact_contact_impl.hpp"
+#include "dynamics/exact_contact.hpp"
 
 namespace edmill::dynamics {
 

@@ -6,10 +6,9 @@
 
 #include "base/errors.hpp"
 #include "base/interruption.hpp"
-#include "dynamics/any_wall_search.hpp"
 #include "dynamics/exact_walls_impl.hpp"
-#include "dynamics/rough_search_impl.hpp"
 #include "dynamics/wall_roots_impl.hpp"
+#include "dynamics/wall_search.hpp"
 
 namespace edmill::dynamics {
 
