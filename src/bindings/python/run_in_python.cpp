@@ -56,11 +56,14 @@ struct Numbers {
 /// Ctrl-C while Python code runs in a callback.
 bool is_control_c(const py::error_already_set& error) { return error.matches(PyExc_KeyboardInterrupt); }
 
+using ImpactInDouble = Impact<double>;
+using ImpactInTexts = Impact<std::string>;
+
 /// Calls f(name, member of an impact in doubles, member of one in texts) for everything that is known of one.
 template <class F>
 void for_each_member(F&& f) {
-  using D = Impact<double>;
-  using T = Impact<std::string>;
+  using D = ImpactInDouble;
+  using T = ImpactInTexts;
   f("index", &D::index, &T::index), f("time", &D::time, &T::time), f("ball", &D::ball, &T::ball);
   f("with_wall", &D::with_wall, &T::with_wall), f("partner", &D::partner, &T::partner);
   f("normal", &D::normal, &T::normal), f("approach_speed", &D::approach_speed, &T::approach_speed);
@@ -83,9 +86,6 @@ py::object to_python(const Value& value) {
   else
     return py::cast(value);
 }
-using ImpactInDouble = Impact<double>;
-using ImpactInTexts = Impact<std::string>;
-
 /// The array owns what the list held: nothing is copied.
 template <class Row>
 py::array as_array(std::vector<Row> rows) {

@@ -167,19 +167,7 @@ auto with_scalar(std::string_view name, const Function& function) {
 #if !defined(EDMILL_WITHOUT_MPFR)
 template <>
 struct Eigen::NumTraits<edmill::mpfr> : Eigen::GenericNumTraits<edmill::mpfr> {
-  using Real = edmill::mpfr;
-  using NonInteger = edmill::mpfr;
-  using Nested = edmill::mpfr;
-  using Literal = edmill::mpfr;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 20,
-    AddCost = 40,
-    MulCost = 80
-  };
+  enum { ReadCost = 20, AddCost = 40, MulCost = 80 };
   static Real epsilon() { return edmill::epsilon<edmill::mpfr>(); }
   static Real dummy_precision() { return 1000 * epsilon(); }
 };

@@ -44,9 +44,7 @@ Attempt attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, cons
 std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptions& options,
                                 std::string& impossible) {
   const std::size_t collisions = options.collisions;
-  const auto source = [&] {
-    return run::make_source("mpfr:" + std::to_string(placing_digits), spec, false);
-  }();
+  const auto source = run::make_source("mpfr:" + std::to_string(placing_digits), spec, false);
   std::vector<run::Event> events;
   while (events.size() < collisions && !stopped(options)) {
     auto more = source->next(std::min<std::size_t>(64, collisions - events.size()));

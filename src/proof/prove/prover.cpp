@@ -1,10 +1,9 @@
-#include "prove/prover.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "model/mill.hpp"
+#include "prove/proof.hpp"
 
 namespace edmill::prove {
 
