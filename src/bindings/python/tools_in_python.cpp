@@ -25,7 +25,7 @@
 #include "io/named_file.hpp"
 #include "machines/machines.hpp"
 #include "model/impact_record.hpp"
-#include "model/impact_variables.hpp"
+#include "model/variables.hpp"
 #include "prove/proof.hpp"
 #include "python/binding.hpp"
 #include "report/report_page.hpp"

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "base/escalations.hpp"
 #include "dynamics/pair_search.hpp"
 #include "dynamics/wall_search.hpp"
+#include "model/outcome.hpp"
 
 namespace edmill::dynamics {
 
@@ -71,7 +71,7 @@ class DecisionLadder {
   const PairSearch<Real>& pairs() const { return pairs_; }
 
   /// One entry for each wider scalar, narrowest first, and one for what a rule decides.
-  std::vector<Escalations> escalations() const;
+  std::vector<model::Escalations> escalations() const;
 
   /// What it has counted. The rest follows from the mill and the top speed, which is the owner's.
   void archive(Archive& a);
@@ -103,7 +103,7 @@ class DecisionLadder {
   Real smallest_sum_;
   AnyWallSearch<Real> walls_;
   PairSearch<Real> pairs_;
-  Escalations passed_up_;
+  model::Escalations passed_up_;
   std::unique_ptr<Above> above_;
 };
 

@@ -7,7 +7,6 @@
 
 #include "base/dyadic.hpp"
 #include "dynamics/flight.hpp"
-#include "dynamics/wall_query.hpp"
 #include "model/motion.hpp"
 #include "model/vessel.hpp"
 

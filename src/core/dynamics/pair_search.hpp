@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dynamics/flight.hpp"
-#include "dynamics/wall_query.hpp"
 #include "model/mill.hpp"
 
 namespace edmill::dynamics {

@@ -11,8 +11,8 @@
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include "base/hermite.hpp"
+#include "dynamics/flight.hpp"
 #include "dynamics/gap_functions.hpp"
-#include "dynamics/wall_query.hpp"
 #include "model/mill.hpp"
 
 namespace edmill::dynamics {

@@ -7,7 +7,7 @@
 #include "base/instant.hpp"
 #include "base/memory.hpp"
 #include "base/vector.hpp"
-#include "dynamics/wall_query.hpp"
+#include "dynamics/flight.hpp"
 #include "engine/cell_grid.hpp"
 #include "engine/watches.hpp"
 

@@ -94,7 +94,7 @@ class Simulation {
   model::BallState<Real> state_at(int i, const Instant<Real>& when) const;
   model::Energy<Real> energy_at(const Instant<Real>& when) const;
   const EngineCounts<Real>& counts() const { return counts_; }
-  std::vector<Escalations> escalations() const { return ladder_.escalations(); }
+  std::vector<model::Escalations> escalations() const { return ladder_.escalations(); }
   const std::optional<model::InelasticCollapse<Real>>& collapse() const { return collapse_; }
   const std::optional<model::Stall<Real>>& stall() const { return stall_; }
 

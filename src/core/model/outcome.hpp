@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -102,6 +103,16 @@ struct Stall {
   std::uint64_t impacts = 0;      ///< they had, at least
 
   void archive(Archive& a) { a(time, balls, walls, impacts); }
+};
+
+/// Decisions that were passed up to one wider scalar.
+struct Escalations {
+  std::string scalar;
+  std::uint64_t wall = 0;
+  std::uint64_t pair = 0;
+  std::uint64_t order = 0;  ///< which of two contacts of one ball comes first
+
+  void archive(Archive& a) { a(scalar, wall, pair, order); }
 };
 
 }  // namespace edmill::model

@@ -7,9 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "base/batches.hpp"
-#include "base/compensated_sum.hpp"
 #include "base/statistics.hpp"
+#include "base/sums.hpp"
 #include "base/vector.hpp"
 #include "model/parts/parameter.hpp"
 

@@ -10,7 +10,7 @@
 #include "audit/mechanics.hpp"
 #include "audit/stall_history.hpp"
 #include "audit/tolerances.hpp"
-#include "base/compensated_sum.hpp"
+#include "base/sums.hpp"
 
 namespace edmill::audit {
 

@@ -57,7 +57,6 @@ class ChainMotion {
   }
 
   const Joints<Real>& joints() const { return joints_; }
-  const ChainBounds<Real>& bounds() const { return bounds_; }
   const Real& period() const { return joints_.period; }  ///< of the clock [s]
 
   Pose pose(const Instant<Real>& when) const { return made<true>(when); }
@@ -122,7 +121,7 @@ class ChainMotion {
   }
   Real speed_within(const Real& distance) const { return wall_speed(distance + bounds_.distance); }
   Real acceleration_within(const Real& distance) const {
-    return bounds_.acceleration[0] + bend() * (distance + bounds_.distance);
+    return bounds_.acceleration[0] + bend(bounds_) * (distance + bounds_.distance);
   }
   Real longest_window() const {
     const Real& turning = bounds_.turning[0];
@@ -144,9 +143,7 @@ class ChainMotion {
     const Real p3 = gravity * w[0] + b[1] + 2 * w[0] * p2 + (3 * w[1] + square) * p1 + (w[2] + square1) * p0;
     const Real p4 = gravity * (w[1] + square) + b[2] + 2 * w[0] * p3 + (5 * w[1] + square) * p2 +
                     (4 * w[2] + 2 * square1) * p1 + (w[3] + square2) * p0;
-    const auto along = [&](int axis) {
-      return numerics::Majorant<Real>{sizes[axis] + p1 * length, p1, p2, p3, p4};
-    };
+    const auto along = [&](int axis) { return Majorant<Real>{sizes[axis] + p1 * length, p1, p2, p3, p4}; };
     return {along(0), along(1), along(2)};
   }
 
@@ -230,7 +227,6 @@ class ChainMotion {
         return k;
     return -1;
   }
-  Real bend() const { return bend(bounds_); }
   static Real bend(const ChainBounds<Real>& b) { return b.turning[1] + b.turning[0] * b.turning[0]; }
   static Real speed_in_vessel(const ChainBounds<Real>& b, const FlightBounds<Real>& f) {
     return f.speed + b.speed + b.turning[0] * f.reach;

@@ -115,7 +115,6 @@ struct ChainBounds {
   template <std::size_t n, std::size_t m>
   static Real product(const std::array<Real, n>& a, std::size_t shift_a, const std::array<Real, m>& b,
                       std::size_t shift_b, std::size_t k) {
-    constexpr int binomial[4][4] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
     Real sum(0);
     for (std::size_t j = 0; j <= k; ++j) sum += binomial[k][j] * a[j + shift_a] * b[k - j + shift_b];
     return sum;

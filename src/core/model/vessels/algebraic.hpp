@@ -174,11 +174,10 @@ class AlgebraicVessel {
     return each([&](const Wall& wall) {
       Real sum(0);
       for (const auto& t : wall.gap.terms) {
-        numerics::Majorant<Real> bound{Real(1), Real(0), Real(0), Real(0), Real(0)};
-        const auto multiply = [&](const numerics::Majorant<Real>& by) {
-          numerics::Majorant<Real> product;
-          for (int m = 0; m <= 4; ++m)
-            product[static_cast<std::size_t>(m)] = numerics::product_bound(bound, 0, by, m);
+        Majorant<Real> bound{Real(1), Real(0), Real(0), Real(0), Real(0)};
+        const auto multiply = [&](const Majorant<Real>& by) {
+          Majorant<Real> product;
+          for (int m = 0; m <= 4; ++m) product[static_cast<std::size_t>(m)] = product_bound(bound, 0, by, m);
           bound = product;
         };
         for (int n = 0; n < t.powers[0]; ++n) multiply(c.x);
