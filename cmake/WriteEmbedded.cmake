@@ -3,10 +3,13 @@ file(READ ${FILE} text)
 if(text MATCHES "\\)edmill\"")
   message(FATAL_ERROR "${FILE} ends the raw string that should hold it")
 endif()
-file(WRITE ${TARGET} "#include \"${ROOM}/embedded.hpp\"
+file(WRITE ${TARGET} "#include <string_view>
 
 namespace {
 constexpr char text[] = R\"edmill(${text})edmill\";
 }
-const std::string_view edmill::${ROOM}::${NAME}(text, sizeof text - 1);
+namespace edmill::${ROOM} {
+extern const std::string_view ${NAME};
+const std::string_view ${NAME}(text, sizeof text - 1);
+}
 ")

@@ -8,7 +8,6 @@
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/filling.hpp"
-#include "casefile/joints.hpp"
 #include "casefile/quantity_value.hpp"
 #include "io/final_state.hpp"
 

@@ -14,10 +14,16 @@ void read_material(Section entry, CaseSpec& spec);
 int read_material_of(Section& section, const std::string& key, const CaseSpec& spec);
 /// vessel.material and [vessel.materials].
 void read_wall_materials(Section& vessel, CaseSpec& spec);
+/// [[mill.joint]]; what is wrong is reported.
+model::Joints<Quantity> read_joints(Section& mill);
+/// Reports translations at constant speed, which only the end of a run bounds.
+void require_end(Section& mill);
+/// [[...swing]] of a joint or a piston; what is wrong is reported.
+std::vector<model::Swing<Quantity>> read_swings(Section& section, bool rotates);
+/// Reports speeds that a file could not give.
+void check_swings(Section& section, const std::vector<model::Swing<Quantity>>& swings);
 /// [[vessel.piston]]. @return the entries, for what can be told when the rest has been read
 std::vector<Section> read_pistons(Section& vessel, CaseSpec& spec);
-/// [[vessel.plane]] or [[vessel.vertex]]; what is wrong is reported.
-model::Polyhedron<Quantity> read_polyhedron(Section& vessel);
 /// Reports pistons that leave the vessel or meet the other end.
 void require_travel(std::vector<Section>& entries, const CaseSpec& spec);
 /// [contact], [contact.ball_ball], [contact.ball_wall] and [[contact.pair]].

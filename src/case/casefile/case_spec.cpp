@@ -10,7 +10,6 @@
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/case_parts.hpp"
-#include "casefile/joints.hpp"
 #include "casefile/key_reader.hpp"
 #include "casefile/output_entry.hpp"
 #include "casefile/precisions.hpp"

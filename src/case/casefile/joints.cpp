@@ -1,15 +1,13 @@
-#include "casefile/joints.hpp"
-
+// Joints of a chain as a case file says them.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
 #include "base/scalar_list.hpp"
-#include "casefile/parts.hpp"
+#include "casefile/case_parts.hpp"
 #include "casefile/quantity_value.hpp"
 #include "casefile/rational.hpp"
-#include "casefile/section.hpp"
 
 namespace edmill::casefile {
 

@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "casefile/case_parts.hpp"
-#include "casefile/joints.hpp"
 #include "casefile/key_reader.hpp"
+#include "casefile/rational.hpp"
 
 namespace edmill::casefile {
 
 namespace {
 
+using model::Face;
 using model::Range;
 
 /// What the ranges of single parameters do not say.
@@ -21,6 +24,113 @@ void require_shape(Section& vessel, const model::RoundedCylinder<Quantity>& cyli
   const Quantity width = Quantity(2) * cylinder.edge;
   vessel.require(width <= cylinder.diameter && width <= cylinder.height, "edge_radius",
                  "at most half of the diameter and of the height");
+}
+
+using Point = std::array<Rational, 3>;
+
+Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point product(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Rational along(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+QuantityVector quantities(const Point& p) {
+  return {quantity_of(p[0]), quantity_of(p[1]), quantity_of(p[2])};
+}
+
+/// The planes through three vertices and more that have all others on one side, in exact numbers.
+class Hull {
+ public:
+  explicit Hull(std::vector<Point> vertices) : vertices_(std::move(vertices)) {
+    const std::size_t n = vertices_.size();
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; ++j)
+        for (std::size_t k = j + 1; k < n; ++k) add(i, j, k);
+  }
+
+  const std::vector<Face<Quantity>>& faces() const { return faces_; }
+  /// A vertex that is no corner of the hull.
+  std::optional<std::size_t> inner_vertex() const {
+    for (std::size_t v = 0; v < vertices_.size(); ++v) {
+      std::size_t count = 0;
+      for (const auto& of_face : corners_) count += of_face.count(v);
+      if (count < 3) return v;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void add(std::size_t i, std::size_t j, std::size_t k) {
+    Point normal = product(difference(vertices_[j], vertices_[i]), difference(vertices_[k], vertices_[i]));
+    if (along(normal, normal) == 0) return;
+    std::set<std::size_t> on;
+    bool below = false, above = false;
+    for (std::size_t v = 0; v < vertices_.size(); ++v) {
+      const Rational side = along(normal, difference(vertices_[v], vertices_[i]));
+      below |= side<0, above |= side> 0;
+      if (side == 0) on.insert(v);
+    }
+    if (below == above || !corners_.insert(on).second) return;
+    if (above)
+      for (auto& x : normal) x = -x;
+    faces_.push_back({quantities(normal), quantities(vertices_[i]), Quantity{0}});
+  }
+
+  std::vector<Point> vertices_;
+  std::set<std::set<std::size_t>> corners_;
+  std::vector<Face<Quantity>> faces_;
+};
+
+std::vector<Face<Quantity>> read_planes(Section& vessel) {
+  std::vector<Face<Quantity>> faces;
+  for (Section& entry : vessel.sections("plane")) {
+    Face<Quantity> face;
+    const auto normal = entry.vector("normal", Dimension::none);
+    if (!normal && !entry.has("normal")) entry.problem("normal", "nothing", "an array of three numbers");
+    face.normal = normal.value_or(QuantityVector{Quantity{1}});
+    face.distance = entry.required("distance", Dimension::length);
+    entry.reject_unknown_keys();
+    faces.push_back(face);
+  }
+  return faces;
+}
+
+std::vector<Face<Quantity>> read_vertices(Section& vessel) {
+  std::vector<Point> vertices;
+  for (Section& entry : vessel.sections("vertex")) {
+    const auto at = entry.vector("at", Dimension::length);
+    if (!at && !entry.has("at")) entry.problem("at", "nothing", "an array of three lengths");
+    if (at) vertices.push_back({rational((*at)[0]), rational((*at)[1]), rational((*at)[2])});
+    entry.reject_unknown_keys();
+  }
+  if (vertices.size() < 4 || vertices.size() > 60) {
+    vessel.problem("vertex", std::to_string(vertices.size()) + " vertices", "4 to 60");
+    return {};
+  }
+  const Hull hull(vertices);
+  if (const auto inner = hull.inner_vertex()) {
+    vessel.problem("vertex", "a vertex " + std::to_string(*inner) + " that is no corner of the hull of all",
+                   "the corners of a convex vessel");
+    return {};
+  }
+  return hull.faces();
+}
+
+model::Polyhedron<Quantity> read_polyhedron(Section& vessel) {
+  const std::string key = vessel.has("vertex") ? "vertex" : "plane";
+  if (vessel.has("vertex") == vessel.has("plane")) {
+    vessel.problem("plane", vessel.has("plane") ? "planes and vertices" : "neither planes nor vertices",
+                   "[[vessel.plane]] or [[vessel.vertex]]");
+    vessel.sections("vertex"), vessel.sections("plane");
+    return {};
+  }
+  model::Polyhedron<Quantity> vessel_of{key == "vertex" ? read_vertices(vessel) : read_planes(vessel)};
+  if (vessel_of.faces.empty()) return vessel_of;
+  const auto planes = model::converted<model::Polyhedron, double>(
+      vessel_of, [](const Quantity& q) { return q.to<double>(); });
+  if (const auto problem = model::PolyhedronVessel<double>::problem_of(planes.planes()))
+    vessel.problem(key, problem->found, problem->expected);
+  return vessel_of;
 }
 
 template <class Variant>

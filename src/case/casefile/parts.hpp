@@ -75,6 +75,15 @@ std::vector<model::Joint<Quantity>> joints_of(const MotionSpec& motion);
 /// The joints with what each turns in a drive period, exactly.
 model::Joints<Quantity> with_phases(model::Joints<Quantity> joints);
 
+/// The swings with what each turns in a drive period, exactly.
+std::vector<model::Swing<Quantity>> with_phases(std::vector<model::Swing<Quantity>> swings,
+                                                const Quantity& period);
+
+/// "turn about y at 300 rpm, shift by (0.15, 0, 0) m, turn about y at -600 rpm".
+std::string equation_of(const model::Joints<Quantity>& joints);
+/// " + 0.01 m sin(2 pi 5 t)" for each.
+std::string equation_of(const std::vector<model::Swing<Quantity>>& swings, bool rotate);
+
 /// For readers: "cylinder: diameter 0.038 m, height 0.057 m".
 std::string describe(const MotionSpec& motion);
 std::string describe(const VesselSpec& vessel);

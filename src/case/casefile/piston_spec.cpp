@@ -4,7 +4,6 @@
 
 #include "casefile/build_case.hpp"
 #include "casefile/case_parts.hpp"
-#include "casefile/joints.hpp"
 
 namespace edmill::casefile {
 

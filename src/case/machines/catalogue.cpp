@@ -3,10 +3,11 @@
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
 
-#include "machines/embedded.hpp"
 #include "machines/machines.hpp"
 
 namespace edmill::machines {
+
+extern const std::string_view machines_toml;  ///< the file of this folder
 
 namespace {
 

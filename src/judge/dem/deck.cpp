@@ -7,7 +7,6 @@
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
-#include "casefile/joints.hpp"
 #include "casefile/parts.hpp"
 #include "dem/soft_contact.hpp"
 

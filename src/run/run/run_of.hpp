@@ -9,7 +9,7 @@
 
 #include "base/errors.hpp"
 #include "base/standard_arithmetic.hpp"
-#include "casefile/joints.hpp"
+#include "casefile/parts.hpp"
 #include "edmill/run.hpp"
 #include "io/summary_impl.hpp"
 #include "run/any_run.hpp"
