@@ -56,14 +56,11 @@ struct Numbers {
 /// Ctrl-C while Python code runs in a callback.
 bool is_control_c(const py::error_already_set& error) { return error.matches(PyExc_KeyboardInterrupt); }
 
-using ImpactInDouble = Impact<double>;
-using ImpactInTexts = Impact<std::string>;
-
 /// Calls f(name, member of an impact in doubles, member of one in texts) for everything that is known of one.
 template <class F>
 void for_each_member(F&& f) {
-  using D = ImpactInDouble;
-  using T = ImpactInTexts;
+  using D = Impact<double>;
+  using T = Impact<std::string>;
   f("index", &D::index, &T::index), f("time", &D::time, &T::time), f("ball", &D::ball, &T::ball);
   f("with_wall", &D::with_wall, &T::with_wall), f("partner", &D::partner, &T::partner);
   f("normal", &D::normal, &T::normal), f("approach_speed", &D::approach_speed, &T::approach_speed);
@@ -86,6 +83,7 @@ py::object to_python(const Value& value) {
   else
     return py::cast(value);
 }
+
 /// The array owns what the list held: nothing is copied.
 template <class Row>
 py::array as_array(std::vector<Row> rows) {
@@ -320,11 +318,11 @@ const Binding runs([](Module& m) {
                        slip_speed, separation_speed, restitution_tangential, normal_impulse,
                        tangential_impulse, milling_dose, supplied_energy, wall_work);
   PYBIND11_NUMPY_DTYPE(BallState<double>, position, velocity, spin);
-  py::class_<ImpactInDouble> in_double(m, "Impact");
-  py::class_<ImpactInTexts> in_texts(m, "WideImpact");
+  py::class_<Impact<double>> in_double(m, "Impact");
+  py::class_<Impact<std::string>> in_texts(m, "WideImpact");
   for_each_member([&](const char* name, auto number, auto text) {
-    in_double.def_property_readonly(name, [number](const ImpactInDouble& i) { return to_python(i.*number); });
-    in_texts.def_property_readonly(name, [text](const ImpactInTexts& i) { return to_python(i.*text); });
+    in_double.def_property_readonly(name, [number](const Impact<double>& i) { return to_python(i.*number); });
+    in_texts.def_property_readonly(name, [text](const Impact<std::string>& i) { return to_python(i.*text); });
   });
   py::class_<RunOfPython>(m, "Running")
       .def_property_readonly("time", [](const RunOfPython& r) { return r.numbers.of(r.run.time()); })

@@ -131,9 +131,7 @@ class GapFunctions {
 
   /// The gaps and their rates where the vessel is known to stand at `pose`.
   Sample operator()(const Real& offset, const Pose& pose) const {
-    const Real dt = elapsed(offset);
-    return sample(offset, mill_.motion.to_vessel_frame(pose, position_after(flight_, mill_.gravity, dt),
-                                                       velocity_after(flight_, mill_.gravity, dt)));
+    return sample(offset, seen(offset, pose).state);
   }
 
   /// The gap to one wall, within a moment of an offset where the pose is known.

@@ -64,7 +64,9 @@ class WallSearch {
                      const Real& length) const;
 
   /// The search in this scalar alone.
-  WallAnswer<Real> search(const WallQuery<Real>& query) const;
+  WallAnswer<Real> search(const WallQuery<Real>& query) const {
+    return search(mill_.motion.pose(query.begin), query);
+  }
   /// The search in this scalar where the caller knows the vessel's pose at the window's begin.
   WallAnswer<Real> search(const Pose& pose, const WallQuery<Real>& query) const;
 

@@ -133,7 +133,7 @@ class Simulation {
   /// The balls of the adjacent cells, where cells are used.
   void find_neighbours(int ball, FoundBalls& near) {
     if (!candidates_.uses_cells()) return;
-    candidates_.neighbours(bodies_[ball].cell, near);
+    candidates_.grid().neighbours(bodies_[ball].cell, near);
     prefetcher_.flights_of(near);
   }
   void predict_pairs(int ball, int already_done, const DoubleState& state, int found, const FoundBalls& near);

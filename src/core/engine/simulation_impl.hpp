@@ -7,7 +7,6 @@
 
 #include "base/errors.hpp"
 #include "base/interruption.hpp"
-#include "engine/collide_impl.hpp"
 #include "engine/loop_impl.hpp"
 #include "engine/simulation.hpp"
 
@@ -176,9 +175,10 @@ bool Simulation<Real>::is_sound() const {
     return t.period >= -most && t.period <= most && t.offset >= 0 && t.offset <= clock_.period();
   };
   const auto finite = [](const Vec3<Real>& v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); };
-  bool sound = timed(now_) && stall_watch_.is_sound(ball_count(), mill_.vessel.wall_count()) &&
-               now_.period < most && isfinite(top_speed_) && top_speed_ >= 0 &&
-               candidates_.holds_all([this](int ball) -> const CellOfBall& { return bodies_[ball].cell; });
+  bool sound =
+      timed(now_) && stall_watch_.is_sound(ball_count(), mill_.vessel.wall_count()) && now_.period < most &&
+      isfinite(top_speed_) && top_speed_ >= 0 &&
+      candidates_.grid().holds_all([this](int ball) -> const CellOfBall& { return bodies_[ball].cell; });
   for (int i = 0; sound && i < ball_count(); ++i) {
     const auto& agenda = agendas_[i];
     sound = finite(flights_[i].position) && finite(flights_[i].velocity) && finite(bodies_[i].spin) &&

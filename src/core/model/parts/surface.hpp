@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
 #include "base/vector.hpp"
