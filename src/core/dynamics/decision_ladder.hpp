@@ -1,7 +1,6 @@
 // Escalation: what one scalar cannot decide, the next wider one does, for the state as stored.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // alike, and flat walls that do not move along their normals. theory.md, section 4
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "base/dyadic.hpp"
@@ -39,11 +38,30 @@ struct ExactTime {
     return below;
   }
   /// Sign of this time less the other one, which counts from `later` after the origin of this one.
-  int compare(const ExactTime& other, const Dyadic& later = {}) const;
+  int compare(const ExactTime& other, const Dyadic& later = {}) const {
+    const Dyadic rational = p * other.q - other.p * q - later * q * other.q;
+    return sign_of_sum(rational, s, square * other.q * other.q, -other.s, other.square * q * q);
+  }
 };
 
 /// The first t >= 0 at which the gap is zero or negative while it falls, or is about to fall.
-std::optional<ExactTime> exact_contact_time(const ExactGap& gap);
+inline std::optional<ExactTime> exact_contact_time(const ExactGap& gap) {
+  const auto& [value, rate, bend] = gap;
+  const int turn = bend.sign();
+  const Dyadic discriminant = rate * rate - Dyadic(4) * value * bend;
+  if (value.sign() <= 0) {
+    if (rate.sign() < 0 || (rate.sign() == 0 && turn < 0)) return ExactTime{};
+    if (rate.sign() == 0 || turn >= 0) return std::nullopt;
+    // It rises and turns back: before it opens, or after.
+    if (discriminant.sign() <= 0) return ExactTime{rate, Dyadic(-2) * bend};
+    return ExactTime{rate, Dyadic(-2) * bend, 1, discriminant};
+  }
+  if (turn < 0) return ExactTime{rate, Dyadic(-2) * bend, 1, discriminant};
+  if (rate.sign() >= 0) return std::nullopt;
+  if (turn == 0) return ExactTime{value, -rate};
+  if (discriminant.sign() <= 0) return std::nullopt;
+  return ExactTime{-rate, Dyadic(2) * bend, -1, discriminant};
+}
 
 /// Time from `from` to `to` [s].
 template <class Real>

@@ -1,9 +1,7 @@
 // First contact of a ball in free flight with the walls of the moving vessel, as a certified decision.
 #pragma once
 
-#include <array>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>

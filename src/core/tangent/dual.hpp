@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
 #include "base/vector.hpp"
 

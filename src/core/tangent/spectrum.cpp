@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/elementary.hpp"
-#include "base/errors.hpp"
 #include "dynamics/impulse.hpp"
 #include "tangent/dual.hpp"
 

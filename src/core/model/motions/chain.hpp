@@ -48,7 +48,7 @@ struct ChainBounds {
       errors += error_of(joint, joints.period);
       const Vec3<Real> axis = direction(joint);
       if (!joint.rotates) {
-        shift(joint, rates);
+        shift(rates);
       } else if (!(rates[1] > 0)) {
         if (common) *common = turned_about<Real>(*common, axis, numerics::sin_cos_turns<Real>(-joint.angle));
       } else {
@@ -116,14 +116,6 @@ struct ChainBounds {
     return squared_norm<Real>(cross<Real>(a, b)) < 64 * epsilon<Real>() * epsilon<Real>();
   }
 
-  /// k-th derivative of a product. (Leibniz)
-  template <std::size_t n, std::size_t m>
-  static Real product(const std::array<Real, n>& a, std::size_t shift_a, const std::array<Real, m>& b,
-                      std::size_t shift_b, std::size_t k) {
-    Real sum(0);
-    for (std::size_t j = 0; j <= k; ++j) sum += binomial[k][j] * a[j + shift_a] * b[k - j + shift_b];
-    return sum;
-  }
   /// The frame behind the joint turns about an axis: its angular velocity is E w + axis angle', and E b the
   /// acceleration, where the derivatives of the matrix E follow from those of the angle. (Faa di Bruno)
   void rotate(const std::array<Real, 5>& angle, bool parallel) {
@@ -131,17 +123,17 @@ struct ChainBounds {
     const std::array<Real, 4> matrix{Real(1), a, a * a + b, a * a * a + 3 * a * b + c};
     const auto w = turning;
     const auto old = acceleration;
-    for (std::size_t k = 0; k < 4; ++k)
-      turning[k] = (parallel ? w[k] : product(matrix, 0, w, 0, k)) + angle[k + 1];
-    for (std::size_t k = 0; k < 3; ++k) acceleration[k] = product(matrix, 0, old, 0, k);
+    for (int k = 0; k < 4; ++k)
+      turning[k] = (parallel ? w[k] : product_bound(matrix, 0, w, k)) + angle[k + 1];
+    for (int k = 0; k < 3; ++k) acceleration[k] = product_bound(matrix, 0, old, k);
   }
   /// (d + C)'' with C = shift in a frame that turns: d'' + 2 w x d' + w' x d + w x (w x d).
-  void shift(const Joint<Real>&, const std::array<Real, 5>& d) {
+  void shift(const std::array<Real, 5>& d) {
     std::array<Real, 3> square;
-    for (std::size_t k = 0; k < 3; ++k) square[k] = product(turning, 0, turning, 0, k);
-    for (std::size_t k = 0; k < 3; ++k)
-      acceleration[k] += d[k + 2] + 2 * product(turning, 0, d, 1, k) + product(turning, 1, d, 0, k) +
-                         product(square, 0, d, 0, k);
+    for (int k = 0; k < 3; ++k) square[k] = product_bound(turning, 0, turning, k);
+    for (int k = 0; k < 3; ++k)
+      acceleration[k] += d[k + 2] + 2 * product_bound(turning, 0, d, k, 1) + product_bound(turning, 1, d, k) +
+                         product_bound(square, 0, d, k);
     speed += d[1] + turning[0] * d[0];
     distance += d[0];
   }

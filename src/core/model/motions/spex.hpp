@@ -4,9 +4,7 @@
 
 #include "base/archive.hpp"
 #include "base/instant.hpp"
-#include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
-#include "model/parts/parameter.hpp"
 #include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {

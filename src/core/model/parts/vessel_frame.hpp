@@ -14,11 +14,11 @@ using Majorant = std::array<Real, 5>;
 inline constexpr int binomial[5][5] = {
     {1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}};
 
-/// k-th derivative of a product a^(shift) * b, from bounds on a and b. (Leibniz)
-template <class Real>
-Real product_bound(const Majorant<Real>& a, int shift, const Majorant<Real>& b, int k) {
-  Real sum{0};
-  for (int j = 0; j <= k; ++j) sum += binomial[k][j] * a[j + shift] * b[k - j];
+/// k-th derivative of a product a^(shift) * b^(shift_b), from bounds on a and b. (Leibniz)
+template <class A, class B>
+typename A::value_type product_bound(const A& a, int shift, const B& b, int k, int shift_b = 0) {
+  typename A::value_type sum{0};
+  for (int j = 0; j <= k; ++j) sum += binomial[k][j] * a[j + shift] * b[k - j + shift_b];
   return sum;
 }
 
