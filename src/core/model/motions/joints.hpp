@@ -1,5 +1,5 @@
-// The joints of a chain, as a case gives them, and harmonic functions of time whose phases stay as sharp as at
-// the start.
+// The joints of a chain, as a case gives them, and harmonic functions of time whose phases stay as sharp as
+// at the start.
 #pragma once
 
 #include <array>
