@@ -177,6 +177,9 @@ class AnyVessel {
         return std::nullopt;
     });
   }
+  std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
+    return visit([&](const auto& v) { return v.place(drawn); });
+  }
   AnyVessel inset(const Real& by) const {
     return visit([&](const auto& v) { return AnyVessel(v.inset(by)); });
   }
@@ -201,7 +204,6 @@ class AnyVessel {
   EDMILL_OF_VESSEL(Real, widest_ball)
   EDMILL_OF_VESSEL(bool, is_empty)
   EDMILL_OF_VESSEL(bool, contains)
-  EDMILL_OF_VESSEL(std::optional<Vec3<Real>>, place)
   EDMILL_OF_VESSEL(Real, gap)
   EDMILL_OF_VESSEL(int, kind_of)
   EDMILL_OF_VESSEL(bool, is_flat)
