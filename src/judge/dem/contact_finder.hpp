@@ -32,11 +32,11 @@ struct Contact {
 
 /// What the first frames tell, for the rest.
 struct FrameStatistics {
-  double interval = 0;        ///< median between frames [s]
-  Vector gravity;             ///< median acceleration of all balls [m/s^2]
-  Vector gravity_half_width;  ///< of its 95 % interval
-  double kick = 0;            ///< velocity changes below are noise [m/s]
-  double contact_time = 0;    ///< median of the time in which a ball does not fly [s]
+  double interval = 0;                 ///< median between frames [s]
+  Vector gravity{0, 0, 0};             ///< median acceleration of all balls [m/s^2]
+  Vector gravity_half_width{0, 0, 0};  ///< of its 95 % interval
+  double kick = 0;                     ///< velocity changes below are noise [m/s]
+  double contact_time = 0;             ///< median of the time in which a ball does not fly [s]
 };
 
 /// @pre at least three frames

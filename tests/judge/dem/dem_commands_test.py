@@ -9,7 +9,7 @@ import subprocess
 import sys
 import xml.etree.ElementTree as xml
 
-from program import EXAMPLES, Trials, edmill as run
+from program import EXAMPLES, SOURCE, Trials, edmill as run
 
 DUMP = os.path.realpath(sys.argv[2])
 CASE = EXAMPLES / "vibrated_box.toml"
@@ -108,6 +108,10 @@ def imports():
     run("export", CASE, "--to", "liggghts", "--quiet")
     check(run("import", "right.dump.gz", "--case", CASE, "--deck", "deck.in", "--out", "packed.csv").returncode == 0
           and pathlib.Path("packed.csv").read_text().split("\n", 2)[2] == right, "a compressed dump")
+    # A list of contacts does not show gravity: the log has that of the case, with no interval.
+    box = str(EXAMPLES / "shaken_box.toml")
+    check(run("import", str(SOURCE / "tests/fuzz/corpus/contact_list/lethe.csv"), "--case", box, "--out", "list.csv").returncode == 0
+          and "\n# gravity 0 -9.8 0 0 0 0\n" in pathlib.Path("list.csv").read_text(), "a list of contacts")
     fails("without time", "import", "right.dump", "--case", CASE)
     check(not pathlib.Path("contacts.csv").exists(), "a log of a dump that was refused")
     fails("5 balls", "import", "right.dump", "--case", CASE, "--timestep", "1 us", "--set", "balls.0.count=6")
