@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "dynamics/any_wall_search.hpp"
+#include "dynamics/wall_search.hpp"
 
 namespace edmill::testing {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "arb_oracle.hpp"
-#include "dynamics/any_wall_search.hpp"
+#include "dynamics/wall_search.hpp"
 #include "mill_parts.hpp"
 
 namespace edmill::testing {

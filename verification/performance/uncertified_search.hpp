@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "dynamics/any_wall_search.hpp"
+#include "dynamics/wall_search.hpp"
 
 namespace edmill::performance {
 

@@ -19,8 +19,11 @@ namespace {
 
 constexpr const char* folder = "/run";
 
-void put_vector(std::vector<double>& list, const auto& v) {
-  for (std::size_t axis = 0; axis < 3; ++axis) list.push_back(v[axis]);
+/// Of vectors, one after the other.
+std::vector<double> coordinates(const auto& vectors) {
+  std::vector<double> list;
+  for (const auto& v : vectors) list.insert(list.end(), {v[0], v[1], v[2]});
+  return list;
 }
 
 casefile::CaseSpec read(const std::string& text, const std::vector<std::string>& settings, bool log) {
@@ -97,17 +100,13 @@ void Session::scene(io::JsonText& json) const {
   std::vector<std::string> names;
   for (int k = 0; k < partners.count(); ++k) names.push_back(partners[k].label);
   json.texts("partners", names);
-  std::vector<double> middle;
-  put_vector(middle, mill_.motion.middle());
-  json.numbers("middle", middle);
+  json.numbers("middle", coordinates(std::array{mill_.motion.middle()}));
   json.begin("walls");
   int wall = 0;
   for (const auto& surface : mill_.vessel.surfaces()) {
     const auto mesh = model::mesh_of(surface);
     json.begin(std::to_string(wall++));
-    std::vector<double> points;
-    for (const auto& point : mesh.points) put_vector(points, point);
-    json.numbers("points", points);
+    json.numbers("points", coordinates(mesh.points));
     std::vector<int> corners;  // of each face, after their number
     for (const auto& face : mesh.faces) {
       corners.push_back(static_cast<int>(face.size()));
@@ -150,13 +149,11 @@ void Session::frame(io::JsonText& json) {
   json.integer("impacts", impacts_);
   json.flag("ended", !going_on_);
   json.text("end_reason", summary.end_reason);
-  std::vector<double> places;
-  for (int k = 0; k < run_.ball_count(); ++k) put_vector(places, run_.ball(k).position);
-  json.numbers("places", places);
+  std::vector<Vector<double>> places;
+  for (int k = 0; k < run_.ball_count(); ++k) places.push_back(run_.ball(k).position);
+  json.numbers("places", coordinates(places));
   const auto frame = output::vessel_frame(mill_.motion, now);
-  std::vector<double> axes;
-  for (const auto& v : {frame.origin, frame.x, frame.y, frame.z}) put_vector(axes, v);
-  json.numbers("vessel", axes);
+  json.numbers("vessel", coordinates(std::array{frame.origin, frame.x, frame.y, frame.z}));
   if (impacts_ > 0) {
     json.begin("last");
     json.number("time", last_.time);

@@ -83,8 +83,6 @@ py::object to_python(const Value& value) {
   else
     return py::cast(value);
 }
-using ImpactInDouble = Impact<double>;
-using ImpactInTexts = Impact<std::string>;
 
 /// The array owns what the list held: nothing is copied.
 template <class Row>
@@ -320,11 +318,11 @@ const Binding runs([](Module& m) {
                        slip_speed, separation_speed, restitution_tangential, normal_impulse,
                        tangential_impulse, milling_dose, supplied_energy, wall_work);
   PYBIND11_NUMPY_DTYPE(BallState<double>, position, velocity, spin);
-  py::class_<ImpactInDouble> in_double(m, "Impact");
-  py::class_<ImpactInTexts> in_texts(m, "WideImpact");
+  py::class_<Impact<double>> in_double(m, "Impact");
+  py::class_<Impact<std::string>> in_texts(m, "WideImpact");
   for_each_member([&](const char* name, auto number, auto text) {
-    in_double.def_property_readonly(name, [number](const ImpactInDouble& i) { return to_python(i.*number); });
-    in_texts.def_property_readonly(name, [text](const ImpactInTexts& i) { return to_python(i.*text); });
+    in_double.def_property_readonly(name, [number](const Impact<double>& i) { return to_python(i.*number); });
+    in_texts.def_property_readonly(name, [text](const Impact<std::string>& i) { return to_python(i.*text); });
   });
   py::class_<RunOfPython>(m, "Running")
       .def_property_readonly("time", [](const RunOfPython& r) { return r.numbers.of(r.run.time()); })

@@ -18,11 +18,14 @@
 #include "dem/contact_audit.hpp"
 #include "dem/contact_rates.hpp"
 #include "dem/contacts.hpp"
+#include "dem/deck.hpp"
+#include "dem/import_dump.hpp"
 #include "io/input_file.hpp"
+#include "io/named_file.hpp"
 #include "machines/machines.hpp"
 #include "model/impact_record.hpp"
-#include "model/impact_variables.hpp"
-#include "prove/certificate.hpp"
+#include "model/variables.hpp"
+#include "prove/proof.hpp"
 #include "python/binding.hpp"
 #include "report/report_page.hpp"
 #include "run/case_access.hpp"
@@ -178,11 +181,6 @@ py::dict estimate(const Case& the_case, const std::string& precision) {
   return facts;
 }
 
-std::vector<std::pair<std::string, std::string>> check(const Case& the_case) {
-  const Unlocked others;
-  return app::check(CaseAccess::spec(the_case)).facts;
-}
-
 /// @return the events as CSV, the bits of the proof and those that are left
 /// @throws UndecidedError when the events cannot be proven
 py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
@@ -195,16 +193,6 @@ py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
   std::ostringstream events;
   prove::write_events(events, proof, 40);
   return py::make_tuple(events.str(), proof.bits, proof.accuracy);
-}
-
-std::vector<std::string> check_certificate(const Case& the_case, const std::string& certificate) {
-  const Unlocked others;
-  return app::check_certificate(CaseAccess::spec(the_case), certificate);
-}
-
-std::string report(const std::string& folder) {
-  const Unlocked others;
-  return report::write_report(folder).string();
 }
 
 /// @throws KeyboardInterrupt when Ctrl-C ended it, with its state on disk
@@ -229,6 +217,41 @@ void resume(const std::string& folder, const std::string& interval) {
   app::RunOptions options;
   options.folder = folder;
   in_folder(options, [&](const app::RunOptions& o) { return app::resume(interval, o); });
+}
+
+/// @return names and texts of the files, the command that runs the first, and notes
+py::tuple deck_of(const Case& the_case, const std::string& code, const std::string& name, double contact_time,
+                  double speed, std::optional<double> duration, std::optional<double> frames, int steps,
+                  int facets) {
+  const auto deck = dem::make_deck(
+      CaseAccess::spec(the_case),
+      {code, name, contact_time, speed, duration.value_or(0), frames.value_or(0), steps, facets});
+  py::list files;
+  for (const auto& file : deck.files) files.append(py::make_tuple(file.name, file.text));
+  return py::make_tuple(files, deck.command, deck.notes);
+}
+
+py::dict import_dump(const Case& the_case, const std::string& dump, const std::string& out,
+                     const std::string& deck, std::optional<double> time_step,
+                     std::optional<std::string> units, bool in_vessel) {
+  dem::ImportOptions options;
+  options.dump = dump, options.deck = deck, options.time_step = time_step, options.units = units;
+  options.in_vessel = in_vessel;
+  const auto imported = with_interrupt(options, [&](const dem::ImportOptions& o) {
+    io::NamedFile file(out);
+    dem::ContactLogWriter log;
+    auto result = dem::import_dump(CaseAccess::spec(the_case), o, log);
+    file.write([&](std::ostream& stream) { log.write(stream, result.facts); });
+    return result;
+  });
+  py::dict result, classes;
+  const auto& facts = imported.facts;
+  result["frames"] = facts.frames, result["contacts"] = facts.contacts;
+  result["first"] = facts.first, result["last"] = facts.last, result["milling_dose"] = facts.dose();
+  for (std::size_t k = 0; k < dem::contact_class_names.size(); ++k)
+    classes[dem::contact_class_names[k]] = py::make_tuple(imported.counts[k], facts.doses[k]);
+  result["classes"] = classes;
+  return result;
 }
 
 py::list machines_in_python() {
@@ -257,23 +280,38 @@ const Binding tools([](Module& m) {
   m.def("compare", &compare);
   m.def("audit", &audit);
   m.def("prove", &prove);
-  m.def("check_certificate", &check_certificate);
+  m.def("check_certificate", [](const Case& the_case, const std::string& certificate) {
+    const Unlocked others;
+    return app::check_certificate(CaseAccess::spec(the_case), certificate);
+  });
   m.def("certify", &certify);
   m.def("shadow", &shadow);
-  m.def("check", &check);
+  m.def("check", [](const Case& the_case) {
+    const Unlocked others;
+    return app::check(CaseAccess::spec(the_case)).facts;
+  });
   m.def("sensitivity", &sensitivity);
   py::tuple quantities(std::size_t{model::logged_count});
   for (std::size_t k = 0; k < model::logged_count; ++k) quantities[k] = name_of(k);
   m.attr("logged_quantities") = quantities;
   m.def("find_digits", &find_digits);
   m.def("estimate", &estimate);
-  m.def("report", &report);
+  m.def("report", [](const std::string& folder) {
+    const Unlocked others;
+    return report::write_report(folder).string();
+  });
   m.def("report_of_runs", [](const std::vector<std::string>& folders, const std::string& file) {
     const Unlocked others;
     report::write_comparison(folders, file);
   });
   m.def("run_with_checkpoints", &run_with_checkpoints);
   m.def("resume", &resume);
+  m.def("deck", &deck_of);
+  m.def("import_dump", &import_dump);
+  m.def("limit", [](const std::vector<std::string>& logs, const std::string& run, double from) {
+    const Unlocked others;
+    return dem::to_json(dem::limit_of(logs, run, from));
+  });
   m.def("machines", &machines_in_python);
   m.def("new_case", &new_case);
   m.def("variables", [] {

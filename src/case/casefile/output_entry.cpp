@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "casefile/nearest.hpp"
-#include "model/impact_variables.hpp"
+#include "model/variables.hpp"
 
 namespace edmill::casefile {
 

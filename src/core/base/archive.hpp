@@ -1,8 +1,11 @@
 // Values as bytes, and back: one function of a class lists its members for both.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,11 +14,22 @@
 #include <variant>
 #include <vector>
 
-#include "base/byte_order.hpp"
 #include "base/errors.hpp"
 #include "base/vector.hpp"
 
 namespace edmill {
+
+/// A number whose bytes are in the order of files, and back. Nothing changes on most machines.
+template <class T>
+T in_file_order(T value) {
+  if constexpr (std::endian::native == std::endian::big) {
+    std::array<unsigned char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(T));
+    std::reverse(bytes.begin(), bytes.end());
+    std::memcpy(&value, bytes.data(), sizeof(T));
+  }
+  return value;
+}
 
 /// Saves or loads everything that it is called with. A class takes part by a function that lists its members,
 /// `void archive(Archive& a) { a(x_, y_); }`; a scalar of its own by `archive_value` (base/scalar_list.hpp).

@@ -1,5 +1,7 @@
 #include "base/clean_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace edmill {
@@ -39,6 +41,11 @@ std::string one_line(std::string_view text) {
   for (const std::string_view end : {"\n", "\r", "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"})
     for (auto at = line.find(end); at != line.npos; at = line.find(end)) line.replace(at, end.size(), " ");
   return line;
+}
+
+std::string percent(double share) {
+  const double hundredths = 100 * share;
+  return hundredths < 99.5 ? fmt::format("{:.2g} %", hundredths) : fmt::format("{:.0f} %", hundredths);
 }
 
 }  // namespace edmill

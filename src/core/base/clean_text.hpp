@@ -1,4 +1,5 @@
-// Texts of any bytes, such as names of files, in files whose characters a standard prescribes.
+// Texts of any bytes, such as names of files, in files whose characters a standard prescribes; shares as
+// texts.
 #pragma once
 
 #include <string>
@@ -11,5 +12,8 @@ std::string clean_text(std::string_view text);
 
 /// A clean text in one line, for comments: blanks replace line ends.
 std::string one_line(std::string_view text);
+
+/// A share: "0.5 %", "7.1 %", "100 %".
+std::string percent(double share);
 
 }  // namespace edmill

@@ -1,4 +1,4 @@
-// Arctangent and logarithm with the same bits everywhere: those of C libraries differ.
+// Arctangent, logarithm and roots with the same bits everywhere: those of C libraries differ.
 #pragma once
 
 #include <array>
@@ -60,7 +60,7 @@ Real angle_between(const Real& across, const Real& along) {
   if constexpr (detail::rounds_correctly<Real>) {
     return Real(atan2(across, along));
   } else {
-    const Real size = along < 0 ? Real(-along) : along;
+    const Real size = magnitude(along);
     const Real first = across <= size ? detail::arctangent<Real>(across / size)
                                       : Real(pi<Real>() / 2 - detail::arctangent<Real>(size / across));
     return along < 0 ? Real(pi<Real>() - first) : first;
@@ -82,6 +82,24 @@ Real log_of_one_plus(const Real& x) {
     static const Real ln2 =
         2 * (2 * detail::odd_series<Real>(Real(1) / 7, -1) + detail::odd_series<Real>(Real(1) / 17, -1));
     return exponent * ln2 + 2 * detail::odd_series<Real>((m - 1) / (m + 1), -1);
+  }
+}
+
+/// x^(1/5) to a few roundings, by arithmetic alone. @pre x >= 0
+template <class Real>
+Real fifth_root(const Real& x) {
+  using std::frexp;
+  using std::ldexp;
+  if (!(x > 0)) return Real(0);
+  int exponent;
+  Real m = frexp(x, &exponent);
+  const int whole = (exponent - (exponent % 5 + 5) % 5) / 5;
+  m = ldexp(m, exponent - 5 * whole);  // in [1/2, 16)
+  // The tangent of the root at 1 lies above it, and from above Newton's method falls until rounding ends it.
+  for (Real y = (m + 4) / 5;;) {
+    const Real square = y * y, next = (4 * y + m / (square * square)) / 5;
+    if (!(next < y)) return ldexp(y, whole);
+    y = next;
   }
 }
 

@@ -26,9 +26,7 @@ struct Instant {
   friend bool operator>(const Instant& a, const Instant& b) { return b < a; }
   friend bool operator<=(const Instant& a, const Instant& b) { return !(b < a); }
   friend bool operator>=(const Instant& a, const Instant& b) { return !(a < b); }
-  friend bool operator==(const Instant& a, const Instant& b) {
-    return a.period == b.period && a.offset == b.offset;
-  }
+  friend bool operator==(const Instant& a, const Instant& b) = default;
 
   /// Later than every instant of a run.
   static Instant never() { return {std::int64_t{1} << 52, Real(0)}; }

@@ -60,10 +60,10 @@ std::string to_text(const Real& value);
 template <class Real>
 Real from_text(const std::string& text);
 
-/// Exact when `To` is wider than `From`; otherwise rounded.
-template <class To, class From>
-To scalar_cast(const From& value) {
-  return static_cast<To>(value);
+/// |x|, without the functions of libraries.
+template <class Real>
+Real magnitude(const Real& x) {
+  return x < 0 ? Real(-x) : x;
 }
 
 /// Far above the rounding of a few operations in any scalar, far below what bounds leave to spare: 2^-20.

@@ -147,24 +147,27 @@ struct WiderScalar<float128> {
   using type = mpfr50;
 };
 
+/// Calls `function.operator()<Real>()` with the scalar of this name.
+/// @throws ContractError when there is none: names are checked where they are read
+template <class Function>
+auto with_scalar(std::string_view name, const Function& function) {
+  if (name == ScalarName<double>::value) return function.template operator()<double>();
+  if (name == ScalarName<float128>::value) return function.template operator()<float128>();
+#if !defined(EDMILL_WITHOUT_MPFR)
+  if (const unsigned chosen = chosen_digits_of(name)) {
+    const mpfr::Digits digits(chosen);
+    return function.template operator()<mpfr>();
+  }
+#endif
+  throw ContractError("no scalar named " + std::string(name));
+}
+
 }  // namespace edmill
 
 #if !defined(EDMILL_WITHOUT_MPFR)
 template <>
 struct Eigen::NumTraits<edmill::mpfr> : Eigen::GenericNumTraits<edmill::mpfr> {
-  using Real = edmill::mpfr;
-  using NonInteger = edmill::mpfr;
-  using Nested = edmill::mpfr;
-  using Literal = edmill::mpfr;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 20,
-    AddCost = 40,
-    MulCost = 80
-  };
+  enum { ReadCost = 20, AddCost = 40, MulCost = 80 };
   static Real epsilon() { return edmill::epsilon<edmill::mpfr>(); }
   static Real dummy_precision() { return 1000 * epsilon(); }
 };

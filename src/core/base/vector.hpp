@@ -1,4 +1,4 @@
-// Three-vectors with a fixed order of operations, so that sums have the same bits in every build.
+// Three-vectors with a fixed order of operations, so that sums have the same bits in every build, and frames.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,6 +32,29 @@ inline Real norm(const Vec3<Real>& a) {
 template <class To, class From>
 inline Vec3<To> vector_cast(const Vec3<From>& a) {
   return {static_cast<To>(a[0]), static_cast<To>(a[1]), static_cast<To>(a[2])};
+}
+
+/// A right-handed frame: where its origin and its axes are, seen from outside.
+template <class Real>
+struct Frame {
+  Vec3<Real> origin;   ///< [m]
+  Vec3<Real> x, y, z;  ///< unit
+
+  /// A point given in this frame, seen from outside.
+  Vec3<Real> outside(const Vec3<Real>& p) const { return origin + (x * p[0] + y * p[1] + z * p[2]); }
+  /// A point given outside, seen in this frame.
+  Vec3<Real> inside(const Vec3<Real>& p) const {
+    const Vec3<Real> d = p - origin;
+    return {dot<Real>(d, x), dot<Real>(d, y), dot<Real>(d, z)};
+  }
+
+  void archive(auto& a) { a(origin, x, y, z); }
+};
+
+/// With the axes of the frame outside.
+template <class Real>
+Frame<Real> frame_at(const Vec3<Real>& origin) {
+  return {origin, Vec3<Real>::UnitX(), Vec3<Real>::UnitY(), Vec3<Real>::UnitZ()};
 }
 
 }  // namespace edmill

@@ -1,13 +1,12 @@
 // Escalation: what one scalar cannot decide, the next wider one does, for the state as stored.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "base/escalations.hpp"
-#include "dynamics/any_wall_search.hpp"
 #include "dynamics/pair_search.hpp"
+#include "dynamics/wall_search.hpp"
+#include "model/outcome.hpp"
 
 namespace edmill::dynamics {
 
@@ -71,7 +70,7 @@ class DecisionLadder {
   const PairSearch<Real>& pairs() const { return pairs_; }
 
   /// One entry for each wider scalar, narrowest first, and one for what a rule decides.
-  std::vector<Escalations> escalations() const;
+  std::vector<model::Escalations> escalations() const;
 
   /// What it has counted. The rest follows from the mill and the top speed, which is the owner's.
   void archive(Archive& a);
@@ -103,7 +102,7 @@ class DecisionLadder {
   Real smallest_sum_;
   AnyWallSearch<Real> walls_;
   PairSearch<Real> pairs_;
-  Escalations passed_up_;
+  model::Escalations passed_up_;
   std::unique_ptr<Above> above_;
 };
 

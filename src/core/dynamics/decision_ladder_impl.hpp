@@ -7,7 +7,7 @@
 #include "base/errors.hpp"
 #include "base/scalar_list.hpp"
 #include "dynamics/decision_ladder.hpp"
-#include "dynamics/exact_contact_impl.hpp"
+#include "dynamics/exact_contact.hpp"
 
 namespace edmill::dynamics {
 
@@ -186,11 +186,11 @@ int DecisionLadder<Real>::order_by_exact_times(const Contact<Real>& a, const Con
 }
 
 template <class Real>
-std::vector<Escalations> DecisionLadder<Real>::escalations() const {
+std::vector<model::Escalations> DecisionLadder<Real>::escalations() const {
   if constexpr (std::is_void_v<Wider<Real>>) {
     return {{"rule", passed_up_.wall, 0, passed_up_.order}};
   } else {
-    std::vector<Escalations> rows{passed_up_};
+    std::vector<model::Escalations> rows{passed_up_};
     if (above_) {
       const auto more = above_->ladder.escalations();
       rows.insert(rows.end(), more.begin(), more.end());

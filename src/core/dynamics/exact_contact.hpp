@@ -6,7 +6,6 @@
 
 #include "base/dyadic.hpp"
 #include "dynamics/flight.hpp"
-#include "dynamics/wall_query.hpp"
 #include "model/motion.hpp"
 #include "model/vessel.hpp"
 
@@ -25,13 +24,44 @@ struct ExactTime {
 
   /// Rounded down to the scalar, but not below zero. @pre it is not negative
   template <class Real>
-  Real rounded_down() const;
+  Real rounded_down() const {
+    using std::sqrt;
+    // The root with the smaller absolute value is the product of both over the other one.
+    const Real root = sqrt(square.to<Real>()), sum = p.to<Real>() + Real(s) * root;
+    const bool cancels = s * p.sign() < 0;
+    const Real t = cancels
+                       ? Real((p * p - square).to<Real>() / (q.to<Real>() * (p.to<Real>() - Real(s) * root)))
+                       : Real(sum / q.to<Real>());
+    Real below = t > 0 ? t : Real(0);
+    for (Real step = epsilon<Real>() / 2; below > 0 && compare({Dyadic::of(below)}) < 0; step = 2 * step)
+      below = below - below * step;
+    return below;
+  }
   /// Sign of this time less the other one, which counts from `later` after the origin of this one.
-  int compare(const ExactTime& other, const Dyadic& later = {}) const;
+  int compare(const ExactTime& other, const Dyadic& later = {}) const {
+    const Dyadic rational = p * other.q - other.p * q - later * q * other.q;
+    return sign_of_sum(rational, s, square * other.q * other.q, -other.s, other.square * q * q);
+  }
 };
 
 /// The first t >= 0 at which the gap is zero or negative while it falls, or is about to fall.
-std::optional<ExactTime> exact_contact_time(const ExactGap& gap);
+inline std::optional<ExactTime> exact_contact_time(const ExactGap& gap) {
+  const auto& [value, rate, bend] = gap;
+  const int turn = bend.sign();
+  const Dyadic discriminant = rate * rate - Dyadic(4) * value * bend;
+  if (value.sign() <= 0) {
+    if (rate.sign() < 0 || (rate.sign() == 0 && turn < 0)) return ExactTime{};
+    if (rate.sign() == 0 || turn >= 0) return std::nullopt;
+    // It rises and turns back: before it opens, or after.
+    if (discriminant.sign() <= 0) return ExactTime{rate, Dyadic(-2) * bend};
+    return ExactTime{rate, Dyadic(-2) * bend, 1, discriminant};
+  }
+  if (turn < 0) return ExactTime{rate, Dyadic(-2) * bend, 1, discriminant};
+  if (rate.sign() >= 0) return std::nullopt;
+  if (turn == 0) return ExactTime{value, -rate};
+  if (discriminant.sign() <= 0) return std::nullopt;
+  return ExactTime{-rate, Dyadic(2) * bend, -1, discriminant};
+}
 
 /// Time from `from` to `to` [s].
 template <class Real>
@@ -43,11 +73,149 @@ Dyadic exact_elapsed(const Instant<Real>& from, const Instant<Real>& to, const R
 /// The squared distance of two balls less that of their contact, from `now` on [m^2].
 template <class Real>
 ExactGap exact_gap(const Flight<Real>& i, const Flight<Real>& j, const Instant<Real>& now,
-                   const Real& radius_sum, const Vec3<Real>& gravity, const Real& period);
+                   const Real& radius_sum, const Vec3<Real>& gravity, const Real& period) {
+  const Dyadic age_i = exact_elapsed(i.start, now, period), age_j = exact_elapsed(j.start, now, period);
+  const Dyadic sum = Dyadic::of(radius_sum);
+  ExactGap gap{-(sum * sum), {}, {}};
+  for (int k = 0; k < 3; ++k) {
+    const Dyadic g = Dyadic::of(gravity[k]), vi = Dyadic::of(i.velocity[k]), vj = Dyadic::of(j.velocity[k]);
+    const Dyadic r = Dyadic::of(i.position[k]) + age_i * (vi + (age_i * g).half()) -
+                     (Dyadic::of(j.position[k]) + age_j * (vj + (age_j * g).half()));
+    const Dyadic v = vi - vj + g * (age_i - age_j);
+    gap.value = gap.value + r * r;
+    gap.rate = gap.rate + Dyadic(2) * r * v;
+    gap.bend = gap.bend + v * v;
+  }
+  return gap;
+}
+
+namespace detail {
+
+template <class Real>
+model::Joints<Real> joints_of(const model::ChainMotion<Real>& chain) {
+  return chain.joints();
+}
+/// theta about Z, arm along x', gamma about x'. Angles that swing need no amplitudes here.
+template <class Real>
+model::Joints<Real> joints_of(const model::SpexMotion<Real>& spex) {
+  auto theta = model::axis_joint<Real>(true, 2), arm = model::axis_joint<Real>(false, 0),
+       gamma = model::axis_joint<Real>(true, 0);
+  theta.angle = Real(1) / 4;
+  arm.shift[0] = spex.arm();
+  theta.swings.push_back({spex.theta_max(), Real(1), Real(0)});
+  gamma.swings.push_back({spex.gamma_max(), Real(1), Real(0)});
+  return {{theta, arm, gamma}, spex.period()};
+}
+
+template <class Real>
+model::Joints<Real> joints_of(const model::AnyMotion<Real>& motion) {
+  return motion.visit([](const auto& m) { return joints_of(m); });
+}
+
+/// A wall by the coordinates of which its gap is made.
+template <class Real>
+struct Shape {
+  enum Kind { other, plane, round } kind = other;
+  Vec3<Real> axes{Real(0), Real(0),
+                  Real(0)};  ///< the normal inwards; one where the wall is round about the others
+  Real distance{0};          ///< of the wall from the centre [m]
+};
+template <class V, class Real = typename V::Scalar>
+Shape<Real> shape_of(const V& vessel, int wall) {
+  const Real one(1), zero(0);
+  if constexpr (std::is_same_v<V, model::AnyVessel<Real>>) {
+    if (const auto* pistons = vessel.pistons())
+      for (std::size_t k = 0; k < pistons->count(); ++k)
+        if (pistons->wall(k) == wall) return {};
+    return vessel.visit([&](const auto& v) { return shape_of(v, wall); });
+  } else if constexpr (std::is_same_v<V, model::SphereVessel<Real>>) {
+    return {Shape<Real>::round, {one, one, one}, vessel.radius};
+  } else if constexpr (model::HasRegions<V> || std::is_same_v<V, model::AlgebraicVessel<Real>>) {
+    return {};
+  } else {
+    if constexpr (std::is_same_v<V, model::CylinderVessel<Real>>)
+      if (!vessel.is_flat(wall)) return {Shape<Real>::round, {one, zero, one}, vessel.radius};
+    const Vec3<Real> centre = Vec3<Real>::Zero();
+    return {Shape<Real>::plane, vessel.normal(wall, centre), vessel.gap(wall, centre)};
+  }
+}
+
+/// A coordinate in the vessel that is one of the ground's, but for its sign and a constant: of it the ball's
+/// motion is that in free flight.
+struct StillCoordinate {
+  int axis, sign;
+  Dyadic offset;  ///< coordinate in the vessel = sign * coordinate in the ground - offset [m]
+};
+
+/// @param axis  of the vessel. Follows its direction from joint to joint down to the ground.
+template <class Real>
+std::optional<StillCoordinate> still_coordinate(const model::Joints<Real>& joints, int axis) {
+  StillCoordinate seen{axis, 1, {}};
+  for (auto joint = joints.list.rbegin(); joint != joints.list.rend(); ++joint) {
+    bool moves = joint->speed != 0;
+    for (const auto& swing : joint->swings) moves = moves || swing.amplitude != 0;
+    const auto along = [&](int k) -> const Real& { return joint->axis[static_cast<std::size_t>(k)]; };
+    if (!joint->rotates) {
+      if (moves && along(seen.axis) != 0) return std::nullopt;
+      const Dyadic shift = Dyadic::of(joint->shift[static_cast<std::size_t>(seen.axis)]);
+      seen.offset = seen.sign > 0 ? seen.offset + shift : seen.offset - shift;
+      continue;
+    }
+    const int next = (seen.axis + 1) % 3, last = (seen.axis + 2) % 3;
+    if (along(next) == 0 && along(last) == 0) continue;  // turns about the direction itself
+    const Real quarters = 4 * joint->angle;
+    const int turns = static_cast<int>(static_cast<double>(quarters));
+    const bool about_next = along(seen.axis) == 0 && along(last) == 0;
+    const bool about_last = along(seen.axis) == 0 && along(next) == 0;
+    if (moves || !(about_next || about_last) || Real(turns) != quarters) return std::nullopt;
+    // By a quarter of a turn about z, x goes to y and y to -x: from axis to axis + 1, with its sign, where
+    // the turn is about axis + 2, and to minus axis + 2 where it is about axis + 1.
+    const bool backwards = about_next ? along(next) < 0 : along(last) < 0;
+    const int count = (((backwards ? -turns : turns) % 4) + 4) % 4;
+    if (count == 2) seen.sign = -seen.sign;
+    if (count % 2 == 1) {
+      const bool flips = about_next ? count == 1 : count == 3;
+      if (flips) seen.sign = -seen.sign;
+      seen.axis = about_next ? last : next;
+    }
+  }
+  return seen;
+}
+
+/// One function for all mills of a scalar.
+template <class Real>
+std::optional<ExactGap> exact_gap(const model::Joints<Real>& joints, const Shape<Real>& shape,
+                                  const Vec3<Real>& gravity, const WallQuery<Real>& query) {
+  const bool round = shape.kind == Shape<Real>::round;
+  const auto& flight = query.flight;
+  const Dyadic age = exact_elapsed(flight.start, query.begin, joints.period);
+  const Dyadic room = Dyadic::of(shape.distance) - Dyadic::of(query.radius);
+  ExactGap gap{round ? room * room : room, {}, {}};
+  for (int k = 0; k < 3; ++k) {
+    if (shape.axes[k] == 0) continue;
+    const auto seen = still_coordinate(joints, k);
+    if (!seen || (round && gravity[seen->axis] != 0)) return std::nullopt;
+    const Dyadic side(seen->sign), g = side * Dyadic::of(gravity[seen->axis]);
+    const Dyadic begun = side * Dyadic::of(flight.velocity[seen->axis]), v = begun + age * g;
+    const Dyadic p =
+        side * Dyadic::of(flight.position[seen->axis]) + age * (begun + (age * g).half()) - seen->offset;
+    const Dyadic n = Dyadic::of(shape.axes[k]);
+    gap.value = gap.value + (round ? -(p * p) : n * p);
+    gap.rate = gap.rate + (round ? Dyadic(-2) * p * v : n * v);
+    gap.bend = gap.bend + (round ? -(v * v) : n * g.half());
+  }
+  return gap;
+}
+
+}  // namespace detail
 
 /// The gap to a wall from the begin of the window on [m]; nothing where it is no such polynomial.
 template <model::Motion M, model::Vessel V, class Real = typename M::Scalar>
 std::optional<ExactGap> exact_gap(const M& motion, const V& vessel, const Vec3<Real>& gravity,
-                                  const WallQuery<Real>& query, int wall);
+                                  const WallQuery<Real>& query, int wall) {
+  const auto shape = detail::shape_of(vessel, wall);
+  if (shape.kind == detail::Shape<Real>::other) return std::nullopt;
+  return detail::exact_gap(detail::joints_of(motion), shape, gravity, query);
+}
 
 }  // namespace edmill::dynamics

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "base/interruption.hpp"
-#include "dynamics/exact_contact_impl.hpp"
+#include "dynamics/exact_contact.hpp"
 #include "dynamics/wall_search.hpp"
 
 namespace edmill::dynamics {

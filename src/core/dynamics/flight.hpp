@@ -1,11 +1,14 @@
-// Free flight of a ball between impacts. (2.1)
+// Free flight of a ball between impacts (2.1), what is asked of a search for its first contact with a wall,
+// and what that answers.
 #pragma once
 
+#include <optional>
 #include <type_traits>
 
 #include "base/instant.hpp"
 #include "base/scalar.hpp"
 #include "base/vector.hpp"
+#include "model/motion.hpp"
 
 namespace edmill::dynamics {
 
@@ -64,5 +67,61 @@ template <class To, class From>
 inline Flight<To> flight_cast(const Flight<From>& f) {
   return {vector_cast<To>(f.position), vector_cast<To>(f.velocity), instant_cast<To>(f.start)};
 }
+
+enum class Verdict { none, contact, undecided };
+
+struct NoPose {
+  void archive(Archive&) {}
+};
+
+/// The vessel's pose at a contact goes with the contact in wide scalars, where sines are expensive.
+template <class Real>
+using ContactPose =
+    std::conditional_t<std::is_same_v<Real, double>, NoPose, std::optional<model::AnyPose<Real>>>;
+
+/// The answer of a search over (begin, begin + length]; `none` may hold for a shorter window than was asked.
+template <class Real>
+struct WallAnswer {
+  Verdict verdict = Verdict::none;
+  int wall = -1;         ///< of a contact
+  Instant<Real> time{};  ///< of a contact: the non-penetrating end of the bracket
+  bool by_rule = false;  ///< no precision decides it: two walls at one time, of which the lower id was taken,
+                         ///< or a gap that cannot be distinguished from zero
+  Real searched{0};      ///< of none: proven from begin for this long [s]
+  Real time_error{0};    ///< of a contact: how far off rounding may put its time [s]
+  [[no_unique_address]] ContactPose<Real> pose{};  ///< of a contact, where the search knows it
+
+  static WallAnswer none(const Real& searched) { return {Verdict::none, -1, {}, false, searched}; }
+  static WallAnswer contact(int wall, const Instant<Real>& time, const Real& time_error) {
+    return {Verdict::contact, wall, time, false, Real(0), time_error};
+  }
+};
+
+/// One search: a ball's flight and the window that is asked about.
+template <class Real>
+struct WallQuery {
+  Flight<Real> flight;
+  Real radius;          ///< [m]
+  Instant<Real> begin;  ///< not before the flight's start
+  Real length;          ///< [s], at most WallSearch::longest_window()
+};
+
+/// What a search in double proves for a wider flight and mill that were rounded to double. Times are offsets
+/// [s] of the drive period in which the window begins.
+struct RoughAnswer {
+  Verdict verdict = Verdict::undecided;
+  double until = 0;            ///< of none: no contact up to here
+  int wall = -1;               ///< of a contact: nothing is touched before `left`, and
+  double left = 0, right = 0;  ///< the wall's gap falls all the way from `left` to `right`, through zero
+  double root = 0;             ///< about where
+  double curvature = 0;        ///< second derivative of the gap there
+  double curvature_error = 0;  ///< bound on its error
+  double third = 0;            ///< bound on the third derivative
+  double error = 0;            ///< bound on the rounding of the gap in double, that of the state left aside
+
+  static RoughAnswer contact(int wall, double left, double right, double root, double error) {
+    return {Verdict::contact, 0, wall, left, right, root, 0, 0, 0, error};
+  }
+};
 
 }  // namespace edmill::dynamics

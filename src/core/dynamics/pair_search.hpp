@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dynamics/flight.hpp"
-#include "dynamics/wall_query.hpp"
 #include "model/mill.hpp"
 
 namespace edmill::dynamics {
@@ -172,8 +171,7 @@ class PairSearch {
                   const Real& age) const {
     using std::sqrt;
     const Real displaced = position_error(age) + velocity_error(s, sqrt(s.v2), age) * delay;
-    const Real absolute_b = s.b < 0 ? Real(-s.b) : s.b;
-    return contact_error(s.r2, radius_sum, displaced, absolute_b * delay) / root +
+    return contact_error(s.r2, radius_sum, displaced, magnitude(s.b) * delay) / root +
            4 * epsilon<Real>() * (delay + clock_.period());
   }
 
@@ -193,7 +191,7 @@ class PairSearch {
       return {Verdict::undecided};
     }
     const Real discriminant = b * b - v2 * c;
-    const Real absolute_b = b < 0 ? Real(-b) : b, absolute_c = c < 0 ? Real(-c) : c;
+    const Real absolute_b = magnitude(b), absolute_c = magnitude(c);
     const Real error = 3 * absolute_b * b_error + b_error * b_error + 2 * v2 * c_error +
                        4 * speed * dv * (absolute_c + c_error) + 8 * u * (b * b + v2 * absolute_c);
     if (discriminant < -error) return {};

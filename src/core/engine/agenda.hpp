@@ -1,4 +1,4 @@
-// What each ball expects next, and which of its pair contacts are void.
+// What is kept of each ball beside its flight: what it expects next, and what events need of it.
 #pragma once
 
 #include <array>
@@ -6,7 +6,10 @@
 
 #include "base/instant.hpp"
 #include "base/memory.hpp"
-#include "dynamics/wall_query.hpp"
+#include "base/vector.hpp"
+#include "dynamics/flight.hpp"
+#include "engine/cell_grid.hpp"
+#include "engine/watches.hpp"
 
 namespace edmill::engine {
 
@@ -138,5 +141,17 @@ class Agendas {
   LargeVector<Agenda<Real>> agendas_;
   std::uint32_t latest_impact_ = 0;
 };
+
+/// What events need of a ball besides. In double it is one cache line.
+template <class Real>
+struct alignas(sizeof(Real) == 8 ? 64 : alignof(Real)) Body {
+  Vec3<Real> spin;  ///< [rad/s]
+  RecentImpacts<Real> recent;
+  std::int16_t unmoved = 0;  ///< impacts in a row that came without time to move, up to where friction rests
+  CellOfBall cell;
+
+  void archive(Archive& a) { a(spin, recent, unmoved, cell); }
+};
+static_assert(sizeof(Body<double>) == 64);
 
 }  // namespace edmill::engine

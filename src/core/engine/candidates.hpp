@@ -43,8 +43,6 @@ class Candidates {
     return pairs_.state(flights()[ball], dynamics::instant_cast<double>(now));
   }
 
-  /// The balls of the adjacent cells. @pre uses_cells()
-  void neighbours(const CellOfBall& cell, FoundBalls& near) const { grid_.neighbours(cell, near); }
   /// The ball leaves `cell`, which becomes the adjacent one; finds the balls of cells that are new to it.
   void cross(int ball, CellOfBall& cell, int axis, int step, FoundBalls& near) {
     grid_.move(ball, cell, axis, step);
@@ -79,10 +77,6 @@ class Candidates {
   }
 
   void archive(Archive& a) { a(grid_); }
-  template <class CellOf>
-  bool holds_all(const CellOf& cell_of) const {
-    return grid_.holds_all(cell_of);
-  }
 
  private:
   static constexpr bool is_double = std::is_same_v<Real, double>;

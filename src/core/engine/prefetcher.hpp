@@ -5,7 +5,6 @@
 
 #include "base/memory.hpp"
 #include "engine/agenda.hpp"
-#include "engine/body.hpp"
 #include "engine/candidates.hpp"
 #include "engine/event_queue.hpp"
 

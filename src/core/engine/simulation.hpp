@@ -10,16 +10,12 @@
 #include "base/memory.hpp"
 #include "dynamics/decision_ladder.hpp"
 #include "engine/agenda.hpp"
-#include "engine/body.hpp"
 #include "engine/candidates.hpp"
-#include "engine/collapse_watch.hpp"
-#include "engine/event.hpp"
 #include "engine/event_queue.hpp"
 #include "engine/observer.hpp"
 #include "engine/prefetcher.hpp"
-#include "engine/stall_watch.hpp"
+#include "engine/watches.hpp"
 #include "model/case.hpp"
-#include "model/end_reason.hpp"
 #include "model/outcome.hpp"
 
 namespace edmill::engine {
@@ -98,7 +94,7 @@ class Simulation {
   model::BallState<Real> state_at(int i, const Instant<Real>& when) const;
   model::Energy<Real> energy_at(const Instant<Real>& when) const;
   const EngineCounts<Real>& counts() const { return counts_; }
-  std::vector<Escalations> escalations() const { return ladder_.escalations(); }
+  std::vector<model::Escalations> escalations() const { return ladder_.escalations(); }
   const std::optional<model::InelasticCollapse<Real>>& collapse() const { return collapse_; }
   const std::optional<model::Stall<Real>>& stall() const { return stall_; }
 
@@ -137,7 +133,7 @@ class Simulation {
   /// The balls of the adjacent cells, where cells are used.
   void find_neighbours(int ball, FoundBalls& near) {
     if (!candidates_.uses_cells()) return;
-    candidates_.neighbours(bodies_[ball].cell, near);
+    candidates_.grid().neighbours(bodies_[ball].cell, near);
     prefetcher_.flights_of(near);
   }
   void predict_pairs(int ball, int already_done, const DoubleState& state, int found, const FoundBalls& near);

@@ -1,4 +1,4 @@
-// A milling ball: what does not change during a run.
+// Milling balls: what does not change during a run, their states, and two bodies that meet.
 #pragma once
 
 #include "base/vector.hpp"
@@ -21,6 +21,22 @@ struct BallState {
   Vec3<Real> position;  ///< [m]
   Vec3<Real> velocity;  ///< [m/s]
   Vec3<Real> spin;      ///< [rad/s]
+};
+
+/// What a contact law may ask of the two bodies of an impact: a ball with another one, or with a wall.
+template <class Real>
+struct ContactBodies {
+  Real effective_mass;    ///< M = m_i m_j / (m_i + m_j), for a wall m_i [kg]
+  Real radius;            ///< of the ball [m]
+  Real other_radius{-1};  ///< of the other ball [m]; negative for a wall
+
+  bool with_wall() const { return other_radius < 0; }
+  /// 1/R = 1/R_i + 1/R_j; a wall is flat against a ball [m].
+  Real effective_radius() const {
+    return with_wall() ? radius : Real(radius * other_radius / (radius + other_radius));
+  }
+  /// Mean of the balls' diameters [m].
+  Real mean_diameter() const { return with_wall() ? Real(2 * radius) : Real(radius + other_radius); }
 };
 
 }  // namespace edmill::model

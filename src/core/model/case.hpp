@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/instant.hpp"
-#include "base/vector.hpp"
 #include "model/ball.hpp"
 #include "model/mill.hpp"
 #include "model/stop_rules.hpp"

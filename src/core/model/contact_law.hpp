@@ -4,13 +4,9 @@
 #include <utility>
 #include <variant>
 
-#include "model/laws/constant.hpp"
 #include "model/laws/custom.hpp"
-#include "model/laws/elastic_plastic.hpp"
-#include "model/laws/powder_load.hpp"
-#include "model/laws/restitution_by_slip.hpp"
-#include "model/laws/restitution_by_speed.hpp"
-#include "model/laws/viscoelastic.hpp"
+#include "model/laws/hertz.hpp"
+#include "model/laws/restitution_by_table.hpp"
 #include "model/laws/walton_braun.hpp"
 
 namespace edmill::model {

@@ -7,7 +7,6 @@
 
 #include "model/motions/chain.hpp"
 #include "model/motions/presets.hpp"
-#include "model/motions/spex_mills.hpp"
 
 namespace edmill::model {
 

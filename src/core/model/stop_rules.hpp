@@ -1,21 +1,123 @@
 // The rules beside the end time that can end a run.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <tuple>
 #include <utility>
 
-#include "model/stop_rules/dose_rate_precision.hpp"
-#include "model/stop_rules/max_ball_speed.hpp"
-#include "model/stop_rules/max_collisions.hpp"
-#include "model/stop_rules/max_milling_dose.hpp"
+#include "base/statistics.hpp"
+#include "base/sums.hpp"
+#include "base/vector.hpp"
+#include "model/parts/parameter.hpp"
 
 namespace edmill::model {
 
+/// A number of impacts.
+struct MaxCollisions {
+  static constexpr Parameter key{"max_collisions", Dimension::none, "the run ends after this many impacts",
+                                 Range::count};
+
+  template <class Real>
+  struct Watch {
+    Real limit;
+
+    bool is_met(const auto& impact, const auto&) const { return Real(impact.index + 1) >= limit; }
+    void archive(Archive&) {}
+  };
+};
+
+/// A milling dose since the start of the run.
+struct MaxMillingDose {
+  static constexpr Parameter key{"max_milling_dose", Dimension::energy,
+                                 "the run ends when this much has been dissipated since it began",
+                                 Range::positive};
+
+  template <class Real>
+  struct Watch {
+    Real limit;  ///< [J]
+    numerics::CompensatedSum<Real> dose{};
+
+    bool is_met(const auto& impact, const auto&) {
+      dose += impact.outcome.milling_dose;
+      return dose.value() >= limit;
+    }
+    void archive(Archive& a) { a(dose); }
+  };
+};
+
+/// A speed of a ball just after an impact.
+struct MaxBallSpeed {
+  static constexpr Parameter key{"max_ball_speed", Dimension::speed,
+                                 "the run ends when a ball is faster after an impact", Range::positive};
+
+  template <class Real>
+  struct Watch {
+    Real limit;  ///< [m/s]
+
+    bool is_met(const auto& impact, const auto& simulation) const {
+      const auto too_fast = [&](int ball) {
+        return squared_norm<Real>(simulation.flight(ball).velocity) > limit * limit;
+      };
+      return too_fast(impact.ball) || (!impact.with_wall && too_fast(impact.partner));
+    }
+    void archive(Archive&) {}
+  };
+};
+
+/// A dose rate that is known well enough.
+struct DoseRatePrecision {
+  static constexpr Parameter key{"dose_rate_precision", Dimension::none,
+                                 "the run ends when the half-width of the 95 % interval of the dose rate is "
+                                 "this part of it; tried first after 40 drive periods of statistics",
+                                 Range(0.0001, 1)};
+
+  /// Few looks at the interval, each after a time that the one before predicts, so that a run does not end
+  /// because its interval is narrow by chance. (docs/theory.md, section 8)
+  template <class Real>
+  struct Watch {
+    Real limit;
+    numerics::Batches<Real> batches{};
+    numerics::CompensatedSum<Real> dose{};
+    Instant<Real> start{};
+    std::int64_t next_look = 40;  ///< in drive periods since the start of statistics
+
+    void begin(const auto& the_case) {
+      start = the_case.statistics_start < the_case.initial_time ? the_case.initial_time
+                                                                : the_case.statistics_start;
+      batches.begin(start);
+    }
+    bool is_met(const auto& impact, const auto&) {
+      if (impact.time < start) return false;
+      bool met = false;
+      while (!met && !(impact.time < batches.next())) {
+        batches.close({static_cast<double>(dose.value())});
+        met = is_precise();
+      }
+      dose += impact.outcome.milling_dose;
+      return met;
+    }
+    void archive(Archive& a) { a(batches, dose, next_look); }
+
+   private:
+    bool is_precise() {
+      const auto elapsed = static_cast<std::int64_t>(batches.count()) * batches.periods();
+      if (elapsed < next_look) return false;
+      const auto e = numerics::estimate(batches.amounts(0));
+      const double wanted = static_cast<double>(limit) * *e.mean;
+      if (*e.half_width <= wanted) return true;
+      const double ratio = wanted > 0 ? *e.half_width / wanted : 2;
+      next_look =
+          static_cast<std::int64_t>(static_cast<double>(elapsed) * std::clamp(ratio * ratio, 1.2, 2.0));
+      return false;
+    }
+  };
+};
+
 /// A rule has a key of [run], whose value is its limit and whose name is the reason of the end, and a Watch:
 /// the limit in the run's scalar, `is_met(impact, simulation)` after each impact, `archive` of what changes,
-/// and `begin(case)` where it needs the case. A new one is a file in model/stop_rules/ and a line here.
+/// and `begin(case)` where it needs the case. A new one is a class above and its place here.
 using StopRuleList = std::tuple<MaxCollisions, MaxMillingDose, MaxBallSpeed, DoseRatePrecision>;
 
 inline constexpr std::size_t stop_rule_count = std::tuple_size_v<StopRuleList>;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
 #include "base/vector.hpp"
 
@@ -88,12 +87,7 @@ template <class Real>
 class std::numeric_limits<edmill::tangent::Dual<Real>> : public std::numeric_limits<Real> {};
 
 template <class Real>
-struct Eigen::NumTraits<edmill::tangent::Dual<Real>> : Eigen::NumTraits<Real> {
-  using Real_ = edmill::tangent::Dual<Real>;
-  using NonInteger = edmill::tangent::Dual<Real>;
-  using Nested = edmill::tangent::Dual<Real>;
-  using Literal = edmill::tangent::Dual<Real>;
-  enum { RequireInitialization = 1 };
+struct Eigen::NumTraits<edmill::tangent::Dual<Real>> : Eigen::GenericNumTraits<edmill::tangent::Dual<Real>> {
 };
 
 template <class Real>

@@ -1,14 +1,64 @@
-// Lyapunov exponents: how fast neighbouring motions diverge from a run's, direction by direction (Benettin et
-// al. 1980). docs/theory.md, "Tangent dynamics"
+// What impacts do to motions infinitesimally close to a run's, and Lyapunov exponents: how fast these diverge
+// from the run's, direction by direction (Benettin et al. 1980). docs/theory.md, "Tangent dynamics"
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "base/archive.hpp"
-#include "tangent/tangent_map.hpp"
+#include "base/instant.hpp"
+#include "base/vector.hpp"
+#include "model/mill.hpp"
 
 namespace edmill::tangent {
+
+/// By how much the state of a ball differs in a motion nearby, over how near that is: a derivative.
+template <class Real>
+struct Tangent {
+  Vec3<Real> position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};
+
+  /// Free flight for a time [s].
+  void fly(const Real& dt) { position += velocity * dt; }
+  void archive(Archive& a) { a(position, velocity, spin); }
+};
+
+/// One body of an impact just before it, and its velocity after it.
+template <class Real>
+struct Struck {
+  const model::BallProperties<Real>& ball;
+  Vec3<Real> position, velocity, spin, velocity_after;
+};
+
+/// An impact of a run.
+template <class Real>
+struct ImpactAt {
+  Instant<Real> time;
+  Vec3<Real> normal;    ///< unit, from the partner to the ball
+  Real approach_speed;  ///< [m/s]
+  bool in_stall;        ///< friction rested
+};
+
+/// The derivative of impacts in a mill. The motion nearby meets its partner a little earlier or later: its
+/// state is taken to its own impact, through it, and back to the time of the run's (the saltation of
+/// piecewise smooth systems).
+class TangentMap {
+ public:
+  explicit TangentMap(const model::Mill<double>& mill);
+  ~TangentMap();
+
+  /// @param directions  of the ball at the impact; they become those after it
+  void with_wall(const ImpactAt<double>& impact, int wall, const Struck<double>& ball,
+                 std::span<Tangent<double>> directions) const;
+  /// @param of_one, of_two  directions of either ball, in the same order
+  void of_pair(const ImpactAt<double>& impact, const Struck<double>& one, const Struck<double>& two,
+               std::span<Tangent<double>> of_one, std::span<Tangent<double>> of_two) const;
+
+ private:
+  struct InDuals;  // heavy
+  std::unique_ptr<InDuals> mill_;
+};
 
 /// A set of directions that is carried along a run and kept orthonormal. What each grows by beyond the ones
 /// before it is summed: the sums over the time tend to the largest exponents, in order.
@@ -35,8 +85,6 @@ class Spectrum {
   const std::vector<double>& growth() const { return state_.growth; }
 
   std::size_t directions() const { return count_; }
-  /// Directions that there are.
-  std::size_t dimensions() const { return 9 * balls_.size(); }
 
   /// What changes during a run.
   struct State {
@@ -54,6 +102,9 @@ class Spectrum {
  private:
   std::span<Tangent<double>> of_ball(int ball) {
     return {state_.tangents.data() + static_cast<std::size_t>(ball) * count_, count_};
+  }
+  Struck<double> struck(const Body& b) const {
+    return {balls_[static_cast<std::size_t>(b.ball)], b.position, b.velocity, b.spin, b.velocity_after};
   }
   void fly(int ball, const Instant<double>& now);
   double product(std::size_t a, std::size_t b) const;

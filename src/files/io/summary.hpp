@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/escalations.hpp"
-#include "model/end_reason.hpp"
 #include "model/outcome.hpp"
 #include "model/parts/partners.hpp"
 
@@ -80,7 +78,7 @@ struct Summary {
   Real stall_dose{0};                 ///< of these impacts [J]
   std::optional<model::InelasticCollapse<Real>> collapse;
   std::optional<model::Stall<Real>> stall;
-  std::vector<Escalations> escalations;
+  std::vector<model::Escalations> escalations;
   std::optional<Real> powder_mass, ball_mass;
   std::uint64_t simultaneous_contacts = 0;  ///< of one ball at times that no scalar could separate
   Real deepest_overlap{0};                  ///< by rounding, at any impact [m]

@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "base/byte_order.hpp"
+#include "base/archive.hpp"
 #include "io/hdf5_parts.hpp"
 
 namespace edmill::io {

@@ -9,7 +9,7 @@
 #include "audit/finding.hpp"
 #include "audit/mechanics.hpp"
 #include "audit/tolerances.hpp"
-#include "base/compensated_sum.hpp"
+#include "base/sums.hpp"
 
 namespace edmill::audit {
 

@@ -1,7 +1,7 @@
 // Common parts of the sections of a report.
 #include <cctype>
 
-#include "model/impact_variables.hpp"
+#include "model/variables.hpp"
 #include "report/sections.hpp"
 
 namespace edmill::report {

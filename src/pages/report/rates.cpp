@@ -6,8 +6,7 @@
 
 #include "base/scalar.hpp"
 #include "casefile/build_case.hpp"
-#include "model/ball_variables.hpp"
-#include "model/impact_variables.hpp"
+#include "model/variables.hpp"
 #include "report/sections.hpp"
 
 namespace edmill::report {

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "base/percent.hpp"
+#include "base/clean_text.hpp"
 
 namespace edmill::report {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "casefile/case_spec.hpp"
-#include "model/end_reason.hpp"
+#include "model/outcome.hpp"
 
 namespace edmill::report {
 

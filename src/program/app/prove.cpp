@@ -6,7 +6,7 @@
 #include "base/clean_text.hpp"
 #include "io/input_file.hpp"
 #include "io/named_file.hpp"
-#include "prove/certificate.hpp"
+#include "prove/proof.hpp"
 
 namespace edmill::app {
 

@@ -12,7 +12,7 @@
 #include "base/archive.hpp"
 #include "casefile/case_spec.hpp"
 #include "io/checkpoint_file.hpp"
-#include "model/end_reason.hpp"
+#include "model/outcome.hpp"
 #include "run/any_run.hpp"
 
 namespace edmill::app {

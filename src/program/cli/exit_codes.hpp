@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "model/end_reason.hpp"
+#include "model/outcome.hpp"
 
 namespace edmill::cli {
 

@@ -1,5 +1,3 @@
-#include "prove/certificate.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
@@ -8,6 +6,7 @@
 #include <set>
 
 #include "base/errors.hpp"
+#include "prove/proof.hpp"
 
 namespace edmill::prove {
 

@@ -111,19 +111,7 @@ inline bool less(const Enclosure& a, const Enclosure& b) { return arb_lt(a.arb()
 
 template <>
 struct Eigen::NumTraits<edmill::prove::Enclosure> : Eigen::GenericNumTraits<edmill::prove::Enclosure> {
-  using Real = edmill::prove::Enclosure;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = Real;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 6,
-    AddCost = 150,
-    MulCost = 100
-  };
+  enum { IsSigned = 1, ReadCost = 6, AddCost = 150, MulCost = 100 };
 };
 
 namespace edmill::prove {

@@ -1,5 +1,5 @@
-// Balls in free flight and their gaps, enclosed, and proofs that bodies do not meet while a flight is flown.
-// docs/certificates.md, rules 4 and 5
+// Where the vessel is and how it moves, balls in free flight and their gaps, all enclosed, and proofs that
+// bodies do not meet while a flight is flown. docs/certificates.md, "Rules for the states", rules 4 and 5
 #pragma once
 
 #include <map>
@@ -7,10 +7,50 @@
 #include <utility>
 #include <vector>
 
+#include "prove/enclosure.hpp"
 #include "prove/exact_case.hpp"
-#include "prove/pose.hpp"
 
 namespace edmill::prove {
+
+/// At a time, or during a bracket of times.
+struct Pose {
+  Matrix axes;                            ///< R: its columns are the axes of the vessel frame
+  Vector centre, velocity, acceleration;  ///< of its origin [m], [m/s], [m/s^2]
+  Vector omega, omega_rate;               ///< [rad/s], [rad/s^2]
+};
+
+/// Place, velocity and acceleration of a ball in the vessel frame.
+struct InVessel {
+  Vector place, velocity, acceleration;
+};
+
+/// The joints of a case, at the precision in force when it is made.
+class Motion {
+ public:
+  explicit Motion(const ExactCase& exact);
+
+  /// @param time  [s] after the start of the case
+  Pose pose(const Enclosure& time) const;
+  /// @param position, velocity, gravity  inertial, of a ball in flight
+  static InVessel in_vessel(const Pose& pose, const Vector& position, const Vector& velocity,
+                            const Vector& gravity);
+  static Vector place_in_vessel(const Pose& pose, const Vector& position);
+  static Vector direction_to_inertial(const Pose& pose, const Vector& direction);
+  static Vector to_inertial(const Pose& pose, const Vector& place) {
+    return pose.centre + direction_to_inertial(pose, place);
+  }
+
+ private:
+  struct Joint {
+    bool rotates;
+    Vector axis, shift;
+    Enclosure angle, speed;
+    std::vector<model::Swing<Enclosure>> swings;
+  };
+
+  Enclosure start_, turn_;  ///< [s], 2 pi
+  std::vector<Joint> joints_;
+};
 
 /// Position and velocity at the exact time `reference`, and the constant spin. A flight is a parabola for all
 /// times; it is flown between two impacts.
@@ -41,7 +81,6 @@ class Walls {
   /// At the precision in force.
   Walls(const ExactCase& exact, const ExactBall& ball);
 
-  std::size_t count() const { return walls_.size(); }
   Gap gap(std::size_t wall, const InVessel& ball) const;
   Enclosure value(std::size_t wall, const Vector& place) const;
   /// Unit, into the vessel, where the ball touches the wall with its centre at `place`.

@@ -6,9 +6,333 @@
 #include <iterator>
 
 #include "base/errors.hpp"
+#include "model/mill.hpp"
 #include "run/event_source.hpp"
 
 namespace edmill::prove {
+
+namespace {
+
+constexpr slong coarse_bits = 64, guard_bits = 64;
+
+std::string name_of(const Meeting& next) {
+  return fmt::format("ball {} and {} {}", next.ball, next.with_wall ? "wall" : "ball", next.partner);
+}
+
+/// With the radius 2^-bits, unless it is an exact zero.
+Enclosure blurred(Enclosure value, slong bits, bool may_vanish) {
+  if (may_vanish && value.is_zero()) return value;
+  arb_add_error_2exp_si(value.arb(), -bits);
+  return value;
+}
+Vector blurred(const Vector& v, slong bits, bool may_vanish) {
+  return {blurred(v[0], bits, may_vanish), blurred(v[1], bits, may_vanish), blurred(v[2], bits, may_vanish)};
+}
+
+Vector rounded_out(const Vector& v, slong bits) {
+  return {rounded_out(v[0], bits), rounded_out(v[1], bits), rounded_out(v[2], bits)};
+}
+
+/// max(e_n a, v_s)
+Enclosure separation_speed(const Law& law, const Enclosure& approach) {
+  Enclosure by_restitution = law.restitution * approach;
+  if (law.least_separation.is_zero() || less(law.least_separation, by_restitution)) return by_restitution;
+  if (less(by_restitution, law.least_separation)) return law.least_separation;
+  throw Undecided{"whether the restitution or the least separation speed decides"};
+}
+
+/// (1 - e_t)/c
+Enclosure slip_gain(const Law& law, const Enclosure& change, const Enclosure& slip,
+                    const Enclosure& compliance) {
+  const Enclosure reversed = 1 - law.tangential;
+  if (!law.coulomb) return reversed / compliance;
+  if (law.friction.is_zero()) return Enclosure();
+  const Enclosure available = law.friction * compliance * change, needed = reversed * slip;
+  if (arb_ge(available.arb(), needed.arb())) return reversed / compliance;
+  if (less(available, needed)) return law.friction * change / slip;
+  throw Undecided{"whether the contact slides or sticks"};
+}
+
+/// Whether a flight was long enough for its ball to move, by the rule on stalls. @throws Undecided
+bool has_moved(const Law& law, const Enclosure& flight_time) {
+  const Enclosure reached = flight_time * Enclosure(model::StallRule().acceleration);
+  if (law.least_separation.is_zero() || less(law.least_separation, reached)) return true;
+  if (less(reached, law.least_separation)) return false;
+  throw Undecided{"whether a ball has had time to move"};
+}
+
+/// What an impact does to velocities and spins. (2.23'), (2.24'), (2.28'); docs/certificates.md, "Impulse"
+struct Impulse {
+  Vector push;  ///< P: change of velocity of a body of the effective mass [m/s]
+  Vector turn;  ///< Q: n x S gain [m/s]
+  Enclosure approach_speed, slip_speed;
+};
+
+/// @param normal      n, unit, from the partner to ball i
+/// @param contact     G, velocity of the surfaces at the contact against each other [m/s]
+/// @param compliance  c = 1 + M/(m_i J_i) + M/(m_j J_j)
+/// @param in_stall    friction rests
+/// @throws Undecided
+Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, const Enclosure& compliance,
+                bool in_stall) {
+  const Enclosure approach = -dot<Enclosure>(contact, normal);
+  if (!approach.is_positive()) throw Undecided{"whether the bodies approach each other"};
+  const Enclosure change = approach + separation_speed(law, approach);
+  const Vector slip = contact + normal * approach;
+  const Enclosure slip_speed = norm<Enclosure>(slip);
+  const Enclosure gain = in_stall ? Enclosure() : slip_gain(law, change, slip_speed, compliance);
+  return {normal * change - slip * gain, cross<Enclosure>(normal, slip) * gain, approach, slip_speed};
+}
+
+}  // namespace
+
+auto Prover::tools(const ExactCase& exact, slong bits) -> Tools {
+  const Precision scope(bits);
+  Tools result{bits, Motion(exact), enclosure_of(exact.gravity), {}, {}, {}, {}, {}};
+  for (const auto& ball : exact.balls) {
+    result.walls.emplace_back(exact, ball);
+    result.radius.push_back(enclosure_of(ball.radius));
+    result.density.push_back(enclosure_of(ball.density));
+    result.inertia.push_back(enclosure_of(ball.reduced_inertia));
+  }
+  for (const auto& law : exact.laws)
+    result.laws.push_back({law.coulomb, enclosure_of(law.restitution), enclosure_of(law.tangential),
+                           enclosure_of(law.friction), enclosure_of(law.least_separation)});
+  return result;
+}
+
+Prover::Prover(const ExactCase& exact, slong bits)
+    : exact_(exact), bits_(bits), coarse_(tools(exact, coarse_bits)), fine_(tools(exact, bits + guard_bits)) {
+  const Precision scope(fine_.bits);
+  const Pose pose = fine_.motion.pose(Enclosure());
+  for (const auto& ball : exact.balls) {
+    Vector position = enclosure_of(ball.position);
+    if (ball.in_vessel) position = Motion::to_inertial(pose, position);
+    Track track;
+    track.flight = {Enclosure(), blurred(position, bits, false),
+                    blurred(enclosure_of(ball.velocity), bits, true),
+                    blurred(enclosure_of(ball.spin), bits, true)};
+    track.coarse = rounded(track.flight, coarse_bits);
+    tracks_.push_back(std::move(track));
+  }
+}
+
+slong Prover::accuracy() const {
+  slong least = bits_;
+  for (const auto& track : tracks_)
+    for (int k = 0; k < 3; ++k) {
+      const auto& component = track.flight.velocity[k];
+      if (!arb_is_exact(component.arb()))
+        least = std::min(least, -arf_abs_bound_lt_2exp_si(arb_midref(component.radius().arb())));
+    }
+  return least;
+}
+
+Gap Prover::gap_at(const Meeting& next, const Enclosure& time) const {
+  const Flight& one = tracks_[next.ball].flight;
+  if (next.with_wall) {
+    const auto seen = Motion::in_vessel(fine_.motion.pose(time), one.position_at(time, fine_.gravity),
+                                        one.velocity_at(time, fine_.gravity), fine_.gravity);
+    return fine_.walls[next.ball].gap(next.partner, seen);
+  }
+  const Flight& two = tracks_[next.partner].flight;
+  // The motion against each other is uniform: from the middle of a bracket without gravity.
+  const Enclosure middle = time.middle();
+  const Vector relative = one.velocity_at(middle, fine_.gravity) - two.velocity_at(middle, fine_.gravity);
+  PairGap pair{one.position_at(middle, fine_.gravity) - two.position_at(middle, fine_.gravity) +
+                   relative * Enclosure(time - middle),
+               relative, Enclosure()};
+  const Enclosure reach = fine_.radius[next.ball] + fine_.radius[next.partner];
+  pair.square = reach * reach;
+  return {pair.value(), 2 * pair.half_rate(), 2 * squared_norm<Enclosure>(pair.relative)};
+}
+
+bool Prover::brackets(const Meeting& next, const Enclosure& time) const {
+  return gap_at(next, time.low()).value.is_positive() && gap_at(next, time.high()).value.is_negative() &&
+         gap_at(next, time).rate.is_negative();
+}
+
+/// Newton's method to the width of the flights, then an interval that is proven to hold the contact.
+Enclosure Prover::bracket(const Meeting& next) const {
+  Enclosure time = next.time, wide;
+  for (slong bits = 256;; bits = std::min(2 * bits, fine_.bits)) {
+    const Precision scope(std::min(bits, fine_.bits));
+    const Gap gap = gap_at(next, time);
+    const Enclosure step = gap.value / gap.rate;
+    if (!arb_is_finite(step.arb()) || !gap.rate.is_negative())
+      throw Undecided{"whether " + name_of(next) + " meet"};
+    time = Enclosure(time - step).middle();
+    wide = step;
+    if (bits >= fine_.bits && less(wide.middle() * wide.middle(), wide.radius() * wide.radius())) break;
+    if (bits >= fine_.bits && arb_is_exact(wide.arb())) break;
+  }
+  // The last step went to the middle; what is left is its radius.
+  Enclosure half = wide.radius() * Enclosure(1 + 0x1p-7);
+  for (const double factor : {1.0, 1.25, 2.0}) {
+    Enclosure found;
+    const auto room = half * Enclosure(factor);
+    const slong kept = arf_abs_bound_lt_2exp_si(arb_midref(time.arb())) -
+                       arf_abs_bound_lt_2exp_si(arb_midref(room.arb())) + 14;
+    arb_set_round(found.arb(), time.arb(), std::max<slong>(kept, 8));
+    found = found.middle();
+    arb_add_error(found.arb(), room.arb());
+    found = rounded_out(found, fine_.bits);
+    if (brackets(next, found)) return found;
+  }
+  throw Undecided{"when " + name_of(next) + " meet"};
+}
+
+std::vector<std::string> Prover::exclude_walls(int ball, const Enclosure& end, int end_wall) const {
+  const Track& track = tracks_[ball];
+  const Span quick{track.coarse, track.begin, end, track.wall, end_wall};
+  const Span exact{track.flight, track.begin, end, track.wall, end_wall};
+  WallExclusion first(coarse_.motion, coarse_.walls[ball], coarse_.gravity, quick),
+      second(fine_.motion, fine_.walls[ball], fine_.gravity, exact);
+  std::vector<std::string> texts;
+  for (std::size_t wall = 0; wall < exact_.walls.size(); ++wall) {
+    {
+      const Precision scope(coarse_.bits);
+      texts.push_back(first.windows(wall));
+    }
+    if (texts.back().empty()) texts.back() = second.windows(wall);
+    if (texts.back().empty())
+      throw Undecided{fmt::format("whether ball {} meets wall {} before", ball, wall)};
+  }
+  return texts;
+}
+
+/// All flights of other balls that have not ended: those that end earlier asked for this one then.
+void Prover::exclude_balls(int ball, int partner, const Enclosure& end, long through) const {
+  const Track& track = tracks_[ball];
+  for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
+    const Track& other = tracks_[k];
+    if (k == ball || k == partner) continue;
+    if (std::max(track.event, other.event) >= through) continue;
+    // Balls that have just left each other: their distance grows for ever.
+    if (track.with == k && other.with == ball && track.event == other.event) continue;
+    const Enclosure& begin = track.event > other.event ? track.begin : other.begin;
+    bool proven;
+    {
+      const Precision scope(coarse_.bits);
+      proven = apart(track.coarse, other.coarse, coarse_.radius[ball] + coarse_.radius[k], coarse_.gravity,
+                     begin, end);
+    }
+    if (!proven)
+      proven =
+          apart(track.flight, other.flight, fine_.radius[ball] + fine_.radius[k], fine_.gravity, begin, end);
+    if (!proven) throw Undecided{fmt::format("whether balls {} and {} meet before", ball, k)};
+  }
+}
+
+/// Counts the ball's impacts that came without time to move, for the rule on stalls.
+bool Prover::friction_rests(int ball, const Law& law, const Enclosure& time) {
+  Track& track = tracks_[ball];
+  if (has_moved(law, time - track.since)) {
+    track.unmoved = 0;
+    return false;
+  }
+  return ++track.unmoved > model::StallRule().impacts;
+}
+
+ProvenEvent Prover::impact_on_wall(const Meeting& next, const Enclosure& time) {
+  const int own = next.ball, wall = next.partner;
+  const Flight& flight = tracks_[own].flight;
+  const Enclosure middle = time.middle(), d = time - middle;
+  const Vector position = flight.position_at(middle, fine_.gravity),
+               velocity = flight.velocity_at(middle, fine_.gravity);
+  const Vector fast = velocity + fine_.gravity * d;
+  const Pose pose = fine_.motion.pose(time);
+  const auto seen = Motion::in_vessel(pose, position + fast * d, fast, fine_.gravity);
+  const Vector place = Motion::place_in_vessel(fine_.motion.pose(middle), position) + seen.velocity * d;
+  const Vector inward = fine_.walls[own].normal(wall, place);
+  const Vector normal = Motion::direction_to_inertial(pose, inward);
+  const Vector arm = Motion::direction_to_inertial(pose, place - inward * fine_.radius[own]);
+  const Vector wall_velocity = pose.velocity + cross<Enclosure>(pose.omega, arm);
+  const Vector contact = fast - wall_velocity - cross<Enclosure>(flight.spin * fine_.radius[own], normal);
+  const Enclosure& inertia = fine_.inertia[own];
+  const Law& law = fine_.laws[exact_.law_of_walls[own][wall]];
+  const auto hit = impulse(law, normal, contact, 1 + 1 / inertia, friction_rests(own, law, time));
+  const Flight after{middle, position - hit.push * d, velocity + hit.push,
+                     flight.spin + hit.turn * Enclosure(1 / (fine_.radius[own] * inertia))};
+  return {{next.ball, true, next.partner, time}, hit.approach_speed, hit.slip_speed, {after}, {}};
+}
+
+ProvenEvent Prover::impact_of_balls(const Meeting& next, const Enclosure& time) {
+  const int i = next.ball, j = next.partner;
+  const Flight &one = tracks_[i].flight, &two = tracks_[j].flight;
+  const Enclosure middle = time.middle(), d = time - middle;
+  const Vector g = fine_.gravity;
+  const Vector position[2] = {one.position_at(middle, g), two.position_at(middle, g)};
+  const Vector velocity[2] = {one.velocity_at(middle, g), two.velocity_at(middle, g)};
+  const Vector relative = velocity[0] - velocity[1];
+  const Enclosure &R_i = fine_.radius[i], &R_j = fine_.radius[j];
+  const Vector normal = (position[0] - position[1] + relative * d) / Enclosure(R_i + R_j);
+  // Masses without 4/3 pi: only their ratios count.
+  const Enclosure m_i = fine_.density[i] * (R_i * R_i * R_i), m_j = fine_.density[j] * (R_j * R_j * R_j);
+  const Enclosure share_i = m_j / (m_i + m_j), share_j = m_i / (m_i + m_j);
+  const Enclosure compliance = 1 + share_i / fine_.inertia[i] + share_j / fine_.inertia[j];
+  const Vector contact = relative - cross<Enclosure>(one.spin * R_i + two.spin * R_j, normal);
+  const Law& law = fine_.laws[exact_.law_of_balls[i][j]];
+  const bool rests_for_i = friction_rests(i, law, time), rests_for_j = friction_rests(j, law, time);
+  const auto hit = impulse(law, normal, contact, compliance, rests_for_i || rests_for_j);
+  const Vector push_i = hit.push * share_i, push_j = hit.push * share_j;
+  const Flight after_i{middle, position[0] - push_i * d, velocity[0] + push_i,
+                       one.spin + hit.turn * Enclosure(share_i / (R_i * fine_.inertia[i]))};
+  const Flight after_j{middle, position[1] + push_j * d, velocity[1] - push_j,
+                       two.spin + hit.turn * Enclosure(share_j / (R_j * fine_.inertia[j]))};
+  return {{next.ball, false, next.partner, time}, hit.approach_speed, hit.slip_speed, {after_i, after_j}, {}};
+}
+
+void Prover::follow(const ProvenEvent& event) {
+  const Enclosure begin = event.time.low();
+  for (std::size_t k = 0; k < event.after.size(); ++k) {
+    Track& track = tracks_[k == 0 ? event.ball : event.partner];
+    track.flight = event.after[k];
+    track.coarse = rounded(track.flight, coarse_bits);
+    track.begin = begin;
+    track.since = event.time;
+    track.event = events_;
+    track.wall = event.with_wall ? event.partner : -1;
+    track.with = event.with_wall ? -1 : k == 0 ? event.partner : event.ball;
+  }
+  if (!event.with_wall && !gap_at({event.ball, false, event.partner, {}}, event.time).rate.is_positive())
+    throw Undecided{fmt::format("whether balls {} and {} leave each other", event.ball, event.partner)};
+  last_end_ = event.time.high();
+  ++events_;
+}
+
+ProvenEvent Prover::take(const Meeting& next) {
+  const Precision scope(fine_.bits);
+  const Enclosure time = bracket(next);
+  if (!less(last_end_, time.low()))
+    throw Undecided{"whether " + name_of(next) + " meet after the event before"};
+  const Enclosure end = time.high();
+  std::vector<std::vector<std::string>> windows;
+  windows.push_back(exclude_walls(next.ball, end, next.with_wall ? next.partner : -1));
+  exclude_balls(next.ball, next.with_wall ? -1 : next.partner, end, events_);
+  if (!next.with_wall) {
+    windows.push_back(exclude_walls(next.partner, end, -1));
+    exclude_balls(next.partner, next.ball, end, events_);
+  }
+  ProvenEvent event = next.with_wall ? impact_on_wall(next, time) : impact_of_balls(next, time);
+  event.windows = std::move(windows);
+  for (auto& flight : event.after)
+    for (auto* vector : {&flight.position, &flight.velocity, &flight.spin})
+      *vector = rounded_out(*vector, bits_);
+  follow(event);
+  return event;
+}
+
+std::vector<std::vector<std::string>> Prover::finish() {
+  const Precision scope(fine_.bits);
+  std::vector<std::vector<std::string>> windows(tracks_.size());
+  for (int k = 0; k < static_cast<int>(tracks_.size()); ++k) {
+    if (tracks_[k].event + 1 == events_ && events_ > 0) continue;
+    windows[k] = exclude_walls(k, last_end_, -1);
+    exclude_balls(k, -1, last_end_, events_ - 1);
+  }
+  return windows;
+}
 
 namespace {
 
@@ -44,9 +368,7 @@ Attempt attempt(Proof& proof, const std::vector<Meeting>& next, slong bits, cons
 std::vector<Meeting> candidates(const casefile::CaseSpec& spec, const ProofOptions& options,
                                 std::string& impossible) {
   const std::size_t collisions = options.collisions;
-  const auto source = [&] {
-    return run::make_source("mpfr:" + std::to_string(placing_digits), spec, false);
-  }();
+  const auto source = run::make_source("mpfr:" + std::to_string(placing_digits), spec, false);
   std::vector<run::Event> events;
   while (events.size() < collisions && !stopped(options)) {
     auto more = source->next(std::min<std::size_t>(64, collisions - events.size()));

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "base/compensated_sum.hpp"
 #include "base/scalar.hpp"
+#include "base/sums.hpp"
 #include "casefile/output_spec.hpp"
 #include "io/table.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/compensated_sum.hpp"
 #include "base/scalar.hpp"
+#include "base/sums.hpp"
 #include "io/table.hpp"
 #include "model/parts/partners.hpp"
 #include "output/impact_facts.hpp"

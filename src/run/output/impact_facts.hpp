@@ -9,7 +9,7 @@
 #include "base/vector.hpp"
 #include "engine/simulation.hpp"
 #include "model/ball.hpp"
-#include "model/impact_variables.hpp"
+#include "model/variables.hpp"
 
 namespace edmill::output {
 

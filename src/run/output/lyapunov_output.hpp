@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "base/batches.hpp"
+#include "base/sums.hpp"
 #include "casefile/output_entry.hpp"
 #include "io/summary.hpp"
 #include "output/table_output.hpp"

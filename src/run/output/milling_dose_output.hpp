@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/compensated_sum.hpp"
+#include "base/sums.hpp"
 #include "casefile/output_entry.hpp"
 #include "output/table_output.hpp"
 

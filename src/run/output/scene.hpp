@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/archive.hpp"
-#include "base/frame.hpp"
 #include "base/vector.hpp"
 #include "casefile/colour.hpp"
 #include "model/parts/surface.hpp"

@@ -8,7 +8,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/table_hdf5.hpp"
-#include "model/impact_variables.hpp"
+#include "model/variables.hpp"
 #include "output/one_file_output.hpp"
 
 namespace edmill::output {

@@ -3,7 +3,7 @@
 
 #include "base/trigonometry.hpp"
 #include "casefile/output_entry.hpp"
-#include "model/ball_variables.hpp"
+#include "model/variables.hpp"
 #include "output/accumulator.hpp"
 #include "output/balls_before.hpp"
 #include "output/table_output.hpp"

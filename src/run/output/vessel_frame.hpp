@@ -1,7 +1,7 @@
 // Where the vessel is in pictures. In double: nothing is computed from it.
 #pragma once
 
-#include "base/frame.hpp"
+#include "base/vector.hpp"
 #include "model/motion.hpp"
 
 namespace edmill::output {

@@ -8,7 +8,7 @@
 #include "engine/observer.hpp"
 #include "model/case.hpp"
 #include "run/event_source.hpp"
-#include "tangent/tangent_map.hpp"
+#include "tangent/spectrum.hpp"
 
 namespace edmill::run {
 

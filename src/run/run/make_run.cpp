@@ -1,5 +1,5 @@
 // From the name of a scalar to a run in it.
-#include "base/with_scalar.hpp"
+#include "base/scalar_list.hpp"
 #include "run/any_run.hpp"
 #include "run/event_source.hpp"
 

@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/batches.hpp"
-#include "base/compensated_sum.hpp"
+#include "base/sums.hpp"
 #include "engine/observer.hpp"
 #include "io/summary.hpp"
 #include "model/case.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/percent.hpp"
+#include "base/clean_text.hpp"
 #include "base/statistics.hpp"
 
 namespace edmill::run {

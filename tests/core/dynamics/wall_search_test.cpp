@@ -1,10 +1,11 @@
 // The certified ball-wall search: plain situations with a closed form, and which scalar decides which case.
+#include "dynamics/wall_search.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <iostream>
 
-#include "dynamics/any_wall_search.hpp"
 #include "mill_parts.hpp"
 #include "spex_case.hpp"
 #include "wall_states.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core.hpp"
-#include "dynamics/any_wall_search.hpp"
+#include "dynamics/wall_search.hpp"
 #include "mill_parts.hpp"
 
 namespace edmill::dynamics {

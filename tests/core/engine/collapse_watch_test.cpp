@@ -1,7 +1,7 @@
 // Collapse as seen in a ball's recent impacts, and its accumulation time.
-#include "engine/collapse_watch.hpp"
-
 #include <gtest/gtest.h>
+
+#include "engine/watches.hpp"
 
 namespace edmill::engine {
 namespace {

@@ -38,7 +38,7 @@ TEST(WallSurface, PointAndMapAreInverse) {
   expect_inverse(CylinderVessel<mpfr50>{mpfr50("0.019"), mpfr50("0.0285")}.surfaces(), mpfr50("0.04"));
   // Anywhere and turned: the frame's y axis along X.
   const Frame<double> frame{{1, 2, 3}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}};
-  expect_inverse<double>({Disc<double>{frame, 0.3}, Tube<double>{frame, 0.3, 0.4}}, 5);
+  expect_inverse<double>({Disc<double>{{frame}, 0.3}, Tube<double>{{frame}, 0.3, 0.4}}, 5);
 }
 
 TEST(WallSurface, PointsLieOnTheWall) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/impact_variables.hpp"
+#include "model/variables.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "base/percent.hpp"
+#include "base/clean_text.hpp"
 
 namespace {
 

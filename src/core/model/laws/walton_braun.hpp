@@ -1,10 +1,56 @@
-// Coulomb friction while sliding, a lowest tangential restitution while sticking. (2.24')
+// Restitutions that are given, and the slip that Coulomb friction leaves.
 #pragma once
 
-#include "model/laws/coulomb_slip.hpp"
+#include "model/parts/parameter.hpp"
 
 namespace edmill::model {
 
+/// Both restitutions given.
+template <class Number>
+struct ConstantRestitution {
+  static constexpr const char* name = "constant";
+
+  Number normal{1};      ///< e_n
+  Number tangential{1};  ///< e_t
+
+  static void parameters(auto& law, auto&& visit) {
+    visit(Parameter{"restitution", Dimension::none, "e_n", {0, 1}}, law.normal);
+    visit(Parameter{"restitution_tangential", Dimension::none, "e_t", {-1, 1}}, law.tangential);
+  }
+
+  const Number& restitution(const Number&) const { return normal; }
+  const Number& restitution_of_slip(const Number&, const Number&, const Number&) const { return tangential; }
+};
+
+/// e_t = max(beta, 1 - mu c (|g_n| + g_n') / |g_t|): sliding all through the impact, or reversed by the part
+/// beta. (2.24')
+template <class Number>
+Number coulomb_slip(const Number& friction, const Number& min_tangential, const Number& normal_change,
+                    const Number& slip_speed, const Number& compliance) {
+  const Number sliding = friction * compliance * normal_change;
+  // 1 - sliding / slip >= min_tangential, without dividing by a vanishing slip.
+  if (sliding >= (1 - min_tangential) * slip_speed) return slip_speed > 0 ? min_tangential : Number(1);
+  return 1 - sliding / slip_speed;
+}
+
+/// What a law of the normal restitution alone takes for the slip.
+template <class Number>
+struct CoulombSlip {
+  Number friction{0};         ///< mu
+  Number min_tangential{-1};  ///< beta, the lowest e_t
+
+  static void parameters(auto& slip, auto&& visit) {
+    visit(Parameter{"friction", Dimension::none, "mu", {0, 1000000}}, slip.friction);
+    visit(Parameter{"min_tangential", Dimension::none, "least e_t", {-1, 1}, "-1"}, slip.min_tangential);
+  }
+
+  Number restitution_of_slip(const Number& normal_change, const Number& slip_speed,
+                             const Number& compliance) const {
+    return coulomb_slip(friction, min_tangential, normal_change, slip_speed, compliance);
+  }
+};
+
+/// Coulomb friction while sliding, a lowest tangential restitution while sticking.
 /// Source: Walton and Braun 1986; Barahona 2011, (2.24), for balls of any mass as in theory.md, section 5.
 template <class Number>
 struct WaltonBraun {

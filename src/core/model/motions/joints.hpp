@@ -1,12 +1,87 @@
-// The joints of a chain, as a case gives them.
+// The joints of a chain, as a case gives them, and harmonic functions of time whose phases stay as sharp as
+// at the start.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "model/parts/swing.hpp"
+#include "base/instant.hpp"
+#include "base/trigonometry.hpp"
+#include "base/turn_fraction.hpp"
 
 namespace edmill::model {
+
+/// amplitude sin(2 pi (frequency t + phase)).
+template <class Number>
+struct Swing {
+  Number amplitude;           ///< [m], or [turns] of a rotation
+  Number frequency;           ///< [1/s], of either sign
+  Number phase;               ///< [turns]
+  TurnFraction per_period{};  ///< of frequency times the period of the clock
+};
+
+/// The swings with each number converted.
+template <class To, class From, class Convert>
+std::vector<Swing<To>> converted_swings(const std::vector<Swing<From>>& from, const Convert& convert) {
+  std::vector<Swing<To>> to;
+  for (const auto& s : from)
+    to.push_back({convert(s.amplitude), convert(s.frequency), convert(s.phase), s.per_period});
+  return to;
+}
+
+/// Constant speed: whole periods of the clock are taken off its phase exactly.
+template <class Real>
+struct Drive {
+  Real frequency{0};  ///< [1/s]
+  Real speed{0};      ///< 2 pi frequency [rad/s]
+  TurnFraction per_period{};
+  bool whole_turns = per_period.is_whole();  ///< in every period
+
+  Real turns(const Instant<Real>& when) const {
+    const Real since = frequency * when.offset;
+    return whole_turns ? since : Real(per_period.times<Real>(when.period) + since);
+  }
+};
+
+/// Value and two derivatives.
+template <class Real>
+struct Moved {
+  Real value{0}, rate{0}, second{0};
+};
+
+/// A sum of swings, ready to be evaluated.
+template <class Real>
+class Swings {
+ public:
+  Swings() = default;
+  explicit Swings(const std::vector<Swing<Real>>& given) {
+    for (const auto& s : given) {
+      if (s.amplitude == 0) continue;
+      const Real speed = 2 * numerics::pi<Real>() * s.frequency;
+      list_.push_back({{s.frequency, speed, s.per_period}, s.amplitude, s.phase});
+    }
+  }
+  bool empty() const { return list_.empty(); }
+
+  Moved<Real> at(const Instant<Real>& when) const {
+    Moved<Real> moved;
+    for (const auto& swing : list_) {
+      const auto phase = numerics::sin_cos_turns<Real>(swing.drive.turns(when) + swing.phase);
+      const Real rate = swing.amplitude * swing.drive.speed;
+      moved.value += swing.amplitude * phase.sin;
+      moved.rate += rate * phase.cos;
+      moved.second -= rate * swing.drive.speed * phase.sin;
+    }
+    return moved;
+  }
+
+ private:
+  struct Driven {
+    Drive<Real> drive;
+    Real amplitude, phase;  ///< [m] or [turns], [turns]
+  };
+  std::vector<Driven> list_;
+};
 
 /// Turns what comes behind it about an axis, or shifts it.
 template <class Number>

@@ -1,9 +1,10 @@
-// Mills that are chains of joints, by their usual parameters. Vertical is Y; the axis of a jar is its y.
+// The mills that a case can name, by their usual parameters. Vertical is Y; the axis of a jar is its y.
 #pragma once
 
 #include <array>
 
 #include "model/motions/joints.hpp"
+#include "model/motions/spex.hpp"
 #include "model/parts/parameter.hpp"
 
 namespace edmill::model {
@@ -107,6 +108,64 @@ struct Vibratory {
     }
     return chain;
   }
+};
+
+namespace detail {
+
+inline constexpr Parameter spex_arm{"arm", Dimension::length, "from the fulcrum to the centre of the vessel",
+                                    Range::not_negative, "100 mm"};
+inline constexpr Parameter spex_theta{"theta_max", Dimension::angle,
+                                      "amplitude of the swing of the arm, thesis (2.9)", Range::quarter_turn,
+                                      "15 deg"};
+inline constexpr Parameter spex_gamma{"gamma_max", Dimension::angle,
+                                      "amplitude of the rotation about the arm, thesis (2.9)",
+                                      Range::quarter_turn, "15 deg"};
+inline constexpr Parameter spex_speed{"speed", Dimension::angular_speed, "of the drive", Range::drive,
+                                      "1098 rpm"};
+inline constexpr Parameter no_angle{nullptr, Dimension::angle, "", Range::any, "0 rad"};
+
+/// Each of these mills has `keys` for the four.
+template <class Number>
+struct SpexSizes {
+  Number arm, theta_max, gamma_max, period;
+
+  static void parameters(auto& part, auto&& visit) {
+    visit(part.keys[0], part.arm);
+    visit(part.keys[1], part.theta_max);
+    visit(part.keys[2], part.gamma_max);
+    visit(part.keys[3], part.period);
+  }
+  SpexMotion<Number> motion() const { return {arm, theta_max, gamma_max, period}; }
+};
+
+}  // namespace detail
+
+/// [mill] type = "spex8000", with the machine's sizes of Barahona 2011, appendix B.
+template <class Number>
+struct Spex8000 : detail::SpexSizes<Number> {
+  static constexpr const char* name = "spex8000";
+  static constexpr Parameter keys[] = {detail::spex_arm, detail::spex_theta, detail::spex_gamma,
+                                       detail::spex_speed};
+};
+
+/// [mill] type = "spex_2d": the swing of the arm alone, in a plane. A planar model of this mill is that of
+/// Davis, McDermott and Koch, Metall. Trans. A 19 (1988) 2867; the lengths and angles are the thesis's.
+template <class Number>
+struct Spex2d : detail::SpexSizes<Number> {
+  static constexpr const char* name = "spex_2d";
+  static constexpr Parameter keys[] = {detail::spex_arm, detail::spex_theta, detail::no_angle,
+                                       detail::spex_speed};
+};
+
+/// [mill] type = "still".
+template <class Number>
+struct StillMill : detail::SpexSizes<Number> {
+  static constexpr const char* name = "still";
+  static constexpr Parameter keys[] = {
+      {"arm", Dimension::length, "from the fulcrum to the centre of the vessel", Range::not_negative, "0 m"},
+      detail::no_angle,
+      detail::no_angle,
+      {nullptr, Dimension::time, "", Range::positive, "0.0625 s"}};
 };
 
 }  // namespace edmill::model

@@ -4,10 +4,7 @@
 
 #include "base/archive.hpp"
 #include "base/instant.hpp"
-#include "base/scalar.hpp"
-#include "base/small_turn.hpp"
 #include "base/trigonometry.hpp"
-#include "model/parts/parameter.hpp"
 #include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
@@ -237,8 +234,6 @@ class SpexMotion {
   /// vessel of these sizes. Derivation: docs/theory.md, section 3.
   CoordinateBounds<Real> coordinate_bounds(const Vec3<Real>& sizes, const Real& vessel_reach,
                                            const Real& gravity, const Real& speed, const Real& length) const {
-    using numerics::Majorant;
-    using numerics::product_bound;
     const Real& w = angular_speed_;
     Majorant<Real> alpha, gamma, sine, cosine;
     Real power{1};
@@ -246,7 +241,7 @@ class SpexMotion {
       alpha[k] = theta_max_ * power;
       gamma[k] = gamma_max_ * power;
     }
-    numerics::fill_sin_cos(gamma, sine, cosine);
+    fill_sin_cos(gamma, sine, cosine);
 
     // How far outside the vessel the path may get within the window: |p'| <= U.
     const Real shrink = 1 - (alpha[1] + gamma[1]) * length;
@@ -273,8 +268,8 @@ class SpexMotion {
       Real y_next = product_bound(v_z, 0, sine, k) + product_bound(gamma, 1, z, k);
       Real z_next = product_bound(v_z, 0, cosine, k) + product_bound(gamma, 1, y, k);
       for (int j = 0; j <= k; ++j) {
-        y_next += numerics::binomial[k][j] * b[j + 1] * cosine[k - j];
-        z_next += numerics::binomial[k][j] * b[j + 1] * sine[k - j];
+        y_next += binomial[k][j] * b[j + 1] * cosine[k - j];
+        z_next += binomial[k][j] * b[j + 1] * sine[k - j];
       }
       y[k + 1] = y_next;
       z[k + 1] = z_next;

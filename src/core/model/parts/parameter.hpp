@@ -45,11 +45,6 @@ struct Parameter {
   } digest = Digest::value;
 };
 
-/// Of laws after Hertz.
-inline constexpr Parameter effective_modulus{"effective_modulus", Dimension::pressure,
-                                             "E*, 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j",
-                                             Range::positive};
-
 /// Calls use(number) with a number, or with each of three.
 void for_each_number(auto& value, const auto& use) {
   if constexpr (requires { value.begin(); }) {

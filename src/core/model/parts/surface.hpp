@@ -7,9 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "base/frame.hpp"
+#include "base/archive.hpp"
 #include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
+#include "base/vector.hpp"
 
 namespace edmill::model {
 
@@ -51,14 +52,6 @@ struct Mesh {
 template <class Real>
 using Rings = std::vector<std::vector<Vec3<Real>>>;
 
-/// The circle of a surface at one v.
-template <class Real, class Surface>
-std::vector<Vec3<Real>> circle(const Surface& surface, const Real& v) {
-  std::vector<Vec3<Real>> points;
-  for (int k = 0; k < picture_sides; ++k) points.push_back(surface.point(Real(k) / Real(picture_sides), v));
-  return points;
-}
-
 /// The angle from x to z in turns, from 0 to 1, with the same bits everywhere: the C library's arc tangent is
 /// not the same on every machine.
 template <class Real>
@@ -66,7 +59,7 @@ Real turns(const Real& x, const Real& z) {
   using std::sqrt;
   const Real size = sqrt(x * x + z * z);
   if (!(size > 0)) return Real(0);
-  const Real a = x < 0 ? Real(-x) : x, b = z < 0 ? Real(-z) : z;
+  const Real a = magnitude(x), b = magnitude(z);
   const double q = static_cast<double>(a < b ? Real(a / b) : Real(b / a));
   double guess = q * (0.125 + 0.0434 * (1 - q));  // within 0.0006 turns
   if (a < b) guess = 0.25 - guess;
@@ -82,131 +75,123 @@ Real turns(const Real& x, const Real& z) {
   return turn < 0 ? Real(turn + 1) : turn;
 }
 
-/// A flat disc across the y axis of its frame: u along the angle from x to z, v along the squared radius.
+/// A surface of revolution about the y axis of its frame: u along the angle from x to z, v along its profile.
+/// Own has `ring(v)`, and its inverse `share(d)` of a place in the frame.
+template <class Real, class Own>
+struct Revolved {
+  static constexpr std::array coordinates{Coordinate::angle, Coordinate::height};
+
+  Frame<Real> frame;
+
+  WallPlace<Real> map(const Vec3<Real>& p) const {
+    const Vec3<Real> d = frame.inside(p);
+    return {turns<Real>(d[0], d[2]), own().share(d)};
+  }
+  Vec3<Real> point(const Real& u, const Real& v) const {
+    const auto angle = numerics::sin_cos_turns<Real>(u);
+    const auto [radius, height] = own().ring(v);
+    return frame.outside({radius * angle.cos, height, radius * angle.sin});
+  }
+  Real edge(int axis, std::size_t k, std::size_t n) const {
+    if (axis == 0) return 2 * numerics::pi<Real>() * Real(k) / Real(n);
+    const auto [radius, height] = own().ring(Real(k) / Real(n));
+    return Own::coordinates[1] == Coordinate::radius ? radius : frame.outside({Real(0), height, Real(0)})[1];
+  }
+  /// At equal parts of v.
+  Rings<Real> rings() const {
+    Rings<Real> rings;
+    for (int part = 0; part <= Own::parts; ++part) rings.push_back(circle(Real(part) / Real(Own::parts)));
+    return rings;
+  }
+
+ protected:
+  struct Ring {
+    Real radius, height;  ///< in the frame [m]
+  };
+  std::vector<Vec3<Real>> circle(const Real& v) const {
+    std::vector<Vec3<Real>> points;
+    for (int k = 0; k < picture_sides; ++k) points.push_back(point(Real(k) / Real(picture_sides), v));
+    return points;
+  }
+
+ private:
+  const Own& own() const { return static_cast<const Own&>(*this); }
+};
+
+/// A flat disc: v along the squared radius.
 template <class Real>
-struct Disc {
+struct Disc : Revolved<Real, Disc<Real>> {
   static constexpr const char* name = "caps";
   static constexpr std::array coordinates{Coordinate::angle, Coordinate::radius};
 
-  Frame<Real> frame;
   Real radius;  ///< [m]
 
-  WallPlace<Real> map(const Vec3<Real>& p) const {
-    const Vec3<Real> d = frame.inside(p);
-    return {turns<Real>(d[0], d[2]), (d[0] * d[0] + d[2] * d[2]) / (radius * radius)};
-  }
-  Vec3<Real> point(const Real& u, const Real& v) const {
+  Real share(const Vec3<Real>& d) const { return (d[0] * d[0] + d[2] * d[2]) / (radius * radius); }
+  auto ring(const Real& v) const {
     using std::sqrt;
-    const auto angle = numerics::sin_cos_turns<Real>(u);
-    const Real r = radius * sqrt(v);
-    return frame.outside({r * angle.cos, Real(0), r * angle.sin});
+    return typename Disc::Ring{radius * sqrt(v), Real(0)};
   }
   Real area() const { return numerics::pi<Real>() * (radius * radius); }
-  Real edge(int axis, std::size_t k, std::size_t n) const {
-    using std::sqrt;
-    if (axis == 0) return 2 * numerics::pi<Real>() * Real(k) / Real(n);
-    return radius * sqrt(Real(k) / Real(n));
-  }
-  Rings<Real> rings() const { return {circle<Real>(*this, Real(1))}; }
+  Rings<Real> rings() const { return {this->circle(Real(1))}; }
 };
 
-/// A cylinder about the y axis of its frame: u along the angle from x to z, v along y.
+/// A cylinder: v along y.
 template <class Real>
-struct Tube {
+struct Tube : Revolved<Real, Tube<Real>> {
   static constexpr const char* name = "the cylinder";
-  static constexpr std::array coordinates{Coordinate::angle, Coordinate::height};
+  static constexpr int parts = 1;
 
-  Frame<Real> frame;
   Real radius, half_height;  ///< [m]
 
-  WallPlace<Real> map(const Vec3<Real>& p) const {
-    const Vec3<Real> d = frame.inside(p);
-    return {turns<Real>(d[0], d[2]), (d[1] / half_height + 1) / 2};
-  }
-  Vec3<Real> point(const Real& u, const Real& v) const {
-    const auto angle = numerics::sin_cos_turns<Real>(u);
-    return frame.outside({radius * angle.cos, half_height * (2 * v - 1), radius * angle.sin});
-  }
+  Real share(const Vec3<Real>& d) const { return (d[1] / half_height + 1) / 2; }
+  auto ring(const Real& v) const { return typename Tube::Ring{radius, half_height * (2 * v - 1)}; }
   Real area() const { return 2 * numerics::pi<Real>() * radius * 2 * half_height; }
-  Real edge(int axis, std::size_t k, std::size_t n) const {
-    if (axis == 0) return 2 * numerics::pi<Real>() * Real(k) / Real(n);
-    return half_height * (2 * Real(k) / Real(n) - 1);
-  }
-  Rings<Real> rings() const { return {circle<Real>(*this, Real(0)), circle<Real>(*this, Real(1))}; }
 };
 
-/// Rings on a surface of revolution, at equal parts of v.
-template <class Real, class Surface>
-Rings<Real> circles(const Surface& surface, int count) {
-  Rings<Real> rings;
-  for (int k = 0; k <= count; ++k) rings.push_back(circle<Real>(surface, Real(k) / Real(count)));
-  return rings;
-}
-
-/// A zone of a sphere about the origin of its frame: u along the angle from x to z, v along y, which by
-/// Archimedes shares the area evenly.
+/// A zone of a sphere about the origin of its frame: v along y, which by Archimedes shares the area evenly.
 template <class Real>
-struct Zone {
+struct Zone : Revolved<Real, Zone<Real>> {
   static constexpr const char* name = "spheres";
-  static constexpr std::array coordinates{Coordinate::angle, Coordinate::height};
+  static constexpr int parts = 12;
 
-  Frame<Real> frame;
   Real radius, low, high;  ///< the zone is between these heights [m]
 
-  WallPlace<Real> map(const Vec3<Real>& p) const {
-    const Vec3<Real> d = frame.inside(p);
-    return {turns<Real>(d[0], d[2]), (d[1] - low) / (high - low)};
-  }
-  Vec3<Real> point(const Real& u, const Real& v) const {
+  Real share(const Vec3<Real>& d) const { return (d[1] - low) / (high - low); }
+  auto ring(const Real& v) const {
     using std::sqrt;
-    const auto angle = numerics::sin_cos_turns<Real>(u);
     const Real y = low + (high - low) * v, square = radius * radius - y * y;
-    const Real r = square > 0 ? Real(sqrt(square)) : Real(0);
-    return frame.outside({r * angle.cos, y, r * angle.sin});
+    return typename Zone::Ring{square > 0 ? Real(sqrt(square)) : Real(0), y};
   }
   Real area() const { return 2 * numerics::pi<Real>() * radius * (high - low); }
-  Real edge(int axis, std::size_t k, std::size_t n) const {
-    if (axis == 0) return 2 * numerics::pi<Real>() * Real(k) / Real(n);
-    return frame.outside({Real(0), low + (high - low) * (Real(k) / Real(n)), Real(0)})[1];
-  }
-  Rings<Real> rings() const { return circles<Real>(*this, 12); }
 };
 
-/// The quarter of a torus about y that rounds the upper edge of a cylinder: u along the angle from x to z, v
-/// by area from the cap, where r = core, down to the cylinder, where r = core + rounding.
+/// The quarter of a torus about y that rounds the upper edge of a cylinder: v by area from the cap, where
+/// r = core, down to the cylinder, where r = core + rounding.
 template <class Real>
-struct Edge {
+struct Edge : Revolved<Real, Edge<Real>> {
   static constexpr const char* name = "edges";
-  static constexpr std::array coordinates{Coordinate::angle, Coordinate::height};
+  static constexpr int parts = 6;
 
-  Frame<Real> frame;    ///< origin in the plane of the circle of the torus
+  // The origin of the frame is in the plane of the circle of the torus.
   Real core, rounding;  ///< radii of that circle and of the tube [m]
 
-  WallPlace<Real> map(const Vec3<Real>& p) const {
+  Real share(const Vec3<Real>& d) const {
     using std::sqrt;
-    const Vec3<Real> d = frame.inside(p);
     const Real r = sqrt(d[0] * d[0] + d[2] * d[2]);
-    return {turns<Real>(d[0], d[2]), share(turns<Real>(d[1], Real(r - core)))};
+    return share_to(turns<Real>(d[1], Real(r - core)));
   }
-  Vec3<Real> point(const Real& u, const Real& v) const {
-    const auto angle = numerics::sin_cos_turns<Real>(u), tilt = numerics::sin_cos_turns<Real>(tilt_at(v));
-    const Real r = core + rounding * tilt.sin;
-    return frame.outside({r * angle.cos, rounding * tilt.cos, r * angle.sin});
+  auto ring(const Real& v) const {
+    const auto tilt = numerics::sin_cos_turns<Real>(tilt_at(v));
+    return typename Edge::Ring{core + rounding * tilt.sin, rounding * tilt.cos};
   }
   Real area() const {
     const Real pi = numerics::pi<Real>();
     return 2 * pi * rounding * (core * pi / 2 + rounding);
   }
-  Real edge(int axis, std::size_t k, std::size_t n) const {
-    if (axis == 0) return 2 * numerics::pi<Real>() * Real(k) / Real(n);
-    const auto tilt = numerics::sin_cos_turns<Real>(tilt_at(Real(k) / Real(n)));
-    return frame.outside({Real(0), rounding * tilt.cos, Real(0)})[1];
-  }
-  Rings<Real> rings() const { return circles<Real>(*this, 6); }
 
  private:
   /// Share of the area from the cap to the tilt [turns] from y.
-  Real share(const Real& tilt) const {
+  Real share_to(const Real& tilt) const {
     const Real quarter = numerics::pi<Real>() / 2;
     const auto at = numerics::sin_cos_turns<Real>(tilt);
     return (core * (4 * quarter * tilt) + rounding * (1 - at.cos)) / (core * quarter + rounding);
@@ -217,7 +202,7 @@ struct Edge {
     Real low(0), high = Real(1) / 4, tilt = v / 4;
     const Real quarter = numerics::pi<Real>() / 2, whole = core * quarter + rounding;
     for (int step = 0; step < 100; ++step) {
-      const Real off = share(tilt) - v;
+      const Real off = share_to(tilt) - v;
       (off > 0 ? high : low) = tilt;
       const auto at = numerics::sin_cos_turns<Real>(tilt);
       const Real slope = 4 * quarter * (core + rounding * at.sin) / whole;

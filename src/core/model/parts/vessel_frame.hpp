@@ -1,10 +1,38 @@
 // What motions and vessels tell a search about a ball in the vessel frame.
 #pragma once
 
-#include "base/majorant.hpp"
+#include <array>
+
 #include "base/vector.hpp"
 
 namespace edmill::model {
+
+/// Bounds on a function and its first four derivatives.
+template <class Real>
+using Majorant = std::array<Real, 5>;
+
+inline constexpr int binomial[5][5] = {
+    {1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}};
+
+/// k-th derivative of a product a^(shift) * b^(shift_b), from bounds on a and b. (Leibniz)
+template <class A, class B>
+typename A::value_type product_bound(const A& a, int shift, const B& b, int k, int shift_b = 0) {
+  typename A::value_type sum{0};
+  for (int j = 0; j <= k; ++j) sum += binomial[k][j] * a[j + shift] * b[k - j + shift_b];
+  return sum;
+}
+
+/// Bounds for sin or cos of an angle of amplitude `m` and angular speed `w`, whose derivatives are at most
+/// m w^k: the derivative of one is the other times the angle's rate.
+template <class Real>
+void fill_sin_cos(const Majorant<Real>& angle, Majorant<Real>& sine, Majorant<Real>& cosine) {
+  sine[0] = angle[0] < 1 ? angle[0] : Real(1);
+  cosine[0] = Real(1);
+  for (int k = 0; k < 4; ++k) {
+    sine[k + 1] = product_bound(angle, 1, cosine, k);
+    cosine[k + 1] = product_bound(angle, 1, sine, k);
+  }
+}
 
 /// Position and velocity of a body as seen in the vessel frame.
 template <class Real>
@@ -16,7 +44,7 @@ struct VesselFrameState {
 /// Bounds on the coordinates in the vessel frame of a ball in flight, and on their first four derivatives.
 template <class Real>
 struct CoordinateBounds {
-  numerics::Majorant<Real> x, y, z;
+  Majorant<Real> x, y, z;
 };
 
 /// Bounds on what rounding does to a function of time and to its first two derivatives.

@@ -52,7 +52,7 @@ struct AlgebraicForm {
   /// At most, where no coordinate is larger than these.
   Real size(const Vec3<Real>& sizes, const Real& r) const {
     Real sum(0);
-    for (const auto& t : terms) sum += product(t.factor < 0 ? Real(-t.factor) : t.factor, t.powers, sizes, r);
+    for (const auto& t : terms) sum += product(magnitude(t.factor), t.powers, sizes, r);
     return sum;
   }
   static Real product(Real factor, const Polynomial<double>::Powers& powers, const Vec3<Real>& p,
@@ -174,11 +174,10 @@ class AlgebraicVessel {
     return each([&](const Wall& wall) {
       Real sum(0);
       for (const auto& t : wall.gap.terms) {
-        numerics::Majorant<Real> bound{Real(1), Real(0), Real(0), Real(0), Real(0)};
-        const auto multiply = [&](const numerics::Majorant<Real>& by) {
-          numerics::Majorant<Real> product;
-          for (int m = 0; m <= 4; ++m)
-            product[static_cast<std::size_t>(m)] = numerics::product_bound(bound, 0, by, m);
+        Majorant<Real> bound{Real(1), Real(0), Real(0), Real(0), Real(0)};
+        const auto multiply = [&](const Majorant<Real>& by) {
+          Majorant<Real> product;
+          for (int m = 0; m <= 4; ++m) product[static_cast<std::size_t>(m)] = product_bound(bound, 0, by, m);
           bound = product;
         };
         for (int n = 0; n < t.powers[0]; ++n) multiply(c.x);
@@ -186,7 +185,7 @@ class AlgebraicVessel {
         for (int n = 0; n < t.powers[2]; ++n) multiply(c.z);
         for (int n = 0; n < t.powers[3]; ++n)
           for (auto& b : bound) b *= radius_;
-        sum += (t.factor < 0 ? Real(-t.factor) : t.factor) * bound[static_cast<std::size_t>(k)];
+        sum += magnitude(t.factor) * bound[static_cast<std::size_t>(k)];
       }
       return sum;
     });
@@ -250,7 +249,7 @@ class AlgebraicVessel {
       for (const auto& t : gap.terms) {
         const int d = t.degree();
         if (d < 3) continue;
-        const Real factor = (t.factor < 0 ? Real(-t.factor) : t.factor) * Real(d * (d - 1) * (d - 2));
+        const Real factor = magnitude(t.factor) * Real(d * (d - 1) * (d - 2));
         sum += Form::product(factor, {d - 3, 0, 0, t.powers[3]}, {size, size, size}, r);
       }
       return sum;

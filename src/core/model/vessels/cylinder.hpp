@@ -45,8 +45,8 @@ struct CylinderVessel {
 
   std::vector<WallSurface<Real>> surfaces() const {
     const Vec3<Real> top{Real(0), half_height, Real(0)};
-    return {Disc<Real>{frame_at<Real>(-top), radius}, Disc<Real>{frame_at<Real>(top), radius},
-            Tube<Real>{frame_at<Real>(Vec3<Real>::Zero()), radius, half_height}};
+    return {Disc<Real>{{frame_at<Real>(-top)}, radius}, Disc<Real>{{frame_at<Real>(top)}, radius},
+            Tube<Real>{{frame_at<Real>(Vec3<Real>::Zero())}, radius, half_height}};
   }
 
   Real reach() const {
@@ -91,7 +91,7 @@ struct CylinderVessel {
   /// 0 the caps, 1 the cylinder.
   static constexpr int kind_of(int wall) { return wall == 2; }
   static PerKind<Real> derivative_bounds(const CoordinateBounds<Real>& c, int k) {
-    return {c.y[k], numerics::product_bound(c.x, 0, c.x, k) + numerics::product_bound(c.z, 0, c.z, k)};
+    return {c.y[k], product_bound(c.x, 0, c.x, k) + product_bound(c.z, 0, c.z, k)};
   }
 
   static constexpr bool is_flat(int wall) { return kind_of(wall) == 0; }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/scalar.hpp"
-#include "model/parts/swing.hpp"
+#include "model/motions/joints.hpp"
 #include "model/parts/vessel_frame.hpp"
 
 namespace edmill::model {
@@ -63,10 +63,10 @@ class Pistons {
   Real bound(int n) const {
     Real most(0);
     for (const auto& piston : given_) {
-      Real sum = n == 1 ? size_of(piston.speed) : Real(0);
+      Real sum = n == 1 ? magnitude(piston.speed) : Real(0);
       for (const auto& s : piston.swings) {
-        Real term = size_of(s.amplitude);
-        for (int k = 0; k < n; ++k) term *= 2 * numerics::pi<Real>() * size_of(s.frequency);
+        Real term = magnitude(s.amplitude);
+        for (int k = 0; k < n; ++k) term *= 2 * numerics::pi<Real>() * magnitude(s.frequency);
         sum += term;
       }
       most = sum > most ? sum : most;
@@ -78,7 +78,7 @@ class Pistons {
     Real longest = period_;
     for (const auto& piston : given_)
       for (const auto& s : piston.swings) {
-        const Real turning = 8 * numerics::pi<Real>() * size_of(s.frequency);
+        const Real turning = 8 * numerics::pi<Real>() * magnitude(s.frequency);
         if (turning * longest > 1) longest = 1 / turning;
       }
     return longest;
@@ -88,20 +88,18 @@ class Pistons {
   /// @param extent  of the vessel, beyond half of which no piston goes [m]
   ErrorBounds<Real> errors(std::size_t k, const Real& u, const Real& extent) const {
     const auto& piston = given_[k];
-    ErrorBounds<Real> e{32 * extent + (piston.speed == 0 ? Real(0) : Real(16 * size_of(piston.distance))),
-                        4 * size_of(piston.speed), Real(0)};
+    ErrorBounds<Real> e{32 * extent + (piston.speed == 0 ? Real(0) : Real(16 * magnitude(piston.distance))),
+                        4 * magnitude(piston.speed), Real(0)};
     for (const auto& s : piston.swings) {
-      const Real turning = 2 * numerics::pi<Real>() * size_of(s.frequency);
-      const Real relative = 16 + 7 * (4 + 3 * size_of(s.frequency * period_) + size_of(s.phase));
-      const Real of_value = size_of(s.amplitude) * relative;
+      const Real turning = 2 * numerics::pi<Real>() * magnitude(s.frequency);
+      const Real relative = 16 + 7 * (4 + 3 * magnitude<Real>(s.frequency * period_) + magnitude(s.phase));
+      const Real of_value = magnitude(s.amplitude) * relative;
       e.value += of_value, e.rate += of_value * turning, e.second += of_value * turning * turning;
     }
     return {u * e.value, u * e.rate, u * e.second};
   }
 
  private:
-  static Real size_of(const Real& x) { return x < 0 ? Real(-x) : x; }
-
   std::vector<Piston<Real>> given_;
   Real period_;
   std::vector<Swings<Real>> swings_;

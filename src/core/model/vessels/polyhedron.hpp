@@ -179,7 +179,7 @@ class PolyhedronVessel {
         const Real size = norm<Real>(corner);
         reach = size > reach ? size : reach;
         for (int axis = 0; axis < 3; ++axis) {
-          const Real far = corner[axis] < 0 ? Real(-corner[axis]) : Real(corner[axis]);
+          const Real far = magnitude(corner[axis]);
           half_sizes_[axis] = far > half_sizes_[axis] ? far : half_sizes_[axis];
         }
       }

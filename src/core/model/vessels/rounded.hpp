@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/majorant.hpp"
 #include "base/scalar.hpp"
 #include "base/trigonometry.hpp"
 #include "model/parts/parameter.hpp"
@@ -73,12 +72,12 @@ class RoundedVessel {
     const Vec3<Real> zero = Vec3<Real>::Zero();
     const Frame<Real> up = frame_at<Real>(top);
     const Frame<Real> down{-top, Vec3<Real>::UnitX(), -Vec3<Real>::UnitY(), -Vec3<Real>::UnitZ()};
-    const Tube<Real> tube{frame_at<Real>(zero), a_ + rounding_, b_};
+    const Tube<Real> tube{{frame_at<Real>(zero)}, a_ + rounding_, b_};
     if (!(a_ > 0))
-      return {Zone<Real>{down, rounding_, Real(0), rounding_}, Zone<Real>{up, rounding_, Real(0), rounding_},
-              tube};
-    return {Edge<Real>{down, a_, rounding_}, Edge<Real>{up, a_, rounding_}, tube,
-            Disc<Real>{frame_at<Real>(-end), a_}, Disc<Real>{frame_at<Real>(end), a_}};
+      return {Zone<Real>{{down}, rounding_, Real(0), rounding_},
+              Zone<Real>{{up}, rounding_, Real(0), rounding_}, tube};
+    return {Edge<Real>{{down}, a_, rounding_}, Edge<Real>{{up}, a_, rounding_}, tube,
+            Disc<Real>{{frame_at<Real>(-end)}, a_}, Disc<Real>{{frame_at<Real>(end)}, a_}};
   }
 
   Real reach() const {
@@ -195,7 +194,7 @@ class RoundedVessel {
   }
   PerWall<bool> within(const Vec3<Real>& p, const Real& way) const {
     auto near = active(p);
-    const Real y = p[1] < 0 ? Real(-p[1]) : p[1];
+    const Real y = magnitude(p[1]);
     const std::size_t border = static_cast<std::size_t>(wall_count());
     // Far inside: no wall of a core point that is farther than the way from all of the surface.
     const Vec3<Real> d = from_core(p);
@@ -209,7 +208,7 @@ class RoundedVessel {
 
   static int kind_of(int f) { return f; }
   PerKind<Real> derivative_bounds(const CoordinateBounds<Real>& c, int k) const {
-    const Real square = numerics::product_bound(c.x, 0, c.x, k) + numerics::product_bound(c.z, 0, c.z, k);
+    const Real square = product_bound(c.x, 0, c.x, k) + product_bound(c.z, 0, c.z, k);
     const Real on_edge = edge_bound(c, k);
     PerKind<Real> bounds;
     for (int f = 0; f < function_count(); ++f)
@@ -317,20 +316,19 @@ class RoundedVessel {
   Real edge_bound(const CoordinateBounds<Real>& c, int k) const {
     using std::sqrt;
     const Real drift = c.x[0] - (a_ + rounding_);
-    numerics::Majorant<Real> r, y = c.y;
+    Majorant<Real> r, y = c.y;
     y[0] = rounding_ + (c.y[0] - (b_ + rounding_));
     if (!(a_ > 0))
-      return numerics::product_bound(c.x, 0, c.x, k) + numerics::product_bound(c.z, 0, c.z, k) +
-             numerics::product_bound(y, 0, y, k);
+      return product_bound(c.x, 0, c.x, k) + product_bound(c.z, 0, c.z, k) + product_bound(y, 0, y, k);
     const Real least = a_ * 49 / 100;
     r[0] = (a_ > rounding_ ? a_ : rounding_) + drift;
     for (int n = 1; n <= k; ++n) {
       Real rest(0);
       for (int j = 1; j < n; ++j)
-        rest += numerics::binomial[n][j] * (c.x[j] * c.x[n - j] + c.z[j] * c.z[n - j] + r[j] * r[n - j]);
+        rest += binomial[n][j] * (c.x[j] * c.x[n - j] + c.z[j] * c.z[n - j] + r[j] * r[n - j]);
       r[n] = sqrt(c.x[n] * c.x[n] + c.z[n] * c.z[n]) + rest / (2 * least);
     }
-    return numerics::product_bound(r, 0, r, k) + numerics::product_bound(y, 0, y, k);
+    return product_bound(r, 0, r, k) + product_bound(y, 0, y, k);
   }
 
   Real a_{0}, b_{0}, rounding_{0}, slack_{0};

@@ -36,7 +36,7 @@ struct SphereVessel {
     return {value};
   }
   std::vector<WallSurface<Real>> surfaces() const {
-    return {Zone<Real>{frame_at<Real>(Vec3<Real>::Zero()), radius, -radius, radius}};
+    return {Zone<Real>{{frame_at<Real>(Vec3<Real>::Zero())}, radius, -radius, radius}};
   }
 
   Real reach() const { return radius; }
@@ -66,8 +66,7 @@ struct SphereVessel {
 
   static constexpr int kind_of(int) { return 0; }
   static PerKind<Real> derivative_bounds(const CoordinateBounds<Real>& c, int k) {
-    return {numerics::product_bound(c.x, 0, c.x, k) + numerics::product_bound(c.y, 0, c.y, k) +
-            numerics::product_bound(c.z, 0, c.z, k)};
+    return {product_bound(c.x, 0, c.x, k) + product_bound(c.y, 0, c.y, k) + product_bound(c.z, 0, c.z, k)};
   }
   static constexpr bool is_flat(int) { return false; }
   /// The gap is a sum of three squares; by Cauchy's inequality its terms are together at most sqrt(3) R.

@@ -5,8 +5,7 @@
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/terminal.hpp"
-#include "model/ball_variables.hpp"
-#include "model/impact_variables.hpp"
+#include "model/variables.hpp"
 
 namespace edmill::cli {
 

@@ -1,4 +1,4 @@
-// Totals at the ends of successive intervals of equal length: for the interval of a mean from one run.
+// Sums over a run: without the loss of small terms, and batch by batch for the interval of a mean.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,27 @@
 
 namespace edmill::numerics {
 
-/// Batches of whole drive periods, so that each has all phases of the drive. When there are too many they are
-/// joined in pairs: a run of any length has 20 to 39 whole ones after its first 20 periods.
+/// A sum that does not lose small terms (Neumaier 1974).
+template <class Real>
+class CompensatedSum {
+ public:
+  CompensatedSum& operator+=(const Real& term) {
+    const Real next = sum_ + term;
+    const Real size = sum_ < 0 ? Real(-sum_) : sum_, term_size = term < 0 ? Real(-term) : term;
+    lost_ += size >= term_size ? Real((sum_ - next) + term) : Real((term - next) + sum_);
+    sum_ = next;
+    return *this;
+  }
+  Real value() const { return sum_ + lost_; }
+  void archive(Archive& a) { a(sum_, lost_); }
+
+ private:
+  Real sum_{0}, lost_{0};
+};
+
+/// Totals at the ends of batches of whole drive periods, so that each has all phases of the drive. When there
+/// are too many they are joined in pairs: a run of any length has 20 to 39 whole ones after its first 20
+/// periods.
 template <class Real>
 class Batches {
  public:
