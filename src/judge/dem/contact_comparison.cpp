@@ -9,7 +9,6 @@
 #include "dem/contact_log.hpp"
 #include "dem/statistics.hpp"
 #include "io/json_text.hpp"
-#include "io/junit_text.hpp"
 
 namespace edmill::dem {
 

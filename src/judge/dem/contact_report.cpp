@@ -3,7 +3,6 @@
 #include "base/version.hpp"
 #include "dem/contact_audit.hpp"
 #include "io/json_text.hpp"
-#include "io/junit_text.hpp"
 
 namespace edmill::dem {
 
