@@ -10,7 +10,7 @@
 #include "base/version.hpp"
 #include "casefile/build_case.hpp"
 #include "model/parts/surface.hpp"
-#include "output/vessel_frame.hpp"
+#include "output/scene.hpp"
 #include "run/case_access.hpp"
 
 namespace edmill::browser {

@@ -1,7 +1,7 @@
 // What stands for libraries that the core alone does not have: HDF5, pugixml, zlib and zstd. A case that
 // needs one of them is refused with its name.
 #include "base/errors.hpp"
-#include "io/decoder.hpp"
+#include "io/input_file.hpp"
 #include "io/table_hdf5.hpp"
 #include "output/event_file.hpp"
 #include "output/scene.hpp"
@@ -47,6 +47,9 @@ void EventFile::commit() {}
 std::vector<std::filesystem::path> EventFile::places() const { return {}; }
 void EventFile::archive(Archive&) {}
 
+void look_at(const std::vector<model::Mesh>&, const std::vector<Frame<double>>&, Scene&) {
+  refuse("a picture as X3D", "pugixml");
+}
 std::string x3d_text(const Scene&, const SceneMotion*) { refuse("a picture as X3D", "pugixml"); }
 std::string vtp_balls(const Scene&) { refuse("a file for ParaView", "pugixml"); }
 std::string vtp_vessel(const Scene&) { refuse("a file for ParaView", "pugixml"); }

@@ -21,7 +21,7 @@
 #include "dem/deck.hpp"
 #include "dem/import_dump.hpp"
 #include "io/input_file.hpp"
-#include "io/named_file.hpp"
+#include "io/output_folder.hpp"
 #include "machines/machines.hpp"
 #include "model/impact_record.hpp"
 #include "model/variables.hpp"

@@ -1,12 +1,12 @@
 #include "io/checkpoint_file.hpp"
 
 #include <fstream>
-#include <sstream>
 
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
 #include "io/atomic_file.hpp"
+#include "io/input_file.hpp"
 #include "io/output_folder.hpp"
 
 namespace edmill::io {
@@ -47,13 +47,10 @@ Checkpoint read_checkpoint(const fs::path& folder) {
     throw InputError(place.string() + ": found " + found + ", expected a checkpoint of an unfinished run");
   };
   std::error_code ignored;
-  std::ifstream in(place, std::ios::binary);
-  if (!in || !fs::is_regular_file(place, ignored)) fail("no such file");
-  std::ostringstream content;
-  content << in.rdbuf();
-  const std::string text = content.str();
+  if (!std::ifstream(place) || !fs::is_regular_file(place, ignored)) fail("no such file");
+  const std::string text = content_of(place);
   const std::size_t begin = magic.size() + digest_size + 1;
-  if (in.bad() || text.size() < begin || text.substr(0, magic.size()) != magic) fail("something else");
+  if (text.size() < begin || text.substr(0, magic.size()) != magic) fail("something else");
   const std::string_view body = std::string_view(text).substr(begin);
   if (sha256(body) + '\n' != text.substr(magic.size(), digest_size + 1)) fail("a damaged one");
 

@@ -1,11 +1,11 @@
-#include "io/decoder.hpp"
-
 #include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
 #include <new>
 #include <stdexcept>
+
+#include "io/input_file.hpp"
 
 namespace edmill::io {
 

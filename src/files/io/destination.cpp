@@ -5,10 +5,10 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 
 #include "base/errors.hpp"
-#include "io/file_buffer.hpp"
 #include "io/output_folder.hpp"
 
 namespace edmill::io {
@@ -35,6 +35,72 @@ bool follow(fs::path path, const auto& visit) {
 }
 
 }  // namespace
+
+std::runtime_error not_written(const fs::path& place, int error) {
+  std::string why = "; the disk may be full";
+  if (error == EFBIG)
+    why = ": the file size limit is reached (ulimit -f)";
+  else if (error != 0 && error != ENOSPC && error != EDQUOT)
+    why = ": " + std::string(std::strerror(error));
+  return std::runtime_error(place.string() + ": could not be written" + why);
+}
+
+void throw_not_written(const fs::path& place, int error) {
+  if (error == EPIPE) throw PipeClosed(place.string() + ": nobody reads the pipe any more");
+  throw not_written(place, error);
+}
+
+int open_for_writing(const fs::path& file, int more_flags) {
+  return ::open(file.c_str(), O_WRONLY | O_CLOEXEC | more_flags, 0666);
+}
+
+FileBuffer::~FileBuffer() { drop(); }
+
+void FileBuffer::open(int descriptor, std::uint64_t size, Sha256 digest) {
+  drop();
+  descriptor_ = descriptor, size_ = size, error_ = 0;
+  digest_ = std::move(digest);
+  bytes_.resize(size_of_buffer);
+  setp(bytes_.data(), bytes_.data() + bytes_.size());
+}
+
+bool FileBuffer::close() {
+  sync();
+  if (descriptor_ >= 0 && ::close(descriptor_) != 0 && error_ == 0) error_ = errno;
+  descriptor_ = -1;
+  drop();
+  return error_ == 0;
+}
+
+void FileBuffer::drop() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+  setp(nullptr, nullptr);
+  std::vector<char>().swap(bytes_);
+}
+
+FileBuffer::int_type FileBuffer::overflow(int_type c) {
+  if (descriptor_ < 0 || sync() != 0) return traits_type::eof();
+  if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+  return sputc(traits_type::to_char_type(c));
+}
+
+int FileBuffer::sync() {
+  if (error_ != 0) return -1;
+  for (const char* at = pbase(); at != pptr();) {
+    const auto written = ::write(descriptor_, at, static_cast<std::size_t>(pptr() - at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      error_ = errno;
+      return -1;
+    }
+    digest_.add({at, static_cast<std::size_t>(written)});
+    size_ += static_cast<std::uint64_t>(written);
+    at += written;
+  }
+  if (pbase()) setp(bytes_.data(), bytes_.data() + bytes_.size());
+  return 0;
+}
 
 std::optional<int> descriptor_named(const fs::path& path) {
   std::optional<int> number;
@@ -65,6 +131,11 @@ fs::path Destination::temporary() const {
   return temporary_name(through ? fs::temp_directory_path() / "edmill" : place);
 }
 
+std::vector<fs::path> Destination::places() const {
+  if (through) return {};
+  return {named};
+}
+
 int Destination::open_through() const {
   const auto number = descriptor_named(named);
   if (!number) return open_for_writing(named, 0);
@@ -89,6 +160,21 @@ void Destination::take(const fs::path& file) const {
   if (in.peek() != std::ifstream::traits_type::eof()) stream << in.rdbuf();
   if (!out.close() || in.bad()) throw_not_written(named, out.error());
   fs::remove(file);
+}
+
+Temporary::~Temporary() {
+  std::error_code ignored;
+  if (!kept) fs::remove_all(path, ignored);  // absent after a commit
+}
+
+fs::path Temporary::archive(Archive& a, const fs::path& place) {
+  const fs::path before = path;
+  std::string name = path.filename().string();
+  a(name);
+  if (a.loading()) path.replace_filename(temporary_name_from(name, place));
+  std::error_code ignored;
+  kept = fs::exists(path, ignored);
+  return before;
 }
 
 }  // namespace edmill::io

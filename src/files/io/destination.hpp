@@ -1,10 +1,67 @@
-// Where the bytes of a file go that somebody has named: into a new file that takes its place, or through it.
+// Where bytes go: to a descriptor of the system, into a temporary file that takes the place of another, or
+// through a device.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
+#include <streambuf>
+#include <string>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "base/digest.hpp"
 
 namespace edmill::io {
+
+/// @param error  errno; 0 when it is not known
+std::runtime_error not_written(const std::filesystem::path& place, int error = 0);
+
+/// Nobody reads a pipe any more. What was to be written there is not wanted.
+class PipeClosed : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws PipeClosed, or what `not_written` returns.
+[[noreturn]] void throw_not_written(const std::filesystem::path& place, int error);
+
+/// @return the new number, or -1 with errno
+int open_for_writing(const std::filesystem::path& file, int more_flags);
+
+/// Why it failed is known, and what was written is digested on the way.
+class FileBuffer : public std::streambuf {
+ public:
+  FileBuffer() = default;
+  FileBuffer(const FileBuffer&) = delete;
+  FileBuffer& operator=(const FileBuffer&) = delete;
+  /// Closes; what is left in the buffer is lost.
+  ~FileBuffer() override;
+
+  /// Takes over a descriptor that stands after `size` bytes with this digest.
+  void open(int descriptor, std::uint64_t size = 0, Sha256 digest = {});
+  /// @return whether everything was written
+  bool close();
+  /// Forgets what is left in the buffer, and closes.
+  void drop();
+
+  int error() const { return error_; }  ///< errno of the first failure
+  /// Number of all bytes that were flushed, those before it was opened among them.
+  std::uint64_t size() const { return size_; }
+  std::string digest() const { return digest_.hex(); }
+
+ protected:
+  int_type overflow(int_type c) override;
+  int sync() override;
+
+ private:
+  static constexpr std::size_t size_of_buffer = 1 << 16;
+
+  std::vector<char> bytes_;
+  int descriptor_ = -1, error_ = 0;
+  std::uint64_t size_ = 0;
+  Sha256 digest_;
+};
 
 /// The number of this process's descriptor that a path names: /dev/stdout, /dev/fd/63, a link to one of them.
 std::optional<int> descriptor_named(const std::filesystem::path& path);
@@ -20,10 +77,30 @@ struct Destination {
 
   /// Where its file is made: beside the place, or among the system's temporary files if written through.
   std::filesystem::path temporary() const;
+  /// As it was given; nothing of what is written through.
+  std::vector<std::filesystem::path> places() const;
   /// A descriptor of what is written through, or -1 with errno.
   int open_through() const;
   /// Moves a complete file into place, or copies it through. @throws std::runtime_error
   void take(const std::filesystem::path& file) const;
+};
+
+/// A temporary file or folder. It is removed at the end, unless a checkpoint names it.
+struct Temporary {
+  std::filesystem::path path;
+  bool kept = false;
+
+  explicit Temporary(std::filesystem::path path) : path(std::move(path)) {}
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+  ~Temporary();
+
+  /// Its name. Loading takes over what the run left under the name; where that is gone, because it was
+  /// committed, it is made again and need not be kept.
+  /// @param place  of which it is a temporary name
+  /// @return the path before
+  /// @throws InputError unless it is such a name
+  std::filesystem::path archive(Archive& a, const std::filesystem::path& place);
 };
 
 }  // namespace edmill::io

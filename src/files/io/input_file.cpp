@@ -8,13 +8,14 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 #include "base/errors.hpp"
-#include "io/decoder.hpp"
 #include "io/destination.hpp"
 
 namespace edmill::io {
@@ -230,10 +231,14 @@ InputFile::~InputFile() = default;
 
 std::string read_whole(const std::string& path, const std::string& expected) {
   InputFile in(path, expected);
-  std::string text;
-  for (std::vector<char> part(1 << 16); in.read(part.data(), 1 << 16) || in.gcount() > 0;)
-    text.append(part.data(), static_cast<std::size_t>(in.gcount()));
-  return text;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
 }
 
 }  // namespace edmill::io

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <istream>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace edmill::io {
 
@@ -29,6 +31,28 @@ class Spool {
   static bool is_active();
 };
 
+/// Of gzip or zstd, piece by piece.
+class Decoder {
+ public:
+  Decoder() = default;
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+  virtual ~Decoder() = default;
+  /// Takes from the front of `in` and fills `out` from its beginning.
+  /// @return how many bytes came out
+  /// @throws std::runtime_error with what is wrong with damaged data
+  virtual std::size_t decode(std::string_view& in, std::span<char> out) = 0;
+  /// Whether the data may end here.
+  bool at_end() const { return at_end_; }
+  virtual const char* name() const = 0;
+
+ protected:
+  bool at_end_ = false;
+};
+
+/// The decoder for data that begin so; null for text.
+std::unique_ptr<Decoder> decoder_for(std::string_view beginning);
+
 /// Text of a file. What gzip or zstd has compressed is recognised by its first bytes.
 class InputFile : public std::istream {
  public:
@@ -44,5 +68,8 @@ class InputFile : public std::istream {
 
 /// The whole text. @throws InputError
 std::string read_whole(const std::string& path, const std::string& expected);
+
+/// The bytes of a file as they are; none of one that cannot be read.
+std::string content_of(const std::filesystem::path& file);
 
 }  // namespace edmill::io

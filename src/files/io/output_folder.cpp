@@ -129,6 +129,29 @@ FolderLock::~FolderLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
+NamedFile::NamedFile(fs::path place) : place_(std::move(place)), through_(Destination(place_).through) {
+  std::error_code ignored;
+  if (place_.has_parent_path() ? fs::is_directory(place_.parent_path(), ignored) : true) lock();
+}
+
+void NamedFile::lock() {
+  if (!through_ && !lock_)
+    lock_.emplace(place_.has_parent_path() ? place_.parent_path() : ".", FolderLock::Kind::shared);
+}
+
+void NamedFile::write(const std::function<void(std::ostream&)>& put) {
+  if (!through_ && place_.has_parent_path()) prepare_folder(place_.parent_path());
+  lock();
+  AtomicFile file(place_);
+  put(file.stream());
+  file.commit();
+}
+
+std::optional<NamedFile> file_for(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  return std::make_optional<NamedFile>(name);
+}
+
 fs::path temporary_name(const fs::path& place) {
   static std::atomic<int> count = 0;  // two files of one run can have the same path
   return place.string() + temporary_mark() + "-" + std::to_string(count++);

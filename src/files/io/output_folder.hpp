@@ -3,6 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -34,6 +37,28 @@ class FolderLock {
  private:
   int descriptor_;
 };
+
+/// A file whose name a user has given, for one result: `--out`, `--json`, `--draw`, `--certificate`.
+/// To be made before the work whose result it takes: a folder that a run writes into is refused early.
+class NamedFile {
+ public:
+  /// @throws InputError when a run is being written into its folder
+  explicit NamedFile(std::filesystem::path place);
+
+  /// Writes the whole file, and makes the folders above it when they are absent.
+  /// @throws InputError when it cannot be made, std::runtime_error when anything was not written
+  void write(const std::function<void(std::ostream&)>& put);
+
+ private:
+  void lock();
+
+  std::filesystem::path place_;
+  bool through_;
+  std::optional<FolderLock> lock_;
+};
+
+/// The file of that name; none where it is empty.
+std::optional<NamedFile> file_for(const std::string& name);
 
 /// The temporary name of the file for `place`, in the same folder.
 std::filesystem::path temporary_name(const std::filesystem::path& place);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -108,9 +109,7 @@ struct Summary {
 
   Real duration() const { return end_time - start_time; }
   std::uint64_t total_collisions() const {
-    std::uint64_t sum = 0;
-    for (const auto c : collisions) sum += c;
-    return sum;
+    return std::accumulate(collisions.begin(), collisions.end(), std::uint64_t{0});
   }
   /// What supplied energy and closure are measured against [J]: the dose, or the kinetic energy of the balls
   /// at an end of the record where that is larger.

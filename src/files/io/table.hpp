@@ -38,6 +38,12 @@ struct Column {
   std::string title() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 
+/// A text of the whole file: an attribute, or a dataset when it is `long_text`.
+struct FileNote {
+  std::string key, value;
+  bool long_text = false;
+};
+
 /// The value of a formula where there is one; nothing is an empty cell.
 template <class Formula>
 auto value_if(bool defined, const Formula& formula) {

@@ -31,27 +31,6 @@ std::optional<std::vector<Number>> numbers_in(const Texts& texts) {
   return values;
 }
 
-std::size_t longest(const Texts& texts) {
-  std::size_t width = 1;
-  for (const auto& text : texts) width = std::max(width, text.size());
-  return width;
-}
-
-/// Texts one after the other, each filled up to the width.
-std::string padded(const Texts& texts, std::size_t width) {
-  std::string bytes(width * texts.size(), '\0');
-  for (std::size_t k = 0; k < texts.size(); ++k) texts[k].copy(&bytes[k * width], width);
-  return bytes;
-}
-
-Handle text_type(std::size_t width) {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  hdf5_check(H5Tset_size(type, width));
-  hdf5_check(H5Tset_strpad(type, H5T_STR_NULLPAD));
-  hdf5_check(H5Tset_cset(type, H5T_CSET_UTF8));
-  return type;
-}
-
 /// Cells as bytes in the order of rows, with their type in the file.
 struct Packed {
   Handle type;
@@ -61,8 +40,13 @@ struct Packed {
 
 Packed packed(const DoubleTable::Cells& cells) {
   if (const auto* texts = std::get_if<Texts>(&cells)) {
-    const std::size_t width = longest(*texts);
-    return {text_type(width), width, padded(*texts, width)};
+    std::size_t width = 1;
+    for (const auto& text : *texts) width = std::max(width, text.size());
+    Handle type = text_type(width);
+    hdf5_check(H5Tset_strpad(type, H5T_STR_NULLPAD));
+    std::string bytes(width * texts->size(), '\0');
+    for (std::size_t k = 0; k < texts->size(); ++k) (*texts)[k].copy(&bytes[k * width], width);
+    return {std::move(type), width, std::move(bytes)};
   }
   const auto bytes_of = [](auto values) {
     for (auto& value : values) value = in_file_order(value);
@@ -87,7 +71,7 @@ std::string dataset_name(std::string name, std::set<std::string>& taken) {
 void add_column(hid_t file, const std::string& name, const StoredColumn& column) {
   const Packed cells = packed(column.cells);
   const hsize_t rows = cells.bytes.size() / cells.width, chunk = std::clamp<hsize_t>(rows, 1, 16384);
-  const Handle set(make_set(file, name, cells.type, 1, chunk, true), H5Dclose);
+  const Handle set = make_set(file, name, cells.type, 1, chunk, true);
   append(set, cells.type, 1, 0, rows, cells.bytes.data());
   note(set, "title", column.what.title());
   if (!column.what.unit.empty()) note(set, "unit", column.what.unit);
@@ -113,11 +97,7 @@ void add_compound(hid_t file, const std::string& name, const DoubleTable& table)
   }
   const hsize_t count = table.rows();
   const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  hdf5_check(H5Pset_obj_track_times(creation, false));
-  const Handle set(H5Dcreate2(file, name.c_str(), row_type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                   H5Dclose);
-  hdf5_check(H5Dwrite(set, row_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()));
+  add_set(file, name, row_type, space, rows.data());
 }
 
 }  // namespace

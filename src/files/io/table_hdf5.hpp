@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/file_note.hpp"
 #include "io/table.hpp"
 
 namespace edmill::io {

@@ -3,15 +3,31 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
 #include <string_view>
 
 namespace edmill::io {
 
+inline std::atomic<int> first_error = 0;  ///< errno; 0 when everything was written
+
+inline void note_error() {
+  int none = 0;
+  first_error.compare_exchange_strong(none, errno != 0 ? errno : EIO);
+}
+
 /// Text for standard output. A failure is remembered and does not end the work whose results are on disk:
 /// `output_error` tells of it at the end.
-void print_text(std::string_view text);
+inline void print_text(std::string_view text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
+}
 /// Text for standard error. What cannot be written is lost: an error keeps its exit code.
-void tell_text(std::string_view text);
+inline void tell_text(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
 
 template <class... T>
 void print(fmt::format_string<T...> format, T&&... values) {
@@ -23,6 +39,10 @@ void tell(fmt::format_string<T...> format, T&&... values) {
 }
 
 /// Writes what is left of standard output. @return errno of its first failure; 0 when everything was written
-int output_error();
+inline int output_error() {
+  errno = 0;
+  if (std::fflush(stdout) != 0) note_error();
+  return first_error;
+}
 
 }  // namespace edmill::io

@@ -5,7 +5,6 @@
 #include "base/version.hpp"
 #include "compare/comparison.hpp"
 #include "io/json_text.hpp"
-#include "io/junit_text.hpp"
 
 namespace edmill::compare {
 

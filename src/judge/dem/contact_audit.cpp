@@ -9,7 +9,6 @@
 #include "base/version.hpp"
 #include "dem/soft_contact.hpp"
 #include "io/json_text.hpp"
-#include "io/junit_text.hpp"
 
 namespace edmill::dem {
 

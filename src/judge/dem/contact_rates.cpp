@@ -10,7 +10,6 @@
 #include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
 #include "io/json_text.hpp"
-#include "io/junit_text.hpp"
 #include "plot/chart.hpp"
 
 namespace edmill::dem {

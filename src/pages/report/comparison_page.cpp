@@ -8,7 +8,7 @@
 #include <ranges>
 
 #include "base/version.hpp"
-#include "io/named_file.hpp"
+#include "io/output_folder.hpp"
 #include "report/page.hpp"
 #include "report/report_page.hpp"
 #include "report/sections.hpp"

@@ -4,7 +4,7 @@
 
 #include "base/errors.hpp"
 #include "io/input_file.hpp"
-#include "io/junit_text.hpp"
+#include "io/json_text.hpp"
 
 namespace edmill::app {
 

@@ -11,7 +11,7 @@
 #include "app/side_by_side.hpp"
 #include "base/errors.hpp"
 #include "casefile/value_of_key.hpp"
-#include "io/named_file.hpp"
+#include "io/output_folder.hpp"
 #include "plot/chart.hpp"
 
 namespace edmill::app {

@@ -10,7 +10,7 @@
 #include "base/errors.hpp"
 #include "base/version.hpp"
 #include "casefile/precisions.hpp"
-#include "io/named_file.hpp"
+#include "io/output_folder.hpp"
 #include "output/collision_log.hpp"
 
 namespace edmill::app {

@@ -7,7 +7,7 @@
 
 #include "casefile/build_case.hpp"
 #include "casefile/memory_for.hpp"
-#include "io/named_file.hpp"
+#include "io/output_folder.hpp"
 #include "report/mill_drawing.hpp"
 #include "run/any_run.hpp"
 

@@ -12,7 +12,7 @@
 #include "app/side_by_side.hpp"
 #include "base/errors.hpp"
 #include "casefile/precisions.hpp"
-#include "run/cpu_limit.hpp"
+#include "run/watches.hpp"
 
 namespace edmill::app {
 

@@ -5,7 +5,7 @@
 #include "app/certify.hpp"
 #include "base/clean_text.hpp"
 #include "io/input_file.hpp"
-#include "io/named_file.hpp"
+#include "io/output_folder.hpp"
 #include "prove/proof.hpp"
 
 namespace edmill::app {

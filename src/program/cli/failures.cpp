@@ -15,7 +15,7 @@
 #include "casefile/memory_for.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/signals.hpp"
-#include "io/file_buffer.hpp"
+#include "io/destination.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {

@@ -7,7 +7,7 @@
 #include "base/errors.hpp"
 #include "casefile/output_entry.hpp"
 #include "io/atomic_file.hpp"
-#include "output/frames_output.hpp"
+#include "output/scene_output.hpp"
 
 namespace edmill::output {
 
@@ -22,12 +22,8 @@ inline void read_animation(casefile::Section& s, const casefile::CaseSpec&, case
 template <class Real>
 class AnimationOutput : public FramesOutput<Real> {
  public:
-  AnimationOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                  const RunContext<Real>& run)
-      : FramesOutput<Real>(spec, folder, run, frames_of(spec.animation)),
-        file_(this->place()),
-        speed_(spec.animation.speed.to<double>()),
-        min_frames_(spec.animation.min_frames) {}
+  AnimationOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : FramesOutput<Real>(spec, run, frames_of(spec.animation)), file_(this->place()) {}
 
   void complete() override { file_.complete(); }
   void commit() override { file_.commit(); }
@@ -41,7 +37,7 @@ class AnimationOutput : public FramesOutput<Real> {
       add_key(ball, f.time, f.simulation.flight(ball).position);
   }
   void record(const ImpactFacts<Real>& f) override {
-    if (!this->shows_contact()) return;
+    if (!this->spec.contact_point) return;
     const auto key = static_cast<double>(f.time);
     const SceneBall contact = this->contact_at(f.contact_point);
     // It stays where it was up to this impact, then jumps.
@@ -57,7 +53,7 @@ class AnimationOutput : public FramesOutput<Real> {
   void archive_record(Archive& a) override {
     FramesOutput<Real>::archive_record(a);
     a(file_, first_, paths_, frames_);
-    const auto balls = static_cast<std::size_t>(this->ball_count());
+    const auto balls = this->run.ball_colours.size();
     if (first_ ? first_->balls.size() != balls || paths_.balls.size() != balls : !paths_.balls.empty())
       throw InputError("found a saved animation of other balls");
   }
@@ -71,7 +67,7 @@ class AnimationOutput : public FramesOutput<Real> {
   }
 
   void add_frame(const engine::Simulation<Real>& simulation, const Real& time,
-                 const typename FramesOutput<Real>::StateOf& state_of) override {
+                 const StateOf<Real>& state_of) override {
     if (!first_) {
       first_ = this->scene(simulation, time, state_of);
       paths_.balls.resize(first_->balls.size());
@@ -100,7 +96,8 @@ class AnimationOutput : public FramesOutput<Real> {
         for (const auto& swing : piston.swings)
           frequency = std::max(frequency, std::abs(static_cast<double>(swing.frequency)));
     const double turns = length * frequency;
-    const auto keys = std::max({min_frames_, frames_ - 1, static_cast<std::uint64_t>(std::ceil(64 * turns))});
+    const auto keys = std::max(
+        {this->spec.animation.min_frames, frames_ - 1, static_cast<std::uint64_t>(std::ceil(64 * turns))});
     std::vector<Vec3<double>> at_first;  // the pistons
     for (std::uint64_t k = 0; k <= keys; ++k) {
       const double key = static_cast<double>(k) / static_cast<double>(keys);
@@ -115,13 +112,11 @@ class AnimationOutput : public FramesOutput<Real> {
     std::vector<Frame<double>> frames;
     for (const auto& [key, frame] : paths_.vessel) frames.push_back(frame);
     look_at(this->walls(), frames, *first_);
-    paths_.duration = length / speed_;
+    paths_.duration = length / this->spec.animation.speed.template to<double>();
     file_.stream() << x3d_text(*first_, &paths_);
   }
 
   io::AtomicFile file_;
-  double speed_;
-  std::uint64_t min_frames_;
   std::optional<Scene> first_;
   SceneMotion paths_{};
   std::uint64_t frames_ = 0;

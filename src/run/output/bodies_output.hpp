@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "output/by_partner.hpp"
 #include "output/table_output.hpp"
+#include "output/tallies.hpp"
 
 namespace edmill::output {
 
@@ -12,12 +12,10 @@ namespace edmill::output {
 template <class Real>
 class BodiesOutput : public TableOutput<Real> {
  public:
-  BodiesOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-               const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run),
-        surfaces_(run.surfaces(spec)),
+  BodiesOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run),
         on_balls_(run.ball_colours.size()),
-        on_walls_(surfaces_.size()) {}
+        on_walls_(run.surfaces(spec).size()) {}
 
  protected:
   void archive_record(Archive& a) override { a(on_balls_, on_walls_); }
@@ -30,7 +28,6 @@ class BodiesOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
-    using enum Column::Type;
     this->begin({{"kind", text, "", "ball or wall"},
                  {"body", integer, "", "its number"},
                  {"impacts", integer, "1", "of the body"},
@@ -48,11 +45,11 @@ class BodiesOutput : public TableOutput<Real> {
       const Real radius = simulation.properties(static_cast<int>(k)).radius;
       put("ball", k, on_balls_[k], 4 * numerics::pi<Real>() * radius * radius);
     }
-    for (std::size_t k = 0; k < on_walls_.size(); ++k) put("wall", k, on_walls_[k], surfaces_[k].area());
+    for (std::size_t k = 0; k < on_walls_.size(); ++k)
+      put("wall", k, on_walls_[k], this->run.walls[k].area());
   }
 
  private:
-  std::vector<model::WallSurface<Real>> surfaces_;  ///< by wall
   std::vector<Tally<Real>> on_balls_, on_walls_;
 };
 

@@ -6,7 +6,6 @@
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "io/destination.hpp"
-#include "io/file_buffer.hpp"
 #include "io/hdf5_parts.hpp"
 #include "io/output_folder.hpp"
 
@@ -55,23 +54,22 @@ void append_chunk(hid_t set, std::size_t width, hsize_t before, hsize_t rows, co
 struct EventFile::Data {
   struct Column {
     EventColumn what;
-    std::unique_ptr<Handle> set;
-    std::vector<std::int64_t> integers;
-    std::vector<double> numbers;
-    std::vector<ChunkPlace> chunks;  ///< those that are full
+    std::optional<Handle> set{};
+    std::vector<std::int64_t> integers{};
+    std::vector<double> numbers{};
+    std::vector<ChunkPlace> chunks{};  ///< those that are full
     std::size_t width() const { return what.type == EventColumn::Type::vector ? 3 : 1; }
   };
 
   explicit Data(const std::filesystem::path& place)
-      : destination(place), place(destination.named), temporary(destination.temporary()) {}
+      : destination(place), temporary(destination.temporary()) {}
 
   io::Destination destination;
-  std::filesystem::path place, temporary;
+  io::Temporary temporary;
   std::optional<Handle> file, group;
   std::vector<Column> columns;
   hsize_t written = 0, waiting = 0;
   Sha256 digest;  ///< of the blocks as they stand in the file
-  bool kept = false;
 
   /// Does what HDF5 does to the file; a failure is told with the file's name.
   template <class Work>
@@ -79,24 +77,21 @@ struct EventFile::Data {
     try {
       work();
     } catch (const io::Hdf5Error& error) {
-      throw io::not_written(place, error.system_error);
+      throw io::not_written(destination.named, error.system_error);
     }
   }
 
   void begin(std::vector<EventColumn> given, const std::vector<io::FileNote>& notes) {
-    file.emplace(io::make_file(temporary), H5Fclose);
+    file.emplace(io::make_file(temporary.path));
     io::add_notes(*file, notes);
-    group.emplace(io::make_group(*file, "events"), H5Gclose);
+    group.emplace(io::make_group(*file, "events"));
     for (auto& column : given) {
-      Column c{std::move(column), nullptr, {}, {}, {}};
+      Column& c = columns.emplace_back(Column{.what = std::move(column)});
       const bool integer = c.what.type == EventColumn::Type::integer;
-      c.set =
-          std::make_unique<Handle>(io::make_set(*group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE,
-                                                c.width(), block, integer),
-                                   H5Dclose);
+      c.set.emplace(io::make_set(*group, c.what.name, integer ? H5T_STD_I64LE : H5T_IEEE_F64LE, c.width(),
+                                 block, integer));
       io::note(*c.set, "unit", c.what.unit);
       io::note(*c.set, "description", c.what.description);
-      columns.push_back(std::move(c));
     }
   }
   void write_block() {
@@ -118,13 +113,13 @@ struct EventFile::Data {
     std::error_code none;
     const auto size = std::filesystem::file_size(from, none);
     if (none && rows > 0)
-      throw InputError(place.string() + ": found no file, expected the one that the run left");
+      throw InputError(destination.named.string() + ": found no file, expected the one that the run left");
     std::string bytes;
     for (written = 0; written < rows; written += block)
       for (auto& c : columns) {
         const ChunkPlace& chunk = c.chunks.at(written / block);
         if (chunk.at > size || chunk.size > size - chunk.at)
-          throw InputError(place.string() +
+          throw InputError(destination.named.string() +
                            ": found a file that ends before a block of the checkpoint, "
                            "expected the files as the run left them");
         bytes.resize(chunk.size);
@@ -150,11 +145,7 @@ EventFile::EventFile(const std::filesystem::path& place, std::vector<EventColumn
   data_->with_name([&] { data_->begin(std::move(columns), notes); });
 }
 
-EventFile::~EventFile() {
-  data_->close();
-  std::error_code ignored;
-  if (!data_->kept) std::filesystem::remove(data_->temporary, ignored);  // after `commit` there is none
-}
+EventFile::~EventFile() { data_->close(); }
 
 void EventFile::add(std::size_t column, std::int64_t value) {
   data_->columns[column].integers.push_back(value);
@@ -169,8 +160,7 @@ void EventFile::add_table(const std::string& name, const std::string& unit, cons
                           const std::vector<double>& values, std::size_t width) {
   data_->with_name([&] {
     const hsize_t rows = values.size() / width;
-    const Handle set(io::make_set(*data_->file, name, H5T_IEEE_F64LE, width, rows > 0 ? rows : 1, false),
-                     H5Dclose);
+    const Handle set = io::make_set(*data_->file, name, H5T_IEEE_F64LE, width, rows > 0 ? rows : 1, false);
     io::note(set, "unit", unit);
     io::note(set, "description", description);
     io::append(set, H5T_NATIVE_DOUBLE, width, 0, rows, values.data());
@@ -185,41 +175,31 @@ void EventFile::complete() {
   data_->close();
 }
 
-void EventFile::commit() { data_->destination.take(data_->temporary); }
+void EventFile::commit() { data_->destination.take(data_->temporary.path); }
 
-std::vector<std::filesystem::path> EventFile::places() const {
-  if (data_->destination.through) return {};
-  return {data_->place};
-}
+std::vector<std::filesystem::path> EventFile::places() const { return data_->destination.places(); }
 
 void EventFile::archive(Archive& a) {
   auto& d = *data_;
-  if (!a.loading()) io::sync_to_disk(d.temporary);
-  std::string name = d.temporary.filename().string();
+  const std::string named = d.destination.named.string();
+  if (!a.loading()) io::sync_to_disk(d.temporary.path);
   hsize_t rows = d.written;
-  a(name, rows, d.waiting);
+  a(rows, d.waiting);
   for (auto& c : d.columns) a(c.integers, c.numbers, c.chunks);
   for (const auto& c : d.columns)
     if (a.loading() && (rows % block != 0 || c.chunks.size() != rows / block))
-      throw InputError(d.place.string() + ": found a checkpoint with blocks for another number of rows");
+      throw InputError(named + ": found a checkpoint with blocks for another number of rows");
   std::string digest = d.digest.hex();
   a(digest);
-  if (!a.loading()) {
-    d.kept = true;
-    return;
-  }
-
-  const auto left =
-      std::filesystem::path(d.temporary).replace_filename(io::temporary_name_from(name, d.destination.place));
-  const bool is_left = std::filesystem::exists(left);
-  d.take_blocks(is_left ? left : d.destination.place, rows);
+  const auto before = d.temporary.archive(a, d.destination.place);
+  if (!a.loading()) return;
+  const io::Temporary fresh(before);
+  d.take_blocks(d.temporary.kept ? d.temporary.path : d.destination.place, rows);
   if (d.digest.hex() != digest)
-    throw InputError(d.place.string() + ": found another file than the checkpoint was made with, expected " +
+    throw InputError(named + ": found another file than the checkpoint was made with, expected " +
                      "the files as the run left them");
   // The blocks have the same places in both, so that the checkpoint holds for either.
-  std::filesystem::rename(d.temporary, left);
-  d.temporary = left;
-  d.kept = is_left;  // one that was committed can be read again
+  std::filesystem::rename(fresh.path, d.temporary.path);
 }
 
 }  // namespace edmill::output

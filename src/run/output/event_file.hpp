@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
-#include "io/file_note.hpp"
+#include "io/table.hpp"
 
 namespace edmill::output {
 

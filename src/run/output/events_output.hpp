@@ -1,15 +1,52 @@
-// The event log as HDF5, for long runs: rows are small, and a reader takes only the columns it needs.
+// The log of all impacts: as text, and as HDF5 for long runs. docs/files.md
 #pragma once
 
 #include <limits>
 
-#include "output/collisions_output.hpp"
+#include "casefile/section.hpp"
+#include "io/atomic_file.hpp"
+#include "output/collision_log.hpp"
 #include "output/event_file.hpp"
-#include "output/one_file_output.hpp"
+#include "output/output.hpp"
 
 namespace edmill::output {
 
-namespace detail {
+/// Whether a log holds the bodies' states before and after.
+struct StatesKey {
+  bool states = false;
+
+  static void keys(auto& k, auto&& row) {
+    row(casefile::Parameter{"states", Dimension::none,
+                            "also the positions and velocities before and after each impact",
+                            casefile::Range::any, "false"},
+        k.states);
+  }
+};
+
+inline void read_collisions(casefile::Section& s, const casefile::CaseSpec& spec,
+                            casefile::OutputSpec& output) {
+  s.require(!output.hdf5(), "file", "a name ending in .csv; `events` is the log as HDF5");
+  casefile::read_own<StatesKey>(s, spec, output);
+}
+
+/// Text alone, line by line: the log as HDF5 is another type, `events`.
+template <class Real>
+class CollisionsOutput : public OneFileOutput<Real, io::AtomicFile> {
+ public:
+  CollisionsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : OneFileOutput<Real, io::AtomicFile>(spec, run, spec.append),
+        states_(spec.own_keys<StatesKey>().states) {
+    this->file_.stream() << collision_log_header(states_) << '\n';
+  }
+
+ protected:
+  void record(const ImpactFacts<Real>& f) override {
+    this->file_.stream() << collision_line<Real>(f.impact, f.simulation, states_) << '\n';
+  }
+
+ private:
+  bool states_;
+};
 
 inline std::vector<EventColumn> event_columns(const model::Partners& partners, bool states) {
   using Type = EventColumn::Type;
@@ -33,18 +70,15 @@ inline std::vector<EventColumn> event_columns(const model::Partners& partners, b
   return columns;
 }
 
-}  // namespace detail
-
-/// NAME.h5: /events with a dataset for each column, the balls and their final state beside it. Numbers
-/// are 64-bit whatever the scalar: the digits of a wide run are in the CSV.
+/// NAME.h5: /events with a dataset for each column, so that a reader takes only those it needs, the balls and
+/// their final state beside it. Numbers are 64-bit whatever the scalar: the digits of a wide run are in the
+/// CSV.
 template <class Real>
 class EventsOutput : public OneFileOutput<Real, EventFile> {
  public:
-  EventsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-               const RunContext<Real>& run)
-      : OneFileOutput<Real, EventFile>(spec, folder, run,
-                                       detail::event_columns(run.partners, spec.own_keys<StatesKey>().states),
-                                       run.notes),
+  EventsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : OneFileOutput<Real, EventFile>(
+            spec, run, event_columns(run.partners, spec.own_keys<StatesKey>().states), run.notes),
         states_(spec.own_keys<StatesKey>().states) {}
 
  protected:

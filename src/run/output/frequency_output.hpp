@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "casefile/output_entry.hpp"
-#include "output/by_partner.hpp"
 #include "output/table_output.hpp"
+#include "output/tallies.hpp"
 
 namespace edmill::output {
 
@@ -45,12 +45,10 @@ inline void read_frequency(casefile::Section& s, const casefile::CaseSpec&, case
 template <class Real>
 class FrequencyOutput : public TableOutput<Real> {
  public:
-  FrequencyOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                  const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run),
+  FrequencyOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run),
         partners_(run.partners.count()),
-        parts_(parts_of(run.partners, spec.frequency.wall_details)),
-        spec_(spec.frequency),
+        parts_(groups_of(run.partners, spec.frequency.wall_details)),
         formula_(variable_formula<Real>(spec.frequency.variable.variable)),
         low_(spec.frequency.low.to<Real>()),
         high_(spec.frequency.high.to<Real>()),
@@ -64,55 +62,38 @@ class FrequencyOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>&, const Real&) override {
-    const auto& variable = model::impact_variables[spec_.variable.variable];
+    const auto& variable = model::impact_variables[asked().variable.variable];
     std::vector<Column> columns{
-        {"interval", Column::Type::text, "", "number of the interval from 1, or below or above all"},
-        {"lower", Column::Type::number, "", "lower end, in the interval"},
-        {"upper", Column::Type::number, "", "upper end, not in the interval"},
-        {"mean", Column::Type::number, "", "middle of the interval"}};
-    for (const auto& part : parts_)
-      columns.push_back({part.column.name, Column::Type::integer, "", part.column.meaning});
-    if (spec_.percentages)
-      for (const auto& part : parts_)
-        columns.push_back({part.column.name + "_percentage", Column::Type::number});
+        {"interval", text, "", "number of the interval from 1, or below or above all"},
+        {"lower", number, "", "lower end, in the interval"},
+        {"upper", number, "", "upper end, not in the interval"},
+        {"mean", number, "", "middle of the interval"}};
+    for (const auto& part : parts_) columns.push_back({part.column.name, integer, "", part.column.meaning});
+    if (asked().percentages)
+      for (const auto& part : parts_) columns.push_back({part.column.name + "_percentage", number});
     std::vector<std::string> comments;
-    if (!spec_.title.empty()) comments.push_back(spec_.title);
-    comments.push_back(name_of(spec_.variable, variable.name) + " [" + std::string(variable.unit) +
+    if (!asked().title.empty()) comments.push_back(asked().title);
+    comments.push_back(name_of(asked().variable, variable.name) + " [" + std::string(variable.unit) +
                        "]: impacts with lower <= value < upper");
     this->begin(std::move(columns), std::move(comments));
-    if (spec_.out_of_range) write_row("below", 0);
+    if (asked().out_of_range) write_row("below", 0);
     for (std::size_t k = 1; k + 1 < rows_; ++k) write_row(std::to_string(k), k);
-    if (spec_.out_of_range) write_row("above", rows_ - 1);
+    if (asked().out_of_range) write_row("above", rows_ - 1);
   }
 
  private:
-  struct Part {
-    PartnerColumn column;
-    int first, last;  ///< of the partners that it counts
-  };
-
-  static std::vector<Part> parts_of(const model::Partners& partners, bool each_wall) {
-    std::vector<Part> list;
-    const int balls = partners.ball_ball();
-    if (each_wall)
-      for (int wall = 0; wall < balls; ++wall) list.push_back({column_of(partners[wall]), wall, wall});
-    list.push_back({walls_column, 0, balls - 1});
-    list.push_back({column_of(partners[balls]), balls, balls});
-    list.push_back({total_column, 0, balls});
-    return list;
-  }
-
+  const casefile::FrequencySpec& asked() const { return this->spec.frequency; }
   std::uint64_t& count(std::size_t row, int partner) { return counts_[row * partners_ + partner]; }
 
-  Real bound(std::size_t k) const { return low_ + (high_ - low_) * Real(k) / Real(spec_.intervals); }
+  Real bound(std::size_t k) const { return low_ + (high_ - low_) * Real(k) / Real(asked().intervals); }
 
   /// 0 below the range, then the intervals, then one above the range. The bounds decide, not a quotient.
   std::size_t row_of(const Real& value) const {
     if (value < low_) return 0;
     if (!(value < high_)) return rows_ - 1;
-    auto k = static_cast<std::size_t>((value - low_) / (high_ - low_) * Real(spec_.intervals));
+    auto k = static_cast<std::size_t>((value - low_) / (high_ - low_) * Real(asked().intervals));
     while (k > 0 && value < bound(k)) --k;
-    while (k + 1 < spec_.intervals && value >= bound(k + 1)) ++k;
+    while (k + 1 < asked().intervals && value >= bound(k + 1)) ++k;
     return k + 1;
   }
 
@@ -121,25 +102,24 @@ class FrequencyOutput : public TableOutput<Real> {
     this->put(name, io::value_if(has_lower, [&] { return bound(k - 1); }),
               io::value_if(has_upper, [&] { return bound(k); }),
               io::value_if(inside, [&] { return Real((bound(k - 1) + bound(k)) / 2); }));
-    const auto sum = [&](std::size_t row, const Part& part) {
+    const auto sum = [&](std::size_t row, const PartnerGroup& part) {
       std::uint64_t all = 0;
       for (int p = part.first; p <= part.last; ++p) all += count(row, p);
       return all;
     };
     for (const auto& part : parts_) this->put(sum(k, part));
-    if (spec_.percentages)
+    if (asked().percentages)
       for (const auto& part : parts_) {
         std::uint64_t whole = 0;  // of the impacts in this table
         for (std::size_t row = 0; row < rows_; ++row)
-          if (spec_.out_of_range || (row > 0 && row + 1 < rows_)) whole += sum(row, part);
+          if (asked().out_of_range || (row > 0 && row + 1 < rows_)) whole += sum(row, part);
         this->put(
             io::value_if(whole > 0, [&] { return Real(Real(100) * Real(sum(k, part)) / Real(whole)); }));
       }
   }
 
-  int partners_;             ///< how many there are
-  std::vector<Part> parts_;  ///< in the order of the columns
-  casefile::FrequencySpec spec_;
+  int partners_;                     ///< how many there are
+  std::vector<PartnerGroup> parts_;  ///< in the order of the columns
   VariableFormula<Real> formula_;
   Real low_, high_;
   std::size_t rows_;

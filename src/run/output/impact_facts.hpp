@@ -34,7 +34,35 @@ struct ImpactBody {
 
 /// Length of the parabola that ended with `velocity` after `time` in free flight [m].
 template <class Real>
-Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Real& time);
+Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Real& time) {
+  using std::sqrt;
+  const Real strength = norm<Real>(gravity);
+  if (strength == 0) return norm<Real>(velocity) * time;
+  // u: speed along gravity, w: across it. L = [u sqrt(u^2 + w^2) + w^2 asinh(u / w)] / 2g between both ends.
+  const Vec3<Real> down = gravity * (1 / strength);
+  const Real last = dot<Real>(velocity, down), first = last - strength * time;
+  const Real across2 = squared_norm<Real>(velocity - down * last);
+  const auto asinh = [&](const Real& x) {
+    return numerics::log_of_one_plus<Real>(x + x * x / (1 + sqrt(1 + x * x)));
+  };
+  const auto positive = [](const Real& x) { return x < 0 ? Real(-x) : x; };
+  const Real u1 = positive(last), u0 = positive(first);
+  const Real q1 = sqrt(u1 * u1 + across2), q0 = sqrt(u0 * u0 + across2);
+  if ((last < 0) != (first < 0)) {  // it turned on the way: two arcs from the top
+    Real sum = u1 * q1 + u0 * q0;
+    if (across2 > 0) sum += across2 * (asinh(u1 / sqrt(across2)) + asinh(u0 / sqrt(across2)));
+    return sum / (2 * strength);
+  }
+  // One arc: differences are factored, so that short flights keep their digits.
+  const Real steps = strength * time, sum = u1 + u0;
+  if (sum == 0) return sqrt(across2) * time;
+  Real arc = steps * sum * (u1 * u1 + u0 * u0 + across2) / (u1 * q1 + u0 * q0);
+  if (across2 > 0) {
+    // asinh(a) - asinh(b) = asinh((a^2 - b^2) / (a sqrt(1 + b^2) + b sqrt(1 + a^2)))
+    arc += across2 * asinh(steps * sum / (u1 * q0 + u0 * q1));
+  }
+  return arc / (2 * strength);
+}
 
 /// One impact as outputs and the variables of model/impact_variables.def see it. Before and after mean just
 /// before and just after the impact.
@@ -82,6 +110,18 @@ struct ImpactFacts {
     return body.ball ? path_length<Real>(body.velocity_before, gravity, body.flight_time) : Real(0);
   }
 
+  /// The state of a ball just before the impact, or at an instant since the last one: the simulation has the
+  /// bodies as they are after it.
+  /// @param at  not before the last impact, not after the present one [s]
+  model::BallState<Real> state_before(int ball, const Real& at) const {
+    const bool is_one = ball == impact.ball, is_two = !impact.with_wall && ball == impact.partner;
+    if (!is_one && !is_two) return simulation.state_at(ball, simulation.clock().at(at));
+    const auto& own = is_one ? one : two;
+    const Real back = time - at;
+    return {simulation.flight(ball).position - own.velocity_before * back + gravity * (back * back / 2),
+            own.velocity_before - gravity * back, own.spin_before};
+  }
+
  private:
   ImpactBody<Real> body(int place, int ball) const {
     return {&simulation.properties(ball), impact.velocity_before[place], simulation.flight(ball).velocity,
@@ -92,37 +132,6 @@ struct ImpactFacts {
     return two.ball ? Vec3<Real>(first + spin_two * two.ball->radius) : first;
   }
 };
-
-template <class Real>
-Real path_length(const Vec3<Real>& velocity, const Vec3<Real>& gravity, const Real& time) {
-  using std::sqrt;
-  const Real strength = norm<Real>(gravity);
-  if (strength == 0) return norm<Real>(velocity) * time;
-  // u: speed along gravity, w: across it. L = [u sqrt(u^2 + w^2) + w^2 asinh(u / w)] / 2g between both ends.
-  const Vec3<Real> down = gravity * (1 / strength);
-  const Real last = dot<Real>(velocity, down), first = last - strength * time;
-  const Real across2 = squared_norm<Real>(velocity - down * last);
-  const auto asinh = [&](const Real& x) {
-    return numerics::log_of_one_plus<Real>(x + x * x / (1 + sqrt(1 + x * x)));
-  };
-  const auto positive = [](const Real& x) { return x < 0 ? Real(-x) : x; };
-  const Real u1 = positive(last), u0 = positive(first);
-  const Real q1 = sqrt(u1 * u1 + across2), q0 = sqrt(u0 * u0 + across2);
-  if ((last < 0) != (first < 0)) {  // it turned on the way: two arcs from the top
-    Real sum = u1 * q1 + u0 * q0;
-    if (across2 > 0) sum += across2 * (asinh(u1 / sqrt(across2)) + asinh(u0 / sqrt(across2)));
-    return sum / (2 * strength);
-  }
-  // One arc: differences are factored, so that short flights keep their digits.
-  const Real steps = strength * time, sum = u1 + u0;
-  if (sum == 0) return sqrt(across2) * time;
-  Real arc = steps * sum * (u1 * u1 + u0 * u0 + across2) / (u1 * q1 + u0 * q0);
-  if (across2 > 0) {
-    // asinh(a) - asinh(b) = asinh((a^2 - b^2) / (a sqrt(1 + b^2) + b sqrt(1 + a^2)))
-    arc += across2 * asinh(steps * sum / (u1 * q0 + u0 * q1));
-  }
-  return arc / (2 * strength);
-}
 
 /// Value of the variable at a place of model::impact_variables, by its formula there; 0 or 1 for a flag.
 template <class Real>

@@ -1,17 +1,16 @@
 // All variables of each impact. (thesis D.4.9)
 #pragma once
 
-#include "output/by_partner.hpp"
 #include "output/table_output.hpp"
+#include "output/tallies.hpp"
 
 namespace edmill::output {
 
 template <class Real>
 class IterationsOutput : public TableOutput<Real> {
  public:
-  IterationsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                   const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run) {
+  IterationsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run) {
     const auto& partners = run.partners;
     std::vector<Column> columns;
     for (const auto& v : model::impact_variables) {

@@ -43,17 +43,15 @@ inline void read_lyapunov(casefile::Section& s, const casefile::CaseSpec& spec,
 template <class Real>
 class LyapunovOutput : public TableOutput<Real> {
  public:
-  LyapunovOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                 const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run),
-        ball_count_(run.ball_colours.size()),
-        wanted_(std::min(spec.own_keys<LyapunovKeys>().exponents, 9 * ball_count_)),
-        finite_time_(spec.timer.interval),
+  LyapunovOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run),
+        wanted_(
+            std::min<std::uint64_t>(spec.own_keys<LyapunovKeys>().exponents, 9 * run.ball_colours.size())),
         intervals_(spec.timer) {
-    if (!finite_time_) return;
-    std::vector<Column> columns{{"time", Column::Type::number, "s", "end of the interval"}};
+    if (!spec.timer.interval) return;
+    std::vector<Column> columns{{"time", number, "s", "end of the interval"}};
     for (std::uint64_t k = 1; k <= wanted_; ++k)
-      columns.push_back({"exponent_" + std::to_string(k), Column::Type::number, "1/s",
+      columns.push_back({"exponent_" + std::to_string(k), number, "1/s",
                          "growth of ln of the distance of motions nearby, over the interval"});
     this->begin(std::move(columns));
   }
@@ -104,13 +102,12 @@ class LyapunovOutput : public TableOutput<Real> {
       if (!spectrum_) make_spectrum(simulation, in_double(simulation.now()));
       end_record(simulation, until);
     }
-    if (!finite_time_) put_exponents(simulation, until);
+    if (!this->spec.timer.interval) put_exponents(simulation, until);
   }
 
  private:
   /// The exponents of the record.
   void put_exponents(const engine::Simulation<Real>& simulation, const Real& until) {
-    using enum Column::Type;
     const double period = static_cast<double>(simulation.clock().period());
     const double duration = begun_ ? static_cast<double>(batches_.elapsed()) * period : 0;
     std::vector<std::string> comments{
@@ -126,7 +123,8 @@ class LyapunovOutput : public TableOutput<Real> {
                 std::move(comments));
     if (!(duration > 0)) return;
     if (!spectrum_) make_spectrum(simulation, in_double(simulation.now()));
-    const double per_ball = static_cast<double>(of_balls_) / static_cast<double>(ball_count_);
+    const double per_ball =
+        static_cast<double>(of_balls_) / static_cast<double>(this->run.ball_colours.size());
     const double share = duration / static_cast<double>(until - this->timer().from());  // of the impacts
     const double length = static_cast<double>(batches_.periods()) * period;
     std::vector<std::size_t> order(wanted_);
@@ -171,14 +169,14 @@ class LyapunovOutput : public TableOutput<Real> {
     begun_ = true;
   }
   void end_intervals(const engine::Simulation<Real>& simulation, const Real& time) {
-    if (finite_time_)
+    if (this->spec.timer.interval)
       intervals_.pass(this->timer(), time, row_of(simulation));
     else
       end_period(in_double(simulation.instant_of(time)));
   }
   void end_record(const engine::Simulation<Real>& simulation, const Real& until) {
     end_intervals(simulation, until);
-    if (finite_time_) intervals_.finish(this->timer().from(), until, row_of(simulation));
+    if (this->spec.timer.interval) intervals_.finish(this->timer().from(), until, row_of(simulation));
     ended_ = true;
   }
   void end_period(const Instant<double>& now) {
@@ -204,8 +202,7 @@ class LyapunovOutput : public TableOutput<Real> {
   bool is_lost(std::size_t k) const { return std::isinf(spectrum_->growth()[k]); }
   static constexpr double none = -std::numeric_limits<double>::infinity();
 
-  std::uint64_t ball_count_, wanted_;
-  bool finite_time_;
+  std::uint64_t wanted_;
   IntervalClock<Real> intervals_;              ///< of finite-time exponents
   std::optional<tangent::Spectrum> spectrum_;  ///< from the first impact on
   tangent::Spectrum::State saved_;             ///< of a checkpoint

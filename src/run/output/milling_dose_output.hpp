@@ -46,11 +46,7 @@ inline void read_milling_dose(casefile::Section& s, const casefile::CaseSpec&, c
 template <class Real>
 class MillingDoseOutput : public TableOutput<Real> {
  public:
-  MillingDoseOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                    const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run),
-        fields_(spec.own_keys<std::vector<int>>()),
-        powder_mass_(run.powder_mass) {}
+  using TableOutput<Real>::TableOutput;
 
  protected:
   void archive_record(Archive& a) override { a(dose_); }
@@ -60,24 +56,24 @@ class MillingDoseOutput : public TableOutput<Real> {
     const Real time = until - this->timer().from(), dose = dose_.value();
     Real ball_mass{0};
     for (int i = 0; i < simulation.ball_count(); ++i) ball_mass += simulation.properties(i).mass;
-    const bool timed = time > 0, powder = powder_mass_.has_value();
+    const auto& powder_mass = this->run.powder_mass;
+    const bool timed = time > 0, powder = powder_mass.has_value();
     const std::optional<Real> values[] = {
         dose,
         io::value_if(timed, [&] { return Real(dose / time); }),
         io::value_if(dose > 0, [&] { return Real(time / dose); }),
-        io::value_if(powder, [&] { return Real(dose / *powder_mass_); }),
-        io::value_if(powder && timed, [&] { return Real(dose / time / *powder_mass_); }),
-        powder_mass_,
-        io::value_if(powder, [&] { return Real(ball_mass / *powder_mass_); })};
+        io::value_if(powder, [&] { return Real(dose / *powder_mass); }),
+        io::value_if(powder && timed, [&] { return Real(dose / time / *powder_mass); }),
+        powder_mass,
+        io::value_if(powder, [&] { return Real(ball_mass / *powder_mass); })};
+    const auto& fields = this->spec.template own_keys<std::vector<int>>();  // places in dose_fields
     std::vector<Column> columns;
-    for (const int field : fields_) columns.push_back(dose_fields()[field]);
+    for (const int field : fields) columns.push_back(dose_fields()[field]);
     this->begin(std::move(columns));
-    for (const int field : fields_) this->put(values[field]);
+    for (const int field : fields) this->put(values[field]);
   }
 
  private:
-  std::vector<int> fields_;  ///< places in dose_fields
-  std::optional<Real> powder_mass_;
   numerics::CompensatedSum<Real> dose_;
 };
 

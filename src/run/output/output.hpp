@@ -2,13 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
 #include "engine/simulation.hpp"
-#include "io/file_note.hpp"
+#include "io/table.hpp"
 #include "model/parts/surface.hpp"
 #include "output/impact_facts.hpp"
 #include "output/output_timer.hpp"
@@ -18,6 +20,7 @@ namespace edmill::output {
 /// What outputs know of the run that they record.
 template <class Real>
 struct RunContext {
+  std::filesystem::path folder;     ///< into which it writes
   Real start;                       ///< initial time [s]
   model::Partners partners;         ///< of the balls
   std::optional<Real> powder_mass;  ///< [kg]
@@ -37,6 +40,10 @@ struct RunContext {
   }
 };
 
+/// The state of a ball, by its id, at the time of a row or a frame.
+template <class Real>
+using StateOf = std::function<model::BallState<Real>(int ball)>;
+
 /// The vessel at the impact.
 template <class Real>
 model::AnyPose<Real> pose_of(const ImpactFacts<Real>& f) {
@@ -53,7 +60,7 @@ template <class Real>
 class Output {
  public:
   Output(const casefile::OutputSpec& spec, const RunContext<Real>& run)
-      : timer_(spec.timer, run.start), appends_(spec.append) {
+      : spec(spec), run(run), timer_(spec.timer, run.start) {
     for (const auto& r : spec.only) only_.push_back({variable_formula<Real>(r.variable), Real(r.value)});
   }
   virtual ~Output() = default;
@@ -84,9 +91,15 @@ class Output {
     archive_record(a);
   }
   /// Whether its rows go after those of other runs.
-  bool appends() const { return appends_; }
+  bool appends() const { return spec.append; }
 
  protected:
+  const casefile::OutputSpec spec;  ///< its entry in the case
+  const RunContext<Real> run;
+
+  std::filesystem::path place() const { return run.folder / spec.folder / spec.file; }
+  const OutputTimer<Real>& timer() const { return timer_; }
+
   /// What it has gathered and not yet written; what follows from the case is not part of it.
   virtual void archive_record(Archive& a) = 0;
   /// An impact of the record.
@@ -97,16 +110,32 @@ class Output {
   virtual void before(const ImpactFacts<Real>&) {}
   virtual void end_of_record(const engine::Simulation<Real>&, const Real& /*until*/) {}
 
-  const OutputTimer<Real>& timer() const { return timer_; }
-
  private:
   struct Restriction {
     VariableFormula<Real> formula;
     Real value;
   };
   OutputTimer<Real> timer_;
-  bool appends_;
   std::vector<Restriction> only_;
+};
+
+/// An output that is one file, to which each impact adds.
+template <class Real, class File>
+class OneFileOutput : public Output<Real> {
+ public:
+  /// @param arguments  of the file's constructor, after its place
+  template <class... Arguments>
+  OneFileOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run, Arguments&&... arguments)
+      : Output<Real>(spec, run), file_(this->place(), std::forward<Arguments>(arguments)...) {}
+
+  void complete() override { file_.complete(); }
+  void commit() override { file_.commit(); }
+  std::vector<std::filesystem::path> places() const override { return file_.places(); }
+
+ protected:
+  void archive_record(Archive& a) override { a(file_); }
+
+  File file_;
 };
 
 }  // namespace edmill::output

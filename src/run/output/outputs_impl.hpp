@@ -9,8 +9,6 @@
 
 namespace edmill::output {
 
-namespace detail {
-
 template <class Real>
 std::vector<io::FileNote> notes_of(const casefile::CaseSpec& spec) {
   std::vector<io::FileNote> notes{
@@ -26,22 +24,21 @@ std::vector<io::FileNote> notes_of(const casefile::CaseSpec& spec) {
   return notes;
 }
 
-}  // namespace detail
-
 template <class Real>
 Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const model::AnyVessel<Real>& vessel,
                        const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
-  RunContext<Real> run{start,
+  RunContext<Real> run{folder,
+                       start,
                        model::partners_of(vessel),
                        std::nullopt,
                        spec.vessel_colour,
                        spec.ball_colours(),
                        vessel.surfaces(),
-                       detail::notes_of<Real>(spec)};
+                       notes_of<Real>(spec)};
   walls_ = run.partners.walls();
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();
-  for (const auto& output : spec.outputs) outputs_.push_back(make_output<Real>(output, folder, run));
+  for (const auto& output : spec.outputs) outputs_.push_back(make_output<Real>(output, run));
 }
 
 template <class Real>

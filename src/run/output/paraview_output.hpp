@@ -3,8 +3,7 @@
 
 #include "casefile/output_entry.hpp"
 #include "io/atomic_file.hpp"
-#include "io/atomic_folder.hpp"
-#include "output/frames_output.hpp"
+#include "output/scene_output.hpp"
 
 namespace edmill::output {
 
@@ -17,9 +16,8 @@ inline void read_paraview(casefile::Section& s, const casefile::CaseSpec&, casef
 template <class Real>
 class ParaviewOutput : public FramesOutput<Real> {
  public:
-  ParaviewOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                 const RunContext<Real>& run)
-      : FramesOutput<Real>(spec, folder, run, spec.timer),
+  ParaviewOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : FramesOutput<Real>(spec, run, spec.timer),
         index_(this->place()),
         frames_(std::filesystem::path(this->place()).replace_extension()) {}
 
@@ -51,7 +49,7 @@ class ParaviewOutput : public FramesOutput<Real> {
 
  private:
   void add_frame(const engine::Simulation<Real>& simulation, const Real& time,
-                 const typename FramesOutput<Real>::StateOf& state_of) override {
+                 const StateOf<Real>& state_of) override {
     Scene s = this->scene(simulation, time, state_of);
     for (std::size_t i = 0; i < doses_.size(); ++i) s.balls[i].milling_dose = doses_[i];
     const std::string number = std::to_string(list_.size());

@@ -8,7 +8,6 @@
 #include "casefile/output_entry.hpp"
 #include "output/animation_output.hpp"
 #include "output/bodies_output.hpp"
-#include "output/collisions_output.hpp"
 #include "output/coverage_output.hpp"
 #include "output/events_output.hpp"
 #include "output/frequency_output.hpp"
@@ -16,14 +15,11 @@
 #include "output/lyapunov_output.hpp"
 #include "output/milling_dose_output.hpp"
 #include "output/paraview_output.hpp"
-#include "output/rates_above_output.hpp"
 #include "output/snapshot_output.hpp"
 #include "output/spectra_output.hpp"
 #include "output/statistics_output.hpp"
 #include "output/trace_output.hpp"
 #include "output/treatment_output.hpp"
-#include "output/trends_balls_output.hpp"
-#include "output/trends_instant_output.hpp"
 #include "output/trends_output.hpp"
 #include "output/vessel_load_output.hpp"
 
@@ -33,9 +29,8 @@ namespace edmill::output {
 template <template <class> class Type>
 struct OutputRow : casefile::OutputType {
   template <class Real>
-  std::unique_ptr<Output<Real>> make(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                                     const RunContext<Real>& run) const {
-    return std::make_unique<Type<Real>>(spec, folder, run);
+  std::unique_ptr<Output<Real>> make(const casefile::OutputSpec& spec, const RunContext<Real>& run) const {
+    return std::make_unique<Type<Real>>(spec, run);
   }
 };
 
@@ -115,11 +110,10 @@ inline constexpr std::tuple output_registry{
 
 /// @throws ContractError when there is no such type
 template <class Real>
-std::unique_ptr<Output<Real>> make_output(const casefile::OutputSpec& spec,
-                                          const std::filesystem::path& folder, const RunContext<Real>& run) {
+std::unique_ptr<Output<Real>> make_output(const casefile::OutputSpec& spec, const RunContext<Real>& run) {
   std::unique_ptr<Output<Real>> made;
   const auto try_row = [&](const auto& row) {
-    if (row.name == spec.type) made = row.template make<Real>(spec, folder, run);
+    if (row.name == spec.type) made = row.template make<Real>(spec, run);
   };
   std::apply([&](const auto&... row) { (try_row(row), ...); }, output_registry);
   EDMILL_REQUIRE(made != nullptr, "the registry has the type of an output");

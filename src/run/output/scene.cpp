@@ -1,7 +1,14 @@
 #include "output/scene.hpp"
 
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "base/clean_text.hpp"
 
 namespace edmill::output {
 
@@ -29,6 +36,254 @@ void look_at(const std::vector<model::Mesh>& walls, const std::vector<Frame<doub
     distance = std::max(distance, in_front + std::max(off[0] / width_at_1, off[1] / height_at_1));
   }
   scene.eye = scene.target + Vec3<double>(0, 0, distance);
+}
+
+namespace {
+
+pugi::xml_node add(pugi::xml_node parent, const char* name,
+                   std::initializer_list<std::pair<const char*, std::string>> attributes = {}) {
+  auto node = parent.append_child(name);
+  for (const auto& [key, value] : attributes) node.append_attribute(key) = value.c_str();
+  return node;
+}
+
+std::string text_of(const pugi::xml_document& document) {
+  std::ostringstream out;
+  document.save(out, " ", pugi::format_indent);
+  return out.str();
+}
+
+std::string numbers(std::initializer_list<double> list) { return fmt::format("{}", fmt::join(list, " ")); }
+std::string triple(const Vec3<double>& v) { return numbers({v[0], v[1], v[2]}); }
+
+void add_look(pugi::xml_node shape, const casefile::Colour& c, double transparency = 0) {
+  auto material = add(add(shape, "Appearance"), "Material", {{"diffuseColor", numbers({c[0], c[1], c[2]})}});
+  if (transparency > 0) material.append_attribute("transparency") = numbers({transparency}).c_str();
+}
+
+void add_ball(pugi::xml_node parent, const SceneBall& ball, const std::string& name = "") {
+  auto place = add(parent, "Transform", {{"translation", triple(ball.position)}});
+  if (!name.empty()) place.append_attribute("DEF") = name.c_str();
+  auto shape = add(place, "Shape");
+  add_look(shape, ball.colour);
+  add(shape, "Sphere", {{"radius", numbers({ball.radius})}});
+}
+
+/// Axis and angle.
+std::string rotation(const Frame<double>& frame) {
+  Eigen::Matrix3d axes;
+  axes << frame.x, frame.y, frame.z;
+  const Eigen::AngleAxisd turn(axes);
+  return triple(turn.axis()) + " " + numbers({turn.angle()});
+}
+
+void add_wall(pugi::xml_node parent, const model::Mesh& wall, const casefile::Colour& colour) {
+  auto shape = add(parent, "Shape");
+  add_look(shape, colour, 0.7);
+  std::string corners, points;
+  for (const auto& face : wall.faces) {
+    for (const int corner : face) corners += fmt::format("{} ", corner);
+    corners += "-1 ";
+  }
+  for (const auto& point : wall.points) points += triple(point) + " ";
+  // Faces of one curved wall meet at less than the crease angle and look smooth.
+  auto faces =
+      add(shape, "IndexedFaceSet", {{"solid", "false"}, {"creaseAngle", "0.5"}, {"coordIndex", corners}});
+  add(faces, "Coordinate", {{"point", points}});
+}
+
+std::string name_of_wall(std::size_t wall) { return fmt::format("wall_{}", wall); }
+
+/// A wall that moves in the vessel has a Transform of its own.
+void add_vessel(pugi::xml_node parent, const SceneVessel& vessel, const SceneMotion* motion) {
+  auto place = add(parent, "Transform",
+                   {{"DEF", "vessel"},
+                    {"translation", triple(vessel.frame.origin)},
+                    {"rotation", rotation(vessel.frame)}});
+  for (std::size_t id = 0; id < vessel.walls.size(); ++id) {
+    const bool moves = motion && std::any_of(motion->pistons.begin(), motion->pistons.end(),
+                                             [&](const auto& piston) { return piston.first == id; });
+    add_wall(moves ? add(place, "Transform", {{"DEF", name_of_wall(id)}}) : place, vessel.walls[id],
+             vessel.colour);
+  }
+}
+
+/// `keys` and `values` of an interpolator that drives one field of the node `target`.
+void add_interpolator(pugi::xml_node scene, const char* type, const std::string& name,
+                      const std::string& target, const char* field, const std::string& keys,
+                      const std::string& values) {
+  add(scene, type, {{"DEF", name}, {"key", keys}, {"keyValue", values}});
+  add(scene, "ROUTE",
+      {{"fromNode", "clock"},
+       {"fromField", "fraction_changed"},
+       {"toNode", name},
+       {"toField", "set_fraction"}});
+  add(scene, "ROUTE",
+      {{"fromNode", name}, {"fromField", "value_changed"}, {"toNode", target}, {"toField", field}});
+}
+
+void add_path(pugi::xml_node scene, const SceneMotion::Path& path, const std::string& target) {
+  std::string keys, places;
+  for (const auto& [key, place] : path) {
+    keys += fmt::format("{} ", key);
+    places += triple(place) + " ";
+  }
+  add_interpolator(scene, "PositionInterpolator", target + "_path", target, "set_translation", keys, places);
+}
+
+void add_motion(pugi::xml_node scene, const SceneMotion& motion) {
+  add(scene, "TimeSensor",
+      {{"DEF", "clock"}, {"cycleInterval", numbers({motion.duration})}, {"loop", "true"}});
+  SceneMotion::Path places;
+  std::string keys, turns;
+  for (const auto& [key, frame] : motion.vessel) {
+    places.emplace_back(key, frame.origin);
+    keys += fmt::format("{} ", key);
+    turns += rotation(frame) + " ";
+  }
+  add_path(scene, places, "vessel");
+  add_interpolator(scene, "OrientationInterpolator", "vessel_turn", "vessel", "set_rotation", keys, turns);
+  for (const auto& [wall, path] : motion.pistons) add_path(scene, path, name_of_wall(wall));
+  for (std::size_t i = 0; i < motion.balls.size(); ++i)
+    add_path(scene, motion.balls[i], fmt::format("ball_{}", i));
+  if (!motion.contact.empty()) add_path(scene, motion.contact, "contact_point");
+}
+
+}  // namespace
+
+std::string x3d_text(const Scene& s, const SceneMotion* motion) {
+  pugi::xml_document document;
+  auto declaration = document.append_child(pugi::node_declaration);
+  declaration.append_attribute("version") = "1.0";
+  declaration.append_attribute("encoding") = "UTF-8";
+  document.append_child(pugi::node_doctype)
+      .set_value(
+          "X3D PUBLIC \"ISO//Web3D//DTD X3D 3.3//EN\" "
+          "\"http://www.web3d.org/specifications/x3d-3.3.dtd\"");
+  auto x3d = add(document, "X3D", {{"profile", "Interchange"}, {"version", "3.3"}});
+  auto head = add(x3d, "head");
+  add(head, "meta", {{"name", "generator"}, {"content", "edmill"}});
+  add(head, "meta",
+      {{"name", "description"}, {"content", fmt::format("Ball mill at {} s; lengths in metres", s.time)}});
+  auto scene = add(x3d, "Scene");
+  add(scene, "Background", {{"skyColor", "1 1 1"}});
+  add(scene, "Viewpoint",
+      {{"description", "mill"}, {"position", triple(s.eye)}, {"centerOfRotation", triple(s.target)}});
+  add_vessel(scene, s.vessel, motion);
+  for (std::size_t i = 0; i < s.balls.size(); ++i) add_ball(scene, s.balls[i], fmt::format("ball_{}", i));
+  if (s.contact) add_ball(scene, *s.contact, "contact_point");
+  if (motion) add_motion(scene, *motion);
+  return text_of(document);
+}
+
+namespace {
+
+/// A file of the XML formats of VTK with one element of its type.
+struct VtkFile {
+  pugi::xml_document document;
+  pugi::xml_node body;
+
+  explicit VtkFile(const char* type) {
+    document.append_child(pugi::node_declaration).append_attribute("version") = "1.0";
+    body = add(add(document, "VTKFile", {{"type", type}, {"version", "0.1"}, {"byte_order", "LittleEndian"}}),
+               type);
+  }
+};
+
+void add_array(pugi::xml_node parent, const std::string& name, const char* type, int components,
+               const std::string& values) {
+  auto array = add(parent, "DataArray", {{"type", type}});
+  if (!name.empty()) array.append_attribute("Name") = name.c_str();
+  array.append_attribute("NumberOfComponents") = components;
+  array.append_attribute("format") = "ascii";
+  array.text() = values.c_str();
+}
+
+/// Cells by their points, one after the other.
+void add_cells(pugi::xml_node piece, const char* name, const std::vector<std::vector<int>>& cells) {
+  std::string connectivity, offsets;
+  std::size_t end = 0;
+  for (const auto& cell : cells) {
+    for (const int point : cell) connectivity += fmt::format("{} ", point);
+    offsets += fmt::format("{} ", end += cell.size());
+  }
+  auto node = piece.append_child(name);
+  add_array(node, "connectivity", "Int32", 1, connectivity);
+  add_array(node, "offsets", "Int32", 1, offsets);
+}
+
+pugi::xml_node add_piece(VtkFile& file, double time, std::size_t points, std::size_t vertices,
+                         std::size_t polygons) {
+  add(add(file.body, "FieldData"), "DataArray",
+      {{"type", "Float64"}, {"Name", "TimeValue"}, {"NumberOfTuples", "1"}, {"format", "ascii"}})
+      .text() = fmt::format("{}", time).c_str();
+  return add(file.body, "Piece",
+             {{"NumberOfPoints", std::to_string(points)},
+              {"NumberOfVerts", std::to_string(vertices)},
+              {"NumberOfLines", "0"},
+              {"NumberOfStrips", "0"},
+              {"NumberOfPolys", std::to_string(polygons)}});
+}
+
+}  // namespace
+
+std::string vtp_balls(const Scene& s) {
+  VtkFile file("PolyData");
+  auto piece = add_piece(file, s.time, s.balls.size(), s.balls.size(), 0);
+  std::string diameters, velocities, spins, doses, ids, places;
+  std::vector<std::vector<int>> cells;
+  for (std::size_t i = 0; i < s.balls.size(); ++i) {
+    const auto& ball = s.balls[i];
+    diameters += fmt::format("{} ", 2 * ball.radius);
+    velocities += triple(ball.velocity) + " ";
+    spins += triple(ball.spin) + " ";
+    doses += fmt::format("{} ", ball.milling_dose);
+    ids += fmt::format("{} ", i);
+    places += triple(ball.position) + " ";
+    cells.push_back({static_cast<int>(i)});
+  }
+  auto data = piece.append_child("PointData");
+  add_array(data, "diameter [m]", "Float64", 1, diameters);
+  add_array(data, "velocity [m/s]", "Float64", 3, velocities);
+  add_array(data, "spin [rad/s]", "Float64", 3, spins);
+  add_array(data, "milling_dose [J]", "Float64", 1, doses);
+  add_array(data, "ball", "Int32", 1, ids);
+  add_array(piece.append_child("Points"), "", "Float64", 3, places);
+  add_cells(piece, "Verts", cells);
+  return text_of(file.document);
+}
+
+std::string vtp_vessel(const Scene& s) {
+  std::string points, walls;
+  std::vector<std::vector<int>> faces;
+  int count = 0;
+  for (std::size_t wall = 0; wall < s.vessel.walls.size(); ++wall) {
+    const auto& mesh = s.vessel.walls[wall];
+    for (auto face : mesh.faces) {
+      for (int& corner : face) corner += count;
+      faces.push_back(std::move(face));
+      walls += fmt::format("{} ", wall);
+    }
+    for (const auto& point : mesh.points) points += triple(s.vessel.frame.outside(point)) + " ";
+    count += static_cast<int>(mesh.points.size());
+  }
+  VtkFile file("PolyData");
+  auto piece = add_piece(file, s.time, static_cast<std::size_t>(count), 0, faces.size());
+  add_array(piece.append_child("CellData"), "wall", "Int32", 1, walls);
+  add_array(piece.append_child("Points"), "", "Float64", 3, points);
+  add_cells(piece, "Polys", faces);
+  return text_of(file.document);
+}
+
+std::string pvd_text(const std::vector<std::pair<double, std::vector<std::string>>>& frames) {
+  VtkFile file("Collection");
+  for (const auto& [time, parts] : frames)
+    for (std::size_t part = 0; part < parts.size(); ++part)
+      add(file.body, "DataSet",
+          {{"timestep", fmt::format("{}", time)},
+           {"part", std::to_string(part)},
+           {"file", clean_text(parts[part])}});
+  return text_of(file.document);
 }
 
 }  // namespace edmill::output

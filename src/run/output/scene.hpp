@@ -9,6 +9,7 @@
 #include "base/archive.hpp"
 #include "base/vector.hpp"
 #include "casefile/colour.hpp"
+#include "model/motion.hpp"
 #include "model/parts/surface.hpp"
 
 namespace edmill::output {
@@ -33,13 +34,21 @@ struct SceneVessel {
 
 struct Scene {
   SceneVessel vessel;
-  Vec3<double> eye, target;  ///< of who looks at it [m]
-  std::vector<SceneBall> balls;
-  std::optional<SceneBall> contact;  ///< marks the contact point
-  double time;                       ///< [s]
+  Vec3<double> eye = Vec3<double>::Zero(), target = Vec3<double>::Zero();  ///< of who looks at it [m]
+  std::vector<SceneBall> balls{};
+  std::optional<SceneBall> contact{};  ///< marks the contact point
+  double time;                         ///< [s]
 
   void archive(Archive& a) { a(vessel, eye, target, balls, contact, time); }
 };
+
+/// The vessel frame at a time [s], in the inertial one.
+template <class Real>
+Frame<double> vessel_frame(const model::AnyMotion<Real>& motion, double time) {
+  const auto own = motion.template cast<double>();
+  const auto pose = own.pose(DriveClock<double>(own.period()).at(time));
+  return {own.to_inertial(pose, Vec3<double>::Zero()), own.axis_x(pose), own.axis_y(pose), own.axis_z(pose)};
+}
 
 /// What moves in an animation: keys are fractions of its duration, from 0 to 1.
 struct SceneMotion {

@@ -1,12 +1,8 @@
 // What pictures have in common. In double: nothing is computed from them.
 #pragma once
 
-#include <filesystem>
-
-#include "output/balls_before.hpp"
 #include "output/output.hpp"
 #include "output/scene.hpp"
-#include "output/vessel_frame.hpp"
 
 namespace edmill::output {
 
@@ -14,22 +10,15 @@ namespace edmill::output {
 template <class Real>
 class SceneOutput : public Output<Real> {
  public:
-  SceneOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-              const RunContext<Real>& run)
-      : Output<Real>(spec, run),
-        place_(folder / spec.folder / spec.file),
-        contact_(spec.contact_point),
-        run_(run) {
+  SceneOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run) : Output<Real>(spec, run) {
     for (const auto& surface : run.surfaces(spec)) walls_.push_back(model::mesh_of(surface));
   }
 
  protected:
-  int ball_count() const { return static_cast<int>(run_.ball_colours.size()); }
-  const std::filesystem::path& place() const { return place_; }
-  bool shows_contact() const { return contact_.has_value(); }
-
+  /// Where the case asks for a mark.
   SceneBall contact_at(const Vec3<Real>& point) const {
-    return {contact_->radius.template to<double>(), contact_->colour, vector_cast<double>(point)};
+    const auto& mark = *this->spec.contact_point;
+    return {mark.radius.template to<double>(), mark.colour, vector_cast<double>(point)};
   }
 
   /// The walls at their places, from which pistons stand inward.
@@ -51,17 +40,14 @@ class SceneOutput : public Output<Real> {
   Scene scene(const engine::Simulation<Real>& simulation, const Real& time, auto&& state_of) const {
     const auto& mill = simulation.mill();
     const auto now = static_cast<double>(time);
-    Scene s{{walls_at(mill.vessel, time), run_.vessel_colour, vessel_frame(mill.motion, now)},
-            Vec3<double>::Zero(),
-            Vec3<double>::Zero(),
-            {},
-            {},
-            now};
+    Scene s{.vessel = {walls_at(mill.vessel, time), this->run.vessel_colour, vessel_frame(mill.motion, now)},
+            .time = now};
     for (int i = 0; i < simulation.ball_count(); ++i) {
       const auto state = state_of(i);
       s.balls.push_back({static_cast<double>(simulation.properties(i).radius),
-                         run_.ball_colours[static_cast<std::size_t>(i)], vector_cast<double>(state.position),
-                         vector_cast<double>(state.velocity), vector_cast<double>(state.spin)});
+                         this->run.ball_colours[static_cast<std::size_t>(i)],
+                         vector_cast<double>(state.position), vector_cast<double>(state.velocity),
+                         vector_cast<double>(state.spin)});
     }
     return s;
   }
@@ -76,10 +62,48 @@ class SceneOutput : public Output<Real> {
     return walls;
   }
 
-  std::filesystem::path place_;
-  std::optional<casefile::ContactPointSpec> contact_;
-  RunContext<Real> run_;
   std::vector<model::Mesh> walls_;
+};
+
+/// A frame at the start of the record, at the end of each interval, and at the end of the record.
+template <class Real>
+class FramesOutput : public SceneOutput<Real> {
+ public:
+  /// @param interval  its `interval` and `max_rows` are those of the frames
+  FramesOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run,
+               const casefile::TimerSpec& interval)
+      : SceneOutput<Real>(spec, run), clock_(interval) {}
+
+ protected:
+  virtual void add_frame(const engine::Simulation<Real>& simulation, const Real& time,
+                         const StateOf<Real>& state_of) = 0;
+
+  void before(const ImpactFacts<Real>& f) override {
+    const Real& now = f.time;
+    if (complete_ || now < this->timer().from()) return;
+    const auto frame = [&](const Real& time) {
+      add_frame(f.simulation, time, [&](int i) { return f.state_before(i, time); });
+    };
+    if (!begun_) frame(this->timer().from());
+    begun_ = true;
+    clock_.pass(this->timer(), now, [&](const Real&, const Real& end) { frame(end); });
+    complete_ = this->timer().ends_by(now);
+    if (complete_) frame(this->timer().until(now));
+  }
+  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+    const auto frame = [&](const Real& time) {
+      const auto when = simulation.instant_of(time);
+      add_frame(simulation, time, [&](int i) { return simulation.state_at(i, when); });
+    };
+    const Real& from = this->timer().from();
+    if (!begun_) frame(from);
+    if (!complete_) clock_.finish(from, until, [&](const Real&, const Real& end) { frame(end); });
+  }
+  void archive_record(Archive& a) override { a(clock_, begun_, complete_); }
+
+ private:
+  IntervalClock<Real> clock_;
+  bool begun_ = false, complete_ = false;
 };
 
 }  // namespace edmill::output

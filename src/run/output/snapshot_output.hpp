@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
+#include <list>
 
 #include "casefile/output_entry.hpp"
 #include "io/atomic_file.hpp"
@@ -25,28 +25,27 @@ class SnapshotOutput : public SceneOutput<Real> {
 
   void complete() override {
     for (const auto& [index, text] : pages_) {
-      files_.push_back(std::make_unique<io::AtomicFile>(place_of(index)));
-      files_.back()->stream() << text;
-      files_.back()->complete();
+      auto& file = files_.emplace_back(place_of(index));
+      file.stream() << text;
+      file.complete();
     }
   }
   void commit() override {
-    for (auto& file : files_) file->commit();
+    for (auto& file : files_) file.commit();
   }
   std::vector<std::filesystem::path> places() const override {
     std::vector<std::filesystem::path> places;
     for (const auto& file : files_)
-      for (auto& place : file->places()) places.push_back(std::move(place));
+      for (auto& place : file.places()) places.push_back(std::move(place));
     return places;
   }
 
  protected:
   void archive_record(Archive& a) override { a(pages_); }
   void record(const ImpactFacts<Real>& f) override {
-    const BallsBefore<Real> balls(f);
     const Real& time = f.time;
-    Scene s = this->scene(f.simulation, time, [&](int i) { return balls.state(i, time); });
-    if (this->shows_contact()) s.contact = this->contact_at(f.contact_point);
+    Scene s = this->scene(f.simulation, time, [&](int i) { return f.state_before(i, time); });
+    if (this->spec.contact_point) s.contact = this->contact_at(f.contact_point);
     look_at(this->walls(), frames_around(f.simulation.mill().motion, static_cast<double>(time)), s);
     pages_.emplace_back(f.impact.index, x3d_text(s));
   }
@@ -68,7 +67,7 @@ class SnapshotOutput : public SceneOutput<Real> {
            (place.stem().string() + "_" + std::to_string(index) + place.extension().string());
   }
 
-  std::vector<std::unique_ptr<io::AtomicFile>> files_;
+  std::list<io::AtomicFile> files_;
   std::vector<std::pair<std::uint64_t, std::string>> pages_;
 };
 

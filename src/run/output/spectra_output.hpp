@@ -1,14 +1,22 @@
-// Impacts by energy or by speed. docs/outputs.md, "spectra"
+// Impacts in bins of energy or of speed. docs/outputs.md, "spectra", "rates_above"
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
 
+#include "base/scalar_list.hpp"
 #include "casefile/output_entry.hpp"
-#include "output/by_partner.hpp"
-#include "output/log_bins.hpp"
 #include "output/table_output.hpp"
+#include "output/tallies.hpp"
 
 namespace edmill::output {
+
+/// 0 below the first edge, k from edge k - 1 up to below edge k, edges.size() from the last edge on.
+template <class Real>
+std::size_t bin_of(const std::vector<Real>& edges, const Real& value) {
+  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
+}
 
 struct SpectraKeys {
   bool of_speed = false;         ///< of energy otherwise
@@ -44,16 +52,33 @@ inline void read_spectra(casefile::Section& s, const casefile::CaseSpec&, casefi
   output.own = spectra;
 }
 
+/// Edges low 10^(k / bins_per_decade), up to high, where the last bin may be shorter. They are made in a
+/// wider scalar: the same bits everywhere.
+/// @pre 0 < low < high, bins_per_decade > 0
+template <class Real>
+std::vector<Real> edges_of(const SpectraKeys& keys) {
+  using Fine = std::conditional_t<std::is_void_v<Wider<Real>>, Real, Wider<Real>>;
+  const Fine first = keys.low.to<Fine>(), last = keys.high.to<Fine>();
+  const Fine short_of_last = last * (1 - Fine(1) / 1000000000);  // what rounding would leave is no bin
+  std::vector<Real> edges{keys.low.to<Real>()};
+  for (std::uint64_t k = 1;; ++k) {
+    using std::pow;
+    const Fine edge = first * pow(Fine(10), Fine(k) / Fine(keys.bins_per_decade));
+    if (edge > short_of_last) break;
+    edges.push_back(static_cast<Real>(edge));
+  }
+  edges.push_back(keys.high.to<Real>());
+  return edges;
+}
+
 template <class Real>
 class SpectraOutput : public TableOutput<Real> {
  public:
-  SpectraOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run),
-        partners_(run.partners),
+  SpectraOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run),
         of_speed_(spec.own_keys<SpectraKeys>().of_speed),
-        edges_(edges_of(spec.own_keys<SpectraKeys>())),
-        spectra_(of_speed_ ? 2 : 3, Spectrum(edges_.size() + 1, PartnerTally<Real>(partners_.count()))) {}
+        edges_(edges_of<Real>(spec.own_keys<SpectraKeys>())),
+        spectra_(of_speed_ ? 2 : 3, Spectrum(edges_.size() + 1, PartnerTally<Real>(run.partners.count()))) {}
 
  protected:
   void archive_record(Archive& a) override { a(spectra_); }
@@ -72,15 +97,14 @@ class SpectraOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
-    using enum Column::Type;
     const std::string unit = of_speed_ ? "m/s" : "J";
     std::vector<Column> columns{{"spectrum", text, "", "the part of the dose, or the speed, that is binned"},
                                 {"bin", text, "", "number of the bin from 1, or below or above all"},
                                 {"low", number, unit, "lower edge of the bin"},
                                 {"high", number, unit, "upper edge of the bin, not in it"}};
-    add_partner_columns(columns, partners_, {"impacts", integer, "1", "number of impacts"});
+    add_partner_columns(columns, this->run.partners, {"impacts", integer, "1", "number of impacts"});
     add_partner_columns(
-        columns, partners_,
+        columns, this->run.partners,
         {"energy", number, "J", of_speed_ ? "dose of the impacts" : "this part of the dose of the impacts"});
     this->begin(std::move(columns), {this->window(until)});
     const std::vector<std::string> names = of_speed_
@@ -104,17 +128,86 @@ class SpectraOutput : public TableOutput<Real> {
  private:
   using Spectrum = std::vector<PartnerTally<Real>>;  ///< below the first edge, the bins, above the last
 
-  static std::vector<Real> edges_of(const SpectraKeys& keys) {
-    return log_edges<Real>(keys.low, keys.high, keys.bins_per_decade);
-  }
   void add(const ImpactFacts<Real>& f, std::size_t spectrum, const Real& value, const Real& energy) {
     of_partner(f, spectra_[spectrum][bin_of<Real>(edges_, value)]).add(energy);
   }
 
-  model::Partners partners_;
   bool of_speed_;
   std::vector<Real> edges_;
   std::vector<Spectrum> spectra_;
+};
+
+using Cutoffs = std::vector<casefile::Quantity>;  ///< ascending [m/s]
+
+inline constexpr casefile::KeyText rates_above_keys[] = {
+    {"cutoffs", "list of speeds", "0, 1 mm/s, 1 cm/s, 0.1 m/s, 1 m/s", "a row for each"}};
+
+inline void read_rates_above(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  Cutoffs cutoffs;
+  if (!s.has("cutoffs")) {
+    cutoffs.push_back(casefile::Quantity{0});
+    for (const int per_metre : {1000, 100, 10, 1}) cutoffs.push_back(casefile::Quantity{1, per_metre});
+    output.own = std::move(cutoffs);
+    return;
+  }
+  const std::string expected = "an array of speeds of 0 or more";
+  for (const auto& text : s.settings("cutoffs")) {
+    const auto speed = casefile::parse_quantity(text, casefile::Dimension::speed);
+    const auto* quantity = std::get_if<casefile::Quantity>(&speed);
+    if (!quantity)
+      s.problem("cutoffs", std::get<casefile::QuantityProblem>(speed).found, expected);
+    else if (quantity->negative())
+      s.problem("cutoffs", "\"" + text + "\"", expected);
+    else
+      cutoffs.push_back(*quantity);
+  }
+  std::sort(cutoffs.begin(), cutoffs.end());
+  output.own = std::move(cutoffs);
+}
+
+/// Rates of the impacts above speed cutoffs. docs/outputs.md, "rates_above"
+template <class Real>
+class RatesAboveOutput : public TableOutput<Real> {
+ public:
+  RatesAboveOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run) {
+    for (const auto& cutoff : spec.own_keys<Cutoffs>()) cutoffs_.push_back(cutoff.to<Real>());
+    from_.resize(cutoffs_.size() + 1, PartnerTally<Real>(run.partners.count()));
+  }
+
+ protected:
+  void archive_record(Archive& a) override { a(from_); }
+
+  void record(const ImpactFacts<Real>& f) override {
+    const Real& approach = f.outcome.approach_speed;
+    const Real speed = approach > 0 ? approach : Real(0);
+    of_partner(f, from_[bin_of<Real>(cutoffs_, speed)]).add(f.outcome.milling_dose);
+  }
+
+  void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
+    const auto& partners = this->run.partners;
+    std::vector<Column> columns{{"cutoff", number, "m/s", "the approach speed from which on impacts count"}};
+    add_partner_columns(columns, partners, {"rate", number, "1/s", "collision rate"});
+    add_partner_columns(columns, partners, {"dose_rate", number, "W", "milling dose rate"});
+    this->begin(std::move(columns), {this->window(until)});
+    const Real duration = until - this->timer().from();
+    if (!(duration > 0)) return;  // nothing defines a rate
+    for (std::size_t k = 0; k < cutoffs_.size(); ++k) {
+      PartnerTally<Real> above(partners.count());
+      for (std::size_t bin = cutoffs_.size(); bin > k; --bin)
+        for (int p = 0; p < partners.count(); ++p) above[p].add(from_[bin][p]);
+      this->put(cutoffs_[k]);
+      const auto put = [&](const Real& value) { this->put(value); };
+      put_partners<Real>(
+          above, [&](const Tally<Real>& t) { return Real(Real(t.impacts) / duration); }, put);
+      put_partners<Real>(
+          above, [&](const Tally<Real>& t) { return Real(t.energy.value() / duration); }, put);
+    }
+  }
+
+ private:
+  std::vector<Real> cutoffs_;             ///< ascending [m/s]
+  std::vector<PartnerTally<Real>> from_;  ///< below all cutoffs, then from each up to the next
 };
 
 }  // namespace edmill::output

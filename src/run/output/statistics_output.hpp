@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "casefile/output_entry.hpp"
-#include "output/accumulator.hpp"
-#include "output/by_partner.hpp"
 #include "output/table_output.hpp"
+#include "output/tallies.hpp"
 
 namespace edmill::output {
 
@@ -21,11 +20,10 @@ inline void read_statistics_output(casefile::Section& s, const casefile::CaseSpe
 template <class Real>
 class StatisticsOutput : public TableOutput<Real> {
  public:
-  StatisticsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                   const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run), partners_(run.partners) {
+  StatisticsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run) {
     for (const auto& c : spec.columns)
-      gathered_.push_back({c, variable_formula<Real>(c.variable), Accumulators(partners_.count())});
+      gathered_.push_back({c, variable_formula<Real>(c.variable), Accumulators(run.partners.count())});
   }
 
  protected:
@@ -37,33 +35,24 @@ class StatisticsOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+    const auto& partners = this->run.partners;
     const Real duration = until - this->timer().from();
-    std::vector<Column> columns{{"variable", Column::Type::text, "", "what the row shows"},
-                                {"statistic", Column::Type::text, "", "which statistic of it"},
-                                {"unit", Column::Type::text, "", "of the numbers in the row"}};
-    const auto add = [&](const PartnerColumn& column) {
-      columns.push_back({column.name, Column::Type::number, "", column.meaning});
-    };
-    for (int wall = 0; wall < partners_.walls(); ++wall) add(column_of(partners_[wall]));
-    add(walls_column);
-    add(column_of(partners_[partners_.ball_ball()]));
-    add(total_column);
+    std::vector<Column> columns{{"variable", text, "", "what the row shows"},
+                                {"statistic", text, "", "which statistic of it"},
+                                {"unit", text, "", "of the numbers in the row"}};
+    const auto groups = groups_of(partners, true);
+    for (const auto& group : groups) columns.push_back({group.column.name, number, "", group.column.meaning});
     this->begin(std::move(columns), {this->window(until) + "; " + std::to_string(simulation.ball_count()) +
-                                     " balls, " + std::to_string(partners_.walls()) + " walls"});
+                                     " balls, " + std::to_string(partners.walls()) + " walls"});
     for (const auto& g : gathered_) {
       const auto& variable = model::impact_variables[g.column.variable];
-      std::vector<const Accumulator<Real>*> shown;
-      Accumulator<Real> walls;
-      for (int wall = 0; wall < partners_.walls(); ++wall) {
-        shown.push_back(&g.by_partner[wall]);
-        walls.add(g.by_partner[wall]);
-      }
-      Accumulator<Real> total = walls;
-      total.add(g.by_partner.back());
-      shown.insert(shown.end(), {&walls, &g.by_partner.back(), &total});
+      std::vector<Accumulator<Real>> shown(groups.size());
+      for (std::size_t k = 0; k < groups.size(); ++k)
+        for (int partner = groups[k].first; partner <= groups[k].last; ++partner)
+          shown[k].add(g.by_partner[partner]);
       for (const Statistic s : g.column.statistics) {
         this->put(name_of(g.column, variable.name), statistic_name(s), statistic_unit(s, variable.unit));
-        for (const auto* part : shown) this->put(part->value(s, duration, total.sum()));
+        for (const auto& group : shown) this->put(group.value(s, duration, shown.back().sum()));
       }
     }
   }
@@ -75,7 +64,6 @@ class StatisticsOutput : public TableOutput<Real> {
     VariableFormula<Real> formula;
     Accumulators by_partner;
   };
-  model::Partners partners_;
   std::vector<Gathered> gathered_;
 };
 

@@ -1,7 +1,6 @@
 // An output that is one table, and what its columns are called.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,13 +8,14 @@
 #include "io/atomic_file.hpp"
 #include "io/table_hdf5.hpp"
 #include "model/variables.hpp"
-#include "output/one_file_output.hpp"
+#include "output/output.hpp"
 
 namespace edmill::output {
 
 using casefile::Statistic;
 using casefile::statistic_name;
 using io::Column;
+using enum Column::Type;
 
 /// Unit of a statistic of a variable with that unit.
 inline std::string statistic_unit(Statistic s, std::string_view unit) {
@@ -36,7 +36,7 @@ inline std::string name_of(const casefile::ColumnSpec& column, std::string_view 
 
 /// Flags and counts are integers.
 inline Column::Type type_of(const model::ImpactVariable& variable) {
-  return variable.kind == model::VariableKind::number ? Column::Type::number : Column::Type::integer;
+  return variable.kind == model::VariableKind::number ? number : integer;
 }
 
 /// What a variable of an impact means, by its name.
@@ -48,13 +48,10 @@ inline std::string meaning_of(std::string_view variable) {
 template <class Real>
 class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
  public:
-  TableOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-              const RunContext<Real>& run)
-      : OneFileOutput<Real, io::AtomicFile>(spec, folder, run, spec.append), hdf5_(spec.hdf5()) {
-    if (hdf5_) notes_ = run.notes;
-  }
+  TableOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : OneFileOutput<Real, io::AtomicFile>(spec, run, spec.append) {}
   void complete() override {
-    if (hdf5_) file_.stream() << io::hdf5_columns(table_, notes_);
+    if (this->spec.hdf5()) file_.stream() << io::hdf5_columns(table_, this->run.notes);
     file_.complete();
   }
   void archive(Archive& a) override {
@@ -67,12 +64,12 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
   /// To be called once: in the constructor when rows come during the run, else before the first row.
   void begin(std::vector<io::Column> columns, std::vector<std::string> comments = {}) {
     table_ = io::Table<Real>(std::move(columns), std::move(comments));
-    if (!hdf5_) file_.stream() << table_.csv_head();
+    if (!this->spec.hdf5()) file_.stream() << table_.csv_head();
   }
   /// The next cells of the row, from left to right.
   void put(const auto&... cells) {
     table_.put(cells...);
-    if (hdf5_ || !table_.at_row_end()) return;
+    if (!table_.at_row_end() || this->spec.hdf5()) return;
     file_.stream() << table_.csv_rows();
     table_.clear_rows();
   }
@@ -80,7 +77,7 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
     for (int axis = 0; axis < 3; ++axis) put(Real(vector[axis]));
   }
   void put_variable(int variable, const Real& value) {
-    if (type_of(model::impact_variables[variable]) == Column::Type::integer)
+    if (type_of(model::impact_variables[variable]) == integer)
       put(static_cast<std::uint64_t>(value));
     else
       put(value);
@@ -95,9 +92,48 @@ class TableOutput : public OneFileOutput<Real, io::AtomicFile> {
  private:
   using OneFileOutput<Real, io::AtomicFile>::file_;
 
-  bool hdf5_;
   io::Table<Real> table_;
-  std::vector<io::FileNote> notes_;  ///< of HDF5
+};
+
+/// A table with a row at the end of each interval of the record, where it has intervals.
+template <class Real>
+class IntervalOutput : public TableOutput<Real> {
+ public:
+  IntervalOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run), clock_(spec.timer) {}
+  void archive(Archive& a) override {
+    TableOutput<Real>::archive(a);
+    a(clock_);
+  }
+
+ protected:
+  /// The run at the end of an interval.
+  struct Moment {
+    const engine::Simulation<Real>& simulation;
+    std::uint64_t impacts;  ///< up to then
+    StateOf<Real> state_of;
+  };
+  virtual void write_row(const Real& begin, const Real& end, const Moment& at_end) = 0;
+
+  void archive_record(Archive&) override {}
+  void record(const ImpactFacts<Real>&) override {}
+  void before(const ImpactFacts<Real>& f) override {
+    if (!this->spec.timer.interval) return;
+    clock_.pass(this->timer(), f.time, [&](const Real& begin, const Real& end) {
+      write_row(begin, end, {f.simulation, f.impact.index, [&](int i) { return f.state_before(i, end); }});
+    });
+  }
+  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
+    if (!this->spec.timer.interval) return;
+    clock_.finish(this->timer().from(), until, [&](const Real& begin, const Real& end) {
+      const auto when = simulation.instant_of(end);
+      const auto state_of = [&](int i) { return simulation.state_at(i, when); };
+      write_row(begin, end, {simulation, simulation.counts().impacts, state_of});
+    });
+  }
+
+ private:
+  IntervalClock<Real> clock_;
 };
 
 }  // namespace edmill::output

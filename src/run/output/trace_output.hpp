@@ -2,7 +2,6 @@
 #pragma once
 
 #include "casefile/output_entry.hpp"
-#include "output/balls_before.hpp"
 #include "output/table_output.hpp"
 
 namespace edmill::output {
@@ -26,49 +25,33 @@ inline void read_trace(casefile::Section& s, const casefile::CaseSpec& spec, cas
 }
 
 template <class Real>
-class TraceOutput : public TableOutput<Real> {
+class TraceOutput : public IntervalOutput<Real> {
  public:
-  TraceOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-              const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run),
-        ball_(static_cast<int>(spec.own_keys<TraceKeys>().ball)),
-        clock_(spec.timer),
-        at_impacts_(!spec.timer.interval) {
-    std::vector<Column> columns{{"time", Column::Type::number, "s", meaning_of("time")}};
+  TraceOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : IntervalOutput<Real>(spec, run), ball_(static_cast<int>(spec.own_keys<TraceKeys>().ball)) {
+    std::vector<Column> columns{{"time", number, "s", meaning_of("time")}};
     for (const auto* axis : {"x", "y", "z"})
-      columns.push_back(
-          {axis, Column::Type::number, "m", "place of ball " + std::to_string(ball_) + ", inertial frame"});
+      columns.push_back({axis, number, "m", "place of ball " + std::to_string(ball_) + ", inertial frame"});
     this->begin(std::move(columns));
   }
 
  protected:
-  void archive_record(Archive& a) override { a(clock_); }
-  void before(const ImpactFacts<Real>& f) override {
-    if (at_impacts_) return;
-    const BallsBefore<Real> balls(f);
-    clock_.pass(this->timer(), f.time,
-                [&](const Real&, const Real& end) { write_row(end, balls.state(ball_, end).position); });
-  }
   void record(const ImpactFacts<Real>& f) override {
-    if (at_impacts_ && (f.impact.ball == ball_ || (!f.impact.with_wall && f.impact.partner == ball_)))
-      write_row(f.time, f.simulation.flight(ball_).position);
+    if (!this->spec.timer.interval &&
+        (f.impact.ball == ball_ || (!f.impact.with_wall && f.impact.partner == ball_)))
+      put_place(f.time, f.simulation.flight(ball_).position);
   }
-  void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
-    if (at_impacts_) return;
-    clock_.finish(this->timer().from(), until, [&](const Real&, const Real& end) {
-      write_row(end, simulation.state_at(ball_, simulation.instant_of(end)).position);
-    });
+  void write_row(const Real&, const Real& end, const typename IntervalOutput<Real>::Moment& at_end) override {
+    put_place(end, at_end.state_of(ball_).position);
   }
 
  private:
-  void write_row(const Real& time, const Vec3<Real>& position) {
+  void put_place(const Real& time, const Vec3<Real>& position) {
     this->put(time);
     this->put(position);
   }
 
   int ball_;
-  IntervalClock<Real> clock_;
-  bool at_impacts_;
 };
 
 }  // namespace edmill::output

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/scalar_list.hpp"
+#include "output/coverage_output.hpp"
 #include "output/table_output.hpp"
-#include "output/wall_cells.hpp"
 
 namespace edmill::output {
 
@@ -46,9 +46,8 @@ Real exp_of_minus(const Real& x) {
 template <class Real>
 class TreatmentOutput : public TableOutput<Real> {
  public:
-  TreatmentOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                  const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run),
+  TreatmentOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run),
         most_(spec.own_keys<TreatmentKeys>().most),
         share_(spec.own_keys<TreatmentKeys>().share.template to<Real>()),
         threshold_(spec.own_keys<TreatmentKeys>().threshold.template to<Real>()),
@@ -68,7 +67,6 @@ class TreatmentOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
-    using enum Column::Type;
     this->begin(
         {{"hits", text, "", "how often powder has been hit; the last row is of all that was hit more often"},
          {"mixed", number, "1", "part of the powder that was, if it is mixed between impacts"},

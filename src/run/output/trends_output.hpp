@@ -1,9 +1,11 @@
-// Statistics of each interval of time, or from the start up to its end. (thesis D.4.5)
+// Variables in the course of time: those of impacts in each interval, of single impacts, and of balls.
 #pragma once
 
+#include "base/trigonometry.hpp"
 #include "casefile/output_entry.hpp"
-#include "output/accumulator.hpp"
+#include "model/variables.hpp"
 #include "output/table_output.hpp"
+#include "output/tallies.hpp"
 
 namespace edmill::output {
 
@@ -21,19 +23,19 @@ inline void read_trends(casefile::Section& s, const casefile::CaseSpec&, casefil
   casefile::read_columns(s, {true, true, true, {sum, rate}, {sum, average, minimum, maximum, rate}}, output);
 }
 
+/// Statistics of each interval, or from the start up to its end. (thesis D.4.5)
 template <class Real>
-class TrendsOutput : public TableOutput<Real> {
+class TrendsOutput : public IntervalOutput<Real> {
  public:
-  TrendsOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-               const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run), accumulated_(spec.accumulated), clock_(spec.timer) {
-    std::vector<Column> columns{{"time", Column::Type::number, "s",
-                                 accumulated_ ? "up to which the statistics count" : "end of the interval"}};
+  TrendsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : IntervalOutput<Real>(spec, run) {
+    std::vector<Column> columns{
+        {"time", number, "s", spec.accumulated ? "up to which the statistics count" : "end of the interval"}};
     for (const auto& c : spec.columns) {
       gathered_.push_back({c, variable_formula<Real>(c.variable), {}});
       const auto& v = model::impact_variables[c.variable];
       for (const Statistic s : c.statistics)
-        columns.push_back({name_of(c, v.name, s), Column::Type::number, statistic_unit(s, v.unit),
+        columns.push_back({name_of(c, v.name, s), number, statistic_unit(s, v.unit),
                            statistic_name(s) + ": " + std::string(v.meaning)});
     }
     this->begin(std::move(columns));
@@ -41,38 +43,151 @@ class TrendsOutput : public TableOutput<Real> {
 
  protected:
   void archive_record(Archive& a) override {
-    a(clock_);
     for (auto& g : gathered_) a(g.sums);
-  }
-  void before(const ImpactFacts<Real>& f) override {
-    clock_.pass(this->timer(), f.time, [&](const Real& begin, const Real& end) { write_row(begin, end); });
   }
   void record(const ImpactFacts<Real>& f) override {
     for (auto& g : gathered_) g.sums.add(g.formula(f));
   }
-  void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
-    clock_.finish(this->timer().from(), until,
-                  [&](const Real& begin, const Real& end) { write_row(begin, end); });
-  }
-
- private:
-  void write_row(const Real& begin, const Real& end) {
-    const Real duration = end - (accumulated_ ? this->timer().from() : begin);
+  void write_row(const Real& begin, const Real& end, const typename IntervalOutput<Real>::Moment&) override {
+    const Real duration = end - (this->spec.accumulated ? this->timer().from() : begin);
     this->put(end);
     for (auto& g : gathered_) {
       for (const Statistic s : g.column.statistics) this->put(g.sums.value(s, duration, g.sums.sum()));
-      if (!accumulated_) g.sums = {};
+      if (!this->spec.accumulated) g.sums = {};
     }
   }
 
+ private:
   struct Gathered {
     casefile::ColumnSpec column;
     VariableFormula<Real> formula;
     Accumulator<Real> sums;
   };
   std::vector<Gathered> gathered_;
-  bool accumulated_;
+};
+
+inline constexpr casefile::KeyText trends_instant_keys[] = {casefile::interval_if_given,
+                                                            casefile::max_rows_key, casefile::columns_key};
+
+inline void read_trends_instant(casefile::Section& s, const casefile::CaseSpec&,
+                                casefile::OutputSpec& output) {
+  casefile::read_interval(s, output.timer);
+  casefile::read_columns(s, {true, true, true, {}, {}}, output);
+}
+
+/// Values of single impacts: of each, or of the first after each interval. (thesis D.4.6)
+template <class Real>
+class TrendsInstantOutput : public TableOutput<Real> {
+ public:
+  TrendsInstantOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : TableOutput<Real>(spec, run), clock_(spec.timer), rows_left_(spec.timer.max_rows) {
+    std::vector<Column> columns;
+    for (const auto& c : spec.columns) {
+      const auto& v = model::impact_variables[c.variable];
+      const auto type = v.kind == model::VariableKind::flag ? text : type_of(v);
+      columns.push_back({name_of(c, v.name), type, std::string(v.unit), std::string(v.meaning)});
+    }
+    this->begin(std::move(columns));
+  }
+
+ protected:
+  void archive_record(Archive& a) override { a(clock_, due_, rows_left_); }
+  void record(const ImpactFacts<Real>& f) override {
+    if (this->spec.timer.interval) {
+      clock_.pass(this->timer(), f.time, [&](const Real&, const Real&) { due_ = true; });
+      if (!due_) return;
+      due_ = false;
+    }
+    if (rows_left_) {
+      if (*rows_left_ == 0) return;
+      --*rows_left_;
+    }
+    for (const auto& c : this->spec.columns) {
+      const Real value = variable_formula<Real>(c.variable)(f);
+      if (model::impact_variables[c.variable].kind == model::VariableKind::flag)
+        this->put(value != 0 ? c.true_text : c.false_text);
+      else
+        this->put_variable(c.variable, value);
+    }
+  }
+
+ private:
   IntervalClock<Real> clock_;
+  bool due_ = true;
+  std::optional<std::uint64_t> rows_left_;
+};
+
+inline constexpr casefile::KeyText trends_balls_keys[] = {casefile::interval_of_30_s, casefile::max_rows_key,
+                                                          casefile::columns_key};
+
+inline void read_trends_balls(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+  casefile::read_interval(s, output.timer, casefile::Quantity{30});
+  using enum casefile::Statistic;
+  std::vector<std::string> names;
+  for (const auto& v : model::ball_variables) names.emplace_back(v.name);
+  for (casefile::Section& entry : s.sections("columns")) {
+    casefile::ColumnSpec column;
+    const auto name = entry.text("variable").value_or("");
+    const auto found = model::find_ball_variable(name);
+    entry.require(found.has_value(), "variable", "one of " + casefile::listed(names));
+    column.variable = found.value_or(0);
+    column.statistics = casefile::read_statistics(entry, {sum, average, minimum, maximum});
+    column.label = entry.text("label").value_or("");
+    column.with_ball = entry.flag("with_ball");
+    entry.reject_unknown_keys();
+    output.columns.push_back(std::move(column));
+  }
+  if (!s.has("columns")) s.problem("columns", "nothing", "an array of tables with `variable`");
+}
+
+/// What the balls do at the end of each interval. (thesis D.4.7)
+template <class Real>
+class TrendsBallsOutput : public IntervalOutput<Real> {
+ public:
+  TrendsBallsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : IntervalOutput<Real>(spec, run) {
+    std::vector<Column> columns{{"time", number, "s", meaning_of("time")},
+                                {"impacts", integer, "1", "since the start of the run"}};
+    for (const auto& c : spec.columns) {
+      const auto& v = model::ball_variables[c.variable];
+      for (const Statistic s : c.statistics) {
+        const std::string name = name_of(c, v.name, s);
+        columns.push_back({name, number, std::string(v.unit),
+                           statistic_name(s) + " over the balls: " + std::string(v.meaning)});
+        if (shows_ball(c, s)) columns.push_back({name + " ball", integer, "1", "which ball has it"});
+      }
+    }
+    this->begin(std::move(columns));
+  }
+
+ protected:
+  void write_row(const Real&, const Real& end, const typename IntervalOutput<Real>::Moment& at_end) override {
+    const auto& simulation = at_end.simulation;
+    std::vector<model::BallState<Real>> states;
+    for (int i = 0; i < simulation.ball_count(); ++i) states.push_back(at_end.state_of(i));
+    this->put(end, at_end.impacts);
+    for (const auto& c : this->spec.columns) {
+      Accumulator<Real> sums;
+      int least = 0, largest = 0;
+      std::vector<Real> values;
+      for (int i = 0; i < simulation.ball_count(); ++i) {
+        values.push_back(model::ball_variable<Real>(c.variable, simulation.properties(i), states[i],
+                                                    numerics::pi<Real>()));
+        sums.add(values[i]);
+        if (values[i] < values[least]) least = i;
+        if (values[i] > values[largest]) largest = i;
+      }
+      for (const Statistic s : c.statistics) {
+        this->put(sums.value(s, Real(0), sums.sum()));
+        if (shows_ball(c, s)) this->put(s == Statistic::minimum ? least : largest);
+      }
+    }
+  }
+
+ private:
+  static bool shows_ball(const casefile::ColumnSpec& c, Statistic s) {
+    return c.with_ball && (s == Statistic::minimum || s == Statistic::maximum);
+  }
 };
 
 }  // namespace edmill::output

@@ -14,12 +14,10 @@ inline void read_vessel_load(casefile::Section& s, const casefile::CaseSpec&, ca
 }
 
 template <class Real>
-class VesselLoadOutput : public TableOutput<Real> {
+class VesselLoadOutput : public IntervalOutput<Real> {
  public:
-  VesselLoadOutput(const casefile::OutputSpec& spec, const std::filesystem::path& folder,
-                   const RunContext<Real>& run)
-      : TableOutput<Real>(spec, folder, run), clock_(spec.timer) {
-    using enum Column::Type;
+  VesselLoadOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
+      : IntervalOutput<Real>(spec, run) {
     std::vector<Column> columns{{"time", number, "s", "end of the interval"},
                                 {"duration", number, "s", "length of the interval"}};
     const auto add = [&](const std::string& name, const char* unit, const char* meaning) {
@@ -36,13 +34,7 @@ class VesselLoadOutput : public TableOutput<Real> {
   }
 
  protected:
-  void archive_record(Archive& a) override {
-    a(clock_, impulse_, moment_, vessel_impulse_, vessel_moment_, work_);
-  }
-
-  void before(const ImpactFacts<Real>& f) override {
-    clock_.pass(this->timer(), f.time, [&](const Real& begin, const Real& end) { write_row(begin, end); });
-  }
+  void archive_record(Archive& a) override { a(impulse_, moment_, vessel_impulse_, vessel_moment_, work_); }
 
   void record(const ImpactFacts<Real>& f) override {
     if (!f.impact.with_wall) return;
@@ -58,13 +50,7 @@ class VesselLoadOutput : public TableOutput<Real> {
     work_ += f.outcome.wall_work;
   }
 
-  void end_of_record(const engine::Simulation<Real>&, const Real& until) override {
-    clock_.finish(this->timer().from(), until,
-                  [&](const Real& begin, const Real& end) { write_row(begin, end); });
-  }
-
- private:
-  void write_row(const Real& begin, const Real& end) {
+  void write_row(const Real& begin, const Real& end, const typename IntervalOutput<Real>::Moment&) override {
     const Real duration = end - begin;
     this->put(end, duration);
     this->put(impulse_);
@@ -75,7 +61,7 @@ class VesselLoadOutput : public TableOutput<Real> {
     work_ = Real(0);
   }
 
-  IntervalClock<Real> clock_;
+ private:
   // Sums of the present interval: impulses [N s] and their moments [N m s] about the fulcrum in the inertial
   // frame, and about the vessel's centre in its own.
   Vec3<Real> impulse_ = Vec3<Real>::Zero(), moment_ = Vec3<Real>::Zero(),

@@ -1,8 +1,8 @@
 // Agreement of two runs of one case in two scalars.
 #pragma once
 
+#include <array>
 #include <optional>
-#include <vector>
 
 #include "run/event_source.hpp"
 

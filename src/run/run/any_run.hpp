@@ -1,7 +1,6 @@
 // A run whose scalar is chosen by name: what commands and other languages hold.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,6 @@
 // The events of a run in order, in a number type that holds the values of every scalar.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <memory>
 #include <string>

@@ -29,11 +29,9 @@ class RunningCase : public EventSource, private engine::Observer<Real> {
   std::vector<Event> next(std::size_t count) override {
     const auto scope = digits_.use();
     while (waiting_.size() < count && !over_) advance();
-    std::vector<Event> events;
-    while (events.size() < count && !waiting_.empty()) {
-      events.push_back(waiting_.front());
-      waiting_.pop_front();
-    }
+    const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(std::min(count, waiting_.size()));
+    std::vector<Event> events(waiting_.begin(), end);
+    waiting_.erase(waiting_.begin(), end);
     return events;
   }
   std::size_t pass(std::size_t count) override {

@@ -4,7 +4,6 @@
 
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
-#include "io/atomic_file.hpp"
 
 namespace edmill::run {
 
@@ -60,21 +59,19 @@ Checkpoints RunFolder::checkpoints() {
 }
 
 void RunFolder::write(const std::string& name, const std::function<void(std::ostream&)>& put) {
-  auto file = std::make_unique<io::AtomicFile>(place_ / name);
-  put(file->stream());
-  file->complete();
-  own_files_.push_back(std::move(file));
+  auto& file = own_files_.emplace_back(place_ / name);
+  put(file.stream());
+  file.complete();
 }
 
 void RunFolder::commit(std::vector<fs::path> outputs, const std::function<void()>& commit_outputs) {
-  auto& all = outputs;
   for (const auto& file : own_files_)
-    for (const auto& own : file->places()) all.push_back(own);
-  io::record_files(place_, all);
+    for (const auto& own : file.places()) outputs.push_back(own);
+  io::record_files(place_, outputs);
   commit_outputs();
-  for (auto& file : own_files_) file->commit();
+  for (auto& file : own_files_) file.commit();
   own_files_.clear();
-  io::remove_other_files(place_, all);
+  io::remove_other_files(place_, outputs);
 }
 
 void RunFolder::remove_checkpoint(const std::string& result) {

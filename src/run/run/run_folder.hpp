@@ -3,20 +3,17 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
+#include <list>
 #include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "casefile/case_spec.hpp"
+#include "io/atomic_file.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/output_folder.hpp"
 #include "run/simulate.hpp"
-
-namespace edmill::io {
-class AtomicFile;
-}
 
 namespace edmill::run {
 
@@ -56,7 +53,7 @@ class RunFolder {
   std::vector<std::filesystem::path> folders_;  ///< with those of the outputs
   std::vector<io::FolderLock> locks_;           ///< in the same order
   std::optional<io::Checkpoint> checkpoint_;
-  std::vector<std::unique_ptr<io::AtomicFile>> own_files_;
+  std::list<io::AtomicFile> own_files_;
 };
 
 /// "10 min" of wall-clock time, "0.5 s simulated". @throws InputError

@@ -11,15 +11,14 @@
 #include "base/standard_arithmetic.hpp"
 #include "casefile/parts.hpp"
 #include "edmill/run.hpp"
-#include "io/summary_impl.hpp"
+#include "io/final_state.hpp"
+#include "io/summary.hpp"
+#include "output/outputs.hpp"
 #include "run/any_run.hpp"
-#include "run/progress_watch.hpp"
+#include "run/run_folder.hpp"
 #include "run/simulate_impl.hpp"
-#include "run/write_results.hpp"
 
 namespace edmill::run {
-
-namespace detail {
 
 /// As programs see it, each number converted by `of`.
 template <class To, class Real, class Of>
@@ -113,8 +112,6 @@ casefile::InitialCase<Real> build(const casefile::CaseSpec& spec, const OwnParts
   return casefile::build_case_in<Real>(mill, spec);
 }
 
-}  // namespace detail
-
 template <class Real>
 class SeenIn : public SeenImpact {
  public:
@@ -122,10 +119,10 @@ class SeenIn : public SeenImpact {
   std::uint64_t index() const override { return impact_.index; }
   double time() const override { return static_cast<double>(time_); }
   Impact<double> in_double() const override {
-    return detail::to_public<double>(impact_, time_, [](const Real& x) { return static_cast<double>(x); });
+    return to_public<double>(impact_, time_, [](const Real& x) { return static_cast<double>(x); });
   }
   Impact<std::string> in_texts() const override {
-    return detail::to_public<std::string>(impact_, time_, to_text<Real>);
+    return to_public<std::string>(impact_, time_, to_text<Real>);
   }
 
  private:
@@ -164,11 +161,9 @@ class LawOfTexts : public CustomLaw<Real> {
 template <class Real>
 class RunOf : public AnyRun, private engine::Observer<Real> {
  public:
-  RunOf(const casefile::CaseSpec& spec, const OwnParts<Real>& own, const RunSetup& setup)
-      : RunOf(std::make_shared<const casefile::CaseSpec>(spec), own, setup) {}
   RunOf(std::shared_ptr<const casefile::CaseSpec> spec, const OwnParts<Real>& own, const RunSetup& setup = {})
       : spec_(std::move(spec)),
-        built_(detail::build(*spec_, own)),
+        built_(build(*spec_, own)),
         own_laws_(own.laws.ball_ball || own.laws.ball_wall) {
     guests_.interrupt = setup.interrupt;
     guests_.observers.push_back(this);
@@ -248,7 +243,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
   }
   BallState<std::string> ball(int i) const override {
     const auto scope = use();
-    return detail::to_public<std::string>(state_of(i), to_text<Real>);
+    return to_public<std::string>(state_of(i), to_text<Real>);
   }
   model::BallState<Real> state_of(int i) const {
     EDMILL_REQUIRE(i >= 0 && i < ball_count(), "the number of a ball");
@@ -279,7 +274,6 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
   void commit(const std::function<std::string()>& when_written) override {
     const auto scope = use();
     EDMILL_REQUIRE(outputs_, "write_to was called");
-    const DriveClock<Real> clock(built_.the_case.mill.motion.period());
     io::SavedState<Real> saved{built_.start, built_.states};
     if (driver_) {
       const auto& simulation = driver_->simulation();
@@ -287,7 +281,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
       saved.time = simulation.now();
       for (int k = 0; k < ball_count(); ++k) saved.states[static_cast<std::size_t>(k)] = state_of(k);
     }
-    write_results<Real>(*folder_, *outputs_, saved, clock, summary_json(), *spec_, goes_on());
+    write_results(saved);
     const std::string left = when_written();
     if (!goes_on()) folder_->remove_checkpoint(left);
     outputs_.reset();
@@ -300,12 +294,24 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     if (outputs_ && !spec_->outputs.empty()) outputs_->on_impact(impact, simulation);
     if (watchers_.empty() && !call_) return;
     const Real time = simulation.seconds();
-    if (call_) call_(detail::to_public<Real>(impact, time, [](const Real& x) -> const Real& { return x; }));
+    if (call_) call_(to_public<Real>(impact, time, [](const Real& x) -> const Real& { return x; }));
     const SeenIn<Real> seen(impact, time);
     for (auto* watcher : watchers_) watcher->on_impact(seen, *this);
   }
   void archive(Archive& a) override {
     if (outputs_ && !spec_->outputs.empty()) a(*outputs_);
+  }
+
+  /// Nothing is put in place before everything is written. The summary comes last: results that it tells of
+  /// are there.
+  void write_results(const io::SavedState<Real>& saved) {
+    const DriveClock<Real> clock(built_.the_case.mill.motion.period());
+    outputs_->complete(goes_on());
+    folder_->write("final_state.csv",
+                   [&](std::ostream& out) { io::write_final_state<Real>(out, saved, clock); });
+    folder_->write("case.toml", [&](std::ostream& out) { out << casefile::text_with_settings(*spec_); });
+    folder_->write("summary.json", [&](std::ostream& out) { out << summary_json(); });
+    folder_->commit(outputs_->places(), [&] { outputs_->commit(goes_on()); });
   }
 
   /// A law with e_t beyond -1 may give an impact more energy than it had.
@@ -345,7 +351,8 @@ std::unique_ptr<AnyRun> make_run_in(const casefile::CaseSpec& spec, const RunSet
     return texts ? std::make_shared<LawOfTexts<Real>>(texts) : nullptr;
   };
   return std::make_unique<RunOf<Real>>(
-      spec, OwnParts<Real>{{}, {}, {}, {law(setup.ball_ball), law(setup.ball_wall)}}, setup);
+      std::make_shared<const casefile::CaseSpec>(spec),
+      OwnParts<Real>{{}, {}, {}, {law(setup.ball_ball), law(setup.ball_wall)}}, setup);
 }
 
 }  // namespace edmill::run

@@ -20,10 +20,7 @@ class RunStatistics : public engine::Observer<Real> {
     std::uint64_t collisions = 0;
     std::uint64_t touched = 0;   ///< by the least separation speed
     std::uint64_t in_stall = 0;  ///< friction rested
-    numerics::CompensatedSum<Real> milling_dose;
-    numerics::CompensatedSum<Real> touched_dose, stall_dose;
-    numerics::CompensatedSum<Real> supplied_energy;
-    numerics::CompensatedSum<Real> wall_work;
+    numerics::CompensatedSum<Real> milling_dose, touched_dose, stall_dose, supplied_energy, wall_work;
 
     void archive(Archive& a) {
       a(collisions, touched, in_stall, milling_dose, touched_dose, stall_dose, supplied_energy, wall_work);
@@ -61,15 +58,19 @@ class RunStatistics : public engine::Observer<Real> {
   /// By the partners' places.
   const std::vector<Totals>& by_partner() const { return totals_; }
 
+  /// A part of the totals, of all partners together.
+  std::uint64_t count(std::uint64_t Totals::*part) const {
+    std::uint64_t total = 0;
+    for (const auto& t : totals_) total += t.*part;
+    return total;
+  }
+  Real sum(numerics::CompensatedSum<Real> Totals::*part) const {
+    numerics::CompensatedSum<Real> total;
+    for (const auto& t : totals_) total += (t.*part).value();
+    return total.value();
+  }
   std::uint64_t collisions() const { return count(&Totals::collisions); }
-  /// Impacts that separate at the least separation speed.
-  std::uint64_t touched() const { return count(&Totals::touched); }
   Real milling_dose() const { return sum(&Totals::milling_dose); }
-  /// Dose of those impacts [J].
-  Real touched_dose() const { return sum(&Totals::touched_dose); }
-  /// Impacts without friction, since a ball was in a stall, and their dose [J].
-  std::uint64_t in_stall() const { return count(&Totals::in_stall); }
-  Real stall_dose() const { return sum(&Totals::stall_dose); }
   Real supplied_energy() const { return sum(&Totals::supplied_energy); }
   Real wall_work() const { return sum(&Totals::wall_work); }
   /// What of the dose works the powder [J].
@@ -118,16 +119,6 @@ class RunStatistics : public engine::Observer<Real> {
     return now;
   }
 
-  std::uint64_t count(std::uint64_t Totals::*part) const {
-    std::uint64_t total = 0;
-    for (const auto& t : totals_) total += t.*part;
-    return total;
-  }
-  Real sum(numerics::CompensatedSum<Real> Totals::*part) const {
-    numerics::CompensatedSum<Real> total;
-    for (const auto& t : totals_) total += (t.*part).value();
-    return total.value();
-  }
   model::CountedDose<Real> counts_;
   std::vector<Totals> totals_;
   numerics::CompensatedSum<Real> counted_dose_;

@@ -6,15 +6,174 @@
 #include <memory>
 
 #include "base/errors.hpp"
+#include "base/wide_trigonometry.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/value_of_key.hpp"
 #include "engine/simulation.hpp"
-#include "io/named_file.hpp"
+#include "io/output_folder.hpp"
 #include "output/collision_log.hpp"
 
 namespace edmill::run {
 
 namespace {
+
+using Vector = Vec3<mpfr>;
+using Tangent = tangent::Tangent<mpfr>;
+
+/// What a parameter of the case, or a number of the initial state, changes.
+struct Perturbation {
+  model::Mill<mpfr> mill;  ///< with the parameter larger by `step`
+  std::vector<model::BallProperties<mpfr>> balls;
+  std::vector<Tangent> initial;  ///< derivative of the balls' states at the start
+  mpfr step{0};                  ///< negative where no larger value is allowed
+};
+
+/// Two bodies, or one and a wall, at an impact and after it.
+struct Collision {
+  std::array<Vector, 2> position, velocity, spin;
+  dynamics::ImpactOutcome<mpfr> outcome{};
+};
+
+/// The same time on the clock of a mill with another drive period.
+Instant<mpfr> on_clock_of(const model::Mill<mpfr>& mill, const mpfr& period, const Instant<mpfr>& t,
+                          const mpfr& later) {
+  return {t.period, t.offset + mpfr(t.period) * (period - mill.motion.period()) + later};
+}
+
+mpfr gap_of(const model::Mill<mpfr>& mill, const mpfr& radius, int wall, const Instant<mpfr>& time,
+            const Vector& position) {
+  const auto place = mill.motion.position_in_vessel(mill.motion.pose(time), position);
+  mpfr gap = -mill.vessel.inset(radius).overlap(wall, place);
+  if (const auto* pistons = mill.vessel.pistons()) gap -= pistons->of_wall(wall, time).value;
+  return gap;
+}
+
+void collide(const Perturbation& in, const engine::Impact<mpfr>& impact, const Instant<mpfr>& time,
+             Collision& c) {
+  const auto ball = static_cast<std::size_t>(impact.ball), partner = static_cast<std::size_t>(impact.partner);
+  const auto& own = in.balls[ball];
+  const bool rests = impact.outcome.in_stall;
+  if (!impact.with_wall) {
+    const Vector between = c.position[0] - c.position[1];
+    const Vector normal = between * (mpfr(1) / norm<mpfr>(between));
+    const auto& law = in.mill.law_between(own, in.balls[partner]);
+    c.outcome = dynamics::collide_balls<mpfr>(normal, own, in.balls[partner], c.velocity[0], c.spin[0],
+                                              c.velocity[1], c.spin[1], law, rests);
+    return;
+  }
+  const auto& motion = in.mill.motion;
+  const auto pose = motion.pose(time);
+  const auto place = motion.position_in_vessel(pose, c.position[0]);
+  const Vector normal =
+      motion.direction_to_inertial(pose, in.mill.vessel.inset(own.radius).normal(impact.partner, place));
+  Vector wall_velocity = motion.wall_velocity(pose, Vector(c.position[0] - normal * own.radius));
+  if (const auto* pistons = in.mill.vessel.pistons())
+    wall_velocity += normal * pistons->of_wall(impact.partner, time).rate;
+  c.outcome = dynamics::collide_with_wall<mpfr>(normal, own, wall_velocity, c.velocity[0], c.spin[0],
+                                                in.mill.law_with_wall(own, impact.partner), rests);
+}
+
+/// Observes a run, and carries the states of motions that are infinitely close to it from impact to impact.
+/// The map of an impact is taken for the run and for the neighbouring motion, `step` away, in three times the
+/// run's digits: the difference divided by the step is the derivative to the digits of the run.
+class Linearised : public engine::Observer<mpfr> {
+ public:
+  /// @param base    the mill in these digits, and balls without `initial`
+  /// @param digits  of the evaluation
+  Linearised(Perturbation base, std::vector<Perturbation> others, unsigned digits)
+      : base_(std::move(base)), others_(std::move(others)), digits_(digits) {
+    for (const auto& other : others_) tangents_.push_back(other.initial);
+  }
+
+  void on_impact(const engine::Impact<mpfr>& impact, engine::Simulation<mpfr>& simulation) override {
+    const mpfr::Digits evaluation(digits_);
+    const auto body = [&](std::size_t k, int ball) -> Body {
+      return {ball, simulation.flight(ball).position, impact.velocity_before[k], impact.spin_before[k],
+              impact.flight_time[k]};
+    };
+    const std::array<Body, 2> bodies{body(0, impact.ball),
+                                     impact.with_wall ? Body{} : body(1, impact.partner)};
+    events_.emplace_back();
+    for (std::size_t which = 0; which < others_.size(); ++which)
+      events_.back().push_back(derivative(impact, bodies, which));
+  }
+
+  /// By impact, and then by perturbation.
+  const std::vector<std::vector<EventDerivative>>& events() const { return events_; }
+
+ private:
+  struct Body {
+    int ball = -1;
+    Vector position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};
+    mpfr flight_time{0};
+  };
+
+  EventDerivative derivative(const engine::Impact<mpfr>& impact, const std::array<Body, 2>& bodies,
+                             std::size_t which) {
+    const auto& other = others_[which];
+    const mpfr& step = other.step;
+    const auto& gravity = base_.mill.gravity;
+    const Vector gravity_rate = (other.mill.gravity - gravity) / step;
+    const std::size_t count = impact.with_wall ? 1 : 2;
+    std::array<Tangent*, 2> t{};
+    for (std::size_t k = 0; k < count; ++k) {
+      const mpfr& dt = bodies[k].flight_time;
+      t[k] = &tangents_[which][static_cast<std::size_t>(bodies[k].ball)];
+      t[k]->fly(dt);
+      t[k]->position += gravity_rate * mpfr(dt * dt / 2);
+      t[k]->velocity += gravity_rate * dt;
+    }
+    const auto radius = [&](const Perturbation& in, std::size_t k) {
+      return in.balls[static_cast<std::size_t>(bodies[k].ball)].radius;
+    };
+    const mpfr& period = base_.mill.motion.period();
+    mpfr gap;
+    if (impact.with_wall) {
+      const auto at = [&](const Perturbation& in, const Vector& position) {
+        return gap_of(in.mill, radius(in, 0), impact.partner, on_clock_of(in.mill, period, impact.time, 0),
+                      position);
+      };
+      const Vector moved = bodies[0].position + t[0]->position * step;
+      gap = (at(other, moved) - at(base_, bodies[0].position)) / step;
+    } else {
+      gap = dot<mpfr>(impact.normal, Vector(t[0]->position - t[1]->position)) -
+            (radius(other, 0) + radius(other, 1) - radius(base_, 0) - radius(base_, 1)) / step;
+    }
+    const mpfr& approach = impact.outcome.approach_speed;
+    const mpfr later = approach > 0 ? mpfr(gap / approach) : mpfr(0);
+
+    Collision run, nearby;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto& b = bodies[k];
+      run.position[k] = b.position, run.velocity[k] = b.velocity, run.spin[k] = b.spin;
+      nearby.position[k] = b.position + (t[k]->position + b.velocity * later) * step;
+      nearby.velocity[k] = b.velocity + (t[k]->velocity + gravity * later) * step;
+      nearby.spin[k] = b.spin + t[k]->spin * step;
+    }
+    collide(base_, impact, impact.time, run);
+    collide(other, impact, on_clock_of(other.mill, period, impact.time, later * step), nearby);
+
+    EventDerivative d;
+    const auto rate = [&](const mpfr& a, const mpfr& b) { return mpfr((b - a) / step); };
+    const auto &o = run.outcome, &p = nearby.outcome;
+    d.values = {later, rate(o.approach_speed, p.approach_speed), rate(o.slip_speed, p.slip_speed),
+                rate(o.milling_dose, p.milling_dose), rate(o.wall_work, p.wall_work)};
+    for (std::size_t k = 0; k < count; ++k) {
+      t[k]->position += (bodies[k].velocity - run.velocity[k]) * later;
+      t[k]->velocity = (nearby.velocity[k] - run.velocity[k]) / step - gravity * later;
+      t[k]->spin = (nearby.spin[k] - run.spin[k]) / step;
+      d.states_after[k] = *t[k];
+    }
+    return d;
+  }
+
+  Perturbation base_;
+  std::vector<Perturbation> others_;
+  unsigned digits_;
+  /// By perturbation and ball, at its last impact.
+  std::vector<std::vector<Tangent>> tangents_;
+  std::vector<std::vector<EventDerivative>> events_;
+};
 
 constexpr unsigned most_digits_of_step = 380;  // decimals in a case have at most 400
 
@@ -51,28 +210,8 @@ Parameter number_of(const casefile::CaseSpec& spec, const std::string& key) {
   return number;
 }
 
-/// Reads the events of a run, and ends it when there are enough.
-class Watch : public engine::Observer<mpfr> {
- public:
-  Watch(std::size_t events, const SensitivityOptions& options, std::string precision)
-      : wanted_(events), options_(options), precision_(std::move(precision)) {}
-
-  void on_impact(const engine::Impact<mpfr>& impact, engine::Simulation<mpfr>& simulation) override {
-    events.push_back(output::record_of<mpfr>(impact, simulation));
-    if (events.size() >= wanted_ || (options_.interrupt && *options_.interrupt))
-      simulation.request_stop(engine::EndReason::stopped);
-    if (events.size() % 16 == 0) options_.progress(precision_, events.size());
-  }
-
-  std::vector<Event> events;
-
- private:
-  std::size_t wanted_;
-  const SensitivityOptions& options_;
-  std::string precision_;
-};
-
-class Differentiator {
+/// Reads the events of runs in more and more digits, with their derivatives.
+class Differentiator : private engine::Observer<mpfr> {
  public:
   Differentiator(const casefile::CaseSpec& spec, const SensitivityOptions& options)
       : spec_(spec), options_(options) {
@@ -95,13 +234,11 @@ class Differentiator {
     result.precision = fmt::format("mpfr:{}", digits);
     const auto built = casefile::build_case<mpfr>(spec_);
     engine::Simulation<mpfr> simulation(built.the_case, built.states, built.start);
-    Watch watch(options_.events, options_, result.precision);
     simulation.attach(*linearised);
-    simulation.attach(watch);
-    const auto end = built.the_case.stop.end_time ? *built.the_case.stop.end_time : Instant<mpfr>::never();
-    simulation.run_until(end);
+    simulation.attach(*this);
+    result.events.clear();
+    simulation.run_until(built.the_case.stop.end_time.value_or(Instant<mpfr>::never()));
     result.interrupted = options_.interrupt && *options_.interrupt;
-    result.events = std::move(watch.events);
     result.derivatives = linearised->events();
     put_lower_first();
     return needed();
@@ -123,9 +260,17 @@ class Differentiator {
  private:
   using Built = casefile::InitialCase<mpfr>;
 
+  /// Ends the run when there are enough events.
+  void on_impact(const engine::Impact<mpfr>& impact, engine::Simulation<mpfr>& simulation) override {
+    result.events.push_back(output::record_of<mpfr>(impact, simulation));
+    const auto count = result.events.size();
+    if (count >= options_.events || (options_.interrupt && *options_.interrupt))
+      simulation.request_stop(engine::EndReason::stopped);
+    if (count % 16 == 0) options_.progress(result.precision, count);
+  }
+
   static Perturbation without_change(const Built& built) {
-    return {built.the_case.mill, built.the_case.balls,
-            std::vector<tangent::Tangent<mpfr>>(built.states.size())};
+    return {built.the_case.mill, built.the_case.balls, std::vector<Tangent>(built.states.size())};
   }
   Perturbation perturbed(const Parameter& number, const Built& base, unsigned step_digits) const {
     const mpfr step = mpfr(1) / mpfr(std::string("1e") + std::to_string(step_digits));
@@ -133,9 +278,8 @@ class Differentiator {
     auto same = without_change(base);
     same.step = step;
     auto& start = same.initial[static_cast<std::size_t>(number.ball)];
-    std::array{&start.position, &start.velocity, &start.spin}[static_cast<std::size_t>(number.coordinate / 3)]
-        ->
-        operator[](number.coordinate % 3) = 1;
+    Vector* const parts[] = {&start.position, &start.velocity, &start.spin};
+    (*parts[number.coordinate / 3])[number.coordinate % 3] = 1;
     return same;
   }
   /// A parameter at an end of its range, a restitution of 1, is changed to the other side.
@@ -157,13 +301,12 @@ class Differentiator {
         key, value.number));
   }
   /// Balls are placed, and a run begins, by the parameters of the case.
-  static std::vector<tangent::Tangent<mpfr>> change_of_start(const Built& base, const Built& other,
-                                                             const mpfr& step) {
+  static std::vector<Tangent> change_of_start(const Built& base, const Built& other, const mpfr& step) {
     const auto begin = [](const Built& built) {
       return DriveClock<mpfr>(built.the_case.mill.motion.period()).seconds(built.start);
     };
     const mpfr later = (begin(other) - begin(base)) / step;
-    std::vector<tangent::Tangent<mpfr>> change(base.states.size());
+    std::vector<Tangent> change(base.states.size());
     for (std::size_t k = 0; k < change.size(); ++k) {
       const auto &one = base.states[k], &two = other.states[k];
       change[k].position = (two.position - one.position) / step - one.velocity * later;

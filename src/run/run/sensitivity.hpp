@@ -1,15 +1,24 @@
 // Derivatives of the first events of a case with respect to its numbers and to the initial state.
+// docs/theory.md, "Tangent dynamics"
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "casefile/case_spec.hpp"
-#include "run/linearised.hpp"
+#include "run/event_source.hpp"
+#include "tangent/spectrum.hpp"
 
 namespace edmill::run {
+
+/// The derivatives of one impact.
+struct EventDerivative {
+  std::array<mpfr, model::logged_count> values;        ///< of model::logged_quantities
+  std::array<tangent::Tangent<mpfr>, 2> states_after;  ///< of the ball and, if it is one, the partner
+};
 
 struct SensitivityOptions {
   /// Keys of numbers in the case file, "contact.restitution", or "initial.3.vx": of ball 3 at the start one
@@ -25,7 +34,7 @@ struct SensitivityOptions {
 
 struct Sensitivities {
   std::vector<std::string> by, units;  ///< of each number as the case has it, "rpm"; "m/s" of a start
-  std::vector<run::Event> events;
+  std::vector<Event> events;
   std::vector<std::vector<EventDerivative>> derivatives;  ///< by event, and by number
   std::string precision;                                  ///< of the run
   bool interrupted = false;

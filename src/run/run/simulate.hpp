@@ -13,13 +13,18 @@
 #include "engine/observer.hpp"
 #include "io/final_state.hpp"
 #include "io/summary.hpp"
-#include "run/checkpoint_watch.hpp"
 
 namespace edmill::run {
 
+/// How often checkpoints are made.
+struct CheckpointInterval {
+  double seconds;          ///< above 0
+  bool simulated = false;  ///< of simulated time; otherwise of wall-clock time
+};
+
 /// States of a run from which it can be resumed.
 struct Checkpoints {
-  std::optional<run::CheckpointInterval> every;
+  std::optional<CheckpointInterval> every;
   /// Called with a state of the run each time that one is due, and when the run is interrupted.
   std::function<void(const std::string& state)> save;
   /// The state to resume from; empty at the start of a run. It must be of the same case and program.

@@ -1,41 +1,119 @@
-// Implementation of simulate; included by the instantiation files only.
+// A run in progress, its summary, and the implementation of simulate; included by the instantiation files
+// only.
 #pragma once
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
-#include "run/run_driver_impl.hpp"
+#include "run/every_run.hpp"
+#include "run/run_statistics.hpp"
+#include "run/simulate.hpp"
 #include "run/warnings.hpp"
+#include "run/watches.hpp"
 
 namespace edmill::run {
 
+/// The stages of a run: up to the start of statistics, then with them to the end, with checkpoints in
+/// between.
 template <class Real>
-void note_totals(const engine::Simulation<Real>& simulation, const run::RunStatistics<Real>& statistics,
-                 io::Summary<Real>& summary) {
-  summary.end_time = simulation.seconds();
-  summary.period = simulation.clock().period();
-  summary.energy_at_end = simulation.energy_at(simulation.now());
-  for (int k = 0; k < summary.partners.count(); ++k) {
-    const auto& totals = statistics.by_partner()[k];
-    summary.collisions[k] = totals.collisions;
-    summary.dose_by_partner[k] = totals.milling_dose.value();
+class RunDriver {
+ public:
+  RunDriver(const casefile::InitialCase<Real>& built, const Guests<Real>& guests)
+      : guests_(guests),
+        simulation_(built.the_case, built.states, built.start, guests.interrupt),
+        every_run_(built.the_case),
+        statistics_(model::partners_of(built.the_case.mill.vessel), built.the_case.counted_dose),
+        first_(built.start) {
+    every_run_.attach_to(simulation_);
+    for (auto* observer : guests.observers) simulation_.attach(*observer);
+    start_ = built.the_case.statistics_start;
+    if (start_ < first_) start_ = first_;
+    const auto& end_time = built.the_case.stop.end_time;
+    end_ = end_time.value_or(Instant<Real>::never());
+    EDMILL_REQUIRE(start_ <= end_ || !end_time, "statistics start before the end");
+    if (!guests.checkpoints.restored.empty()) restore();
+    if (const auto& every = guests.checkpoints.every) {
+      watch_.emplace(*every, static_cast<double>(simulation_.seconds()));
+      simulation_.attach(*watch_);
+    }
   }
-  summary.milling_dose = statistics.milling_dose();
-  summary.wall_work = statistics.wall_work();
-  summary.touched_impacts = statistics.touched();
-  summary.touched_dose = statistics.touched_dose();
-  summary.supplied_energy = statistics.supplied_energy();
-  summary.stall_impacts = statistics.in_stall();
-  summary.stall_dose = statistics.stall_dose();
-  summary.collapse = simulation.collapse();
-  summary.stall = simulation.stall();
-  summary.simultaneous_contacts = simulation.counts().simultaneous_contacts;
-  summary.deepest_overlap = simulation.counts().deepest_overlap;
-  summary.total_impacts = simulation.counts().impacts;
-  summary.escalations = simulation.escalations();
-  const auto &first = summary.energy_at_start, &last = summary.energy_at_end;
-  summary.energy_closure = summary.wall_work - summary.milling_dose + summary.supplied_energy -
-                           ((last.kinetic + last.potential) - (first.kinetic + first.potential));
-}
+  RunDriver(const RunDriver&) = delete;
+  RunDriver& operator=(const RunDriver&) = delete;
+
+  /// To the end of the run, or to `limit` when that is earlier.
+  /// @return paused at the limit
+  /// @throws UndecidedError when no scalar could make a decision
+  engine::EndReason go(const Instant<Real>& limit = Instant<Real>::never()) {
+    using engine::EndReason;
+    if (!counting_ && start_ == first_) start_counting();
+    for (;;) {
+      const auto& goal = counting_ ? end_ : start_;
+      const bool limited = limit < goal;
+      const auto reason = simulation_.run_until(limited ? limit : goal, guests_.interrupt);
+      if (reason == EndReason::paused) {
+        save();
+      } else if (reason == EndReason::end_time && limited) {
+        return EndReason::paused;
+      } else if (reason == EndReason::end_time && !counting_) {
+        start_counting();
+      } else {
+        if (reason == EndReason::interrupted) save();
+        return reason;
+      }
+    }
+  }
+
+  engine::Simulation<Real>& simulation() { return simulation_; }
+  const engine::Simulation<Real>& simulation() const { return simulation_; }
+  const RunStatistics<Real>& statistics() const { return statistics_; }
+  const EveryRun<Real>& every_run() const { return every_run_; }
+  /// Start of statistics; the current time before they have begun [s].
+  Real counted_from() const { return simulation_.clock().seconds(counting_ ? start_ : simulation_.now()); }
+  model::Energy<Real> energy_at_start() const {
+    return counting_ ? energy_at_start_ : simulation_.energy_at(simulation_.now());
+  }
+  double cpu_spent() const { return cpu_before_ + (cpu_seconds() - cpu_begun_); }
+
+  void archive(Archive& a) {
+    a(simulation_, every_run_, statistics_, counting_, energy_at_start_);
+    for (auto* observer : guests_.observers) a(*observer);
+    double cpu = cpu_spent();
+    a(cpu);
+    if (a.loading()) cpu_before_ = cpu;
+  }
+
+ private:
+  void start_counting() {
+    counting_ = true;
+    energy_at_start_ = simulation_.energy_at(start_);
+    statistics_.begin(start_);
+    simulation_.attach(statistics_);
+  }
+
+  void save() {
+    if (!guests_.checkpoints.save) return;
+    Archive archive;
+    archive(*this);
+    guests_.checkpoints.save(archive.bytes());
+    if (watch_) watch_->made();
+  }
+  void restore() {
+    Archive archive(guests_.checkpoints.restored);
+    archive(*this);
+    archive.finish();
+    if (counting_) simulation_.attach(statistics_);
+  }
+
+  double cpu_begun_ = cpu_seconds();
+  double cpu_before_ = 0;  ///< of the run's earlier processes [s]
+  const Guests<Real>& guests_;
+  engine::Simulation<Real> simulation_;
+  EveryRun<Real> every_run_;
+  RunStatistics<Real> statistics_;
+  std::optional<CheckpointWatch<Real>> watch_;
+  Instant<Real> first_, start_, end_;  ///< of the run, of statistics, of the run
+  bool counting_ = false;              ///< statistics have begun
+  model::Energy<Real> energy_at_start_;
+};
 
 /// Summary of a case, with nothing counted yet.
 template <class Real>
@@ -58,12 +136,37 @@ io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::
 template <class Real>
 io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
                              const RunDriver<Real>& driver) {
+  using Totals = typename RunStatistics<Real>::Totals;
   auto summary = blank_summary(spec, built);
   const auto& simulation = driver.simulation();
+  const auto& statistics = driver.statistics();
   summary.cpu_seconds = driver.cpu_spent();
   summary.start_time = driver.counted_from();
   summary.energy_at_start = driver.energy_at_start();
-  note_totals(simulation, driver.statistics(), summary);
+  summary.end_time = simulation.seconds();
+  summary.period = simulation.clock().period();
+  summary.energy_at_end = simulation.energy_at(simulation.now());
+  for (int k = 0; k < summary.partners.count(); ++k) {
+    const auto& totals = statistics.by_partner()[k];
+    summary.collisions[k] = totals.collisions;
+    summary.dose_by_partner[k] = totals.milling_dose.value();
+  }
+  summary.milling_dose = statistics.milling_dose();
+  summary.wall_work = statistics.wall_work();
+  summary.touched_impacts = statistics.count(&Totals::touched);
+  summary.touched_dose = statistics.sum(&Totals::touched_dose);
+  summary.supplied_energy = statistics.supplied_energy();
+  summary.stall_impacts = statistics.count(&Totals::in_stall);
+  summary.stall_dose = statistics.sum(&Totals::stall_dose);
+  summary.collapse = simulation.collapse();
+  summary.stall = simulation.stall();
+  summary.simultaneous_contacts = simulation.counts().simultaneous_contacts;
+  summary.deepest_overlap = simulation.counts().deepest_overlap;
+  summary.total_impacts = simulation.counts().impacts;
+  summary.escalations = simulation.escalations();
+  const auto &first = summary.energy_at_start, &last = summary.energy_at_end;
+  summary.energy_closure = summary.wall_work - summary.milling_dose + summary.supplied_energy -
+                           ((last.kinetic + last.potential) - (first.kinetic + first.potential));
   driver.every_run().note(summary);
   // An instant is whole periods and a rest, whose sum is rounded: where the case names the time, it is that.
   const auto name = [&](Real& seconds, const Instant<Real>& when, const casefile::Quantity& given) {
@@ -73,9 +176,8 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   if (spec.end_time) name(summary.end_time, *built.the_case.stop.end_time, *spec.end_time);
   if (summary.duration() > 0) {
     summary.intervals =
-        driver.statistics().intervals(simulation.now(), simulation.clock().period(), summary.duration());
-    if (summary.target)
-      summary.target->counted_dose_rate = driver.statistics().counted_dose() / summary.duration();
+        statistics.intervals(simulation.now(), simulation.clock().period(), summary.duration());
+    if (summary.target) summary.target->counted_dose_rate = statistics.counted_dose() / summary.duration();
   }
   return summary;
 }

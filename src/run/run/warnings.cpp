@@ -15,20 +15,15 @@ constexpr double touched_share_limit = 0.05, supplied_share_limit = 0.01, stall_
                  closure_limit = 1e-9, interval_limit = 0.05, by_rule_share_limit = 0.01;
 constexpr double fewest_collisions = 1000;
 
-void check_end(const Measures& m, std::vector<io::Warning>& list) {
-  using model::EndReason;
-  const auto warn = [&](const std::string& text) { list.push_back({"end_reason", text}); };
-  if (m.end_reason == EndReason::interrupted)
-    warn("The run was interrupted; the results cover the time up to then.");
-  if (m.end_reason == EndReason::inelastic_collapse)
-    warn("The run ended in inelastic collapse: a ball met another body infinitely often in a finite time.");
-  if (m.end_reason == EndReason::stalled)
-    warn(
-        "The run has stalled: bodies that cannot separate hit each other while the clock stood still. The "
-        "results cover the time up to then.");
-  if (m.end_reason == EndReason::undecided)
-    warn("The run ended at a decision that no scalar could make; the results cover the time up to then.");
-}
+constexpr std::pair<model::EndReason, const char*> ends[] = {
+    {model::EndReason::interrupted, "The run was interrupted; the results cover the time up to then."},
+    {model::EndReason::inelastic_collapse,
+     "The run ended in inelastic collapse: a ball met another body infinitely often in a finite time."},
+    {model::EndReason::stalled,
+     "The run has stalled: bodies that cannot separate hit each other while the clock stood still. The "
+     "results cover the time up to then."},
+    {model::EndReason::undecided,
+     "The run ended at a decision that no scalar could make; the results cover the time up to then."}};
 
 /// Whether the transient is not over: the first batch is outside the others' prediction interval, or the
 /// halves differ.
@@ -69,8 +64,9 @@ void check_dose_rate(const Measures& m, std::vector<io::Warning>& list) {
 
 std::vector<io::Warning> warnings_of(const Measures& m) {
   std::vector<io::Warning> list;
-  check_end(m, list);
   const auto warn = [&](const char* kind, const std::string& text) { list.push_back({kind, text}); };
+  for (const auto& [reason, text] : ends)
+    if (m.end_reason == reason) warn("end_reason", text);
   if (m.collisions < fewest_collisions)
     warn("too_few_collisions",
          fmt::format("Only {:g} collisions were counted; below {:g} the rates are not reliable.",

@@ -1,5 +1,6 @@
 #include "study/executor.hpp"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
@@ -8,39 +9,92 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
-#include <sstream>
+#include <utility>
 
 #include "base/errors.hpp"
-#include "base/scalar.hpp"
+
+#ifdef EDMILL_MPI
+#include <mpi.h>
+#endif
 
 namespace edmill::study {
+
+#ifdef EDMILL_MPI
+
+namespace {
+
+/// Without a launcher MPI_Init would needlessly start daemons, which requires a network.
+bool launched() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"})
+    if (std::getenv(name)) return true;
+  return false;
+}
+
+}  // namespace
+
+Ranks::Ranks() {
+  if (!launched()) return;
+  int level = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+}
+
+Ranks::~Ranks() {
+  if (launched()) MPI_Finalize();
+}
+
+void Ranks::send(int to, const std::string& text) const {
+  MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, to, 0, MPI_COMM_WORLD);
+}
+
+std::optional<std::pair<int, std::string>> Ranks::receive() const {
+  if (size_ == 1) return std::nullopt;
+  int there = 0, length = 0;
+  MPI_Status status;
+  MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &there, &status);
+  if (!there) return std::nullopt;
+  MPI_Get_count(&status, MPI_CHAR, &length);
+  std::string text(static_cast<std::size_t>(length), '\0');
+  MPI_Recv(text.data(), length, MPI_CHAR, status.MPI_SOURCE, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  return std::make_pair(status.MPI_SOURCE, std::move(text));
+}
+
+#else
+
+Ranks::Ranks() = default;
+Ranks::~Ranks() = default;
+void Ranks::send(int, const std::string&) const {}
+std::optional<std::pair<int, std::string>> Ranks::receive() const { return std::nullopt; }
+
+#endif
 
 namespace {
 
 using std::chrono::milliseconds;
 
-// Messages. From rank 0: "stop", or the lines of a job; to rank 0: a number of threads, or a record.
-constexpr const char* stop_message = "stop";
-constexpr const char* no_limit = "none";
+/// Evenly over the jobs in the order of their costs, the first and the last among them.
+std::vector<Job> chosen(std::vector<Job> jobs, std::size_t most) {
+  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost < b.cost; });
+  if (jobs.size() <= most) return jobs;
+  std::vector<Job> few;
+  for (std::size_t k = 0; k < most; ++k) few.push_back(jobs[k * (jobs.size() - 1) / (most - 1)]);
+  return few;
+}
 
-std::string to_message(const Job& job) {
-  const std::string limit = std::isfinite(job.max_cpu_time) ? to_text(job.max_cpu_time) : no_limit;
-  std::string text = "job\n" + job.digest + "\n" + limit + "\n" + job.case_file;
-  for (const auto& o : job.overrides) text += "\n" + o;
-  return text;
+// Messages. From rank 0: a job, or nothing to stop; to rank 0: a number of threads, or a record.
+std::string to_message(Job job) {
+  Archive archive;
+  archive(job);
+  return archive.bytes();
 }
 
 Job to_job(const std::string& message) {
   Job job;
-  std::istringstream lines(message);
-  std::string line;
-  std::getline(lines, line);
-  std::getline(lines, job.digest);
-  std::getline(lines, line);
-  if (line != no_limit) job.max_cpu_time = from_text<double>(line);
-  std::getline(lines, job.case_file);
-  while (std::getline(lines, line)) job.overrides.push_back(line);
+  Archive archive(message);
+  archive(job);
   return job;
 }
 
@@ -119,7 +173,7 @@ Executor::Executor(Ranks& ranks, int threads, RunFunction run, std::atomic<bool>
 
 Executor::~Executor() {
   if (running_ > 0) interrupt_ = true;
-  for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, stop_message);
+  for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, "");
 }
 
 int Executor::threads() const { return workers_->threads() + threads_elsewhere_; }
@@ -177,12 +231,62 @@ void Executor::run(std::vector<Job> jobs, const std::function<void(const RunReco
   }
 }
 
+void Forecast::make(const std::vector<Job>& jobs, Executor& executor,
+                    const std::function<void(const RunRecord&)>& done) {
+  std::map<std::string, Job> tried;
+  std::vector<Job> short_jobs;
+  for (const auto& job : chosen(jobs, trials)) {
+    tried.emplace(job.digest, job);
+    short_jobs.push_back(job);
+    short_jobs.back().max_cpu_time = std::min(job.max_cpu_time, trial_time);
+  }
+  const auto take = [&](const RunRecord& record) {
+    const auto& job = tried.at(record.digest);
+    const double simulated = record.end_time - job.initial_time;
+    if (record.lasting()) {
+      rates_[job.cost] = record.cpu_seconds / job.cost;
+      done(record);
+    } else if (simulated > 0 && std::isfinite(job.end_time)) {
+      const double all = record.cpu_seconds * (job.end_time - job.initial_time) / simulated;
+      rates_[job.cost] = std::min(all, job.max_cpu_time) / job.cost;
+    }
+  };
+  executor.run(std::move(short_jobs), take, [] {});
+}
+
+std::optional<double> Forecast::seconds(const Job& job) const {
+  if (rates_.empty() || !std::isfinite(job.end_time)) return std::nullopt;
+  // The rate changes slowly with the cost: that of the nearest job that was tried.
+  auto above = rates_.lower_bound(job.cost);
+  if (above == rates_.end() ||
+      (above != rates_.begin() && job.cost / std::prev(above)->first < above->first / job.cost))
+    --above;
+  return above->second * job.cost;
+}
+
+std::optional<double> Forecast::wall_time(const std::vector<Job>& jobs, int threads) const {
+  double all = 0, longest = 0;
+  for (const auto& job : jobs) {
+    const auto own = seconds(job);
+    if (!own) return std::nullopt;
+    all += *own;
+    longest = std::max(longest, *own);
+  }
+  return std::max(all / std::max(threads, 1), longest);
+}
+
+std::string in_words(double wall_time) {
+  const auto left = static_cast<long>(std::ceil(wall_time));
+  if (left >= 3600) return fmt::format("about {} h {:02} min", left / 3600, left / 60 % 60);
+  return fmt::format("about {}:{:02} min", left / 60, left % 60);
+}
+
 void serve(Ranks& ranks, int threads, const RunFunction& run, std::atomic<bool>& interrupt) {
   Workers workers(threads, run);
   ranks.send(0, std::to_string(workers.threads()));
   for (;;) {
     while (const auto message = ranks.receive()) {
-      if (message->second == stop_message) {
+      if (message->second.empty()) {
         interrupt = true;
         return;
       }

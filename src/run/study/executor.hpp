@@ -1,17 +1,40 @@
-// Runs on all threads of all ranks, longest first.
+// Runs on all threads of all ranks, longest first, and how long they will take.
 #pragma once
 
 #include <atomic>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "study/ranks.hpp"
+#include "base/archive.hpp"
 #include "study/run_record.hpp"
 
 namespace edmill::study {
+
+/// The processes of a run under mpirun; a single one without it.
+/// Starts MPI when an MPI launcher started the program, and ends it. At most one at a time.
+class Ranks {
+ public:
+  Ranks();
+  ~Ranks();
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+
+  void send(int to, const std::string& text) const;
+  /// A message that has arrived, and its source; does not wait for one.
+  std::optional<std::pair<int, std::string>> receive() const;
+
+ private:
+  int rank_ = 0, size_ = 1;
+};
 
 struct Job {
   std::string case_file;
@@ -22,6 +45,9 @@ struct Job {
   double initial_time = 0, end_time = std::numeric_limits<double>::infinity();
   /// Processor time after which the run ends without a result [s].
   double max_cpu_time = std::numeric_limits<double>::infinity();
+
+  /// What another rank needs to know.
+  void archive(Archive& a) { a(case_file, overrides, digest, max_cpu_time); }
 };
 
 /// Does a run; called in several threads at once. An exception becomes the record of a failed run.
@@ -61,6 +87,29 @@ class Executor {
   int threads_elsewhere_ = 0;    ///< of other ranks
   std::size_t running_ = 0;
 };
+
+/// How long jobs will take, from short trials of some of them.
+class Forecast {
+ public:
+  /// Runs at most `trials` of the jobs for `trial_time` [s] of processor time each, of all costs.
+  /// @param done  called with the records of trials that got to their end: results as any other
+  void make(const std::vector<Job>& jobs, Executor& executor,
+            const std::function<void(const RunRecord&)>& done);
+
+  /// Processor time of a job [s]; nothing where its end is not known beforehand.
+  std::optional<double> seconds(const Job& job) const;
+  /// Wall time of jobs on so many threads [s].
+  std::optional<double> wall_time(const std::vector<Job>& jobs, int threads) const;
+
+ private:
+  static constexpr std::size_t trials = 12;
+  static constexpr double trial_time = 0.25;
+
+  std::map<double, double> rates_;  ///< processor time over cost, by the cost of the job that was tried
+};
+
+/// "about 1:20 min".
+std::string in_words(double wall_time);
 
 /// The side of every other rank: does the jobs of rank 0 until it sends stop.
 void serve(Ranks& ranks, int threads, const RunFunction& run, std::atomic<bool>& interrupt);

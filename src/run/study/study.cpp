@@ -5,18 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint_file.hpp"
+#include "io/input_file.hpp"
 #include "io/table_hdf5.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::study {
+
+using Table = io::Table<double>;
+using io::Column;
+using Type = Column::Type;
 
 namespace {
 
@@ -51,25 +54,38 @@ void write_file(const std::filesystem::path& place, const std::string& bytes) {
   file.commit();
 }
 
-std::optional<RunRecord> read_record(const std::filesystem::path& place) {
-  std::ifstream in(place, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::ostringstream text;
-  text << in.rdbuf();
-  return from_json(text.str());
+std::size_t count_ended(const std::vector<Run>& runs, bool with_result) {
+  const auto ended = [&](const Run& r) { return r.record && r.record->done() == with_result; };
+  return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), ended));
+}
+
+std::string setting_of(const Point& point, const std::string& key) {
+  for (const auto& [name, value] : point.settings)
+    if (name == key) return value;
+  return "";
+}
+
+/// What both tables begin with.
+std::vector<Column> point_columns(const std::vector<std::string>& keys) {
+  std::vector<Column> columns{{"point", Type::integer}, {"name", Type::text}};
+  for (const auto& key : keys) columns.push_back({key, Type::text});
+  return columns;
+}
+
+void put_point(Table& table, std::size_t index, const Point& point, const std::vector<std::string>& keys) {
+  table.put(index + 1, point.name);
+  for (const auto& key : keys) table.put(setting_of(point, key));
+}
+
+std::optional<double> charge_ratio(const RunRecord& r) {
+  if (!r.powder_mass || !r.ball_mass) return std::nullopt;
+  return *r.ball_mass / *r.powder_mass;
 }
 
 }  // namespace
 
-std::size_t Point::done() const {
-  return static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [](const Run& r) { return r.record && r.record->done(); }));
-}
-
-std::size_t Point::failed() const {
-  return static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [](const Run& r) { return r.record && !r.record->done(); }));
-}
+std::size_t Point::done() const { return count_ended(runs, true); }
+std::size_t Point::failed() const { return count_ended(runs, false); }
 
 std::vector<double> Point::values(const Quantity& quantity) const {
   std::vector<double> values;
@@ -173,7 +189,7 @@ std::vector<Job> Study::collect_jobs() {
     for (auto& run : point.runs) {
       if (run.record) continue;
       if (!waiting_.contains(run.job.digest)) {
-        run.record = read_record(record_file(run.job.digest));
+        run.record = from_json(io::content_of(record_file(run.job.digest)));
         if (run.record && run.record->digest == run.job.digest && run.record->lasting()) {
           log_.emplace_back("kept", run.record->cpu_seconds);
           ++kept_;
@@ -290,6 +306,75 @@ StudyCounts Study::counts() const {
   c.kept = kept_;
   c.ran = ran_;
   return c;
+}
+
+std::vector<std::string> Study::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& point : points_)
+    for (const auto& [key, value] : point.settings)
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  return keys;
+}
+
+std::vector<Quantity> Study::quantities() const {
+  int walls = 0;
+  for (const auto& point : points_)
+    for (const auto& run : point.runs) walls = std::max(walls, run.walls);
+  return study::quantities(walls);
+}
+
+Table Study::point_table() const {
+  const auto varied = keys();
+  const auto shown = quantities();
+  auto columns = point_columns(varied);
+  for (const auto* name : {"replicas", "done", "failed"}) columns.push_back({name, Type::integer});
+  for (const auto& quantity : shown)
+    for (const auto* what : {"", "_ci95"}) columns.push_back({quantity.name + what, Type::number});
+  Table table(std::move(columns));
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto& point = points_[k];
+    put_point(table, k, point, varied);
+    table.put(point.runs.size(), point.done(), point.failed());
+    for (const auto& quantity : shown) {
+      const auto e = numerics::estimate(point.values(quantity));
+      table.put(e.mean, e.half_width);
+    }
+  }
+  return table;
+}
+
+Table Study::run_table() const {
+  const auto varied = keys();
+  const auto shown = quantities();
+  auto columns = point_columns(varied);
+  columns.push_back({"seed", Type::integer});
+  for (const auto* name : {"status", "end_reason"}) columns.push_back({name, Type::text});
+  for (const auto* name : {"start_time", "end_time", "charge_ratio_reached", "milling_dose", "wall_work",
+                           "milling_dose_rate_ci95"})
+    columns.push_back({name, Type::number});
+  for (const auto& quantity : shown) columns.push_back({quantity.name, Type::number});
+  for (const auto* name : {"digest", "message"}) columns.push_back({name, Type::text});
+  Table table(std::move(columns));
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    for (const auto& run : points_[k].runs) {
+      const auto record = run.record.value_or(RunRecord{});
+      const bool ran = run.record && !run.record->end_reason.empty();
+      const auto if_ran = [&](double x) { return ran ? std::optional<double>(x) : std::nullopt; };
+      put_point(table, k, points_[k], varied);
+      table.put(run.seed, run.record ? record.status : "pending", record.end_reason);
+      table.put(if_ran(record.start_time), if_ran(record.end_time), charge_ratio(record),
+                if_ran(record.milling_dose), if_ran(record.wall_work), record.dose_rate_half_width);
+      for (const auto& quantity : shown) table.put(quantity.of(record));
+      table.put(run.job.digest, record.message);
+    }
+  return table;
+}
+
+Table Study::log_table() const {
+  if (log_.empty()) return {};
+  Table table({{"run", Type::text}, {"cpu_seconds", Type::number}});
+  for (const auto& [what, seconds] : log_) table.put(what, seconds);
+  return table;
 }
 
 }  // namespace edmill::study

@@ -12,7 +12,7 @@
 #include "casefile/study_spec.hpp"
 #include "io/output_folder.hpp"
 #include "io/table.hpp"
-#include "study/forecast.hpp"
+#include "study/executor.hpp"
 
 namespace edmill::study {
 

@@ -70,12 +70,12 @@ class TableInHdf5 : public ::testing::Test {
     std::filesystem::remove(place_);
   }
   H5T_class_t type_of(const char* name) const {
-    const Hdf5Handle set(H5Dopen2(*file_, name, H5P_DEFAULT), H5Dclose), type(H5Dget_type(set), H5Tclose);
+    const Handle set(H5Dopen2(*file_, name, H5P_DEFAULT), H5Dclose), type(H5Dget_type(set), H5Tclose);
     return H5Tget_class(type);
   }
   std::filesystem::path place_ =
       std::filesystem::temp_directory_path() / ("edmill-table-" + std::to_string(::getpid()) + ".h5");
-  std::optional<Hdf5Handle> file_;
+  std::optional<Handle> file_;
 };
 
 TEST_F(TableInHdf5, ColumnsHaveTheTypeOfTheirCells) {

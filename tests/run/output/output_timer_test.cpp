@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core.hpp"
-#include "output/accumulator.hpp"
+#include "output/tallies.hpp"
 
 namespace edmill::output {
 namespace {

@@ -97,8 +97,7 @@ TEST_F(Outputs, EventsInHdf5AreThoseOfTheLog) {
   EXPECT_EQ(contents(scratch / "out/events.h5"), all_bytes);
 
   const auto log = read("collisions.csv");
-  const io::Hdf5Handle file(H5Fopen((scratch / "out/events.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
-                            H5Fclose);
+  const io::Handle file(H5Fopen((scratch / "out/events.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   for (const std::string column :
        {"index", "time", "ball", "partner", "approach_speed", "slip_speed", "milling_dose", "wall_work"}) {
     const auto values = dataset(file, "events/" + column);

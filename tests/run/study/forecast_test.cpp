@@ -1,11 +1,11 @@
 // Forecasts of made-up runs whose processor times are known.
-#include "study/forecast.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <mutex>
 #include <random>
+
+#include "study/executor.hpp"
 
 namespace edmill::study {
 namespace {

@@ -12,7 +12,7 @@
 #include "dem/contact_rates.hpp"
 #include "dem/deck.hpp"
 #include "dem/import_dump.hpp"
-#include "io/named_file.hpp"
+#include "io/output_folder.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {

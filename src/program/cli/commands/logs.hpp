@@ -12,7 +12,7 @@
 #include "dem/contact_audit.hpp"
 #include "dem/contact_rates.hpp"
 #include "io/input_file.hpp"
-#include "io/named_file.hpp"
+#include "io/output_folder.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {

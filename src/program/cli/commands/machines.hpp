@@ -5,7 +5,7 @@
 
 #include "app/check_case.hpp"
 #include "cli/exit_codes.hpp"
-#include "io/named_file.hpp"
+#include "io/output_folder.hpp"
 #include "io/terminal.hpp"
 #include "machines/machines.hpp"
 

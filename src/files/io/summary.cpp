@@ -1,14 +1,14 @@
-// Implementation of summary_json; included by the instantiation files only.
-#pragma once
+#include "io/summary.hpp"
 
 #include <algorithm>
 
+#include "base/scalar_list.hpp"
+#include "base/statistics.hpp"
 #include "io/json_text.hpp"
-#include "io/summary.hpp"
 
 namespace edmill::io {
 
-namespace detail {
+namespace {
 
 /// Writes a summary, a group of keys a function, in the order of the file.
 template <class Real>
@@ -21,13 +21,11 @@ class SummaryWriter {
     add_collisions();
     add_doses();
     add_energy();
-    add_least_separation();
-    add_stalls();
+    add_touched();
     add_intervals();
     if (s.target) add_target();
     if (s.collapse) add_collapse();
     if (s.stall) add_stall();
-    if (!s.notes.empty()) add_notes();
     add_engine();
     return json.finish();
   }
@@ -68,10 +66,9 @@ class SummaryWriter {
   void add_doses() {
     json.number("milling_dose", s.milling_dose);
     rate("milling_dose_rate", s.milling_dose);
-    if (s.duration() > 0 && s.milling_dose > 0)
-      json.number("inverse_milling_dose_rate", Real(s.duration() / s.milling_dose));
-    else
-      json.null("inverse_milling_dose_rate");
+    json.number("inverse_milling_dose_rate", s.duration() > 0 && s.milling_dose > 0
+                                                 ? std::optional<Real>(s.duration() / s.milling_dose)
+                                                 : std::nullopt);
     json.begin("milling_dose_by_partner");
     for (int k = 0; k < s.partners.count(); ++k) json.number(s.partners[k].key, s.dose_by_partner[k]);
     json.end();
@@ -95,16 +92,13 @@ class SummaryWriter {
     json.end();
   }
 
-  void add_least_separation() {
+  void add_touched() {
     json.begin("least_separation");
     add_shares(s.touched_impacts, s.touched_dose);
     json.number("supplied_energy", s.supplied_energy);
     json.number("supplied_energy_share",
                 s.energy_scale() > 0 ? Real(s.supplied_energy / s.energy_scale()) : Real(0));
     json.end();
-  }
-
-  void add_stalls() {
     json.begin("stalls");
     add_shares(s.stall_impacts, s.stall_dose);
     json.end();
@@ -149,10 +143,7 @@ class SummaryWriter {
     json.number("counted_dose_rate", s.target->counted_dose_rate);
     if (s.intervals.any())
       json.number("counted_dose_rate_half_width", s.intervals.counted_dose_rate.half_width);
-    if (const auto time = s.milling_time())
-      json.number("milling_time", *time);
-    else
-      json.null("milling_time");
+    json.number("milling_time", s.milling_time());
     if (const auto width = s.milling_time_half_width()) json.number("milling_time_half_width", *width);
     json.end();
   }
@@ -162,12 +153,8 @@ class SummaryWriter {
     json.integer("impacts", impacts);
     json.number("impact_share", total > 0 ? static_cast<double>(impacts) / total : 0.0);
     json.number("milling_dose", dose);
-    json.number("milling_dose_share", share_of_dose(dose));
+    json.number("milling_dose_share", s.milling_dose > 0 ? Real(dose / s.milling_dose) : Real(0));
   }
-  Real share_of_dose(const Real& energy) const {
-    return s.milling_dose > 0 ? Real(energy / s.milling_dose) : Real(0);
-  }
-
   void add_collapse() {
     json.begin("inelastic_collapse");
     json.integer("ball", s.collapse->ball);
@@ -186,13 +173,12 @@ class SummaryWriter {
     json.end();
   }
 
-  void add_notes() {
-    json.begin("notes");
-    for (const auto& [name, value] : s.notes) json.number(name, value);
-    json.end();
-  }
-
   void add_engine() {
+    if (!s.notes.empty()) {
+      json.begin("notes");
+      for (const auto& [name, value] : s.notes) json.number(name, value);
+      json.end();
+    }
     json.begin("escalations");
     for (const auto& e : s.escalations) {
       json.begin(e.scalar);
@@ -212,17 +198,14 @@ class SummaryWriter {
 
   /// The amount over the time simulated; null when that is none.
   void rate(std::string_view key, const Real& amount) {
-    if (s.duration() > 0)
-      json.number(key, Real(amount / s.duration()));
-    else
-      json.null(key);
+    json.number(key, s.duration() > 0 ? std::optional<Real>(amount / s.duration()) : std::nullopt);
   }
 
   const Summary<Real>& s;
   JsonText json;
 };
 
-}  // namespace detail
+}  // namespace
 
 template <class Real>
 Summary<double> in_double(const Summary<Real>& s) {
@@ -271,7 +254,19 @@ std::string stall_message(const Summary<Real>& s) {
 
 template <class Real>
 std::string summary_json(const Summary<Real>& s) {
-  return detail::SummaryWriter<Real>(s).text();
+  return SummaryWriter<Real>(s).text();
 }
+
+Intervals::Rate Intervals::of(std::vector<double> amounts, double length) {
+  for (auto& amount : amounts) amount /= length;
+  const double half_width = numerics::estimate(amounts).half_width.value_or(0);
+  return {std::move(amounts), half_width};
+}
+
+#define EDMILL_SUMMARY(Real)                                      \
+  template std::string summary_json<Real>(const Summary<Real>&);  \
+  template std::string stall_message<Real>(const Summary<Real>&); \
+  template Summary<double> in_double<Real>(const Summary<Real>&);
+EDMILL_FOR_EACH_SCALAR(EDMILL_SUMMARY)
 
 }  // namespace edmill::io

@@ -1,0 +1,145 @@
+// What tables gather: statistics of a variable, and counts for each partner, which are the walls by id, other
+// balls, and their total.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/scalar.hpp"
+#include "base/sums.hpp"
+#include "casefile/output_spec.hpp"
+#include "io/table.hpp"
+#include "model/parts/partners.hpp"
+#include "output/impact_facts.hpp"
+
+namespace edmill::output {
+
+using casefile::Statistic;
+
+/// Running statistics of one variable.
+template <class Real>
+class Accumulator {
+ public:
+  void add(const Real& value) {
+    if (count_ == 0 || value < least_) least_ = value;
+    if (count_ == 0 || value > largest_) largest_ = value;
+    sum_ += value;
+    ++count_;
+  }
+  /// What was added to another one.
+  void add(const Accumulator& other) {
+    if (other.count_ == 0) return;
+    if (count_ == 0 || other.least_ < least_) least_ = other.least_;
+    if (count_ == 0 || other.largest_ > largest_) largest_ = other.largest_;
+    sum_ += other.sum_.value();
+    count_ += other.count_;
+  }
+
+  Real sum() const { return sum_.value(); }
+
+  void archive(Archive& a) { a(count_, sum_, least_, largest_); }
+
+  /// Nothing where nothing defines the statistic, such as the average of nothing.
+  /// @param duration  that the sum is spread over [s]
+  /// @param whole     that the sum is a share of
+  std::optional<Real> value(Statistic s, const Real& duration, const Real& whole) const {
+    switch (s) {
+      case Statistic::sum:
+        return sum();
+      case Statistic::average:
+        return io::value_if(count_ > 0, [&] { return Real(sum() / Real(count_)); });
+      case Statistic::minimum:
+        return io::value_if(count_ > 0, [&] { return least_; });
+      case Statistic::maximum:
+        return io::value_if(count_ > 0, [&] { return largest_; });
+      case Statistic::rate:
+        return io::value_if(duration > 0, [&] { return Real(sum() / duration); });
+      case Statistic::percentage:
+        return io::value_if(whole != 0, [&] { return Real(100 * sum() / whole); });
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+  numerics::CompensatedSum<Real> sum_;
+  Real least_{0}, largest_{0};
+};
+
+/// What a list with an entry for each partner has for that of an impact.
+template <class Real, class List>
+auto& of_partner(const ImpactFacts<Real>& f, List& list) {
+  return f.impact.with_wall ? list[f.impact.partner] : list.back();
+}
+
+/// A partner, or several together, as columns of tables count them.
+struct PartnerColumn {
+  std::string name, meaning;
+};
+inline PartnerColumn column_of(const model::PartnerInfo& partner) { return {partner.key, partner.meaning}; }
+inline const PartnerColumn walls_column{"walls", "with all walls"}, total_column{"total", "of all impacts"};
+
+/// A column for several partners, whose places are in a row.
+struct PartnerGroup {
+  PartnerColumn column;
+  int first, last;  ///< of the partners that it counts
+};
+
+/// Each wall, all walls, other balls, all partners.
+inline std::vector<PartnerGroup> groups_of(const model::Partners& partners, bool each_wall) {
+  std::vector<PartnerGroup> list;
+  const int balls = partners.ball_ball();
+  if (each_wall)
+    for (int wall = 0; wall < balls; ++wall) list.push_back({column_of(partners[wall]), wall, wall});
+  list.push_back({walls_column, 0, balls - 1});
+  list.push_back({column_of(partners[balls]), balls, balls});
+  list.push_back({total_column, 0, balls});
+  return list;
+}
+
+/// Adds "wall_0 energy [J]" and so on to "total energy [J]".
+inline void add_partner_columns(std::vector<io::Column>& columns, const model::Partners& partners,
+                                const io::Column& of_each) {
+  for (int place = 0; place <= partners.count(); ++place) {
+    const auto [partner, meaning] = place < partners.count() ? column_of(partners[place]) : total_column;
+    columns.push_back(
+        {partner + " " + of_each.name, of_each.type, of_each.unit, of_each.description + ", " + meaning});
+  }
+}
+
+/// Impacts with one partner and an energy of them [J].
+template <class Real>
+struct Tally {
+  std::uint64_t impacts = 0;
+  numerics::CompensatedSum<Real> energy;
+
+  void add(const Real& joule) {
+    ++impacts;
+    energy += joule;
+  }
+  void add(const Tally& other) {
+    impacts += other.impacts;
+    energy += other.energy.value();
+  }
+  void archive(Archive& a) { a(impacts, energy); }
+};
+/// With each partner.
+template <class Real>
+using PartnerTally = std::vector<Tally<Real>>;
+
+/// Calls `put` with the value of each partner and with their total.
+/// @param value_of  of what the list has for a partner
+template <class Value, class List, class ValueOf, class Put>
+void put_partners(const List& list, ValueOf&& value_of, Put&& put) {
+  Value total{0};
+  for (const auto& partner : list) {
+    const Value value = value_of(partner);
+    put(value);
+    total += value;
+  }
+  put(total);
+}
+
+}  // namespace edmill::output
