@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "app/certify.hpp"
-#include "app/digits.hpp"
 #include "app/run.hpp"
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"

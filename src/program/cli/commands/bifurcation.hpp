@@ -1,7 +1,7 @@
 // The commands that follow a case through its parameters.
 #pragma once
 
-#include "app/bifurcation.hpp"
+#include "app/study.hpp"
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
 #include "cli/commands/case_argument.hpp"

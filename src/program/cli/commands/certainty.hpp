@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/certify.hpp"
-#include "app/prove.hpp"
 #include "base/errors.hpp"
 #include "casefile/precisions.hpp"
 #include "cli/commands/case_argument.hpp"
