@@ -12,7 +12,6 @@
 #include "casefile/precisions.hpp"
 #include "python/binding.hpp"
 #include "report/report_page.hpp"
-#include "report/run_folder.hpp"
 #include "run/any_run.hpp"
 #include "run/case_access.hpp"
 

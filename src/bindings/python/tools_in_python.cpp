@@ -9,8 +9,6 @@
 #include "app/audit.hpp"
 #include "app/certify.hpp"
 #include "app/check_case.hpp"
-#include "app/digits.hpp"
-#include "app/prove.hpp"
 #include "app/run.hpp"
 #include "app/study.hpp"
 #include "base/errors.hpp"

@@ -1,18 +1,28 @@
-// Charts as SVG: lines, steps, bands and marks in a frame with axes. Colours are CSS classes of the page.
+// HTML and SVG built as a tree, so that every text in it is escaped; charts and heat maps as SVG. Colours of
+// charts are CSS classes of the page.
 #pragma once
 
-#include <optional>
+#include <initializer_list>
+#include <ostream>
+#include <pugixml.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "plot/markup.hpp"
-#include "plot/ticks.hpp"
-
 namespace edmill::plot {
 
+using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
+
+/// A new element at the end of `parent`.
+pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes = {},
+                   std::string_view text = {});
+
+/// Without self-closed tags, which HTML does not know, and without white space of its own.
+std::string html_of(const pugi::xml_document& document);
+
 struct Axis {
-  std::string title;  ///< with its unit: "time [s]"
+  std::string title{};  ///< with its unit: "time [s]"
   double low = 0, high = 1;
   bool logarithmic = false;
 };
@@ -39,33 +49,43 @@ struct Mark {
   std::string text;
 };
 
+/// Lines, steps, bands and marks in a frame with axes.
 struct Chart {
-  std::string id;           ///< unique on the page
-  std::string title;        ///< a heading over the chart
-  std::string description;  ///< what a reader who cannot see it should know
-  Axis x, y;
-  std::vector<Curve> curves;
-  std::vector<Band> bands;
-  std::vector<Mark> marks;
+  std::string id{};           ///< unique on the page
+  std::string title{};        ///< a heading over the chart
+  std::string description{};  ///< what a reader who cannot see it should know
+  Axis x{}, y{};
+  std::vector<Curve> curves{};
+  std::vector<Band> bands{};
+  std::vector<Mark> marks{};
 };
 
-/// The inside of the frame in the chart's own units, as far in as the labels need. [px]
-struct Frame {
-  double left = 70, right = 448, top = 14, bottom = 232;
-  double width = 460, height = 280;
-
-  /// Room for the labels of the y axis and its title, and for half of the last one of the x axis.
-  void make_room(const std::vector<Tick>& x, const std::vector<Tick>& y);
+/// A cell of a map in the coordinates of its axes; of a disc: angle [rad] and radius.
+struct HeatCell {
+  double x_low, x_high, y_low, y_high;
+  double value;
 };
+
+/// Values of cells as colours, with the scale that tells them apart.
+struct HeatMap {
+  std::string id, title, description;
+  Axis x, y;           ///< of a disc: y from 0 to the outer radius, x unused but for its title
+  std::string value;   ///< title of the scale, with its unit
+  double highest = 1;  ///< value at the top of the scale, whose bottom is 0
+  double x_step = 0;   ///< between the labels along x; 0 for round numbers
+  bool disc = false;   ///< polar cells, angle 0 to the right, turning against the clock
+  std::vector<HeatCell> cells;
+};
+
+/// "#rrggbb" of a share of the highest value: viridis, whose lightness grows steadily.
+std::string heat_colour(double share);
 
 /// The convex polygon around points, against the clock.
 Points hull_of(Points points);
 
-/// Where a value stands along an axis, 0 at its low end and 1 at its high end.
-double fraction(const Axis& axis, double value);
-
-/// A figure with caption, legend and drawing.
+/// A figure with caption, legend or scale, and drawing.
 void draw(pugi::xml_node parent, const Chart& chart);
+void draw(pugi::xml_node parent, const HeatMap& map);
 
 /// The drawing alone as a file (SVG), in the colours that it has on a page of a report.
 void save(std::ostream& out, const Chart& chart);
@@ -76,10 +96,5 @@ pugi::xml_node add_drawing(pugi::xml_node parent, const std::string& id, const s
 
 /// "12.3", for places in a drawing.
 std::string pixel(double place);
-/// A <text> of a style [px].
-pugi::xml_node add_text(pugi::xml_node parent, const char* style, double x, double y,
-                        const std::string& text);
-/// The title of a y axis, which reads upwards [px].
-void add_y_title(pugi::xml_node axis, double x, double y, const std::string& text);
 
 }  // namespace edmill::plot

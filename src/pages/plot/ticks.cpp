@@ -25,8 +25,7 @@ std::string fixed(double value, int decimals) {
   const bool zero = text.find_first_not_of("0.") == std::string::npos;
   const std::size_t whole = std::min(text.find('.'), text.size());
   if (whole > 4)
-    for (std::size_t k = whole; k > 3; k -= 3)
-      if (k - 3 > 0) text.insert(k - 3, "\u202f");
+    for (std::size_t k = whole; k > 3; k -= 3) text.insert(k - 3, "\u202f");
   return (value < 0 && !zero ? minus : "") + text;
 }
 

@@ -1,5 +1,4 @@
-#include "report/mill_drawing.hpp"
-
+// A mill's motion drawn as a picture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "plot/chart.hpp"
+#include "report/report_page.hpp"
 
 namespace edmill::report {
 
@@ -82,9 +82,8 @@ std::vector<JointMark> joints_of(const ChainMotion<double>& chain, double size) 
 Pictured picture(const model::Mill<double>& mill) {
   Pictured p;
   const auto corners = corners_of(mill.vessel);
-  const auto farthest = *std::max_element(corners.begin(), corners.end(), [](const auto& a, const auto& b) {
-    return squared_norm<double>(a) < squared_norm<double>(b);
-  });
+  const auto farthest =
+      *std::ranges::max_element(corners, {}, [](const auto& corner) { return squared_norm<double>(corner); });
   for (int k = 0; k <= samples; ++k) {
     const auto pose = mill.motion.pose(Instant<double>{0, mill.motion.period() * k / samples});
     p.centre.push_back(mill.motion.to_inertial(pose, Vec3<double>::Zero()));

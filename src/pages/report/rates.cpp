@@ -1,4 +1,5 @@
-// Rates over time and by partner, and speeds of the balls.
+// Rates over time and by partner, speeds of the balls, and how errors grow: Lyapunov exponents of the run,
+// and those of its intervals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,54 +12,45 @@
 
 namespace edmill::report {
 
-using plot::add;
-using plot::brief;
-using plot::readable;
-
 namespace {
 
 constexpr std::size_t most_points = 120;
 
 void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
-  const auto series = rate_of(run, "milling_dose");
+  const auto series = rate_of(run, "milling_dose", most_points);
   if (!series)
     return add_missing(
         grid, "dose rate over time",
         "type = \"trends\", columns = [{ variable = \"milling_dose\", statistics = [\"rate\"] }]");
+  const auto& f = run.facts;
   auto chart = over_time(run, "dose-rate", "Milling dose rate over time", "milling dose rate [W]");
-  const auto thin = coarser(whole(*series), most_points);
-  chart.curves.push_back({"", "c0", points_of(thin), false});
-  const double from = run.facts.start_time, until = run.facts.end_time;
-  if (const auto width = run.facts.half_width("milling_dose_rate")) {
-    const double mean = run.facts.milling_dose / run.facts.duration();
-    chart.curves[0].name = fmt::format("over {} s", readable(thin.end[0] - thin.begin[0], 2));
-    chart.bands.push_back(
-        {"c1", {from, until}, {mean - *width, mean - *width}, {mean + *width, mean + *width}});
-    chart.curves.push_back({"mean with its 95 % interval", "c1", {{from, mean}, {until, mean}}, false});
+  chart.curves.push_back({"", "c0", points_of(*series), false});
+  if (const auto width = f.half_width("milling_dose_rate")) {
+    chart.curves[0].name = fmt::format("over {} s", readable(series->end[0] - series->begin[0], 2));
+    add_level(chart, f.start_time, f.end_time, {f.milling_dose / f.duration(), width},
+              "mean with its 95 % interval", "c1");
   }
-  fit_heights(chart);
   chart.description =
       fmt::format("Line of the milling dose rate in watts from {} s to {} s of simulated time.",
                   brief(chart.x.low), brief(chart.x.high));
-  draw(grid, chart);
+  draw_fitted(grid, chart);
 }
 
 void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
   auto chart = over_time(run, "collision-rates", "Collision rates over time", "collisions [1/s]");
   for (int k = 0; k < run.partners.count(); ++k)
-    if (const auto series = rate_of(run, "collision", k))
-      chart.curves.push_back({name_of(run.partners[k]), partner_colour(run.partners, k),
-                              points_of(coarser(whole(*series), most_points)), false});
+    if (const auto series = rate_of(run, "collision", most_points, k))
+      chart.curves.push_back(
+          {name_of(run.partners[k]), partner_colour(run.partners, k), points_of(*series), false});
   if (chart.curves.empty())
-    if (const auto all = rate_of(run, "collision"))
-      chart.curves.push_back({"all", "c4", points_of(coarser(whole(*all), most_points)), false});
+    if (const auto all = rate_of(run, "collision", most_points))
+      chart.curves.push_back({"all", "c4", points_of(*all), false});
   if (chart.curves.empty())
     return add_missing(
         grid, "collision rates over time",
         "type = \"trends\", columns = [{ variable = \"collision\", statistics = [\"rate\"] }]");
-  fit_heights(chart);
   chart.description = "Lines of the collisions per second with each wall and between balls.";
-  draw(grid, chart);
+  draw_fitted(grid, chart);
 }
 
 /// Of the walls by id, then of all balls together [m2].
@@ -97,7 +89,8 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
              "dose rate per area [W/cm\u00b2]"},
             rows);
   if (f.duration() > 0)
-    add(section, "p", {{"class", "note"}},
+    add_note(
+        section,
         fmt::format(
             "Area: of the wall, or of all balls. Each of the {} balls has a part in {} W on the average: an "
             "impact between balls counts half for either, one with a wall whole.",
@@ -155,9 +148,8 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
   }
   chart.curves.push_back(std::move(mean));
   chart.bands.push_back(std::move(range));
-  fit_heights(chart);
   chart.description = "Line of the balls' mean speed, within a band from the slowest to the fastest ball.";
-  draw(grid, chart);
+  draw_fitted(grid, chart);
 }
 
 void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
@@ -171,9 +163,10 @@ void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
         "type = \"frequency\", variable = \"ball_speed_before\", low = \"0 m/s\", high = \"10 m/s\"");
   const auto table = read_table(run.file_of(*output), "a table of frequencies", 1);
   const auto lower = table.column("lower"), upper = table.column("upper");
-  plot::Chart chart;
-  chart.id = "ball-speeds", chart.title = "Speed of balls at their impacts";
-  chart.description = "Histograms of the ball's speed before an impact with a wall and with another ball.";
+  plot::Chart chart{
+      .id = "ball-speeds",
+      .title = "Speed of balls at their impacts",
+      .description = "Histograms of the ball's speed before an impact with a wall and with another ball."};
   double last = 0;
   for (const auto& [name, column, colour] :
        {std::tuple{"with walls", "walls", "c2"}, std::tuple{"with balls", "ball_ball", "c3"}}) {
@@ -193,24 +186,84 @@ void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
   }
   chart.x.title = "speed before the impact [m/s]", chart.x.high = last > chart.x.low ? last : chart.x.low + 1;
   chart.y.title = "share of impacts [1/(m/s)]";
-  fit_heights(chart);
-  draw(grid, chart);
+  draw_fitted(grid, chart);
+}
+
+const casefile::OutputSpec* exponents_of(const RunFolder& run, bool finite_time) {
+  return run.output("lyapunov", [&](const auto& o) {
+    return o.only.empty() && o.timer.interval.has_value() == finite_time;
+  });
+}
+
+void add_spectrum(pugi::xml_node section, const OutputTable& table) {
+  Rows rows;
+  const auto rate = table.column("per_second"), width = table.column("half_width"),
+             collision = table.column("per_collision"), digits = table.column("digits_per_impact");
+  for (const auto& numbers : table.numbers) {
+    std::string value = readable(numbers[rate]);
+    if (std::isfinite(numbers[width])) value += " \u00b1 " + readable(numbers[width], 2);
+    rows.push_back({brief(numbers[0]), value, readable(numbers[collision], 3), readable(numbers[digits], 3)});
+  }
+  add_table(section, "lyapunov-exponents", "Lyapunov exponents",
+            {"exponent", "[1/s]", "per collision of a ball", "digits per impact"}, rows);
+}
+
+/// Three exponents at most.
+void add_over_time(pugi::xml_node grid, const RunFolder& run, const casefile::OutputSpec& output,
+                   const std::vector<std::vector<double>>& rows) {
+  constexpr std::size_t most = 3;
+  auto chart = over_time(run, "exponents-over-time", "Finite-time Lyapunov exponents over time",
+                         "growth over an interval [1/s]");
+  chart.description = "Lines of the growth of the distance to motions nearby in each interval.";
+  double start = chart.x.low;
+  if (output.timer.start_time) start = std::max(start, output.timer.start_time->to<double>());
+  for (std::size_t k = 1; k < rows[0].size() && k <= most; ++k) {
+    plot::Curve curve{fmt::format("exponent {}", k), fmt::format("c{}", k - 1), {}, false};
+    double begin = start;
+    for (const auto& row : rows) {
+      curve.points.emplace_back((begin + row[0]) / 2, row[k]);
+      begin = row[0];
+    }
+    chart.curves.push_back(std::move(curve));
+  }
+  draw_fitted(grid, chart);
+}
+
+/// How often the largest exponent has which value.
+void add_histogram(pugi::xml_node grid, const std::vector<std::vector<double>>& rows) {
+  std::vector<double> largest;
+  for (const auto& row : rows)
+    if (std::isfinite(row[1])) largest.push_back(row[1]);
+  if (largest.size() < 2) return;
+  const auto [low, high] = std::minmax_element(largest.begin(), largest.end());
+  const std::size_t bins = std::clamp<std::size_t>(largest.size() / 10, 5, 40);
+  const double width = *high > *low ? (*high - *low) / static_cast<double>(bins) : 1;
+  std::vector<double> counts(bins);
+  for (const double x : largest) ++counts[std::min(bins - 1, static_cast<std::size_t>((x - *low) / width))];
+  plot::Chart histogram{"exponents-histogram",
+                        "Values of the largest finite-time exponent",
+                        "Histogram of the largest finite-time exponent over the intervals.",
+                        {"growth over an interval [1/s]", *low, *low + width * static_cast<double>(bins)},
+                        {"share of the intervals"}};
+  for (double& count : counts) count /= static_cast<double>(largest.size());
+  histogram.curves.push_back(bars("", "c0", *low, width, counts));
+  draw_fitted(grid, histogram);
 }
 
 }  // namespace
 
 plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
                       const std::string& y_title) {
-  plot::Chart chart;
-  chart.id = id, chart.title = title;
-  chart.x = {"time [s]", run.spec.initial_time.to<double>(), run.facts.end_time, false};
-  chart.y.title = y_title;
+  plot::Chart chart{.id = id,
+                    .title = title,
+                    .x = {"time [s]", run.spec.initial_time.to<double>(), run.facts.end_time},
+                    .y = {y_title}};
   if (run.facts.start_time > chart.x.low)
     chart.marks.push_back({run.facts.start_time, "statistics from here"});
   return chart;
 }
 
-void fit_heights(plot::Chart& chart) {
+void draw_fitted(pugi::xml_node grid, plot::Chart chart) {
   double low = 0, high = 0;
   const auto see = [&](double y) {
     if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
@@ -222,6 +275,7 @@ void fit_heights(plot::Chart& chart) {
   const double room = high > low ? 0.1 * (high - low) : 1;
   chart.y.low = low < 0 ? low - room : 0;
   chart.y.high = high + room;
+  draw(grid, chart);
 }
 
 void add_rates(pugi::xml_node main, const RunFolder& run) {
@@ -234,10 +288,28 @@ void add_rates(pugi::xml_node main, const RunFolder& run) {
 }
 
 void add_ball_speeds(pugi::xml_node main, const RunFolder& run) {
-  auto section = add_section(main, "speeds", "Ball speeds");
-  auto grid = add(section, "div", {{"class", "charts"}});
+  auto grid = add(add_section(main, "speeds", "Ball speeds"), "div", {{"class", "charts"}});
   add_speeds_over_time(grid, run);
   add_speed_frequency(grid, run);
+}
+
+void add_exponents(pugi::xml_node main, const RunFolder& run) {
+  const auto* spectrum = exponents_of(run, false);
+  const auto* finite_time = exponents_of(run, true);
+  if (!spectrum && !finite_time) return;
+  auto section = add_section(main, "errors", "How errors grow");
+  if (spectrum) add_spectrum(section, read_table(run.file_of(*spectrum), "a table of Lyapunov exponents"));
+  if (finite_time) {
+    const auto table = read_table(run.file_of(*finite_time), "a table of finite-time exponents");
+    if (!table.numbers.empty()) {
+      auto grid = add(section, "div", {{"class", "charts"}});
+      add_over_time(grid, run, *finite_time, table.numbers);
+      add_histogram(grid, table.numbers);
+    }
+  }
+  add_note(section,
+           "The distance of two motions that begin close together grows by e in 1/exponent seconds, on the "
+           "average. Errors of a code, and of its rounding, grow so, too.");
 }
 
 }  // namespace edmill::report

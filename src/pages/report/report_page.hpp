@@ -1,12 +1,13 @@
-// Self-contained HTML pages: of a run, of several side by side, of a study.
+// What is shown of runs: self-contained HTML pages of a run, of several side by side and of a study; a table
+// on the terminal; a drawing of the mill.
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "report/run_folder.hpp"
+#include "casefile/case_spec.hpp"
+#include "io/summary.hpp"
 
 namespace edmill::study {
 class Study;
@@ -14,21 +15,18 @@ class Study;
 
 namespace edmill::report {
 
-/// The page as text. @throws InputError when a table is wrong
-std::string report_page(const RunFolder& run);
+/// Adds the outputs of the report to a case; their files are in the folder `report`.
+void add_report_outputs(casefile::CaseSpec& spec);
 
 /// Writes report.html into the folder of a run.
 /// @return its place
-/// @throws InputError when the folder holds no complete run, or when another process writes there
+/// @throws InputError when the folder holds no complete run, a table is wrong, or another process writes
+/// there
 std::filesystem::path write_report(const std::filesystem::path& folder);
 /// Writes the page as `write_report` does. @pre the caller holds the folder's lock
 std::filesystem::path put_report(const std::filesystem::path& folder);
 
-/// Whether two rates differ: the 95 % interval of their difference, by half-widths in quadrature, leaves out
-/// zero. Nothing where a rate has no interval.
-std::optional<bool> differ(const RateOf& a, const RateOf& b);
-/// One page that shows runs side by side. @param runs  two or more
-std::string comparison_page(std::vector<RunFolder> runs);
+/// Writes one page that shows runs side by side. @param folders  two or more
 /// @throws InputError when a folder is no run, or the file cannot be written
 void write_comparison(const std::vector<std::string>& folders, const std::filesystem::path& file);
 
@@ -36,5 +34,14 @@ void write_comparison(const std::vector<std::string>& folders, const std::filesy
 /// @param kind     "Sweep"
 /// @param finding  lines of text, such as what an optimisation found; none when empty
 std::string study_page(const study::Study& study, const std::string& kind, const std::string& finding);
+
+/// The results of a run on the terminal.
+std::string result_table(const io::Summary<double>& summary);
+
+/// An SVG with three views of a mill's motion, along z, x and y: the vessel at time 0 and at three later
+/// quarters of a period of the clock, the path of its centre and of one of its points over the period, and
+/// the joints of a chain at time 0: dashed axes of rotations, arms of translations, by number from the
+/// ground.
+std::string mill_drawing(const model::Mill<double>& mill);
 
 }  // namespace edmill::report

@@ -1,10 +1,10 @@
-#include "report/result_table.hpp"
-
+// The result table of a run on the terminal.
 #include <fmt/format.h>
 
 #include <string_view>
 
 #include "base/clean_text.hpp"
+#include "report/report_page.hpp"
 
 namespace edmill::report {
 

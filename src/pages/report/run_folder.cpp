@@ -4,13 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
 
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
-#include "casefile/case_spec.hpp"
+#include "io/csv_reader.hpp"
 #include "io/json_file.hpp"
 #include "model/parts/partners.hpp"
+#include "model/variables.hpp"
 #include "report/embedded.hpp"
+#include "report/report_page.hpp"
 
 namespace edmill::report {
 
@@ -182,6 +187,47 @@ RunFacts read_run_facts(const std::filesystem::path& file) {
   return f;
 }
 
+/// "# from 0.5 s to 10 s: ..." in the first line.
+void read_times(OutputTable& table) {
+  std::ifstream in(table.file);
+  std::string line;
+  double from = 0, until = 0;
+  if (std::getline(in, line) && std::sscanf(line.c_str(), "# from %lf s to %lf s", &from, &until) == 2)
+    table.from = from, table.until = until;
+}
+
+/// The column of a variable's rate in a table of trends; nothing where it has none.
+std::optional<std::size_t> place_of_rate(const casefile::OutputSpec& output, int variable) {
+  std::size_t place = 1;  // after the time
+  for (const auto& column : output.columns)
+    for (const auto statistic : column.statistics) {
+      if (column.variable == variable && statistic == casefile::Statistic::rate) return place;
+      ++place;
+    }
+  return std::nullopt;
+}
+
+/// Drops a last interval that is shorter than the first: its rate has another variance.
+Series whole(Series s) {
+  if (s.rate.size() > 1 && s.end.back() - s.begin.back() < (1 - 1e-6) * (s.end.front() - s.begin.front()))
+    s.begin.pop_back(), s.end.pop_back(), s.rate.pop_back();
+  return s;
+}
+
+/// Whether an output contains the impacts with one partner; with any for -1.
+bool records(const casefile::OutputSpec& output, const model::Partners& partners, int partner) {
+  const int ball_ball = *model::find_variable("ball_ball"), id = *model::find_variable("partner");
+  if (partner < 0) return output.only.empty();
+  const auto is = [&](const casefile::Restriction& r, int variable, std::uint64_t value) {
+    return r.variable == variable && r.value == value;
+  };
+  const auto& only = output.only;
+  if (partner == partners.ball_ball()) return only.size() == 1 && is(only[0], ball_ball, 1);
+  const auto wall = static_cast<std::uint64_t>(partner);
+  return only.size() == 2 && ((is(only[0], ball_ball, 0) && is(only[1], id, wall)) ||
+                              (is(only[1], ball_ball, 0) && is(only[0], id, wall)));
+}
+
 }  // namespace
 
 RunFolder read_run_folder(const std::filesystem::path& place) {
@@ -196,10 +242,6 @@ RunFolder read_run_folder(const std::filesystem::path& place) {
                                  (place / "summary.json").string(), found, expected));
   if (folder.facts.reported) add_report_outputs(folder.spec);
   return folder;
-}
-
-std::filesystem::path RunFolder::file_of(const casefile::OutputSpec& output) const {
-  return place / output.folder / output.file;
 }
 
 const casefile::OutputSpec* RunFolder::output(std::string_view type, const Fits& fits) const {
@@ -246,6 +288,94 @@ void add_report_outputs(casefile::CaseSpec& spec) {
       if (fastest > 0) output.frequency.high = Quantity::exactly(fastest);
     }
   }
+}
+
+std::size_t OutputTable::column(std::string_view name) const {
+  const std::size_t text_columns = texts.empty() ? 0 : texts.front().size();
+  for (std::size_t k = text_columns; k < header.size(); ++k)
+    if (header[k] == name || header[k].starts_with(std::string(name) + " [")) return k - text_columns;
+  throw InputError(file + ": found no column '" + std::string(name) + "', expected it in the header");
+}
+
+std::vector<std::vector<double>> OutputTable::rows_of(std::string_view text) const {
+  std::vector<std::vector<double>> rows;
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    if (texts[k].front() == text) rows.push_back(numbers[k]);
+  return rows;
+}
+
+OutputTable read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts) {
+  io::CsvReader reader(file, expected);
+  OutputTable table;
+  table.file = file.string();
+  table.header = reader.header();
+  read_times(table);
+  if (table.header.size() <= texts) reader.bad_line("found too few columns, expected " + expected);
+  while (reader.next_row()) {
+    std::vector<std::string> words;
+    std::vector<double> row;
+    for (std::size_t k = 0; k < table.header.size(); ++k) {
+      if (k < texts)
+        words.emplace_back(reader.field(k));
+      else if (reader.field(k).empty())
+        row.push_back(std::numeric_limits<double>::quiet_NaN());
+      else
+        row.push_back(reader.number(k).value_or(0));
+    }
+    table.texts.push_back(std::move(words));
+    table.numbers.push_back(std::move(row));
+  }
+  reader.throw_problems();
+  return table;
+}
+
+std::optional<Series> series_of(const casefile::OutputSpec& output, const OutputTable& table, int variable,
+                                double start) {
+  const auto place = place_of_rate(output, variable);
+  if (!place) return std::nullopt;
+  Series series;
+  double begin = start;
+  if (output.timer.start_time) begin = std::max(begin, output.timer.start_time->to<double>());
+  for (const auto& row : table.numbers) {
+    series.begin.push_back(begin);
+    series.end.push_back(begin = row.at(0));
+    series.rate.push_back(row.at(*place));
+  }
+  return series;
+}
+
+std::optional<Series> rate_of(const RunFolder& run, const char* variable, std::size_t most, int partner) {
+  const int row = *model::find_variable(variable);
+  const auto fits = [&](const casefile::OutputSpec& output) {
+    return place_of_rate(output, row) && !output.accumulated && !output.timer.start_collision &&
+           records(output, run.partners, partner);
+  };
+  const auto* output = run.output("trends", fits);
+  if (!output) return std::nullopt;
+  const auto table = read_table(run.file_of(*output), "a table of trends");
+  if (table.numbers.empty()) return std::nullopt;
+  return coarser(whole(*series_of(*output, table, row, run.spec.initial_time.to<double>())), most);
+}
+
+Series coarser(const Series& series, std::size_t most) {
+  const std::size_t count = series.rate.size(), together = (count + most - 1) / most;
+  Series result;
+  for (std::size_t first = 0; first < count; first += together) {
+    const std::size_t last = std::min(count, first + together) - 1;
+    double amount = 0;
+    for (std::size_t k = first; k <= last; ++k) amount += series.rate[k] * (series.end[k] - series.begin[k]);
+    result.begin.push_back(series.begin[first]);
+    result.end.push_back(series.end[last]);
+    result.rate.push_back(amount / (series.end[last] - series.begin[first]));
+  }
+  return result;
+}
+
+plot::Points points_of(const Series& series) {
+  plot::Points points;
+  for (std::size_t k = 0; k < series.rate.size(); ++k)
+    points.emplace_back((series.begin[k] + series.end[k]) / 2, series.rate[k]);
+  return points;
 }
 
 }  // namespace edmill::report

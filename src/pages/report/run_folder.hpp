@@ -1,9 +1,11 @@
-// The folder of `edmill run`, as the report reads it.
+// The folder of `edmill run`, as the report reads it: the summary, the case, tables of outputs, rates over
+// time.
 #pragma once
 
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +13,7 @@
 
 #include "casefile/case_spec.hpp"
 #include "model/outcome.hpp"
+#include "plot/chart.hpp"
 
 namespace edmill::report {
 
@@ -56,11 +59,7 @@ struct RunFacts {
   }
 
   double duration() const { return end_time - start_time; }
-  double all_collisions() const {
-    double sum = 0;
-    for (const double c : collisions) sum += c;
-    return sum;
-  }
+  double all_collisions() const { return std::accumulate(collisions.begin(), collisions.end(), 0.0); }
 };
 
 /// summary.json and case.toml of a run, and the tables of the case.
@@ -75,13 +74,53 @@ struct RunFolder {
   /// An output of a type, of which `fits` holds, that is CSV (or X3D), not appended to others, and
   /// whose file exists and is not empty; null when there is none. The last such output of the case.
   const casefile::OutputSpec* output(std::string_view type, const Fits& fits) const;
-  std::filesystem::path file_of(const casefile::OutputSpec& output) const;
+  std::filesystem::path file_of(const casefile::OutputSpec& o) const { return place / o.folder / o.file; }
 };
 
 /// @throws InputError when a file is missing or wrong
 RunFolder read_run_folder(const std::filesystem::path& place);
 
-/// Adds the outputs of the report to a case; their files are in the folder `report`.
-void add_report_outputs(casefile::CaseSpec& spec);
+/// A table of an output, as numbers.
+struct OutputTable {
+  std::string file;
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> texts;  ///< of each row, the first columns
+  std::vector<std::vector<double>> numbers;     ///< of each row, the other columns; nan where it is empty
+  std::optional<double> from, until;            ///< of the record, where the table says so [s]
+
+  double duration() const { return from && until ? *until - *from : 0; }
+  /// Index in `numbers` of the column whose name begins with this text ("total energy").
+  /// @throws InputError when there is none
+  std::size_t column(std::string_view name) const;
+  /// Rows with this first text.
+  std::vector<std::vector<double>> rows_of(std::string_view text) const;
+};
+
+/// @param expected  "a table of trends", for messages
+/// @param texts     how many columns of text there are before the numbers
+/// @throws InputError when it is no such table
+OutputTable read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts = 0);
+
+/// The mean of a rate over each of successive intervals.
+struct Series {
+  std::vector<double> begin, end, rate;  ///< [s], [s], [unit/s]
+};
+
+/// A rate in a table of trends.
+/// @param start  initial time of the run, at which the first interval begins unless the table begins later
+/// [s]
+/// @return nothing when the table has no such column
+std::optional<Series> series_of(const casefile::OutputSpec& output, const OutputTable& table, int variable,
+                                double start);
+
+/// Intervals merged so that there are at most `most` of them; the last can be shorter.
+Series coarser(const Series& series, std::size_t most);
+
+/// Points of a line through the midpoints of the intervals.
+plot::Points points_of(const Series& series);
+
+/// Rate of a variable of all impacts, or of those with one partner, over at most `most` intervals; nothing
+/// when no table has it.
+std::optional<Series> rate_of(const RunFolder& run, const char* variable, std::size_t most, int partner = -1);
 
 }  // namespace edmill::report

@@ -1,17 +1,30 @@
-// The parts of a report. Each adds a <section>, or one line that names the missing output.
+// What pages consist of: their frame, the parts of a report, and what these have in common.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "plot/chart.hpp"
-#include "plot/markup.hpp"
+#include "plot/ticks.hpp"
 #include "report/run_folder.hpp"
-#include "report/series.hpp"
-#include "report/ward.hpp"
 
 namespace edmill::report {
 
-void add_headline(pugi::xml_node main, const RunFolder& run);
+using plot::add, plot::brief, plot::readable;
+
+/// What the frame of every page holds: head, title, style, the terms of its sections and foot.
+struct Page {
+  std::string title, subtitle;
+  std::string version, commit;  ///< of the program that made what the page shows
+  const pugi::xml_document& main;
+  std::string scripts = {}, note = {};  ///< whole <script> elements, and what the foot says of them
+};
+
+std::string page_of(const Page& page);
+
+// The parts of a report. Each adds a <section>, or one line that names the missing output.
 void add_ward(pugi::xml_node main, const RunFolder& run);
-void add_warnings(pugi::xml_node main, const RunFolder& run);
 void add_animation(pugi::xml_node main, const RunFolder& run);
 void add_rates(pugi::xml_node main, const RunFolder& run);
 void add_spectra(pugi::xml_node main, const RunFolder& run);
@@ -21,18 +34,6 @@ void add_treatment(pugi::xml_node main, const RunFolder& run);
 /// How fast neighbouring motions diverge from the run's, where the case has such an output.
 void add_exponents(pugi::xml_node main, const RunFolder& run);
 void add_ball_speeds(pugi::xml_node main, const RunFolder& run);
-void add_energy(pugi::xml_node main, const RunFolder& run);
-void add_case(pugi::xml_node main, const RunFolder& run);
-
-struct Animation;
-/// Adds <script type="application/json" id="frames">, which page.js plays. Lengths in millimetres:
-///   {duration, eye, target,
-///    vessel: {radius, height, colour, opacity, poses: [x, y, z, qx, qy, qz, qw of each frame]},
-///    spheres: {radii, colours, places: [x, y, z of each sphere, frame by frame]}}
-/// Frames divide the playback into equal parts, from its beginning to its end.
-void add_frames(pugi::xml_node parent, const Animation& animation);
-/// Adds an <svg> of the first frame, seen along the Z axis.
-void add_still(pugi::xml_node parent, const Animation& animation);
 
 using Rows = std::vector<std::vector<std::string>>;
 
@@ -61,12 +62,13 @@ std::string capitalised(std::string text);
 /// A histogram of bars that are equally wide, from `first` on.
 plot::Curve bars(const std::string& name, const std::string& colour, double first, double width,
                  const std::vector<double>& heights);
-/// A short line at the rate, within its interval.
-/// @param half_length  of the line, in units of x
-void add_point(plot::Chart& chart, double x, double half_length, const RateOf& rate, const std::string& name,
+/// A line at the rate from `left` to `right`, within its interval.
+void add_level(plot::Chart& chart, double left, double right, const RateOf& rate, const std::string& name,
                const std::string& colour);
 
 pugi::xml_node add_section(pugi::xml_node main, const std::string& id, const std::string& heading);
+/// A remark on what a section shows.
+void add_note(pugi::xml_node section, const std::string& text);
 /// "No ball speeds: add [[output]] type = ..."
 void add_missing(pugi::xml_node section, const std::string& what, const std::string& output);
 
@@ -77,10 +79,21 @@ void add_table(pugi::xml_node section, const std::string& id, const std::string&
 /// A chart over the time of the run, with the start of statistics marked unless it is the beginning.
 plot::Chart over_time(const RunFolder& run, const std::string& id, const std::string& title,
                       const std::string& y_title);
-/// From 0, or the least value, to a little above the highest.
-void fit_heights(plot::Chart& chart);
+/// Draws it from 0, or the least value, to a little above the highest.
+void draw_fitted(pugi::xml_node grid, plot::Chart chart);
 
-/// Rate of a variable of all impacts, or of those with one partner; nothing when no table has it.
-std::optional<Series> rate_of(const RunFolder& run, const char* variable, int partner = -1);
+/// A row of regression/ward/thesis.csv.
+struct WardCase {
+  std::string powder, charge_ratio, diameter;  ///< [g], [1], [mm], as printed
+  int balls = 0;
+  std::string restitution;
+  double inverse_dose_rate = 0;          ///< table 5.5 [s/J]
+  std::optional<double> collision_rate;  ///< table 5.6 [1/s]
+};
+
+/// The case of the thesis with exactly the same mill, vessel, gravity, contact law, balls and powder. The
+/// least separation speed, which the thesis does not have, the seed, times and the placement of the balls are
+/// free.
+std::optional<WardCase> ward_case_of(const casefile::CaseSpec& spec);
 
 }  // namespace edmill::report

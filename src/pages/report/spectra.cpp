@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "report/sections.hpp"
 
 namespace edmill::report {
-
-using plot::add;
 
 namespace {
 
@@ -33,9 +32,12 @@ plot::Points density(const OutputTable& table, const std::string& spectrum, cons
 /// Shows the bins with a visible value: on a linear y axis a thousandth of the top, on a
 /// logarithmic one within 5 decades of it.
 void fit(plot::Chart& chart) {
-  double first = 0, last = 0, top = 0;
+  double first = 0, last = 0, top = 0, least = std::numeric_limits<double>::infinity();
   for (const auto& curve : chart.curves)
-    for (const auto& [x, y] : curve.points) top = std::max(top, y);
+    for (const auto& [x, y] : curve.points) {
+      top = std::max(top, y);
+      if (y > 0) least = std::min(least, y);
+    }
   for (const auto& curve : chart.curves)
     for (std::size_t k = 0; k + 1 < curve.points.size(); ++k) {
       const auto [x, y] = curve.points[k];
@@ -50,11 +52,7 @@ void fit(plot::Chart& chart) {
     return;
   }
   chart.y.high = top > 0 ? 2 * top : 10;
-  double least = chart.y.high;
-  for (const auto& curve : chart.curves)
-    for (const auto& [x, y] : curve.points)
-      if (y > 0) least = std::min(least, y);
-  chart.y.low = std::max(least / 2, chart.y.high / 1e5);
+  chart.y.low = std::max(std::min(least, chart.y.high) / 2, chart.y.high / 1e5);
 }
 
 std::optional<OutputTable> spectra_of(const RunFolder& run, const std::string& of, const char* first) {
@@ -71,22 +69,20 @@ std::optional<OutputTable> spectra_of(const RunFolder& run, const std::string& o
 
 /// @param whose  "of each run"
 plot::Chart energy_chart(const std::string& whose) {
-  plot::Chart chart;
-  chart.id = "energy-spectrum", chart.title = "Dose by the energy of the impact";
-  chart.description =
-      "Histograms on a logarithmic scale of impact energy: dose rate per decade " + whose + ".";
-  chart.x.title = "energy that the impact dissipates [J]", chart.y.title = "dose rate [W per decade]";
-  return chart;
+  return {"energy-spectrum",
+          "Dose by the energy of the impact",
+          "Histograms on a logarithmic scale of impact energy: dose rate per decade " + whose + ".",
+          {"energy that the impact dissipates [J]"},
+          {"dose rate [W per decade]"}};
 }
 
 /// @param spectrum  "approach" or "slip"
 plot::Chart speed_chart(const std::string& spectrum, const std::string& whose) {
-  plot::Chart chart;
-  chart.id = spectrum + "-speeds", chart.title = "Impacts by " + spectrum + " speed";
-  chart.description = "Histograms on logarithmic scales: impacts per second and decade " + whose + ".";
-  chart.x.title = spectrum + " speed [m/s]", chart.y.title = "impacts [1/s per decade]";
-  chart.y.logarithmic = true;
-  return chart;
+  return {spectrum + "-speeds",
+          "Impacts by " + spectrum + " speed",
+          "Histograms on logarithmic scales: impacts per second and decade " + whose + ".",
+          {spectrum + " speed [m/s]"},
+          {.title = "impacts [1/s per decade]", .logarithmic = true}};
 }
 
 /// @param quantity  "energy" or "impacts"
@@ -103,13 +99,13 @@ void draw_partners(pugi::xml_node grid, plot::Chart chart, const OutputTable& ta
 
 void add_energies(pugi::xml_node grid, const OutputTable& table, const model::Partners& partners) {
   draw_partners(grid, energy_chart("with each wall and between balls"), table, "total", "energy", partners);
-  plot::Chart by_direction;
-  by_direction.id = "energy-parts", by_direction.title = "Normal and tangential dose";
-  by_direction.description =
+  plot::Chart by_direction{
+      "energy-parts",
+      "Normal and tangential dose",
       "Histograms of dose rate per decade: the normal part, the tangential part and both, each by its own "
-      "size.";
-  by_direction.x.title = "that part of the impact's energy [J]";
-  by_direction.y.title = "dose rate [W per decade]";
+      "size.",
+      {"that part of the impact's energy [J]"},
+      {"dose rate [W per decade]"}};
   for (const auto& [spectrum, colour] :
        {std::pair{"normal", "c0"}, std::pair{"tangential", "c1"}, std::pair{"total", "c4"}})
     by_direction.curves.push_back(
@@ -127,8 +123,7 @@ void add_speeds(pugi::xml_node grid, const OutputTable& table, const model::Part
 }  // namespace
 
 void add_spectra(pugi::xml_node main, const RunFolder& run) {
-  auto section = add_section(main, "spectra", "Impact spectra");
-  auto grid = add(section, "div", {{"class", "charts"}});
+  auto grid = add(add_section(main, "spectra", "Impact spectra"), "div", {{"class", "charts"}});
   if (const auto table = spectra_of(run, "speed", "approach"))
     add_speeds(grid, *table, run.partners);
   else
@@ -143,23 +138,21 @@ void add_treatment(pugi::xml_node main, const RunFolder& run) {
   const auto* output = run.output("treatment", [](const auto& o) { return o.only.empty(); });
   if (!output) return;
   const auto table = read_table(run.file_of(*output), "a table of treatment", 1);
-  plot::Chart chart;
-  chart.id = "treatment-hits", chart.title = "How often powder has been hit";
-  chart.description = "Histograms of the part of the powder that was hit so many times: mixed, and in place.";
-  chart.x.title = "hits", chart.x.low = 0, chart.x.high = static_cast<double>(table.numbers.size());
-  chart.y.title = "part of the powder";
-  double top = 0;
+  plot::Chart chart{"treatment-hits",
+                    "How often powder has been hit",
+                    "Histograms of the part of the powder that was hit so many times: mixed, and in place.",
+                    {"hits", 0, static_cast<double>(table.numbers.size())},
+                    {"part of the powder"}};
   for (const auto& [name, column, colour] :
        {std::tuple{"mixed between impacts", "mixed", "c0"}, std::tuple{"stays in place", "in_place", "c1"}}) {
     std::vector<double> parts;
     for (const auto& row : table.numbers) parts.push_back(row[table.column(column)]);
-    for (const double part : parts) top = std::max(top, part);
     chart.curves.push_back(bars(name, colour, 0, 1, parts));
   }
-  chart.y.high = top > 0 ? 1.1 * top : 1;
   auto section = add_section(main, "treatment", "How evenly the powder is treated");
-  draw(add(section, "div", {{"class", "charts"}}), chart);
-  add(section, "p", {{"class", "note"}},
+  draw_fitted(add(section, "div", {{"class", "charts"}}), chart);
+  add_note(
+      section,
       "The last bar is of all that was hit more often. The counts and what an impact works are those of the "
       "output (type = \"treatment\").");
 }

@@ -9,13 +9,9 @@
 #include <variant>
 
 #include "casefile/build_case.hpp"
-#include "plot/heat_map.hpp"
 #include "report/sections.hpp"
 
 namespace edmill::report {
-
-using plot::add;
-using plot::readable;
 
 namespace {
 
@@ -76,7 +72,7 @@ void label(WallMap& wall) {
   map.y = {axis_title(wall.surface, 1), bottom, top, false};
   if (map.disc) {
     map.id = fmt::format("cap-{}", wall.id);
-    map.title = fmt::format("{}, {} mm across", name, plot::brief(2000 * top));
+    map.title = fmt::format("{}, {} mm across", name, brief(2000 * top));
     map.x.title = "angle about the vessel\u2019s axis";
   } else if (wall.has(Coordinate::angle)) {
     map.id = wall.info.label == "cylinder" ? wall.info.label : fmt::format("wall-{}", wall.id);
@@ -84,8 +80,7 @@ void label(WallMap& wall) {
     map.x_step = 90;
   } else {
     map.id = fmt::format("wall-{}", wall.id);
-    map.title =
-        fmt::format("{}, {} mm \u00d7 {} mm", name, plot::brief(right - left), plot::brief(top - bottom));
+    map.title = fmt::format("{}, {} mm \u00d7 {} mm", name, brief(right - left), brief(top - bottom));
   }
 }
 
@@ -140,9 +135,8 @@ void add_maps(pugi::xml_node section, const RunFolder& run) {
   }
   read_cells(walls, table);
   const std::string shared = share_scales(walls);
-  std::stable_partition(walls.begin(), walls.end(), [](const WallMap& wall) { return !wall.map.disc; });
-  const auto discs =
-      std::count_if(walls.begin(), walls.end(), [](const WallMap& wall) { return wall.map.disc; });
+  std::ranges::stable_partition(walls, [](const WallMap& wall) { return !wall.map.disc; });
+  const auto discs = std::ranges::count_if(walls, [](const WallMap& wall) { return wall.map.disc; });
   const bool can = discs == 2 && walls.size() == 3;  // a cylinder's two caps stand beside it
   auto grid = add(section, "div", {{"class", can ? "charts maps" : "charts"}});
   bool angles = false;
@@ -152,12 +146,11 @@ void add_maps(pugi::xml_node section, const RunFolder& run) {
     draw(grid, map);
     angles = angles || surface.coordinates()[0] == Coordinate::angle;
   }
-  add(section, "p", {{"class", "note"}},
-      (!angles ? ""
-       : casefile::name_of(run.spec.mill).starts_with("spex")
-           ? "Angles are measured from the direction along the arm, away from the fulcrum. "
-           : "Angles are measured about the vessel\u2019s y axis, from x to z. ") +
-          ("Cells of one wall have equal areas." + shared));
+  add_note(section, (!angles ? ""
+                     : casefile::name_of(run.spec.mill).starts_with("spex")
+                         ? "Angles are measured from the direction along the arm, away from the fulcrum. "
+                         : "Angles are measured about the vessel\u2019s y axis, from x to z. ") +
+                        ("Cells of one wall have equal areas." + shared));
 }
 
 struct Ball {
@@ -167,7 +160,7 @@ struct Ball {
 /// Balls of one diameter together, the smallest first; all of them where they have many diameters.
 std::vector<std::vector<Ball>> by_size(std::vector<Ball> balls) {
   constexpr std::size_t most = 12;
-  std::stable_sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.area < b.area; });
+  std::ranges::stable_sort(balls, {}, &Ball::area);
   std::vector<std::vector<Ball>> kinds;
   for (const auto& ball : balls) {
     if (kinds.empty() || ball.area > (1 + 1e-9) * kinds.back().front().area) kinds.emplace_back();
@@ -179,9 +172,7 @@ std::vector<std::vector<Ball>> by_size(std::vector<Ball> balls) {
 
 /// "4.76", or "2 to 3" [mm].
 std::string diameters_of(const std::vector<Ball>& kind) {
-  const auto text = [](const Ball& ball) {
-    return plot::brief(1000 * std::sqrt(ball.area / std::numbers::pi), 4);
-  };
+  const auto text = [](const Ball& ball) { return brief(1000 * std::sqrt(ball.area / std::numbers::pi), 4); };
   const auto least = text(kind.front()), most = text(kind.back());
   return least == most ? least : least + " to " + most;
 }
@@ -189,8 +180,7 @@ std::string diameters_of(const std::vector<Ball>& kind) {
 void add_sizes(pugi::xml_node section, const std::vector<Ball>& balls) {
   Rows rows;
   for (const auto& kind : by_size(balls)) {
-    const auto [least, most] = std::minmax_element(
-        kind.begin(), kind.end(), [](const Ball& a, const Ball& b) { return a.dose_rate < b.dose_rate; });
+    const auto [least, most] = std::ranges::minmax_element(kind, {}, &Ball::dose_rate);
     Ball all{0, 0};
     for (const auto& ball : kind) all.dose_rate += ball.dose_rate, all.area += ball.area;
     rows.push_back({fmt::format("{} of {} mm", kind.size(), diameters_of(kind)),
@@ -206,16 +196,15 @@ void add_sizes(pugi::xml_node section, const std::vector<Ball>& balls) {
 void draw_balls(pugi::xml_node section, const std::vector<Ball>& balls) {
   constexpr std::size_t most = 400;
   if (balls.size() < 2 || balls.size() > most) return;
-  plot::Chart chart;
-  chart.id = "dose-by-ball", chart.title = "Dose rate of each ball";
-  chart.description = "A bar for each ball: its half of the dose rate of its impacts.";
-  chart.x = {"number of the ball", 0, static_cast<double>(balls.size()), false};
-  chart.y.title = "dose rate [W]";
+  plot::Chart chart{"dose-by-ball",
+                    "Dose rate of each ball",
+                    "A bar for each ball: its half of the dose rate of its impacts.",
+                    {"number of the ball", 0, static_cast<double>(balls.size())},
+                    {"dose rate [W]"}};
   std::vector<double> rates;
   for (const auto& ball : balls) rates.push_back(ball.dose_rate);
   chart.curves.push_back(bars("", "c0", 0, 1, rates));
-  fit_heights(chart);
-  draw(add(section, "div", {{"class", "charts"}}), chart);
+  draw_fitted(add(section, "div", {{"class", "charts"}}), chart);
 }
 
 void add_balls(pugi::xml_node section, const RunFolder& run) {
@@ -229,7 +218,8 @@ void add_balls(pugi::xml_node section, const RunFolder& run) {
   for (const auto& row : table.rows_of("ball")) balls.push_back({row[rate], row[area]});
   add_sizes(section, balls);
   draw_balls(section, balls);
-  add(section, "p", {{"class", "note"}},
+  add_note(
+      section,
       "Either body of an impact gets half of its dose here; the table by partner has all of the dose of the "
       "impacts with a wall.");
 }

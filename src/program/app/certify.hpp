@@ -1,18 +1,63 @@
-// One case in more than one scalar: the events that are certain, and where two scalars diverge.
+// What is certain of a case: where its runs in two scalars diverge, the events on which they agree, how many
+// digits a run needs to end with a given number of correct ones, and the events proven in ball arithmetic.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "app/side_by_side.hpp"
 #include "casefile/case_spec.hpp"
+#include "prove/proof.hpp"
 #include "run/agreement.hpp"
 
 namespace edmill::app {
+
+inline bool stop_asked(const std::atomic<bool>* interrupt) {
+  return interrupt && interrupt->load(std::memory_order_relaxed);
+}
+
+/// Two runs that advance together, each on a thread of its own. Where their digits are chosen, both keep as
+/// many as the narrower one has right, by their agreement so far, and some more: the error that this adds to
+/// it is small beside its own.
+class SideBySide {
+ public:
+  /// @pre `wide` is wider than `narrow`
+  /// @throws InterruptedError when `interrupt` becomes true at the start; later it ends both
+  SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide, bool to_end,
+             const std::atomic<bool>* interrupt = nullptr);
+
+  /// Takes up to `count` further events of both.
+  /// @return those of the wider run that have the same bodies in both; none when there are no more, or after
+  /// an interrupt
+  std::vector<run::Event> next(std::size_t count);
+
+  const run::Agreement& agreement() const { return agreement_; }
+  /// The first events that differ.
+  const std::optional<std::pair<run::Event, run::Event>>& diverged() const { return diverged_; }
+  /// One run has an event more before its end.
+  bool uneven() const { return uneven_; }
+  /// Digits that both have dropped since the start.
+  unsigned dropped_digits() const { return dropped_; }
+  /// Digits to which positions, velocities and spins agree now, each of the largest of its kind.
+  double digits_of_states() const;
+
+ private:
+  void drop_lost_digits();
+
+  const std::atomic<bool>* interrupt_;
+  std::unique_ptr<run::EventSource> narrow_, wide_;
+  std::array<unsigned, 2> digits_;  ///< of both at the start; 0 where they are fixed
+  unsigned dropped_ = 0;
+  run::Agreement agreement_;
+  std::optional<std::pair<run::Event, run::Event>> diverged_;
+  bool uneven_ = false;
+};
 
 struct CertifyOptions {
   std::string file;            ///< of the certified sequence; none when empty
@@ -33,9 +78,9 @@ struct Evidence {
 };
 
 struct Certification {
-  std::vector<Evidence> evidence;  ///< the narrowest first
-  std::vector<run::Event> events;  ///< what is certain; empty where it is not
-  std::string undecided;           ///< why nothing is certain; empty otherwise
+  std::vector<Evidence> evidence{};  ///< the narrowest first
+  std::vector<run::Event> events{};  ///< what is certain; empty where it is not
+  std::string undecided{};           ///< why nothing is certain; empty otherwise
   bool interrupted = false;
 };
 
@@ -71,5 +116,76 @@ void require_wider(const std::string& precision, const std::string& wider, const
 /// Runs the case in both scalars to its end. @pre `wider` is wider than `precision`
 Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, const std::string& wider,
               const std::atomic<bool>* interrupt);
+
+struct DigitsOptions {
+  const std::atomic<bool>* interrupt = nullptr;
+  /// Called now and then: what runs, how many events it has, and about how many it will have.
+  std::function<void(const std::string& precision, std::size_t events, double expected)> progress =
+      [](const auto&, auto, auto) {};
+};
+
+/// What a run will take, from short trials.
+struct RunEstimate {
+  std::string precision{};       ///< of the run
+  double events = 0;             ///< to its end
+  double lost_per_event = 0;     ///< decimal digits
+  double right_events = 0;       ///< of which all digits are used up; more than `events` where they last
+  double seconds_per_event = 0;  ///< of processor time
+  double verifying = 0;          ///< runs of the case that show the digits right, in times of the run
+  double trials = 0;             ///< processor time that the trials took [s]
+  std::uint64_t bytes = 0;       ///< of memory
+  std::uint64_t digits = 0;      ///< that are asked for; 0 where a precision is
+  std::string undecided{};       ///< why no number of digits suffices, as far as the trials went
+  bool outputs = false;          ///< of the case, whose time is not in here
+  bool interrupted = false;
+
+  double cpu_seconds() const { return events * seconds_per_event; }
+  std::string text() const;
+};
+
+/// Short trials say how many digits the case loses per event, how many events it has, and what one costs.
+/// @param precision  of the run; empty to find that which `spec.digits` needs
+RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& precision,
+                         const DigitsOptions& options);
+
+/// A precision in which a case has a given number of correct digits to its end.
+struct FoundDigits {
+  std::string precision{};     ///< of the run; empty where there is none
+  std::string narrow{};        ///< that agrees with it
+  run::Agreement agreement{};  ///< of the events of both
+  double states = 0;           ///< digits to which the states at the end agree
+  double seconds = 0;          ///< that finding it took
+  std::string undecided{};     ///< why there is none
+  bool interrupted = false;
+
+  /// Digits that both runs have in common to the end.
+  double left() const;
+  /// Digits of the run that are right to its end, rounded down.
+  std::uint64_t right() const;
+  std::string text() const;
+};
+
+/// Estimates the digits needed, and runs the case to its end in them and in more, until both have all events
+/// in common, with the digits that `spec.digits` asks for. @pre spec.digits
+FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& options);
+
+struct ProveOptions : prove::ProofOptions {
+  std::string file, certificate;  ///< of the events and of the certificate; none when empty
+};
+
+struct Proven {
+  prove::Proof proof;
+  double seconds = 0;
+};
+
+/// Nothing is written where the events cannot be proven, or the proof is interrupted.
+Proven prove(const casefile::CaseSpec& spec, const ProveOptions& options);
+
+/// How many of the proven events a scalar gets right, from the first on.
+std::size_t right_events(const std::string& precision, const casefile::CaseSpec& spec,
+                         const prove::Proof& proof);
+
+/// Where the header of a certificate tells of another case, a line each. @throws InputError for what is none
+std::vector<std::string> check_certificate(const casefile::CaseSpec& spec, const std::string& certificate);
 
 }  // namespace edmill::app

@@ -8,7 +8,7 @@
 #include "casefile/build_case.hpp"
 #include "casefile/memory_for.hpp"
 #include "io/output_folder.hpp"
-#include "report/mill_drawing.hpp"
+#include "report/report_page.hpp"
 #include "run/any_run.hpp"
 
 namespace edmill::app {

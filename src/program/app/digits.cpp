@@ -1,5 +1,3 @@
-#include "app/digits.hpp"
-
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -9,7 +7,6 @@
 #include <vector>
 
 #include "app/certify.hpp"
-#include "app/side_by_side.hpp"
 #include "base/errors.hpp"
 #include "casefile/precisions.hpp"
 #include "run/watches.hpp"
@@ -165,9 +162,7 @@ RunEstimate estimate_run(const casefile::CaseSpec& spec, const std::string& prec
   e.interrupted = stop_asked(options.interrupt);
   return e;
 } catch (const InterruptedError&) {
-  RunEstimate e;
-  e.interrupted = true;
-  return e;
+  return {.interrupted = true};
 }
 
 std::string RunEstimate::text() const {
@@ -239,9 +234,7 @@ FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& opt
   found.precision.clear();
   return found;
 } catch (const InterruptedError&) {
-  FoundDigits found;
-  found.interrupted = true;
-  return found;
+  return {.interrupted = true};
 }
 
 }  // namespace edmill::app

@@ -4,7 +4,6 @@
 #include "casefile/memory_for.hpp"
 #include "io/input_file.hpp"
 #include "report/report_page.hpp"
-#include "report/result_table.hpp"
 #include "run/run_folder.hpp"
 
 namespace edmill::app {

@@ -1,9 +1,20 @@
 #include "app/study.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+
 #include "base/errors.hpp"
 #include "casefile/memory_for.hpp"
+#include "casefile/value_of_key.hpp"
+#include "io/output_folder.hpp"
+#include "plot/chart.hpp"
 #include "report/report_page.hpp"
 #include "run/any_run.hpp"
+#include "run/event_source.hpp"
 #include "study/optimizer.hpp"
 
 namespace edmill::app {
@@ -49,6 +60,49 @@ std::optional<StudyResult> on_all_ranks(const StudyOptions& options, const Comma
   return command(executor);
 }
 
+/// @return whether there were enough impacts
+bool add_phases(const casefile::CaseSpec& spec, const BifurcationOptions& options, double value,
+                Bifurcation& found) {
+  const double period = casefile::period_of(spec.mill).to<double>();
+  const auto source = run::make_source("double", spec, false, options.interrupt);
+  constexpr std::size_t most = 10'000'000;  // of a ball that rests, and hops more slowly than what counts
+  std::size_t all = 0;
+  for (std::size_t seen = 0; seen < options.skip + options.keep;) {
+    const auto events = source->next(64);
+    if (events.empty() || (all += events.size()) > most) return false;
+    for (const auto& event : events) {
+      if (!event.with_wall || event.ball != 0 || event.approach_speed < options.least_approach) continue;
+      if (seen >= options.skip + options.keep || seen++ < options.skip) continue;
+      const double periods = static_cast<double>(event.time) / period;
+      found.points.push_back({value, periods - std::floor(periods), event.partner});
+    }
+  }
+  return true;
+}
+
+/// Dots: a line of no length has round ends.
+void write_drawing(std::ostream& out, const BifurcationOptions& options, const Bifurcation& found) {
+  plot::Chart chart{
+      "bifurcation",
+      "impact phases over " + options.over,
+      "phases of the drive at impacts of ball 0, for each value of " + options.over,
+      {options.over + (found.unit.empty() ? "" : " [" + found.unit + "]"), options.from, options.to},
+      {"phase of the drive [periods]"}};
+  std::set<int> walls;
+  for (const auto& point : found.points) walls.insert(point.wall);
+  int colour = 0;
+  for (const int wall : walls) {
+    plot::Curve curve{fmt::format("wall {}", wall), fmt::format("c{}", colour++ % 4), {}};
+    for (const auto& point : found.points)
+      if (point.wall == wall)
+        curve.points.insert(curve.points.end(), {{point.value, point.phase},
+                                                 {point.value, point.phase},
+                                                 {point.value, std::numeric_limits<double>::quiet_NaN()}});
+    chart.curves.push_back(std::move(curve));
+  }
+  plot::save(out, chart);
+}
+
 }  // namespace
 
 std::optional<StudyResult> sweep(const StudyOptions& options) {
@@ -76,6 +130,37 @@ std::optional<StudyResult> optimize(const StudyOptions& options) {
     study.write_page(report::study_page(study, "Optimisation", finding));
     return StudyResult{study.counts(), study.interrupted(), folder, finding, ""};
   });
+}
+
+Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions& options) {
+  if (!(options.from < options.to))
+    throw InputError(fmt::format("--to: found {}, expected more than {}", options.to, options.from));
+  Bifurcation found;
+  found.unit = casefile::value_of_key(spec, options.over).unit;
+  io::NamedFile drawing(options.file);
+  const std::filesystem::path place(options.file);
+  if (place.has_extension() && place.extension() != ".svg")
+    throw InputError("--out: found \"" + options.file +
+                     "\", expected the name of a drawing, .svg: its points stand beside it as .csv");
+  std::optional<io::NamedFile> table;
+  if (place.has_extension()) table.emplace(std::filesystem::path(place).replace_extension(".csv").string());
+  for (std::size_t step = 0; step < options.steps; ++step) {
+    const double last = static_cast<double>(std::max<std::size_t>(options.steps - 1, 1));
+    const double value = std::lerp(options.from, options.to, static_cast<double>(step) / last);  // exact ends
+    const auto text = fmt::format("{}{}{}", value, found.unit.empty() ? "" : " ", found.unit);
+    if (!add_phases(casefile::with_value(spec, options.over, text), options, value, found)) ++found.ended;
+    found.interrupted = options.interrupt && *options.interrupt;
+    if (found.interrupted) return found;
+    options.progress(step + 1);
+  }
+  drawing.write([&](std::ostream& out) { write_drawing(out, options, found); });
+  if (!table) return found;  // to a device
+  table->write([&](std::ostream& out) {
+    out << "# case digest " << spec.digest << "\nvalue,phase,wall\n";
+    for (const auto& point : found.points)
+      out << fmt::format("{},{},{}\n", point.value, point.phase, point.wall);
+  });
+  return found;
 }
 
 }  // namespace edmill::app

@@ -1,10 +1,14 @@
-// Sweeps and optimisations: many runs of a case, on threads and on ranks of MPI.
+// Many runs of a case: sweeps and optimisations, on threads and on ranks of MPI; the phases of one ball's
+// impacts against a parameter.
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "casefile/case_spec.hpp"
 #include "study/study.hpp"
 
 namespace edmill::app {
@@ -30,5 +34,35 @@ struct StudyResult {
 /// @throws InputError
 std::optional<StudyResult> sweep(const StudyOptions& options);
 std::optional<StudyResult> optimize(const StudyOptions& options);
+
+struct BifurcationOptions {
+  std::string over;         ///< key of a number that the case gives
+  double from = 0, to = 0;  ///< in its unit
+  std::size_t steps = 400;
+  std::size_t skip = 1000;  ///< impacts of ball 0 with walls before the first phase, while the motion settles
+  std::size_t keep = 100;   ///< of which phases are kept
+  double least_approach = 0;  ///< slower impacts do not count [m/s]
+  std::string file;           ///< SVG; the points stand beside it as CSV
+  const std::atomic<bool>* interrupt = nullptr;
+  std::function<void(std::size_t step)> progress = [](auto) {};
+};
+
+/// An impact in a run with one value of the number.
+struct PhasePoint {
+  double value;  ///< of the number
+  double phase;  ///< of the drive, in periods from 0 to 1
+  int wall;
+};
+
+struct Bifurcation {
+  std::string unit;  ///< of the number
+  std::vector<PhasePoint> points;
+  std::size_t ended = 0;  ///< runs that ended before they had all phases
+  bool interrupted = false;
+};
+
+/// Runs the case in double once for each value, each from its initial state.
+/// @throws InputError for a key that the case does not give as a number
+Bifurcation bifurcation(const casefile::CaseSpec& spec, const BifurcationOptions& options);
 
 }  // namespace edmill::app

@@ -1,6 +1,9 @@
-// The exit codes of the program, for itself and for readers.
+// How the program ends: exit codes, errors, signals, and standard streams that fail.
 #pragma once
 
+#include <atomic>
+#include <functional>
+#include <string>
 #include <string_view>
 
 #include "model/outcome.hpp"
@@ -53,5 +56,48 @@ inline constexpr ExitCodeText exit_codes[] = {
     {"129, 130, 138, 143, 152",
      "interrupted by SIGHUP, SIGINT, SIGUSR1, SIGTERM or SIGXCPU: 128 and its number; the results so far are "
      "on disk, unless it came before the first event"}};
+
+/// GMP ends the program when there is no memory; from here on it throws `std::bad_alloc`. Its functions are
+/// those of the whole process, so that the program may set them and the library may not.
+void throw_for_lack_of_memory();
+
+/// In one line; control characters are escaped.
+void print_problem(const std::string& problem);
+
+/// Says why a command has no result. @return the exit code
+int tell_undecided(const std::string& why);
+
+/// Does a command, and prints what it throws. @return the exit code
+int exit_code_of(const std::function<int()>& command);
+
+/// At the start: a standard descriptor that is closed is opened on /dev/null, so that no file gets its
+/// number. Using it fails all the same.
+void open_standard_descriptors();
+
+/// At the end: whether all of standard output was written. When not, one message says why, unless its reader
+/// did not want more, which ends the program by SIGPIPE.
+/// @param code  of the command
+/// @return the exit code
+int after_output(int code);
+
+/// At the start of the program: a write to a file that is too large, or to a pipe that nobody reads, fails in
+/// place of killing; a SIGHUP that the program was started with ignored, as by nohup, stays so, whatever
+/// libraries do.
+void begin_with_signals();
+/// Ends the program as a pipe that nobody reads ends others; returns if it was ignored at the start.
+void end_by_pipe_signal();
+
+/// Becomes true at the first signal after `listen_for_signals`, or when another rank has seen one; a second
+/// SIGINT or SIGTERM ends the program at once.
+std::atomic<bool>& interrupt_flag();
+
+/// SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1; before it is called they end the program.
+void listen_for_signals();
+
+/// 128 and the signal for `interrupted`, any other code as it is.
+int plus_signal(int exit_code);
+
+/// 128 and the signal when one came, whatever the code.
+int after_signals(int exit_code);
 
 }  // namespace edmill::cli

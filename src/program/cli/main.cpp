@@ -1,27 +1,29 @@
 // The command line.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <sstream>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/standard_arithmetic.hpp"
 #include "base/version.hpp"
+#include "casefile/nearest.hpp"
 #include "casefile/precisions.hpp"
-#include "cli/commands/bifurcation.hpp"
+#include "casefile/quantity.hpp"
+#include "cli/commands/cases.hpp"
 #include "cli/commands/certainty.hpp"
-#include "cli/commands/check.hpp"
 #include "cli/commands/dem.hpp"
 #include "cli/commands/logs.hpp"
-#include "cli/commands/machines.hpp"
 #include "cli/commands/run.hpp"
 #include "cli/commands/studies.hpp"
 #include "cli/commands/texts.hpp"
-#include "cli/failures.hpp"
-#include "cli/suggestions.hpp"
+#include "cli/exit_codes.hpp"
 #include "io/input_file.hpp"
 
 namespace {
@@ -54,12 +56,70 @@ using Commands = std::tuple<cli::New,          //
                             cli::Completion>;
 
 std::string version_text() {
-  std::string scalars;
-  for (const auto& name : casefile::precisions()) scalars += (scalars.empty() ? "" : ", ") + name;
-  scalars += ", mpfr:DIGITS";
   const auto parts = optional_parts();
-  return fmt::format("edmill {} ({})\ncompiler {}\nscalars {}\noptional parts {}", version(), commit(),
-                     compiler(), scalars, parts.empty() ? "none" : parts);
+  return fmt::format("edmill {} ({})\ncompiler {}\nscalars {}, mpfr:DIGITS\noptional parts {}", version(),
+                     commit(), compiler(), fmt::join(casefile::precisions(), ", "),
+                     parts.empty() ? "none" : parts);
+}
+
+/// Words for a command that are not near to its name.
+constexpr std::pair<const char*, const char*> synonyms[] = {
+    {"simulate", "run"},     {"start", "run"},      {"execute", "run"},     {"go", "run"},
+    {"solve", "run"},        {"example", "demo"},   {"continue", "resume"}, {"restart", "resume"},
+    {"html", "report"},      {"plot", "report"},    {"view", "report"},     {"validate", "check"},
+    {"lint", "check"},       {"describe", "check"}, {"draw", "check"},      {"scan", "sweep"},
+    {"study", "sweep"},      {"diff", "compare"},   {"identify", "audit"},  {"help", "--help"},
+    {"version", "--version"}};
+
+std::string unknown_command(const std::string& word, const std::vector<std::string>& commands) {
+  const auto* synonym = std::ranges::find(synonyms, word, [](const auto& known) { return known.first; });
+  const auto expected = synonym == std::end(synonyms) ? casefile::nearest_of(word, commands)
+                                                      : fmt::format("'{}'", synonym->second);
+  return fmt::format("{}: found an unknown command, expected {} (see edmill --help)", word, expected);
+}
+
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const auto* option : command.get_options()) {
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+    for (const auto& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+/// The first word that begins with a hyphen and is none of these; numbers may be values.
+std::string unknown_option(const std::vector<std::string>& words, const std::vector<std::string>& options) {
+  for (const auto& word : words) {
+    if (word == "--") break;
+    const auto name = word.substr(0, word.find('='));
+    const bool option = name.size() > 1 && name[0] == '-' && name.find_first_of("0123456789") != 1;
+    if (option && std::ranges::find(options, name) == options.end()) return name;
+  }
+  return "";
+}
+
+/// What is wrong with the words of a command line that could not be read: an unknown command or option with
+/// the nearest that there is, else what the parser says.
+std::string problem_of(const CLI::App& app, const std::vector<std::string>& words,
+                       const CLI::ParseError& error) {
+  std::vector<std::string> commands;
+  for (const auto* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  const CLI::App* command = &app;
+  std::string help = "edmill --help";
+  if (!words.empty() && words[0][0] != '-') {
+    if (std::ranges::find(commands, words[0]) == commands.end()) return unknown_command(words[0], commands);
+    command = app.get_subcommand(words[0]);
+    help = "edmill " + words[0] + " --help";
+  }
+  const auto options = options_of(*command);
+  if (const auto word = unknown_option(words, options); !word.empty())
+    return fmt::format("{}: found an unknown option, expected {} (see {})", word,
+                       casefile::nearest_of(word, options), help);
+  std::string text = error.what();
+  for (const auto& word : words)
+    if (casefile::has_comma(word) && text.find(word) != std::string::npos)
+      text += ": a decimal point is expected";
+  return fmt::format("{} (see {})", text, help);
 }
 
 class CommandLine {
@@ -84,7 +144,7 @@ class CommandLine {
         io::print("{}", text.str());
         return cli::ok;
       }
-      cli::print_problem(cli::problem_of(app_, {argv + 1, argv + argc}, error));
+      cli::print_problem(problem_of(app_, {argv + 1, argv + argc}, error));
       return cli::bad_input;
     }
     for (const auto& [parsed, run] : added_)

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "plot/heat_map.hpp"
-
 namespace {
 
 using namespace edmill::plot;

@@ -1,5 +1,3 @@
-#include "report/mill_drawing.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "casefile/build_case.hpp"
 #include "casefile/case_spec.hpp"
+#include "report/report_page.hpp"
 
 namespace {
 

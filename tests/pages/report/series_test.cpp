@@ -1,8 +1,7 @@
-#include "report/series.hpp"
-
 #include <gtest/gtest.h>
 
 #include "model/variables.hpp"
+#include "report/run_folder.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
-#include "report/ward.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
+
+#include "report/sections.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cli/commands/check.hpp"
+#include "cli/commands/cases.hpp"
 #include "hdf5_table.hpp"
 #include "run_with_outputs.hpp"
 

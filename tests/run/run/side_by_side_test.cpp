@@ -1,10 +1,9 @@
 // Two runs side by side drop the digits that they have lost, and lose no others by it.
-#include "app/side_by_side.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
+#include "app/certify.hpp"
 #include "casefile/case_spec.hpp"
 
 namespace edmill::app {

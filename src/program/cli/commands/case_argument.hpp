@@ -8,7 +8,7 @@
 
 #include "casefile/case_spec.hpp"
 #include "casefile/memory_for.hpp"
-#include "cli/signals.hpp"
+#include "cli/exit_codes.hpp"
 #include "io/input_file.hpp"
 
 namespace edmill::cli {
@@ -30,6 +30,20 @@ struct CaseArgument {
 inline std::string name_of(const std::string& case_file) {
   return io::is_stream(case_file) ? "stdin" : std::filesystem::path(case_file).stem().string();
 }
+
+/// A command on a case, and what its options hold.
+template <class Options>
+class CaseCommand {
+ protected:
+  /// The name of a file beside other outputs of the case, where none is given.
+  void name_file(const std::string& ending) {
+    if (options_.file.empty()) options_.file = "out/" + name_of(given_.file) + ending;
+  }
+
+  CaseArgument given_;
+  Options options_;
+  bool quiet_ = false;
+};
 
 /// For work that does not report interruptions itself. @return the exit code of work()
 int interruptible(auto& options, const auto& work) {

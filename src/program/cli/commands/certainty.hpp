@@ -2,18 +2,16 @@
 #pragma once
 
 #include "app/certify.hpp"
-#include "app/prove.hpp"
 #include "base/errors.hpp"
 #include "casefile/precisions.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/failures.hpp"
 #include "cli/progress_line.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {
 
-struct Certify {
+struct Certify : CaseCommand<app::CertifyOptions> {
   static constexpr const char* name = "certify";
   static constexpr const char* what =
       "raise the precision until the first events are certain, and write them";
@@ -28,33 +26,27 @@ struct Certify {
     command.add_flag("--quiet", quiet_, "no progress and no report");
   }
   int run() {
-    if (options_.file.empty()) options_.file = "out/" + name_of(given_.file) + ".reference.csv";
+    name_file(".reference.csv");
     return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) -> int {
-      const bool show = shows_progress(quiet_);
-      if (show)
-        options.progress = [&](const std::string& precision, std::size_t events) {
-          const auto all = options.collisions == 0 ? "" : fmt::format(" of {}", options.collisions);
-          io::tell("{}{}: {}{} events ", no_line, precision, events, all);
-        };
+      ProgressLine line(quiet_);
+      options.progress = [&](const std::string& precision, std::size_t events) {
+        const auto all = options.collisions == 0 ? "" : fmt::format(" of {}", options.collisions);
+        line.show(fmt::format("{}: {}{} events ", precision, events, all));
+      };
       const auto result = app::certify(spec, options, [&](const app::Evidence& evidence) {
-        if (show) io::tell("{}", no_line);
+        line.clear();
         if (!quiet_) io::print("{} ({:.1f} s)\n", evidence.text(), evidence.seconds);
       });
-      if (show) io::tell("{}", no_line);
+      line.clear();
       if (result.interrupted) return ok;
       if (!result.undecided.empty()) return tell_undecided(result.undecided);
       if (!quiet_) io::print("certified: {}\n", options.file);
       return ok;
     });
   }
-
- private:
-  CaseArgument given_;
-  app::CertifyOptions options_;
-  bool quiet_ = false;
 };
 
-struct Prove {
+struct Prove : CaseCommand<app::ProveOptions> {
   static constexpr const char* name = "prove";
   static constexpr const char* what = "prove the first events of a case in ball arithmetic";
 
@@ -90,14 +82,14 @@ struct Prove {
     if (options.collisions == 0)
       throw InputError(
           "prove: found neither --collisions nor --check, expected how many events, or a certificate");
-    const bool show = shows_progress(quiet_);
-    if (show)
-      options.progress = [&](long bits, std::size_t events) {
-        if (events % 16 == 0) io::tell("\r{} bits: {} of {} events ", bits, events, options.collisions);
-      };
+    ProgressLine line(quiet_);
+    options.progress = [&](long bits, std::size_t events) {
+      if (events % 16 == 0)
+        line.show(fmt::format("{} bits: {} of {} events ", bits, events, options.collisions));
+    };
     const auto result = app::prove(spec, options);
     const auto& proof = result.proof;
-    if (show) io::tell("{}", no_line);
+    line.clear();
     if (!quiet_)
       for (const auto& attempt : proof.attempts)
         io::print("{} bits: {} events{}\n", attempt.bits, attempt.events,
@@ -126,11 +118,8 @@ struct Prove {
     return differences.empty() ? ok : outputs_differ;
   }
 
-  CaseArgument given_;
-  app::ProveOptions options_;
   std::string checked_;   ///< a certificate whose header is to be that of the case; else one is proven
   bool compare_ = false;  ///< also print how many events each scalar gets right
-  bool quiet_ = false;
 };
 
 }  // namespace edmill::cli

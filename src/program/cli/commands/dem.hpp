@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <variant>
 
 #include "casefile/quantity.hpp"
@@ -41,7 +40,7 @@ CLI::Option* add_quantity(CLI::App& command, const std::string& name, auto& targ
       what);
 }
 
-struct Export {
+struct Export : CaseCommand<dem::DeckOptions> {
   static constexpr const char* name = "export";
   static constexpr const char* what = "write a case as the input of a DEM code";
 
@@ -91,13 +90,10 @@ struct Export {
     return plain ? "" : "expected a plain file name";
   }
 
-  CaseArgument given_;
-  dem::DeckOptions options_;
   std::string folder_ = ".";
-  bool quiet_ = false;
 };
 
-struct Import {
+struct Import : CaseCommand<dem::ImportOptions> {
   static constexpr const char* name = "import";
   static constexpr const char* what = "turn the dump of a DEM code into a log of contacts";
 
@@ -122,17 +118,15 @@ struct Import {
     if (out_.empty()) out_ = "contacts.csv";
     options_.in_vessel = frame_ == "vessel";
     return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) {
-      std::optional<ProgressLine> line;
-      if (shows_progress(quiet_)) {
-        line.emplace();
+      ProgressLine line(quiet_);
+      if (line)
         options.progress = [&line](double time, std::uint64_t contacts) {
-          line->show(time, std::nullopt, contacts);
+          line.show(time, std::nullopt, contacts);
         };
-      }
       io::NamedFile file(out_);
       dem::ContactLogWriter log;
       const auto imported = dem::import_dump(spec, options, log);
-      line.reset();
+      line.clear();
       file.write([&](std::ostream& out) { log.write(out, imported.facts); });
       if (!quiet_) io::print("{}", dem::table(imported, out_));
       return ok;
@@ -140,10 +134,7 @@ struct Import {
   }
 
  private:
-  CaseArgument given_;
-  dem::ImportOptions options_;
   std::string out_, frame_;
-  bool quiet_ = false;
 };
 
 struct Limit {

@@ -18,32 +18,29 @@
 namespace edmill::cli {
 
 /// What becomes of a judgement.
-struct JudgementFiles {
-  std::string json, junit;
-  bool quiet = false;
-
+class Judgement {
+ public:
   void add_to(CLI::App& command, const char* meaning_of_quiet) {
-    command.add_option("--json", json, "file for the result in JSON");
-    command.add_option("--junit", junit, "file for the result as JUnit's XML");
+    command.add_option("--json", json_name_, "file for the result in JSON");
+    command.add_option("--junit", junit_name_, "file for the result as JUnit's XML");
     command.add_flag("--quiet", quiet, meaning_of_quiet);
   }
-};
-
-/// The files of a judgement, to be made before it.
-class JudgementWriter {
- public:
-  explicit JudgementWriter(const JudgementFiles& files)
-      : json_(io::file_for(files.json)), junit_(io::file_for(files.junit)), quiet_(files.quiet) {}
-
+  /// Makes its files, before the judgement.
+  void open() {
+    if (!json_name_.empty()) json_.emplace(json_name_);
+    if (!junit_name_.empty()) junit_.emplace(junit_name_);
+  }
   void write(const std::string& json, const std::string& junit, const std::string& table) {
     if (json_) json_->write([&](std::ostream& out) { out << json; });
     if (junit_) junit_->write([&](std::ostream& out) { out << junit; });
-    if (!quiet_) io::print("{}", table);
+    if (!quiet) io::print("{}", table);
   }
 
+  bool quiet = false;
+
  private:
+  std::string json_name_, junit_name_;
   std::optional<io::NamedFile> json_, junit_;
-  bool quiet_;
 };
 
 struct Compare {
@@ -60,28 +57,28 @@ struct Compare {
     command.add_option("--until", options_.limits.until, "time in s to end at");
     command.add_option("--batch", options_.batch, "length of a batch in s; a twentieth unless given")
         ->check(CLI::PositiveNumber);
-    files_.add_to(command, "no table");
+    judgement_.add_to(command, "no table");
   }
   int run() {
-    JudgementWriter writer(files_);
+    judgement_.open();
     const io::Spool pipes;
     const auto a = options_.a.string(), b = options_.b.string();
     if (dem::is_contact_log(a) || dem::is_contact_log(b)) {
       const auto& [from, until] = options_.limits;
       const auto compared = dem::compare_contacts(a, b, from.value_or(0),
                                                   until.value_or(std::numeric_limits<double>::infinity()));
-      writer.write(dem::to_json(compared), dem::to_junit(compared), dem::table(compared));
+      judgement_.write(dem::to_json(compared), dem::to_junit(compared), dem::table(compared));
       return !compared.known ? too_few_data : compared.agree() ? ok : outputs_differ;
     }
     const auto compared = compare::compare(options_);
-    writer.write(compare::to_json(compared), compare::to_junit(compared), compare::table(compared));
+    judgement_.write(compare::to_json(compared), compare::to_junit(compared), compare::table(compared));
     if (compared.verdict == compare::Verdict::agree) return ok;
     return compared.verdict == compare::Verdict::differ ? outputs_differ : too_few_data;
   }
 
  private:
   compare::Options options_;
-  JudgementFiles files_;
+  Judgement judgement_;
 };
 
 struct Audit {
@@ -110,7 +107,7 @@ struct Audit {
                      "search for the value or mistake that explains the violations");
     command.add_option("--examples", options_.examples, "of each kind of violation; 3 unless given")
         ->check(CLI::Range(0, 1000));
-    files_.add_to(command, "no progress line and no table");
+    judgement_.add_to(command, "no progress line and no table");
   }
   int run() {
     return interruptible(given_.read(), options_,
@@ -118,27 +115,26 @@ struct Audit {
   }
 
  private:
-  int judge(const casefile::CaseSpec& spec, app::AuditOptions& options) const {
+  int judge(const casefile::CaseSpec& spec, app::AuditOptions& options) {
     const io::Spool pipes;
     const bool contacts = dem::is_contact_log(options.log);
-    JudgementWriter writer(files_);
+    judgement_.open();
     if (contacts) {
       const auto audited = dem::audit_contacts(spec, {options.log, options.interrupt});
-      writer.write(dem::to_json(audited), dem::to_junit(audited), dem::table(audited));
+      judgement_.write(dem::to_json(audited), dem::to_junit(audited), dem::table(audited));
       if (audited.verdict == dem::ContactVerdict::agrees) return ok;
       return audited.verdict == dem::ContactVerdict::differs ? outputs_differ : too_few_data;
     }
-    std::optional<ProgressLine> line;
-    if (shows_progress(files_.quiet)) {
+    ProgressLine line(judgement_.quiet);
+    if (line) {
       std::optional<double> end;
       if (spec.end_time) end = spec.end_time->to<double>();
-      line.emplace();
-      options.progress = [&line, end](double time, std::uint64_t events) { line->show(time, end, events); };
-      options.searching = [&line](const std::string& stage) { line->show("searching: " + stage); };
+      options.progress = [&line, end](double time, std::uint64_t events) { line.show(time, end, events); };
+      options.searching = [&line](const std::string& stage) { line.show("searching: " + stage); };
     }
     const auto audited = app::audit(spec, options);
-    line.reset();
-    writer.write(audited.json(), audited.junit(), audited.table());
+    line.clear();
+    judgement_.write(audited.json(), audited.junit(), audited.table());
     const auto verdict = audited.result.verdict;
     if (verdict == audit::Verdict::clean) return ok;
     return verdict == audit::Verdict::violations ? outputs_differ : too_few_data;
@@ -146,7 +142,7 @@ struct Audit {
 
   CaseArgument given_;
   app::AuditOptions options_;
-  JudgementFiles files_;
+  Judgement judgement_;
 };
 
 }  // namespace edmill::cli

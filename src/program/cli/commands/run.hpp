@@ -1,41 +1,166 @@
 // The commands that run one case, and the one that makes a page of runs.
 #pragma once
 
-#include <filesystem>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "app/certify.hpp"
+#include "app/run.hpp"
 #include "base/errors.hpp"
 #include "casefile/precisions.hpp"
+#include "casefile/quantity.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/progress_line.hpp"
 #include "io/terminal.hpp"
 #include "report/embedded.hpp"
 #include "report/report_page.hpp"
+#include "run/run_folder.hpp"
 
 namespace edmill::cli {
 
-struct RunCommand {
-  std::string folder;      ///< of the results; out/<name of the case> when empty
-  std::string precision;   ///< scalar of the run; that of the case when empty
-  std::string shadow;      ///< a wider scalar to compare with; none when empty
-  std::string checkpoint;  ///< how often to save the state; when empty, never, or as before
-  std::vector<std::string> overrides;
-  bool report = false, quiet = false;
-  bool estimate = false;  ///< estimate the cost of the run, and do not run
+/// Keeps a folder for a run whose digits are sought first: what refuses it is told before. Leaves none empty.
+class ReservedFolder {
+ public:
+  ReservedFolder(const std::string& folder, bool saves, const casefile::CaseSpec& spec) {
+    std::error_code error;
+    for (auto place = std::filesystem::absolute(folder); !std::filesystem::exists(place, error);
+         place = place.parent_path())
+      made_.push_back(place);
+    folder_.emplace(folder, spec, saves ? std::optional(io::Checkpoint()) : std::nullopt);
+  }
+  ~ReservedFolder() {
+    folder_.reset();
+    std::error_code error;
+    for (const auto& place : made_) std::filesystem::remove(place, error);
+  }
+  ReservedFolder(const ReservedFolder&) = delete;
+  ReservedFolder& operator=(const ReservedFolder&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< the innermost first
+  std::optional<run::RunFolder> folder_;
 };
 
-/// @return an exit code
-int run_case(casefile::CaseSpec spec, const RunCommand& command);
-int run_resume(const RunCommand& command);
+/// A run, and what the command line asks of it. Its functions return exit codes.
+class RunCommand {
+ protected:
+  int run_case(casefile::CaseSpec spec) {
+    if (folder_.empty()) folder_ = "out/" + name_of(spec.file);
+    const bool by_digits = spec.digits && precision_.empty();
+    auto scalar = precision_.empty() ? spec.precision : precision_;
+    if (estimate_) return print_estimate(spec, by_digits ? "" : scalar);
+    if (by_digits && !shadow_.empty())
+      throw InputError(
+          "--shadow: found digits that are asked for, expected a run in one precision: they are "
+          "verified by a wider run anyway");
+    if (!shadow_.empty()) app::require_wider(scalar, shadow_, "option '--shadow'");
+    auto options = options_of_run();
+    if (by_digits) {
+      const ReservedFolder reserved(folder_, !checkpoint_.empty(), spec);
+      if (const int code = choose_digits(spec, scalar); code != ok) return code;
+    }
+    if (!checkpoint_.empty())
+      options.checkpoint = app::first_checkpoint(spec, overrides_, scalar, report_, checkpoint_);
+    const int code = with_progress(options, [&] { return app::run(scalar, spec, options); });
+    if (code != ok || shadow_.empty()) return code;
+    const auto result = app::shadow(spec, scalar, shadow_, options.interrupt);
+    io::print("{}", result.text());
+    return plus_signal(result.interrupted ? interrupted : ok);
+  }
+  int resume_run() {
+    auto options = options_of_run();
+    return with_progress(options, [&] { return app::resume(checkpoint_, options); });
+  }
 
-/// Adds the settings of --until-precision: the stop rule, and an end time far off unless one is set.
-/// @throws InputError when it is no part of 1
-void until_precision(const std::string& precision, const casefile::CaseSpec& spec,
-                     std::vector<std::string>& settings);
+  std::string folder_;      ///< of the results; out/<name of the case> when empty
+  std::string precision_;   ///< scalar of the run; that of the case when empty
+  std::string shadow_;      ///< a wider scalar to compare with; none when empty
+  std::string checkpoint_;  ///< how often to save the state; when empty, never, or as before
+  std::vector<std::string> overrides_;
+  bool report_ = false, quiet_ = false;
+  bool estimate_ = false;  ///< estimate the cost of the run, and do not run
+
+ private:
+  app::RunOptions options_of_run() const {
+    if (!checkpoint_.empty()) run::parse_checkpoint_interval(checkpoint_);
+    app::RunOptions options;
+    options.folder = folder_;
+    options.report = report_;
+    options.interrupt = &interrupt_flag();
+    options.begun = listen_for_signals;
+    options.without_locks = [](const std::filesystem::path& place) {
+      io::tell(
+          "edmill: {}: this file system has no locks; nothing but you keeps another process out of the "
+          "folder\n",
+          place.string());
+    };
+    return options;
+  }
+
+  /// Does `work` with a progress line on a terminal, and tells of the run.
+  int with_progress(app::RunOptions& options, const auto& work) const {
+    ProgressLine line(quiet_);
+    if (line)
+      options.progress = [&](const run::Progress& p) {
+        line.show(p.now, p.end, p.collisions, p.milling_dose);
+      };
+    const app::RunResult result = work();
+    line.clear();
+    if (!quiet_) {
+      io::print("{}\nResults are in {}\n", result.table, folder_);
+      if (result.goes_on) io::print("Continue with: edmill resume {}\n", folder_);
+    }
+    if (!result.error.empty()) io::tell("edmill: {}\n", result.error);
+    if (!result.report.empty() && !quiet_) io::print("The report is {}\n", result.report.string());
+    return plus_signal(code_of(result.end_reason));
+  }
+
+  /// For runs that write nothing. @return what `work` finds in the case
+  auto after_trials(const casefile::CaseSpec& spec, const auto& work) const {
+    app::DigitsOptions options;
+    options.interrupt = &interrupt_flag();
+    listen_for_signals();
+    ProgressLine line(quiet_);
+    options.progress = [&](const std::string& scalar, std::size_t events, double expected) {
+      line.show(fmt::format("{}: {} of about {:.0f} events ", scalar, events, expected));
+    };
+    return casefile::with_memory_for(spec, [&] { return work(options); });
+  }
+
+  /// Prints what the run will take. @param scalar  empty where the case asks for digits
+  int print_estimate(const casefile::CaseSpec& spec, const std::string& scalar) const {
+    const auto found =
+        after_trials(spec, [&](const auto& options) { return app::estimate_run(spec, scalar, options); });
+    if (found.interrupted) return after_signals(interrupted);
+    io::print("{}", found.text());
+    return after_signals(scalar.empty() && !found.undecided.empty() ? undecided : ok);
+  }
+
+  /// Finds the scalar of a case that asks for digits, and prints the evidence; `undecided` when no number of
+  /// digits suffices.
+  int choose_digits(casefile::CaseSpec& spec, std::string& scalar) const {
+    const auto found =
+        after_trials(spec, [&](const auto& options) { return app::find_digits(spec, options); });
+    if (found.interrupted) {
+      io::tell("edmill: interrupted before the digits were found; nothing is written\n");
+      return after_signals(interrupted);
+    }
+    if (!found.undecided.empty()) return tell_undecided(found.undecided);
+    if (!quiet_) io::print("{}", found.text());
+    scalar = found.precision;
+    spec.right_digits = found.right();
+    return ok;
+  }
+};
 
 inline const std::string every = "how often to save the run's state, \"10 min\" or \"2 s simulated\"";
 inline constexpr const char* quiet_run = "no progress line and no result table";
 
-struct Run {
+struct Run : RunCommand {
   static constexpr const char* name = "run";
   static constexpr const char* what = "simulate a case and write its results";
 
@@ -46,25 +171,25 @@ struct Run {
           return casefile::is_precision(name) ? "" : "expected " + casefile::choices_of_precision();
         },
         "");
-    command.add_option("--out", run_.folder, "folder for the results; out/<case name> unless given");
-    command.add_option("--precision", run_.precision, "scalar of the run, overrides that of the case")
+    command.add_option("--out", folder_, "folder for the results; out/<case name> unless given");
+    command.add_option("--precision", precision_, "scalar of the run, overrides that of the case")
         ->check(precisions);
-    auto* shadow = command
-                       .add_option("--shadow", run_.shadow,
-                                   "also run in this wider scalar and report when the two diverge")
-                       ->check(precisions);
+    auto* shadow =
+        command
+            .add_option("--shadow", shadow_, "also run in this wider scalar and report when the two diverge")
+            ->check(precisions);
     command
         .add_option("--digits", digits_,
                     "every event and number correct to this many digits: the precision is chosen for it, and "
                     "verified")
         ->check(CLI::Range(1, 100000))
         ->excludes("--precision");
-    command.add_flag("--estimate", run_.estimate,
+    command.add_flag("--estimate", estimate_,
                      "estimate events, digits, time and memory of the run, and do not run");
-    command.add_option("--checkpoint", run_.checkpoint, every + "; never unless given")->excludes(shadow);
-    command.add_flag("--report", run_.report, "write report.html, and the tables that it shows");
-    command.add_flag("--quiet", run_.quiet, quiet_run);
-    command.add_option("--until-precision", precision_,
+    command.add_option("--checkpoint", checkpoint_, every + "; never unless given")->excludes(shadow);
+    command.add_flag("--report", report_, "write report.html, and the tables that it shows");
+    command.add_flag("--quiet", quiet_, quiet_run);
+    command.add_option("--until-precision", until_precision_,
                        "run until the 95 % interval of the dose rate is this part of it, \"1%\" or 0.01: up "
                        "to 100 times the case's end time, or to the run.end_time of --set");
     command.add_option("--target-dose", target_,
@@ -72,51 +197,63 @@ struct Run {
   }
   int run() {
     auto spec = given_.read();
-    auto& settings = run_.overrides = given_.overrides;
-    if (!precision_.empty()) until_precision(precision_, spec, settings);
+    auto& settings = overrides_ = given_.overrides;
+    if (!until_precision_.empty()) run_until_precision(spec, settings);
     if (digits_ > 0) settings.push_back(fmt::format("run.digits={}", digits_));
     if (!target_.empty()) settings.push_back("powder.target_dose=\"" + target_ + "\"");
     if (settings != given_.overrides) spec = casefile::parse_case(spec.text, spec.file, settings);
-    return run_case(spec, run_);
+    return run_case(spec);
   }
 
  private:
-  std::string precision_, target_;
+  /// Adds the settings of --until-precision: the stop rule, and an end time far off unless one is set.
+  /// @throws InputError when it is no part of 1
+  void run_until_precision(const casefile::CaseSpec& spec, std::vector<std::string>& settings) const {
+    std::string_view number = until_precision_;
+    const bool percent = number.ends_with('%');
+    if (percent) number.remove_suffix(1);
+    while (number.ends_with(' ')) number.remove_suffix(1);
+    const auto value = casefile::parse_decimal(number);
+    const double part = value ? value->to<double>() / (percent ? 100 : 1) : 0;
+    if (!(part > 0 && part < 1))
+      throw InputError("--until-precision: found \"" + until_precision_ +
+                       "\", expected a part of the dose rate above 0 and below 1: \"1%\" or 0.01");
+    settings.push_back(fmt::format("run.dose_rate_precision={}", part));
+    const bool limited =
+        std::ranges::any_of(settings, [](const auto& s) { return s.starts_with("run.end_time="); });
+    if (!limited && spec.end_time)
+      settings.push_back(fmt::format("run.end_time=\"{} s\"", 100 * spec.end_time->to<double>()));
+  }
+
+  std::string until_precision_, target_;
   unsigned digits_ = 0;
   CaseArgument given_;
-  RunCommand run_;
 };
 
-struct Demo {
+struct Demo : RunCommand {
   static constexpr const char* name = "demo";
   static constexpr const char* what = "simulate the demo, 28 balls in a SPEX 8000, with its report";
 
   void add_options(CLI::App& command) {
-    command.add_option("--out", run_.folder, "folder for the results; out/demo unless given");
-    command.add_flag("--quiet", run_.quiet, quiet_run);
+    command.add_option("--out", folder_, "folder for the results; out/demo unless given");
+    command.add_flag("--quiet", quiet_, quiet_run);
   }
   int run() {
-    run_.report = true;
-    return run_case(casefile::parse_case(std::string(report::demo_toml), "demo.toml"), run_);
+    report_ = true;
+    return run_case(casefile::parse_case(std::string(report::demo_toml), "demo.toml"));
   }
-
- private:
-  RunCommand run_;
 };
 
-struct Resume {
+struct Resume : RunCommand {
   static constexpr const char* name = "resume";
   static constexpr const char* what = "continue an unfinished run from its checkpoint";
 
   void add_options(CLI::App& command) {
-    command.add_option("folder", run_.folder, "folder of the run")->required();
-    command.add_option("--checkpoint", run_.checkpoint, every + "; as before unless given");
-    command.add_flag("--quiet", run_.quiet, quiet_run);
+    command.add_option("folder", folder_, "folder of the run")->required();
+    command.add_option("--checkpoint", checkpoint_, every + "; as before unless given");
+    command.add_flag("--quiet", quiet_, quiet_run);
   }
-  int run() { return run_resume(run_); }
-
- private:
-  RunCommand run_;
+  int run() { return resume_run(); }
 };
 
 struct Report {

@@ -29,12 +29,12 @@ inline std::string in_roff(const std::string& text) {
 }
 
 /// edmill(1): the commands, each with its options.
-inline std::string man_page(const CLI::App& app, const std::string& version) {
+inline std::string man_page(const CLI::App& app) {
   std::string page = fmt::format(
-      ".TH EDMILL 1 \"\" \"edmill {}\" \"User Commands\"\n.SH NAME\nedmill \\- {}\n", in_roff(version),
+      ".TH EDMILL 1 \"\" \"edmill {}\" \"User Commands\"\n.SH NAME\nedmill \\- {}\n", in_roff(version()),
       in_roff(app.get_description().substr(app.get_description().find(": ") + 2)));
   page += ".SH SYNOPSIS\n.B edmill\n.I command\n[\n.I options\n]\n.SH COMMANDS\n";
-  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+  for (const auto* command : app.get_subcommands({})) {
     std::string usage;
     for (const auto* option : command->get_options())
       if (option->get_positional()) usage += " \\fI" + in_roff(option->get_name()) + "\\fR";
@@ -53,7 +53,7 @@ inline std::string man_page(const CLI::App& app, const std::string& version) {
 /// For bash: source it, or install it as share/bash-completion/completions/edmill.
 inline std::string bash_completion(const CLI::App& app) {
   std::string commands, cases;
-  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+  for (const auto* command : app.get_subcommands({})) {
     commands += command->get_name() + " ";
     std::string options;
     for (const auto* option : command->get_options())
@@ -75,8 +75,6 @@ complete -o filenames -F _edmill edmill
                      cases, commands, commands);
 }
 
-inline std::string manual_text(const CLI::App& app) { return man_page(app, version()); }
-
 namespace detail {
 
 /// Text in a cell of a table, where a bar would end it.
@@ -95,7 +93,7 @@ inline std::string usage_of(const CLI::App& command) {
 
 inline std::string commands(const CLI::App& app) {
   std::string text;
-  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+  for (const auto* command : app.get_subcommands({})) {
     text += fmt::format("### {}\n\n`{}`: {}.\n\n| argument | meaning |\n|---|---|\n", command->get_name(),
                         usage_of(*command), command->get_description());
     for (const auto* option : command->get_options())
@@ -185,7 +183,7 @@ struct Text {
   const CLI::App* program_ = nullptr;
 };
 
-struct Manual : Text<manual_text> {
+struct Manual : Text<man_page> {
   static constexpr const char* name = "manual";
   static constexpr const char* what = "print the manual page, edmill(1), for man";
 };

@@ -1,13 +1,13 @@
-// The commands that know mills that one can buy.
+// The commands that make and check cases, and tell what mills and outputs there are.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "app/check_case.hpp"
+#include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/output_folder.hpp"
 #include "io/terminal.hpp"
 #include "machines/machines.hpp"
+#include "model/variables.hpp"
 
 namespace edmill::cli {
 
@@ -63,6 +63,57 @@ struct New {
  private:
   machines::Wanted wanted_;
   std::string file_;
+};
+
+struct Check {
+  static constexpr const char* name = "check";
+  static constexpr const char* what = "read and check a case; print it in SI with derived numbers";
+
+  void add_options(CLI::App& command) {
+    given_.add_to(command);
+    command.add_option("--draw", drawing_, "also draw how the vessel moves into this SVG file");
+  }
+  int run() {
+    const auto spec = given_.read();
+    io::print("{}", app::check(spec).text());
+    if (!drawing_.empty()) app::draw_mill(spec, drawing_);
+    return ok;
+  }
+
+ private:
+  CaseArgument given_;
+  std::string drawing_;
+};
+
+/// All variables that outputs can contain, as Markdown tables; docs/variables.md contains them.
+inline std::string list_variables() {
+  using model::VariableKind;
+  std::string text;
+  const auto add = [&](const char* title, const auto& variables, const auto& belongs) {
+    text += fmt::format("{}## {}\n\n| name | thesis | unit | meaning |\n|---|---|---|---|\n",
+                        text.empty() ? "" : "\n", title);
+    for (const auto& v : variables)
+      if (belongs(v))
+        text += fmt::format("| `{}` | {} | {} | {} |\n", v.name,
+                            v.thesis.empty() ? "" : fmt::format("`{}`", v.thesis), v.unit, v.meaning);
+  };
+  const auto is = [](VariableKind kind) { return [kind](const auto& v) { return v.kind == kind; }; };
+  add("Flags of an impact (table D.3)", model::impact_variables, is(VariableKind::flag));
+  add("Counts of an impact (table D.4)", model::impact_variables, is(VariableKind::count));
+  add("Numbers of an impact (table D.5)", model::impact_variables, is(VariableKind::number));
+  add("Quantities of a ball (D.4.7)", model::ball_variables, [](const auto&) { return true; });
+  return text;
+}
+
+struct Variables {
+  static constexpr const char* name = "variables";
+  static constexpr const char* what = "list the variables that outputs can show, as Markdown tables";
+
+  void add_options(CLI::App&) {}
+  int run() {
+    io::print("{}", list_variables());
+    return ok;
+  }
 };
 
 }  // namespace edmill::cli

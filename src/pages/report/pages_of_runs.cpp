@@ -1,0 +1,338 @@
+// The pages of many runs: side by side, and those of a study.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <ranges>
+
+#include "base/statistics.hpp"
+#include "base/version.hpp"
+#include "casefile/quantity.hpp"
+#include "io/output_folder.hpp"
+#include "report/report_page.hpp"
+#include "report/sections.hpp"
+#include "study/study.hpp"
+
+namespace edmill::report {
+
+namespace {
+
+using study::Point;
+
+/// By the folders, and where these have the same name by their whole paths.
+void name_runs(std::vector<RunFolder>& runs) {
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const auto own = (runs[k].place / "").parent_path().filename().string();
+    const bool alone = std::ranges::count_if(runs, [&](const RunFolder& r) {
+                         return (r.place / "").parent_path().filename() == own;
+                       }) == 1;
+    runs[k].name = alone ? own : fmt::format("{} ({})", runs[k].place.string(), k + 1);
+  }
+}
+
+/// Whether two rates differ: the 95 % interval of their difference, by half-widths in quadrature, leaves out
+/// zero. Nothing where a rate has no interval.
+std::optional<bool> differ(const RateOf& a, const RateOf& b) {
+  if (!a.half_width || !b.half_width) return std::nullopt;
+  return std::abs(a.value - b.value) > std::hypot(*a.half_width, *b.half_width);
+}
+
+/// "+12 %", with a word where the difference may be noise.
+std::string against(const RateOf& rate, const RateOf& first) {
+  const auto apart = differ(rate, first);
+  std::string change = "\u2013";
+  if (first.value != 0) {
+    const double percent = 100 * (rate.value / first.value - 1);
+    change = fmt::format("{}{:.1f} %", percent < 0 ? "\u2212" : "+", std::abs(percent));
+  }
+  return !apart ? change + ", no interval" : *apart ? change : change + ", not significant";
+}
+
+void add_rates_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
+  auto section = add_section(main, "rates", "Rates");
+  Rows rows;
+  const auto first_run = main_rates(runs.front().facts);
+  for (std::size_t k = 0; k < first_run.size(); ++k) {
+    const auto& [name, unit, first] = first_run[k];
+    if (name.starts_with("inverse")) continue;
+    std::vector<std::string> row{name + " [" + unit + "]"};
+    bool any = false;
+    for (const auto& run : runs) {
+      const auto rate = main_rates(run.facts)[k].rate;
+      any = any || rate;
+      row.push_back(!rate ? "\u2013" : text_of(*rate));
+      if (&run != &runs.front()) row.push_back(rate && first ? against(*rate, *first) : "\u2013");
+    }
+    if (any) rows.push_back(std::move(row));
+  }
+  std::vector<std::string> headings{"quantity"};
+  for (const auto& run : runs) {
+    headings.push_back(run.name);
+    if (&run != &runs.front()) headings.push_back("against " + runs.front().name);
+  }
+  add_table(section, "rates-of-runs", "Rates of the runs", headings, rows);
+  add_note(section,
+           "\u00b1: 95 % interval of the run. A difference is significant where the 95 % interval of the "
+           "difference, the half-widths added in quadrature, leaves out zero; of twenty comparisons of equal "
+           "mills one is so by chance.");
+}
+
+/// Each dose rate as a point with its interval, at the number of the run.
+void draw_dose_rates(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
+  plot::Chart chart{"dose-rates",
+                    "Milling dose rate",
+                    "For each run a horizontal line at its milling dose rate, within its 95 % interval.",
+                    {"run", 0.4, static_cast<double>(runs.size()) + 0.6},
+                    {"milling dose rate [W]"}};
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const auto rate = main_rates(runs[k].facts).front().rate;
+    if (!rate) continue;
+    const double place = static_cast<double>(k) + 1;
+    add_level(chart, place - 0.25, place + 0.25, *rate, fmt::format("{}: {}", k + 1, runs[k].name),
+              run_colour(k));
+    chart.y.high = std::max(chart.y.high, 1.1 * (rate->value + rate->half_width.value_or(0)));
+  }
+  draw(grid, chart);
+}
+
+void draw_over_time(pugi::xml_node grid, const std::vector<RunFolder>& runs) {
+  plot::Chart chart{"dose-rate",
+                    "Milling dose rate over time",
+                    "Lines of the milling dose rate of each run over the simulated time.",
+                    {"time [s]", 0, 0},
+                    {"milling dose rate [W]"}};
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (const auto series = rate_of(runs[k], "milling_dose", 60)) {
+      chart.curves.push_back({runs[k].name, run_colour(k), points_of(*series), false});
+      chart.x.high = std::max(chart.x.high, series->end.back());
+    }
+  if (chart.curves.empty()) return;
+  draw_fitted(grid, chart);
+}
+
+/// What the cases do not have in common.
+void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs) {
+  std::vector<std::string> keys;
+  std::vector<std::map<std::string, std::string>> facts;
+  for (const auto& run : runs) {
+    auto& own = facts.emplace_back();
+    auto rows = case_rows(run);
+    rows.push_back({"statistics", fmt::format("{} s to {} s", brief(run.facts.start_time, 12),
+                                              brief(run.facts.end_time, 12))});
+    rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", run.facts.seed, run.facts.precision)});
+    rows.push_back({"program", fmt::format("edmill {} ({})", run.facts.version, run.facts.commit)});
+    for (const auto& row : rows) {
+      const auto [fact, is_first] = own.emplace(row[0], row[1]);
+      if (!is_first) fact->second += "; " + row[1];
+      if (std::ranges::find(keys, row[0]) == keys.end()) keys.push_back(row[0]);
+    }
+  }
+  Rows rows;
+  for (const auto& key : keys) {
+    std::vector<std::string> row{key};
+    for (const auto& own : facts) {
+      const auto found = own.find(key);
+      row.push_back(found == own.end() ? "\u2013" : found->second);
+    }
+    if (std::adjacent_find(row.begin() + 1, row.end(), std::not_equal_to<>()) != row.end())
+      rows.push_back(std::move(row));
+  }
+  auto section = add_section(main, "cases", "What differs in the cases");
+  if (rows.empty()) {
+    add(section, "p", {}, "Nothing: all runs are of one case.");
+    return;
+  }
+  std::vector<std::string> headings{"key"};
+  for (const auto& run : runs) headings.push_back(run.name);
+  add_table(section, "differences", "Differences", headings, rows);
+}
+
+void add_warnings_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
+  if (std::ranges::all_of(runs, [](const RunFolder& run) { return run.facts.warnings.empty(); })) return;
+  auto list = add(add_section(main, "warnings", "Warnings"), "ul");
+  for (const auto& run : runs)
+    for (const auto& [kind, text] : run.facts.warnings)
+      add(list, "li", {{"data-kind", kind}}, run.name + ": " + text);
+}
+
+std::string page_of_runs(const std::vector<RunFolder>& runs) {
+  pugi::xml_document document;
+  auto main = add(document, "main");
+  add_rates_of(main, runs);
+  auto grid = add(add_section(main, "charts", "Dose rates"), "div", {{"class", "charts"}});
+  draw_dose_rates(grid, runs);
+  draw_over_time(grid, runs);
+  add_warnings_of(main, runs);
+  add_differences(main, runs);
+  add_spectra_of(main, runs);
+  const auto names = runs | std::views::transform(&RunFolder::name);
+  return page_of({fmt::format("{} runs compared", runs.size()), fmt::format("{}", fmt::join(names, ", ")),
+                  version(), commit(), document});
+}
+
+/// What the page shows of each point, and in which units.
+struct Shown {
+  const char *quantity, *name, *unit;
+  double size;  ///< of the unit, in SI
+};
+constexpr Shown shown[] = {{"milling_dose_rate", "milling dose rate", "W", 1},
+                           {"specific_milling_dose_rate", "specific milling dose rate", "W/kg", 1},
+                           {"milling_time", "milling time", "h", 3600}};
+
+/// Of a point's runs; of one run alone, its own interval.
+std::optional<RateOf> rate_of_point(const Point& point, const Shown& what) {
+  const auto e = numerics::estimate(point.values(study::quantity_named(what.quantity)));
+  if (!e.mean) return std::nullopt;
+  auto rate = RateOf{*e.mean, e.half_width}.in_units_of(what.size);
+  if (point.done() != 1) return rate;
+  const auto& run =
+      std::ranges::find_if(point.runs, [](const auto& r) { return r.record && r.record->done(); });
+  const double dose_rate = *study::quantity_named("milling_dose_rate").of(*run->record);
+  if (run->record->dose_rate_half_width && dose_rate > 0)
+    rate.half_width = rate.value * *run->record->dose_rate_half_width / dose_rate;
+  return rate;
+}
+
+std::string name_of_point(const Point& point, std::size_t index) {
+  std::string name = point.name;
+  for (const auto& [key, value] : point.settings)
+    if (point.name.empty()) name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", key, value);
+  return name.empty() ? fmt::format("point {}", index + 1) : name;
+}
+
+/// The axis of the points: the value of the only key that varies, where it is a number, or their numbers.
+struct Places {
+  std::string title = "point";
+  std::vector<double> x;
+
+  explicit Places(const std::vector<Point>& points) {
+    for (std::size_t k = 0; k < points.size(); ++k) x.push_back(static_cast<double>(k) + 1);
+    std::vector<double> values;
+    std::string unit;
+    for (const auto& point : points) {
+      if (point.settings.size() != 1 || point.settings[0].first != points[0].settings[0].first) return;
+      const auto value = casefile::split_number(point.settings[0].second);
+      if (!value || (!values.empty() && value->second != unit)) return;
+      unit = value->second;
+      values.push_back(value->first);
+    }
+    title = points[0].settings[0].first + (unit.empty() ? "" : " [" + unit.substr(unit[0] == ' ') + "]");
+    x = values;
+  }
+};
+
+void draw_points(pugi::xml_node grid, const std::vector<Point>& points, const Places& places,
+                 const Shown& what) {
+  const auto [low, high] = std::ranges::minmax(places.x);
+  const double room = high > low ? 0.08 * (high - low) : 0.6;
+  plot::Chart chart{
+      what.quantity,
+      capitalised(what.name),
+      fmt::format("For each point a short line at its {}, within its 95 % interval.", what.name),
+      {places.title, low - room, high + room},
+      {fmt::format("{} [{}]", what.name, what.unit)}};
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (const auto rate = rate_of_point(points[k], what))
+      add_level(chart, places.x[k] - 0.5 * room, places.x[k] + 0.5 * room, *rate, "", "c0");
+  if (chart.curves.empty()) return;
+  draw_fitted(grid, chart);
+}
+
+/// As one word of a shell.
+std::string quoted(const std::string& word) {
+  const auto* safe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,%@";
+  if (!word.empty() && word.find_first_not_of(safe) == word.npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
+
+/// The command that makes a run again, with a report.
+std::string command_of(const study::Job& job, const std::string& folder) {
+  auto text = "edmill run " + quoted(job.case_file);
+  for (const auto& setting : job.overrides) text += " --set " + quoted(setting);
+  return text + " --report --out " + quoted(folder);
+}
+
+void add_runs(pugi::xml_node main, const std::vector<Point>& points) {
+  auto section = add_section(main, "runs", "Runs");
+  add_note(section, "The record of each run, and the command that makes it again with a report of its own.");
+  const auto dose_rate = study::quantity_named("milling_dose_rate");
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    auto details = add(section, "details", {{"class", "runs"}});
+    add(details, "summary", {}, fmt::format("{}: {}", k + 1, name_of_point(points[k], k)));
+    auto list = add(details, "ul");
+    for (const auto& run : points[k].runs) {
+      auto item = add(list, "li");
+      std::string text = fmt::format("seed {}: ", run.seed);
+      const auto rate = run.record ? dose_rate.of(*run.record) : std::nullopt;
+      if (!run.record)
+        text += "not run";
+      else if (!run.record->done())
+        text += run.record->status + ", " + run.record->message;
+      else if (rate)
+        text += text_of({*rate, run.record->dose_rate_half_width}) + " W";
+      add(item, "span", {}, text);
+      if (run.job.digest.empty()) continue;
+      auto lines = add(item, "ul");
+      if (run.record && run.record->lasting())
+        add(add(lines, "li"), "a", {{"href", "runs/" + run.job.digest + ".json"}},
+            fmt::format("record of seed {}", run.seed));
+      add(add(lines, "li"), "code", {}, command_of(run.job, fmt::format("run-{}-{}", k + 1, run.seed)));
+    }
+  }
+}
+
+}  // namespace
+
+void write_comparison(const std::vector<std::string>& folders, const std::filesystem::path& file) {
+  std::vector<RunFolder> runs;
+  for (const auto& folder : folders) runs.push_back(read_run_folder(folder));
+  name_runs(runs);
+  io::NamedFile(file).write([&](std::ostream& out) { out << page_of_runs(runs); });
+}
+
+std::string study_page(const study::Study& study, const std::string& kind, const std::string& finding) {
+  const auto& points = study.points();
+  pugi::xml_document document;
+  auto main = add(document, "main");
+  if (!finding.empty()) add(add_section(main, "finding", "Finding"), "pre", {{"tabindex", "0"}}, finding);
+  auto section = add_section(main, "points", "Points");
+  std::vector<std::string> headings{"point", "name", "runs"};
+  for (const auto& what : shown) headings.push_back(fmt::format("{} [{}]", what.name, what.unit));
+  Rows rows;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto& point = points[k];
+    const auto failed = point.failed();
+    std::vector<std::string> row{
+        std::to_string(k + 1), name_of_point(point, k),
+        std::to_string(point.done()) + (failed > 0 ? fmt::format(", {} failed", failed) : "")};
+    for (const auto& what : shown) {
+      const auto rate = rate_of_point(point, what);
+      row.push_back(rate ? text_of(*rate) : "\u2013");
+    }
+    rows.push_back(std::move(row));
+  }
+  add_table(section, "rates-of-points", "Rates", headings, rows);
+  add_note(section,
+           "\u00b1: 95 % interval by Student\u2019s t over the runs of a point; of a single run, its own "
+           "interval. All numbers:");
+  auto files = add(section, "ul");
+  add(add(files, "li"), "a", {{"href", study.name() + ".csv"}}, study.name() + ".csv: a row for each point");
+  add(add(files, "li"), "a", {{"href", "runs.csv"}}, "runs.csv: a row for each run");
+  auto grid = add(add_section(main, "charts", "Charts"), "div", {{"class", "charts"}});
+  const Places places(points);
+  for (const auto& what : shown) draw_points(grid, points, places, what);
+  add_runs(main, points);
+  const auto counts = study.counts();
+  return page_of({kind + " " + std::filesystem::path(study.file()).filename().string(),
+                  fmt::format("{} points, {} runs, {} failed{}", points.size(), counts.total, counts.failed,
+                              study.interrupted() ? ", interrupted" : ""),
+                  version(), commit(), document});
+}
+
+}  // namespace edmill::report
