@@ -73,7 +73,9 @@ Real ball_variable(int row, const BallProperties<Real>& ball, const BallState<Re
   using Facts = BallFacts<Real>;
 #define EDMILL_BALL_VARIABLE(name, thesis, unit, meaning, formula) \
   [](const Facts& b) -> Real { return Real(formula); },
-  static constexpr std::array<Real (*)(const Facts&), ball_variables.size()> formulas{};
+  static constexpr std::array<Real (*)(const Facts&), ball_variables.size()> formulas{
+#include "model/ball_variables.def"
+  };
 #undef EDMILL_BALL_VARIABLE
   return formulas[static_cast<std::size_t>(row)]({ball, state, pi});
 }

@@ -18,7 +18,9 @@ enum class Kind : std::size_t {
 #undef EDMILL_KIND
 /// The share of a kind is relative to how often its check was made.
 #define EDMILL_CHECK(id, name, columns) id,
-enum class Check : std::size_t {};
+enum class Check : std::size_t {
+#include "audit/findings.def"
+};
 #undef EDMILL_CHECK
 
 struct KindInfo {
@@ -27,14 +29,18 @@ struct KindInfo {
   Check check;                  ///< that finds it
 };
 #define EDMILL_KIND(name, unit, meaning, check) KindInfo{#name, unit, meaning, Check::check},
-inline constexpr std::array kinds{};
+inline constexpr std::array kinds{
+#include "audit/findings.def"
+};
 #undef EDMILL_KIND
 struct CheckInfo {
   std::string_view name;
   std::string_view columns;  ///< that it needs
 };
 #define EDMILL_CHECK(id, name, columns) CheckInfo{name, columns},
-inline constexpr std::array checks{};
+inline constexpr std::array checks{
+#include "audit/findings.def"
+};
 #undef EDMILL_CHECK
 inline constexpr std::size_t kind_count = kinds.size(), check_count = checks.size();
 inline const KindInfo& info(Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
