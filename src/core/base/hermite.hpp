@@ -58,7 +58,8 @@ struct QuarticLowerBound {
 
 /// Proven: f > 0 on [left, right]. @pre left.value is proven positive
 template <class Real>
-bool proven_positive(const Point<Real>& left, const Point<Real>& right, const CurveBounds<Real>& bounds) {
+[[gnu::always_inline]] inline bool proven_positive(const Point<Real>& left, const Point<Real>& right,
+                                                   const CurveBounds<Real>& bounds) {
   const QuarticLowerBound<Real> quartic(left, right, bounds);
   return quartic.least() > quartic.slack;
 }

@@ -290,6 +290,10 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
 
  private:
   void on_impact(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) override {
+    if (own_laws_ || !spec_->outputs.empty() || call_ || !watchers_.empty()) show(impact, simulation);
+  }
+  /// Apart, so that an impact that nobody looks at costs a few instructions.
+  [[gnu::noinline]] void show(const engine::Impact<Real>& impact, engine::Simulation<Real>& simulation) {
     if (own_laws_) require_no_gain(impact);
     if (outputs_ && !spec_->outputs.empty()) outputs_->on_impact(impact, simulation);
     if (watchers_.empty() && !call_) return;
