@@ -10,7 +10,7 @@ import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-EXAMPLES = HERE.parents[1] / "docs/examples"
+EXAMPLES = HERE.parents[2] / "docs/examples"
 CASES = {"SPEX 8000, 28 balls": "demo.toml", "planetary mill": "planetary.toml", "shaken box": "shaken_box.toml",
          "steel and alumina, with a piston": "materials.toml"}
 
@@ -26,7 +26,7 @@ def main(engine, place):
 
     compressed = gzip.compress(pathlib.Path(engine + ".wasm").read_bytes(), 9, mtime=0)
     cases = {name: (EXAMPLES / file).read_text(encoding="utf-8") for name, file in CASES.items()}
-    reference = HERE.parents[1] / "regression/reference"
+    reference = HERE.parents[2] / "regression/reference"
     rows = [line.split(",") for line in (reference / "three_balls.events.csv").read_text(encoding="utf-8").splitlines()
             if not line.startswith("#")]
     proven = {"case": (reference / "three_balls.toml").read_text(encoding="utf-8"),
