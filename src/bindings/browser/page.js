@@ -118,7 +118,8 @@ async function advance(time, own, of_chunk = false) {
   const before = frame.impacts;
   take(answer);
   if (time < 0 && answer.impacts === before && !answer.ended) say('No impact in the next hundred drive periods.');
-  if (of_chunk) chunk *= milliseconds > 100 ? 0.5 : milliseconds < 40 ? 2 : 1;
+  // At most so long that the chart of a run of seconds has enough points on any machine.
+  if (of_chunk) chunk = Math.min(0.2, chunk * (milliseconds > 100 ? 0.5 : milliseconds < 40 ? 2 : 1));
   if (answer.ended) await finish(own);
   return !answer.ended;
 }
