@@ -10,9 +10,9 @@ for source in "$@"; do
   cp -p "$source" "$kept"
   trap 'cp -p "$kept" "$source"' EXIT
   echo "// changed" >>"$source"
-  start=$EPOCHREALTIME
+  start=$SECONDS
   cmake --build "$build" --target edmill_cli >/dev/null
-  printf '%s\t%.0f s\n' "$source" "$(bc <<<"$EPOCHREALTIME - $start")"
+  echo "$source $((SECONDS - start)) s"
   cp "$kept" "$source"
   trap - EXIT
   cmake --build "$build" --target edmill_cli >/dev/null

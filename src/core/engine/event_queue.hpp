@@ -18,7 +18,7 @@ enum class EventKind {
   pair_contact,
   void_contact,   ///< a pair contact whose partner has had an impact since it was predicted
   cell_crossing,  ///< a ball leaves its cell of the grid
-  wall_horizon,   ///< up to here walls are proven out of reach; the search goes on
+  wall_horizon,   ///< up to here walls are proven out of reach; then the search continues
 };
 
 template <class Real>

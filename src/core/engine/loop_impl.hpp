@@ -119,7 +119,7 @@ bool Simulation<Real>::has_rivals(const Event<Real>& event) const {
 }
 
 /// Finds the first of the contacts that share a ball and are so close in time that rounding may have put them
-/// in the wrong order: wider scalars time them anew. What no scalar can tell apart is put in order by a rule,
+/// in the wrong order: wider scalars time them anew. What no scalar can separate is ordered by a rule,
 /// and marked.
 template <class Real>
 auto Simulation<Real>::settle_ties(Event<Real> event) -> Event<Real> {
@@ -374,8 +374,8 @@ void Simulation<Real>::raise_top_speed(int ball) {
   candidates_.raise_top_speed(top_speed_);
 }
 
-/// Whether the impact is one of infinitely many in finite time, or of many while the clock stands still; then
-/// everybody who watches is told of it.
+/// Whether the impact is one of infinitely many in finite time, or of many while time does not advance; all
+/// observers are notified then.
 template <class Real>
 void Simulation<Real>::notify(const Impact<Real>& impact) {
   if (may_collapse_ && impact.with_wall) {

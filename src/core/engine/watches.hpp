@@ -1,5 +1,5 @@
 // Recognise runs that cannot go on: by inelastic collapse, infinitely many impacts of a ball in finite time,
-// or since the clock stands still.
+// or because time no longer advances.
 #pragma once
 
 #include <algorithm>

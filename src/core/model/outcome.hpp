@@ -20,11 +20,11 @@ enum class EndReason {
   end_time,
   max_cpu_time,        ///< of a run in a study
   inelastic_collapse,  ///< a Zeno point of the exact model
-  stalled,             ///< the clock stands still: no motion separates bodies that are pressed together
+  stalled,             ///< time no longer advances: no motion separates bodies that are pressed together
   undecided,           ///< no scalar could make a decision
   interrupted,
   stopped,         ///< by an observer
-  paused,          ///< an observer wants something done between two events; the run goes on
+  paused,          ///< an observer asked for a pause between two events; the run can continue
   first_stop_rule  ///< and so on, in the order of StopRuleList
 };
 

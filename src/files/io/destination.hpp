@@ -35,14 +35,14 @@ class FileBuffer : public std::streambuf {
   FileBuffer() = default;
   FileBuffer(const FileBuffer&) = delete;
   FileBuffer& operator=(const FileBuffer&) = delete;
-  /// Closes; what is left in the buffer is lost.
+  /// Closes without writing what is still in the buffer.
   ~FileBuffer() override;
 
-  /// Takes over a descriptor that stands after `size` bytes with this digest.
+  /// Takes over a descriptor positioned after `size` bytes with this digest.
   void open(int descriptor, std::uint64_t size = 0, Sha256 digest = {});
   /// @return whether everything was written
   bool close();
-  /// Forgets what is left in the buffer, and closes.
+  /// Discards the buffer and closes.
   void drop();
 
   int error() const { return error_; }  ///< errno of the first failure

@@ -93,8 +93,8 @@ struct ChainBounds {
     }
     return rates;
   }
-  /// A phase that is known to a few roundings of so many turns is off by 2 pi as much; then a sine, a product
-  /// with a matrix and with the vectors behind it.
+  /// A phase that is known to a few roundings of so many turns has an error 2 pi times as large; then a sine,
+  /// a product with a matrix and with the vectors behind it.
   static Real error_of(const Joint<Real>& joint, const Real& period) {
     const auto of_phase = [&](const Real& frequency) {
       return Real(7 * (4 + 3 * magnitude<Real>(frequency * period)));
