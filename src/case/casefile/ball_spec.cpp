@@ -19,7 +19,7 @@ std::string names_of(const CaseSpec& spec) {
 
 /// A ball's own density, or that of its material.
 void read_density(Section& s, BallSpec& ball, const CaseSpec& spec) {
-  ball.material = read_material_of(s, "material", spec);
+  ball.material = material_of(s, "material", ball.material_name, spec);
   if (ball.material > 0) {
     const auto& material = spec.materials[static_cast<std::size_t>(ball.material) - 1];
     if (material.density)
@@ -59,7 +59,7 @@ int CaseSpec::material_named(const std::string& name) const {
   return found == materials.end() ? 0 : static_cast<int>(found - materials.begin()) + 1;
 }
 
-void read_material(Section entry, CaseSpec& spec) {
+void read_material(Section& entry, CaseSpec& spec) {
   MaterialSpec material;
   read_keys(entry, material);
   entry.require(material.name.empty() || spec.material_named(material.name) == 0, "name",
@@ -71,23 +71,24 @@ void read_material(Section entry, CaseSpec& spec) {
   spec.materials.push_back(std::move(material));
 }
 
-int read_material_of(Section& section, const std::string& key, const CaseSpec& spec) {
-  const auto name = section.text(key);
-  if (!name) return 0;
-  const int material = spec.material_named(*name);
+int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec) {
+  if (name.empty()) return 0;
+  const int material = spec.material_named(name);
   section.require(material > 0, key, names_of(spec));
   return material;
 }
 
-void read_wall_materials(Section& vessel, CaseSpec& spec) {
-  const int common = read_material_of(vessel, "material", spec);
+void read_wall_materials(Section& vessel, VesselTable& table, CaseSpec& spec) {
+  const int common = material_of(vessel, "material", table.material, spec);
   if (vessel.of_unknown_kind()) return;
-  Section walls = vessel.section("materials");
+  Section& walls = *table.materials.section;
+  WallMaterials given;
+  read_keys(walls, given);
   const auto partners = known_partners(spec);
   if (!partners) return;
   spec.wall_materials.assign(static_cast<std::size_t>(partners->walls()), common);
   std::vector<bool> named(spec.wall_materials.size());
-  for (const auto& key : walls.keys()) {
+  for (const auto& key : given) {
     std::string labels;
     bool known = false;
     for (int wall = 0; wall < partners->walls(); ++wall) {
@@ -97,7 +98,7 @@ void read_wall_materials(Section& vessel, CaseSpec& spec) {
       const auto own = static_cast<std::size_t>(wall);
       if (named[own])
         walls.problem(key, "a second material of a wall, by its key and by its label", "one of them");
-      spec.wall_materials[own] = read_material_of(walls, key, spec);
+      spec.wall_materials[own] = material_of(walls, key, walls.text(key).value_or(""), spec);
       named[own] = true;
       known = true;
     }
@@ -105,7 +106,7 @@ void read_wall_materials(Section& vessel, CaseSpec& spec) {
   }
 }
 
-void read_batch(Section s, CaseSpec& spec) {
+void read_batch(Section& s, CaseSpec& spec) {
   BallBatch batch;
   batch.where = s.where();
   read_keys(s, batch);
@@ -119,7 +120,7 @@ void read_batch(Section s, CaseSpec& spec) {
   spec.batches.push_back(std::move(batch));
 }
 
-void read_ball(Section s, CaseSpec& spec) {
+void read_ball(Section& s, CaseSpec& spec) {
   ExplicitBall ball;
   ball.where = s.where();
   read_keys(s, ball);

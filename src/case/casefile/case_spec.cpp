@@ -22,10 +22,10 @@ namespace edmill::casefile {
 
 namespace {
 
-void read_run(Section run, CaseSpec& spec) {
+void read_run(Section& run, CaseSpec& spec) {
   run.require(run.present(), "end_time", "a section [run] with at least one stop rule");
-  spec.precision = read_precision(run);
   read_keys(run, spec);
+  check_precision(run, spec.precision);
   run.require(!spec.digits || !run.has("precision"), "digits", "digits or a precision, not both");
   if (!run.has("start_time")) spec.statistics_start = spec.initial_time;
   run.require(spec.statistics_start >= spec.initial_time, "start_time", "a time not before the initial time");
@@ -33,20 +33,11 @@ void read_run(Section run, CaseSpec& spec) {
     run.require(*spec.end_time > spec.statistics_start, "end_time", "a time after the start time");
   bool stops = run.has("end_time");
   std::string rules = "end_time";
-  model::for_each_stop_rule([&](auto rule, std::size_t place) {
-    KeyReader{run}(rule.key, spec.stop_limits[place]);
+  model::for_each_stop_rule([&](auto rule, std::size_t) {
     stops = stops || run.has(rule.key.key);
     rules += std::string(", ") + rule.key.key;
   });
   if (!stops) run.problem("end_time", "no stop rule", "at least one of " + rules);
-  // Along -Y when one acceleration is given.
-  if (run.has("gravity")) {
-    if (run.is_array("gravity")) {
-      spec.gravity = run.vector("gravity", Dimension::acceleration).value_or(QuantityVector{});
-    } else if (const auto strength = run.quantity("gravity", Dimension::acceleration)) {
-      spec.gravity[1] = -*strength;
-    }
-  }
   run.reject_unknown_keys();
 }
 
@@ -62,36 +53,33 @@ void check_times(Section run, const CaseSpec& spec) {
   run.require(!spec.end_time || within(*spec.end_time), "end_time", expected);
 }
 
-void read_audit(Section audit, AuditSpec& spec) {
-  Section columns = audit.section("columns");
-  for (const auto& ours : columns.keys())
-    if (const auto theirs = columns.text(ours)) spec.columns.emplace_back(ours, *theirs);
-  read_keys(audit, spec);
-  audit.reject_unknown_keys();
+/// The lines of [run]. Digests of 1.0 name its keys in this order.
+std::string text_of_run(const CaseSpec& c) {
+  constexpr std::array<std::string_view, 8> of_1_0{"precision",      "seed",          "initial_time",
+                                                   "start_time",     "end_time",      "max_milling_dose",
+                                                   "max_ball_speed", "max_collisions"};
+  std::string first[of_1_0.size()], others;
+  for (const auto& [key, value, named] : digest_values(c)) {
+    const auto found = std::find(of_1_0.begin(), of_1_0.end(), key);
+    (found == of_1_0.end() ? others : first[found - of_1_0.begin()]) += "\n" + key + " " + value;
+  }
+  std::string text;
+  for (const auto& line : first) text += line;
+  return text + others;
 }
 
-/// Digests of 1.0 name its stop rules in this order, and whether they are in force or not.
-std::string stop_rules_text(const model::StopLimits<Quantity>& limits) {
-  constexpr std::array<std::string_view, 3> of_1_0{"max_milling_dose", "max_ball_speed", "max_collisions"};
-  std::string first[of_1_0.size()], others;
-  model::for_each_stop_rule([&](auto rule, std::size_t place) {
-    const auto& limit = limits[place];
-    const std::string line = std::string("\n") + rule.key.key + " " + (limit ? limit->text() : "-");
-    const auto found = std::find(of_1_0.begin(), of_1_0.end(), rule.key.key);
-    if (found != of_1_0.end())
-      first[found - of_1_0.begin()] = line;
-    else if (limit)
-      others += line;
-  });
-  return first[0] + first[1] + first[2] + others;
+/// " 1 0 4/5": the values of an entry.
+std::string values_of(const auto& entry) {
+  std::string text;
+  for (const auto& [key, value, named] : digest_values(entry)) text += " " + (named ? key + " " : "") + value;
+  return text;
 }
 
 /// Everything that a run depends on, in one order and exact.
 std::string canonical_text(const CaseSpec& c) {
   std::ostringstream out;
-  out << "edmill case 2\nprecision " << c.precision << digest_text(c, true) << stop_rules_text(c.stop_limits)
-      << "\ngravity " << digest_of(c.gravity) << "\nmill " << text_of(c.mill) << "\nvessel "
-      << text_of(c.vessel) << "\n";
+  out << "edmill case 2" << text_of_run(c) << "\nmill " << text_of(c.mill) << "\nvessel " << text_of(c.vessel)
+      << "\n";
   for (const auto& piston : c.pistons) {
     out << "piston " << piston.wall << " " << piston.distance.text() << " " << piston.speed.text();
     for (const auto& swing : piston.swings)
@@ -116,8 +104,8 @@ std::string canonical_text(const CaseSpec& c) {
     for (const auto& b : c.batches) out << " " << b.material;
     out << "\n";
   }
-  for (const auto& b : c.balls) out << "ball" << digest_text(b) << "\n";
-  for (const auto& b : c.batches) out << "balls" << digest_text(b) << "\n";
+  for (const auto& b : c.balls) out << "ball" << values_of(b) << "\n";
+  for (const auto& b : c.batches) out << "balls" << values_of(b) << "\n";
   if (c.target.dose && (c.target.counted.normal_only || c.target.counted.least.positive()))
     out << "counts " << c.target.counted.normal_only << " " << c.target.counted.least.text() << "\n";
   if (!c.initial_state.empty()) {
@@ -139,44 +127,51 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   spec.text = text;
   spec.settings = overrides;
   Section top(document, &root, "");
-  read_run(top.section("run"), spec);
-  Section mill = top.section("mill"), vessel = top.section("vessel");
-  spec.mill = read_motion(mill);
-  if (!top.section("run").has("end_time")) require_end(mill);
-  spec.vessel = read_vessel(vessel);
-  spec.vessel_colour = vessel.colour("colour", spec.vessel_colour);
-  auto pistons = read_pistons(vessel, spec);
-  for (const auto& entry : top.sections("material")) read_material(entry, spec);
-  read_wall_materials(vessel, spec);
+  CaseFile file;
+  read_keys(top, file);
+  Section &run = *file.run.section, &mill = *file.mill.section, &vessel = *file.vessel.section;
+  read_run(run, spec);
+  MillTable motion;
+  read_keys(mill, motion);
+  spec.mill = std::move(motion.motion);
+  if (!run.has("end_time")) require_end(mill);
+  VesselTable walls;
+  read_keys(vessel, walls);
+  spec.vessel = std::move(walls.shape);
+  spec.vessel_colour = walls.colour;
+  read_pistons(vessel, walls.pistons, spec);
+  for (auto& entry : file.materials) read_material(entry, spec);
+  read_wall_materials(vessel, walls, spec);
   mill.reject_unknown_keys();
   vessel.reject_unknown_keys();
-  if (Section powder = top.section("powder"); powder.present()) {
-    spec.powder_mass = powder.required("mass", Dimension::mass);
-    powder.require(spec.powder_mass->positive(), "mass", "a positive mass");
-    read_keys(powder, spec.target);
-    spec.target.counted.normal_only = powder.choice("counts", {"all", "normal"}) == "normal";
-    powder.reject_unknown_keys();
+  if (Section& section = *file.powder.section; section.present()) {
+    PowderTable powder;
+    read_keys(section, powder);
+    section.reject_unknown_keys();
+    spec.powder_mass = powder.mass;
+    spec.target = powder.target;
+    spec.target.counted.normal_only = powder.counts == CountedPart::normal;
   }
-  for (const auto& entry : top.sections("ball")) read_ball(entry, spec);
-  for (const auto& entry : top.sections("balls")) read_batch(entry, spec);
-  read_contact(top.section("contact"), spec);
-  for (const auto& entry : top.sections("output", true)) read_output(entry, spec);
-  read_audit(top.section("audit"), spec.audit);
+  for (auto& entry : file.balls) read_ball(entry, spec);
+  for (auto& entry : file.batches) read_batch(entry, spec);
+  read_contact(*file.contact.section, spec);
+  for (auto& entry : file.outputs) read_output(entry, spec);
+  read_keys(*file.audit.section, spec.audit);
+  file.audit.section->reject_unknown_keys();
   if (!top.has("ball") && !top.has("balls"))
     top.problem("balls", "no balls", "entries [[balls]] or [[ball]]");
   else if (document.problems.empty() && spec.ball_count() == 0)
-    top.sections("balls").front().problem("count", "no balls", "a count above 0 in one of the entries");
+    file.batches.front().problem("count", "no balls", "a count above 0 in one of the entries");
   top.reject_unknown_keys();
-  check_times(top.section("run"), spec);
-  if (document.problems.empty()) require_travel(pistons, spec);
+  check_times(run, spec);
+  if (document.problems.empty()) require_travel(walls.pistons, spec);
   if (!spec.initial_state.empty() && !finished) {
     const std::filesystem::path given(spec.initial_state);
     const bool stream = io::is_stream(spec.initial_state);
     if (given.is_relative() && !stream) spec.initial_state = (io::folder_of(name) / given).string();
     // It is read more than once.
     if (!io::is_readable(spec.initial_state) || (stream && !io::Spool::is_active()))
-      top.section("run").problem("initial_state", "no file '" + spec.initial_state + "'",
-                                 "a final_state.csv");
+      run.problem("initial_state", "no file '" + spec.initial_state + "'", "a final_state.csv");
   }
   if (!document.problems.empty()) throw InputError(document.problems_by_line());
   if (spec.initial_state.empty() || !finished) spec.digest = sha256(canonical_text(spec));
@@ -184,6 +179,18 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
 }
 
 }  // namespace
+
+void Gravity::read_from(Section& run, const char* key) {
+  if (run.is_array(key))
+    QuantityVector::operator=(run.vector(key, Dimension::acceleration).value_or(QuantityVector{}));
+  else if (const auto strength = run.quantity(key, Dimension::acceleration))
+    (*this)[1] = -*strength;
+}
+
+std::optional<ColumnName> ColumnName::read(Section& columns, const std::string& ours) {
+  const auto theirs = columns.text(ours);
+  return theirs ? std::optional(ColumnName(ours, *theirs)) : std::nullopt;
+}
 
 std::vector<Colour> CaseSpec::ball_colours() const {
   std::vector<Colour> colours;
@@ -258,9 +265,9 @@ void add_outputs(const std::string& text, const std::string& name, CaseSpec& spe
   document.name = name;
   const toml::table root = parse_toml(text, "entries [[output]]", document);
   Section top(document, &root, "");
-  for (const auto& entry : top.sections("output", true)) read_output(entry, spec);
+  for (auto& entry : top.sections("output", true)) read_output(entry, spec);
   top.reject_unknown_keys();
-  if (!document.problems.empty()) throw InputError(document.problems);
+  if (!document.problems.empty()) throw InputError(document.problems_by_line());
 }
 
 std::string describe_gravity(const CaseSpec& spec) {

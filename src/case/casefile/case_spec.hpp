@@ -18,6 +18,8 @@
 
 namespace edmill::casefile {
 
+class Section;
+
 using QuantityVector = std::array<Quantity, 3>;
 
 /// An entry [[material]].
@@ -25,6 +27,7 @@ struct MaterialSpec {
   std::string name;
   std::optional<Quantity> density;
 
+  static constexpr const char* what = "Materials of balls and walls.";
   static void keys(auto& m, auto&& row) {
     row(Parameter{"name", Dimension::none, "by which balls, walls and pairs name it"}, m.name);
     row(Parameter{"density", Dimension::density, "required for a material of balls", Range::positive},
@@ -36,6 +39,7 @@ struct MaterialSpec {
 struct BallSpec {
   Quantity diameter;
   Quantity density{8000};
+  std::string material_name;
   int material = 0;  ///< of CaseSpec::materials, from 1; 0 for none
   Quantity reduced_inertia{2, 5};
   QuantityVector velocity{};
@@ -50,6 +54,8 @@ struct BallSpec {
                                          "0.4"};
   static constexpr Parameter colour_key{"colour", Dimension::none, "in pictures",          Range::any,
                                         nullptr,  "blue",          Parameter::Digest::none};
+  static constexpr Parameter material_key =
+      Parameter{"material", Dimension::none, "of a `[[material]]`"}.as("name").usually("none").undigested();
   static constexpr Parameter velocity_of(const char* meaning) {
     return {"velocity", Dimension::speed, meaning, Range::any, nullptr, "at rest"};
   }
@@ -67,6 +73,7 @@ struct BallBatch : BallSpec {
   Quantity gap_wall{1, 1000};
   std::uint64_t max_relocations = 100000;
 
+  static constexpr const char* what = "Batches of balls, placed at random after the single balls.";
   static void keys(auto& b, auto&& row) {
     row(Parameter{"count", Dimension::none, "of balls that are placed at random", {0, largest_count}, "1"},
         b.count);
@@ -96,6 +103,7 @@ struct BallBatch : BallSpec {
     row(Parameter{"max_relocations", Dimension::none, "attempts to place a ball", Range::any, "100000"},
         b.max_relocations);
     row(colour_key, b.colour);
+    row(material_key, b.material_name);
   }
 };
 
@@ -104,6 +112,7 @@ struct ExplicitBall : BallSpec {
   QuantityVector position{};
   QuantityVector spin{};
 
+  static constexpr const char* what = "Single balls.";
   static void keys(auto& b, auto&& row) {
     row(diameter_key, b.diameter);
     row(density_key, b.density);
@@ -115,6 +124,7 @@ struct ExplicitBall : BallSpec {
     row(Parameter{"spin", Dimension::angular_speed, "in the inertial frame", Range::any, nullptr, "none"},
         b.spin);
     row(colour_key, b.colour);
+    row(material_key, b.material_name);
   }
 };
 
@@ -130,14 +140,33 @@ struct PairSpec {
   }
 };
 
+/// A name of ours, theirs with its unit: "t [ms]".
+struct ColumnName : std::pair<std::string, std::string> {
+  using pair::pair;
+  static std::optional<ColumnName> read(Section& section, const std::string& ours);
+};
+
+/// Names of columns of another code's log.
+struct ColumnNames : std::vector<ColumnName> {
+  static constexpr const char* what = "Names of columns.";
+  static void keys(auto& c, auto&& row) {
+    row(Parameter{"*", Dimension::none,
+                  "ours = theirs, with a unit in brackets: `approach_speed = \"vn [mm/s]\"`"}
+            .as("text")
+            .usually("the same name"),
+        static_cast<std::vector<ColumnName>&>(c));
+  }
+};
+
 /// Section [audit]: how another code's collision log is to be read and judged. docs/audit.md
 struct AuditSpec {
-  std::vector<std::pair<std::string, std::string>> columns;  ///< our name, theirs with its unit: "t [ms]"
+  ColumnNames columns;
   std::optional<Quantity> tolerance, gap_tolerance;
   std::optional<std::uint64_t> first_ball;
   std::string walls;  ///< "-1, -2, -3": what stands for the walls, by id; empty when not given
   bool from_start = false;
 
+  static constexpr const char* what = "How `edmill audit` reads another code's log.";
   static void keys(auto& a, auto&& row) {
     row(Parameter{"tolerance", Dimension::none, "relative", Range::share, nullptr, "1e-9"}, a.tolerance);
     row(Parameter{"gap_tolerance", Dimension::length, "largest gap or overlap of bodies in contact",
@@ -152,6 +181,8 @@ struct AuditSpec {
     row(Parameter{"from_start", Dimension::none, "the log begins at the initial state of the case",
                   Range::any, "false"},
         a.from_start);
+    row(Parameter{"columns", Dimension::none, "names of columns in the other code's log, `[audit.columns]`"},
+        a.columns);
   }
 };
 
@@ -174,6 +205,11 @@ struct TargetSpec {
   std::string counts() const;
 };
 
+/// An acceleration along -Y, or a vector of three.
+struct Gravity : QuantityVector {
+  void read_from(Section& run, const char* key);
+};
+
 struct CaseSpec {
   std::string file;                   ///< path of the case file
   std::string text;                   ///< of the case file
@@ -188,7 +224,7 @@ struct CaseSpec {
   std::optional<Quantity> end_time;
   model::StopLimits<Quantity> stop_limits;
   std::string initial_state;  ///< path of a final_state.csv, or empty
-  QuantityVector gravity{};
+  Gravity gravity{};
   MotionSpec mill;
   VesselSpec vessel;
   std::vector<model::Piston<Quantity>> pistons;
@@ -205,7 +241,7 @@ struct CaseSpec {
   std::vector<OutputSpec> outputs;
   AuditSpec audit;  ///< no part of what is simulated, nor of the digest
 
-  /// Of [run], but for precision, gravity and the stop rules.
+  static constexpr const char* what = "Begin and end of the run, its scalar, gravity.";
   static void keys(auto& c, auto&& row) {
     row(Parameter{"seed", Dimension::none, "of the random placement", Range::any, "1"}, c.seed);
     row(
@@ -235,6 +271,17 @@ struct CaseSpec {
                   "stay those of the case",
                   Range::any, nullptr, "none", Parameter::Digest::none},
         c.initial_state);
+    model::for_each_stop_rule([&](auto rule, std::size_t place) { row(rule.key, c.stop_limits[place]); });
+    row(Parameter{"precision", Dimension::none,
+                  "scalar of the run; `edmill --version` lists all, and `\"mpfr:3000\"` has 3000 digits",
+                  Range::any, "double"}
+            .as("name of a scalar")
+            .usually("`\"double\"`"),
+        c.precision);
+    row(Parameter{"gravity", Dimension::acceleration, "along -Y when it is one number"}
+            .as("acceleration, or a vector")
+            .usually("none"),
+        c.gravity);
   }
 
   /// From 1; 0 when there is none.

@@ -11,64 +11,15 @@ namespace edmill::casefile {
 
 namespace {
 
-/// What a section gives of a law, over what it inherits.
-struct GivenLaw {
-  std::string name;
-  std::map<std::string, Quantity> parameters;
-  std::map<std::string, std::vector<std::array<Quantity, 2>>> tables;  ///< by key
-  Quantity least_separation{1, 100};
-};
-
-using Laws = model::NamedLaws<Quantity>;
-
 void require_least(Section& s, const Quantity& speed) {
   s.require(!speed.negative(), "least_separation", "a speed of 0 or more");
 }
 
-/// The table of a law that has one.
-template <class Law>
-void read_table(Section& s, GivenLaw& given) {
-  constexpr const auto& rows = Law::table_rows;
-  auto points = s.pairs(Law::table, rows[0].dimension, rows[1].dimension);
-  if (!s.has(Law::table)) return;
-  bool good = !points.empty();
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    for (std::size_t place = 0; place < 2; ++place)
-      good = good && in_range(points[k][place], rows[place].range);
-    if (k > 0) good = good && points[k - 1][0] < points[k][0];
-  }
-  if (!good) s.problem(Law::table, fmt::format("a table of {} points", points.size()), Law::table_form);
-  given.tables[Law::table] = std::move(points);
-}
-
-/// Parameters of every law may be given, so that a sweep over laws has all that it needs in one section.
-void read_law(Section& s, GivenLaw& given) {
-  const bool chosen = s.has("model");
-  const auto name = s.choice("model", names_of_kinds<Laws>());
-  if (chosen || given.name.empty()) given.name = name;
+/// What a section gives of a law, over what it inherits.
+void read_law(Section& s, LawTable& given) {
+  LawTable::keys(given, KeyReader(s, KeyReader::Absent::kept));
   if (s.has("restitution") && s.has("restitution_normal"))
     s.problem("restitution_normal", "both 'restitution' and 'restitution_normal'", "one of them");
-  const auto take = [&](const std::string& key, const Parameter& p) {
-    const bool here = s.has(key);
-    const auto found = s.quantity(key, p.dimension);
-    if (found) s.require(in_range(*found, p.range), key, expected(p));
-    if (here) given.parameters[p.key] = found.value_or(Quantity{});  // what is wrong has been reported
-  };
-  std::map<std::string, bool> read;
-  for_each_kind<Laws>([&](const auto& law) {
-    law.parameters(law, [&](const Parameter& p, const Quantity&) {
-      if (std::exchange(read[p.key], true)) return;
-      take(p.key, p);
-      if (p.key == std::string("restitution")) take("restitution_normal", p);
-    });
-  });
-  for_each_kind<Laws>([&]<class Law>(const Law&) {
-    if constexpr (requires { Law::table; }) read_table<Law>(s, given);
-  });
-  if (const auto speed = s.quantity("least_separation", Dimension::speed)) {
-    given.least_separation = *speed;
-    require_least(s, *speed);
-  }
   s.replaced("collapse_time", "'least_separation', the least speed at which bodies leave an impact");
 }
 
@@ -101,15 +52,15 @@ void require_diameters(Section& s, const CaseSpec& spec) {
 }
 
 /// @param missing  called with the key of what its law needs and is not given, and what was expected
-ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spec, const auto& missing) {
+ContactSpec to_spec(Section& contact, const LawTable& given, const CaseSpec& spec, const auto& missing) {
   ContactSpec result;
   result.least_separation = given.least_separation;
   for_each_kind<Laws>([&](auto law) {
-    if (given.name != law.name) return;
+    if (given.name.text != law.name) return;
     law.parameters(law, [&](const Parameter& p, Quantity& value) {
       const auto found = given.parameters.find(p.key);
-      if (found != given.parameters.end()) {
-        value = found->second;
+      if (found != given.parameters.end() && found->second) {
+        value = *found->second;
       } else if (p.fallback) {
         value = fallback_of(p);
       } else if (const auto ratio = charge_ratio(spec); ratio && p.key == std::string("charge_ratio")) {
@@ -122,10 +73,10 @@ ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spe
       }
     });
     if constexpr (requires { law.points; }) {
-      if (const auto found = given.tables.find(law.table); found != given.tables.end())
+      if (const auto found = given.points.find(law.table.key); found != given.points.end())
         law.points = found->second;
       else
-        missing(law.table, law.table_form);
+        missing(law.table.key, law.table_form);
     }
     if constexpr (std::is_same_v<decltype(law), model::PowderLoad<Quantity>>)
       require_diameters(contact, spec);
@@ -134,14 +85,14 @@ ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spe
   return result;
 }
 
-ContactSpec to_spec(Section& contact, const GivenLaw& given, const CaseSpec& spec) {
+ContactSpec to_spec(Section& contact, const LawTable& given, const CaseSpec& spec) {
   return to_spec(contact, given, spec, [&](const std::string& key, const std::string& expected) {
     contact.problem(key, "nothing", expected);
   });
 }
 
 /// Whether all that its law needs is given.
-bool is_complete(const GivenLaw& given, const CaseSpec& spec) {
+bool is_complete(const LawTable& given, const CaseSpec& spec) {
   Document ignored;
   Section nothing(ignored, nullptr, "contact");
   bool complete = true;
@@ -149,9 +100,11 @@ bool is_complete(const GivenLaw& given, const CaseSpec& spec) {
   return complete;
 }
 
-void read_pairs(Section& contact, const GivenLaw& shared, CaseSpec& spec) {
-  for (Section& entry : contact.sections("pair")) {
-    const auto names = entry.settings("materials", Section::Twice::allowed);
+void read_pairs(ContactTable& contact, CaseSpec& spec) {
+  for (Section& entry : contact.pairs) {
+    PairTable table;
+    read_keys(entry, table);
+    const auto& names = table.materials.names;
     PairSpec pair;
     bool known = names.size() == 2;
     for (std::size_t k = 0; known && k < 2; ++k) {
@@ -166,7 +119,7 @@ void read_pairs(Section& contact, const GivenLaw& shared, CaseSpec& spec) {
       if (known && other.is_of(pair.materials[0], pair.materials[1]))
         entry.problem("materials", fmt::format("\"{}\" and \"{}\" again", names[0], names[1]),
                       "one entry for each pair");
-    GivenLaw given = shared;
+    LawTable given = contact.shared;
     read_law(entry, given);
     entry.reject_unknown_keys();
     pair.law = to_spec(entry, given, spec);
@@ -197,6 +150,27 @@ void require_all_pairs(Section& contact, const CaseSpec& spec) {
 
 }  // namespace
 
+void LawTable::Name::read_from(Section& section, const char* key) {
+  const bool chosen = section.has(key);
+  const auto name = section.choice(key, names_of_kinds<Laws>());
+  if (chosen || text.empty()) text = name;
+}
+
+template <class Law>
+void LawTable::PointsOf<Law>::read_from(Section& s, const char* key) {
+  constexpr const auto& rows = Law::table_rows;
+  auto found = s.pairs(key, rows[0].dimension, rows[1].dimension);
+  if (!s.has(key)) return;
+  bool good = !found.empty();
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    for (std::size_t place = 0; place < 2; ++place)
+      good = good && in_range(found[k][place], rows[place].range);
+    if (k > 0) good = good && found[k - 1][0] < found[k][0];
+  }
+  if (!good) s.problem(key, fmt::format("a table of {} points", found.size()), Law::table_form);
+  points[key] = std::move(found);
+}
+
 void check(Section contact, const ContactSpec& law, const CaseSpec& spec) {
   law.parameters([&](const Parameter& p, const Quantity& value) {
     contact.require(in_range(value, p.range), p.key, expected(p));
@@ -205,16 +179,16 @@ void check(Section contact, const ContactSpec& law, const CaseSpec& spec) {
   require_least(contact, law.least_separation);
 }
 
-void read_contact(Section contact, CaseSpec& spec) {
-  GivenLaw shared;
-  read_law(contact, shared);
-  read_pairs(contact, shared, spec);
-  GivenLaw of_balls = shared, of_walls = shared;
-  for (const bool balls : {true, false}) {
-    Section own = contact.section(balls ? "ball_ball" : "ball_wall");
-    read_law(own, balls ? of_balls : of_walls);
-    own.reject_unknown_keys();
-  }
+void read_contact(Section& contact, CaseSpec& spec) {
+  ContactTable table;
+  ContactTable::keys(table, KeyReader(contact, KeyReader::Absent::kept));
+  read_law(contact, table.shared);
+  read_pairs(table, spec);
+  LawTable of_balls = table.shared, of_walls = table.shared;
+  read_law(*table.ball_ball, of_balls);
+  read_law(*table.ball_wall, of_walls);
+  table.ball_ball->reject_unknown_keys();
+  table.ball_wall->reject_unknown_keys();
   if (!spec.pairs.empty() && !is_complete(of_balls, spec) && !is_complete(of_walls, spec)) {
     spec.pairs_only = true;
     spec.ball_ball = spec.ball_wall = spec.pairs.front().law;

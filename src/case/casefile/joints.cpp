@@ -1,6 +1,7 @@
 // Joints of a chain as a case file says them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "casefile/case_parts.hpp"
 #include "casefile/quantity_value.hpp"
 #include "casefile/rational.hpp"
+#include "casefile/tables.hpp"
 
 namespace edmill::casefile {
 
@@ -86,61 +88,42 @@ Quantity in_turns(const Quantity& radians) {
 
 const std::array<std::string, 3> axes{"x", "y", "z"};
 
-/// "x", "y", "z", or three numbers.
-std::array<Quantity, 3> read_axis(Section& joint, const std::string& key) {
-  if (joint.is_array(key)) {
-    auto axis = joint.vector(key, Dimension::none).value_or(QuantityVector{Quantity{1}});
-    const bool zero = axis[0].zero() && axis[1].zero() && axis[2].zero();
-    joint.require(!zero, key, "an axis other than zero");
-    return axis;
-  }
-  const auto name = joint.text(key).value_or("x");
-  std::array<Quantity, 3> axis{};
-  bool known = false;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (name == axes[k]) axis[k] = Quantity{1}, known = true;
-  joint.require(known, key, "\"x\", \"y\", \"z\" or an array of three numbers");
-  return axis;
-}
+bool is_zero(const QuantityVector& v) { return v[0].zero() && v[1].zero() && v[2].zero(); }
 
-Joint<Quantity> read_rotation(Section& section) {
+Joint<Quantity> rotation_of(Section& section, JointTable& table) {
   Joint<Quantity> joint;
-  joint.axis = read_axis(section, "rotate");
-  joint.angle = in_turns(section.quantity("angle", Dimension::angle, Quantity{0}));
-  joint.speed = in_turns(section.quantity("speed", Dimension::angular_speed, Quantity{0}));
-  joint.swings = read_swings(section, true);
+  joint.axis = table.rotate.direction;
+  joint.angle = in_turns(table.angle);
+  joint.speed = in_turns(table.speed);
+  joint.swings = read_swings(table.swings);
   if (joint.angle.zero() && joint.speed.zero() && joint.swings.empty())
     section.problem(first_of(section, {"speed", "angle", "rotate"}), "a joint that does not turn",
                     "one with angle, speed or swing");
   return joint;
 }
 
-Joint<Quantity> read_translation(Section& section) {
+Joint<Quantity> translation_of(Section& section, JointTable& table) {
   Joint<Quantity> joint;
   joint.rotates = false;
-  joint.speed = section.quantity("speed", Dimension::speed, Quantity{0});
-  if (section.is_array("translate") && (section.has("swing") || section.has("speed"))) {
-    joint.axis = read_axis(section, "translate");
-    if (section.has("distance"))
-      section.problem("distance", "a distance along an axis of three numbers",
-                      "a joint of its own for it, translate = [..] with three lengths");
-    joint.swings = read_swings(section, false);
-    return joint;
-  }
-  if (section.is_array("translate")) {
-    joint.shift = section.vector("translate", Dimension::length).value_or(QuantityVector{Quantity{1}});
-    if (joint.shift[0].zero() && joint.shift[1].zero() && joint.shift[2].zero())
+  joint.speed = table.speed;
+  joint.swings = read_swings(table.swings);
+  const bool named = !section.is_array("translate");
+  if (!named && section.has("distance"))
+    section.problem("distance",
+                    table.translate.shift ? "a shift with all three lengths given"
+                                          : "a distance along an axis of three numbers",
+                    table.translate.shift ? "translate = \"x\", \"y\" or \"z\" with it"
+                                          : "a joint of its own for it, translate = [..] with three lengths");
+  if (table.translate.shift) {
+    joint.shift = *table.translate.shift;
+    if (is_zero(joint.shift))
       section.problem("translate", "a joint that shifts nothing", "a length other than zero");
-    if (section.has("distance"))
-      section.problem("distance", "a shift with all three lengths given",
-                      "translate = \"x\", \"y\" or \"z\" with it");
     return joint;
   }
-  joint.axis = read_axis(section, "translate");
-  const auto distance = section.quantity("distance", Dimension::length, Quantity{0});
-  for (std::size_t k = 0; k < 3; ++k) joint.shift[k] = joint.axis[k] * distance;
-  joint.swings = read_swings(section, false);
-  if (distance.zero() && joint.speed.zero() && joint.swings.empty())
+  joint.axis = table.translate.direction;
+  if (!named) return joint;
+  for (std::size_t k = 0; k < 3; ++k) joint.shift[k] = joint.axis[k] * table.distance;
+  if (table.distance.zero() && joint.speed.zero() && joint.swings.empty())
     section.problem(first_of(section, {"speed", "distance", "translate"}), "a joint that shifts nothing",
                     "one with distance, speed or swing");
   return joint;
@@ -221,14 +204,35 @@ void check_swings(Section& section, const std::vector<Swing<Quantity>>& swings) 
     require_speed(section, quantity_of(2 * rational(swing.frequency), 1 + swing.frequency.pi_power));
 }
 
-std::vector<Swing<Quantity>> read_swings(Section& joint, bool rotates) {
+void Axis::read_from(Section& joint, const char* key) {
+  if (!joint.has(key)) return;
+  if (joint.is_array(key)) {
+    direction = joint.vector(key, Dimension::none).value_or(QuantityVector{Quantity{1}});
+    joint.require(!is_zero(direction), key, "an axis other than zero");
+    return;
+  }
+  const auto axis = std::find(axes.begin(), axes.end(), joint.text(key).value_or("x"));
+  joint.require(axis != axes.end(), key, "\"x\", \"y\", \"z\" or an array of three numbers");
+  direction = {};
+  if (axis != axes.end()) direction[static_cast<std::size_t>(axis - axes.begin())] = Quantity{1};
+}
+
+void Translation::read_from(Section& joint, const char* key) {
+  if (joint.is_array(key) && !joint.has("swing") && !joint.has("speed"))
+    shift = joint.vector(key, Dimension::length).value_or(QuantityVector{Quantity{1}});
+  else
+    Axis::read_from(joint, key);
+}
+
+std::vector<Swing<Quantity>> read_swings(Entries<SwingTable>& entries) {
   std::vector<Swing<Quantity>> swings;
-  for (Section& entry : joint.sections("swing")) {
-    const auto amplitude = entry.required("amplitude", rotates ? Dimension::angle : Dimension::length);
-    const auto speed = entry.required("speed", Dimension::angular_speed);
-    require_speed(entry, speed);
-    const auto phase = entry.quantity("phase", Dimension::angle, Quantity{0});
-    swings.push_back({rotates ? in_turns(amplitude) : amplitude, in_turns(speed), in_turns(phase)});
+  const bool rotates = entries.like.dimension == Dimension::angle;
+  for (Section& entry : entries) {
+    SwingTable swing = entries.like;
+    read_keys(entry, swing);
+    require_speed(entry, swing.speed);
+    swings.push_back({rotates ? in_turns(swing.amplitude) : swing.amplitude, in_turns(swing.speed),
+                      in_turns(swing.phase)});
     entry.reject_unknown_keys();
   }
   return swings;
@@ -264,15 +268,22 @@ Joints<Quantity> with_phases(Joints<Quantity> joints) {
 
 Joints<Quantity> read_joints(Section& mill) {
   Joints<Quantity> joints;
-  const auto entries = mill.sections("joint");
-  if (entries.empty() && !mill.has("joint")) mill.problem("joint", "nothing", "at least one [[mill.joint]]");
-  for (Section entry : entries) {
-    if (entry.has("rotate") == entry.has("translate")) {
-      entry.problem("rotate", entry.has("rotate") ? "rotate and translate" : "neither rotate nor translate",
+  ChainTable chain;
+  read_keys(mill, chain);
+  if (chain.joints.empty() && !mill.has("joint"))
+    mill.problem("joint", "nothing", "at least one [[mill.joint]]");
+  for (Section& entry : chain.joints) {
+    const bool rotates = entry.has("rotate");
+    if (rotates == entry.has("translate")) {
+      entry.problem("rotate", rotates ? "rotate and translate" : "neither rotate nor translate",
                     "one of them");
       continue;
     }
-    joints.list.push_back(entry.has("rotate") ? read_rotation(entry) : read_translation(entry));
+    JointTable table;
+    table.rotates = rotates;
+    table.swings.like.dimension = rotates ? Dimension::angle : Dimension::length;
+    read_keys(entry, table);
+    joints.list.push_back(rotates ? rotation_of(entry, table) : translation_of(entry, table));
     entry.reject_unknown_keys();
   }
   joints.period = period_of_fastest(joints);

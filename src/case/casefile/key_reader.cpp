@@ -14,6 +14,8 @@ using model::Range;
 
 namespace {
 
+std::uint64_t count_of(const Quantity& q) { return static_cast<std::uint64_t>(numerator(rational(q))); }
+
 /// What is kept of a value that was read.
 Quantity kept(const Quantity& q, const Range& range) {
   if (range.kind != Range::drive) return q;
@@ -70,20 +72,27 @@ void KeyReader::operator()(const Parameter& p, Quantity& value) {
     value = kept(fallback_of(p), p.range);
     return;
   }
-  if (!p.fallback && p.otherwise && !section_.has(p.key)) return;
-  const Quantity found = p.fallback ? section_.quantity(p.key, p.dimension, fallback_of(p))
-                                    : section_.required(p.key, p.dimension);
-  section_.require(in_range(found, p.range), p.key, expected(p));
-  if ((!p.fallback || section_.has(p.key)) && !section_.quantity(p.key, p.dimension)) complete_ = false;
-  value = kept(found, p.range);
+  const bool given = section_.has(p.key);
+  const auto found = section_.quantity(p.key, p.dimension);
+  if (!given && (kept_ || (!p.fallback && p.otherwise))) return;
+  if (!given && !p.fallback) section_.problem(p.key, "nothing", describe(p.dimension));
+  if (!found && (given || !p.fallback)) complete_ = false;
+  // A placeholder passes later checks: the problem is reported already.
+  const Quantity own = found.value_or(p.fallback ? fallback_of(p) : Quantity{1});
+  section_.require(in_range(own, p.range), p.key, expected(p));
+  value = kept(own, p.range);
 }
 
 void KeyReader::operator()(const Parameter& p, std::optional<Quantity>& value) {
+  std::optional<Quantity> found;
   if (p.range != Range::count)
-    value = section_.quantity(p.key, p.dimension);
+    found = section_.quantity(p.key, p.dimension);
   else if (const auto count = section_.count(p.key))
-    value = quantity_of(*count);
+    found = quantity_of(*count);
+  if (kept_ && !section_.has(p.key)) return;
+  value = found;
   if (value) section_.require(in_range(*value, p.range), p.key, expected(p));
+  if (!value && kept_) value = Quantity{};  // a placeholder: what is wrong has been reported
   if (!value && p.fallback) value = fallback_of(p);
 }
 
@@ -95,13 +104,14 @@ void KeyReader::operator()(const Parameter& p, std::array<Quantity, 3>& values) 
   } else if (p.fallback && !section_.has(p.key)) {
     values.fill(fallback_of(p));
   } else {
-    require_presence(p, "three of " + describe(p.dimension));
+    require_presence(p, "an array of three " + noun(p.dimension) + "s");
   }
 }
 
 void KeyReader::operator()(const Parameter& p, std::optional<std::uint64_t>& value) {
   value = section_.count(p.key);
   if (value) section_.require(in_range(quantity_of(*value), p.range), p.key, expected(p));
+  if (!value && p.fallback) value = count_of(fallback_of(p));
 }
 
 void KeyReader::operator()(const Parameter& p, std::uint64_t& value) {
@@ -109,8 +119,6 @@ void KeyReader::operator()(const Parameter& p, std::uint64_t& value) {
   (*this)(p, found);
   if (found)
     value = *found;
-  else if (p.fallback)
-    value = static_cast<std::uint64_t>(numerator(rational(fallback_of(p))));
   else
     require_presence(p, "a count");
 }

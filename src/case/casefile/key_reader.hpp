@@ -1,12 +1,15 @@
-// Structs that list their keys, by `keys(self, visit)` with visit(parameter, member) for each: how they are
-// read, checked, described and written to the digest.
+// Structs that list their keys, by `keys(self, row)` with row(parameter, member) for each: how they are read,
+// checked, described and written to the digest.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <vector>
 
+#include "base/errors.hpp"
 #include "casefile/section.hpp"
 #include "model/parts/parameter.hpp"
 
@@ -22,12 +25,53 @@ std::string expected(const Parameter& p);
 /// @pre the parameter has a fallback of its dimension
 Quantity fallback_of(const Parameter& p);
 
+/// A struct that lists its keys. A member of one can be such a struct itself: a table inside the table, whose
+/// keys all have values without it.
+template <class T>
+concept Keyed = requires(T& t) {
+  T::keys(t, [](const auto&...) {});
+};
+/// A value with a form of its own in a file: `read_from(section, key)` reads it where the key is present.
+template <class T>
+concept Formed = requires(T& t, Section& section, const char* key) {
+  t.read_from(section, key);
+};
+/// A value under a name that the user chooses: `read(section, name)`.
+template <class T>
+concept NamedEntry = requires(Section& section, const std::string& name) {
+  T::read(section, name)->~T();
+};
+/// `choices_of(value)` are the names of its values in a file, in the order of the enumerators.
+template <class T>
+concept Choice = std::is_enum_v<T>;
+
+/// A value as `--set` would take it.
+struct AnyValue {
+  std::optional<std::string> text;
+  void read_from(Section& section, const char* key) { text = section.setting(key); }
+};
+
+/// A table with the keys of a T, which is read where more than the table is known.
+template <Keyed T>
+struct Inner {
+  std::optional<Section> section;
+};
+/// Entries [[key]] of such tables.
+template <Keyed T>
+struct Entries : std::vector<Section> {
+  T like{};                  ///< a new entry
+  bool may_be_none = false;  ///< `key = []` is allowed
+};
+
 /// Reads members from a section; what is wrong is reported. A key that is absent gives the fallback; without
-/// one the member keeps its value where it is optional or the row says what holds `otherwise`, else the key
-/// is missed.
+/// one the member keeps its value where it is optional or the row says what is true `otherwise`, else the key
+/// is missing.
 class KeyReader {
  public:
-  explicit KeyReader(Section& section) : section_(section) {}
+  enum class Absent { fallback, kept };
+  /// @param absent  whether the members of absent keys keep their values whatever the row says
+  explicit KeyReader(Section& section, Absent absent = Absent::fallback)
+      : section_(section), kept_(absent == Absent::kept) {}
 
   void operator()(const Parameter& p, Quantity& value);
   void operator()(const Parameter& p, std::optional<Quantity>& value);
@@ -37,7 +81,50 @@ class KeyReader {
   void operator()(const Parameter& p, std::optional<std::uint64_t>& value);
   void operator()(const Parameter& p, bool& value);
   void operator()(const Parameter& p, std::string& value);
+  void operator()(const Parameter& p, std::optional<std::string>& value) { value = section_.text(p.key); }
+  void operator()(const Parameter& p, std::optional<Section>& value) {
+    value.emplace(section_.section(p.key));
+  }
+  void operator()(const Parameter& p, std::optional<std::vector<std::string>>& values) {
+    auto found = section_.settings(p.key);
+    if (section_.has(p.key)) values = std::move(found);
+  }
   void operator()(const Parameter& p, Colour& value);
+  void operator()(const Parameter& p, MotionSpec& motion) { motion = read_motion(section_, p.key); }
+  void operator()(const Parameter& p, VesselSpec& vessel) { vessel = read_vessel(section_, p.key); }
+  void operator()(const Parameter& p, Choice auto& value) {
+    const auto& names = choices_of(value);
+    const auto name = section_.choice(p.key, {names.begin(), names.end()});
+    value = static_cast<std::decay_t<decltype(value)>>(std::find(names.begin(), names.end(), name) -
+                                                       names.begin());
+  }
+  template <Formed T>
+  void operator()(const Parameter& p, T&& value) {
+    value.read_from(section_, p.key);
+  }
+  template <NamedEntry T>
+  void operator()(const Parameter&, std::vector<T>& values) {
+    for (const auto& name : section_.keys())
+      if (auto value = T::read(section_, name)) values.push_back(*value);
+  }
+  template <Keyed T>
+  void operator()(const Parameter& p, std::optional<T>& value) {
+    if (section_.section(p.key).present()) (*this)(p, value.emplace());
+  }
+  template <Keyed T>
+  void operator()(const Parameter& p, T& value) {
+    Section own = section_.section(p.key);
+    T::keys(value, KeyReader(own));
+    own.reject_unknown_keys();
+  }
+  template <Keyed T>
+  void operator()(const Parameter& p, Inner<T>& table) {
+    table.section.emplace(section_.section(p.key));
+  }
+  template <Keyed T>
+  void operator()(const Parameter& p, Entries<T>& entries) {
+    static_cast<std::vector<Section>&>(entries) = section_.sections(p.key, entries.may_be_none);
+  }
 
   /// No quantity is missing or cannot be read.
   bool complete() const { return complete_; }
@@ -47,13 +134,10 @@ class KeyReader {
   void require_presence(const Parameter& p, const std::string& expected);
 
   Section& section_;
-  bool complete_ = true;
+  bool kept_, complete_ = true;
 };
 
-void read_keys(Section& section, auto& keyed) {
-  KeyReader read(section);
-  keyed.keys(keyed, read);
-}
+void read_keys(Section& section, Keyed auto& keyed) { keyed.keys(keyed, KeyReader(section)); }
 
 /// Reports values out of range that were not read from a file.
 struct KeyChecker {
@@ -73,41 +157,31 @@ struct KeyChecker {
 
 /// What a member takes, for readers: "count", "three lengths", "true or false".
 template <class Value>
-std::string kind_of(const Parameter& p, const Value&) {
+std::string kind_of(const Parameter& p) {
+  if (p.kind) return p.kind;
   if constexpr (std::is_same_v<Value, Quantity>) {
     return p.range == Range::count ? "count" : noun(p.dimension);
   } else if constexpr (std::is_same_v<Value, std::array<Quantity, 3>>) {
     return "three " + noun(p.dimension) + "s";
   } else if constexpr (std::is_same_v<Value, Colour>) {
     return "colour";
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    return "text";
+  } else if constexpr (std::is_integral_v<Value>) {
+    return std::is_same_v<Value, bool> ? "true or false" : "count";
+  } else if constexpr (Keyed<Value> || requires { Value::section; }) {
+    return "table";
+  } else if constexpr (requires { Value::like; }) {
+    return "tables";
+  } else if constexpr (requires(Value value) { value.has_value(); }) {
+    return kind_of<typename Value::value_type>(p);
   } else {
-    static_assert(std::is_integral_v<Value> || std::is_same_v<Value, std::string>);
-    return std::is_same_v<Value, std::string> ? "text"
-           : std::is_same_v<Value, bool>      ? "true or false"
-                                              : "count";
+    throw ContractError(std::string("a row that says what the key ") + p.key + " takes");
   }
 }
-template <class Value>
-std::string kind_of(const Parameter& p, const std::optional<Value>&) {
-  return kind_of(p, Value{});
-}
 
-/// What holds without the key, for readers. @param optional  nothing need hold
+/// What is true without the key, for readers. @param optional  nothing need be
 std::string default_of(const Parameter& p, bool optional);
-
-/// One key for readers.
-using SeeKey = std::function<void(const Parameter& p, const std::string& kind, const std::string& fallback)>;
-
-/// Shows every key of a struct.
-template <class Keyed>
-void see_keys(const SeeKey& see) {
-  const Keyed plain{};
-  Keyed::keys(plain, [&](const Parameter& p, const auto& value) {
-    see(p, kind_of(p, value),
-        default_of(
-            p, requires { value.has_value(); }));
-  });
-}
 
 /// "119/25000", "0,1/10,0", "-" for nothing, in the digest.
 std::string digest_of(const Quantity& value);
@@ -120,23 +194,27 @@ std::string digest_of(const std::optional<Value>& value) {
   return value ? digest_of(*value) : "-";
 }
 
+struct DigestValue {
+  std::string key, value;
+  bool named;  ///< of a key that 1.0 did not have
+};
+
 /// What a run depends on, in the order of the list.
-/// @param in_lines  each with its key in a line of its own
-template <class Keyed>
-std::string digest_text(const Keyed& keyed, bool in_lines = false) {
-  const Keyed plain{};
+template <class T>
+std::vector<DigestValue> digest_values(const T& keyed) {
+  T plain{};
   std::vector<std::string> defaults;
-  Keyed::keys(plain, [&](const auto&, const auto& value) { defaults.push_back(digest_of(value)); });
-  std::string text, named;
+  T::keys(plain, [&](const auto&, const auto& value) { defaults.push_back(digest_of(value)); });
+  std::vector<DigestValue> values;
   auto usual = defaults.begin();
-  Keyed::keys(keyed, [&](const Parameter& p, const auto& value) {
-    const auto own = digest_of(value);
-    const std::string line = (in_lines ? "\n" : " ") + std::string(p.key) + " " + own;
-    if (p.digest == Parameter::Digest::value) text += in_lines ? line : " " + own;
-    if (p.digest == Parameter::Digest::named && own != *usual) named += line;
+  T::keys(keyed, [&](const Parameter& p, const auto& value) {
+    const bool named = p.digest == Parameter::Digest::named;
+    auto own = digest_of(value);
+    if (p.digest == Parameter::Digest::value || (named && own != *usual))
+      values.push_back({p.key, own, named});
     ++usual;
   });
-  return text + named;
+  return values;
 }
 
 }  // namespace edmill::casefile

@@ -21,39 +21,16 @@ std::string names_of(const std::vector<Statistic>& list) {
   return listed(names);
 }
 
-void read_timer(Section& s, TimerSpec& timer) {
-  read_keys(s, timer);
+/// What the keys of every entry must be together.
+void check_common(Section& s, const CaseSpec& spec, const OutputSpec& output) {
+  const auto& timer = output.timer;
   if (timer.start_time && timer.end_time)
     s.require(*timer.end_time > *timer.start_time, "end_time", "a time after start_time");
-}
-
-void read_restrictions(Section& s, std::vector<Restriction>& only) {
-  Section table = s.section("only");
-  for (const auto& key : table.keys()) {
-    const auto found = model::find_variable(key);
-    if (!found || impact_variables[*found].kind == VariableKind::number) {
-      std::string names;
-      for (const auto& v : impact_variables)
-        if (v.kind != VariableKind::number) names += (names.empty() ? "" : ", ") + std::string(v.name);
-      table.problem(key, "a restriction on '" + key + "'", "one of " + names);
-    } else if (impact_variables[*found].kind == VariableKind::flag) {
-      only.push_back({*found, table.flag(key) ? 1u : 0u});
-    } else {
-      only.push_back({*found, table.count(key).value_or(0)});
-    }
-  }
-}
-
-void read_place(Section& s, const CaseSpec& spec, const OutputType& type, OutputSpec& output) {
-  output.file = s.text("file").value_or(output.type + std::string(type.extension));
   const bool plain = output.file.find('/') == std::string::npos && output.file != "." && output.file != "..";
   s.require(plain, "file", "a plain file name");
-  if (const auto folder = s.text("folder")) {
-    output.folder = *folder;
-    const auto& f = output.folder;
-    const bool inside = f.front() != '/' && ("/" + f + "/").find("/../") == std::string::npos;
-    s.require(inside, "folder", "a folder inside the run's folder");
-  }
+  const auto& f = output.folder;
+  const bool inside = f.empty() || (f.front() != '/' && ("/" + f + "/").find("/../") == std::string::npos);
+  s.require(inside, "folder", "a folder inside the run's folder");
   const auto place = [](const OutputSpec& o) {
     return (std::filesystem::path("run") / o.folder / o.file).lexically_normal();
   };
@@ -62,14 +39,35 @@ void read_place(Section& s, const CaseSpec& spec, const OutputType& type, Output
         place(output) != std::filesystem::path("run") / taken, "file",
         "a plain file name other than the run's own summary.json, final_state.csv, case.toml, report.html "
         "and checkpoint");
-  const bool table = type.extension == ".csv";
-  if (table) {
-    output.append = s.flag("append");
-    s.require(!output.append || !output.hdf5(), "append", "false for HDF5");
-  }
+  s.require(!output.append || !output.hdf5(), "append", "false for HDF5");
   for (const auto& other : spec.outputs)
     s.require(place(other) != place(output) || (other.append && output.append), "file",
               "a file name that no other output has, unless both append");
+}
+
+/// The place in ball_variables of the variable that a key names; nothing where there is none, which is
+/// reported.
+std::optional<int> ball_variable_of(Section& s, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& v : model::ball_variables) names.emplace_back(v.name);
+  const auto found = model::find_ball_variable(name);
+  s.require(found.has_value(), "variable", "one of " + listed(names));
+  return found;
+}
+
+std::vector<Statistic> statistics_of(Section& s, const ColumnTable& given,
+                                     const std::vector<Statistic>& allowed) {
+  std::vector<Statistic> list;
+  if (!given.statistics) s.problem("statistics", "nothing", "an array of " + names_of(allowed));
+  for (const auto& name : given.statistics.value_or(std::vector<std::string>{})) {
+    const auto found = std::find_if(allowed.begin(), allowed.end(),
+                                    [&](Statistic known) { return statistic_name(known) == name; });
+    if (found != allowed.end())
+      list.push_back(*found);
+    else
+      s.problem("statistics", "\"" + name + "\"", "an array of " + names_of(allowed));
+  }
+  return list;
 }
 
 }  // namespace
@@ -84,86 +82,68 @@ Dimension dimension_of(std::string_view unit) {
   return Dimension::none;
 }
 
-std::optional<int> read_variable(Section& s, bool flags, bool counts, bool numbers) {
-  const auto name = s.text("variable");
-  if (!name) {
-    if (!s.has("variable")) s.problem("variable", "nothing", "the name of a variable (docs/variables.md)");
-    return std::nullopt;
-  }
-  const auto found = model::find_variable(*name);
+std::optional<Restriction> Restriction::read(Section& only, const std::string& key) {
+  const auto found = model::find_variable(key);
+  if (found && impact_variables[*found].kind == VariableKind::flag)
+    return Restriction{*found, only.flag(key) ? 1u : 0u};
+  if (found && impact_variables[*found].kind == VariableKind::count)
+    return Restriction{*found, only.count(key).value_or(0)};
+  std::string names;
+  for (const auto& v : impact_variables)
+    if (v.kind != VariableKind::number) names += (names.empty() ? "" : ", ") + std::string(v.name);
+  only.problem(key, "a restriction on '" + key + "'", "one of " + names);
+  return std::nullopt;
+}
+
+std::optional<int> variable_of(Section& s, const std::string& name, const ColumnRules& rules) {
+  if (!s.has("variable")) s.problem("variable", "nothing", "the name of a variable (docs/variables.md)");
+  if (name.empty()) return std::nullopt;
+  const auto found = model::find_variable(name);
   const auto kind = found ? impact_variables[*found].kind : VariableKind::number;
-  const bool allowed =
-      found && ((kind == VariableKind::flag && flags) || (kind == VariableKind::count && counts) ||
-                (kind == VariableKind::number && numbers));
+  const bool allowed = found && ((kind == VariableKind::flag && rules.flags) ||
+                                 (kind == VariableKind::count && rules.counts) ||
+                                 (kind == VariableKind::number && rules.numbers));
   std::vector<std::string> names;
   for (const auto& variable : impact_variables) names.emplace_back(variable.name);
-  const auto near = found ? "" : nearest(*name, names);
+  const auto near = found ? "" : nearest(name, names);
   std::string expected = near.empty() ? "" : "'" + near + "', or another of: ";
-  if (flags) expected += "a flag, ";
-  if (counts) expected += "a count, ";
-  if (numbers) expected += "a number, ";
+  if (rules.flags) expected += "a flag, ";
+  if (rules.counts) expected += "a count, ";
+  if (rules.numbers) expected += "a number, ";
   s.require(allowed, "variable", expected + "as listed by `edmill variables`");
   return allowed ? found : std::nullopt;
 }
 
-std::vector<Statistic> read_statistics(Section& s, const std::vector<Statistic>& allowed) {
-  std::vector<Statistic> list;
-  if (!s.has("statistics")) {
-    s.problem("statistics", "nothing", "an array of " + names_of(allowed));
-    return list;
-  }
-  for (const auto& name : s.settings("statistics")) {
-    const auto found = std::find_if(allowed.begin(), allowed.end(),
-                                    [&](Statistic known) { return statistic_name(known) == name; });
-    if (found != allowed.end())
-      list.push_back(*found);
-    else
-      s.problem("statistics", "\"" + name + "\"", "an array of " + names_of(allowed));
-  }
-  return list;
+bool ColumnTable::is_flag(const std::string& variable) {
+  const auto found = model::find_variable(variable);
+  return !found || impact_variables[*found].kind == VariableKind::flag;
 }
 
-void read_columns(Section& s, const ColumnRules& rules, OutputSpec& output) {
-  for (Section& entry : s.sections("columns")) {
-    ColumnSpec column;
-    column.variable = read_variable(entry, rules.flags, rules.counts, rules.numbers).value_or(0);
-    const bool flag = impact_variables[column.variable].kind == VariableKind::flag;
+void ColumnReader::read_from(Section& output, const char* key) {
+  for (Section& entry : output.sections(key)) {
+    ColumnTable given = like;
+    read_keys(entry, given);
+    const auto variable =
+        rules.of_balls ? ball_variable_of(entry, given.variable) : variable_of(entry, given.variable, rules);
+    const bool flag = !rules.of_balls && ColumnTable::is_flag(given.variable);
     const auto& allowed = flag ? rules.of_flags : rules.of_numbers;
-    if (!allowed.empty()) column.statistics = read_statistics(entry, allowed);
-    column.label = entry.text("label").value_or("");
-    if (flag && allowed.empty()) {
-      column.true_text = entry.text("true_text").value_or("1");
-      column.false_text = entry.text("false_text").value_or("0");
-    }
+    columns.push_back(
+        {.variable = variable.value_or(0),
+         .statistics = allowed.empty() ? std::vector<Statistic>{} : statistics_of(entry, given, allowed),
+         .label = given.label.value_or(""),
+         .true_text = given.true_text,
+         .false_text = given.false_text,
+         .with_ball = given.with_ball});
     entry.reject_unknown_keys();
-    output.columns.push_back(std::move(column));
   }
-  if (output.columns.empty() && !s.has("columns"))
-    s.problem("columns", "nothing", "an array of tables with `variable`");
-}
-
-void read_interval(Section& s, TimerSpec& timer, const std::optional<Quantity>& fallback) {
-  timer.interval = s.quantity("interval", Dimension::time);
-  s.require(!timer.interval || timer.interval->positive(), "interval", "a positive time");
-  if (!timer.interval) timer.interval = fallback;
-  timer.max_rows = s.count("max_rows");
-  s.require(!timer.max_rows || *timer.max_rows > 0, "max_rows", "at least 1");
-}
-
-void read_contact_point(Section& s, OutputSpec& output) {
-  if (!s.has("contact_point")) return;
-  Section point = s.section("contact_point");
-  ContactPointSpec spec;
-  read_keys(point, spec);
-  point.reject_unknown_keys();
-  output.contact_point = spec;
+  if (!output.has(key)) output.problem(key, "nothing", "an array of tables with `variable`");
 }
 
 std::string listed(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-void read_output(Section s, CaseSpec& spec) {
+void read_output(Section& s, CaseSpec& spec) {
   OutputSpec output;
   const auto types = output_types();
   std::vector<std::string> names;
@@ -173,10 +153,11 @@ void read_output(Section s, CaseSpec& spec) {
   if (!s.has("type") || s.of_unknown_kind()) return;
   const auto& type = *std::find_if(types.begin(), types.end(),
                                    [&](const OutputType& known) { return known.name == output.type; });
-  read_place(s, spec, type, output);
-  read_timer(s, output.timer);
-  read_restrictions(s, output.only);
-  type.read(s, spec, output);
+  output.table = type.extension == ".csv";
+  output.file = output.type + std::string(type.extension);
+  read_keys(s, output);
+  check_common(s, spec, output);
+  type.keys.read(s, spec, output);
   s.reject_unknown_keys();
   spec.outputs.push_back(std::move(output));
 }

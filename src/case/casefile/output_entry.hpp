@@ -1,52 +1,88 @@
-// How an entry [[output]] is read, and the keys that several types of output have. What is special to a type
-// is where that output is: output/registry.hpp
+// How an entry [[output]] is read, and the keys that several types of output have. The keys of one type are
+// where that output is: output/registry.hpp
 #pragma once
 
 #include <span>
 #include <string_view>
 
-#include "casefile/key_reader.hpp"
+#include "casefile/keys.hpp"
 
 namespace edmill::casefile {
 
-/// What a reader needs to know of one key of an output.
-struct KeyText {
-  std::string_view name;
-  std::string_view kind;      ///< "time", "count", "list of texts"
-  std::string_view fallback;  ///< as in a file, "required", or what holds without the key
-  std::string_view meaning;
+/// An entry of `columns`. Which keys it has depends on the type of output.
+struct ColumnTable {
+  bool has_statistics = true, has_texts = true, has_ball = true;
+  std::string variable;
+  std::optional<std::vector<std::string>> statistics;
+  std::optional<std::string> label;
+  std::string true_text, false_text;  ///< for flags
+  bool with_ball = false;
+
+  static constexpr const char* what = "A list of tables, one for each column.";
+  static void keys(auto& c, auto&& row) {
+    using enum Dimension;
+    row(Parameter{"variable", none, "a variable; of `trends_balls` a quantity of a ball"}.as("name").usually(
+            "required"),
+        c.variable);
+    if (c.has_statistics)
+      row(
+          Parameter{
+              "statistics", none,
+              "`sum`, `average`, `minimum`, `maximum`, `rate` (per second), `percentage` (of the total's "
+              "sum); of flags `sum`, `rate` and `percentage`. Not of `trends_instant`"}
+              .as("list of names")
+              .usually("required"),
+          c.statistics);
+    row(Parameter{"label", none, "in the table's header"}.usually("the variable's name"), c.label);
+    if (c.has_texts && (c.variable.empty() || is_flag(c.variable))) {
+      row(Parameter{"true_text", none, "for a flag that is true", Range::any, "1"}.usually("`\"1\"`").only_of(
+              "trends_instant"),
+          c.true_text);
+      row(Parameter{"false_text", none, "for a flag that is false", Range::any, "0"}
+              .usually("`\"0\"`")
+              .only_of("trends_instant"),
+          c.false_text);
+    }
+    if (c.has_ball)
+      row(Parameter{"with_ball", none, "also which ball has the minimum or maximum", Range::any, "false"}
+              .only_of("trends_balls"),
+          c.with_ball);
+  }
+  static bool is_flag(const std::string& variable);
 };
 
-inline constexpr KeyText columns_key{"columns", "list of tables", "required", "what the table contains"};
-inline constexpr KeyText column_keys[] = {columns_key};
-inline constexpr KeyText interval_of_30_s{"interval", "time", "`\"30 s\"`", "length of an interval"};
-inline constexpr KeyText interval_of_10_ms{"interval", "time", "`\"10 ms\"`", "length of an interval"};
-inline constexpr KeyText interval_if_given{"interval", "time", "each impact", "length of an interval"};
-inline constexpr KeyText max_rows_key{"max_rows", "count", "32000", "the record ends after this many rows"};
-inline constexpr KeyText contact_point_key{"contact_point", "table", "none",
-                                           "a sphere where the bodies touch"};
-
-/// What a type of output allows in its columns.
+/// The variables that a type of output has in its columns.
 struct ColumnRules {
-  bool flags, counts, numbers;
-  std::vector<Statistic> of_flags, of_numbers;  ///< none: the type shows single values
+  bool of_balls = false, flags = false, counts = false, numbers = false;
+  std::vector<Statistic> of_flags{}, of_numbers{};  ///< none: the type shows single values
 };
 
-/// Reads `columns`, each with a variable of an impact.
-void read_columns(Section& s, const ColumnRules& rules, OutputSpec& output);
+/// `columns`, as a type of output has them.
+struct ColumnReader {
+  ColumnRules rules;
+  std::vector<ColumnSpec>& columns;
+  ColumnTable like{!rules.of_numbers.empty(), rules.of_numbers.empty(), rules.of_balls, {}, {}, {}, {}, {}};
 
-/// Reads `variable`; place in impact_variables, or nothing when it is wrong, which is reported.
-std::optional<int> read_variable(Section& s, bool flags, bool counts, bool numbers);
+  void read_from(Section& output, const char* key);
+};
 
-std::vector<Statistic> read_statistics(Section& s, const std::vector<Statistic>& allowed);
+inline constexpr Parameter columns_key =
+    Parameter{"columns", Dimension::none, "what the table contains"}.as("list of tables").usually("required");
+constexpr Parameter interval_key(const char* fallback) {
+  return {"interval", Dimension::time, "length of an interval", Range::positive, fallback};
+}
+constexpr Parameter max_rows_key(const char* fallback = nullptr) {
+  return {"max_rows", Dimension::none, "the record ends after this many rows", Range::count, fallback};
+}
+inline constexpr Parameter contact_point_key{"contact_point", Dimension::none,
+                                             "a sphere where the bodies touch"};
 
-/// Reads `interval` and `max_rows`.
-void read_interval(Section& s, TimerSpec& timer, const std::optional<Quantity>& fallback = std::nullopt);
+/// The place in impact_variables of the variable that a key names; nothing where there is none that the rules
+/// allow, which is reported.
+std::optional<int> variable_of(Section& s, const std::string& name, const ColumnRules& rules);
 
 /// The size of a table: at least 1 and not beyond reason.
 inline constexpr Range table_size{1, 1000};
-
-void read_contact_point(Section& s, OutputSpec& output);
 
 /// The dimension in which a unit of the variables is given in a case.
 Dimension dimension_of(std::string_view unit);
@@ -54,32 +90,43 @@ Dimension dimension_of(std::string_view unit);
 /// "a, b, c", for messages.
 std::string listed(const std::vector<std::string>& names);
 
-/// Reads the keys that an entry of one type has beyond those of every entry.
-using ReadOutputKeys = void(Section& entry, const CaseSpec& spec, OutputSpec& output);
+/// The keys that one type of output has beyond those of every entry.
+struct OutputKeys {
+  void (*read)(Section& entry, const CaseSpec& spec, OutputSpec& output);
+  void (*list)(const KeyLister& lister);
+};
 
 struct OutputType {
   std::string_view name;       ///< `type` in a case
   std::string_view extension;  ///< of its file unless the entry names one; ".csv" for tables
   std::string_view what;       ///< it writes, for readers
-  ReadOutputKeys* read;
-  std::span<const KeyText> keys = {};        ///< that `read` looks up
-  void (*see)(const SeeKey& see) = nullptr;  ///< shows those of a struct that lists them
+  OutputKeys keys;
 };
 
-/// Of outputs without keys of their own.
-inline void read_no_keys(Section&, const CaseSpec&, OutputSpec&) {}
-/// Reads keys that a struct lists, into OutputSpec::own.
+/// Those that `Keys::keys(output, row)` lists. What they must be together is in `Keys::check`.
 template <class Keys>
-void read_own(Section& entry, const CaseSpec&, OutputSpec& output) {
-  Keys keys;
-  read_keys(entry, keys);
-  output.own = keys;
-}
+inline constexpr OutputKeys output_keys{[](Section& entry, const CaseSpec& spec, OutputSpec& output) {
+                                          Keys::keys(output, KeyReader(entry));
+                                          if constexpr (requires { Keys::check(entry, spec, output); })
+                                            Keys::check(entry, spec, output);
+                                        },
+                                        [](const KeyLister& lister) {
+                                          OutputSpec output;
+                                          Keys::keys(output, lister);
+                                        }};
+/// Those of a struct that becomes OutputSpec::own.
+template <Keyed Keys>
+struct OwnKeys {
+  static void keys(auto& output, auto&& row) { Keys::keys(output.template make_own<Keys>(), row); }
+};
+struct NoKeys {
+  static void keys(auto&, auto&&) {}
+};
 
 /// Every type of output. The registry of the outputs defines it, and makes outputs from the same rows.
 std::span<const OutputType> output_types();
 
 /// Reads one entry and adds it to the case.
-void read_output(Section entry, CaseSpec& spec);
+void read_output(Section& entry, CaseSpec& spec);
 
 }  // namespace edmill::casefile

@@ -50,10 +50,24 @@ struct TimerSpec {
   }
 };
 
+class Section;
+
 /// Only impacts for which a flag or a count has this value.
 struct Restriction {
   int variable;  ///< place in model::impact_variables
   std::uint64_t value;
+
+  static std::optional<Restriction> read(Section& section, const std::string& variable);
+};
+
+struct Restrictions : std::vector<Restriction> {
+  static constexpr const char* what = "`only = { ball_ball = false, partner = 1 }`";
+  static void keys(auto& r, auto&& row) {
+    row(Parameter{"*", Dimension::none, "the key is a flag or a count"}
+            .as("true, false or count")
+            .usually(""),
+        static_cast<std::vector<Restriction>&>(r));
+  }
 };
 
 enum class Statistic { sum, average, minimum, maximum, rate, percentage };
@@ -74,6 +88,7 @@ struct ColumnSpec {
 };
 
 struct FrequencySpec {
+  std::string name;  ///< of the variable
   ColumnSpec variable;
   Quantity low, high;
   std::uint64_t intervals = 10;
@@ -86,6 +101,7 @@ struct ContactPointSpec {
   Quantity radius{1, 1000};
   Colour colour{1, 1, 0};
 
+  static constexpr const char* what = "A table.";
   static void keys(auto& c, auto&& row) {
     row(Parameter{"radius", Dimension::length, "of the sphere that marks it", Range::positive, "1 mm"},
         c.radius);
@@ -116,8 +132,9 @@ struct OutputSpec {
   std::string file;
   std::string folder;  ///< inside the run's folder; empty for that itself
   bool append = false;
+  bool table = true;  ///< whether it is one, which can be appended to another
   TimerSpec timer;
-  std::vector<Restriction> only;
+  Restrictions only;
   std::vector<ColumnSpec> columns;
   FrequencySpec frequency;
   bool accumulated = false;                       ///< trends: since the start instead of for each interval
@@ -125,6 +142,35 @@ struct OutputSpec {
   AnimationSpec animation;
   std::any own;  ///< keys that only this type of output has, as its reader left them
 
+  static constexpr const char* what = "Tables and pictures that the run writes.";
+  /// Of every type.
+  static void keys(auto& o, auto&& row) {
+    using enum Dimension;
+    row(Parameter{"type", none, "which table or picture: see the types of outputs above"}.as("name").usually(
+            "required"),
+        o.type);
+    TimerSpec::keys(o.timer, row);
+    row(Parameter{"file", none, "a plain name; a table whose name ends in `.h5` is written as HDF5"}.usually(
+            "type and extension"),
+        o.file);
+    row(Parameter{"folder", none, "inside the run's folder; created if absent"}.usually("the run's folder"),
+        o.folder);
+    if (o.table)
+      row(Parameter{"append", none,
+                    "of CSV: keep the content of the file and add to it; outputs that all append can share a "
+                    "file",
+                    Range::any, "false"},
+          o.append);
+    row(Parameter{"only", none, "only impacts with these values of flags and counts"}.usually("all impacts"),
+        o.only);
+  }
+
+  /// Those of this kind, which are made where there are none.
+  template <class Keys>
+  Keys& make_own() {
+    if (!own.has_value()) own = Keys{};
+    return std::any_cast<Keys&>(own);
+  }
   /// @pre the reader of this type left keys of this kind
   template <class Keys>
   const Keys& own_keys() const {

@@ -7,6 +7,7 @@
 #include "casefile/case_parts.hpp"
 #include "casefile/key_reader.hpp"
 #include "casefile/rational.hpp"
+#include "casefile/tables.hpp"
 
 namespace edmill::casefile {
 
@@ -81,27 +82,27 @@ class Hull {
   std::vector<Face<Quantity>> faces_;
 };
 
-std::vector<Face<Quantity>> read_planes(Section& vessel) {
+std::vector<Face<Quantity>> read_planes(Entries<PlaneTable>& planes) {
   std::vector<Face<Quantity>> faces;
-  for (Section& entry : vessel.sections("plane")) {
-    Face<Quantity> face;
-    const auto normal = entry.vector("normal", Dimension::none);
-    if (!normal && !entry.has("normal")) entry.problem("normal", "nothing", "an array of three numbers");
-    face.normal = normal.value_or(QuantityVector{Quantity{1}});
-    face.distance = entry.required("distance", Dimension::length);
+  for (Section& entry : planes) {
+    PlaneTable plane;
+    read_keys(entry, plane);
     entry.reject_unknown_keys();
+    Face<Quantity> face;
+    face.normal = plane.normal;
+    face.distance = plane.distance;
     faces.push_back(face);
   }
   return faces;
 }
 
-std::vector<Face<Quantity>> read_vertices(Section& vessel) {
+std::vector<Face<Quantity>> read_vertices(Section& vessel, Entries<VertexTable>& entries) {
   std::vector<Point> vertices;
-  for (Section& entry : vessel.sections("vertex")) {
-    const auto at = entry.vector("at", Dimension::length);
-    if (!at && !entry.has("at")) entry.problem("at", "nothing", "an array of three lengths");
-    if (at) vertices.push_back({rational((*at)[0]), rational((*at)[1]), rational((*at)[2])});
+  for (Section& entry : entries) {
+    VertexTable vertex;
+    read_keys(entry, vertex);
     entry.reject_unknown_keys();
+    vertices.push_back({rational(vertex.at[0]), rational(vertex.at[1]), rational(vertex.at[2])});
   }
   if (vertices.size() < 4 || vertices.size() > 60) {
     vessel.problem("vertex", std::to_string(vertices.size()) + " vertices", "4 to 60");
@@ -117,14 +118,16 @@ std::vector<Face<Quantity>> read_vertices(Section& vessel) {
 }
 
 model::Polyhedron<Quantity> read_polyhedron(Section& vessel) {
+  PolyhedronTable table;
+  read_keys(vessel, table);
   const std::string key = vessel.has("vertex") ? "vertex" : "plane";
   if (vessel.has("vertex") == vessel.has("plane")) {
     vessel.problem("plane", vessel.has("plane") ? "planes and vertices" : "neither planes nor vertices",
                    "[[vessel.plane]] or [[vessel.vertex]]");
-    vessel.sections("vertex"), vessel.sections("plane");
     return {};
   }
-  model::Polyhedron<Quantity> vessel_of{key == "vertex" ? read_vertices(vessel) : read_planes(vessel)};
+  model::Polyhedron<Quantity> vessel_of{key == "vertex" ? read_vertices(vessel, table.vertices)
+                                                        : read_planes(table.planes)};
   if (vessel_of.faces.empty()) return vessel_of;
   const auto planes = model::converted<model::Polyhedron, double>(
       vessel_of, [](const Quantity& q) { return q.to<double>(); });
@@ -134,9 +137,9 @@ model::Polyhedron<Quantity> read_polyhedron(Section& vessel) {
 }
 
 template <class Variant>
-Variant read_part(Section& given) {
+Variant read_part(Section& given, const char* key) {
   Variant chosen;
-  const auto name = given.kind("type", names_of_kinds<Variant>());
+  const auto name = given.kind(key, names_of_kinds<Variant>());
   // Where the type is unknown, nothing else can be judged.
   Document ignored;
   Section nothing(ignored, nullptr, given.path());
@@ -200,7 +203,7 @@ void check(Section vessel, const VesselSpec& shape) {
       shape);
 }
 
-MotionSpec read_motion(Section& mill) { return read_part<MotionSpec>(mill); }
-VesselSpec read_vessel(Section& vessel) { return read_part<VesselSpec>(vessel); }
+MotionSpec read_motion(Section& mill, const char* key) { return read_part<MotionSpec>(mill, key); }
+VesselSpec read_vessel(Section& vessel, const char* key) { return read_part<VesselSpec>(vessel, key); }
 
 }  // namespace edmill::casefile

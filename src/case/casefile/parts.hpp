@@ -89,8 +89,8 @@ std::string describe(const MotionSpec& motion);
 std::string describe(const VesselSpec& vessel);
 
 class Section;
-/// Type and parameters of [mill] and [vessel]; what is wrong is reported.
-MotionSpec read_motion(Section& mill);
-VesselSpec read_vessel(Section& vessel);
+/// Type and parameters of [mill] and [vessel]; what is wrong is reported. @param key  of the type
+MotionSpec read_motion(Section& mill, const char* key);
+VesselSpec read_vessel(Section& vessel, const char* key);
 
 }  // namespace edmill::casefile

@@ -61,35 +61,31 @@ void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std:
 
 }  // namespace
 
-std::vector<Section> read_pistons(Section& vessel, CaseSpec& spec) {
-  auto entries = vessel.sections("piston");
-  if (entries.empty() || vessel.of_unknown_kind()) return entries;
+void read_pistons(Section& vessel, Entries<PistonTable>& entries, CaseSpec& spec) {
+  if (entries.empty() || vessel.of_unknown_kind()) return;
   const auto known = known_partners(spec);
-  if (!known) return {};
+  if (!known) return entries.clear();
   const auto& partners = *known;
   const auto built = build_vessel<double>(spec.vessel);
   for (Section& entry : entries) {
-    PistonSpec piston{-1, {}, {}, {}};
-    const auto name = entry.text("wall").value_or("");
+    PistonTable table;
+    read_keys(entry, table);
+    PistonSpec piston{-1, table.distance, table.speed, read_swings(table.swings)};
     std::string flat;
     for (int wall = 0; wall < partners.walls(); ++wall) {
       if (!can_move(built, wall)) continue;
       flat += (flat.empty() ? "one of \"" : ", \"") + partners[wall].label + "\"";
-      if (name == partners[wall].label || name == partners[wall].key) piston.wall = wall;
+      if (table.wall == partners[wall].label || table.wall == partners[wall].key) piston.wall = wall;
     }
     entry.require(piston.wall >= 0, "wall", flat.empty() ? "a vessel with flat walls and sharp edges" : flat);
     for (const auto& other : spec.pistons)
       entry.require(other.wall != piston.wall || piston.wall < 0, "wall", "one piston for each wall");
-    piston.distance = entry.quantity("distance", Dimension::length, Quantity{0});
-    piston.speed = entry.quantity("speed", Dimension::speed, Quantity{0});
-    piston.swings = read_swings(entry, false);
     if (piston.distance.zero() && piston.speed.zero() && piston.swings.empty())
       entry.problem(first_of(entry, {"speed", "distance", "wall"}), "a piston that does not move",
                     "one with distance, speed or swing");
     entry.reject_unknown_keys();
     spec.pistons.push_back(std::move(piston));
   }
-  return entries;
 }
 
 void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {

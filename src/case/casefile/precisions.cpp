@@ -36,12 +36,10 @@ double digits_of(const std::string& precision) {
   return chosen_digits_of(precision);
 }
 
-std::string read_precision(Section& section) {
-  const auto name = section.text("precision");
-  if (!name) return precisions().front();
-  const bool known = is_precision(*name);
-  section.require(known, "precision", choices_of_precision());
-  return known ? *name : precisions().front();
+void check_precision(Section& section, std::string& name) {
+  if (is_precision(name)) return;
+  section.require(false, "precision", choices_of_precision());
+  name = precisions().front();
 }
 
 }  // namespace edmill::casefile

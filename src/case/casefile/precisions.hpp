@@ -20,7 +20,7 @@ std::string choices_of_precision();
 /// Decimal digits of a scalar. @pre is_precision(precision)
 double digits_of(const std::string& precision);
 
-/// The value of the key `precision`; "double" where it is not given or, which is reported, not known.
-std::string read_precision(Section& section);
+/// Reports a value of the key `precision` that is not known, and puts "double" in its place.
+void check_precision(Section& section, std::string& name);
 
 }  // namespace edmill::casefile

@@ -237,16 +237,6 @@ std::optional<Quantity> Section::quantity(const std::string& key, Dimension dime
   return node ? quantity_in(*node, full(key), dimension, parse_quantity) : std::nullopt;
 }
 
-Quantity Section::quantity(const std::string& key, Dimension dimension, const Quantity& fallback) {
-  return quantity(key, dimension).value_or(fallback);
-}
-
-Quantity Section::required(const std::string& key, Dimension dimension) {
-  if (!find(key)) problem(key, "nothing", describe(dimension));
-  // A placeholder that passes later checks: the problem is already reported.
-  return quantity(key, dimension, Quantity{1});
-}
-
 std::optional<Quantity> Section::item(const toml::array& array, const std::string& path, std::size_t k,
                                       Dimension dimension) {
   return quantity_in(*array.get(k), path + "." + std::to_string(k), dimension, parse_quantity_or_si);

@@ -77,9 +77,6 @@ class Section {
   std::vector<Section> sections(const std::string& key, bool may_be_empty = false);
 
   std::optional<Quantity> quantity(const std::string& key, Dimension dimension);
-  Quantity quantity(const std::string& key, Dimension dimension, const Quantity& fallback);
-  /// Reports the key when it is absent.
-  Quantity required(const std::string& key, Dimension dimension);
   std::optional<QuantityVector> vector(const std::string& key, Dimension dimension);
   /// An array of pairs, such as the points of a table; empty when it is not one, which is reported.
   std::vector<std::array<Quantity, 2>> pairs(const std::string& key, Dimension first, Dimension second);

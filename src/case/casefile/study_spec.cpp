@@ -6,9 +6,8 @@
 #include <tuple>
 
 #include "base/errors.hpp"
-#include "casefile/key_reader.hpp"
 #include "casefile/precisions.hpp"
-#include "casefile/section.hpp"
+#include "casefile/study_tables.hpp"
 #include "io/input_file.hpp"
 
 namespace edmill::casefile {
@@ -23,29 +22,20 @@ bool asks_for_digits(const std::string& case_file) {
   }
 }
 
-void read_study(Section& s, StudySpec& spec) {
-  if (const auto name = s.text("case")) {
-    const std::filesystem::path given(*name);
-    spec.case_file = given.is_relative() ? (io::folder_of(spec.file) / given).string() : *name;
+void check_study(Section& s, StudySpec& spec) {
+  if (!s.has("case")) s.problem("case", "nothing", "a case file");
+  if (!spec.case_file.empty()) {
+    const std::filesystem::path given(spec.case_file);
+    if (given.is_relative()) spec.case_file = (io::folder_of(spec.file) / given).string();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(spec.case_file, ignored))
       s.problem("case", "no file '" + spec.case_file + "'", "a case file");
     else if (asks_for_digits(spec.case_file))
       s.problem("case", "run.digits in '" + spec.case_file + "'",
                 "a case with run.precision: a study makes all its runs in one");
-  } else if (!s.has("case")) {
-    s.problem("case", "nothing", "a case file");
   }
-  const auto precision = read_precision(s);
-  if (s.has("precision")) spec.precision = precision;
-  if (const auto limit = s.quantity("max_cpu_time", Dimension::time)) {
-    s.require(limit->positive(), "max_cpu_time", "a time above 0");
-    spec.max_cpu_time = limit->to<double>();
-  }
+  if (!spec.precision.empty()) check_precision(s, spec.precision);
 }
-
-/// Lists of a case that a point may replace as a whole.
-constexpr std::string_view charge_lists[] = {"balls", "ball"};
 
 /// Seeds and precision belong to the whole study; other keys of a case have a section.
 std::string problem_of_key(const std::string& key) {
@@ -61,34 +51,25 @@ void check_key(Section& s, const std::string& key) {
     s.problem(key, "a key that cannot be varied", expected);
 }
 
-void read_entry(Section entry, SweepSpec& spec) {
-  SweepSpec::Entry point;
-  point.name = entry.text("name").value_or("");
-  bool lists = false;
-  for (const auto name : charge_lists) {
-    const std::string list(name);
-    if (!entry.has(list)) continue;
-    lists = true;
-    if (const auto value = entry.setting(list)) point.set.emplace_back(list, *value);
-  }
-  if (!entry.has("set") && !lists)
+void read_point(Section& entry, SweepSpec& spec) {
+  PointTable table;
+  read_keys(entry, table);
+  SweepSpec::Entry point{table.name, {}};
+  if (table.balls.text) point.set.emplace_back("balls", *table.balls.text);
+  if (table.ball.text) point.set.emplace_back("ball", *table.ball.text);
+  if (!entry.has("set") && !entry.has("balls") && !entry.has("ball"))
     entry.problem("set", "nothing", "a table of keys and values, or [[sweep.point.balls]]");
-  Section set = entry.section("set");
+  SettingTable settings;
+  Section& set = *table.set.section;
+  read_keys(set, settings);
   for (const auto& key : set.keys()) {
-    if (const auto value = set.setting(key)) point.set.emplace_back(key, *value);
     check_key(set, key);
     for (const auto& axis : spec.grid)
       if (axis.key == key) set.problem(key, "a key of [sweep.grid]", "a key in one of the two");
   }
+  point.set.insert(point.set.end(), settings.begin(), settings.end());
   entry.reject_unknown_keys();
   spec.entries.push_back(std::move(point));
-}
-
-void read_grid(Section grid, SweepSpec& spec) {
-  for (const auto& key : grid.keys()) {
-    spec.grid.push_back({key, grid.settings(key)});
-    check_key(grid, key);
-  }
 }
 
 void check_size(Section& s, const SweepSpec& spec) {
@@ -101,13 +82,13 @@ void check_size(Section& s, const SweepSpec& spec) {
   }
 }
 
-void read_range(Section& s, OptimizeVariable& variable) {
+void read_range(Section& s, const VariableTable& table, OptimizeVariable& variable) {
   std::string high_unit;
-  const std::tuple<const char*, double*, std::string*> ends[] = {{"low", &variable.low, &variable.unit},
-                                                                 {"high", &variable.high, &high_unit}};
+  const std::tuple<const char*, const std::optional<std::string>&, double*, std::string*> ends[] = {
+      {"low", table.low.text, &variable.low, &variable.unit},
+      {"high", table.high.text, &variable.high, &high_unit}};
   bool good = true;
-  for (const auto& [key, number, unit] : ends) {
-    const auto text = s.setting(key);
+  for (const auto& [key, text, number, unit] : ends) {
     const auto value = text && !has_comma(*text) ? split_number(*text) : std::nullopt;
     if (value)
       std::tie(*number, *unit) = *value;
@@ -122,66 +103,78 @@ void read_range(Section& s, OptimizeVariable& variable) {
   s.require(!variable.integer || whole, "integer", "whole numbers for 'low' and 'high'");
 }
 
-void read_variable(Section s, OptimizeSpec& spec) {
+void read_variable(Section& s, OptimizeSpec& spec) {
+  VariableTable table;
+  read_keys(s, table);
   OptimizeVariable variable;
-  variable.key = s.text("key").value_or("");
+  variable.key = table.key;
   if (!s.has("key")) s.problem("key", "nothing", "a key of the case");
   if (const auto expected = problem_of_key(variable.key); s.has("key") && !expected.empty())
     s.require(false, "key", expected);
   for (const auto& other : spec.variables)
     s.require(other.key != variable.key, "key", "a key that no other variable has");
-  variable.integer = s.flag("integer");
-  variable.values = s.settings("values");
+  variable.integer = table.integer;
+  variable.values = table.values.value_or(std::vector<std::string>{});
   if (s.has("values")) {
     for (const auto* key : {"low", "high", "integer"})
       if (s.has(key)) s.problem(key, "both 'values' and '" + std::string(key) + "'", "one of them");
-    s.setting("low"), s.setting("high");
   } else {
-    read_range(s, variable);
+    read_range(s, table, variable);
   }
   s.reject_unknown_keys();
   spec.variables.push_back(std::move(variable));
 }
 
-/// Reads the one section of a file by `read`, and reports everything that is wrong.
-template <class Spec, class Read>
-Spec read_study_file(const std::string& path, const std::string& section, const Read& read) {
+/// Reads the one section of a file, checks it by `check`, and reports everything that is wrong.
+template <class Table, class Check>
+Table read_study_file(const std::string& path, const std::string& section, const Check& check) {
   const std::string kind = section == "sweep" ? "a sweep file" : "an optimisation file";
   Document document;
   document.name = path;
   const toml::table root = parse_toml(read_file(path, kind), kind, document);
-  Spec spec;
-  spec.file = path;
+  Table table;
+  table.file = path;
   Section top(document, &root, "");
   if (!top.has(section)) top.problem(section, "nothing", "a section [" + section + "]");
   Section s = top.section(section);
-  read_study(s, spec);
-  read_keys(s, spec);
-  read(s, spec);
+  read_keys(s, table);
+  check_study(s, table);
+  check(s, table);
   s.reject_unknown_keys();
   top.reject_unknown_keys();
-  if (!document.problems.empty()) throw InputError(document.problems);
-  return spec;
+  if (!document.problems.empty()) throw InputError(document.problems_by_line());
+  return table;
 }
 
 }  // namespace
 
+std::optional<Setting> Setting::read(Section& section, const std::string& key) {
+  const auto value = section.setting(key);
+  return value ? std::optional(Setting(key, *value)) : std::nullopt;
+}
+
+std::optional<GridAxis> GridAxis::read(Section& grid, const std::string& key) {
+  return GridAxis{key, grid.settings(key)};
+}
+
 SweepSpec read_sweep(const std::string& path) {
-  return read_study_file<SweepSpec>(path, "sweep", [](Section& s, SweepSpec& spec) {
-    read_grid(s.section("grid"), spec);
-    for (const auto& entry : s.sections("point")) read_entry(entry, spec);
-    check_size(s, spec);
+  return read_study_file<SweepTable>(path, "sweep", [](Section& s, SweepTable& table) {
+    Section& grid = *table.grid_table.section;
+    Grid axes;
+    read_keys(grid, axes);
+    table.grid = axes;
+    for (const auto& axis : table.grid) check_key(grid, axis.key);
+    for (auto& entry : table.points) read_point(entry, table);
+    check_size(s, table);
   });
 }
 
 OptimizeSpec read_optimize(const std::string& path) {
-  return read_study_file<OptimizeSpec>(path, "optimize", [](Section& s, OptimizeSpec& spec) {
-    spec.objective = s.choice("objective", {"specific_milling_dose_rate", "milling_dose_rate"});
-    s.require(spec.replicas_max >= spec.replicas_first, "replicas_max", "at least 'replicas_first'");
-    const auto variables = s.sections("variable");
+  return read_study_file<OptimizeTable>(path, "optimize", [](Section& s, OptimizeTable& table) {
+    s.require(table.replicas_max >= table.replicas_first, "replicas_max", "at least 'replicas_first'");
     if (!s.has("variable")) s.problem("variable", "nothing", "1 to 3 entries [[optimize.variable]]");
-    for (const auto& variable : variables) read_variable(variable, spec);
-    s.require(variables.size() <= 3, "variable", "1 to 3 entries [[optimize.variable]]");
+    for (auto& variable : table.variable_tables) read_variable(variable, table);
+    s.require(table.variable_tables.size() <= 3, "variable", "1 to 3 entries [[optimize.variable]]");
   });
 }
 

@@ -1,23 +1,28 @@
 // Files that vary a case: sweeps and optimisations, as they are written.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "model/parts/parameter.hpp"
+#include "casefile/quantity.hpp"
 
 namespace edmill::casefile {
 
-using model::Parameter;
-using model::Range;
+class Section;
 
 inline constexpr int most_runs = 1000000;
 
 /// A key of the case and its value as `--set` would take it.
-using Setting = std::pair<std::string, std::string>;
+struct Setting : std::pair<std::string, std::string> {
+  using pair::pair;
+  static std::optional<Setting> read(Section& section, const std::string& key);
+};
 
 /// A key that is no key of the case: it sets balls.0.count from the masses of powder and ball.
 inline constexpr const char* charge_ratio_key = "charge_ratio";
@@ -28,12 +33,18 @@ struct StudySpec {
   std::string case_file;  ///< path of the case that is varied
   std::string precision;  ///< of all runs; empty for the case's own
   std::uint64_t seed = 1;
+  std::optional<Quantity> cpu_limit;
   /// Largest processor time of a run [s]; a longer run ends without a result.
-  double max_cpu_time = std::numeric_limits<double>::infinity();
-
-  static void study_keys(auto& s, auto&& row) {
-    row(Parameter{"seed", Dimension::none, "the first of the seeds", {0, 999999999999}, "1"}, s.seed);
+  double max_cpu_time() const {
+    return cpu_limit ? cpu_limit->to<double>() : std::numeric_limits<double>::infinity();
   }
+};
+
+/// A key and the values that it has in a grid.
+struct GridAxis {
+  std::string key;
+  std::vector<std::string> values;
+  static std::optional<GridAxis> read(Section& grid, const std::string& key);
 };
 
 struct SweepSpec : StudySpec {
@@ -41,20 +52,9 @@ struct SweepSpec : StudySpec {
     std::string name;
     std::vector<Setting> set;
   };
-  struct Axis {
-    std::string key;
-    std::vector<std::string> values;
-  };
   std::uint64_t replicas = 1;
-  std::vector<Axis> grid;      ///< in the order of the file
+  std::vector<GridAxis> grid;  ///< in the order of the file
   std::vector<Entry> entries;  ///< [[sweep.point]]
-
-  static void keys(auto& s, auto&& row) {
-    study_keys(s, row);
-    row(Parameter{"replicas", Dimension::none, "runs of each point, with successive seeds",
-                  Range(1, most_runs), "1"},
-        s.replicas);
-  }
 };
 
 struct OptimizeVariable {
@@ -65,21 +65,16 @@ struct OptimizeVariable {
   bool integer = false;
 };
 
+enum class Objective { specific_milling_dose_rate, milling_dose_rate };
+inline constexpr std::array<std::string_view, 2> choices_of(Objective) {
+  return {"specific_milling_dose_rate", "milling_dose_rate"};
+}
+
 struct OptimizeSpec : StudySpec {
-  std::string objective;
+  Objective wanted{};
+  std::string objective() const { return std::string(choices_of(wanted)[static_cast<std::size_t>(wanted)]); }
   std::uint64_t runs_max = 0, replicas_first = 3, replicas_max = 24, points = 5, refinements = 2;
   std::vector<OptimizeVariable> variables;
-
-  static void keys(auto& o, auto&& row) {
-    using enum Dimension;
-    study_keys(o, row);
-    row(Parameter{"runs_max", none, "the whole budget", {1, most_runs}}, o.runs_max);
-    row(Parameter{"replicas_first", none, "runs of every point", {2, 1000}, "3"}, o.replicas_first);
-    row(Parameter{"replicas_max", none, "runs of a point that may be the best", {2, 1000}, "24"},
-        o.replicas_max);
-    row(Parameter{"points", none, "of the first grid along each variable", {2, 100}, "5"}, o.points);
-    row(Parameter{"refinements", none, "finer grids around the best point", {0, 20}, "2"}, o.refinements);
-  }
 };
 
 /// @throws InputError with every problem of the file: file, line, key, found, expected

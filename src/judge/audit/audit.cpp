@@ -349,7 +349,7 @@ EventLog open_log(const model::Case<double>& the_case, const Options& options) {
 Options options_of(const casefile::CaseSpec& spec) {
   const auto& s = spec.audit;
   Options options;
-  options.conventions.columns = s.columns;
+  options.conventions.columns.assign(s.columns.begin(), s.columns.end());
   options.conventions.first_ball = static_cast<int>(s.first_ball.value_or(0));
   if (!s.walls.empty())
     options.conventions.walls =

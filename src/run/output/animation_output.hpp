@@ -11,12 +11,12 @@
 
 namespace edmill::output {
 
-inline constexpr casefile::KeyText animation_keys[] = {casefile::contact_point_key};
-
-inline void read_animation(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  casefile::read_contact_point(s, output);
-  casefile::read_keys(s, output.animation);
-}
+struct AnimationKeys {
+  static void keys(auto& output, auto&& row) {
+    row(casefile::contact_point_key, output.contact_point);
+    casefile::AnimationSpec::keys(output.animation, row);
+  }
+};
 
 /// Keys of a ball are its impacts, and frames between them: it flies straight as far as one sees.
 template <class Real>

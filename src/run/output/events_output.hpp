@@ -23,11 +23,11 @@ struct StatesKey {
   }
 };
 
-inline void read_collisions(casefile::Section& s, const casefile::CaseSpec& spec,
-                            casefile::OutputSpec& output) {
-  s.require(!output.hdf5(), "file", "a name ending in .csv; `events` is the log as HDF5");
-  casefile::read_own<StatesKey>(s, spec, output);
-}
+struct CollisionsKeys : casefile::OwnKeys<StatesKey> {
+  static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+    s.require(!output.hdf5(), "file", "a name ending in .csv; `events` is the log as HDF5");
+  }
+};
 
 /// Text alone, line by line: the log as HDF5 is another type, `events`.
 template <class Real>

@@ -9,38 +9,44 @@
 
 namespace edmill::output {
 
-inline constexpr casefile::KeyText frequency_keys[] = {
-    {"variable", "name", "required", "a number"},
-    {"low", "as the variable", "required", "begin of the first interval"},
-    {"high", "as the variable", "required", "end of the last interval"},
-    {"intervals", "count", "10", "of equal length"},
-    {"label", "text", "the variable's name", "in the header"},
-    {"title", "text", "none", "of the table"},
-    {"wall_details", "true or false", "false", "columns for each wall"},
-    {"percentages", "true or false", "false", "shares"},
-    {"out_of_range", "true or false", "false", "rows below and above the range"}};
-
-inline void read_frequency(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  auto& f = output.frequency;
-  const auto variable = casefile::read_variable(s, false, false, true);
-  f.variable.variable = variable.value_or(0);
-  f.variable.label = s.text("label").value_or("");
-  const auto dimension = casefile::dimension_of(model::impact_variables[f.variable.variable].unit);
-  for (const auto& [key, bound] : {std::pair{"low", &f.low}, {"high", &f.high}}) {
-    if (variable)
-      *bound = s.required(key, dimension);
-    else
-      s.setting(key);  // of unknown dimension: nothing to check it against
+struct FrequencyKeys {
+  static void keys(auto& output, auto&& row) {
+    using casefile::Parameter;
+    auto& f = output.frequency;
+    row(Parameter{"variable", Dimension::none, "a number"}.as("name").usually("required"), f.name);
+    const auto variable = model::find_variable(f.name);
+    const bool known = variable && model::impact_variables[*variable].kind == model::VariableKind::number;
+    const auto dimension =
+        known ? casefile::dimension_of(model::impact_variables[*variable].unit) : Dimension::none;
+    const auto bound = [&](const char* key, const char* meaning, casefile::Quantity& value) {
+      const auto p = Parameter{key, dimension, meaning}.as("as the variable");
+      if (known)
+        row(p, value);
+      else
+        row(p.usually("required"), casefile::AnyValue{});  // nothing to check it against
+    };
+    bound("low", "begin of the first interval", f.low);
+    bound("high", "end of the last interval", f.high);
+    row(Parameter{"intervals", Dimension::none, "of equal length", casefile::Range(1, 1000000), "10"},
+        f.intervals);
+    row(Parameter{"label", Dimension::none, "in the header"}.usually("the variable's name"),
+        f.variable.label);
+    row(Parameter{"title", Dimension::none, "of the table"}.usually("none"), f.title);
+    const auto flag = [&](const char* key, const char* meaning, bool& value) {
+      row(Parameter{key, Dimension::none, meaning, casefile::Range::any, "false"}, value);
+    };
+    flag("wall_details", "columns for each wall", f.wall_details);
+    flag("percentages", "shares", f.percentages);
+    flag("out_of_range", "rows below and above the range", f.out_of_range);
   }
-  if (variable && s.has("low") && s.has("high"))
-    s.require(f.high.to<double>() > f.low.to<double>(), "high", "a value above low");
-  f.intervals = s.count("intervals").value_or(10);
-  s.require(f.intervals > 0 && f.intervals <= 1000000, "intervals", "1 to 1000000");
-  f.title = s.text("title").value_or("");
-  f.wall_details = s.flag("wall_details");
-  f.percentages = s.flag("percentages");
-  f.out_of_range = s.flag("out_of_range");
-}
+  static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+    auto& f = output.frequency;
+    const auto variable = casefile::variable_of(s, f.name, {.numbers = true});
+    f.variable.variable = variable.value_or(0);
+    if (variable && s.has("low") && s.has("high"))
+      s.require(f.high.to<double>() > f.low.to<double>(), "high", "a value above low");
+  }
+};
 
 template <class Real>
 class FrequencyOutput : public TableOutput<Real> {

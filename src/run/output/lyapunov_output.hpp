@@ -27,17 +27,23 @@ struct LyapunovKeys {
   }
 };
 
-inline constexpr casefile::KeyText lyapunov_keys[] = {
-    {"interval", "time", "the whole record",
-     "finite-time exponents: a row for the growth in each such interval, in place of the table of exponents"},
-    casefile::max_rows_key};
-
-inline void read_lyapunov(casefile::Section& s, const casefile::CaseSpec& spec,
-                          casefile::OutputSpec& output) {
-  casefile::read_interval(s, output.timer);
-  s.require(output.only.empty(), "only", "none: exponents belong to the whole motion");
-  casefile::read_own<LyapunovKeys>(s, spec, output);
-}
+struct LyapunovOutputKeys {
+  static void keys(auto& output, auto&& row) {
+    row(
+        casefile::Parameter{
+            "interval", Dimension::time,
+            "finite-time exponents: a row for the growth in each such interval, in place of the "
+            "table of exponents",
+            casefile::Range::positive}
+            .usually("the whole record"),
+        output.timer.interval);
+    row(casefile::max_rows_key(), output.timer.max_rows);
+    LyapunovKeys::keys(output.template make_own<LyapunovKeys>(), row);
+  }
+  static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+    s.require(output.only.empty(), "only", "none: exponents belong to the whole motion");
+  }
+};
 
 /// Directions are carried along in double whatever the run's scalar: exponents need few digits.
 template <class Real>

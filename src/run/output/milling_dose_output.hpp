@@ -23,25 +23,33 @@ inline const std::vector<Column>& dose_fields() {
   return fields;
 }
 
-inline constexpr casefile::KeyText milling_dose_keys[] = {
-    {"fields", "list of names", "all",
-     "`milling_dose`, `milling_dose_rate`, `inverse_milling_dose_rate`, `specific_milling_dose`, "
-     "`specific_milling_dose_rate`, `powder_mass`, `charge_ratio`"}};
+struct MillingDoseKeys {
+  std::optional<std::vector<std::string>> names;
+  std::vector<int> fields;  ///< their places in dose_fields
 
-/// Its own keys are the places of its fields in dose_fields.
-inline void read_milling_dose(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  std::vector<std::string> known;
-  for (const auto& field : dose_fields()) known.push_back(field.name);
-  std::vector<int> fields;
-  for (const auto& name : s.has("fields") ? s.settings("fields") : known) {
-    const auto row = std::find(known.begin(), known.end(), name);
-    if (row != known.end())
-      fields.push_back(static_cast<int>(row - known.begin()));
-    else
-      s.problem("fields", "\"" + name + "\"", "an array of " + casefile::listed(known));
+  static void keys(auto& output, auto&& row) {
+    row(
+        casefile::Parameter{
+            "fields", Dimension::none,
+            "`milling_dose`, `milling_dose_rate`, `inverse_milling_dose_rate`, `specific_milling_dose`, "
+            "`specific_milling_dose_rate`, `powder_mass`, `charge_ratio`"}
+            .as("list of names")
+            .usually("all"),
+        output.template make_own<MillingDoseKeys>().names);
   }
-  output.own = std::move(fields);
-}
+  static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+    auto& own = output.make_own<MillingDoseKeys>();
+    std::vector<std::string> known;
+    for (const auto& field : dose_fields()) known.push_back(field.name);
+    for (const auto& name : own.names.value_or(known)) {
+      const auto row = std::find(known.begin(), known.end(), name);
+      if (row != known.end())
+        own.fields.push_back(static_cast<int>(row - known.begin()));
+      else
+        s.problem("fields", "\"" + name + "\"", "an array of " + casefile::listed(known));
+    }
+  }
+};
 
 template <class Real>
 class MillingDoseOutput : public TableOutput<Real> {
@@ -66,7 +74,7 @@ class MillingDoseOutput : public TableOutput<Real> {
         io::value_if(powder && timed, [&] { return Real(dose / time / *powder_mass); }),
         powder_mass,
         io::value_if(powder, [&] { return Real(ball_mass / *powder_mass); })};
-    const auto& fields = this->spec.template own_keys<std::vector<int>>();  // places in dose_fields
+    const auto& fields = this->spec.template own_keys<MillingDoseKeys>().fields;
     std::vector<Column> columns;
     for (const int field : fields) columns.push_back(dose_fields()[field]);
     this->begin(std::move(columns));

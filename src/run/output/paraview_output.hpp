@@ -7,11 +7,12 @@
 
 namespace edmill::output {
 
-inline constexpr casefile::KeyText paraview_keys[] = {casefile::interval_of_10_ms, casefile::max_rows_key};
-
-inline void read_paraview(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  casefile::read_interval(s, output.timer, casefile::Quantity{1, 100});
-}
+struct ParaviewKeys {
+  static void keys(auto& output, auto&& row) {
+    row(casefile::interval_key("10 ms"), output.timer.interval);
+    row(casefile::max_rows_key(), output.timer.max_rows);
+  }
+};
 
 template <class Real>
 class ParaviewOutput : public FramesOutput<Real> {

@@ -10,13 +10,13 @@
 
 namespace edmill::output {
 
-inline constexpr casefile::KeyText snapshot_keys[] = {casefile::contact_point_key};
-
-/// A snapshot shows one impact unless a key says otherwise: there is a file for each.
-inline void read_snapshot(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  casefile::read_contact_point(s, output);
-  if (!output.timer.collisions) output.timer.collisions = 1;
-}
+struct SnapshotKeys {
+  static void keys(auto& output, auto&& row) { row(casefile::contact_point_key, output.contact_point); }
+  /// A snapshot shows one impact unless a key says otherwise: there is a file for each.
+  static void check(casefile::Section&, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+    if (!output.timer.collisions) output.timer.collisions = 1;
+  }
+};
 
 template <class Real>
 class SnapshotOutput : public SceneOutput<Real> {

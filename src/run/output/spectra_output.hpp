@@ -18,39 +18,43 @@ std::size_t bin_of(const std::vector<Real>& edges, const Real& value) {
   return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
 }
 
+enum class BinnedBy { energy, speed };
+inline constexpr std::array<std::string_view, 2> choices_of(BinnedBy) { return {"energy", "speed"}; }
+
 struct SpectraKeys {
-  bool of_speed = false;         ///< of energy otherwise
+  BinnedBy by = BinnedBy::energy;
   casefile::Quantity low, high;  ///< [m/s] or [J]
   std::uint64_t bins_per_decade = 10;
 
-  static void keys(auto& k, auto&& row) {
-    row(casefile::Parameter{"bins_per_decade", Dimension::none, "in which impacts are counted",
-                            casefile::table_size, "10"},
+  static void keys(auto& output, auto&& row) {
+    using casefile::Parameter;
+    auto& k = output.template make_own<SpectraKeys>();
+    row(Parameter{"of", Dimension::none, "this or `speed`"}.as("name").usually("`\"energy\"`"), k.by);
+    const bool speed = k.by == BinnedBy::speed;
+    const auto dimension = speed ? Dimension::speed : Dimension::energy;
+    row(Parameter{"low", dimension, "begin of the first bin", casefile::Range::any,
+                  speed ? "1 mm/s" : "1e-9 J"}
+            .as("energy or speed")
+            .usually("`\"1e-9 J\"`, `\"1 mm/s\"`"),
+        k.low);
+    row(Parameter{"high", dimension, "end of the last bin", casefile::Range::any, speed ? "10 m/s" : "1 J"}
+            .as("energy or speed")
+            .usually("`\"1 J\"`, `\"10 m/s\"`"),
+        k.high);
+    row(Parameter{"bins_per_decade", Dimension::none, "in which impacts are counted", casefile::table_size,
+                  "10"},
         k.bins_per_decade);
   }
+  static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+    const auto& k = output.own_keys<SpectraKeys>();
+    s.require(k.low.positive(), "low", "a value above 0: the bins are logarithmic");
+    const double low = k.low.to<double>(), high = k.high.to<double>();
+    const bool ascending = low > 0 && high > low * (1 + 1e-6) && std::isfinite(high);
+    const bool low_is_wrong = s.has("low") && !s.has("high");
+    s.require(ascending || !k.low.positive(), low_is_wrong ? "low" : "high",
+              low_is_wrong ? "a value below high" : "a value above low");
+  }
 };
-
-inline constexpr casefile::KeyText spectra_keys[] = {
-    {"of", "name", "`\"energy\"`", "this or `speed`"},
-    {"low", "energy or speed", "`\"1e-9 J\"`, `\"1 mm/s\"`", "begin of the first bin"},
-    {"high", "energy or speed", "`\"1 J\"`, `\"10 m/s\"`", "end of the last bin"}};
-
-inline void read_spectra(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  SpectraKeys spectra;
-  spectra.of_speed = s.choice("of", {"energy", "speed"}) == "speed";
-  const bool speed = spectra.of_speed;
-  const auto dimension = speed ? casefile::Dimension::speed : casefile::Dimension::energy;
-  spectra.low = s.quantity("low", dimension, casefile::Quantity{1, speed ? 1000 : 1000000000});
-  spectra.high = s.quantity("high", dimension, casefile::Quantity{speed ? 10 : 1});
-  s.require(spectra.low.positive(), "low", "a value above 0: the bins are logarithmic");
-  const double low = spectra.low.to<double>(), high = spectra.high.to<double>();
-  const bool ascending = low > 0 && high > low * (1 + 1e-6) && std::isfinite(high);
-  const bool low_is_wrong = s.has("low") && !s.has("high");
-  s.require(ascending || !spectra.low.positive(), low_is_wrong ? "low" : "high",
-            low_is_wrong ? "a value below high" : "a value above low");
-  casefile::read_keys(s, spectra);
-  output.own = spectra;
-}
 
 /// Edges low 10^(k / bins_per_decade), up to high, where the last bin may be shorter. They are made in a
 /// wider scalar: the same bits everywhere.
@@ -76,7 +80,7 @@ class SpectraOutput : public TableOutput<Real> {
  public:
   SpectraOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run),
-        of_speed_(spec.own_keys<SpectraKeys>().of_speed),
+        of_speed_(spec.own_keys<SpectraKeys>().by == BinnedBy::speed),
         edges_(edges_of<Real>(spec.own_keys<SpectraKeys>())),
         spectra_(of_speed_ ? 2 : 3, Spectrum(edges_.size() + 1, PartnerTally<Real>(run.partners.count()))) {}
 
@@ -137,33 +141,33 @@ class SpectraOutput : public TableOutput<Real> {
   std::vector<Spectrum> spectra_;
 };
 
-using Cutoffs = std::vector<casefile::Quantity>;  ///< ascending [m/s]
+struct RatesAboveKeys {
+  std::optional<std::vector<std::string>> texts;
+  std::vector<casefile::Quantity> cutoffs;  ///< ascending [m/s]
 
-inline constexpr casefile::KeyText rates_above_keys[] = {
-    {"cutoffs", "list of speeds", "0, 1 mm/s, 1 cm/s, 0.1 m/s, 1 m/s", "a row for each"}};
-
-inline void read_rates_above(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  Cutoffs cutoffs;
-  if (!s.has("cutoffs")) {
-    cutoffs.push_back(casefile::Quantity{0});
-    for (const int per_metre : {1000, 100, 10, 1}) cutoffs.push_back(casefile::Quantity{1, per_metre});
-    output.own = std::move(cutoffs);
-    return;
+  static void keys(auto& output, auto&& row) {
+    row(casefile::Parameter{"cutoffs", Dimension::none, "a row for each"}
+            .as("list of speeds")
+            .usually("0, 1 mm/s, 1 cm/s, 0.1 m/s, 1 m/s"),
+        output.template make_own<RatesAboveKeys>().texts);
   }
-  const std::string expected = "an array of speeds of 0 or more";
-  for (const auto& text : s.settings("cutoffs")) {
-    const auto speed = casefile::parse_quantity(text, casefile::Dimension::speed);
-    const auto* quantity = std::get_if<casefile::Quantity>(&speed);
-    if (!quantity)
-      s.problem("cutoffs", std::get<casefile::QuantityProblem>(speed).found, expected);
-    else if (quantity->negative())
-      s.problem("cutoffs", "\"" + text + "\"", expected);
-    else
-      cutoffs.push_back(*quantity);
+  static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
+    auto& own = output.make_own<RatesAboveKeys>();
+    const std::string expected = "an array of speeds of 0 or more";
+    const std::vector<std::string> usual{"0 m/s", "1 mm/s", "1 cm/s", "0.1 m/s", "1 m/s"};
+    for (const auto& text : own.texts.value_or(usual)) {
+      const auto speed = casefile::parse_quantity(text, casefile::Dimension::speed);
+      const auto* quantity = std::get_if<casefile::Quantity>(&speed);
+      if (!quantity)
+        s.problem("cutoffs", std::get<casefile::QuantityProblem>(speed).found, expected);
+      else if (quantity->negative())
+        s.problem("cutoffs", "\"" + text + "\"", expected);
+      else
+        own.cutoffs.push_back(*quantity);
+    }
+    std::sort(own.cutoffs.begin(), own.cutoffs.end());
   }
-  std::sort(cutoffs.begin(), cutoffs.end());
-  output.own = std::move(cutoffs);
-}
+};
 
 /// Rates of the impacts above speed cutoffs. docs/outputs.md, "rates_above"
 template <class Real>
@@ -171,7 +175,7 @@ class RatesAboveOutput : public TableOutput<Real> {
  public:
   RatesAboveOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
       : TableOutput<Real>(spec, run) {
-    for (const auto& cutoff : spec.own_keys<Cutoffs>()) cutoffs_.push_back(cutoff.to<Real>());
+    for (const auto& cutoff : spec.own_keys<RatesAboveKeys>().cutoffs) cutoffs_.push_back(cutoff.to<Real>());
     from_.resize(cutoffs_.size() + 1, PartnerTally<Real>(run.partners.count()));
   }
 

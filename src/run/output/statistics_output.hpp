@@ -9,13 +9,17 @@
 
 namespace edmill::output {
 
-inline void read_statistics_output(casefile::Section& s, const casefile::CaseSpec&,
-                                   casefile::OutputSpec& output) {
-  using enum casefile::Statistic;
-  casefile::read_columns(
-      s, {true, false, true, {sum, rate, percentage}, {sum, average, minimum, maximum, rate, percentage}},
-      output);
-}
+struct StatisticsKeys {
+  static void keys(auto& output, auto&& row) {
+    using enum casefile::Statistic;
+    row(casefile::columns_key,
+        casefile::ColumnReader{{.flags = true,
+                                .numbers = true,
+                                .of_flags = {sum, rate, percentage},
+                                .of_numbers = {sum, average, minimum, maximum, rate, percentage}},
+                               output.columns});
+  }
+};
 
 template <class Real>
 class StatisticsOutput : public TableOutput<Real> {

@@ -14,15 +14,18 @@ struct TraceKeys {
   }
 };
 
-inline constexpr casefile::KeyText trace_keys[] = {casefile::interval_if_given, casefile::max_rows_key};
-
-inline void read_trace(casefile::Section& s, const casefile::CaseSpec& spec, casefile::OutputSpec& output) {
-  casefile::read_interval(s, output.timer);
-  casefile::read_own<TraceKeys>(s, spec, output);
-  if (spec.ball_count() > 0)
-    s.require(output.own_keys<TraceKeys>().ball < spec.ball_count(), "ball",
-              "a ball of the case; they count from 0");
-}
+struct TraceOutputKeys {
+  static void keys(auto& output, auto&& row) {
+    row(casefile::interval_key(nullptr).usually("each impact"), output.timer.interval);
+    row(casefile::max_rows_key(), output.timer.max_rows);
+    TraceKeys::keys(output.template make_own<TraceKeys>(), row);
+  }
+  static void check(casefile::Section& s, const casefile::CaseSpec& spec, casefile::OutputSpec& output) {
+    if (spec.ball_count() > 0)
+      s.require(output.own_keys<TraceKeys>().ball < spec.ball_count(), "ball",
+                "a ball of the case; they count from 0");
+  }
+};
 
 template <class Real>
 class TraceOutput : public IntervalOutput<Real> {

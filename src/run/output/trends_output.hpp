@@ -9,19 +9,23 @@
 
 namespace edmill::output {
 
-inline constexpr casefile::KeyText trends_keys[] = {
-    casefile::interval_of_30_s,
-    casefile::max_rows_key,
-    {"accumulated", "true or false", "false", "from the start of the record in place of the interval"},
-    casefile::columns_key};
-
-inline void read_trends(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  casefile::read_interval(s, output.timer, casefile::Quantity{30});
-  if (!output.timer.max_rows) output.timer.max_rows = 32000;
-  output.accumulated = s.flag("accumulated");
-  using enum casefile::Statistic;
-  casefile::read_columns(s, {true, true, true, {sum, rate}, {sum, average, minimum, maximum, rate}}, output);
-}
+struct TrendsKeys {
+  static void keys(auto& output, auto&& row) {
+    using enum casefile::Statistic;
+    row(casefile::interval_key("30 s"), output.timer.interval);
+    row(casefile::max_rows_key("32000"), output.timer.max_rows);
+    row(casefile::Parameter{"accumulated", Dimension::none,
+                            "from the start of the record in place of the interval", casefile::Range::any,
+                            "false"},
+        output.accumulated);
+    row(casefile::columns_key, casefile::ColumnReader{{.flags = true,
+                                                       .counts = true,
+                                                       .numbers = true,
+                                                       .of_flags = {sum, rate},
+                                                       .of_numbers = {sum, average, minimum, maximum, rate}},
+                                                      output.columns});
+  }
+};
 
 /// Statistics of each interval, or from the start up to its end. (thesis D.4.5)
 template <class Real>
@@ -66,14 +70,14 @@ class TrendsOutput : public IntervalOutput<Real> {
   std::vector<Gathered> gathered_;
 };
 
-inline constexpr casefile::KeyText trends_instant_keys[] = {casefile::interval_if_given,
-                                                            casefile::max_rows_key, casefile::columns_key};
-
-inline void read_trends_instant(casefile::Section& s, const casefile::CaseSpec&,
-                                casefile::OutputSpec& output) {
-  casefile::read_interval(s, output.timer);
-  casefile::read_columns(s, {true, true, true, {}, {}}, output);
-}
+struct TrendsInstantKeys {
+  static void keys(auto& output, auto&& row) {
+    row(casefile::interval_key(nullptr).usually("each impact"), output.timer.interval);
+    row(casefile::max_rows_key(), output.timer.max_rows);
+    row(casefile::columns_key,
+        casefile::ColumnReader{{.flags = true, .counts = true, .numbers = true}, output.columns});
+  }
+};
 
 /// Values of single impacts: of each, or of the first after each interval. (thesis D.4.6)
 template <class Real>
@@ -117,28 +121,16 @@ class TrendsInstantOutput : public TableOutput<Real> {
   std::optional<std::uint64_t> rows_left_;
 };
 
-inline constexpr casefile::KeyText trends_balls_keys[] = {casefile::interval_of_30_s, casefile::max_rows_key,
-                                                          casefile::columns_key};
-
-inline void read_trends_balls(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  casefile::read_interval(s, output.timer, casefile::Quantity{30});
-  using enum casefile::Statistic;
-  std::vector<std::string> names;
-  for (const auto& v : model::ball_variables) names.emplace_back(v.name);
-  for (casefile::Section& entry : s.sections("columns")) {
-    casefile::ColumnSpec column;
-    const auto name = entry.text("variable").value_or("");
-    const auto found = model::find_ball_variable(name);
-    entry.require(found.has_value(), "variable", "one of " + casefile::listed(names));
-    column.variable = found.value_or(0);
-    column.statistics = casefile::read_statistics(entry, {sum, average, minimum, maximum});
-    column.label = entry.text("label").value_or("");
-    column.with_ball = entry.flag("with_ball");
-    entry.reject_unknown_keys();
-    output.columns.push_back(std::move(column));
+struct TrendsBallsKeys {
+  static void keys(auto& output, auto&& row) {
+    using enum casefile::Statistic;
+    row(casefile::interval_key("30 s"), output.timer.interval);
+    row(casefile::max_rows_key(), output.timer.max_rows);
+    row(casefile::columns_key,
+        casefile::ColumnReader{{.of_balls = true, .of_numbers = {sum, average, minimum, maximum}},
+                               output.columns});
   }
-  if (!s.has("columns")) s.problem("columns", "nothing", "an array of tables with `variable`");
-}
+};
 
 /// What the balls do at the end of each interval. (thesis D.4.7)
 template <class Real>

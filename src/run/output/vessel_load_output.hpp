@@ -6,12 +6,12 @@
 
 namespace edmill::output {
 
-inline constexpr casefile::KeyText vessel_load_keys[] = {casefile::interval_of_10_ms, casefile::max_rows_key};
-
-inline void read_vessel_load(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
-  casefile::read_interval(s, output.timer, casefile::Quantity{1, 100});
-  if (!output.timer.max_rows) output.timer.max_rows = 32000;
-}
+struct VesselLoadKeys {
+  static void keys(auto& output, auto&& row) {
+    row(casefile::interval_key("10 ms"), output.timer.interval);
+    row(casefile::max_rows_key("32000"), output.timer.max_rows);
+  }
+};
 
 template <class Real>
 class VesselLoadOutput : public IntervalOutput<Real> {

@@ -19,7 +19,7 @@ using Coordinates = std::vector<double>;  ///< a value for each variable; an ind
 class Search {
  public:
   Search(const OptimizeSpec& spec, Study& study)
-      : spec_(spec), study_(study), quantity_(quantity_named(spec.objective)) {
+      : spec_(spec), study_(study), quantity_(quantity_named(spec.objective())) {
     for (const auto& v : spec.variables) {
       const double intervals = static_cast<double>(spec.points - 1);
       steps_.push_back(v.values.empty() ? (v.high - v.low) / intervals : 0);
@@ -192,8 +192,8 @@ std::string line_of(const OptimizeSpec& spec, const Study& study, std::size_t in
   const auto& point = study.points()[index];
   std::string line = fmt::format("  point {}:", index + 1);
   for (const auto& [key, value] : point.settings) line += fmt::format(" {} = {},", key, value);
-  const auto e = numerics::estimate(point.values(quantity_named(spec.objective)));
-  const std::string unit = spec.objective == "milling_dose_rate" ? "W" : "W/kg";
+  const auto e = numerics::estimate(point.values(quantity_named(spec.objective())));
+  const std::string unit = spec.objective() == "milling_dose_rate" ? "W" : "W/kg";
   return line + fmt::format(" {:.6g} ± {:.2g} {} ({} runs)\n", e.mean.value_or(0), e.half_width.value_or(0),
                             unit, point.done());
 }
@@ -218,9 +218,9 @@ Optimum optimize(const OptimizeSpec& spec, Study& study) { return Search(spec, s
 std::string forecast(const OptimizeSpec& spec, Study& study) { return Search(spec, study).forecast(); }
 
 std::string describe(const OptimizeSpec& spec, const Study& study, const Optimum& optimum) {
-  if (!optimum.best) return "no point has a value of " + spec.objective + "\n";
+  if (!optimum.best) return "no point has a value of " + spec.objective() + "\n";
   std::string text = fmt::format("largest {} of {} points, 95 % interval; the search ended: {}\n",
-                                 spec.objective, study.points().size(), optimum.why);
+                                 spec.objective(), study.points().size(), optimum.why);
   text += line_of(spec, study, *optimum.best);
   const auto& settings = study.points()[*optimum.best].settings;
   for (std::size_t k = 0; k < settings.size(); ++k) text += bound_of(spec.variables[k], settings[k].second);

@@ -137,7 +137,7 @@ Run make_run(const casefile::StudySpec& spec, const Point& point, std::uint64_t 
     run.walls = casefile::partners_of(the_case).walls();
     run.job.digest = the_case.digest;
     estimate_cost(the_case, run.job);
-    run.job.max_cpu_time = spec.max_cpu_time;
+    run.job.max_cpu_time = spec.max_cpu_time();
   } catch (const InputError& error) {
     run.record = failed_run("", "bad_case", error.what());
   }

@@ -80,13 +80,14 @@ std::vector<std::string> problems_of(const std::string& section, const std::stri
 }
 
 TEST(Keys, EachIsLookedUp) {
-  for (const auto& key : keys()) {
-    const auto text = file_with(key);
-    for (const auto& problem : problems_of(key.section, text))
-      EXPECT_TRUE(problem.find(key.name + "': found an unknown key") == std::string::npos)
-          << key.section << "." << key.name << " of " << key.of << ": " << problem << "\nin\n"
-          << text;
-  }
+  for (const auto& section : key_sections())
+    for (const auto& key : section.keys) {
+      const auto text = file_with(key);
+      for (const auto& problem : problems_of(key.section, text))
+        EXPECT_TRUE(problem.find(key.name + "': found an unknown key") == std::string::npos)
+            << key.section << "." << key.name << " of " << key.of << ": " << problem << "\nin\n"
+            << text;
+    }
 }
 
 TEST(Keys, OthersAreNotLookedUp) {
@@ -100,13 +101,18 @@ TEST(Keys, OthersAreNotLookedUp) {
 
 TEST(Keys, HaveMeaningsAndAreListedOnce) {
   std::set<std::string> seen;
-  std::set<std::string_view> sections;
-  for (const auto& text : section_texts()) sections.insert(text.name);
-  for (const auto& key : keys()) {
-    EXPECT_TRUE(sections.contains(key.section)) << key.section;
-    EXPECT_FALSE(key.kind.empty()) << key.section << "." << key.name;
-    EXPECT_TRUE(seen.insert(key.section + "." + key.name + " of " + key.of).second) << key.name << " again";
+  for (const auto& section : key_sections()) {
+    EXPECT_TRUE(seen.insert(section.name).second) << section.name << " again";
+    EXPECT_FALSE(section.heading.empty()) << section.name;
+    EXPECT_FALSE(section.meaning.empty()) << section.name;
+    EXPECT_FALSE(section.keys.empty()) << section.name;
   }
+  for (const auto& section : key_sections())
+    for (const auto& key : section.keys) {
+      EXPECT_EQ(key.section, section.name);
+      EXPECT_FALSE(key.kind.empty()) << key.section << "." << key.name;
+      EXPECT_TRUE(seen.insert(key.section + "." + key.name + " of " + key.of).second) << key.name << " again";
+    }
 }
 
 }  // namespace

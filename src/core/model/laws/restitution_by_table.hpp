@@ -32,7 +32,9 @@ Number value_at(const LawTable<Number>& points, const Number& argument) {
 template <class Number>
 struct RestitutionBySpeed : CoulombSlip<Number> {
   static constexpr const char* name = "restitution-by-speed";
-  static constexpr const char* table = "restitution_by_speed";
+  static constexpr Parameter table{
+      "restitution_by_speed", Dimension::none,
+      "points `[[\"0.1 m/s\", 0.9], [\"3 m/s\", 0.6]]`; straight lines between, constant beyond"};
   static constexpr Parameter table_rows[] = {
       {"speed", Dimension::speed, "of the approach", Range::not_negative},
       {"restitution", Dimension::none, "e_n of a point", {0, 1}}};
@@ -58,7 +60,10 @@ struct RestitutionBySpeed : CoulombSlip<Number> {
 template <class Number>
 struct RestitutionBySlip {
   static constexpr const char* name = "restitution-by-slip";
-  static constexpr const char* table = "tangential_by_slip";
+  static constexpr Parameter table{
+      "tangential_by_slip", Dimension::none,
+      "points `[[0, -0.4], [3, 0.1]]` of the ratio of slip to approach, and e_t; "
+      "straight lines between, constant below the first, sliding beyond the last"};
   static constexpr Parameter table_rows[] = {
       {"slip", Dimension::none, "over the approach speed", Range::not_negative},
       {"restitution", Dimension::none, "e_t of a point", {-1, 1}}};

@@ -28,10 +28,10 @@ struct Range {
 };
 
 /// A key of a case file that gives one member of a struct: a quantity, three along the axes, a count, a flag,
-/// a text or a colour, as the member's type says. Laws, motions, vessels, stop rules, balls and outputs list
-/// theirs; reading, range, reference and digest follow.
+/// a text, a colour or a table with keys of its own, as the member's type says. Every struct that a file
+/// gives lists its keys; reading, range, reference and digest follow.
 struct Parameter {
-  const char* key;  ///< null for a constant, which a file does not give
+  const char* key;  ///< "*" where names are the user's; null for a constant, which a file does not give
   Dimension dimension;
   const char* meaning;
   Range range = Range::any;
@@ -43,6 +43,31 @@ struct Parameter {
             ///< cases
     none    ///< a run does not depend on it
   } digest = Digest::value;
+  const char* kind = nullptr;  ///< what it takes, for readers, where the member's type does not say it
+  const char* of = nullptr;    ///< the types that alone have it, for readers; null for all
+
+  constexpr Parameter as(const char* kind_for_readers) const {
+    Parameter p = *this;
+    p.kind = kind_for_readers;
+    return p;
+  }
+  /// @param default_for_readers  what is true without the key
+  constexpr Parameter usually(const char* default_for_readers) const {
+    Parameter p = *this;
+    p.otherwise = default_for_readers;
+    return p;
+  }
+  constexpr Parameter only_of(const char* types) const {
+    Parameter p = *this;
+    p.of = types;
+    return p;
+  }
+  /// Not part of the digest.
+  constexpr Parameter undigested() const {
+    Parameter p = *this;
+    p.digest = Digest::none;
+    return p;
+  }
 };
 
 /// Calls use(number) with a number, or with each of three.

@@ -111,13 +111,12 @@ inline std::string codes() {
   return text + '\n';
 }
 
-inline std::string keys_of(std::string_view section) {
+inline std::string keys_of(const casefile::KeySection& section) {
   bool types = false;
-  for (const auto& key : casefile::keys()) types = types || (key.section == section && !key.of.empty());
+  for (const auto& key : section.keys) types = types || !key.of.empty();
   std::string text = types ? "| key | of | value | default | meaning |\n|---|---|---|---|---|\n"
                            : "| key | value | default | meaning |\n|---|---|---|---|\n";
-  for (const auto& key : casefile::keys()) {
-    if (key.section != section) continue;
+  for (const auto& key : section.keys) {
     text += fmt::format("| `{}` | ", key.name);
     if (types) text += fmt::format("{} | ", key.of.empty() ? "all" : key.of);
     text += fmt::format("{} | {} | {} |\n", key.kind, in_cell(key.fallback), in_cell(key.meaning));
@@ -127,8 +126,8 @@ inline std::string keys_of(std::string_view section) {
 
 inline std::string sections() {
   std::string text;
-  for (const auto& section : casefile::section_texts())
-    text += fmt::format("### `{}`\n\n{}\n\n{}", section.heading, section.meaning, keys_of(section.name));
+  for (const auto& section : casefile::key_sections())
+    text += fmt::format("### `{}`\n\n{}\n\n{}", section.heading, section.meaning, keys_of(section));
   return text;
 }
 

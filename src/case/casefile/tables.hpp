@@ -1,0 +1,340 @@
+// Tables of a case file that the reader turns into parts of the model.
+#pragma once
+
+#include <map>
+
+#include "casefile/key_reader.hpp"
+
+namespace edmill::casefile {
+
+/// Harmonic parts of a joint or of a piston.
+struct SwingTable {
+  Dimension dimension = Dimension::none;  ///< of the amplitude; none where the joint decides
+  const char* meaning = "as the joint rotates or translates";
+  Quantity amplitude{}, speed{}, phase{};
+
+  static constexpr const char* what =
+      "A list of tables: `swing = [{ amplitude = \"5 mm\", speed = \"1500 rpm\" }]`.";
+  static constexpr Parameter key{"swing", Dimension::none, "harmonic parts, amplitude sin(speed t + phase)"};
+  static void keys(auto& s, auto&& row) {
+    const Parameter amplitude{"amplitude", s.dimension, s.meaning};
+    row(s.dimension == Dimension::none ? amplitude.as("angle or length") : amplitude, s.amplitude);
+    row(Parameter{"speed", Dimension::angular_speed, "2 pi times the frequency"}, s.speed);
+    row(Parameter{"phase", Dimension::angle, "at the time 0", Range::any, "0 deg"}, s.phase);
+  }
+};
+
+/// An axis: "x", "y", "z", or three numbers.
+struct Axis {
+  QuantityVector direction{Quantity{1}};
+  void read_from(Section& joint, const char* key);
+};
+
+/// An axis to translate along, or a constant shift.
+struct Translation : Axis {
+  std::optional<QuantityVector> shift;
+  void read_from(Section& joint, const char* key);
+};
+
+struct JointTable {
+  std::optional<bool> rotates;  ///< none for the reference, which has the keys of both
+  Axis rotate;
+  Translation translate;
+  Quantity angle, speed, distance;
+  Entries<SwingTable> swings;
+
+  static constexpr const char* what = "Joints of a chain.";
+  static void keys(auto& j, auto&& row) {
+    using enum Dimension;
+    const bool rotates = j.rotates.value_or(true), translates = !j.rotates.value_or(false);
+    if (rotates)
+      row(Parameter{"rotate", none,
+                    "`\"x\"`, `\"y\"`, `\"z\"` or three numbers: the axis in the frame of the joint before"}
+              .as("axis")
+              .usually("this or `translate`"),
+          j.rotate);
+    if (translates)
+      row(Parameter{"translate", none,
+                    "along an axis: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `speed` or `swing`; "
+                    "without them, three lengths are a constant shift"}
+              .as("axis or three lengths")
+              .usually("this or `rotate`"),
+          j.translate);
+    if (rotates)
+      row(Parameter{"angle", Dimension::angle, "constant part of a rotation", Range::any, "0 deg"}, j.angle);
+    row(Parameter{"speed", translates ? Dimension::speed : angular_speed,
+                  "constant, as the joint rotates or translates; rotations need no common period, a "
+                  "translation needs `run.end_time`",
+                  Range::any, translates ? "0 m/s" : "0 rad/s"}
+            .as("angular speed or speed")
+            .usually("`0`"),
+        j.speed);
+    if (translates)
+      row(Parameter{"distance", length, "constant part of a translation along `\"x\"`, `\"y\"` or `\"z\"`",
+                    Range::any, "0 m"},
+          j.distance);
+    row(SwingTable::key, j.swings);
+  }
+};
+
+/// [mill] type = "chain"
+struct ChainTable {
+  Entries<JointTable> joints;
+
+  static void keys(auto& c, auto&& row) {
+    row(Parameter{"joint", Dimension::none,
+                  "from the ground to the vessel, any number of entries `[[mill.joint]]`"}
+            .usually("required"),
+        c.joints);
+  }
+};
+
+struct MillTable {
+  MotionSpec motion;
+
+  static constexpr const char* what = "How the vessel moves.";
+  static void keys(auto& m, auto&& row) {
+    row(Parameter{"type", Dimension::none, "how the vessel moves"}.as("name").usually("`\"spex8000\"`"),
+        m.motion);
+  }
+};
+
+struct PlaneTable {
+  QuantityVector normal{Quantity{1}};
+  Quantity distance;
+
+  static constexpr const char* what = "Walls of a polyhedron.";
+  static void keys(auto& p, auto&& row) {
+    row(Parameter{"normal", Dimension::none, "outward, of any length"}, p.normal);
+    row(Parameter{"distance", Dimension::length, "from the vessel's origin, which is inside"}, p.distance);
+  }
+};
+
+struct VertexTable {
+  QuantityVector at{};
+
+  static constexpr const char* what = "Corners of a polyhedron.";
+  static void keys(auto& v, auto&& row) {
+    row(Parameter{"at", Dimension::length, "in the vessel frame"}, v.at);
+  }
+};
+
+/// [vessel] type = "polyhedron"
+struct PolyhedronTable {
+  Entries<PlaneTable> planes;
+  Entries<VertexTable> vertices;
+
+  static void keys(auto& p, auto&& row) {
+    row(Parameter{"plane", Dimension::none, "entries `[[vessel.plane]]`, one for each wall"}.usually(
+            "this or `vertex`"),
+        p.planes);
+    row(Parameter{"vertex", Dimension::none, "entries `[[vessel.vertex]]`, the corners of a convex vessel"}
+            .usually("this or `plane`"),
+        p.vertices);
+  }
+};
+
+/// The table of a type of mill or vessel that has more than parameters.
+inline ChainTable table_of(const model::Chain<Quantity>&) { return {}; }
+inline PolyhedronTable table_of(const model::Polyhedron<Quantity>&) { return {}; }
+
+/// A name in [vessel.materials]. Whether it is a wall is known when the vessel has been read.
+struct WallName : std::string {
+  static std::optional<WallName> read(Section&, const std::string& name) { return WallName{name}; }
+};
+
+/// [vessel.materials]
+struct WallMaterials : std::vector<WallName> {
+  static constexpr const char* what = "Materials of single walls.";
+  static void keys(auto& m, auto&& row) {
+    row(Parameter{"*", Dimension::none,
+                  "the key is a wall by its label or its number: `\"cap +y\"`, `wall_1`"}
+            .as("name")
+            .usually("`vessel.material`"),
+        static_cast<std::vector<WallName>&>(m));
+  }
+};
+
+struct PistonTable {
+  std::string wall;
+  Quantity distance, speed;
+  Entries<SwingTable> swings{{}, {Dimension::length, "inward"}};
+
+  static constexpr const char* what =
+      "A wall that stands inward of its nominal position by distance + speed t + swings.";
+  static void keys(auto& p, auto&& row) {
+    row(Parameter{"wall", Dimension::none, "a flat wall by its label or its number: `\"cap -y\"`, `wall_0`"}
+            .as("name")
+            .usually("required"),
+        p.wall);
+    row(Parameter{"distance", Dimension::length, "inward of the wall's nominal position at time 0",
+                  Range::any, "0 m"},
+        p.distance);
+    row(Parameter{"speed", Dimension::speed, "inward; needs `run.end_time`", Range::any, "0 m/s"}, p.speed);
+    row(SwingTable::key, p.swings);
+  }
+};
+
+struct VesselTable {
+  VesselSpec shape;
+  Colour colour{1, 1, 0};
+  std::string material;
+  Inner<WallMaterials> materials;
+  Entries<PistonTable> pistons;
+
+  static constexpr const char* what = "Shape, walls and materials of the vessel, inside.";
+  static void keys(auto& v, auto&& row) {
+    using enum Dimension;
+    row(Parameter{"type", none, "shape of the inside; its y axis is the axis of round vessels"}
+            .as("name")
+            .usually("`\"cylinder\"`"),
+        v.shape);
+    row(Parameter{"colour", none, "in pictures: a name, three integers up to 255 or three decimals up to 1",
+                  Range::any, nullptr, "yellow"},
+        v.colour);
+    row(Parameter{"material", none, "of all walls"}.as("name").usually("none"), v.material);
+    row(Parameter{"materials", none, "by wall, `[vessel.materials]`"}, v.materials);
+    row(Parameter{"piston", none, "flat walls that move, entries `[[vessel.piston]]`"}, v.pistons);
+  }
+};
+
+/// The names of two materials, which can be the same.
+struct TwoMaterials {
+  std::vector<std::string> names;
+  void read_from(Section& section, const char* key) {
+    names = section.settings(key, Section::Twice::allowed);
+  }
+};
+
+struct PairTable {
+  TwoMaterials materials;
+
+  static constexpr const char* what = "A law for two materials.";
+  static void keys(auto& p, auto&& row) {
+    row(Parameter{"materials", Dimension::none, "beside these, all keys of `[contact]` that describe a law"}
+            .as("two names")
+            .usually("required"),
+        p.materials);
+  }
+};
+
+using Laws = model::NamedLaws<Quantity>;
+
+/// What a section gives of a law. Parameters of every law may be given, so that a sweep over laws has all
+/// that it needs in one section.
+struct LawTable {
+  /// The law's name. The default does not take the place of one that is inherited.
+  struct Name {
+    using Kinds = Laws;
+    std::string text;
+    void read_from(Section& section, const char* key);
+  };
+  using Points = std::map<std::string, std::vector<std::array<Quantity, 2>>>;  ///< of tables, by key
+  template <class Law>
+  struct PointsOf {
+    Points& points;
+    void read_from(Section& section, const char* key);
+  };
+
+  Name name;
+  std::map<std::string, std::optional<Quantity>> parameters;
+  Points points;
+  Quantity least_separation{1, 100};
+
+  static void keys(auto& given, auto&& row) {
+    using enum Dimension;
+    row(Parameter{"model", none, "the contact law"}.as("name").usually("`\"walton-braun\"`"), given.name);
+    for_each_kind<Laws>([&](auto law) {
+      law.parameters(law, [&](const Parameter& p, const Quantity&) {
+        const Parameter own = p.only_of(law.name);
+        row(p.fallback || p.otherwise ? own : own.usually("required"), given.parameters[p.key]);
+      });
+    });
+    row(Parameter{"restitution_normal", none, "another name of `restitution`", {0, 1}}.only_of(
+            "walton-braun, constant"),
+        given.parameters["restitution"]);
+    for_each_kind<Laws>([&]<class Law>(const Law&) {
+      if constexpr (requires { Law::table; })
+        row(Law::table.as("list of pairs").usually("required").only_of(Law::name),
+            PointsOf<Law>{given.points});
+    });
+    row(Parameter{"least_separation", speed,
+                  "bodies do not separate more slowly after an impact; `\"0 m/s\"` is the exact model, which "
+                  "ends at a Zeno point",
+                  Range::not_negative, "1 cm/s"},
+        given.least_separation);
+  }
+};
+
+struct ContactTable {
+  LawTable shared;
+  std::optional<Section> ball_ball, ball_wall;  ///< with the keys of a LawTable
+  Entries<PairTable> pairs;
+
+  static constexpr const char* what =
+      "The contact law. `[contact.ball_ball]`, `[contact.ball_wall]` and `[[contact.pair]]` take the same "
+      "keys except the last three.";
+  static void keys(auto& c, auto&& row) {
+    using enum Dimension;
+    LawTable::keys(c.shared, row);
+    row(Parameter{"ball_ball", none, "keys that override those of `[contact]` between balls"}.as("table"),
+        c.ball_ball);
+    row(Parameter{"ball_wall", none, "keys that override those of `[contact]` at walls"}.as("table"),
+        c.ball_wall);
+    row(Parameter{"pair", none,
+                  "keys that override those of `[contact]` between two materials, entries "
+                  "`[[contact.pair]]`"},
+        c.pairs);
+  }
+};
+
+enum class CountedPart { all, normal };
+inline constexpr std::array<std::string_view, 2> choices_of(CountedPart) { return {"all", "normal"}; }
+
+struct PowderTable {
+  Quantity mass;
+  TargetSpec target;
+  CountedPart counts = CountedPart::all;
+
+  static constexpr const char* what = "Powder that the balls mill.";
+  static void keys(auto& p, auto&& row) {
+    TargetSpec::keys(p.target, row);
+    row(Parameter{"mass", Dimension::mass, "for the charge ratio and the specific dose", Range::positive},
+        p.mass);
+    row(Parameter{"counts", Dimension::none,
+                  "which part of the dose counts toward the target: all of it, or the part along the normal"}
+            .as("`\"all\"` or `\"normal\"`")
+            .usually("`\"all\"`"),
+        p.counts);
+  }
+};
+
+/// The sections of a case file.
+struct CaseFile {
+  Inner<CaseSpec> run;
+  Inner<MillTable> mill;
+  Inner<VesselTable> vessel;
+  Entries<MaterialSpec> materials;
+  Inner<ContactTable> contact;
+  Inner<PowderTable> powder;
+  Entries<BallBatch> batches;
+  Entries<ExplicitBall> balls;
+  Entries<OutputSpec> outputs{{}, {}, true};
+  Inner<AuditSpec> audit;
+
+  static void keys(auto& f, auto&& row) {
+    using enum Dimension;
+    row(Parameter{"run", none, ""}, f.run);
+    row(Parameter{"mill", none, ""}, f.mill);
+    row(Parameter{"vessel", none, ""}, f.vessel);
+    row(Parameter{"material", none, ""}, f.materials);
+    row(Parameter{"contact", none, ""}, f.contact);
+    row(Parameter{"powder", none, ""}, f.powder);
+    row(Parameter{"balls", none, ""}, f.batches);
+    row(Parameter{"ball", none, ""}, f.balls);
+    row(Parameter{"output", none, ""}, f.outputs);
+    row(Parameter{"audit", none, ""}, f.audit);
+  }
+};
+
+}  // namespace edmill::casefile
