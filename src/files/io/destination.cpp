@@ -58,7 +58,9 @@ FileBuffer::~FileBuffer() { drop(); }
 
 void FileBuffer::open(int descriptor, std::uint64_t size, Sha256 digest) {
   drop();
-  descriptor_ = descriptor, size_ = size, error_ = 0;
+  descriptor_ = descriptor;
+  size_ = size;
+  error_ = 0;
   digest_ = std::move(digest);
   bytes_.resize(size_of_buffer);
   setp(bytes_.data(), bytes_.data() + bytes_.size());
@@ -123,7 +125,10 @@ Destination::Destination(fs::path given) : named(std::move(given)), place(named)
   if (fs::is_directory(status))
     throw InputError(named.string() + ": found a folder, expected a place for a file");
   through = fs::exists(status) && !fs::is_regular_file(status);
-  if (!through && !follow(named, [&](const fs::path& p) { return place = p, false; }))
+  if (!through && !follow(named, [&](const fs::path& p) {
+        place = p;
+        return false;
+      }))
     throw InputError(named.string() + ": found links that lead to each other, expected a place for a file");
 }
 

@@ -205,7 +205,8 @@ double Flights::look(std::size_t k, const Track& track, const BodyState& state, 
   if (k >= 2) {
     const double excess = dot(fallen, g) / dot(g, g) - dt * dt / 2, sign = k == 2 ? 1 : -1;
     if (!(step_ > 0) && sign * excess > 0) step_ = 2 * sign * excess / dt;
-    fall = 1 + sign * step_ / dt, gain = 1;
+    fall = 1 + sign * step_ / dt;
+    gain = 1;
   }
   shows = std::abs(fall - 1) * tolerances_.gravity * dt * dt / 2;
   return std::max(size(Vec(fallen - g * (fall * dt * dt / 2))), size(Vec(gained - g * (gain * dt))) * dt);
@@ -226,7 +227,8 @@ void Flights::tell_flight(const Track& track, const BodyState& state, const Find
     if (!told && vanishes(finding.size, left, allowed)) {
       told = true;
       Finding named = finding;
-      named.note = look_notes[k], named.explained = true;
+      named.note = look_notes[k];
+      named.explained = true;
       looks_[k]
           .explains(finding.size, first ? finding.size : left)
           .add(named);  // the first one gives the step

@@ -240,7 +240,9 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
   const auto& mill = built.the_case.mill;
   const MovingVessel vessel(mill, built.the_case.balls, log.facts().facets);
   ContactAudit audit;
-  audit.case_name = spec.file, audit.log_name = options.log, audit.facts = log.facts();
+  audit.case_name = spec.file;
+  audit.log_name = options.log;
+  audit.facts = log.facts();
   std::vector<Shown> walls, balls;
   std::vector<Contact> at_walls;
   DoseRate rate(log.facts().first, log.facts().last);
@@ -261,7 +263,8 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
     constexpr std::size_t enough = 400;
     if (c.bodies == 1 && c.kind != ContactClass::lasting && at_walls.size() < enough) at_walls.push_back(c);
   }
-  audit.dose_rate = rate.mean(), audit.dose_rate_half_width = rate.half_width();
+  audit.dose_rate = rate.mean();
+  audit.dose_rate_half_width = rate.half_width();
   judge_laws(walls, "at walls", audit);
   judge_laws(balls, "between balls", audit);
   const bool enough = !audit.judged.empty();

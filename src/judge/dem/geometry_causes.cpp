@@ -58,8 +58,10 @@ class Geometry {
       for (int w = 0; w < vessel.walls(); ++w)
         if (const double along = dot<double>(
                 vessel.normal(pose, static_cast<std::size_t>(c.ball), w, state.position), impulse);
-            along > best)
-          best = along, wall = w;
+            along > best) {
+          best = along;
+          wall = w;
+        }
       if (wall < 0) continue;
       meetings_.push_back({static_cast<std::size_t>(c.ball), wall, t, state.position});
       reaches.push_back(norm<double>(impulse) / 1.5 * frames.interval / 2);
@@ -104,7 +106,10 @@ class Geometry {
   std::optional<GeometryCause> fit(const Candidate& c) const {
     double best = c.value, left = distance;
     for (const double start : c.starts)
-      if (const double found = of(gaps_with(c, start)); found < left) left = found, best = start;
+      if (const double found = of(gaps_with(c, start)); found < left) {
+        left = found;
+        best = start;
+      }
     double curvature = 0;
     for (int round = 0; round < 12; ++round) {
       const auto here = gaps_with(c, best), there = gaps_with(c, best + 1e-4 * c.change);
@@ -115,13 +120,15 @@ class Geometry {
       for (std::size_t k = 0; k < here.size(); ++k) {
         const double rate = (there[k] - here[k]) / (1e-4 * c.change),
                      weight = std::abs(here[k]) > limit ? 0 : 1;
-        slope += weight * rate * here[k], curvature += weight * rate * rate;
+        slope += weight * rate * here[k];
+        curvature += weight * rate * rate;
       }
       if (!(curvature > 0)) return std::nullopt;
       double step = -slope / curvature;
       for (int half = 0; half < 6; ++half, step /= 2)
         if (const double found = of(gaps_with(c, best + step)); found < left) {
-          best += step, left = found;
+          best += step;
+          left = found;
           break;
         }
       if (std::abs(step) < 1e-7 * c.change) break;
@@ -171,13 +178,15 @@ void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
 void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
   const auto partners = casefile::partners_of(spec);
   for (int wall = 0; wall < partners.walls(); ++wall)
-    list.push_back(
-        {"place of " + partners[wall].label,
-         Dimension::length,
-         0,
-         1e-3,
-         {-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3},
-         [wall](Assumptions&, Offset& offset, double x) { offset.wall = wall, offset.distance = x; }});
+    list.push_back({"place of " + partners[wall].label,
+                    Dimension::length,
+                    0,
+                    1e-3,
+                    {-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3},
+                    [wall](Assumptions&, Offset& offset, double x) {
+                      offset.wall = wall;
+                      offset.distance = x;
+                    }});
 }
 
 }  // namespace
@@ -186,7 +195,8 @@ void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& co
                   const std::atomic<bool>* interrupt, ContactAudit& audit) {
   const Geometry geometry(spec, contacts, audit.facts);
   if (!geometry.known()) return;
-  audit.wall_distance = geometry.distance, audit.wall_resolution = geometry.resolution;
+  audit.wall_distance = geometry.distance;
+  audit.wall_resolution = geometry.resolution;
   if (audit.walls_met()) return;
   std::vector<Candidate> candidates;
   for (const auto& p : identify::parameters_of(geometry.nominal()))

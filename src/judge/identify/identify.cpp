@@ -98,9 +98,11 @@ class Search {
     auto mistakes = mistakes_of(nominal_, numbers, log_.available);
     std::erase_if(mistakes, [&](const Mistake& m) { return !m.on(nominal_).is_case(); });
     auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
-    result.interrupted = is_interrupted(), result.too_few = found.too_few;
+    result.interrupted = is_interrupted();
+    result.too_few = found.too_few;
     if (result.interrupted) return;
-    result.follows = found.follows, result.follows_all = found.follows_all;
+    result.follows = found.follows;
+    result.follows_all = found.follows_all;
     result.causes = std::move(found.causes);
   }
 

@@ -159,7 +159,8 @@ class Laws {
     for (std::size_t k = 0; alike && k < one.size(); ++k)
       if (one[k].value == two[k].value)
         push(one[k], "contact", [key = one[k].key, n = which(one, k)](Assumptions& a, double x) {
-          put(a.spec.ball_ball, key, n, x), put(a.spec.ball_wall, key, n, x);
+          put(a.spec.ball_ball, key, n, x);
+          put(a.spec.ball_wall, key, n, x);
         });
     if (alike)
       add_others("contact", balls, [](Assumptions& a) -> std::vector<Law*> {

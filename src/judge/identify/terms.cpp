@@ -51,7 +51,8 @@ std::vector<Parameter> term_parameters() {
                 change,    [member = row.member](Assumptions& a, double x) { a.terms.*member = x; }};
     p.equation = row.equation;
     p.prior = 1;  // of two that fit alike, a number of the case comes first
-    p.of_flights = row.of_flights, p.of_impacts = !row.of_flights;
+    p.of_flights = row.of_flights;
+    p.of_impacts = !row.of_flights;
     list.push_back(std::move(p));
   }
   return list;

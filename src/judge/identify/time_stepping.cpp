@@ -40,8 +40,10 @@ std::optional<double> step_of(double one, double two, double rounding) {
       0.1 * std::sqrt(std::min(one, two) / rounding);  // beyond, any two lengths have such a fraction
   for (int term = 0; term < 40; ++term) {
     const double whole = std::floor(rest);
-    std::swap(p, p_before), std::swap(q, q_before);
-    p += whole * p_before, q += whole * q_before;
+    std::swap(p, p_before);
+    std::swap(q, q_before);
+    p += whole * p_before;
+    q += whole * q_before;
     if (p + q > most) return std::nullopt;
     if (std::abs(one * q - two * p) <= rounding * (p + q)) return (one + two) / (p + q);
     rest = 1 / (rest - whole);
@@ -123,7 +125,8 @@ class Measured {
     const auto impact = audit::impact_of(event, case_, frame, true);
     const auto& [ball, other] = impact.ball;
     normal = impact.normal;
-    contact.effective_mass = ball.mass, contact.effective_radius = ball.radius;
+    contact.effective_mass = ball.mass;
+    contact.effective_radius = ball.radius;
     if (event.with_wall) {
       carrier = impact.wall_velocity;
       contact.approach = -audit::dot(Vec(one.velocity_before - carrier), normal);

@@ -243,8 +243,15 @@ void SideBySide::drop_lost_digits() {
   const double needed = std::max(agreement_.least_digits() + kept, least);
   if (digits_[0] - needed < dropped_ + std::max(worthwhile, digits_[0] / 32)) return;
   dropped_ = static_cast<unsigned>(digits_[0] - needed);
-  together([&] { return narrow_->continue_in(digits_[0] - dropped_), 0; },
-           [&] { return wide_->continue_in(digits_[1] - dropped_), 0; });
+  together(
+      [&] {
+        narrow_->continue_in(digits_[0] - dropped_);
+        return 0;
+      },
+      [&] {
+        wide_->continue_in(digits_[1] - dropped_);
+        return 0;
+      });
 }
 
 double SideBySide::digits_of_states() const {
