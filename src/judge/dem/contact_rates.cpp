@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "compare/junit.hpp"
 #include "compare/log_reader.hpp"
 #include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
@@ -174,9 +175,7 @@ std::string to_json(const ContactComparison& c) {
 }
 
 std::string to_junit(const ContactComparison& c) {
-  io::JunitText junit("edmill compare");
-  junit.add("dose rate", c.known && c.agree() ? "" : sentence(c));
-  return junit.finish();
+  return compare::junit_text("edmill compare", {{"dose rate", c.known && c.agree() ? "" : sentence(c)}});
 }
 
 double Limit::ratio_half_width() const {
