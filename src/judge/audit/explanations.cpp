@@ -114,7 +114,12 @@ auto ImpactJudge::explaining(const Scene& scene, double allowed, bool violated)
     if (best && best->impact.g_n() > scene.impact.law->least_separation + allowed) continue;
     const bool explains = violated && best && vanishes(off, left, allowed);
     if (explains && !found)
-      found = Explanation{mistake.kind, mistake.note, &suspicions_[k], best->impact, off, left};
+      found = Explanation{.kind = mistake.kind,
+                          .note = mistake.note,
+                          .mistake = &suspicions_[k],
+                          .impact = best->impact,
+                          .off = off,
+                          .left = left};
     else if (shows && !explains)
       suspicions_[k].contradicted();
   }

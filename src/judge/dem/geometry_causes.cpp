@@ -133,10 +133,15 @@ class Geometry {
         }
       if (std::abs(step) < 1e-7 * c.change) break;
     }
-    GeometryCause cause{c.key, "", best, 1.96 * 1.4826 * left / std::sqrt(curvature), c.value, left};
-    cause.text = fmt::format("{}, the case has {}", identify::value_text(c.dimension, best, cause.half_width),
-                             identify::value_text(c.dimension, c.value));
-    return cause;
+    const double half_width = 1.96 * 1.4826 * left / std::sqrt(curvature);
+    return GeometryCause{
+        .key = c.key,
+        .text = fmt::format("{}, the case has {}", identify::value_text(c.dimension, best, half_width),
+                            identify::value_text(c.dimension, c.value)),
+        .value = best,
+        .half_width = half_width,
+        .expected = c.value,
+        .left = left};
   }
 
  private:
@@ -146,8 +151,12 @@ class Geometry {
 };
 
 Candidate of_number(const Parameter& p) {
-  Candidate c{p.key,    p.dimension, p.value,
-              p.change, {},          [set = p.set](Assumptions& a, Offset&, double x) { set(a, x); }};
+  Candidate c{.key = p.key,
+              .dimension = p.dimension,
+              .value = p.value,
+              .change = p.change,
+              .starts = {},
+              .set = [set = p.set](Assumptions& a, Offset&, double x) { set(a, x); }};
   for (const double share : {0.001, 0.003, 0.01, 0.03, 0.05, 0.1, 0.2, 0.5})
     for (const double sign : {-1.0, 1.0}) c.starts.push_back(p.value * (1 + sign * share));
   c.starts.push_back(2 * p.value);
@@ -160,13 +169,21 @@ void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
   for (int k = 1; k < 16; ++k) starts.push_back(turn * (k <= 8 ? k : k - 16) / 16);
   const double period = casefile::period_of(nominal.spec.mill).to<double>();
   list.push_back(
-      {"phase of the drive", Dimension::angle, 0, 1, starts,
-       [period, turn](Assumptions&, Offset& offset, double x) { offset.delay = x / turn * period; }});
+      {.key = "phase of the drive",
+       .dimension = Dimension::angle,
+       .value = 0,
+       .change = 1,
+       .starts = starts,
+       .set = [period, turn](Assumptions&, Offset& offset, double x) { offset.delay = x / turn * period; }});
   const auto* vibratory = std::get_if<model::Vibratory<casefile::Quantity>>(&nominal.spec.mill);
   for (std::size_t axis = 0; vibratory && axis < 3; ++axis) {
     if (vibratory->amplitude[axis].zero() && vibratory->quarter[axis].zero()) continue;
-    list.push_back({fmt::format("phase of mill.amplitude along {}", "xyz"[axis]), Dimension::angle, 0, 1,
-                    starts, [axis](Assumptions& a, Offset&, double x) {
+    list.push_back({.key = fmt::format("phase of mill.amplitude along {}", "xyz"[axis]),
+                    .dimension = Dimension::angle,
+                    .value = 0,
+                    .change = 1,
+                    .starts = starts,
+                    .set = [axis](Assumptions& a, Offset&, double x) {
                       auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
                       const double s = mill.amplitude[axis].to<double>(), q = mill.quarter[axis].to<double>();
                       mill.amplitude[axis] = identify::exactly(s * std::cos(x) - q * std::sin(x));
@@ -178,12 +195,12 @@ void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
 void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
   const auto partners = casefile::partners_of(spec);
   for (int wall = 0; wall < partners.walls(); ++wall)
-    list.push_back({"place of " + partners[wall].label,
-                    Dimension::length,
-                    0,
-                    1e-3,
-                    {-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3},
-                    [wall](Assumptions&, Offset& offset, double x) {
+    list.push_back({.key = "place of " + partners[wall].label,
+                    .dimension = Dimension::length,
+                    .value = 0,
+                    .change = 1e-3,
+                    .starts = {-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3},
+                    .set = [wall](Assumptions&, Offset& offset, double x) {
                       offset.wall = wall;
                       offset.distance = x;
                     }});

@@ -172,14 +172,14 @@ void Candidates::judge(Candidate& c) const {
 }
 
 Candidate Candidates::with_mistakes(const Assumptions& base, const std::vector<std::string>& names) const {
-  Candidate c{{base, {}}, names, {}, {}, 0, 0, 0};
+  Candidate c{.model = {base, {}}, .mistakes = names, .values = {}, .half_widths = {}};
   judge(c);
   return c;
 }
 
 Candidate Candidates::fitted(const Model& model, const std::vector<std::string>& mistakes,
                              const std::vector<double>& start) const {
-  Candidate c{model, mistakes, start, {}, 0, 0, 0};
+  Candidate c{.model = model, .mistakes = mistakes, .values = start, .half_widths = {}};
   const auto& windows = samples_.windows();
   const bool staged =
       std::any_of(model.free.begin(), model.free.end(), [](const auto* p) { return p->is_speed; });

@@ -269,8 +269,13 @@ class Search {
     Cause cause;
     for (std::size_t k = 0; k < c.values.size(); ++k) {
       const auto& p = *c.model.free[k];
-      cause.values.push_back(
-          {p.key, p.dimension, c.values[k], c.half_widths[k], p.value, p.equation, p.in_place_of});
+      cause.values.push_back({.key = p.key,
+                              .dimension = p.dimension,
+                              .value = c.values[k],
+                              .half_width = c.half_widths[k],
+                              .nominal = p.value,
+                              .equation = p.equation,
+                              .in_place_of = p.in_place_of});
     }
     cause.mistakes = c.mistakes;
     cause.of = c.of;

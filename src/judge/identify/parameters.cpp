@@ -258,8 +258,13 @@ std::vector<double> Parameter::values_from_afar() const {
 Parameter number(std::string key, std::string meaning, Dimension dimension, double value,
                  std::function<void(Assumptions&, double)> set) {
   const double size = std::abs(value);
-  return {std::move(key),        std::move(meaning), dimension, value,
-          size > 0 ? size : 1.0, std::move(set),     size > 0};
+  return {.key = std::move(key),
+          .meaning = std::move(meaning),
+          .dimension = dimension,
+          .value = value,
+          .change = size > 0 ? size : 1.0,
+          .set = std::move(set),
+          .has_unit = size > 0};
 }
 
 std::vector<Parameter> parameters_of(const Assumptions& nominal) {

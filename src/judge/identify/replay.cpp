@@ -222,7 +222,13 @@ Identification replay(const Assumptions& nominal, const std::vector<Parameter>& 
       if (!(std::abs(value - p.value) > open)) continue;
       Assumptions assumed = nominal;
       p.set(assumed, value);
-      consider({.values = {{p.key, p.dimension, value, open, p.value, p.equation}}}, assumed);
+      consider({.values = {{.key = p.key,
+                            .dimension = p.dimension,
+                            .value = value,
+                            .half_width = open,
+                            .nominal = p.value,
+                            .equation = p.equation}}},
+               assumed);
     }
   }
   return result;

@@ -239,10 +239,14 @@ std::optional<SoftContacts> soft_contacts(const std::vector<Contact>& contacts, 
   // Contacts last in one sense of time: nearly all of the durations are positive, and they agree.
   if (durations.size() < least_number || 10 * durations.size() < 8 * known || !agree(durations))
     return std::nullopt;
-  return SoftContacts{quantile(durations, 0.5),  quantile(durations, 0.25),
-                      quantile(durations, 0.75), at,
-                      durations.size(),          exponent_of(std::move(points)),
-                      quantile(springs, 0.5),    moduli.empty() ? audit::unknown : quantile(moduli, 0.5)};
+  return SoftContacts{.duration = quantile(durations, 0.5),
+                      .low = quantile(durations, 0.25),
+                      .high = quantile(durations, 0.75),
+                      .at = at,
+                      .contacts = durations.size(),
+                      .exponent = exponent_of(std::move(points)),
+                      .spring = quantile(springs, 0.5),
+                      .modulus = moduli.empty() ? audit::unknown : quantile(moduli, 0.5)};
 }
 
 /// What single times are off by if that alone puts flights off their paths: as many flights are too short as

@@ -297,8 +297,13 @@ Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, cons
   SideBySide runs(spec, precision, wider, true, interrupt);
   while (!stop_asked(interrupt) && !runs.next(64).empty()) {
   }
-  return {precision,        wider, runs.agreement(), runs.diverged(), runs.uneven(), stop_asked(interrupt),
-          spec.ball_count()};
+  return {.narrow = precision,
+          .wide = wider,
+          .agreement = runs.agreement(),
+          .diverged = runs.diverged(),
+          .uneven = runs.uneven(),
+          .interrupted = stop_asked(interrupt),
+          .balls = spec.ball_count()};
 }
 
 std::string Evidence::text() const {
