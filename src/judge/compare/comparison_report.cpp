@@ -4,7 +4,6 @@
 
 #include "base/version.hpp"
 #include "compare/comparison.hpp"
-#include "compare/junit.hpp"
 #include "io/json_text.hpp"
 
 namespace edmill::compare {
@@ -163,24 +162,6 @@ std::string to_json(const Comparison& c) {
     json.end();
   }
   return json.finish();
-}
-
-std::string to_junit(const Comparison& c) {
-  std::vector<JunitCase> cases;
-  if (c.events_verdict)
-    cases.emplace_back("events",
-                       *c.events_verdict == Verdict::agree
-                           ? ""
-                           : fmt::format("{} events agree, {} must", c.events.agreeing, *c.options.events));
-  for (const auto& q : c.quantities) {
-    if (q.verdict == Verdict::not_compared) continue;
-    cases.emplace_back(q.name, q.verdict == Verdict::agree
-                                   ? ""
-                                   : fmt::format("differs by {:.4g} {}, {:.4g} at most",
-                                                 q.difference.value_or(0), q.unit, q.half_width.value_or(0)));
-  }
-  cases.emplace_back("enough events", c.verdict == Verdict::too_few ? "too few to compare" : "");
-  return junit_text("edmill compare", cases);
 }
 
 }  // namespace edmill::compare

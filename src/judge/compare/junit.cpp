@@ -1,10 +1,13 @@
 #include "compare/junit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <pugixml.hpp>
 #include <sstream>
 
 #include "base/clean_text.hpp"
+#include "compare/comparison.hpp"
 
 namespace edmill::compare {
 
@@ -28,6 +31,24 @@ std::string junit_text(const std::string& suite, const std::vector<JunitCase>& c
   std::ostringstream text;
   document.save(text, "  ");
   return text.str();
+}
+
+std::string to_junit(const Comparison& c) {
+  std::vector<JunitCase> cases;
+  if (c.events_verdict)
+    cases.emplace_back("events",
+                       *c.events_verdict == Verdict::agree
+                           ? ""
+                           : fmt::format("{} events agree, {} must", c.events.agreeing, *c.options.events));
+  for (const auto& q : c.quantities) {
+    if (q.verdict == Verdict::not_compared) continue;
+    cases.emplace_back(q.name, q.verdict == Verdict::agree
+                                   ? ""
+                                   : fmt::format("differs by {:.4g} {}, {:.4g} at most",
+                                                 q.difference.value_or(0), q.unit, q.half_width.value_or(0)));
+  }
+  cases.emplace_back("enough events", c.verdict == Verdict::too_few ? "too few to compare" : "");
+  return junit_text("edmill compare", cases);
 }
 
 }  // namespace edmill::compare
