@@ -47,7 +47,10 @@ class Dyadic {
     int exponent = e_;
     if (size == 0) return Real(0);
     const int spare = static_cast<int>(msb(size)) - (binary_digits<Real>() + 2);
-    if (spare > 0) size >>= spare, exponent += spare;
+    if (spare > 0) {
+      size >>= spare;
+      exponent += spare;
+    }
     Real sum(0);
     for (int piece = static_cast<int>(msb(size)) / static_cast<int>(bits); piece >= 0; --piece) {
       const Integer part = (size >> (static_cast<unsigned>(piece) * bits)) & ((1 << bits) - 1);

@@ -78,7 +78,10 @@ Real log_of_one_plus(const Real& x) {
     using std::frexp;
     int exponent;
     Real m = frexp(Real(1 + x), &exponent);
-    if (m < 0.70710678) m *= 2, --exponent;
+    if (m < 0.70710678) {
+      m *= 2;
+      --exponent;
+    }
     static const Real ln2 =
         2 * (2 * detail::odd_series<Real>(Real(1) / 7, -1) + detail::odd_series<Real>(Real(1) / 17, -1));
     return exponent * ln2 + 2 * detail::odd_series<Real>((m - 1) / (m + 1), -1);

@@ -100,9 +100,12 @@ WallAnswer<Real> DecisionLadder<Real>::wall_above(const WallQuery<Real>& query) 
     if (Wide(searched) > proven) searched -= searched * epsilon<Real>();
     // What is certainly at the begin of the window is at the same instant in both scalars.
     const bool at_once = wide.time_error == 0 && time == query.begin;
-    return {wide.verdict, wide.wall,
-            time,         wide.by_rule,
-            searched,     at_once ? Real(0) : Real(static_cast<Real>(wide.time_error) + rounding())};
+    return {.verdict = wide.verdict,
+            .wall = wide.wall,
+            .time = time,
+            .by_rule = wide.by_rule,
+            .searched = searched,
+            .time_error = at_once ? Real(0) : Real(static_cast<Real>(wide.time_error) + rounding())};
   }
 }
 
@@ -162,8 +165,12 @@ int DecisionLadder<Real>::order(const Contact<Real>& a, const Contact<Real>& b) 
     using Wide = Wider<Real>;
     ++passed_up_.order;
     const auto widened = [](const Contact<Real>& c) {
-      return Contact<Wide>{c.with_wall,    flight_cast<Wide>(c.flight), flight_cast<Wide>(c.partner),
-                           Wide(c.radius), instant_cast<Wide>(c.time),  c.wall};
+      return Contact<Wide>{.with_wall = c.with_wall,
+                           .flight = flight_cast<Wide>(c.flight),
+                           .partner = flight_cast<Wide>(c.partner),
+                           .radius = Wide(c.radius),
+                           .time = instant_cast<Wide>(c.time),
+                           .wall = c.wall};
     };
     return above().ladder.order(widened(a), widened(b));
   }

@@ -93,7 +93,7 @@ struct WallAnswer {
 
   static WallAnswer none(const Real& searched) { return {Verdict::none, -1, {}, false, searched}; }
   static WallAnswer contact(int wall, const Instant<Real>& time, const Real& time_error) {
-    return {Verdict::contact, wall, time, false, Real(0), time_error};
+    return {.verdict = Verdict::contact, .wall = wall, .time = time, .time_error = time_error};
   }
 };
 
@@ -120,7 +120,12 @@ struct RoughAnswer {
   double error = 0;            ///< bound on the rounding of the gap in double, that of the state left aside
 
   static RoughAnswer contact(int wall, double left, double right, double root, double error) {
-    return {Verdict::contact, 0, wall, left, right, root, 0, 0, 0, error};
+    return {.verdict = Verdict::contact,
+            .wall = wall,
+            .left = left,
+            .right = right,
+            .root = root,
+            .error = error};
   }
 };
 

@@ -160,7 +160,9 @@ class GapFunctions {
     Start start{plain_sample(offset, ball.state),
                 room_.curvatures(ball.state.position, ball.state.velocity, second)};
     for_each_piston(offset, [&](int wall, const auto& moved) {
-      start.gap[wall] -= moved.value, start.rate[wall] -= moved.rate, start.curvature[wall] -= moved.second;
+      start.gap[wall] -= moved.value;
+      start.rate[wall] -= moved.rate;
+      start.curvature[wall] -= moved.second;
     });
     return start;
   }
@@ -173,7 +175,8 @@ class GapFunctions {
   Sample sample(const Real& offset, const model::VesselFrameState<Real>& state) const {
     auto sample = plain_sample(offset, state);
     for_each_piston(offset, [&](int wall, const auto& moved) {
-      sample.gap[wall] -= moved.value, sample.rate[wall] -= moved.rate;
+      sample.gap[wall] -= moved.value;
+      sample.rate[wall] -= moved.rate;
     });
     return sample;
   }
@@ -236,7 +239,8 @@ class GapFunctions {
             mill_.vessel.curved_errors(wall, coordinate, u, speed, flight.vessel_acceleration,
                                        Real(speed * (flight.elapsed < eighth ? flight.elapsed : eighth)));
       }
-      errors.gap[wall] = bounds.value, errors.rate[wall] = bounds.rate,
+      errors.gap[wall] = bounds.value;
+      errors.rate[wall] = bounds.rate;
       errors.curvature[wall] = bounds.second;
     }
     if constexpr (model::HasPistons<V>)
@@ -244,7 +248,9 @@ class GapFunctions {
         for (std::size_t k = 0; k < pistons->count(); ++k) {
           const auto own = pistons->errors(k, u, mill_.vessel.extent());
           const int wall = pistons->wall(k);
-          errors.gap[wall] += own.value, errors.rate[wall] += own.rate, errors.curvature[wall] += own.second;
+          errors.gap[wall] += own.value;
+          errors.rate[wall] += own.rate;
+          errors.curvature[wall] += own.second;
         }
     return errors;
   }

@@ -145,7 +145,12 @@ class PairSearch {
                        (i.velocity[1] - j.velocity[1]) + gravity_[1] * dt,
                        (i.velocity[2] - j.velocity[2]) + gravity_[2] * dt};
     const Real r2 = dot<Real>(r, r);
-    return {dot<Real>(r, v), r2 - radius_sum * radius_sum, dot<Real>(v, v), r2, dt, age};
+    return {.b = dot<Real>(r, v),
+            .c = r2 - radius_sum * radius_sum,
+            .v2 = dot<Real>(v, v),
+            .r2 = r2,
+            .dt = dt,
+            .age = age};
   }
 
   /// Bounds on the rounding of the relative position now and of the relative velocity.

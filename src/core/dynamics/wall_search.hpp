@@ -228,8 +228,10 @@ class AnyWallSearch {
       if constexpr (std::is_same_v<Real, double>)
         if (own) general_.emplace(own->mill().motion, own->mill().vessel, own->mill().gravity);
     };
-    keep(spex_), keep(on_chain_);
-    spex_.reset(), on_chain_.reset();
+    keep(spex_);
+    keep(on_chain_);
+    spex_.reset();
+    on_chain_.reset();
     policy_ = std::move(policy);
   }
   RoughAnswer rough(const WallQuery<Real>& query) const {

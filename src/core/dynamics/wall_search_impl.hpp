@@ -130,7 +130,10 @@ auto WallSearch<M, V>::first_contact(const Functions& functions, const Start& fi
     const bool doubtful = rounded && !(found.left.value > curve.bounds.value_error);
     if (found.verdict == Verdict::undecided || doubtful) return {Verdict::undecided};
     auto root = polish(curve, found);
-    if (is_widest && !root) root = Root{found.left.t, found.right.t - found.left.t}, by_rule = true;
+    if (is_widest && !root) {
+      root = Root{found.left.t, found.right.t - found.left.t};
+      by_rule = true;
+    }
     if (!root) return {Verdict::undecided};
     if (answer.verdict == Verdict::contact) {
       const auto first_of_two = comes_first<rounded>(query, wall, *root, answer.wall, best, by_rule);
@@ -490,11 +493,15 @@ auto WallSearch<M, V>::close_in(const Functions& functions, int wall, const Real
     for (Real reach = 16 * unit; !(at_low >= 0 && at_high <= 0); reach = 4 * reach) {
       if (reach > 32 * (unit + time_error)) return std::nullopt;
       if (at_low < 0) {
-        high = low, at_high = at_low;
-        low = centre - reach, at_low = gap(low);
+        high = low;
+        at_high = at_low;
+        low = centre - reach;
+        at_low = gap(low);
       } else {
-        low = high, at_low = at_high;
-        high = centre + reach, at_high = gap(high);
+        low = high;
+        at_low = at_high;
+        high = centre + reach;
+        at_high = gap(high);
       }
     }
     if (!(low > from && high < to)) return std::nullopt;
@@ -571,8 +578,11 @@ auto WallSearch<M, V>::search_by_double(const WallQuery<Real>& query) const -> W
       if (!functions.room().is_valid(rough.wall,
                                      functions.seen(root->t, functions.pose(root->t)).state.position))
         return {Verdict::undecided};
-    return {Verdict::contact, rough.wall, mill_.clock.instant(query.begin.period, root->t), false, Real(0),
-            root->time_error, root->pose};
+    return {.verdict = Verdict::contact,
+            .wall = rough.wall,
+            .time = mill_.clock.instant(query.begin.period, root->t),
+            .time_error = root->time_error,
+            .pose = root->pose};
   }
 }
 

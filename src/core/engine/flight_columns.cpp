@@ -36,8 +36,14 @@ EDMILL_INTO_CLONES void gather(const dynamics::Flight<double>* flights, const do
     const int i0 = balls[k], i1 = balls[k + 1], i2 = balls[k + 2], i3 = balls[k + 3];
     const auto rows = [flights](int i) { return reinterpret_cast<const double*>(&flights[i]); };
     Four a0, a1, b0, b1, c0, c1, d0, d1;
-    load(rows(i0), a0), load(rows(i1), b0), load(rows(i2), c0), load(rows(i3), d0);
-    load(rows(i0) + 4, a1), load(rows(i1) + 4, b1), load(rows(i2) + 4, c1), load(rows(i3) + 4, d1);
+    load(rows(i0), a0);
+    load(rows(i1), b0);
+    load(rows(i2), c0);
+    load(rows(i3), d0);
+    load(rows(i0) + 4, a1);
+    load(rows(i1) + 4, b1);
+    load(rows(i2) + 4, c1);
+    load(rows(i3) + 4, d1);
     const Four ab0 = __builtin_shufflevector(a0, b0, 0, 4, 2, 6),
                cd0 = __builtin_shufflevector(c0, d0, 0, 4, 2, 6);
     const Four ab1 = __builtin_shufflevector(a0, b0, 1, 5, 3, 7),
@@ -85,13 +91,17 @@ EDMILL_INTO_CLONES void find_motion(const FlightBatch& batch, const PairFilterQu
   Four x, u, age;
   if (gravity == 0) {  // which changes no bit of a contact
     for (int k = 0; k < count; k += 4) {
-      load(batch.position[axis] + k, x), load(batch.velocity[axis] + k, u), load(ages + k, age);
+      load(batch.position[axis] + k, x);
+      load(batch.velocity[axis] + k, u);
+      load(ages + k, age);
       store(r + k, position - (x + age * u));
       store(v + k, velocity - u);
     }
   } else {
     for (int k = 0; k < count; k += 4) {
-      load(batch.position[axis] + k, x), load(batch.velocity[axis] + k, u), load(ages + k, age);
+      load(batch.position[axis] + k, x);
+      load(batch.velocity[axis] + k, u);
+      load(ages + k, age);
       store(r + k, position - (x + age * (u + (age * 0.5) * gravity)));
       store(v + k, (velocity - u) + gravity * (query.state.age - age));
     }
@@ -157,7 +167,12 @@ EDMILL_INTO_CLONES int filter_batch(const FlightBatch& batch, const PairFilterQu
   int* candidates = result.candidates();
   for (int k = 0; k < count; k += 4) {
     Four x, y, z, u, v, w, square;
-    load(rx + k, x), load(ry + k, y), load(rz + k, z), load(vx + k, u), load(vy + k, v), load(vz + k, w);
+    load(rx + k, x);
+    load(ry + k, y);
+    load(rz + k, z);
+    load(vx + k, u);
+    load(vy + k, v);
+    load(vz + k, w);
     load(squares + k * next_square, square);
     const Four b = x * u + y * v + z * w;
     const Four r2 = x * x + y * y + z * z;

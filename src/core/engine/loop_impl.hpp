@@ -231,7 +231,12 @@ template <class Real>
 dynamics::Contact<Real> Simulation<Real>::contact_of(const Event<Real>& event) const {
   const auto& flight = flights_[event.ball];
   if (event.kind == EventKind::wall_contact)
-    return {true, flight, flight, properties(event.ball).radius, event.time, event.partner};
+    return {.with_wall = true,
+            .flight = flight,
+            .partner = flight,
+            .radius = properties(event.ball).radius,
+            .time = event.time,
+            .wall = event.partner};
   const auto& partner = flights_[event.partner];
   const Real sum = properties(event.ball).radius + properties(event.partner).radius;
   if (flight.start < partner.start) return {false, partner, flight, sum, event.time};
@@ -334,7 +339,8 @@ Impact<Real> Simulation<Real>::collide_pair(const Event<Real>& event) {
   impact.velocity_before[1] = two.velocity;
   impact.spin_before[0] = bodies_[ball].spin;
   impact.spin_before[1] = bodies_[partner].spin;
-  impact.flight_time[0] = flight_times[0], impact.flight_time[1] = flight_times[1];
+  impact.flight_time[0] = flight_times[0];
+  impact.flight_time[1] = flight_times[1];
   const auto& law = mill_.law_between(properties(ball), properties(partner));
   const bool rests_for_one = friction_rests(ball, flight_times[0], law),
              rests_for_two = friction_rests(partner, flight_times[1], law);

@@ -92,13 +92,13 @@ Mill<To> mill_cast(const Mill<From>& m) {
   };
   PairLaws<To> pairs{{}, m.pairs.materials, m.pairs.of_balls, m.pairs.of_walls};
   for (const auto& own : m.pairs.laws) pairs.laws.push_back(law(own));
-  return {m.motion.template cast<To>(),
-          m.vessel.template cast<To>(),
-          vector_cast<To>(m.gravity),
-          law(m.ball_ball),
-          law(m.ball_wall),
-          std::move(pairs),
-          m.stall};
+  return {.motion = m.motion.template cast<To>(),
+          .vessel = m.vessel.template cast<To>(),
+          .gravity = vector_cast<To>(m.gravity),
+          .ball_ball = law(m.ball_ball),
+          .ball_wall = law(m.ball_wall),
+          .pairs = std::move(pairs),
+          .stall = m.stall};
 }
 
 /// Calls f(motion, vessel): in double with the SPEX and the cylinder as what they are, so that f is compiled

@@ -194,7 +194,9 @@ void Spectrum::orthonormalise(const Instant<double>& now) {
     for (std::size_t ball = 0; ball < balls_.size(); ++ball) {
       auto& t = state_.tangents[ball * count_ + to];
       const auto& f = state_.tangents[ball * count_ + from];
-      t.position += f.position * factor, t.velocity += f.velocity * factor, t.spin += f.spin * factor;
+      t.position += f.position * factor;
+      t.velocity += f.velocity * factor;
+      t.spin += f.spin * factor;
     }
   };
   for (std::size_t k = 0; k < count_; ++k) {

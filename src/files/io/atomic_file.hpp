@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <list>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -18,8 +20,10 @@ namespace edmill::io {
 class AtomicFile {
  public:
   /// @param append  the content of the old file is kept before the new one
+  /// @param beside  where the temporary file is made, if not beside the place
   /// @throws InputError when the temporary file cannot be opened
-  explicit AtomicFile(const std::filesystem::path& place, bool append = false);
+  explicit AtomicFile(const std::filesystem::path& place, bool append = false,
+                      const std::filesystem::path& beside = {});
 
   /// @throws std::runtime_error when anything was not written: a long run must not go on for nothing
   std::ostream& stream() {
@@ -48,45 +52,33 @@ class AtomicFile {
 
  private:
   [[noreturn]] void fail() const { throw_not_written(destination_.named, buffer_.error()); }
-  void go_on_from(const std::filesystem::path& fresh, std::uint64_t size, const std::string& digest);
-  std::optional<Sha256> found_beginning(const std::filesystem::path& fresh, std::uint64_t size,
+  void prepend_others();
+  void go_on_from(const std::filesystem::path& left, std::uint64_t size, const std::string& digest);
+  std::optional<Sha256> found_beginning(const std::filesystem::path& left, std::uint64_t size,
                                         const std::string& digest) const;
 
   Destination destination_;
-  Temporary temporary_;
   FileBuffer buffer_;
   std::ostream stream_{&buffer_};
   bool append_, complete_ = false;
+  bool synced_ = false;   ///< it is complete and on the disk
   bool dropped_ = false;  ///< its rows are in place already: see `archive`
 };
 
-/// Files are written into a temporary folder; `commit` moves them into place. Other files stay.
-class AtomicFolder {
+/// Files that are complete at once and put in place together.
+class AtomicFiles {
  public:
-  /// @throws InputError when the temporary folder cannot be made
-  explicit AtomicFolder(const std::filesystem::path& place);
-
-  const std::filesystem::path& place() const { return named_; }
-  /// Adds a file. @throws std::runtime_error when it was not written
-  void add(const std::string& name, const std::string& text);
+  /// Writes a file, as AtomicFile does. @throws std::runtime_error when anything was not written
+  void add(const std::filesystem::path& place, const std::function<void(std::ostream&)>& put,
+           const std::filesystem::path& beside = {});
   void commit();
+  void clear() { files_.clear(); }
   std::vector<std::filesystem::path> places() const;
-
-  /// For a checkpoint; the temporary folder is then kept even without `commit`. Loading continues with
-  /// exactly the files that were added so far, from that folder, or from where they were committed.
-  /// @throws InputError when one is gone or has other content
+  /// @pre loading: files of the same places were added
   void archive(Archive& a);
 
  private:
-  void note(const std::string& name, const std::string& text);
-  void go_on_from(const std::filesystem::path& fresh, const std::vector<std::string>& files,
-                  const std::string& digest);
-
-  std::filesystem::path named_, place_;  ///< as given; with links followed
-  Temporary temporary_;
-  std::vector<std::string> names_;
-  std::size_t synced_ = 0;  ///< of the names
-  Sha256 digest_;           ///< of names and texts
+  std::list<AtomicFile> files_;
 };
 
 }  // namespace edmill::io

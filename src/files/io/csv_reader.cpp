@@ -61,7 +61,10 @@ char separator_of(std::string_view header) {
       quoted = quoted != (c == '"');
       count += !quoted && c == candidate;
     }
-    if (count > most) most = count, best = candidate;
+    if (count > most) {
+      most = count;
+      best = candidate;
+    }
   }
   return best;
 }

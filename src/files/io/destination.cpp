@@ -3,13 +3,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-
-#include "base/errors.hpp"
-#include "io/output_folder.hpp"
+#include <random>
 
 namespace edmill::io {
 
@@ -32,6 +31,16 @@ bool follow(fs::path path, const auto& visit) {
     path = target.is_absolute() ? target : path.parent_path() / target;
   }
   return false;
+}
+
+const std::string partial = ".partial-";
+
+/// A name in the same folder that no other file has.
+fs::path temporary_name(const fs::path& place) {
+  // Not the process id: runs in containers may share it.
+  static const std::string mark = partial + std::to_string(std::random_device()());
+  static std::atomic<int> count = 0;  // two files of one run can have the same path
+  return place.string() + mark + "-" + std::to_string(count++);
 }
 
 }  // namespace
@@ -58,7 +67,9 @@ FileBuffer::~FileBuffer() { drop(); }
 
 void FileBuffer::open(int descriptor, std::uint64_t size, Sha256 digest) {
   drop();
-  descriptor_ = descriptor, size_ = size, error_ = 0;
+  descriptor_ = descriptor;
+  size_ = size;
+  error_ = 0;
   digest_ = std::move(digest);
   bytes_.resize(size_of_buffer);
   setp(bytes_.data(), bytes_.data() + bytes_.size());
@@ -115,20 +126,35 @@ std::optional<int> descriptor_named(const fs::path& path) {
   return number;
 }
 
-Destination::Destination(fs::path given) : named(std::move(given)), place(named) {
-  std::error_code error;
-  through = descriptor_named(named).has_value();
-  if (through) return;
-  const auto status = fs::status(named, error);
-  if (fs::is_directory(status))
-    throw InputError(named.string() + ": found a folder, expected a place for a file");
-  through = fs::exists(status) && !fs::is_regular_file(status);
-  if (!through && !follow(named, [&](const fs::path& p) { return place = p, false; }))
-    throw InputError(named.string() + ": found links that lead to each other, expected a place for a file");
+bool is_temporary(const std::string& name) {
+  const auto mark = name.rfind(partial);
+  const auto number = mark + partial.size();
+  return mark != std::string::npos && mark > 0 && number < name.size() &&
+         name.find_first_not_of("0123456789-", number) == std::string::npos;
 }
 
-fs::path Destination::temporary() const {
-  return temporary_name(through ? fs::temp_directory_path() / "edmill" : place);
+Destination::Destination(fs::path given, fs::path beside) : named(std::move(given)), place(named) {
+  std::error_code error;
+  through = descriptor_named(named).has_value();
+  if (!through) {
+    const auto status = fs::status(named, error);
+    if (fs::is_directory(status))
+      throw InputError(named.string() + ": found a folder, expected a place for a file");
+    through = fs::exists(status) && !fs::is_regular_file(status);
+  }
+  const auto note = [&](const fs::path& path) {
+    place = path;
+    return false;
+  };
+  if (!through && !follow(named, note))
+    throw InputError(named.string() + ": found links that lead to each other, expected a place for a file");
+  beside_ = through ? fs::temp_directory_path(error) / "edmill" : beside.empty() ? place : std::move(beside);
+  temporary = temporary_name(beside_);
+}
+
+Destination::~Destination() {
+  std::error_code ignored;
+  if (!kept) fs::remove(temporary, ignored);  // absent after a commit
 }
 
 std::vector<fs::path> Destination::places() const {
@@ -144,10 +170,10 @@ int Destination::open_through() const {
   return ::fcntl(*number, F_DUPFD_CLOEXEC, 3);
 }
 
-void Destination::take(const fs::path& file) const {
+void Destination::commit() const {
   if (!through) {
     std::error_code error;
-    fs::rename(file, place, error);
+    fs::rename(temporary, place, error);
     if (error) throw not_written(place, error.value());
     return;
   }
@@ -155,26 +181,40 @@ void Destination::take(const fs::path& file) const {
   const int descriptor = open_through();
   if (descriptor < 0) throw not_written(named, errno);
   out.open(descriptor);
-  std::ifstream in(file, std::ios::binary);
+  std::ifstream in(temporary, std::ios::binary);
   std::ostream stream(&out);
   if (in.peek() != std::ifstream::traits_type::eof()) stream << in.rdbuf();
   if (!out.close() || in.bad()) throw_not_written(named, out.error());
-  fs::remove(file);
 }
 
-Temporary::~Temporary() {
-  std::error_code ignored;
-  if (!kept) fs::remove_all(path, ignored);  // absent after a commit
+void Destination::require_file() const {
+  if (through)
+    throw InputError(named.string() +
+                     ": found a device or a pipe, expected a file, since a resumed run continues it");
 }
 
-fs::path Temporary::archive(Archive& a, const fs::path& place) {
-  const fs::path before = path;
-  std::string name = path.filename().string();
+fs::path Destination::archive(Archive& a) {
+  std::string name = temporary.filename().string();
   a(name);
-  if (a.loading()) path.replace_filename(temporary_name_from(name, place));
+  kept = kept || !a.loading();
+  const std::string begin = beside_.filename().string() + partial;
+  if (!name.starts_with(begin) || !is_temporary(name))
+    throw InputError(beside_.string() + ": found '" + name +
+                     "' as the name of its temporary file, expected " + begin + "...");
+  return temporary.parent_path() / name;
+}
+
+void Destination::continue_with(const fs::path& left, bool is_kept) {
   std::error_code ignored;
-  kept = fs::exists(path, ignored);
-  return before;
+  fs::remove(temporary, ignored);
+  temporary = left;
+  kept = is_kept;
+}
+
+InputError Destination::another_file() const {
+  return InputError(named.string() +
+                    ": found another file than the checkpoint was made with, expected the files as the run "
+                    "left them");
 }
 
 }  // namespace edmill::io

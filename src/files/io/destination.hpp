@@ -12,6 +12,7 @@
 
 #include "base/archive.hpp"
 #include "base/digest.hpp"
+#include "base/errors.hpp"
 
 namespace edmill::io {
 
@@ -66,41 +67,44 @@ class FileBuffer : public std::streambuf {
 /// The number of this process's descriptor that a path names: /dev/stdout, /dev/fd/63, a link to one of them.
 std::optional<int> descriptor_named(const std::filesystem::path& path);
 
-/// A device, a pipe or a socket is written through. Anything else, also what a symbolic link points to, is
-/// replaced by a file that was made beside it.
+/// Whether a name ends as those of temporary files do.
+bool is_temporary(const std::string& name);
+
+/// Where a file goes, and the temporary name under which it is made. A device, a pipe or a socket is written
+/// through. Anything else, also what a symbolic link points to, is replaced by a complete file.
 struct Destination {
   std::filesystem::path named, place;  ///< as given; with links followed
   bool through = false;
+  std::filesystem::path temporary;  ///< beside the place, or among the system's temporary files
+  bool kept = false;                ///< a checkpoint names the temporary file; else it is removed at the end
 
+  /// @param beside  where the temporary file is made, if not beside the place
   /// @throws InputError for a folder and for links that lead nowhere
-  explicit Destination(std::filesystem::path given);
+  explicit Destination(std::filesystem::path given, std::filesystem::path beside = {});
+  Destination(const Destination&) = delete;
+  Destination& operator=(const Destination&) = delete;
+  ~Destination();
 
-  /// Where its file is made: beside the place, or among the system's temporary files if written through.
-  std::filesystem::path temporary() const;
   /// As it was given; nothing of what is written through.
   std::vector<std::filesystem::path> places() const;
   /// A descriptor of what is written through, or -1 with errno.
   int open_through() const;
-  /// Moves a complete file into place, or copies it through. @throws std::runtime_error
-  void take(const std::filesystem::path& file) const;
-};
+  /// Moves the complete temporary file into place, or copies it through. @throws std::runtime_error
+  void commit() const;
 
-/// A temporary file or folder. It is removed at the end, unless a checkpoint names it.
-struct Temporary {
-  std::filesystem::path path;
-  bool kept = false;
+  /// @throws InputError for what is written through: a resumed run could not continue it
+  void require_file() const;
+  /// Saves the name of the temporary file. @return loading: the one that the run left, which may be gone
+  /// @throws InputError unless it is such a name: no other file is opened, changed or removed for it
+  std::filesystem::path archive(Archive& a);
+  /// Continues with the file that a run left, in place of its own. @param is_kept  a checkpoint names it
+  /// still
+  void continue_with(const std::filesystem::path& left, bool is_kept);
+  /// For a file that a run left with other bytes than its checkpoint says.
+  InputError another_file() const;
 
-  explicit Temporary(std::filesystem::path path) : path(std::move(path)) {}
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  ~Temporary();
-
-  /// Its name. Loading takes over what the run left under the name; where that is gone, because it was
-  /// committed, it is made again and need not be kept.
-  /// @param place  of which it is a temporary name
-  /// @return the path before
-  /// @throws InputError unless it is such a name
-  std::filesystem::path archive(Archive& a, const std::filesystem::path& place);
+ private:
+  std::filesystem::path beside_;
 };
 
 }  // namespace edmill::io

@@ -4,10 +4,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <fstream>
-#include <random>
 #include <set>
 #include <utility>
 
@@ -49,23 +47,6 @@ int locked(int descriptor, const fs::path& folder, FolderLock::Kind kind) {
                      "another folder");
   }
   return descriptor;
-}
-
-const std::string partial = ".partial-";
-
-/// A mark in the names of this process's temporary files that no other process uses.
-const std::string& temporary_mark() {
-  // Not the process id: runs in containers may share it.
-  static const std::string mark = partial + std::to_string(std::random_device()());
-  return mark;
-}
-
-/// Whether a name ends as those of temporary files do.
-bool is_temporary(const std::string& name) {
-  const auto mark = name.rfind(partial);
-  const auto number = mark + partial.size();
-  return mark != std::string::npos && mark > 0 && number < name.size() &&
-         name.find_first_not_of("0123456789-", number) == std::string::npos;
 }
 
 using Names = std::set<std::string>;  ///< relative to the folder, with slashes
@@ -129,19 +110,16 @@ FolderLock::~FolderLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-NamedFile::NamedFile(fs::path place) : place_(std::move(place)), through_(Destination(place_).through) {
+NamedFile::NamedFile(fs::path place) : place_(std::move(place)) {
+  if (Destination(place_).through) return;
+  folder_ = place_.has_parent_path() ? place_.parent_path() : ".";
   std::error_code ignored;
-  if (place_.has_parent_path() ? fs::is_directory(place_.parent_path(), ignored) : true) lock();
-}
-
-void NamedFile::lock() {
-  if (!through_ && !lock_)
-    lock_.emplace(place_.has_parent_path() ? place_.parent_path() : ".", FolderLock::Kind::shared);
+  if (fs::is_directory(folder_, ignored)) lock_.emplace(folder_, FolderLock::Kind::shared);
 }
 
 void NamedFile::write(const std::function<void(std::ostream&)>& put) {
-  if (!through_ && place_.has_parent_path()) prepare_folder(place_.parent_path());
-  lock();
+  if (!folder_.empty() && place_.has_parent_path()) prepare_folder(folder_);
+  if (!folder_.empty() && !lock_) lock_.emplace(folder_, FolderLock::Kind::shared);
   AtomicFile file(place_);
   put(file.stream());
   file.commit();
@@ -150,19 +128,6 @@ void NamedFile::write(const std::function<void(std::ostream&)>& put) {
 std::optional<NamedFile> file_for(const std::string& name) {
   if (name.empty()) return std::nullopt;
   return std::make_optional<NamedFile>(name);
-}
-
-fs::path temporary_name(const fs::path& place) {
-  static std::atomic<int> count = 0;  // two files of one run can have the same path
-  return place.string() + temporary_mark() + "-" + std::to_string(count++);
-}
-
-std::string temporary_name_from(const std::string& found, const fs::path& place) {
-  const std::string begin = place.filename().string() + partial;
-  if (!found.starts_with(begin) || !is_temporary(found))
-    throw InputError(place.string() + ": found '" + found + "' as the name of its temporary file, expected " +
-                     begin + "...");
-  return found;
 }
 
 void remove_temporaries(const fs::path& folder) {

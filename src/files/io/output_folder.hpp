@@ -1,5 +1,5 @@
-// Folders that are written into, the names that files have there until they are complete, and the record of
-// what edmill has put there.
+// Folders that are written into: their locks, what killed processes have left there, and the record of what
+// edmill has put there.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,6 @@ namespace edmill::io {
 /// Creates the folder, with its parents, when it is absent.
 /// @throws InputError when it cannot be created or written to
 void prepare_folder(const std::filesystem::path& folder);
-
-/// The name of a temporary file of `place` as a checkpoint has it, which can come from elsewhere.
-/// @throws InputError unless it is such a name: no other file is opened, changed or removed for it
-std::string temporary_name_from(const std::string& found, const std::filesystem::path& place);
 
 /// A lock on a folder; the system releases it when the process ends, however it ends.
 class FolderLock {
@@ -50,18 +46,12 @@ class NamedFile {
   void write(const std::function<void(std::ostream&)>& put);
 
  private:
-  void lock();
-
-  std::filesystem::path place_;
-  bool through_;
+  std::filesystem::path place_, folder_;  ///< no folder where the place is written through
   std::optional<FolderLock> lock_;
 };
 
 /// The file of that name; none where it is empty.
 std::optional<NamedFile> file_for(const std::string& name);
-
-/// The temporary name of the file for `place`, in the same folder.
-std::filesystem::path temporary_name(const std::filesystem::path& place);
 
 /// Removes temporary files of killed processes from a folder.
 /// @pre the caller holds the folder's lock

@@ -57,7 +57,10 @@ class Delays {
 /// Delays by what was touched. A finite step delays all alike; a wrong wall or ball only its own contacts.
 class DelaysByPartner {
  public:
-  void add(int partner, double delay) { all_.add(delay), by_partner_[partner].add(delay); }
+  void add(int partner, double delay) {
+    all_.add(delay);
+    by_partner_[partner].add(delay);
+  }
   /// The step with which a code sees each contact at the first step after it; 0 for none.
   double step() const {
     constexpr std::uint64_t least = 20;

@@ -104,14 +104,22 @@ auto ImpactJudge::explaining(const Scene& scene, double allowed, bool violated)
     for (const Way& way : ways) {
       shows = shows && distance(scene.impact, due, way.outcome) > allowed;
       const double of_way = distance(way.impact, logged, way.outcome);
-      if (of_way < left) left = of_way, best = &way;
+      if (of_way < left) {
+        left = of_way;
+        best = &way;
+      }
     }
     // Bodies that separate faster than v_s when the mistake is assumed keep their velocities, which proves
     // nothing.
     if (best && best->impact.g_n() > scene.impact.law->least_separation + allowed) continue;
     const bool explains = violated && best && vanishes(off, left, allowed);
     if (explains && !found)
-      found = Explanation{mistake.kind, mistake.note, &suspicions_[k], best->impact, off, left};
+      found = Explanation{.kind = mistake.kind,
+                          .note = mistake.note,
+                          .mistake = &suspicions_[k],
+                          .impact = best->impact,
+                          .off = off,
+                          .left = left};
     else if (shows && !explains)
       suspicions_[k].contradicted();
   }
@@ -143,7 +151,10 @@ void ImpactJudge::tell_normal(const LoggedImpact& impact, double off, double all
     return name(of_law.always, to_least, "separates at v_s, which is below e_n |g_n|");
   if (left <= by_restitution + allowed) return plain.add(as_found);
   constexpr const char* another = "separates at another least separation speed than the case's";
-  if (!(of_law.speed < std::numeric_limits<double>::infinity())) of_law.speed = left, of_law.g_n = g_n;
+  if (!(of_law.speed < std::numeric_limits<double>::infinity())) {
+    of_law.speed = left;
+    of_law.g_n = g_n;
+  }
   if (!vanishes(off, std::abs(left - of_law.speed), allowed)) return plain.add(as_found);
   // A constant restitution gives the same speed for the same approach only.
   const bool other_approach = of_law.speed * std::abs(g_n - of_law.g_n) > 2 * allowed * std::abs(g_n);

@@ -26,7 +26,8 @@ void Findings::take(const Findings& others) {
   for (std::size_t k = 0; k < kind_count; ++k) {
     const Tally& from = others.tallies_[k];
     Tally& tally = tallies_[k];
-    tally.count += from.count, tally.explained += from.explained;
+    tally.count += from.count;
+    tally.explained += from.explained;
     tally.worst = std::max(tally.worst, from.worst);
     for (const auto& [note, count] : from.notes) tally.notes[note] += count;
     for (const auto& finding : from.examples) keep(tally, finding);

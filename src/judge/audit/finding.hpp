@@ -120,7 +120,8 @@ class Suspicion {
 
   /// A violation of size `off` vanishes with the mistake up to `left`. @return where to report it as such
   Findings& explains(double off, double left) {
-    ++shows_, ++explained_;
+    ++shows_;
+    ++explained_;
     // A coincidence of one number within a tenth of its size happens in a tenth of all cases.
     decades_ += std::log10(off / std::max(left, 1e-17 * off));
     return named_;

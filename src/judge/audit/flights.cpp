@@ -155,8 +155,17 @@ void Flights::finish() {
 
 Finding Flights::missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note,
                                 bool explained) const {
-  return {Kind::missed_event, contact.depth, end.event->line, contact.time, ball,     contact.with_wall,
-          contact.partner,    unknown,       unknown,         note,         explained};
+  return {.kind = Kind::missed_event,
+          .size = contact.depth,
+          .line = end.event->line,
+          .time = contact.time,
+          .ball = ball,
+          .with_wall = contact.with_wall,
+          .partner = contact.partner,
+          .found = unknown,
+          .expected = unknown,
+          .note = note,
+          .explained = explained};
 }
 
 /// Position, velocity and spin at the end of a flight.
@@ -168,7 +177,16 @@ void Flights::judge_state(int ball, const Track& track, const FlightEnd& end, do
   const double time = event.time, dt = time - track.start;
   const double speed = std::max(size(track.flight.velocity), size(state.velocity_before));
   const auto finding = [&](Kind kind, double amount, double found, const char* note) {
-    return Finding{kind, amount, event.line, time, ball, event.with_wall, end.partner(), found, 0, note};
+    return Finding{.kind = kind,
+                   .size = amount,
+                   .line = event.line,
+                   .time = time,
+                   .ball = ball,
+                   .with_wall = event.with_wall,
+                   .partner = end.partner(),
+                   .found = found,
+                   .expected = 0,
+                   .note = note};
   };
   off = 0;
   if (has.position && has.velocity_before) {
@@ -205,7 +223,8 @@ double Flights::look(std::size_t k, const Track& track, const BodyState& state, 
   if (k >= 2) {
     const double excess = dot(fallen, g) / dot(g, g) - dt * dt / 2, sign = k == 2 ? 1 : -1;
     if (!(step_ > 0) && sign * excess > 0) step_ = 2 * sign * excess / dt;
-    fall = 1 + sign * step_ / dt, gain = 1;
+    fall = 1 + sign * step_ / dt;
+    gain = 1;
   }
   shows = std::abs(fall - 1) * tolerances_.gravity * dt * dt / 2;
   return std::max(size(Vec(fallen - g * (fall * dt * dt / 2))), size(Vec(gained - g * (gain * dt))) * dt);
@@ -226,7 +245,8 @@ void Flights::tell_flight(const Track& track, const BodyState& state, const Find
     if (!told && vanishes(finding.size, left, allowed)) {
       told = true;
       Finding named = finding;
-      named.note = look_notes[k], named.explained = true;
+      named.note = look_notes[k];
+      named.explained = true;
       looks_[k]
           .explains(finding.size, first ? finding.size : left)
           .add(named);  // the first one gives the step

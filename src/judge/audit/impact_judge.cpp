@@ -68,7 +68,10 @@ bool ImpactJudge::judge_outcome(const Scene& scene, const Known& known, const Al
   const LoggedImpact& impact = scene.impact;
   findings_.judged(Check::normal_law);
   if (!impact.with_wall()) findings_.judged(Check::momentum);
-  if (known.spins) findings_.judged(Check::tangential_law), findings_.judged(Check::spin_change);
+  if (known.spins) {
+    findings_.judged(Check::tangential_law);
+    findings_.judged(Check::spin_change);
+  }
   const double g_n = impact.g_n();
   const auto off = residuals(impact, known, g_n > allowed.speed);
   const bool violated = off.largest() > allowed.slack;

@@ -15,8 +15,17 @@ namespace edmill::audit {
 
 inline Finding finding(Kind kind, const LoggedEvent& event, double size, double found, double expected,
                        const char* note = "", bool explained = false) {
-  return {kind,          size,  event.line, event.time, event.ball, event.with_wall,
-          event.partner, found, expected,   note,       explained};
+  return {.kind = kind,
+          .size = size,
+          .line = event.line,
+          .time = event.time,
+          .ball = event.ball,
+          .with_wall = event.with_wall,
+          .partner = event.partner,
+          .found = found,
+          .expected = expected,
+          .note = note,
+          .explained = explained};
 }
 
 /// What all judges of a log share.

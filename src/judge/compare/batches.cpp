@@ -68,7 +68,10 @@ SpectrumTest test_spectra(const std::vector<Batch>& a, const std::vector<Batch>&
   for (std::size_t c = 0; c < SpectrumClasses::count; ++c) {
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].spectra[spectrum][c] + b[k].spectra[spectrum][c];
-    if (sum != 0) used.push_back(c), both.push_back(sum);
+    if (sum != 0) {
+      used.push_back(c);
+      both.push_back(sum);
+    }
   }
   std::vector<BatchValues> differences(a.size());
   for (std::size_t k = 0; k < a.size(); ++k)

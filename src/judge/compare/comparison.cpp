@@ -158,8 +158,14 @@ class Judge {
     // The tolerance on single events also applies to their mean.
     const double scale = std::max(std::abs(*of_a.mean), std::abs(*of_b.mean));
     const bool within = std::abs(*of_both.mean) <= tolerance_ * scale;
-    add({name, unit, of_a.mean, of_b.mean, of_a.half_width, of_b.half_width, of_both.mean,
-         of_both.half_width},
+    add({.name = name,
+         .unit = unit,
+         .a = of_a.mean,
+         .b = of_b.mean,
+         .a_half_width = of_a.half_width,
+         .b_half_width = of_b.half_width,
+         .difference = of_both.mean,
+         .half_width = of_both.half_width},
         events, within ? 1 : paired_t_probability(differences));
   }
 
@@ -173,7 +179,8 @@ class Judge {
     };
     if (empty(a_) || empty(b_)) return skip(name, "1", "no impacts in one log");
     const auto test = test_spectra(a_, b_, spectrum);
-    add({name, "1", {}, {}, {}, {}, test.distance, test.limit}, events, test.probability);
+    add({.name = name, .unit = "1", .difference = test.distance, .half_width = test.limit}, events,
+        test.probability);
   }
 
   /// @param same  every event agrees, so there is nothing to test

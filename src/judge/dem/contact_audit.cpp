@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
+#include "compare/junit.hpp"
 #include "dem/soft_contact.hpp"
 #include "io/json_text.hpp"
 
@@ -163,13 +164,23 @@ void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
     return Median{value, value - half_width, value + half_width, 1};
   };
   for (Eigen::Index k = 0; k < 3 && !audit.facts.of_list(); ++k) {
-    audit.judged.push_back({fmt::format("gravity along {}", "XYZ"[k]), "m/s^2", "",
-                            within(s.gravity[k], s.gravity_half_width[k]), mill.gravity[k],
-                            1e-3 * norm<double>(mill.gravity) + 1e-3});
+    audit.judged.push_back({.name = fmt::format("gravity along {}", "XYZ"[k]),
+                            .unit = "m/s^2",
+                            .equation = "",
+                            .found = within(s.gravity[k], s.gravity_half_width[k]),
+                            .expected = mill.gravity[k],
+                            .allowed = 1e-3 * norm<double>(mill.gravity) + 1e-3});
   }
-  const double density = audit.facts.mass_factor / std::pow(audit.facts.radius_factor, 3);
-  audit.judged.push_back({"density over the case's", "", "", within(density, 0), 1, 1e-6});
-  audit.judged.push_back({"diameter over the case's", "", "", within(audit.facts.radius_factor, 0), 1, 1e-6});
+  const auto judge_factor = [&](const char* name, double factor) {
+    audit.judged.push_back({.name = name,
+                            .unit = "",
+                            .equation = "",
+                            .found = within(factor, 0),
+                            .expected = 1,
+                            .allowed = 1e-6});
+  };
+  judge_factor("density over the case's", audit.facts.mass_factor / std::pow(audit.facts.radius_factor, 3));
+  judge_factor("diameter over the case's", audit.facts.radius_factor);
 }
 
 /// A ball that leaves its flight has met something, as far as frames resolve it.
@@ -177,7 +188,12 @@ void judge_unexplained(ContactAudit& audit) {
   const double all = audit.facts.dose();
   if (!(all > 0)) return;
   const double share = audit.facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all;
-  audit.judged.push_back({"dose with no wall or ball", "", "", {share, share, share, 1}, 0, 0.01});
+  audit.judged.push_back({.name = "dose with no wall or ball",
+                          .unit = "",
+                          .equation = "",
+                          .found = {share, share, share, 1},
+                          .expected = 0,
+                          .allowed = 0.01});
 }
 
 std::vector<SlipBin> slips_of(const std::vector<Shown>& walls, const std::vector<Shown>& balls) {
@@ -240,7 +256,9 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
   const auto& mill = built.the_case.mill;
   const MovingVessel vessel(mill, built.the_case.balls, log.facts().facets);
   ContactAudit audit;
-  audit.case_name = spec.file, audit.log_name = options.log, audit.facts = log.facts();
+  audit.case_name = spec.file;
+  audit.log_name = options.log;
+  audit.facts = log.facts();
   std::vector<Shown> walls, balls;
   std::vector<Contact> at_walls;
   DoseRate rate(log.facts().first, log.facts().last);
@@ -261,7 +279,8 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
     constexpr std::size_t enough = 400;
     if (c.bodies == 1 && c.kind != ContactClass::lasting && at_walls.size() < enough) at_walls.push_back(c);
   }
-  audit.dose_rate = rate.mean(), audit.dose_rate_half_width = rate.half_width();
+  audit.dose_rate = rate.mean();
+  audit.dose_rate_half_width = rate.half_width();
   judge_laws(walls, "at walls", audit);
   judge_laws(balls, "between balls", audit);
   const bool enough = !audit.judged.empty();
@@ -369,14 +388,15 @@ std::string to_json(const ContactAudit& a) {
 }
 
 std::string to_junit(const ContactAudit& a) {
-  io::JunitText junit("edmill audit of " + a.log_name);
-  for (const auto& j : a.judged) junit.add(j.name, j.agrees() ? "" : sentence(j));
+  std::vector<compare::JunitCase> cases;
+  for (const auto& j : a.judged) cases.emplace_back(j.name, j.agrees() ? "" : sentence(j));
   std::string moved;
   if (!a.walls_met()) moved = "balls leave their flights away from the walls of the case";
   for (const auto& c : a.causes) moved += fmt::format("; with {}: {}", c.key, c.text);
-  junit.add("places of the walls", moved);
-  junit.add("enough contacts", a.verdict != ContactVerdict::too_few ? "" : "too few contacts to judge");
-  return junit.finish();
+  cases.emplace_back("places of the walls", moved);
+  cases.emplace_back("enough contacts",
+                     a.verdict != ContactVerdict::too_few ? "" : "too few contacts to judge");
+  return compare::junit_text("edmill audit of " + a.log_name, cases);
 }
 
 }  // namespace edmill::dem

@@ -29,13 +29,18 @@ std::optional<double> crossing(const auto& gap, double low, double high, bool fa
     for (int k = 1; k <= tried; ++k) {
       const double right = low + (high - low) * k / tried, next = gap(right);
       if (falling ? value > 0 && next <= 0 : value <= 0 && next > 0) {
-        if (!found || !falling) found_low = left, found_high = right;
+        if (!found || !falling) {
+          found_low = left;
+          found_high = right;
+        }
         found = true;
       }
-      left = right, value = next;
+      left = right;
+      value = next;
     }
     if (!found) return std::nullopt;
-    low = found_low, high = found_high;
+    low = found_low;
+    high = found_high;
   }
   const double one = gap(low), other = gap(high);
   return one == other ? low : low + (high - low) * one / (one - other);
@@ -81,7 +86,10 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
     for (std::size_t k = 1; k < frames.size(); ++k) {
       const bool kicked = change_of(frames[k - 1], frames[k], i, s.gravity) > s.kick;
       if (kicked && since < 0) since = frames[k - 1].time;
-      if (!kicked && since >= 0) stretches.push_back(frames[k - 1].time - since), since = -1;
+      if (!kicked && since >= 0) {
+        stretches.push_back(frames[k - 1].time - since);
+        since = -1;
+      }
     }
   }
   s.contact_time = stretches.empty() ? s.interval : median_of(stretches).value;
@@ -245,7 +253,8 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
   const auto touch = crossing(gap_of(from), from.time - frames_.interval, to.time, true);
   const auto leave = crossing(gap_of(to), from.time, to.time + 2 * longest, false);
   if (!touch || !leave || *leave < *touch) return false;
-  contact.begin = *touch, contact.end = *leave;
+  contact.begin = *touch;
+  contact.end = *leave;
   contact.dose = 0;
   for (std::size_t k = 0; k < group.size(); ++k) {
     const std::size_t ball = group[k].ball;
@@ -268,7 +277,8 @@ void ContactFinder::report(std::vector<Stretch> group) {
   Contact contact;
   std::size_t first = group[0].first, last = group[0].last;
   for (const auto& s : group) {
-    first = std::min(first, s.first), last = std::max(last, s.last);
+    first = std::min(first, s.first);
+    last = std::max(last, s.last);
     States states;
     for (std::size_t f = s.first; f <= s.last; ++f)
       states.emplace_back(frame(f).time, frame(f).balls[s.ball]);
@@ -315,7 +325,10 @@ void ContactFinder::report(std::vector<Stretch> group) {
 void ContactFinder::forget() {
   std::size_t needed = first_ + window_.size() - 1;
   for (const auto& stretch : stretches_) needed = std::min(needed, stretch.first);
-  while (first_ < needed) window_.pop_front(), ++first_;
+  while (first_ < needed) {
+    window_.pop_front();
+    ++first_;
+  }
 }
 
 }  // namespace edmill::dem

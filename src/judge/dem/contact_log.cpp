@@ -100,7 +100,8 @@ ContactLogFacts read_facts(const std::string& file) {
         "{}: found a head without all of frames, gravity, contact_time, factors and doses, expected "
         "that of `edmill import`",
         file));
-  facts.frames = static_cast<std::uint64_t>(frames), facts.contacts = static_cast<std::uint64_t>(contacts);
+  facts.frames = static_cast<std::uint64_t>(frames);
+  facts.contacts = static_cast<std::uint64_t>(contacts);
   return facts;
 }
 
@@ -209,8 +210,13 @@ std::optional<Contact> ContactLogReader::parse() {
   if (!begin || !end || !until || !from || !dose || !ball || !balls || kind == contact_class_names.end())
     return std::nullopt;
   c.kind = static_cast<ContactClass>(kind - contact_class_names.begin());
-  c.begin = *begin, c.end = *end, c.free_until = *until, c.free_from = *from, c.dose = *dose;
-  c.ball = *ball, c.bodies = *balls;
+  c.begin = *begin;
+  c.end = *end;
+  c.free_until = *until;
+  c.free_from = *from;
+  c.dose = *dose;
+  c.ball = *ball;
+  c.bodies = *balls;
   if (!csv_.field(5).empty()) {
     const auto partner = csv_.whole(5, "the number of a wall or ball", 0, most);
     if (!partner) return std::nullopt;
@@ -263,10 +269,13 @@ std::vector<ListedContact> read_contact_list(const std::string& file) {
     ListedContact c;
     c.ball = csv.whole(*id, "the number of a ball", 0, most).value_or(0);
     c.boundary = csv.whole(*boundary, "the number of a wall", 0, most).value_or(0);
-    c.begin = csv.finite(*begin).value_or(0), c.end = csv.finite(*end).value_or(0);
+    c.begin = csv.finite(*begin).value_or(0);
+    c.end = csv.finite(*end).value_or(0);
     if (c.end < c.begin) csv.bad_field(*end, "a time after the begin of the contact");
-    take(csv, v_before, c.before.velocity), take(csv, v_after, c.after.velocity);
-    take(csv, w_before, c.before.spin), take(csv, w_after, c.after.spin);
+    take(csv, v_before, c.before.velocity);
+    take(csv, v_after, c.after.velocity);
+    take(csv, w_before, c.before.spin);
+    take(csv, w_after, c.after.spin);
     if (mass) c.mass = csv.finite(*mass);
     if (diameter) c.diameter = csv.finite(*diameter);
     list.push_back(c);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "compare/junit.hpp"
 #include "compare/log_reader.hpp"
 #include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
@@ -27,7 +28,7 @@ ContactRates rates_of_contacts(const std::string& file, const Window& window, do
   log.need_frames();
   ContactRates r{.log = file};
   if (log.facts().last < 2 * transient) transient = 0;
-  r.first = std::max({window.from, log.facts().first, transient}),
+  r.first = std::max({window.from, log.facts().first, transient});
   r.last = std::min(window.until, log.facts().last);
   if (!(r.last > r.first))
     throw InputError(file + ": found no frames in the time that is compared, expected some");
@@ -40,11 +41,13 @@ ContactRates rates_of_contacts(const std::string& file, const Window& window, do
     if (time < r.first || time > r.last) continue;
     rate.add(time, c->dose);
     const bool single = c->kind == ContactClass::wall || c->kind == ContactClass::pair;
-    all += c->dose, grouped += single ? 0 : c->dose;
+    all += c->dose;
+    grouped += single ? 0 : c->dose;
     singles += single ? 1 : 0;
     if (c->kind == ContactClass::wall) durations.push_back(c->end - c->begin);
   }
-  r.dose_rate = rate.mean(), r.dose_rate_half_width = rate.half_width();
+  r.dose_rate = rate.mean();
+  r.dose_rate_half_width = rate.half_width();
   r.contact_time = median_of(std::move(durations)).value;
   r.single_rate = static_cast<double>(singles) / (r.last - r.first);
   r.grouped = all > 0 ? grouped / all : 0;
@@ -56,7 +59,7 @@ ContactRates rates_of_impacts(const std::string& place, const Window& window) {
   if (!scan.has[model::milling_dose])
     throw InputError(scan.file + ": found no column milling_dose, expected one: the dose is compared");
   ContactRates r{.log = place};
-  r.first = std::max(window.from, scan.statistics_start.value_or(scan.first)),
+  r.first = std::max(window.from, scan.statistics_start.value_or(scan.first));
   r.last = std::min(window.until, scan.last);
   if (!(r.last > r.first))
     throw InputError(scan.file + ": found no impacts in the time that is compared, expected some");
@@ -69,7 +72,8 @@ ContactRates rates_of_impacts(const std::string& place, const Window& window) {
     rate.add(time, event->milling_dose);
     ++impacts;
   }
-  r.dose_rate = rate.mean(), r.dose_rate_half_width = rate.half_width();
+  r.dose_rate = rate.mean();
+  r.dose_rate_half_width = rate.half_width();
   r.single_rate = static_cast<double>(impacts) / (r.last - r.first);
   return r;
 }
@@ -171,9 +175,7 @@ std::string to_json(const ContactComparison& c) {
 }
 
 std::string to_junit(const ContactComparison& c) {
-  io::JunitText junit("edmill compare");
-  junit.add("dose rate", c.known && c.agree() ? "" : sentence(c));
-  return junit.finish();
+  return compare::junit_text("edmill compare", {{"dose rate", c.known && c.agree() ? "" : sentence(c)}});
 }
 
 double Limit::ratio_half_width() const {
@@ -189,13 +191,16 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
   double weights = 0, times = 0, rates = 0;
   for (const auto& p : limit.points) {
     const double w = 1 / (p.half_width * p.half_width);
-    weights += w, times += w * p.contact_time, rates += w * p.dose_rate;
+    weights += w;
+    times += w * p.contact_time;
+    rates += w * p.dose_rate;
   }
   const double mean_time = times / weights, mean_rate = rates / weights;
   double squares = 0, products = 0;
   for (const auto& p : limit.points) {
     const double w = 1 / (p.half_width * p.half_width), t = p.contact_time - mean_time;
-    squares += w * t * t, products += w * t * (p.dose_rate - mean_rate);
+    squares += w * t * t;
+    products += w * t * (p.dose_rate - mean_rate);
   }
   const auto& slowest = limit.points.front();
   if (!(slowest.contact_time > 1.2 * limit.points.back().contact_time))
@@ -255,7 +260,8 @@ std::string to_svg(const Limit& limit) {
   chart.description = "dose rates of runs with contacts of several durations, and their limit";
   double low = limit.value - limit.half_width, high = limit.value + limit.half_width;
   const auto see = [&](const LimitPoint& p) {
-    low = std::min(low, p.dose_rate - p.half_width), high = std::max(high, p.dose_rate + p.half_width);
+    low = std::min(low, p.dose_rate - p.half_width);
+    high = std::max(high, p.dose_rate + p.half_width);
   };
   for (const auto& p : limit.points) see(p);
   if (limit.edmill) see(*limit.edmill);

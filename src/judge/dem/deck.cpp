@@ -181,7 +181,10 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
       .largest_radius = 0};
   double mass = 0;
   for (const auto& ball : c.balls)
-    if (ball.radius > deck.largest_radius) deck.largest_radius = ball.radius, mass = ball.mass;
+    if (ball.radius > deck.largest_radius) {
+      deck.largest_radius = ball.radius;
+      mass = ball.mass;
+    }
   deck.young = young_for(options.contact_time, options.speed, deck.largest_radius, mass, DeckCase::poisson);
   const double duration = options.duration > 0 ? options.duration
                           : spec.end_time      ? spec.end_time->to<double>() - deck.begin

@@ -184,7 +184,10 @@ void FrameReader::set_units(const std::string& units) {
   const auto* found = std::find_if(std::begin(known_units), std::end(known_units),
                                    [&](const Units& u) { return units == u.name; });
   if (found == std::end(known_units)) fail("units '" + units + "'", "si, cgs, micro or nano");
-  length_ = found->length, time_ = found->time, mass_ = found->mass, speed_ = length_ / time_;
+  length_ = found->length;
+  time_ = found->time;
+  mass_ = found->mass;
+  speed_ = length_ / time_;
 }
 
 void FrameReader::read_columns(const std::vector<std::string>& columns) {
@@ -374,7 +377,8 @@ bool FrameReader::next_of_dump(Frame& frame) {
 void FrameReader::read_bounds(std::size_t axis) {
   const auto ends = words(line_);
   if (ends.size() < 2) fail(fmt::format("'{}'", line_.substr(0, 40)), "two bounds");
-  low_[axis] = number(ends[0]), size_[axis] = number(ends[1]) - low_[axis];
+  low_[axis] = number(ends[0]);
+  size_[axis] = number(ends[1]) - low_[axis];
 }
 
 }  // namespace edmill::dem

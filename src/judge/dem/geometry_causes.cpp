@@ -58,8 +58,10 @@ class Geometry {
       for (int w = 0; w < vessel.walls(); ++w)
         if (const double along = dot<double>(
                 vessel.normal(pose, static_cast<std::size_t>(c.ball), w, state.position), impulse);
-            along > best)
-          best = along, wall = w;
+            along > best) {
+          best = along;
+          wall = w;
+        }
       if (wall < 0) continue;
       meetings_.push_back({static_cast<std::size_t>(c.ball), wall, t, state.position});
       reaches.push_back(norm<double>(impulse) / 1.5 * frames.interval / 2);
@@ -104,7 +106,10 @@ class Geometry {
   std::optional<GeometryCause> fit(const Candidate& c) const {
     double best = c.value, left = distance;
     for (const double start : c.starts)
-      if (const double found = of(gaps_with(c, start)); found < left) left = found, best = start;
+      if (const double found = of(gaps_with(c, start)); found < left) {
+        left = found;
+        best = start;
+      }
     double curvature = 0;
     for (int round = 0; round < 12; ++round) {
       const auto here = gaps_with(c, best), there = gaps_with(c, best + 1e-4 * c.change);
@@ -115,21 +120,28 @@ class Geometry {
       for (std::size_t k = 0; k < here.size(); ++k) {
         const double rate = (there[k] - here[k]) / (1e-4 * c.change),
                      weight = std::abs(here[k]) > limit ? 0 : 1;
-        slope += weight * rate * here[k], curvature += weight * rate * rate;
+        slope += weight * rate * here[k];
+        curvature += weight * rate * rate;
       }
       if (!(curvature > 0)) return std::nullopt;
       double step = -slope / curvature;
       for (int half = 0; half < 6; ++half, step /= 2)
         if (const double found = of(gaps_with(c, best + step)); found < left) {
-          best += step, left = found;
+          best += step;
+          left = found;
           break;
         }
       if (std::abs(step) < 1e-7 * c.change) break;
     }
-    GeometryCause cause{c.key, "", best, 1.96 * 1.4826 * left / std::sqrt(curvature), c.value, left};
-    cause.text = fmt::format("{}, the case has {}", identify::value_text(c.dimension, best, cause.half_width),
-                             identify::value_text(c.dimension, c.value));
-    return cause;
+    const double half_width = 1.96 * 1.4826 * left / std::sqrt(curvature);
+    return GeometryCause{
+        .key = c.key,
+        .text = fmt::format("{}, the case has {}", identify::value_text(c.dimension, best, half_width),
+                            identify::value_text(c.dimension, c.value)),
+        .value = best,
+        .half_width = half_width,
+        .expected = c.value,
+        .left = left};
   }
 
  private:
@@ -139,8 +151,12 @@ class Geometry {
 };
 
 Candidate of_number(const Parameter& p) {
-  Candidate c{p.key,    p.dimension, p.value,
-              p.change, {},          [set = p.set](Assumptions& a, Offset&, double x) { set(a, x); }};
+  Candidate c{.key = p.key,
+              .dimension = p.dimension,
+              .value = p.value,
+              .change = p.change,
+              .starts = {},
+              .set = [set = p.set](Assumptions& a, Offset&, double x) { set(a, x); }};
   for (const double share : {0.001, 0.003, 0.01, 0.03, 0.05, 0.1, 0.2, 0.5})
     for (const double sign : {-1.0, 1.0}) c.starts.push_back(p.value * (1 + sign * share));
   c.starts.push_back(2 * p.value);
@@ -153,13 +169,21 @@ void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
   for (int k = 1; k < 16; ++k) starts.push_back(turn * (k <= 8 ? k : k - 16) / 16);
   const double period = casefile::period_of(nominal.spec.mill).to<double>();
   list.push_back(
-      {"phase of the drive", Dimension::angle, 0, 1, starts,
-       [period, turn](Assumptions&, Offset& offset, double x) { offset.delay = x / turn * period; }});
+      {.key = "phase of the drive",
+       .dimension = Dimension::angle,
+       .value = 0,
+       .change = 1,
+       .starts = starts,
+       .set = [period, turn](Assumptions&, Offset& offset, double x) { offset.delay = x / turn * period; }});
   const auto* vibratory = std::get_if<model::Vibratory<casefile::Quantity>>(&nominal.spec.mill);
   for (std::size_t axis = 0; vibratory && axis < 3; ++axis) {
     if (vibratory->amplitude[axis].zero() && vibratory->quarter[axis].zero()) continue;
-    list.push_back({fmt::format("phase of mill.amplitude along {}", "xyz"[axis]), Dimension::angle, 0, 1,
-                    starts, [axis](Assumptions& a, Offset&, double x) {
+    list.push_back({.key = fmt::format("phase of mill.amplitude along {}", "xyz"[axis]),
+                    .dimension = Dimension::angle,
+                    .value = 0,
+                    .change = 1,
+                    .starts = starts,
+                    .set = [axis](Assumptions& a, Offset&, double x) {
                       auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
                       const double s = mill.amplitude[axis].to<double>(), q = mill.quarter[axis].to<double>();
                       mill.amplitude[axis] = identify::exactly(s * std::cos(x) - q * std::sin(x));
@@ -171,13 +195,15 @@ void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
 void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
   const auto partners = casefile::partners_of(spec);
   for (int wall = 0; wall < partners.walls(); ++wall)
-    list.push_back(
-        {"place of " + partners[wall].label,
-         Dimension::length,
-         0,
-         1e-3,
-         {-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3},
-         [wall](Assumptions&, Offset& offset, double x) { offset.wall = wall, offset.distance = x; }});
+    list.push_back({.key = "place of " + partners[wall].label,
+                    .dimension = Dimension::length,
+                    .value = 0,
+                    .change = 1e-3,
+                    .starts = {-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3},
+                    .set = [wall](Assumptions&, Offset& offset, double x) {
+                      offset.wall = wall;
+                      offset.distance = x;
+                    }});
 }
 
 }  // namespace
@@ -186,7 +212,8 @@ void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& co
                   const std::atomic<bool>* interrupt, ContactAudit& audit) {
   const Geometry geometry(spec, contacts, audit.facts);
   if (!geometry.known()) return;
-  audit.wall_distance = geometry.distance, audit.wall_resolution = geometry.resolution;
+  audit.wall_distance = geometry.distance;
+  audit.wall_resolution = geometry.resolution;
   if (audit.walls_met()) return;
   std::vector<Candidate> candidates;
   for (const auto& p : identify::parameters_of(geometry.nominal()))

@@ -91,7 +91,10 @@ std::map<int, int> walls_of(const std::vector<ListedContact>& list, const FlatWa
           std::count_if(contacts.begin(), contacts.end(), [&](const ListedContact* c) {
             return walls.away(c->begin, c->before, wall) < 0 && walls.away(c->end, c->after, wall) > 0;
           }));
-      if (hits > best) best = hits, found[boundary] = wall;
+      if (hits > best) {
+        best = hits;
+        found[boundary] = wall;
+      }
     }
     if (10 * best < 9 * contacts.size() || best == 0)
       throw InputError(fmt::format(
@@ -118,9 +121,12 @@ ContactClass class_of(const std::vector<ListedContact>& list, std::size_t k, dou
 Contact contact_of(const ListedContact& c, const MovingVessel& vessel, const FlatWalls& walls, int wall) {
   const auto ball = static_cast<std::size_t>(c.ball);
   Contact contact;
-  contact.begin = contact.free_until = c.begin, contact.end = contact.free_from = c.end;
-  contact.ball = c.ball, contact.partner = wall;
-  contact.before = c.before, contact.after = c.after;
+  contact.begin = contact.free_until = c.begin;
+  contact.end = contact.free_from = c.end;
+  contact.ball = c.ball;
+  contact.partner = wall;
+  contact.before = c.before;
+  contact.after = c.after;
   contact.before.position = walls.touching(c.begin, ball, wall);
   contact.after.position = walls.touching(c.end, ball, wall);
   contact.dose = vessel.energy(vessel.at(c.begin), ball, contact.before) -
@@ -155,14 +161,17 @@ Imported import_contact_list(const casefile::CaseSpec& spec, const ImportOptions
     if (c.mass) masses.push_back(*c.mass / ball.mass);
     if (c.diameter) diameters.push_back(*c.diameter / (2 * ball.radius));
   }
-  facts.mass_factor = factor_of(std::move(masses)), facts.radius_factor = factor_of(std::move(diameters));
-  facts.first = list.front().begin, facts.last = list.back().end;
+  facts.mass_factor = factor_of(std::move(masses));
+  facts.radius_factor = factor_of(std::move(diameters));
+  facts.first = list.front().begin;
+  facts.last = list.back().end;
   for (std::size_t k = 0; k < list.size(); ++k) {
     auto contact = contact_of(list[k], vessel, walls, wall_of.at(list[k].boundary));
     contact.kind = class_of(list, k, facts.statistics.contact_time);
     facts.first = std::min(facts.first, contact.begin);
     const auto kind = static_cast<std::size_t>(contact.kind);
-    ++facts.contacts, ++result.counts[kind];
+    ++facts.contacts;
+    ++result.counts[kind];
     facts.doses[kind] += contact.dose;
     log.add(contact);
   }

@@ -48,8 +48,10 @@ bool takes_part(const audit::LoggedEvent& event, int ball) {
 
 void LogChange::apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const {
   event.time = event.time * time + delay;
-  event.milling_dose *= energies, event.wall_work *= energies;
-  event.approach_speed *= speeds, event.slip_speed *= speeds;
+  event.milling_dose *= energies;
+  event.wall_work *= energies;
+  event.approach_speed *= speeds;
+  event.slip_speed *= speeds;
   for (auto& body : event.body) {
     body.position = axes_of_positions.of(body.position * positions);
     for (auto* v : {&body.velocity_before, &body.velocity_after}) *v = axes_of_velocities.of(*v * velocities);

@@ -143,7 +143,8 @@ void Candidates::count_violations(Candidate& c) const {
   const auto assumed = c.assumed();
   c.of = violations_;
   if (!assumed.is_case()) {
-    c.of = events_off(nominal_).size(), c.left = events_off(assumed).size();
+    c.of = events_off(nominal_).size();
+    c.left = events_off(assumed).size();
     return;
   }
   c.left = std::numeric_limits<std::uint64_t>::max();
@@ -171,14 +172,14 @@ void Candidates::judge(Candidate& c) const {
 }
 
 Candidate Candidates::with_mistakes(const Assumptions& base, const std::vector<std::string>& names) const {
-  Candidate c{{base, {}}, names, {}, {}, 0, 0, 0};
+  Candidate c{.model = {base, {}}, .mistakes = names, .values = {}, .half_widths = {}};
   judge(c);
   return c;
 }
 
 Candidate Candidates::fitted(const Model& model, const std::vector<std::string>& mistakes,
                              const std::vector<double>& start) const {
-  Candidate c{model, mistakes, start, {}, 0, 0, 0};
+  Candidate c{.model = model, .mistakes = mistakes, .values = start, .half_widths = {}};
   const auto& windows = samples_.windows();
   const bool staged =
       std::any_of(model.free.begin(), model.free.end(), [](const auto* p) { return p->is_speed; });
@@ -186,7 +187,8 @@ Candidate Candidates::fitted(const Model& model, const std::vector<std::string>&
     const auto sample = residuals_.on(windows[w]);
     if (sample.count() < 12 && w + 1 < windows.size()) continue;
     auto result = fit(sample, model, c.values);
-    c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
+    c.values = std::move(result.values);
+    c.half_widths = std::move(result.half_widths);
     c.criterion = result.cost + penalty(sample, model);
   }
   return c;
@@ -197,7 +199,10 @@ std::vector<double> Candidates::starts(const Assumptions& base, const Parameter&
     const auto few = residuals_.on(samples_.few());
     double best = misfit(few, base) - strong_evidence, far = p.value;
     for (const double value : p.values_from_afar())
-      if (const double now = misfit_with(few, base, p, value); now < best) best = now, far = value;
+      if (const double now = misfit_with(few, base, p, value); now < best) {
+        best = now;
+        far = value;
+      }
     if (!p.is_of_case()) return {std::isfinite(far) ? far : p.first_values.front()};
     return far == p.value ? std::vector{p.value} : std::vector{p.value, far};
   }
@@ -232,7 +237,8 @@ bool Candidates::accept(Candidate& c) const {
   c.plainness = 0;
   if (!c.model.free.empty()) {
     auto result = fit(residuals_.on(samples_.many()), c.model, c.values);
-    c.values = std::move(result.values), c.half_widths = std::move(result.half_widths);
+    c.values = std::move(result.values);
+    c.half_widths = std::move(result.half_widths);
   }
   for (std::size_t k = 0; k < c.values.size(); ++k) {
     const auto& free = *c.model.free[k];

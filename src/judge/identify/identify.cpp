@@ -98,9 +98,11 @@ class Search {
     auto mistakes = mistakes_of(nominal_, numbers, log_.available);
     std::erase_if(mistakes, [&](const Mistake& m) { return !m.on(nominal_).is_case(); });
     auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
-    result.interrupted = is_interrupted(), result.too_few = found.too_few;
+    result.interrupted = is_interrupted();
+    result.too_few = found.too_few;
     if (result.interrupted) return;
-    result.follows = found.follows, result.follows_all = found.follows_all;
+    result.follows = found.follows;
+    result.follows_all = found.follows_all;
     result.causes = std::move(found.causes);
   }
 
@@ -267,8 +269,13 @@ class Search {
     Cause cause;
     for (std::size_t k = 0; k < c.values.size(); ++k) {
       const auto& p = *c.model.free[k];
-      cause.values.push_back(
-          {p.key, p.dimension, c.values[k], c.half_widths[k], p.value, p.equation, p.in_place_of});
+      cause.values.push_back({.key = p.key,
+                              .dimension = p.dimension,
+                              .value = c.values[k],
+                              .half_width = c.half_widths[k],
+                              .nominal = p.value,
+                              .equation = p.equation,
+                              .in_place_of = p.in_place_of});
     }
     cause.mistakes = c.mistakes;
     cause.of = c.of;

@@ -130,19 +130,19 @@ class Laws {
     for (const auto& other : other_laws) {
       Law tried = law;
       if (law.name() == other.model || !replace(tried, other, other.first_values.front())) continue;
-      Parameter p{fmt::format("{}, law \"{}\": {}", section, other.model, other.number),
-                  "",
-                  other.dimension,
-                  std::numeric_limits<double>::quiet_NaN(),
-                  other.change,
-                  [find, &other](Assumptions& a, double x) {
-                    for (Law* own : find(a)) replace(*own, other, x);
-                  }};
-      p.in_place_of = fmt::format("the law \"{}\"", law.name());
-      p.first_values = other.first_values;
-      p.of_flights = false;
-      p.prior = 1;  // of two that fit alike, a number of the case's law comes first
-      list_.push_back(std::move(p));
+      list_.push_back({.key = fmt::format("{}, law \"{}\": {}", section, other.model, other.number),
+                       .meaning = "",
+                       .dimension = other.dimension,
+                       .value = std::numeric_limits<double>::quiet_NaN(),
+                       .change = other.change,
+                       .set =
+                           [find, &other](Assumptions& a, double x) {
+                             for (Law* own : find(a)) replace(*own, other, x);
+                           },
+                       .of_flights = false,
+                       .prior = 1,  // of two that fit alike, a number of the case's law comes first
+                       .in_place_of = fmt::format("the law \"{}\"", law.name()),
+                       .first_values = other.first_values});
     }
   }
   template <class Find>
@@ -159,7 +159,8 @@ class Laws {
     for (std::size_t k = 0; alike && k < one.size(); ++k)
       if (one[k].value == two[k].value)
         push(one[k], "contact", [key = one[k].key, n = which(one, k)](Assumptions& a, double x) {
-          put(a.spec.ball_ball, key, n, x), put(a.spec.ball_wall, key, n, x);
+          put(a.spec.ball_ball, key, n, x);
+          put(a.spec.ball_wall, key, n, x);
         });
     if (alike)
       add_others("contact", balls, [](Assumptions& a) -> std::vector<Law*> {

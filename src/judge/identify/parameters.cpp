@@ -105,7 +105,9 @@ void add_phases(const Assumptions& nominal, std::vector<Parameter>& list) {
     auto p = number(std::move(key), "", Dimension::angle, value, [=](Assumptions& a, double x) {
       a.phases[{j, place}] = x - value;
     });
-    p.change = 0.1, p.cycle = 2 * pi, p.has_unit = false;
+    p.change = 0.1;
+    p.cycle = 2 * pi;
+    p.has_unit = false;
     p.prior = 1;  // of two that fit alike, the phase of the drive comes first
     phases.push_back(std::move(p));
   };
@@ -163,7 +165,8 @@ void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
                       Vec3<double> now = gravity_of(a);
                       const double c = std::cos(x), s = std::sin(x), side = g[along] < 0 ? -1 : 1;
                       const double u = now[axis], v = now[along] * side;
-                      now[axis] = c * u + s * v, now[along] = (c * v - s * u) * side;
+                      now[axis] = c * u + s * v;
+                      now[along] = (c * v - s * u) * side;
                       put(a, now);
                     });
     p.change = 0.1;
@@ -189,7 +192,10 @@ void add_balls(const std::string& key, std::size_t first, std::size_t last, cons
   const double diameter = spec.diameter.to<double>(), density = spec.density.to<double>();
   list.push_back(number(key + ".diameter", "", Dimension::length, diameter, [=](Assumptions& a, double x) {
     const double by = x / diameter;
-    each(a, &Spec::diameter, x, [&](auto& ball) { ball.radius *= by, ball.mass *= by * by * by; });
+    each(a, &Spec::diameter, x, [&](auto& ball) {
+      ball.radius *= by;
+      ball.mass *= by * by * by;
+    });
   }));
   list.back().is_diameter = true;
   list.push_back(number(key + ".density", "", Dimension::density, density, [=](Assumptions& a, double x) {
@@ -252,8 +258,13 @@ std::vector<double> Parameter::values_from_afar() const {
 Parameter number(std::string key, std::string meaning, Dimension dimension, double value,
                  std::function<void(Assumptions&, double)> set) {
   const double size = std::abs(value);
-  return {std::move(key),        std::move(meaning), dimension, value,
-          size > 0 ? size : 1.0, std::move(set),     size > 0};
+  return {.key = std::move(key),
+          .meaning = std::move(meaning),
+          .dimension = dimension,
+          .value = value,
+          .change = size > 0 ? size : 1.0,
+          .set = std::move(set),
+          .has_unit = size > 0};
 }
 
 std::vector<Parameter> parameters_of(const Assumptions& nominal) {

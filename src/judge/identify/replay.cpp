@@ -38,7 +38,8 @@ class Replay {
   /// The first impacts of the case with these values, from the initial state of the nominal one.
   std::vector<Impact> impacts(const Assumptions& assumed, std::size_t count) const {
     casefile::CaseSpec spec = assumed.case_file();
-    spec.batches.clear(), spec.balls.clear();
+    spec.batches.clear();
+    spec.balls.clear();
     if (!spec.initial_state.empty()) spec.initial_time = exactly(start_);
     spec.initial_state.clear();
     if (!log_.empty()) {  // a mill whose balls come to rest has no more impacts
@@ -109,7 +110,8 @@ class Replay {
         lost[ball] = true;
         continue;
       }
-      ++next[ball], ++seen[ball];
+      ++next[ball];
+      ++seen[ball];
       if (!impact.with_wall) ++next[impact.partner];
       off.push_back(impact.time - log_[k].time);
       places.push_back(k);
@@ -148,7 +150,8 @@ std::pair<double, double> fitted_value(const Replay& replay, const Assumptions& 
     const std::size_t count = std::min(replay.count(), 2 * depth * nominal.balls.size() + 20);
     const double step = 1e-7 * p.change;
     Assumptions here = nominal, there = nominal;
-    p.set(here, value), p.set(there, value + step);
+    p.set(here, value);
+    p.set(there, value + step);
     std::vector<std::size_t> places, places_there;
     const auto off = replay.differences(replay.impacts(here, count), depth, places);
     const auto off_there = replay.differences(replay.impacts(there, count), depth, places_there);
@@ -219,7 +222,13 @@ Identification replay(const Assumptions& nominal, const std::vector<Parameter>& 
       if (!(std::abs(value - p.value) > open)) continue;
       Assumptions assumed = nominal;
       p.set(assumed, value);
-      consider({.values = {{p.key, p.dimension, value, open, p.value, p.equation}}}, assumed);
+      consider({.values = {{.key = p.key,
+                            .dimension = p.dimension,
+                            .value = value,
+                            .half_width = open,
+                            .nominal = p.value,
+                            .equation = p.equation}}},
+               assumed);
     }
   }
   return result;

@@ -46,13 +46,16 @@ std::vector<Parameter> term_parameters() {
   for (const auto& row : term_rows) {
     const bool is_factor = row.shift == Dimension::none;
     const double change = is_factor ? 1.0 : row.shift == Dimension::time ? 1e-5 : 1e-4;
-    Parameter p{row.name,  "",
-                row.shift, is_factor ? 1.0 : 0.0,
-                change,    [member = row.member](Assumptions& a, double x) { a.terms.*member = x; }};
-    p.equation = row.equation;
-    p.prior = 1;  // of two that fit alike, a number of the case comes first
-    p.of_flights = row.of_flights, p.of_impacts = !row.of_flights;
-    list.push_back(std::move(p));
+    list.push_back({.key = row.name,
+                    .meaning = "",
+                    .dimension = row.shift,
+                    .value = is_factor ? 1.0 : 0.0,
+                    .change = change,
+                    .set = [member = row.member](Assumptions& a, double x) { a.terms.*member = x; },
+                    .equation = row.equation,
+                    .of_impacts = !row.of_flights,
+                    .of_flights = row.of_flights,
+                    .prior = 1});  // of two that fit alike, a number of the case comes first
   }
   return list;
 }

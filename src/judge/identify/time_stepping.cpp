@@ -40,8 +40,10 @@ std::optional<double> step_of(double one, double two, double rounding) {
       0.1 * std::sqrt(std::min(one, two) / rounding);  // beyond, any two lengths have such a fraction
   for (int term = 0; term < 40; ++term) {
     const double whole = std::floor(rest);
-    std::swap(p, p_before), std::swap(q, q_before);
-    p += whole * p_before, q += whole * q_before;
+    std::swap(p, p_before);
+    std::swap(q, q_before);
+    p += whole * p_before;
+    q += whole * q_before;
     if (p + q > most) return std::nullopt;
     if (std::abs(one * q - two * p) <= rounding * (p + q)) return (one + two) / (p + q);
     rest = 1 / (rest - whole);
@@ -123,7 +125,8 @@ class Measured {
     const auto impact = audit::impact_of(event, case_, frame, true);
     const auto& [ball, other] = impact.ball;
     normal = impact.normal;
-    contact.effective_mass = ball.mass, contact.effective_radius = ball.radius;
+    contact.effective_mass = ball.mass;
+    contact.effective_radius = ball.radius;
     if (event.with_wall) {
       carrier = impact.wall_velocity;
       contact.approach = -audit::dot(Vec(one.velocity_before - carrier), normal);
@@ -236,10 +239,14 @@ std::optional<SoftContacts> soft_contacts(const std::vector<Contact>& contacts, 
   // Contacts last in one sense of time: nearly all of the durations are positive, and they agree.
   if (durations.size() < least_number || 10 * durations.size() < 8 * known || !agree(durations))
     return std::nullopt;
-  return SoftContacts{quantile(durations, 0.5),  quantile(durations, 0.25),
-                      quantile(durations, 0.75), at,
-                      durations.size(),          exponent_of(std::move(points)),
-                      quantile(springs, 0.5),    moduli.empty() ? audit::unknown : quantile(moduli, 0.5)};
+  return SoftContacts{.duration = quantile(durations, 0.5),
+                      .low = quantile(durations, 0.25),
+                      .high = quantile(durations, 0.75),
+                      .at = at,
+                      .contacts = durations.size(),
+                      .exponent = exponent_of(std::move(points)),
+                      .spring = quantile(springs, 0.5),
+                      .modulus = moduli.empty() ? audit::unknown : quantile(moduli, 0.5)};
 }
 
 /// What single times are off by if that alone puts flights off their paths: as many flights are too short as

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "compare/junit.hpp"
 #include "io/input_file.hpp"
 #include "io/json_text.hpp"
 
@@ -60,7 +61,7 @@ std::string Audited::json() const {
 }
 
 std::string Audited::junit() const {
-  io::JunitText junit("edmill audit of " + result.log_name);
+  std::vector<compare::JunitCase> cases;
   for (std::size_t k = 0; k < audit::check_count; ++k) {
     const auto check = static_cast<audit::Check>(k);
     if (result.findings.judged_number(check) == 0) continue;
@@ -72,13 +73,13 @@ std::string Audited::junit() const {
         problem += fmt::format("{}{}: {} times, at worst {:.3g} {}; {}", problem.empty() ? "" : "\n", name,
                                tally.count, tally.worst, unit, meaning);
     }
-    junit.add(audit::info(check).name, problem);
+    cases.emplace_back(audit::info(check).name, problem);
   }
-  junit.add("enough impacts",
-            result.verdict == audit::Verdict::clean || result.verdict == audit::Verdict::violations
-                ? ""
-                : "too few impacts to judge");
-  return junit.finish();
+  cases.emplace_back("enough impacts",
+                     result.verdict == audit::Verdict::clean || result.verdict == audit::Verdict::violations
+                         ? ""
+                         : "too few impacts to judge");
+  return compare::junit_text("edmill audit of " + result.log_name, cases);
 }
 
 }  // namespace edmill::app

@@ -243,8 +243,15 @@ void SideBySide::drop_lost_digits() {
   const double needed = std::max(agreement_.least_digits() + kept, least);
   if (digits_[0] - needed < dropped_ + std::max(worthwhile, digits_[0] / 32)) return;
   dropped_ = static_cast<unsigned>(digits_[0] - needed);
-  together([&] { return narrow_->continue_in(digits_[0] - dropped_), 0; },
-           [&] { return wide_->continue_in(digits_[1] - dropped_), 0; });
+  together(
+      [&] {
+        narrow_->continue_in(digits_[0] - dropped_);
+        return 0;
+      },
+      [&] {
+        wide_->continue_in(digits_[1] - dropped_);
+        return 0;
+      });
 }
 
 double SideBySide::digits_of_states() const {
@@ -290,8 +297,13 @@ Shadow shadow(const casefile::CaseSpec& spec, const std::string& precision, cons
   SideBySide runs(spec, precision, wider, true, interrupt);
   while (!stop_asked(interrupt) && !runs.next(64).empty()) {
   }
-  return {precision,        wider, runs.agreement(), runs.diverged(), runs.uneven(), stop_asked(interrupt),
-          spec.ball_count()};
+  return {.narrow = precision,
+          .wide = wider,
+          .agreement = runs.agreement(),
+          .diverged = runs.diverged(),
+          .uneven = runs.uneven(),
+          .interrupted = stop_asked(interrupt),
+          .balls = spec.ball_count()};
 }
 
 std::string Evidence::text() const {

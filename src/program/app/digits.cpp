@@ -114,7 +114,8 @@ double time_per_event(const std::string& precision, const casefile::CaseSpec& sp
     const auto more = source->pass(64);
     if (more == 0) break;
     if (!warm) {
-      warm = true, begin = run::cpu_seconds();
+      warm = true;
+      begin = run::cpu_seconds();
       continue;
     }
     events += more;
@@ -208,7 +209,8 @@ FoundDigits find_digits(const casefile::CaseSpec& spec, const DigitsOptions& opt
   const double asked = static_cast<double>(*spec.digits);
   for (double digits = casefile::digits_of(estimate.precision);
        digits < most_digits && found.undecided.empty();) {
-    found.narrow = chosen(digits), found.precision = chosen(wider_than(static_cast<unsigned>(digits)));
+    found.narrow = chosen(digits);
+    found.precision = chosen(wider_than(static_cast<unsigned>(digits)));
     SideBySide runs(spec, found.narrow, found.precision, true, options.interrupt);
     for (bool more = true; more && !(found.interrupted = stop_asked(options.interrupt));) {
       const auto events = runs.next(256);

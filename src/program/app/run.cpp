@@ -36,7 +36,9 @@ RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOp
 io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vector<std::string>& overrides,
                                 const std::string& precision, bool report, const std::string& interval) {
   io::Checkpoint c;
-  c.case_file = spec.file, c.case_text = spec.text, c.case_digest = spec.digest;
+  c.case_file = spec.file;
+  c.case_text = spec.text;
+  c.case_digest = spec.digest;
   if (io::is_stream(spec.initial_state))
     throw InputError(
         "key 'run.initial_state': found a pipe, expected a file, since a resumed run reads it again");

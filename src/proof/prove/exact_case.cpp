@@ -77,13 +77,15 @@ ExactLaw law_of(const casefile::ContactSpec& spec, const std::string& file) {
   ExactLaw law;
   law.least_separation = spec.least_separation;
   if (const auto* walton = std::get_if<model::WaltonBraun<Quantity>>(&spec.law)) {
-    law.restitution = walton->normal, law.friction = walton->friction,
+    law.restitution = walton->normal;
+    law.friction = walton->friction;
     law.tangential = walton->min_tangential;
     return law;
   }
   if (const auto* constant = std::get_if<model::ConstantRestitution<Quantity>>(&spec.law)) {
     law.coulomb = false;
-    law.restitution = constant->normal, law.tangential = constant->tangential;
+    law.restitution = constant->normal;
+    law.tangential = constant->tangential;
     return law;
   }
   throw InputError(file + ": key 'contact.model': found \"" + spec.name() +

@@ -75,12 +75,12 @@ Motion::Motion(const ExactCase& exact) : start_(enclosure_of(exact.start)) {
   turn_ = turn_ + turn_;
   const auto to_enclosure = [](const Quantity& exact) { return enclosure_of(exact); };
   for (const auto& given : exact.joints) {
-    Joint joint{given.rotates,
-                enclosure_of(given.axis),
-                enclosure_of(given.shift),
-                enclosure_of(given.angle),
-                enclosure_of(given.speed),
-                model::converted_swings<Enclosure>(given.swings, to_enclosure)};
+    Joint joint{.rotates = given.rotates,
+                .axis = enclosure_of(given.axis),
+                .shift = enclosure_of(given.shift),
+                .angle = enclosure_of(given.angle),
+                .speed = enclosure_of(given.speed),
+                .swings = model::converted_swings<Enclosure>(given.swings, to_enclosure)};
     joint.axis = joint.axis / norm<Enclosure>(joint.axis);
     joints_.push_back(std::move(joint));
   }

@@ -88,7 +88,14 @@ Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, con
 
 auto Prover::tools(const ExactCase& exact, slong bits) -> Tools {
   const Precision scope(bits);
-  Tools result{bits, Motion(exact), enclosure_of(exact.gravity), {}, {}, {}, {}, {}};
+  Tools result{.bits = bits,
+               .motion = Motion(exact),
+               .gravity = enclosure_of(exact.gravity),
+               .walls = {},
+               .radius = {},
+               .density = {},
+               .inertia = {},
+               .laws = {}};
   for (const auto& ball : exact.balls) {
     result.walls.emplace_back(exact, ball);
     result.radius.push_back(enclosure_of(ball.radius));

@@ -104,7 +104,10 @@ class AnimationOutput : public FramesOutput<Real> {
       paths_.vessel.emplace_back(key, vessel_frame(motion, from + length * key));
       std::size_t piston = 0;
       this->for_each_piston(vessel, Real(from + length * key), [&](std::size_t wall, const auto& moved) {
-        if (k == 0) paths_.pistons.push_back({wall, {}}), at_first.push_back(moved);
+        if (k == 0) {
+          paths_.pistons.push_back({wall, {}});
+          at_first.push_back(moved);
+        }
         paths_.pistons[piston].second.emplace_back(key, moved - at_first[piston]);
         ++piston;
       });

@@ -61,11 +61,9 @@ struct EventFile::Data {
     std::size_t width() const { return what.type == EventColumn::Type::vector ? 3 : 1; }
   };
 
-  explicit Data(const std::filesystem::path& place)
-      : destination(place), temporary(destination.temporary()) {}
+  explicit Data(const std::filesystem::path& place) : destination(place) {}
 
   io::Destination destination;
-  io::Temporary temporary;
   std::optional<Handle> file, group;
   std::vector<Column> columns;
   hsize_t written = 0, waiting = 0;
@@ -82,7 +80,7 @@ struct EventFile::Data {
   }
 
   void begin(std::vector<EventColumn> given, const std::vector<io::FileNote>& notes) {
-    file.emplace(io::make_file(temporary.path));
+    file.emplace(io::make_file(destination.temporary));
     io::add_notes(*file, notes);
     group.emplace(io::make_group(*file, "events"));
     for (auto& column : given) {
@@ -175,31 +173,31 @@ void EventFile::complete() {
   data_->close();
 }
 
-void EventFile::commit() { data_->destination.take(data_->temporary.path); }
+void EventFile::commit() { data_->destination.commit(); }
 
 std::vector<std::filesystem::path> EventFile::places() const { return data_->destination.places(); }
 
 void EventFile::archive(Archive& a) {
   auto& d = *data_;
-  const std::string named = d.destination.named.string();
-  if (!a.loading()) io::sync_to_disk(d.temporary.path);
+  if (!a.loading()) io::sync_to_disk(d.destination.temporary);
   hsize_t rows = d.written;
   a(rows, d.waiting);
   for (auto& c : d.columns) a(c.integers, c.numbers, c.chunks);
   for (const auto& c : d.columns)
     if (a.loading() && (rows % block != 0 || c.chunks.size() != rows / block))
-      throw InputError(named + ": found a checkpoint with blocks for another number of rows");
+      throw InputError(d.destination.named.string() +
+                       ": found a checkpoint with blocks for another number of rows");
   std::string digest = d.digest.hex();
   a(digest);
-  const auto before = d.temporary.archive(a, d.destination.place);
+  const auto left = d.destination.archive(a);
   if (!a.loading()) return;
-  const io::Temporary fresh(before);
-  d.take_blocks(d.temporary.kept ? d.temporary.path : d.destination.place, rows);
-  if (d.digest.hex() != digest)
-    throw InputError(named + ": found another file than the checkpoint was made with, expected " +
-                     "the files as the run left them");
+  std::error_code ignored;
+  const bool is_there = std::filesystem::exists(left, ignored);
+  d.take_blocks(is_there ? left : d.destination.place, rows);
+  if (d.digest.hex() != digest) throw d.destination.another_file();
   // The blocks have the same places in both, so that the checkpoint holds for either.
-  std::filesystem::rename(fresh.path, d.temporary.path);
+  std::filesystem::rename(d.destination.temporary, left);
+  d.destination.continue_with(left, is_there);
 }
 
 }  // namespace edmill::output

@@ -124,8 +124,12 @@ struct ImpactFacts {
 
  private:
   ImpactBody<Real> body(int place, int ball) const {
-    return {&simulation.properties(ball), impact.velocity_before[place], simulation.flight(ball).velocity,
-            impact.spin_before[place],    simulation.spin(ball),         impact.flight_time[place]};
+    return {.ball = &simulation.properties(ball),
+            .velocity_before = impact.velocity_before[place],
+            .velocity_after = simulation.flight(ball).velocity,
+            .spin_before = impact.spin_before[place],
+            .spin_after = simulation.spin(ball),
+            .flight_time = impact.flight_time[place]};
   }
   Vec3<Real> rolling(const Vec3<Real>& spin_one, const Vec3<Real>& spin_two) const {
     const Vec3<Real> first = spin_one * one.ball->radius;

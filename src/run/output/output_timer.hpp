@@ -66,7 +66,10 @@ class OutputTimer {
     open_ = true;
     from_ = time;
     for (const auto& end : {end_time_, duration_ ? std::optional<Real>(time + *duration_) : std::nullopt})
-      if (end && (!ends_ || *end < until_)) ends_ = true, until_ = *end;
+      if (end && (!ends_ || *end < until_)) {
+        ends_ = true;
+        until_ = *end;
+      }
   }
 
   bool on_, open_ = false, ends_ = false, closed_ = false;

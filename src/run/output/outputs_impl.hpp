@@ -28,14 +28,14 @@ template <class Real>
 Outputs<Real>::Outputs(const casefile::CaseSpec& spec, const model::AnyVessel<Real>& vessel,
                        const std::filesystem::path& folder, const Real& start)
     : previous_(start) {
-  RunContext<Real> run{folder,
-                       start,
-                       model::partners_of(vessel),
-                       std::nullopt,
-                       spec.vessel_colour,
-                       spec.ball_colours(),
-                       vessel.surfaces(),
-                       notes_of<Real>(spec)};
+  RunContext<Real> run{.folder = folder,
+                       .start = start,
+                       .partners = model::partners_of(vessel),
+                       .powder_mass = {},
+                       .vessel_colour = spec.vessel_colour,
+                       .ball_colours = spec.ball_colours(),
+                       .walls = vessel.surfaces(),
+                       .notes = notes_of<Real>(spec)};
   walls_ = run.partners.walls();
   if (spec.powder_mass) run.powder_mass = spec.powder_mass->template to<Real>();
   for (const auto& output : spec.outputs) outputs_.push_back(make_output<Real>(output, run));

@@ -20,13 +20,24 @@ class ParaviewOutput : public FramesOutput<Real> {
   ParaviewOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
       : FramesOutput<Real>(spec, run, spec.timer),
         index_(this->place()),
-        frames_(std::filesystem::path(this->place()).replace_extension()) {}
+        folder_(std::filesystem::path(this->place()).replace_extension()) {
+    std::error_code ignored;
+    if (std::filesystem::exists(folder_, ignored) && !std::filesystem::is_directory(folder_, ignored))
+      throw InputError(folder_.string() + ": found a file, expected a place for a folder");
+  }
 
   void complete() override {
-    index_.stream() << pvd_text(list_);
+    std::vector<std::pair<double, std::vector<std::string>>> list;
+    for (std::size_t frame = 0; frame < times_.size(); ++frame) {
+      auto& names = list.emplace_back(times_[frame], std::vector<std::string>{}).second;
+      for (const char* of : {"balls", "vessel"})
+        names.push_back((folder_.filename() / name_of(of, frame)).generic_string());
+    }
+    index_.stream() << pvd_text(list);
     index_.complete();
   }
   void commit() override {
+    std::filesystem::create_directories(folder_);
     frames_.commit();
     index_.commit();
   }
@@ -45,7 +56,9 @@ class ParaviewOutput : public FramesOutput<Real> {
   }
   void archive_record(Archive& a) override {
     FramesOutput<Real>::archive_record(a);
-    a(index_, frames_, list_, doses_);
+    a(index_, times_, doses_);
+    for (std::size_t frame = 0; a.loading() && frame < times_.size(); ++frame) add_files(frame, "", "");
+    a(frames_);
   }
 
  private:
@@ -53,19 +66,27 @@ class ParaviewOutput : public FramesOutput<Real> {
                  const StateOf<Real>& state_of) override {
     Scene s = this->scene(simulation, time, state_of);
     for (std::size_t i = 0; i < doses_.size(); ++i) s.balls[i].milling_dose = doses_[i];
-    const std::string number = std::to_string(list_.size());
-    list_.push_back({s.time, {}});
-    const auto write = [&](const std::string& name, const std::string& text) {
-      frames_.add(name, text);
-      list_.back().second.push_back(frames_.place().filename().string() + "/" + name);
+    times_.push_back(s.time);
+    add_files(times_.size() - 1, vtp_balls(s), vtp_vessel(s));
+  }
+  static std::string name_of(const std::string& of, std::size_t frame) {
+    return of + "_" + std::to_string(frame) + ".vtp";
+  }
+  void add_files(std::size_t frame, const std::string& balls, const std::string& vessel) {
+    const auto add = [&](const char* of, const std::string& text) {
+      // The folder may be a link, and is made when the run has ended.
+      frames_.add(
+          folder_ / name_of(of, frame), [&](std::ostream& out) { out << text; },
+          std::filesystem::weakly_canonical(folder_));
     };
-    write("balls_" + number + ".vtp", vtp_balls(s));
-    write("vessel_" + number + ".vtp", vtp_vessel(s));
+    add("balls", balls);
+    add("vessel", vessel);
   }
 
   io::AtomicFile index_;
-  io::AtomicFolder frames_;
-  std::vector<std::pair<double, std::vector<std::string>>> list_;
+  std::filesystem::path folder_;
+  io::AtomicFiles frames_;
+  std::vector<double> times_;  ///< of the frames [s]
   std::vector<double> doses_;
 };
 

@@ -26,7 +26,10 @@ void look_at(const std::vector<model::Mesh>& walls, const std::vector<Frame<doub
     for (const auto& wall : walls)
       for (const auto& point : wall.points) places.push_back(frame.outside(point));
   Vec3<double> low = places.front(), high = low;
-  for (const auto& place : places) low = low.cwiseMin(place), high = high.cwiseMax(place);
+  for (const auto& place : places) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
   scene.target = (low + high) / 2;
   // Along -Z, so that the arm of a SPEX points up; what is nearer must be nearer to the middle too.
   double distance = 0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <list>
 
 #include "casefile/output_entry.hpp"
 #include "io/atomic_file.hpp"
@@ -24,21 +23,11 @@ class SnapshotOutput : public SceneOutput<Real> {
   using SceneOutput<Real>::SceneOutput;
 
   void complete() override {
-    for (const auto& [index, text] : pages_) {
-      auto& file = files_.emplace_back(place_of(index));
-      file.stream() << text;
-      file.complete();
-    }
+    for (const auto& [index, text] : pages_)
+      files_.add(place_of(index), [&page = text](std::ostream& out) { out << page; });
   }
-  void commit() override {
-    for (auto& file : files_) file.commit();
-  }
-  std::vector<std::filesystem::path> places() const override {
-    std::vector<std::filesystem::path> places;
-    for (const auto& file : files_)
-      for (auto& place : file.places()) places.push_back(std::move(place));
-    return places;
-  }
+  void commit() override { files_.commit(); }
+  std::vector<std::filesystem::path> places() const override { return files_.places(); }
 
  protected:
   void archive_record(Archive& a) override { a(pages_); }
@@ -67,7 +56,7 @@ class SnapshotOutput : public SceneOutput<Real> {
            (place.stem().string() + "_" + std::to_string(index) + place.extension().string());
   }
 
-  std::list<io::AtomicFile> files_;
+  io::AtomicFiles files_;
   std::vector<std::pair<std::uint64_t, std::string>> pages_;
 };
 

@@ -86,7 +86,8 @@ class TreatmentOutput : public TableOutput<Real> {
     Real more_mixed(1), more_in_place(1);
     for (std::uint64_t hits = 0; hits <= most_; ++hits) {
       this->put(std::to_string(hits), mixed[hits], in_place[hits]);
-      more_mixed -= mixed[hits], more_in_place -= in_place[hits];
+      more_mixed -= mixed[hits];
+      more_in_place -= in_place[hits];
     }
     this->put("more", more_mixed > 0 ? more_mixed : Real(0), more_in_place > 0 ? more_in_place : Real(0));
   }

@@ -13,7 +13,11 @@ bool Agreement::take(const Event& one, const Event& two) {
     largest_size_[k] = std::max(largest_size_[k], size);
     if (k == model::time && difference > 0) {
       const double x = static_cast<double>(events_), y = static_cast<double>(log10(difference));
-      ++n_, x_ += x, y_ += y, xx_ += x * x, xy_ += x * y;
+      ++n_;
+      x_ += x;
+      y_ += y;
+      xx_ += x * x;
+      xy_ += x * y;
     }
   }
   ++events_;

@@ -84,10 +84,14 @@ Summary<Real> Run<Real>::summary() const {
   const auto scope = implementation_->run.use();
   const auto s = implementation_->run.result();
   Summary<Real> out;
-  out.start_time = s.start_time, out.end_time = s.end_time;
+  out.start_time = s.start_time;
+  out.end_time = s.end_time;
   for (int k = 0; k < s.partners.count(); ++k) out.partners.push_back(s.partners[k].key);
-  out.collisions = s.collisions, out.dose_by_partner = s.dose_by_partner;
-  out.milling_dose = s.milling_dose, out.wall_work = s.wall_work, out.supplied_energy = s.supplied_energy;
+  out.collisions = s.collisions;
+  out.dose_by_partner = s.dose_by_partner;
+  out.milling_dose = s.milling_dose;
+  out.wall_work = s.wall_work;
+  out.supplied_energy = s.supplied_energy;
   out.energy_closure = s.energy_closure;
   out.simultaneous_contacts = s.simultaneous_contacts;
   out.cpu_seconds = s.cpu_seconds;

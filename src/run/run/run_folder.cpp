@@ -19,10 +19,7 @@ RunFolder::RunFolder(fs::path place, const casefile::CaseSpec& spec, std::option
     throw InputError(io::checkpoint_place(place_).string() +
                      ": found another checkpoint than a moment ago, expected one process at a time");
   for (const auto& output : spec.outputs) {
-    const auto file = place_ / output.folder / output.file;
-    if (checkpoint_ && io::Destination(file).through)
-      throw InputError(file.string() +
-                       ": found a device or a pipe, expected a file, since a resumed run continues it");
+    if (checkpoint_) io::Destination(place_ / output.folder / output.file).require_file();
     take(place_ / output.folder);
   }
   // A run that continues may yet be refused, and leaves everything as it is then.
@@ -59,17 +56,14 @@ Checkpoints RunFolder::checkpoints() {
 }
 
 void RunFolder::write(const std::string& name, const std::function<void(std::ostream&)>& put) {
-  auto& file = own_files_.emplace_back(place_ / name);
-  put(file.stream());
-  file.complete();
+  own_files_.add(place_ / name, put);
 }
 
 void RunFolder::commit(std::vector<fs::path> outputs, const std::function<void()>& commit_outputs) {
-  for (const auto& file : own_files_)
-    for (const auto& own : file.places()) outputs.push_back(own);
+  for (auto& own : own_files_.places()) outputs.push_back(std::move(own));
   io::record_files(place_, outputs);
   commit_outputs();
-  for (auto& file : own_files_) file.commit();
+  own_files_.commit();
   own_files_.clear();
   io::remove_other_files(place_, outputs);
 }

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <list>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -53,7 +52,7 @@ class RunFolder {
   std::vector<std::filesystem::path> folders_;  ///< with those of the outputs
   std::vector<io::FolderLock> locks_;           ///< in the same order
   std::optional<io::Checkpoint> checkpoint_;
-  std::list<io::AtomicFile> own_files_;
+  io::AtomicFiles own_files_;
 };
 
 /// "10 min" of wall-clock time, "0.5 s simulated". @throws InputError

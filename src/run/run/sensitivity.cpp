@@ -145,7 +145,9 @@ class Linearised : public engine::Observer<mpfr> {
     Collision run, nearby;
     for (std::size_t k = 0; k < count; ++k) {
       const auto& b = bodies[k];
-      run.position[k] = b.position, run.velocity[k] = b.velocity, run.spin[k] = b.spin;
+      run.position[k] = b.position;
+      run.velocity[k] = b.velocity;
+      run.spin[k] = b.spin;
       nearby.position[k] = b.position + (t[k]->position + b.velocity * later) * step;
       nearby.velocity[k] = b.velocity + (t[k]->velocity + gravity * later) * step;
       nearby.spin[k] = b.spin + t[k]->spin * step;
@@ -216,7 +218,10 @@ class Differentiator : private engine::Observer<mpfr> {
   Differentiator(const casefile::CaseSpec& spec, const SensitivityOptions& options)
       : spec_(spec), options_(options) {
     for (const auto& key : options.by) numbers_.push_back(number_of(spec, key));
-    for (const auto& number : numbers_) result.by.push_back(number.key), result.units.push_back(number.unit);
+    for (const auto& number : numbers_) {
+      result.by.push_back(number.key);
+      result.units.push_back(number.unit);
+    }
   }
 
   /// With so many digits for the run. @return the digits that it needs

@@ -59,12 +59,14 @@ struct ChainBounds {
         if (!parallel || speeds == Speeds::apart) continue;
         const Real own = 2 * numerics::pi<Real>() * joint.speed,
                    sum_of_sizes = magnitude(sum) + magnitude(own);
-        sum += own, sizes += magnitude(own);
+        sum += own;
+        sizes += magnitude(own);
         turning[0] += (magnitude(sum) - sum_of_sizes) + 8 * epsilon<Real>() * sizes;
       }
     }
     const Real up = 1 + rounding_margin<Real>();  // over the rounding of all this
-    speed *= up, distance *= up;
+    speed *= up;
+    distance *= up;
     for (auto& bound : turning) bound *= up;
     for (auto& bound : acceleration) bound *= up;
   }
@@ -89,7 +91,10 @@ struct ChainBounds {
     }
     for (const auto& swing : joint.swings) {
       Real size = magnitude<Real>(swing.amplitude * unit);
-      for (auto& rate : rates) rate += size, size *= magnitude<Real>(turn * swing.frequency);
+      for (auto& rate : rates) {
+        rate += size;
+        size *= magnitude<Real>(turn * swing.frequency);
+      }
     }
     return rates;
   }
@@ -224,9 +229,14 @@ class ChainMotion {
         bounds_(joints_, ChainBounds<Real>::Speeds::summed),
         terms_(joints_, ChainBounds<Real>::Speeds::apart) {
     for (const auto& joint : joints_.list) {
-      Step step{joint.rotates, ChainBounds<Real>::direction(joint), -1, {}, joint.angle, {}, {}, {}};
-      step.shift = {joint.shift[0], joint.shift[1], joint.shift[2]};
-      if (joint.rotates) step.aligned = aligned(joint.axis);
+      Step step{.rotates = joint.rotates,
+                .axis = ChainBounds<Real>::direction(joint),
+                .aligned = joint.rotates ? aligned(joint.axis) : -1,
+                .shift = {joint.shift[0], joint.shift[1], joint.shift[2]},
+                .angle = joint.angle,
+                .drive = {},
+                .slide = {},
+                .swings = {}};
       const Real turn = 2 * numerics::pi<Real>();
       if (joint.rotates && !(joint.speed == 0))
         step.drive = Drive<Real>{joint.speed, turn * joint.speed, joint.per_period};
@@ -376,7 +386,9 @@ class ChainMotion {
     bool level = true, turned = false, uneven = false;
     int common = -1;  // the one axis that all rotations so far are about
     for (auto& step : steps_) {
-      step.level = level, step.turned = turned, step.uneven = uneven;
+      step.level = level;
+      step.turned = turned;
+      step.uneven = uneven;
       step.parallel = step.aligned >= 0 && step.aligned == common;
       if (!step.rotates) continue;
       level = false;
@@ -389,7 +401,14 @@ class ChainMotion {
   template <bool with_rates>
   Pose made(const Instant<Real>& when) const {
     const Vec3<Real> zero = Vec3<Real>::Zero();
-    Pose p{Vec3<Real>::UnitX(), Vec3<Real>::UnitY(), Vec3<Real>::UnitZ(), zero, zero, zero, zero, zero};
+    Pose p{.x = Vec3<Real>::UnitX(),
+           .y = Vec3<Real>::UnitY(),
+           .z = Vec3<Real>::UnitZ(),
+           .centre = zero,
+           .velocity = zero,
+           .acceleration = zero,
+           .omega = zero,
+           .omega_rate = zero};
     for (const auto& step : steps_) {
       if (step.rotates)
         rotate<with_rates>(p, step, when);
@@ -437,7 +456,10 @@ class ChainMotion {
       const Real turn = 2 * numerics::pi<Real>();
       const auto moved = step.swings.at(when);
       Real turns = step.angle + moved.value, rate = moved.rate * turn;
-      if (step.drive.frequency != 0) turns += step.drive.turns(when), rate += step.drive.speed;
+      if (step.drive.frequency != 0) {
+        turns += step.drive.turns(when);
+        rate += step.drive.speed;
+      }
       turned = numerics::sin_cos_turns<Real>(turns);
       if constexpr (with_rates) {
         const Vec3<Real> axis =
@@ -462,7 +484,9 @@ class ChainMotion {
                                               step.axis * Real(step.axis[k] * (1 - turned.cos))));
     };
     const Vec3<Real> x = made(0), y = made(1), z = made(2);
-    p.x = x, p.y = y, p.z = z;
+    p.x = x;
+    p.y = y;
+    p.z = z;
   }
   template <bool with_rates>
   void shift(Pose& p, const Step& step, const Instant<Real>& when) const {

@@ -109,14 +109,13 @@ template <class To, class From, class Convert>
 Joints<To> converted_joints(const Joints<From>& from, const Convert& convert) {
   Joints<To> to{{}, convert(from.period), {convert(from.times[0]), convert(from.times[1])}};
   for (const auto& j : from.list) {
-    Joint<To> joint{j.rotates,
-                    {convert(j.axis[0]), convert(j.axis[1]), convert(j.axis[2])},
-                    {convert(j.shift[0]), convert(j.shift[1]), convert(j.shift[2])},
-                    convert(j.angle),
-                    convert(j.speed),
-                    j.per_period,
-                    converted_swings<To>(j.swings, convert)};
-    to.list.push_back(std::move(joint));
+    to.list.push_back({.rotates = j.rotates,
+                       .axis = {convert(j.axis[0]), convert(j.axis[1]), convert(j.axis[2])},
+                       .shift = {convert(j.shift[0]), convert(j.shift[1]), convert(j.shift[2])},
+                       .angle = convert(j.angle),
+                       .speed = convert(j.speed),
+                       .per_period = j.per_period,
+                       .swings = converted_swings<To>(j.swings, convert)});
   }
   return to;
 }

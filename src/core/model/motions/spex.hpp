@@ -67,8 +67,14 @@ class SpexMotion {
     const auto a = numerics::sin_cos<Real>(alpha), g = numerics::sin_cos<Real>(gamma);
     const Real alpha_rate = -theta_speed_ * phase.sin;
     const Real gamma_rate = gamma_speed_ * phase.cos;
-    return {
-        a.sin, a.cos, g.sin, g.cos, alpha_rate, gamma_rate, -speed_squared_ * alpha, -speed_squared_ * gamma};
+    return {.sin_alpha = a.sin,
+            .cos_alpha = a.cos,
+            .sin_gamma = g.sin,
+            .cos_gamma = g.cos,
+            .theta_rate = alpha_rate,
+            .gamma_rate = gamma_rate,
+            .theta_acceleration = -speed_squared_ * alpha,
+            .gamma_acceleration = -speed_squared_ * gamma};
   }
   /// The pose at an instant, given the one at `known` in the same period. Both angles swing harmonically,
   /// alpha'' = -w^2 alpha, so with x = w dt they grow by alpha' sin(x) / w + alpha'' (1 - cos(x)) / w^2.

@@ -263,8 +263,10 @@ Polygon<Real> polygon_of(const std::vector<Vec3<Real>>& corners) {
   for (const auto& p : corners) {
     const Vec3<Real> d = p - corners[0];
     const std::array<Real, 2> at{dot<Real>(d, x), dot<Real>(d, y)};
-    for (std::size_t k = 0; k < 2; ++k)
-      low[k] = at[k] < low[k] ? at[k] : low[k], high[k] = at[k] > high[k] ? at[k] : high[k];
+    for (std::size_t k = 0; k < 2; ++k) {
+      low[k] = at[k] < low[k] ? at[k] : low[k];
+      high[k] = at[k] > high[k] ? at[k] : high[k];
+    }
   }
   const Vec3<Real> centre = corners[0] + x * Real((low[0] + high[0]) / 2) + y * Real((low[1] + high[1]) / 2);
   return {{centre, {x * Real((high[0] - low[0]) / 2), y * Real((high[1] - low[1]) / 2)}}, corners};

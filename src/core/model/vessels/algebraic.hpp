@@ -101,14 +101,16 @@ class AlgebraicVessel {
     if (reaches_out()) throw InputError("vessel: found walls that leave it open within half_sizes");
     const auto [widest, volume] = measures();
     if (!(widest > 0)) throw InputError("vessel: found walls that leave no room within half_sizes");
-    shape->widest = widest, shape->volume = volume;
+    shape->widest = widest;
+    shape->volume = volume;
   }
   template <class To>
   AlgebraicVessel<To> cast() const {
     auto shape = std::make_shared<typename AlgebraicVessel<To>::Shape>();
     for (const auto& wall : shape_->walls) shape->walls.push_back({wall.gap.template cast<To>()});
     shape->half_sizes = vector_cast<To>(shape_->half_sizes);
-    shape->widest = static_cast<To>(shape_->widest), shape->volume = static_cast<To>(shape_->volume);
+    shape->widest = static_cast<To>(shape_->widest);
+    shape->volume = static_cast<To>(shape_->volume);
     return AlgebraicVessel<To>(std::move(shape), static_cast<To>(radius_));
   }
 
@@ -338,7 +340,8 @@ class AlgebraicVessel {
       if (!has_room(p, Real(0))) continue;
       ++inside;
       if (!has_room(p, most)) continue;
-      most = room_at(p), best = p;
+      most = room_at(p);
+      best = p;
     }
     for (Real step = half.maxCoeff() / Real(steps / 2); step > most / 1000000; step /= 2)
       for (bool moved = true; moved;) {
@@ -348,7 +351,11 @@ class AlgebraicVessel {
           p[way / 2] += way % 2 == 0 ? step : Real(-step);
           if (!has_room(p, most)) continue;
           const Real room = room_at(p);
-          if (room > most * (1 + Real(1) / 1000000)) most = room, best = p, moved = true;
+          if (room > most * (1 + Real(1) / 1000000)) {
+            most = room;
+            best = p;
+            moved = true;
+          }
         }
       }
     const Real cell = 8 * (half[0] / steps) * (half[1] / steps) * (half[2] / steps);

@@ -94,7 +94,9 @@ class Pistons {
       const Real turning = 2 * numerics::pi<Real>() * magnitude(s.frequency);
       const Real relative = 16 + 7 * (4 + 3 * magnitude<Real>(s.frequency * period_) + magnitude(s.phase));
       const Real of_value = magnitude(s.amplitude) * relative;
-      e.value += of_value, e.rate += of_value * turning, e.second += of_value * turning * turning;
+      e.value += of_value;
+      e.rate += of_value * turning;
+      e.second += of_value * turning * turning;
     }
     return {u * e.value, u * e.rate, u * e.second};
   }

@@ -51,7 +51,8 @@ class PolyhedronVessel {
     for (const auto& p : planes_)
       other.planes_.push_back({vector_cast<To>(p.normal), static_cast<To>(p.distance)});
     other.half_sizes_ = vector_cast<To>(half_sizes_);
-    other.reach_ = static_cast<To>(reach_), other.volume_ = static_cast<To>(volume_);
+    other.reach_ = static_cast<To>(reach_);
+    other.volume_ = static_cast<To>(volume_);
     return other;
   }
 

@@ -169,11 +169,18 @@ class RoundedVessel {
     }
     const bool above = p[1] > b_, below = p[1] < -b_;
     const bool outer = !(a_ > 0) || p[0] * p[0] + p[2] * p[2] > a_ * a_;
-    on[0] = below && outer, on[1] = above && outer, on[2] = !above && !below && outer;
+    on[0] = below && outer;
+    on[1] = above && outer;
+    on[2] = !above && !below && outer;
     on[border] = on[border + 1] = !above && !below;
-    on[border + 2] = above, on[border + 3] = below;
-    if (a_ > 0)
-      on[3] = below && !outer, on[4] = above && !outer, on[border + 4] = !outer, on[border + 5] = outer;
+    on[border + 2] = above;
+    on[border + 3] = below;
+    if (a_ > 0) {
+      on[3] = below && !outer;
+      on[4] = above && !outer;
+      on[border + 4] = !outer;
+      on[border + 5] = outer;
+    }
     return on;
   }
   /// Whether the gap to this wall is the one that counts at p, to within its rounding.
@@ -276,7 +283,9 @@ class RoundedVessel {
   RoundedVessel sharp(const Real& by) const {
     RoundedVessel smaller(*this);
     smaller.is_sharp_ = true;
-    smaller.a_ += rounding_ - by, smaller.b_ += rounding_ - by, smaller.rounding_ = Real(0);
+    smaller.a_ += rounding_ - by;
+    smaller.b_ += rounding_ - by;
+    smaller.rounding_ = Real(0);
     return smaller;
   }
   bool is_cap(int f) const { return a_ > 0 && (f == 3 || f == 4); }

@@ -122,7 +122,10 @@ struct Study {
   /// @return an exit code; `ok` for an interrupted study too, whose signal the caller knows
   int end_of(const std::optional<app::StudyResult>& result) const {
     if (!result) return ok;
-    if (!result->estimate.empty()) return io::print("{}\n", result->estimate), ok;
+    if (!result->estimate.empty()) {
+      io::print("{}\n", result->estimate);
+      return ok;
+    }
     const auto& c = result->counts;
     if (!options_.quiet)
       io::print("{}{} runs: {} reused, {} run now, {} failed{}\nTables are in {}\n", result->optimum, c.total,
