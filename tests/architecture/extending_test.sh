@@ -82,6 +82,7 @@ for parts in "vessel={type=\"edged_jar\",side=\"34 mm\",height=\"57 mm\"}" "mill
   "$folder/build/tests/collision_bits" docs/examples/demo.toml 50 "$parts" >"$folder/parts.csv" 2>"$folder/parts.json"
   [ "$(wc -l <"$folder/parts.csv")" = 51 ] || fail "$parts: the log does not hold 50 collisions"
   grep -q '"fastest_spin": [1-9]' "$folder/parts.json" || fail "$parts: the summary has no number of the observer"
+  grep -q '"mean_milling_dose": [0-9]' "$folder/parts.json" || fail "$parts: the summary has no new field"
 done
 "$folder/build/tests/collision_bits" docs/examples/demo.toml 5000 run.max_spin="200 rad/s" >"$folder/spin.csv" 2>"$folder/spin.json"
 grep -q '"end_reason": "max_spin"' "$folder/spin.json" || fail "max_spin did not end the run"

@@ -36,9 +36,9 @@ const char* answer(const auto& work) {
     work(json);
     return kept(json.finish());
   } catch (const edmill::InputError& error) {
-    problems.texts("problems", error.problems());
+    problems.add("problems", error.problems());
   } catch (const std::exception& error) {
-    problems.texts("problems", {error.what()});
+    problems.add("problems", std::vector<std::string>{error.what()});
   }
   return kept(problems.finish());
 }
@@ -89,7 +89,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_advance(double time) {
 }
 
 EMSCRIPTEN_KEEPALIVE const char* edmill_case() {
-  return answer([&](JsonText& json) { json.text("case", running().case_text()); });
+  return answer([&](JsonText& json) { json.add("case", running().case_text()); });
 }
 
 EMSCRIPTEN_KEEPALIVE const char* edmill_finish() {
@@ -110,11 +110,11 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
     const auto built = edmill::casefile::build_case<double>(spec);
     auto audited = edmill::audit::audit(built.the_case, built.states, options);
     audited.case_name = spec.file, audited.log_name = "log";
-    json.text("verdict", edmill::audit::name_of(audited.verdict));
+    json.add("verdict", edmill::audit::name_of(audited.verdict));
     std::string table = edmill::audit::table(audited);
     if (identify != 0 && audited.verdict == edmill::audit::Verdict::violations)
       table += edmill::identify::table(edmill::identify::identify(spec, options, tell_stage));
-    json.text("table", table);
+    json.add("table", table);
   });
 }
 
@@ -123,9 +123,9 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_check() {
   return answer([&](JsonText& json) {
     std::ifstream in("/certificate");
     try {
-      json.text("verdict", checker::check(in));
+      json.add("verdict", checker::check(in));
     } catch (const checker::Rejected& why) {
-      json.text("verdict", std::string("rejected: ") + why.what());
+      json.add("verdict", std::string("rejected: ") + why.what());
     } catch (const nlohmann::json::exception&) {
       throw edmill::InputError(
           "found a line that is not JSON, expected a file of `edmill prove --certificate`");
@@ -139,8 +139,8 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_compare() {
     edmill::compare::Options options;
     options.a = "/reference", options.b = "/log";
     const auto comparison = edmill::compare::compare(options);
-    json.text("verdict", edmill::compare::name_of(comparison.verdict));
-    json.text("table", edmill::compare::table(comparison));
+    json.add("verdict", edmill::compare::name_of(comparison.verdict));
+    json.add("table", edmill::compare::table(comparison));
   });
 }
 }

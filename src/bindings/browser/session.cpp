@@ -70,9 +70,9 @@ void first_impacts(const std::string& text, const std::vector<std::string>& sett
   FirstImpacts found(most);
   run.attach(found);
   run.finish();
-  json.numbers("time", found.times);
-  json.integers("ball", found.balls);
-  json.integers("partner", found.partners);
+  json.add("time", found.times);
+  json.add("ball", found.balls);
+  json.add("partner", found.partners);
 }
 
 Session::Session(const std::string& text, const std::vector<std::string>& settings, bool log)
@@ -85,34 +85,34 @@ Session::Session(const std::string& text, const std::vector<std::string>& settin
 }
 
 void Session::scene(io::JsonText& json) const {
-  json.text("version", version());
-  json.text("case_digest", spec_.digest);
-  json.number("period", mill_.motion.period());
-  json.number("start", spec_.statistics_start.to<double>());
-  if (spec_.end_time) json.number("end", spec_.end_time->to<double>());
-  json.integer("balls", run_.ball_count());
+  json.add("version", version());
+  json.add("case_digest", spec_.digest);
+  json.add("period", mill_.motion.period());
+  json.add("start", spec_.statistics_start.to<double>());
+  if (spec_.end_time) json.add("end", spec_.end_time->to<double>());
+  json.add("balls", run_.ball_count());
   std::vector<double> radii;
   for (const auto& batch : spec_.batches)
     radii.insert(radii.end(), batch.count, batch.diameter.to<double>() / 2);
   for (const auto& ball : spec_.balls) radii.push_back(ball.diameter.to<double>() / 2);
-  json.numbers("radii", radii);
+  json.add("radii", radii);
   const auto partners = casefile::partners_of(spec_);
   std::vector<std::string> names;
   for (int k = 0; k < partners.count(); ++k) names.push_back(partners[k].label);
-  json.texts("partners", names);
-  json.numbers("middle", coordinates(std::array{mill_.motion.middle()}));
+  json.add("partners", names);
+  json.add("middle", coordinates(std::array{mill_.motion.middle()}));
   json.begin("walls");
   int wall = 0;
   for (const auto& surface : mill_.vessel.surfaces()) {
     const auto mesh = model::mesh_of(surface);
     json.begin(std::to_string(wall++));
-    json.numbers("points", coordinates(mesh.points));
+    json.add("points", coordinates(mesh.points));
     std::vector<int> corners;  // of each face, after their number
     for (const auto& face : mesh.faces) {
       corners.push_back(static_cast<int>(face.size()));
       corners.insert(corners.end(), face.begin(), face.end());
     }
-    json.integers("faces", corners);
+    json.add("faces", corners);
     json.end();
   }
   json.end();
@@ -145,45 +145,43 @@ std::string Session::case_text() const { return text_with_values(spec_, log_); }
 void Session::frame(io::JsonText& json) {
   const double now = run_.time();
   const auto summary = run_.summary();
-  json.number("time", now);
-  json.integer("impacts", impacts_);
-  json.flag("ended", !going_on_);
-  json.text("end_reason", summary.end_reason);
+  json.add("time", now);
+  json.add("impacts", impacts_);
+  json.add("ended", !going_on_);
+  json.add("end_reason", summary.end_reason);
   std::vector<Vector<double>> places;
   for (int k = 0; k < run_.ball_count(); ++k) places.push_back(run_.ball(k).position);
-  json.numbers("places", coordinates(places));
+  json.add("places", coordinates(places));
   const auto frame = output::vessel_frame(mill_.motion, now);
-  json.numbers("vessel", coordinates(std::array{frame.origin, frame.x, frame.y, frame.z}));
+  json.add("vessel", coordinates(std::array{frame.origin, frame.x, frame.y, frame.z}));
   if (impacts_ > 0) {
     json.begin("last");
-    json.number("time", last_.time);
-    json.integer("ball", last_.ball);
-    json.integer("partner", last_.partner);
-    json.flag("with_wall", last_.with_wall);
-    json.number("approach_speed", last_.approach_speed);
-    json.number("slip_speed", last_.slip_speed);
-    json.number("separation_speed", last_.separation_speed);
-    json.number("milling_dose", last_.milling_dose);
+    json.add("time", last_.time);
+    json.add("ball", last_.ball);
+    json.add("partner", last_.partner);
+    json.add("with_wall", last_.with_wall);
+    json.add("approach_speed", last_.approach_speed);
+    json.add("slip_speed", last_.slip_speed);
+    json.add("separation_speed", last_.separation_speed);
+    json.add("milling_dose", last_.milling_dose);
     json.end();
   }
   if (now > summary.start_time) {
-    json.number("dose", summary.milling_dose);
-    json.number("dose_rate", summary.milling_dose_rate());
-    if (summary.milling_dose_rate_half_width)
-      json.number("half_width", *summary.milling_dose_rate_half_width);
-    std::vector<double> collisions(summary.collisions.begin(), summary.collisions.end());
-    json.numbers("collisions", collisions);
-    json.numbers("dose_by_partner", summary.dose_by_partner);
+    json.add("dose", summary.milling_dose);
+    json.add("dose_rate", summary.milling_dose_rate());
+    if (summary.milling_dose_rate_half_width) json.add("half_width", *summary.milling_dose_rate_half_width);
+    json.add("collisions", summary.collisions);
+    json.add("dose_by_partner", summary.dose_by_partner);
   }
-  json.numbers("speeds", {by_speed_.begin(), by_speed_.end()});
+  json.add("speeds", by_speed_);
 }
 
 void Session::finish(io::JsonText& json) {
   if (!finished_) run_.commit();
   finished_ = true;
   const auto log = content_of(std::string(folder) + "/collisions.csv");
-  if (!log.empty()) json.text("digest", sha256(log));
-  json.text("summary", content_of(std::string(folder) + "/summary.json"));
+  if (!log.empty()) json.add("digest", sha256(log));
+  json.add("summary", content_of(std::string(folder) + "/summary.json"));
 }
 
 }  // namespace edmill::browser

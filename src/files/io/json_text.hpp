@@ -1,9 +1,12 @@
 // JSON for other programs, in order and with numbers of any precision, which common libraries do not write.
 #pragma once
 
-#include <optional>
+#include <cmath>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "base/clean_text.hpp"
@@ -13,8 +16,6 @@ namespace edmill::io {
 
 class JsonText {
  public:
-  JsonText() { text_ = "{"; }
-
   void begin(std::string_view key) {
     put(key, "{");
     ++depth_;
@@ -26,27 +27,44 @@ class JsonText {
     text_ += "}";
     first_ = false;
   }
-  void text(std::string_view key, std::string_view value) { put(key, quoted(value)); }
-  void integer(std::string_view key, auto value) { put(key, std::to_string(value)); }
-  void flag(std::string_view key, bool value) { put(key, value ? "true" : "false"); }
-  void null(std::string_view key) { put(key, "null"); }
-  void integers(std::string_view key, const std::vector<int>& values) {
-    put_list(key, values, [](int value) { return std::to_string(value); });
+  /// A value, as `of` writes it.
+  void add(std::string_view key, const auto& value) { put(key, of(value)); }
+  void group(std::string_view key, const auto& fill) {
+    begin(key);
+    fill();
+    end();
   }
-  void numbers(std::string_view key, const std::vector<double>& values) {
-    put_list(key, values, [](double value) { return to_text<double>(value); });
+  /// A group for each item of a list, within one. @param key_of  of an item @param fill  of its group
+  void groups(std::string_view key, const auto& list, const auto& key_of, const auto& fill) {
+    group(key, [&] {
+      for (const auto& item : list) group(std::invoke(key_of, item), [&] { fill(item); });
+    });
   }
-  void texts(std::string_view key, const std::vector<std::string>& values) { put_list(key, values, quoted); }
-  /// nan and infinity, which JSON does not have, become null.
-  template <class Real>
-  void number(std::string_view key, const Real& value) {
+  /// Texts by their numbers, from "1" on.
+  void numbered(std::string_view key, const std::vector<std::string>& texts) {
+    group(key, [&] {
+      for (std::size_t k = 0; k < texts.size(); ++k) add(std::to_string(k + 1), texts[k]);
+    });
+  }
+
+  /// A text, flag, number, list of these, or null: for nothing, nan and infinity, which JSON does not have.
+  template <class T>
+  static std::string of(const T& value) {
     using std::isfinite;
-    isfinite(value) ? put(key, to_text<Real>(value)) : null(key);
-  }
-  /// null for nothing.
-  template <class Real>
-  void number(std::string_view key, const std::optional<Real>& value) {
-    value ? number(key, *value) : null(key);
+    if constexpr (std::is_same_v<T, std::monostate>)
+      return "null";
+    else if constexpr (std::is_convertible_v<const T&, std::string_view>)
+      return quoted(value);
+    else if constexpr (std::is_same_v<T, bool>)
+      return value ? "true" : "false";
+    else if constexpr (std::is_integral_v<T>)
+      return std::to_string(value);
+    else if constexpr (requires { *value; })
+      return value ? of(*value) : "null";
+    else if constexpr (requires { value.begin(); })
+      return list_of(value);
+    else
+      return isfinite(value) ? to_text<T>(value) : "null";
   }
 
   /// The whole document; nothing can be added after it.
@@ -70,6 +88,11 @@ class JsonText {
     }
     return out + "\"";
   }
+  static std::string list_of(const auto& values) {
+    std::string list;
+    for (const auto& value : values) list += (list.empty() ? "" : ", ") + of(value);
+    return "[" + list + "]";
+  }
   void new_line() { text_ += "\n" + std::string(2 * depth_, ' '); }
   void put(std::string_view key, std::string_view value) {
     if (!first_) text_ += ",";
@@ -78,13 +101,7 @@ class JsonText {
     text_ += quoted(key) + ": " + std::string(value);
   }
 
-  void put_list(std::string_view key, const auto& values, const auto& text_of) {
-    std::string list;
-    for (const auto& value : values) list += (list.empty() ? "" : ", ") + text_of(value);
-    put(key, "[" + list + "]");
-  }
-
-  std::string text_;
+  std::string text_ = "{";
   std::size_t depth_ = 1;
   bool first_ = true;
 };

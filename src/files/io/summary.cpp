@@ -1,6 +1,7 @@
 #include "io/summary.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/scalar_list.hpp"
 #include "base/statistics.hpp"
@@ -10,230 +11,316 @@ namespace edmill::io {
 
 namespace {
 
-/// Writes a summary, a group of keys a function, in the order of the file.
-template <class Real>
-class SummaryWriter {
- public:
-  explicit SummaryWriter(const Summary<Real>& summary) : s(summary) {}
-
-  std::string text() {
-    add_run();
-    add_collisions();
-    add_doses();
-    add_energy();
-    add_touched();
-    add_intervals();
-    if (s.target) add_target();
-    if (s.collapse) add_collapse();
-    if (s.stall) add_stall();
-    add_engine();
-    return json.finish();
-  }
-
- private:
-  void add_run() {
-    json.text("format", "edmill summary 1");
-    const auto& p = s.provenance;
-    json.text("version", p.version);
-    json.text("commit", p.commit);
-    json.text("compiler", p.compiler);
-    json.text("case_file", p.case_file);
-    json.text("case_digest", p.case_digest);
-    json.texts("settings", p.settings);
-    json.flag("reported", p.reported);
-    json.integer("seed", p.seed);
-    json.text("precision", p.precision);
-    if (p.right_digits) json.integer("right_digits", *p.right_digits);
-    json.text("end_reason", std::string(model::name(s.end_reason)));
-    if (!s.error.empty()) json.text("error", s.error);
-    json.number("start_time", s.start_time);
-    json.number("end_time", s.end_time);
-    json.number("duration", s.duration());
-  }
-
-  void add_collisions() {
-    json.begin("collisions");
-    for (int k = 0; k < s.partners.count(); ++k) json.integer(s.partners[k].key, s.collisions[k]);
-    json.integer("total", s.total_collisions());
-    json.end();
-    json.begin("collision_rate");
-    for (int k = 0; k < s.partners.count(); ++k)
-      rate(s.partners[k].key, Real(static_cast<std::int64_t>(s.collisions[k])));
-    rate("total", Real(static_cast<std::int64_t>(s.total_collisions())));
-    json.end();
-  }
-
-  void add_doses() {
-    json.number("milling_dose", s.milling_dose);
-    rate("milling_dose_rate", s.milling_dose);
-    json.number("inverse_milling_dose_rate", s.duration() > 0 && s.milling_dose > 0
-                                                 ? std::optional<Real>(s.duration() / s.milling_dose)
-                                                 : std::nullopt);
-    json.begin("milling_dose_by_partner");
-    for (int k = 0; k < s.partners.count(); ++k) json.number(s.partners[k].key, s.dose_by_partner[k]);
-    json.end();
-    if (!s.powder_mass) return;
-    json.number("powder_mass", *s.powder_mass);
-    json.number("charge_ratio", Real(*s.ball_mass / *s.powder_mass));
-    json.number("specific_milling_dose", Real(s.milling_dose / *s.powder_mass));
-    rate("specific_milling_dose_rate", Real(s.milling_dose / *s.powder_mass));
-  }
-
-  void add_energy() {
-    json.number("wall_work", s.wall_work);
-    rate("wall_work_rate", s.wall_work);
-    json.begin("energy");
-    json.number("kinetic_start", s.energy_at_start.kinetic);
-    json.number("potential_start", s.energy_at_start.potential);
-    json.number("kinetic_end", s.energy_at_end.kinetic);
-    json.number("potential_end", s.energy_at_end.potential);
-    json.number("closure", s.energy_closure);
-    json.number("closure_relative", Real(s.energy_closure / s.energy_scale()));
-    json.end();
-  }
-
-  void add_touched() {
-    json.begin("least_separation");
-    add_shares(s.touched_impacts, s.touched_dose);
-    json.number("supplied_energy", s.supplied_energy);
-    json.number("supplied_energy_share",
-                s.energy_scale() > 0 ? Real(s.supplied_energy / s.energy_scale()) : Real(0));
-    json.end();
-    json.begin("stalls");
-    add_shares(s.stall_impacts, s.stall_dose);
-    json.end();
-  }
-
-  /// Half-widths of the rates above, under their names.
-  void add_intervals() {
-    json.begin("intervals");
-    json.integer("batches", s.intervals.batches);
-    json.number("batch_length", s.intervals.batch_length);
-    if (s.intervals.any()) {
-      const auto& i = s.intervals;
-      json.number("milling_dose_rate", i.dose_rate.half_width);
-      const Real rate = s.milling_dose / s.duration();
-      if (s.milling_dose > 0)
-        json.number("inverse_milling_dose_rate", i.dose_rate.half_width / static_cast<double>(rate * rate));
-      if (s.powder_mass)
-        json.number("specific_milling_dose_rate",
-                    i.dose_rate.half_width / static_cast<double>(*s.powder_mass));
-      json.number("wall_work_rate", i.wall_work_rate.half_width);
-      put_by_partner("collision_rate", i.collision_rates, i.collision_rate);
-      put_by_partner("milling_dose_rate_by_partner", i.dose_rates, i.dose_rate);
-      json.numbers("milling_dose_rate_of_batches", i.dose_rate.means);
-    }
-    json.end();
-    json.begin("warnings");
-    for (const auto& warning : s.warnings) json.text(warning.kind, warning.text);
-    json.end();
-  }
-  void put_by_partner(std::string_view key, const std::vector<Intervals::Rate>& rates,
-                      const Intervals::Rate& total) {
-    json.begin(key);
-    for (int k = 0; k < s.partners.count(); ++k) json.number(s.partners[k].key, rates[k].half_width);
-    json.number("total", total.half_width);
-    json.end();
-  }
-
-  void add_target() {
-    json.begin("target");
-    json.number("dose", s.target->dose);
-    json.text("counts", s.target->counts);
-    json.number("counted_dose_rate", s.target->counted_dose_rate);
-    if (s.intervals.any())
-      json.number("counted_dose_rate_half_width", s.intervals.counted_dose_rate.half_width);
-    json.number("milling_time", s.milling_time());
-    if (const auto width = s.milling_time_half_width()) json.number("milling_time_half_width", *width);
-    json.end();
-  }
-
-  void add_shares(std::uint64_t impacts, const Real& dose) {
-    const auto total = static_cast<double>(s.total_collisions());
-    json.integer("impacts", impacts);
-    json.number("impact_share", total > 0 ? static_cast<double>(impacts) / total : 0.0);
-    json.number("milling_dose", dose);
-    json.number("milling_dose_share", s.milling_dose > 0 ? Real(dose / s.milling_dose) : Real(0));
-  }
-  void add_collapse() {
-    json.begin("inelastic_collapse");
-    json.integer("ball", s.collapse->ball);
-    json.text("partner_kind", s.collapse->with_wall ? "wall" : "ball");
-    json.integer("partner", s.collapse->partner);
-    json.number("accumulation_time", s.collapse->accumulation_time);
-    json.end();
-  }
-
-  void add_stall() {
-    json.begin("stalled");
-    json.number("time", s.stall->time);
-    json.integers("balls", s.stall->balls);
-    json.integers("walls", s.stall->walls);
-    json.integer("impacts", s.stall->impacts);
-    json.end();
-  }
-
-  void add_engine() {
-    if (!s.notes.empty()) {
-      json.begin("notes");
-      for (const auto& [name, value] : s.notes) json.number(name, value);
-      json.end();
-    }
-    json.begin("escalations");
-    for (const auto& e : s.escalations) {
-      json.begin(e.scalar);
-      json.integer("wall", e.wall);
-      json.integer("pair", e.pair);
-      json.integer("order", e.order);
-      json.end();
-    }
-    json.end();
-    json.integer("simultaneous_contacts", s.simultaneous_contacts);
-    json.number("deepest_overlap", s.deepest_overlap);
-    json.integer("impacts_since_start", s.total_impacts);
-    json.number("cpu_seconds", s.cpu_seconds);
-    json.number("collisions_per_cpu_second",
-                s.cpu_seconds > 0 ? static_cast<double>(s.total_impacts) / s.cpu_seconds : 0.0);
-  }
-
-  /// The amount over the time simulated; null when that is none.
-  void rate(std::string_view key, const Real& amount) {
-    json.number(key, s.duration() > 0 ? std::optional<Real>(amount / s.duration()) : std::nullopt);
-  }
-
+/// Lists every field of summary.json, a group of them a function, in the order of the file: with its unit and
+/// meaning. `Visit` is called with key, unit, meaning and value; its `group` has a group visited.
+template <class Real, class Visit>
+struct FieldList {
   const Summary<Real>& s;
+  Visit& v;
+
+  void visit() {
+    visit_run();
+    visit_amounts();
+    visit_energy();
+    visit_intervals();
+    visit_ends();
+    visit_engine();
+  }
+
+  void visit_run() {
+    const auto& p = s.provenance;
+    v("format", "", "", "edmill summary 1");
+    v("version", "", "of the program", p.version);
+    v("commit", "", "of the program", p.commit);
+    v("compiler", "", "of the program", p.compiler);
+    v("case_file", "", "", p.case_file);
+    v("case_digest", "", "SHA-256 of the case's canonical text: units and comments do not change it",
+      p.case_digest);
+    v("settings", "", "by `--set` over the case file", p.settings);
+    v("reported", "", "whether the run was made with `--report`", p.reported);
+    v("seed", "", "of the case", p.seed);
+    v("precision", "", "name of the scalar", p.precision);
+    if (p.right_digits)
+      v("right_digits", "",
+        "of every event and of the state at the end, where digits were asked for; as two runs have shown "
+        "([precision.md](precision.md#ask-for-digits))",
+        *p.right_digits);
+    v("end_reason", "",
+      "`end_time` or another stop rule by its key, `inelastic_collapse`, `stalled`, `interrupted`, "
+      "`undecided`; of a run from Python or C++ also `stopped`, by an observer",
+      model::name(s.end_reason));
+    if (!s.error.empty()) v("error", "", "why the run ended before its end", s.error);
+    v("start_time", "s", "of the statistics", s.start_time);
+    v("end_time", "s", "of the statistics", s.end_time);
+    v("duration", "s", "of the statistics", s.duration());
+  }
+
+  void visit_amounts() {
+    v.group("collisions", "number", [&] {
+      by_partner("1", [&](std::size_t k) { return s.collisions[k]; });
+      v("total", "1", "of all", s.total_collisions());
+    });
+    v.group("collision_rate", "per time; null where the statistics cover none, as every rate", [&] {
+      by_partner("1/s", [&](std::size_t k) { return per_second(Real(number(s.collisions[k]))); });
+      v("total", "1/s", "of all", per_second(Real(number(s.total_collisions()))));
+    });
+    v("milling_dose", "J", "energy dissipated by all impacts", s.milling_dose);
+    v("milling_dose_rate", "W", "", per_second(s.milling_dose));
+    v("inverse_milling_dose_rate", "s/J", "null without a dose",
+      s.duration() > 0 && s.milling_dose > 0 ? std::optional<Real>(s.duration() / s.milling_dose)
+                                             : std::nullopt);
+    v.group("milling_dose_by_partner", "its parts",
+            [&] { by_partner("J", [&](std::size_t k) { return s.dose_by_partner[k]; }); });
+    if (s.powder_mass) {
+      const Real dose = s.milling_dose / *s.powder_mass;
+      v("powder_mass", "kg", "this and the next three where the case has powder", *s.powder_mass);
+      v("charge_ratio", "1", "mass of the balls over that of the powder",
+        Real(*s.ball_mass / *s.powder_mass));
+      v("specific_milling_dose", "J/kg", "dose over the mass of the powder", dose);
+      v("specific_milling_dose_rate", "W/kg", "", per_second(dose));
+    }
+  }
+
+  void visit_energy() {
+    v("wall_work", "J", "work of the walls on the balls", s.wall_work);
+    v("wall_work_rate", "W", "", per_second(s.wall_work));
+    v.group("energy", "of all balls", [&] {
+      v("kinetic_start", "J", "at `start_time`", s.energy_at_start.kinetic);
+      v("potential_start", "J", "at `start_time`", s.energy_at_start.potential);
+      v("kinetic_end", "J", "at `end_time`", s.energy_at_end.kinetic);
+      v("potential_end", "J", "at `end_time`", s.energy_at_end.potential);
+      v("closure", "J", "wall work - dose + supplied energy - change of the energies", s.energy_closure);
+      v("closure_relative", "1", "to the dose, or to the kinetic energy at one end where that is larger",
+        Real(s.energy_closure / s.energy_scale()));
+    });
+    v.group("least_separation", "impacts that separated at the least separation speed", [&] {
+      visit_impacts(s.touched_impacts, s.touched_dose);
+      v("supplied_energy", "J", "by these impacts", s.supplied_energy);
+      v("supplied_energy_share", "1", "of the dose, or of the kinetic energy as in `energy`",
+        ratio(s.supplied_energy, s.energy_scale()));
+    });
+    v.group("stalls",
+            "impacts without friction since a ball was in a stall ([theory.md](theory.md), section 6)",
+            [&] { visit_impacts(s.stall_impacts, s.stall_dose); });
+  }
+  void visit_impacts(std::uint64_t count, const Real& dose) {
+    v("impacts", "1", "number", count);
+    v("impact_share", "1", "of all impacts", ratio(number(count), number(s.total_collisions())));
+    v("milling_dose", "J", "of these impacts", dose);
+    v("milling_dose_share", "1", "of the whole dose", ratio(dose, s.milling_dose));
+  }
+
+  void visit_intervals() {
+    const auto& i = s.intervals;
+    v.group(
+        "intervals",
+        "half-widths of 95 % intervals under the names of the rates; none of a run of fewer than five drive "
+        "periods ([theory.md](theory.md), section 8)",
+        [&] {
+          v("batches", "1", "number of parts of the statistics", i.batches);
+          v("batch_length", "s", "of each", i.batch_length);
+          if (!i.any()) return;
+          const Real rate = s.milling_dose / s.duration();
+          v("milling_dose_rate", "W", "", i.dose_rate.half_width);
+          if (s.milling_dose > 0)
+            v("inverse_milling_dose_rate", "s/J", "",
+              i.dose_rate.half_width / static_cast<double>(rate * rate));
+          if (s.powder_mass)
+            v("specific_milling_dose_rate", "W/kg", "",
+              i.dose_rate.half_width / static_cast<double>(*s.powder_mass));
+          v("wall_work_rate", "W", "", i.wall_work_rate.half_width);
+          v.group("collision_rate", "", [&] {
+            by_partner("1/s", [&](std::size_t k) { return i.collision_rates[k].half_width; });
+            v("total", "1/s", "of all", i.collision_rate.half_width);
+          });
+          v.group("milling_dose_rate_by_partner", "", [&] {
+            by_partner("W", [&](std::size_t k) { return i.dose_rates[k].half_width; });
+            v("total", "W", "of all", i.dose_rate.half_width);
+          });
+          v("milling_dose_rate_of_batches", "W", "in the order of time", i.dose_rate.means);
+        });
+    v.group("warnings",
+            "by kind, why numbers are not to be trusted: `too_few_collisions`, `too_short`, `transient`, "
+            "`wide_interval`, `precision`, `separation_share`, `supplied_energy`, `by_rule`, `stall_share`, "
+            "`energy`, `end_reason`",
+            [&] {
+              for (const auto& warning : s.warnings) v(warning.kind, "", "", warning.text);
+            });
+  }
+
+  void visit_ends() {
+    if (s.target)
+      v.group("target", "if the case has `powder.target_dose`", [&] {
+        v("dose", "J/kg", "wanted", s.target->dose);
+        v("counts", "", "what of the dose counts", s.target->counts);
+        v("counted_dose_rate", "W", "", s.target->counted_dose_rate);
+        if (s.intervals.any())
+          v("counted_dose_rate_half_width", "W", "", s.intervals.counted_dose_rate.half_width);
+        v("milling_time", "s", "to the target dose; null where nothing counts", s.milling_time());
+        if (const auto width = s.milling_time_half_width()) v("milling_time_half_width", "s", "", *width);
+      });
+    if (s.collapse)
+      v.group("inelastic_collapse", "if the run ended in it", [&] {
+        v("ball", "", "number", s.collapse->ball);
+        v("partner_kind", "", "`wall` or `ball`", s.collapse->with_wall ? "wall" : "ball");
+        v("partner", "", "number", s.collapse->partner);
+        v("accumulation_time", "s", "at which infinitely many impacts have happened",
+          s.collapse->accumulation_time);
+      });
+    if (s.stall)
+      v.group("stalled", "if the run ended so: bodies that cannot separate", [&] {
+        v("time", "s", "at which the clock stood still", s.stall->time);
+        v("balls", "", "numbers", s.stall->balls);
+        v("walls", "", "numbers", s.stall->walls);
+        v("impacts", "1", "of these bodies at that time", s.stall->impacts);
+      });
+  }
+
+  void visit_engine() {
+    if (!s.notes.empty())
+      v.group("notes",
+              "numbers of further observers of every run "
+              "([extending.md](extending.md#an-observer-of-every-run)); absent without any",
+              [&] {
+                for (const auto& [name, value] : s.notes) v(name, "", "", value);
+              });
+    v.group(
+        "escalations",
+        "decisions passed to each wider scalar, and those that a rule makes (`rule`: [theory](theory.md), "
+        "section 4)",
+        [&] {
+          for (const auto& e : s.escalations)
+            v.group(e.scalar, "", [&] {
+              v("wall", "1", "contacts with walls", e.wall);
+              v("pair", "1", "contacts of balls", e.pair);
+              v("order", "1", "which of two contacts is first", e.order);
+            });
+        });
+    v("simultaneous_contacts", "1",
+      "impacts that a rule put before another contact of the ball at the same time ([theory](theory.md), "
+      "section 4)",
+      s.simultaneous_contacts);
+    v("deepest_overlap", "m", "by rounding, over all impacts", s.deepest_overlap);
+    v("impacts_since_start", "1", "of the whole run", s.total_impacts);
+    v("cpu_seconds", "s", "of the whole run", s.cpu_seconds);
+    v("collisions_per_cpu_second", "1/s", "of the whole run", ratio(number(s.total_impacts), s.cpu_seconds));
+  }
+
+  /// The amount over the time simulated; nothing when that is none.
+  std::optional<Real> per_second(const Real& amount) const {
+    return s.duration() > 0 ? std::optional<Real>(amount / s.duration()) : std::nullopt;
+  }
+  static double number(std::uint64_t count) { return static_cast<double>(count); }
+  /// 0 of nothing.
+  template <class Number>
+  static Number ratio(const Number& part, const Number& whole) {
+    return whole > 0 ? Number(part / whole) : Number(0);
+  }
+  void by_partner(const char* unit, const auto& value_of) {
+    for (int k = 0; k < s.partners.count(); ++k)
+      v(s.partners[k].key, unit, s.partners[k].meaning, value_of(static_cast<std::size_t>(k)));
+  }
+};
+
+/// The visitor after all fields.
+template <class Visit, class Real>
+Visit visited(const Summary<Real>& summary) {
+  Visit visitor;
+  FieldList<Real, Visit>{summary, visitor}.visit();
+  return visitor;
+}
+
+/// In all digits of the scalar.
+struct JsonVisitor {
   JsonText json;
+  void operator()(std::string_view key, std::string_view, std::string_view, const auto& value) {
+    json.add(key, value);
+  }
+  void group(std::string_view key, std::string_view, const auto& fill) { json.group(key, fill); }
+};
+
+struct FactsVisitor {
+  Facts facts = Facts("the summary of the run");
+  std::string path = {};  ///< of the group
+
+  void operator()(std::string_view key, std::string_view, std::string_view, const auto& value) {
+    facts.set(path + std::string(key), fact(value));
+  }
+  void group(std::string_view key, std::string_view, const auto& fill) {
+    const auto outside = std::exchange(path, path + std::string(key) + "/");
+    fill();
+    path = outside;
+  }
+  template <class T>
+  static Facts::Value fact(const T& value) {
+    if constexpr (std::is_convertible_v<const T&, std::string_view>) {
+      return std::string(std::string_view(value));
+    } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, Facts::Texts>) {
+      return value;
+    } else if constexpr (requires { *value; }) {
+      return value ? fact(*value) : Facts::Value();
+    } else if constexpr (requires { value.begin(); }) {
+      return std::vector<double>(value.begin(), value.end());
+    } else {
+      return static_cast<double>(value);
+    }
+  }
+};
+
+/// Rows of a table.
+struct ReferenceVisitor {
+  std::string text = "| key | unit | meaning |\n|---|---|---|\n", path = {};
+
+  void operator()(std::string_view key, std::string_view unit, std::string_view meaning, const auto&) {
+    text +=
+        "| `" + path + std::string(key) + "` | " + std::string(unit) + " | " + std::string(meaning) + " |\n";
+  }
+  void group(std::string_view key, std::string_view meaning, const auto& fill) {
+    (*this)(key, "", meaning, 0);
+    const auto outside = std::exchange(path, path + std::string(key) + ".");
+    fill();
+    path = outside;
+  }
 };
 
 }  // namespace
 
 template <class Real>
-Summary<double> in_double(const Summary<Real>& s) {
-  const auto real = [](const Real& x) { return static_cast<double>(x); };
-  const auto maybe = [&](const std::optional<Real>& x) { return x ? std::optional(real(*x)) : std::nullopt; };
-  Summary<double> d(s.partners);
-  d.provenance = s.provenance, d.end_reason = s.end_reason, d.error = s.error;
-  d.start_time = real(s.start_time), d.end_time = real(s.end_time), d.period = real(s.period);
-  d.collisions = s.collisions;
-  std::transform(s.dose_by_partner.begin(), s.dose_by_partner.end(), d.dose_by_partner.begin(), real);
-  d.milling_dose = real(s.milling_dose), d.wall_work = real(s.wall_work);
-  d.energy_at_start = {real(s.energy_at_start.kinetic), real(s.energy_at_start.potential)};
-  d.energy_at_end = {real(s.energy_at_end.kinetic), real(s.energy_at_end.potential)};
-  d.energy_closure = real(s.energy_closure);
-  d.touched_impacts = s.touched_impacts, d.touched_dose = real(s.touched_dose);
-  d.supplied_energy = real(s.supplied_energy);
-  d.stall_impacts = s.stall_impacts, d.stall_dose = real(s.stall_dose);
-  if (const auto& c = s.collapse)
-    d.collapse = {c->ball, c->with_wall, c->partner, real(c->accumulation_time)};
-  if (const auto& stall = s.stall) d.stall = {real(stall->time), stall->balls, stall->walls, stall->impacts};
-  d.escalations = s.escalations;
-  d.powder_mass = maybe(s.powder_mass), d.ball_mass = maybe(s.ball_mass);
-  d.simultaneous_contacts = s.simultaneous_contacts, d.deepest_overlap = real(s.deepest_overlap);
-  d.cpu_seconds = s.cpu_seconds, d.total_impacts = s.total_impacts;
-  for (const auto& [name, value] : s.notes) d.notes.emplace_back(name, real(value));
-  d.intervals = s.intervals, d.warnings = s.warnings, d.wanted_precision = s.wanted_precision;
-  if (const auto& t = s.target) d.target = {real(t->dose), t->counts, real(t->counted_dose_rate)};
-  return d;
+Facts facts_of(const Summary<Real>& s) {
+  return visited<FactsVisitor>(s).facts;
+}
+
+model::EndReason end_reason_of(const Facts& f) {
+  constexpr const char *key = "end_reason", *expected = "why the run ended";
+  const auto reason = model::end_reason_named(f.text(key, expected));
+  if (!reason) throw f.wrong(key, expected);
+  return *reason;
+}
+
+/// At an end of the record, the larger one [J].
+static double kinetic_energy(const Facts& f) {
+  return std::max(f.number("energy/kinetic_start"), f.number("energy/kinetic_end"));
+}
+const char* energy_scale_of(const Facts& f) {
+  return f.number("milling_dose") < kinetic_energy(f) ? "kinetic energy" : "dose";
+}
+bool has_dose(const Facts& f) {
+  const double dose = f.number("milling_dose");
+  return dose * 1e9 > std::max(dose, kinetic_energy(f));
+}
+
+std::string summary_reference() {
+  Summary<double> s(
+      model::Partners(std::vector<model::WallInfo>{{"", "and so on for every wall"}}));  // with every part
+  s.provenance.right_digits = 0, s.error = "-", s.powder_mass = s.ball_mass = 1,
+  s.milling_dose = s.end_time = 1;
+  s.intervals.batches = Intervals::fewest;
+  s.intervals.collision_rates.resize(2), s.intervals.dose_rates.resize(2);
+  s.target = {1, "", 1};
+  s.collapse.emplace(), s.stall.emplace();
+  s.notes = {{"NAME", 0}};
+  s.escalations.push_back({"SCALAR", {}, {}, {}});
+  return visited<ReferenceVisitor>(s).text;
 }
 
 template <class Real>
@@ -254,7 +341,7 @@ std::string stall_message(const Summary<Real>& s) {
 
 template <class Real>
 std::string summary_json(const Summary<Real>& s) {
-  return SummaryWriter<Real>(s).text();
+  return visited<JsonVisitor>(s).json.finish();
 }
 
 Intervals::Rate Intervals::of(std::vector<double> amounts, double length) {
@@ -266,7 +353,7 @@ Intervals::Rate Intervals::of(std::vector<double> amounts, double length) {
 #define EDMILL_SUMMARY(Real)                                      \
   template std::string summary_json<Real>(const Summary<Real>&);  \
   template std::string stall_message<Real>(const Summary<Real>&); \
-  template Summary<double> in_double<Real>(const Summary<Real>&);
+  template Facts facts_of<Real>(const Summary<Real>&);
 EDMILL_FOR_EACH_SCALAR(EDMILL_SUMMARY)
 
 }  // namespace edmill::io

@@ -1,4 +1,4 @@
-// summary.json: the result of a run. Keys and units: docs/files.md.
+// summary.json: the result of a run. Its fields, with units and meanings, are listed once, in summary.cpp.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/facts.hpp"
 #include "model/outcome.hpp"
 #include "model/parts/partners.hpp"
 
@@ -116,14 +117,17 @@ struct Summary {
   Real energy_scale() const {
     return std::max({milling_dose, energy_at_start.kinetic, energy_at_end.kinetic});
   }
-  const char* energy_scale_name() const { return milling_dose < energy_scale() ? "kinetic energy" : "dose"; }
-  /// False where the dose is the rounding of elastic impacts.
-  bool has_dose() const { return milling_dose * Real(1000000000) > energy_scale(); }
 };
 
-/// Rounded to double.
+/// The fields of summary.json.
 template <class Real>
-Summary<double> in_double(const Summary<Real>& summary);
+Facts facts_of(const Summary<Real>& summary);
+/// @throws InputError when the field is none
+model::EndReason end_reason_of(const Facts& summary);
+/// What the shares of supplied energy and closure are of: "dose" or "kinetic energy".
+const char* energy_scale_of(const Facts& summary);
+/// False where the dose is the rounding of elastic impacts.
+bool has_dose(const Facts& summary);
 
 /// When a run stalled, which bodies, and what helps.
 template <class Real>
@@ -131,5 +135,8 @@ std::string stall_message(const Summary<Real>& summary);
 
 template <class Real>
 std::string summary_json(const Summary<Real>& summary);
+
+/// The keys of summary.json, their units and meanings, as a table of Markdown.
+std::string summary_reference();
 
 }  // namespace edmill::io

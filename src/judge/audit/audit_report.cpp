@@ -34,15 +34,15 @@ double share_of(const Audit& a, Kind kind) {
 
 void put_finding(io::JsonText& json, std::string_view key, const Finding& f) {
   json.begin(key);
-  json.integer("line", f.line);
-  json.number("time", f.time);
-  json.integer("ball", f.ball);
-  json.text("partner_kind", f.with_wall ? "wall" : "ball");
-  json.integer("partner", f.partner);
-  json.number("size", f.size);
-  json.number("found", f.found);
-  json.number("expected", f.expected);
-  if (*f.note != '\0') json.text("note", f.note);
+  json.add("line", f.line);
+  json.add("time", f.time);
+  json.add("ball", f.ball);
+  json.add("partner_kind", f.with_wall ? "wall" : "ball");
+  json.add("partner", f.partner);
+  json.add("size", f.size);
+  json.add("found", f.found);
+  json.add("expected", f.expected);
+  if (*f.note != '\0') json.add("note", f.note);
   json.end();
 }
 
@@ -63,69 +63,62 @@ std::string unresolved_checks(const Audit& a) {
 }
 
 void put_violations(io::JsonText& json, const Audit& a) {
-  json.begin("violations");
-  for (const Kind kind : a.findings.ranked()) {
-    const Tally& tally = a.findings.of(kind);
-    json.begin(info(kind).name);
-    json.integer("count", tally.count);
-    json.number("share", share_of(a, kind));
-    json.number("worst", tally.worst);
-    json.text("unit", info(kind).unit);
-    json.text("meaning", info(kind).meaning);
-    if (!tally.notes.empty()) {
-      json.begin("notes");
-      for (const auto& [note, count] : tally.notes) json.integer(note, count);
-      json.end();
-    }
-    json.begin("examples");
-    for (std::size_t k = 0; k < tally.examples.size(); ++k)
-      put_finding(json, std::to_string(k + 1), tally.examples[k]);
-    json.end();
-    json.end();
-  }
-  json.end();
+  json.groups(
+      "violations", a.findings.ranked(), [](Kind kind) { return info(kind).name; },
+      [&](Kind kind) {
+        const Tally& tally = a.findings.of(kind);
+        json.add("count", tally.count);
+        json.add("share", share_of(a, kind));
+        json.add("worst", tally.worst);
+        json.add("unit", info(kind).unit);
+        json.add("meaning", info(kind).meaning);
+        if (!tally.notes.empty())
+          json.group("notes", [&] {
+            for (const auto& [note, count] : tally.notes) json.add(note, count);
+          });
+        json.group("examples", [&] {
+          for (std::size_t k = 0; k < tally.examples.size(); ++k)
+            put_finding(json, std::to_string(k + 1), tally.examples[k]);
+        });
+      });
 }
 
 void put_diagnoses(io::JsonText& json, const Audit& a) {
-  json.begin("looks_like");
-  for (const auto& d : a.diagnoses) {
-    json.begin(d.name);
-    json.integer("events", d.events);
-    json.integer("of", d.of);
-    json.text("text", d.text);
-    json.end();
-  }
-  json.end();
+  json.groups("looks_like", a.diagnoses, &Diagnosis::name, [&](const Diagnosis& d) {
+    json.add("events", d.events);
+    json.add("of", d.of);
+    json.add("text", d.text);
+  });
 }
 
 void put_energies(io::JsonText& json, const Audit& a) {
   json.begin("energy");
-  json.integer("impacts", a.energies.impacts);
-  json.number("wall_work", a.energies.wall_work.value());
-  json.number("milling_dose", a.energies.milling_dose.value());
-  json.number("supplied", a.energies.supplied.value());
-  json.integer("supplying_impacts", a.energies.supplying);
-  json.number("kinetic_change", a.energies.kinetic_change.value());
-  json.number("closure", a.energies.closure());
+  json.add("impacts", a.energies.impacts);
+  json.add("wall_work", a.energies.wall_work.value());
+  json.add("milling_dose", a.energies.milling_dose.value());
+  json.add("supplied", a.energies.supplied.value());
+  json.add("supplying_impacts", a.energies.supplying);
+  json.add("kinetic_change", a.energies.kinetic_change.value());
+  json.add("closure", a.energies.closure());
   json.end();
   json.begin("energy_created");
-  json.integer("impacts", a.energies.creating);
-  json.number("energy", a.energies.created);
+  json.add("impacts", a.energies.creating);
+  json.add("energy", a.energies.created);
   json.end();
 }
 
 void put_checks(io::JsonText& json, const Audit& a) {
   json.begin("checked");
   for (std::size_t k = 0; k < check_count; ++k)
-    json.integer(checks[k].name, a.findings.judged_number(static_cast<Check>(k)));
+    json.add(checks[k].name, a.findings.judged_number(static_cast<Check>(k)));
   json.end();
   json.begin("unresolved");
   for (std::size_t k = 0; k < check_count; ++k)
     if (const auto n = a.findings.unresolved_number(static_cast<Check>(k)); n > 0)
-      json.integer(checks[k].name, n);
+      json.add(checks[k].name, n);
   json.end();
   json.begin("not_checked");
-  for (const Check check : a.not_made) json.text(info(check).name, info(check).columns);
+  for (const Check check : a.not_made) json.add(info(check).name, info(check).columns);
   json.end();
 }
 
@@ -173,24 +166,24 @@ std::string table(const Audit& a) {
 }
 
 void put_json(io::JsonText& json, const Audit& a) {
-  json.text("format", "edmill audit 1");
-  json.text("version", version());
-  json.text("commit", commit());
-  json.text("verdict", name_of(a.verdict));
-  json.text("case", a.case_name);
-  json.text("log", a.log_name);
-  json.integer("events", a.events);
-  json.number("first_time", a.first);
-  json.number("last_time", a.last);
-  json.text("interrupted", a.interrupted ? "yes" : "no");
-  json.number("tolerance", a.tolerances.relative);
-  json.number("gap_tolerance", a.tolerances.gap);
-  json.number("time_rounding", Tolerances::time(std::max(std::abs(a.first), std::abs(a.last))));
+  json.add("format", "edmill audit 1");
+  json.add("version", version());
+  json.add("commit", commit());
+  json.add("verdict", name_of(a.verdict));
+  json.add("case", a.case_name);
+  json.add("log", a.log_name);
+  json.add("events", a.events);
+  json.add("first_time", a.first);
+  json.add("last_time", a.last);
+  json.add("interrupted", a.interrupted ? "yes" : "no");
+  json.add("tolerance", a.tolerances.relative);
+  json.add("gap_tolerance", a.tolerances.gap);
+  json.add("time_rounding", Tolerances::time(std::max(std::abs(a.first), std::abs(a.last))));
   put_violations(json, a);
   put_diagnoses(json, a);
   put_energies(json, a);
   put_checks(json, a);
-  json.integer("undecided", a.undecided);
+  json.add("undecided", a.undecided);
 }
 
 }  // namespace edmill::audit

@@ -24,29 +24,22 @@ std::string with_interval(const std::optional<double>& value, const std::optiona
   return half_width ? fmt::format("{:.6g} ± {:.2g}", *value, *half_width) : fmt::format("{:.6g}", *value);
 }
 
-void put(io::JsonText& json, std::string_view key, const std::optional<double>& value) {
-  if (value)
-    json.number(key, *value);
-  else
-    json.null(key);
-}
-
 void put(io::JsonText& json, std::string_view key, const Event& e) {
   json.begin(key);
-  json.integer("line", e.line);
-  json.integer("ball", e.ball);
-  json.text("partner_kind", e.with_wall ? "wall" : "ball");
-  json.integer("partner", e.partner);
-  for (std::size_t v = 0; v < model::logged_count; ++v) json.number(model::logged_quantities[v].name, e[v]);
+  json.add("line", e.line);
+  json.add("ball", e.ball);
+  json.add("partner_kind", e.with_wall ? "wall" : "ball");
+  json.add("partner", e.partner);
+  for (std::size_t v = 0; v < model::logged_count; ++v) json.add(model::logged_quantities[v].name, e[v]);
   json.end();
 }
 
 void put_log(io::JsonText& json, std::string_view key, const LogScan& scan) {
   json.begin(key);
-  json.text("file", scan.file);
-  json.integer("events", scan.events);
-  json.number("first_time", scan.first);
-  json.number("last_time", scan.last);
+  json.add("file", scan.file);
+  json.add("events", scan.events);
+  json.add("first_time", scan.first);
+  json.add("last_time", scan.last);
   json.end();
 }
 
@@ -105,60 +98,56 @@ std::string table(const Comparison& c) {
 
 std::string to_json(const Comparison& c) {
   io::JsonText json;
-  json.text("format", "edmill comparison 1");
-  json.text("version", version());
-  json.text("commit", commit());
-  json.text("verdict", name_of(c.verdict));
+  json.add("format", "edmill comparison 1");
+  json.add("version", version());
+  json.add("commit", commit());
+  json.add("verdict", name_of(c.verdict));
   put_log(json, "a", c.a);
   put_log(json, "b", c.b);
-  json.number("tolerance", c.options.tolerance);
+  json.add("tolerance", c.options.tolerance);
 
   const auto& e = c.events;
   json.begin("event_by_event");
-  json.integer("agreeing", e.agreeing);
-  put(json, "horizon", e.agreeing > 0 ? std::optional(e.horizon) : std::nullopt);
-  json.integer("same_partners", e.same_partners);
+  json.add("agreeing", e.agreeing);
+  json.add("horizon", e.agreeing > 0 ? std::optional(e.horizon) : std::nullopt);
+  json.add("same_partners", e.same_partners);
   if (c.events_verdict) {
-    json.integer("asked_for", *c.options.events);
-    json.text("verdict", name_of(*c.events_verdict));
+    json.add("asked_for", *c.options.events);
+    json.add("verdict", name_of(*c.events_verdict));
   }
   if (e.first) {
     json.begin("first_difference");
-    json.text("quantity", e.first->quantity);
-    json.number("relative_difference", e.first->relative_difference);
+    json.add("quantity", e.first->quantity);
+    json.add("relative_difference", e.first->relative_difference);
     put(json, "a", e.first->a);
     put(json, "b", e.first->b);
     json.end();
   }
   json.begin("largest");
   for (std::size_t v = 0; v < model::logged_count; ++v)
-    if (c.a.has[v] && c.b.has[v]) json.number(model::logged_quantities[v].name, e.largest[v]);
+    if (c.a.has[v] && c.b.has[v]) json.add(model::logged_quantities[v].name, e.largest[v]);
   json.end();
-  put(json, "digits_lost_per_event", e.digits_lost_per_event);
+  json.add("digits_lost_per_event", e.digits_lost_per_event);
   json.end();
 
   if (c.times.count > 0) {
     json.begin("statistics");
-    json.number("from", c.times.from);
-    json.number("until", c.times.until());
-    json.number("batch_length", c.times.length);
-    json.integer("batches", c.times.count);
-    json.begin("quantities");
-    for (const auto& q : c.quantities) {
-      json.begin(q.name);
-      json.text("unit", q.unit);
-      put(json, "a", q.a);
-      put(json, "a_ci95", q.a_half_width);
-      put(json, "b", q.b);
-      put(json, "b_ci95", q.b_half_width);
-      put(json, "difference", q.difference);
-      put(json, q.difference && !q.a ? "limit95" : "difference_ci95", q.half_width);
-      put(json, "probability", q.probability);
-      json.text("verdict", name_of(q.verdict));
-      if (!q.reason.empty()) json.text("reason", q.reason);
-      json.end();
-    }
-    json.end();
+    json.add("from", c.times.from);
+    json.add("until", c.times.until());
+    json.add("batch_length", c.times.length);
+    json.add("batches", c.times.count);
+    json.groups("quantities", c.quantities, &Quantity::name, [&](const auto& q) {
+      json.add("unit", q.unit);
+      json.add("a", q.a);
+      json.add("a_ci95", q.a_half_width);
+      json.add("b", q.b);
+      json.add("b_ci95", q.b_half_width);
+      json.add("difference", q.difference);
+      json.add(q.difference && !q.a ? "limit95" : "difference_ci95", q.half_width);
+      json.add("probability", q.probability);
+      json.add("verdict", name_of(q.verdict));
+      if (!q.reason.empty()) json.add("reason", q.reason);
+    });
     json.end();
   }
   return json.finish();

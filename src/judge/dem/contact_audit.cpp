@@ -232,20 +232,16 @@ std::string sentence(const Judged& j) {
 }
 
 void put_values(io::JsonText& json, const std::vector<Judged>& values) {
-  json.begin("values");
-  for (const auto& j : values) {
-    json.begin(j.name);
-    json.number("found", j.found.value);
-    json.number("low", j.found.low);
-    json.number("high", j.found.high);
-    json.integer("contacts", j.found.count);
-    json.number("expected", j.expected);
-    json.number("allowed", j.allowed);
-    json.flag("agrees", j.agrees());
-    if (!j.equation.empty()) json.text("equation", j.equation);
-    json.end();
-  }
-  json.end();
+  json.groups("values", values, &Judged::name, [&](const Judged& j) {
+    json.add("found", j.found.value);
+    json.add("low", j.found.low);
+    json.add("high", j.found.high);
+    json.add("contacts", j.found.count);
+    json.add("expected", j.expected);
+    json.add("allowed", j.allowed);
+    json.add("agrees", j.agrees());
+    if (!j.equation.empty()) json.add("equation", j.equation);
+  });
 }
 
 }  // namespace
@@ -339,51 +335,44 @@ std::string table(const ContactAudit& a) {
 
 std::string to_json(const ContactAudit& a) {
   io::JsonText json;
-  json.text("format", "edmill contact audit 1");
-  json.text("version", version());
-  json.text("verdict", a.verdict == ContactVerdict::agrees    ? "agrees"
-                       : a.verdict == ContactVerdict::differs ? "differs"
-                                                              : "too few");
-  json.text("case", a.case_name);
-  json.text("log", a.log_name);
-  json.integer("contacts", a.facts.contacts);
-  json.integer("frames", a.facts.frames);
-  json.number("frame_interval", a.facts.statistics.interval);
-  json.number("contact_time", a.facts.statistics.contact_time);
+  json.add("format", "edmill contact audit 1");
+  json.add("version", version());
+  json.add("verdict", a.verdict == ContactVerdict::agrees    ? "agrees"
+                      : a.verdict == ContactVerdict::differs ? "differs"
+                                                             : "too few");
+  json.add("case", a.case_name);
+  json.add("log", a.log_name);
+  json.add("contacts", a.facts.contacts);
+  json.add("frames", a.facts.frames);
+  json.add("frame_interval", a.facts.statistics.interval);
+  json.add("contact_time", a.facts.statistics.contact_time);
   json.begin("classes");
   for (std::size_t k = 0; k < contact_class_names.size(); ++k) {
     json.begin(contact_class_names[k]);
-    json.integer("contacts", a.counts[k]);
-    json.number("milling_dose", a.facts.doses[k]);
+    json.add("contacts", a.counts[k]);
+    json.add("milling_dose", a.facts.doses[k]);
     json.end();
   }
   json.end();
-  json.number("milling_dose_rate", a.dose_rate);
-  json.number("milling_dose_rate_half_width", a.dose_rate_half_width);
+  json.add("milling_dose_rate", a.dose_rate);
+  json.add("milling_dose_rate_half_width", a.dose_rate_half_width);
   put_values(json, a.judged);
-  json.number("wall_distance", a.wall_distance);
-  json.number("wall_resolution", a.wall_resolution);
-  json.begin("slips");
-  for (const auto& s : a.slips) {
-    json.begin(fmt::format("{:.4g}", s.ratio));
+  json.add("wall_distance", a.wall_distance);
+  json.add("wall_resolution", a.wall_resolution);
+  const auto ratio_of = [](const auto& s) { return fmt::format("{:.4g}", s.ratio); };
+  json.groups("slips", a.slips, ratio_of, [&](const auto& s) {
     for (const auto* m : {&s.of_walls, &s.of_balls}) {
       if (!m->known()) continue;
-      json.number(m == &s.of_walls ? "walls" : "balls", m->value);
-      json.number(m == &s.of_walls ? "walls_half_width" : "balls_half_width", m->half_width());
+      json.add(m == &s.of_walls ? "walls" : "balls", m->value);
+      json.add(m == &s.of_walls ? "walls_half_width" : "balls_half_width", m->half_width());
     }
-    json.end();
-  }
-  json.end();
-  json.begin("causes");
-  for (const auto& c : a.causes) {
-    json.begin(c.key);
-    json.number("value", c.value);
-    json.number("half_width", c.half_width);
-    json.number("expected", c.expected);
-    json.number("left", c.left);
-    json.end();
-  }
-  json.end();
+  });
+  json.groups("causes", a.causes, &GeometryCause::key, [&](const GeometryCause& c) {
+    json.add("value", c.value);
+    json.add("half_width", c.half_width);
+    json.add("expected", c.expected);
+    json.add("left", c.left);
+  });
   return json.finish();
 }
 

@@ -155,22 +155,22 @@ std::string table(const ContactComparison& c) {
 
 std::string to_json(const ContactComparison& c) {
   io::JsonText json;
-  json.text("format", "edmill contact comparison 1");
-  json.text("verdict", !c.known ? "too few" : c.agree() ? "agree" : "differ");
+  json.add("format", "edmill contact comparison 1");
+  json.add("verdict", !c.known ? "too few" : c.agree() ? "agree" : "differ");
   for (const auto* r : {&c.a, &c.b}) {
     json.begin(r == &c.a ? "a" : "b");
-    json.text("log", r->log);
-    json.number("from", r->first);
-    json.number("until", r->last);
-    json.number("contact_time", r->contact_time);
-    json.number("single_rate", r->single_rate);
-    json.number("grouped_dose_share", r->grouped);
-    json.number("milling_dose_rate", r->dose_rate);
-    json.number("milling_dose_rate_half_width", r->dose_rate_half_width);
+    json.add("log", r->log);
+    json.add("from", r->first);
+    json.add("until", r->last);
+    json.add("contact_time", r->contact_time);
+    json.add("single_rate", r->single_rate);
+    json.add("grouped_dose_share", r->grouped);
+    json.add("milling_dose_rate", r->dose_rate);
+    json.add("milling_dose_rate_half_width", r->dose_rate_half_width);
     json.end();
   }
-  json.number("difference", c.difference);
-  json.number("half_width", c.half_width);
+  json.add("difference", c.difference);
+  json.add("half_width", c.half_width);
   return json.finish();
 }
 
@@ -231,24 +231,20 @@ std::string table(const Limit& limit) {
 
 std::string to_json(const Limit& limit) {
   io::JsonText json;
-  json.text("format", "edmill limit 1");
-  json.begin("points");
-  for (const auto& p : limit.points) {
-    json.begin(p.log);
-    json.number("contact_time", p.contact_time);
-    json.number("milling_dose_rate", p.dose_rate);
-    json.number("half_width", p.half_width);
-    json.end();
-  }
-  json.end();
-  json.number("limit", limit.value);
-  json.number("half_width", limit.half_width);
-  json.number("slope", limit.slope);
+  json.add("format", "edmill limit 1");
+  json.groups("points", limit.points, &LimitPoint::log, [&](const LimitPoint& p) {
+    json.add("contact_time", p.contact_time);
+    json.add("milling_dose_rate", p.dose_rate);
+    json.add("half_width", p.half_width);
+  });
+  json.add("limit", limit.value);
+  json.add("half_width", limit.half_width);
+  json.add("slope", limit.slope);
   if (limit.edmill) {
-    json.number("edmill", limit.edmill->dose_rate);
-    json.number("edmill_half_width", limit.edmill->half_width);
-    json.number("ratio", limit.ratio());
-    json.number("ratio_half_width", limit.ratio_half_width());
+    json.add("edmill", limit.edmill->dose_rate);
+    json.add("edmill_half_width", limit.edmill->half_width);
+    json.add("ratio", limit.ratio());
+    json.add("ratio_half_width", limit.ratio_half_width());
   }
   return json.finish();
 }

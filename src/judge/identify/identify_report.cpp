@@ -67,7 +67,7 @@ std::string table(const Identification& found) {
 namespace {
 
 void put_optional(io::JsonText& json, std::string_view key, const std::optional<double>& value) {
-  if (value) json.number(key, *value);
+  if (value) json.add(key, *value);
 }
 
 void put_stepping(io::JsonText& json, const TimeStepping& stepping) {
@@ -76,17 +76,17 @@ void put_stepping(io::JsonText& json, const TimeStepping& stepping) {
   put_optional(json, "step_by_depth", stepping.step_by_depth);
   put_optional(json, "first_order_step", stepping.first_order_step);
   put_optional(json, "jitter", stepping.jitter);
-  if (stepping.second_order) json.integer("order", 2);
+  if (stepping.second_order) json.add("order", 2);
   if (const auto& soft = stepping.soft) {
     json.begin("soft_contacts");
-    json.number("duration", soft->duration);
-    json.number("low", soft->low);
-    json.number("high", soft->high);
-    json.text("logged_at", soft->at == LoggedAt::begin ? "begin" : "end");
-    json.integer("contacts", soft->contacts);
-    json.number("exponent", soft->exponent);
-    json.number("spring", soft->spring);
-    json.number("modulus", soft->modulus);
+    json.add("duration", soft->duration);
+    json.add("low", soft->low);
+    json.add("high", soft->high);
+    json.add("logged_at", soft->at == LoggedAt::begin ? "begin" : "end");
+    json.add("contacts", soft->contacts);
+    json.add("exponent", soft->exponent);
+    json.add("spring", soft->spring);
+    json.add("modulus", soft->modulus);
     json.end();
   }
   json.end();
@@ -96,47 +96,39 @@ void put_stepping(io::JsonText& json, const TimeStepping& stepping) {
 
 void put_json(io::JsonText& json, const Identification& found) {
   json.begin("identified");
-  json.integer("events", found.events);
-  json.integer("violations", found.violations);
-  json.integer("noted", found.noted);
-  if (found.too_few) json.text("ended", "too few impacts");
-  if (found.interrupted) json.text("ended", "interrupted");
-  if (found.follows) json.integer("follows", *found.follows);
+  json.add("events", found.events);
+  json.add("violations", found.violations);
+  json.add("noted", found.noted);
+  if (found.too_few) json.add("ended", "too few impacts");
+  if (found.interrupted) json.add("ended", "interrupted");
+  if (found.follows) json.add("follows", *found.follows);
   json.begin("tried");
-  json.integer("numbers", found.tried.numbers);
-  json.integer("mistakes", found.tried.mistakes);
-  json.integer("parts", found.tried.parts);
-  json.text("stages", fmt::format("{}", fmt::join(found.tried.stages, "; ")));
+  json.add("numbers", found.tried.numbers);
+  json.add("mistakes", found.tried.mistakes);
+  json.add("parts", found.tried.parts);
+  json.add("stages", fmt::format("{}", fmt::join(found.tried.stages, "; ")));
   json.end();
   json.begin("causes");
   for (std::size_t k = 0; k < found.causes.size(); ++k) {
     const auto& cause = found.causes[k];
     json.begin(std::to_string(k + 1));
-    json.text("text", cause.text());
-    json.integer("explains", cause.explains);
+    json.add("text", cause.text());
+    json.add("explains", cause.explains);
     if (cause.could_follow > 0) {
-      json.integer("follows", cause.follows);
-      json.integer("could_follow", cause.could_follow);
+      json.add("follows", cause.follows);
+      json.add("could_follow", cause.could_follow);
     }
-    json.number("gain", cause.gain);
-    json.begin("mistakes");
-    for (std::size_t m = 0; m < cause.mistakes.size(); ++m)
-      json.text(std::to_string(m + 1), cause.mistakes[m]);
-    json.end();
-    json.begin("values");
-    for (const auto& v : cause.values) {
-      json.begin(v.key);
-      json.number("value", v.value);
-      json.number("half_width", v.half_width);
-      json.number("nominal", v.nominal);
-      if (!v.in_place_of.empty()) json.text("in_place_of", v.in_place_of);
-      if (!v.equation.empty()) json.text("equation", v.equation);
-      json.end();
-    }
-    json.end();
-    json.begin("alike");
-    for (std::size_t a = 0; a < cause.alike.size(); ++a) json.text(std::to_string(a + 1), cause.alike[a]);
-    json.end();
+    json.add("gain", cause.gain);
+    json.numbered("mistakes", cause.mistakes);
+    const auto key_of = [](const auto& v) { return v.key; };
+    json.groups("values", cause.values, key_of, [&](const auto& v) {
+      json.add("value", v.value);
+      json.add("half_width", v.half_width);
+      json.add("nominal", v.nominal);
+      if (!v.in_place_of.empty()) json.add("in_place_of", v.in_place_of);
+      if (!v.equation.empty()) json.add("equation", v.equation);
+    });
+    json.numbered("alike", cause.alike);
     json.end();
   }
   json.end();

@@ -139,23 +139,16 @@ std::string partner_colour(const model::Partners& partners, int place) {
 
 std::string run_colour(std::size_t place) { return "c" + std::to_string(place % 8); }
 
-std::vector<MainRate> main_rates(const RunFacts& f) {
-  const auto per_time = [&](double amount, const char* name) -> std::optional<RateOf> {
-    if (!(f.duration() > 0)) return std::nullopt;
-    return RateOf{amount / f.duration(), f.half_width(name)};
-  };
-  const auto dose = per_time(f.milling_dose, "milling_dose_rate");
-  std::optional<RateOf> inverse, specific, time;
-  if (dose && dose->value > 0) inverse = {1 / dose->value, f.half_width("inverse_milling_dose_rate")};
-  if (dose && f.powder_mass)
-    specific = {dose->value / *f.powder_mass, f.half_width("specific_milling_dose_rate")};
-  if (f.milling_time) time = RateOf{*f.milling_time, f.milling_time_half_width}.in_units_of(3600);
-  return {{"milling dose rate", "W", dose},
-          {"inverse milling dose rate", "s/J", inverse},
-          {"specific milling dose rate", "W/kg", specific},
+std::vector<MainRate> main_rates(const io::Facts& f) {
+  std::optional<RateOf> time;
+  if (const auto seconds = f.find("target/milling_time"))
+    time = RateOf{*seconds, f.find("target/milling_time_half_width")}.in_units_of(3600);
+  return {{"milling dose rate", "W", rate_in(f, "milling_dose_rate")},
+          {"inverse milling dose rate", "s/J", rate_in(f, "inverse_milling_dose_rate")},
+          {"specific milling dose rate", "W/kg", rate_in(f, "specific_milling_dose_rate")},
           {"milling time", "h", time},
-          {"power from the walls", "W", per_time(f.wall_work, "wall_work_rate")},
-          {"collisions", "1/s", per_time(f.all_collisions(), "collision_rate/total")}};
+          {"power from the walls", "W", rate_in(f, "wall_work_rate")},
+          {"collisions", "1/s", rate_in(f, "collision_rate/total")}};
 }
 
 std::string capitalised(std::string text) {

@@ -121,10 +121,12 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs) {
   for (const auto& run : runs) {
     auto& own = facts.emplace_back();
     auto rows = case_rows(run);
-    rows.push_back({"statistics", fmt::format("{} s to {} s", brief(run.facts.start_time, 12),
-                                              brief(run.facts.end_time, 12))});
-    rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", run.facts.seed, run.facts.precision)});
-    rows.push_back({"program", fmt::format("edmill {} ({})", run.facts.version, run.facts.commit)});
+    rows.push_back({"statistics", fmt::format("{} s to {} s", brief(run.facts.number("start_time"), 12),
+                                              brief(run.facts.number("end_time"), 12))});
+    rows.push_back({"seed, precision",
+                    fmt::format("{:.0f}, {}", run.facts.number("seed"), run.facts.text("precision"))});
+    rows.push_back(
+        {"program", fmt::format("edmill {} ({})", run.facts.text("version"), run.facts.text("commit"))});
     for (const auto& row : rows) {
       const auto [fact, is_first] = own.emplace(row[0], row[1]);
       if (!is_first) fact->second += "; " + row[1];
@@ -152,11 +154,12 @@ void add_differences(pugi::xml_node main, const std::vector<RunFolder>& runs) {
 }
 
 void add_warnings_of(pugi::xml_node main, const std::vector<RunFolder>& runs) {
-  if (std::ranges::all_of(runs, [](const RunFolder& run) { return run.facts.warnings.empty(); })) return;
+  if (std::ranges::all_of(runs, [](const RunFolder& run) { return run.facts.keys_of("warnings").empty(); }))
+    return;
   auto list = add(add_section(main, "warnings", "Warnings"), "ul");
   for (const auto& run : runs)
-    for (const auto& [kind, text] : run.facts.warnings)
-      add(list, "li", {{"data-kind", kind}}, run.name + ": " + text);
+    for (const auto& kind : run.facts.keys_of("warnings"))
+      add(list, "li", {{"data-kind", kind}}, run.name + ": " + run.facts.text("warnings/" + kind));
 }
 
 std::string page_of_runs(const std::vector<RunFolder>& runs) {
@@ -191,9 +194,8 @@ std::optional<RateOf> rate_of_point(const Point& point, const Shown& what) {
   if (point.done() != 1) return rate;
   const auto& run =
       std::ranges::find_if(point.runs, [](const auto& r) { return r.record && r.record->done(); });
-  const double dose_rate = *study::quantity_named("milling_dose_rate").of(*run->record);
-  if (run->record->dose_rate_half_width && dose_rate > 0)
-    rate.half_width = rate.value * *run->record->dose_rate_half_width / dose_rate;
+  const auto own = rate_in(run->record->facts, "milling_dose_rate");
+  if (own && own->half_width && own->value > 0) rate.half_width = rate.value * *own->half_width / own->value;
   return rate;
 }
 
@@ -261,7 +263,6 @@ std::string command_of(const study::Job& job, const std::string& folder) {
 void add_runs(pugi::xml_node main, const std::vector<Point>& points) {
   auto section = add_section(main, "runs", "Runs");
   add_note(section, "The record of each run, and the command that makes it again with a report of its own.");
-  const auto dose_rate = study::quantity_named("milling_dose_rate");
   for (std::size_t k = 0; k < points.size(); ++k) {
     auto details = add(section, "details", {{"class", "runs"}});
     add(details, "summary", {}, fmt::format("{}: {}", k + 1, name_of_point(points[k], k)));
@@ -269,13 +270,13 @@ void add_runs(pugi::xml_node main, const std::vector<Point>& points) {
     for (const auto& run : points[k].runs) {
       auto item = add(list, "li");
       std::string text = fmt::format("seed {}: ", run.seed);
-      const auto rate = run.record ? dose_rate.of(*run.record) : std::nullopt;
+      const auto rate = run.record ? rate_in(run.record->facts, "milling_dose_rate") : std::nullopt;
       if (!run.record)
         text += "not run";
       else if (!run.record->done())
         text += run.record->status + ", " + run.record->message;
       else if (rate)
-        text += text_of({*rate, run.record->dose_rate_half_width}) + " W";
+        text += text_of(*rate) + " W";
       add(item, "span", {}, text);
       if (run.job.digest.empty()) continue;
       auto lines = add(item, "ul");

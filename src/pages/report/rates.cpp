@@ -25,10 +25,10 @@ void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
   const auto& f = run.facts;
   auto chart = over_time(run, "dose-rate", "Milling dose rate over time", "milling dose rate [W]");
   chart.curves.push_back({"", "c0", points_of(*series), false});
-  if (const auto width = f.half_width("milling_dose_rate")) {
+  if (const auto rate = rate_in(f, "milling_dose_rate"); rate && rate->half_width) {
     chart.curves[0].name = fmt::format("over {} s", readable(series->end[0] - series->begin[0], 2));
-    add_level(chart, f.start_time, f.end_time, {f.milling_dose / f.duration(), width},
-              "mean with its 95 % interval", "c1");
+    add_level(chart, f.number("start_time"), f.number("end_time"), *rate, "mean with its 95 % interval",
+              "c1");
   }
   chart.description =
       fmt::format("Line of the milling dose rate in watts from {} s to {} s of simulated time.",
@@ -73,29 +73,33 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
   const auto& f = run.facts;
   const auto areas = areas_of(run);
   Rows rows;
-  const auto row = [&](const std::string& name, double collisions, double dose, double area) {
-    const bool timed = f.duration() > 0;
-    rows.push_back({name, brief(collisions, 12), timed ? readable(collisions / f.duration()) : "\u2013",
-                    timed ? readable(dose / f.duration()) : "\u2013",
-                    f.milling_dose > 0 ? readable(100 * dose / f.milling_dose, 3) : "\u2013",
+  const double duration = f.number("duration"), whole_dose = f.number("milling_dose");
+  const auto row = [&](const std::string& name, const std::string& key, double dose, double area) {
+    const double collisions = f.number("collisions/" + key);
+    const auto rate = f.find("collision_rate/" + key);
+    rows.push_back({name, brief(collisions, 12), rate ? readable(*rate) : "\u2013",
+                    duration > 0 ? readable(dose / duration) : "\u2013",
+                    whole_dose > 0 ? readable(100 * dose / whole_dose, 3) : "\u2013",
                     collisions > 0 ? readable(1000 * dose / collisions, 3) : "\u2013",
-                    timed && area > 0 ? readable(dose / f.duration() / area / 1e4, 3) : "\u2013"});
+                    duration > 0 && area > 0 ? readable(dose / duration / area / 1e4, 3) : "\u2013"});
   };
-  for (int k = 0; k < run.partners.count(); ++k)
-    row(name_of(run.partners[k]), f.collisions[k], f.dose[k], areas[static_cast<std::size_t>(k)]);
-  row("all", f.all_collisions(), f.milling_dose, 0);
+  for (int k = 0; k < run.partners.count(); ++k) {
+    const auto& partner = run.partners[k];
+    row(name_of(partner), partner.key, f.number("milling_dose_by_partner/" + partner.key),
+        areas[static_cast<std::size_t>(k)]);
+  }
+  row("all", "total", whole_dose, 0);
   add_table(section, "by-partner", "Collisions and dose by partner",
             {"with", "collisions", "[1/s]", "dose rate [W]", "share of the dose [%]", "mean dose [mJ]",
              "dose rate per area [W/cm\u00b2]"},
             rows);
-  if (f.duration() > 0)
+  if (const auto rate = f.find("milling_dose_rate"))
     add_note(
         section,
         fmt::format(
             "Area: of the wall, or of all balls. Each of the {} balls has a part in {} W on the average: an "
             "impact between balls counts half for either, one with a wall whole.",
-            run.spec.ball_count(),
-            readable(f.milling_dose / f.duration() / static_cast<double>(run.spec.ball_count()), 3)));
+            run.spec.ball_count(), readable(*rate / static_cast<double>(run.spec.ball_count()), 3)));
 }
 
 void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
@@ -256,10 +260,10 @@ plot::Chart over_time(const RunFolder& run, const std::string& id, const std::st
                       const std::string& y_title) {
   plot::Chart chart{.id = id,
                     .title = title,
-                    .x = {"time [s]", run.spec.initial_time.to<double>(), run.facts.end_time},
+                    .x = {"time [s]", run.spec.initial_time.to<double>(), run.facts.number("end_time")},
                     .y = {y_title}};
-  if (run.facts.start_time > chart.x.low)
-    chart.marks.push_back({run.facts.start_time, "statistics from here"});
+  if (const double start = run.facts.number("start_time"); start > chart.x.low)
+    chart.marks.push_back({start, "statistics from here"});
   return chart;
 }
 

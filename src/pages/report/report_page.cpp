@@ -51,12 +51,13 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
   auto section = add_section(main, "results", "Results");
   add(section, "p", {},
-      fmt::format("{} collisions between {} s and {} s of simulated time.", brief(f.all_collisions(), 12),
-                  brief(f.start_time, 12), brief(f.end_time, 12)));
+      fmt::format("{} collisions between {} s and {} s of simulated time.",
+                  brief(f.number("collisions/total"), 12), brief(f.number("start_time"), 12),
+                  brief(f.number("end_time"), 12)));
   auto list = add(section, "dl", {{"class", "cards"}});
   bool any = false;
   for (const auto& [name, unit, rate] : main_rates(f)) {
-    if (!rate || !(f.duration() > 0)) continue;
+    if (!rate) continue;
     auto box = add(list, "div", {{"class", "card"}});
     add(box, "dt", {}, capitalised(name));
     auto value = add(box, "dd", {{"data-unit", unit}, {"data-value", fmt::format("{}", rate->value)}});
@@ -74,43 +75,48 @@ void add_headline(pugi::xml_node main, const RunFolder& run) {
       any ? fmt::format("\u00b1: 95 % interval of this run, Student\u2019s t over {} batches of {} s, whole "
                         "drive periods. It covers longer runs of the same mill; other seeds may settle at "
                         "another mean (edmill sweep).",
-                        brief(f.batches), readable(f.batch_length))
+                        brief(f.number("intervals/batches")), readable(f.number("intervals/batch_length")))
           : "Too short for intervals: fewer than 5 drive periods.");
-  if (f.target_dose)
-    add_note(section, f.milling_time
-                          ? fmt::format("Milling time to {} kJ/g, counting {}.",
-                                        readable(*f.target_dose / 1e6), f.target_counts)
+  if (const auto dose = f.find("target/dose"))
+    add_note(section, f.find("target/milling_time")
+                          ? fmt::format("Milling time to {} kJ/g, counting {}.", readable(*dose / 1e6),
+                                        f.text("target/counts"))
                           : fmt::format("No milling time to {} kJ/g: nothing of the dose counts ({}).",
-                                        readable(*f.target_dose / 1e6), f.target_counts));
+                                        readable(*dose / 1e6), f.text("target/counts")));
 }
 
 void add_warnings(pugi::xml_node main, const RunFolder& run) {
-  const auto& warnings = run.facts.warnings;
-  if (warnings.empty()) return;
-  auto list = add(add_section(main, "warnings", warnings.size() == 1 ? "A warning" : "Warnings"), "ul");
-  for (const auto& [kind, text] : warnings) add(list, "li", {{"data-kind", kind}}, text);
+  const auto kinds = run.facts.keys_of("warnings");
+  if (kinds.empty()) return;
+  auto list = add(add_section(main, "warnings", kinds.size() == 1 ? "A warning" : "Warnings"), "ul");
+  for (const auto& kind : kinds) add(list, "li", {{"data-kind", kind}}, run.facts.text("warnings/" + kind));
 }
 
 void add_energy(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
   auto section = add_section(main, "energy", "Energy balance");
-  const double kinetic = f.kinetic_end - f.kinetic_start, potential = f.potential_end - f.potential_start;
+  const double duration = f.number("duration");
   const auto row = [&](const std::string& name, double joules) {
-    const bool timed = f.duration() > 0;
     return std::vector<std::string>{name, readable(joules, 6),
-                                    timed ? readable(joules / f.duration()) : "\u2013"};
+                                    duration > 0 ? readable(joules / duration) : "\u2013"};
   };
-  Rows rows{row("work of the walls on the balls", f.wall_work)};
+  const auto less = [&](const std::string& name, double joules) {
+    return row(name, joules == 0 ? 0 : -joules);
+  };
+  const auto gain = [&](const std::string& energy) {
+    return f.number("energy/" + energy + "_end") - f.number("energy/" + energy + "_start");
+  };
+  Rows rows{row("work of the walls on the balls", f.number("wall_work"))};
   for (int k = 0; k < run.partners.count(); ++k)
-    rows.push_back(row("dissipated, " + name_of(run.partners[k]), f.dose[k] == 0 ? 0 : -f.dose[k]));
-  rows.push_back(row("supplied by the least separation speed", f.supplied_energy));
-  rows.push_back(row("stored as kinetic energy of the balls", kinetic == 0 ? 0 : -kinetic));
-  rows.push_back(row("stored as potential energy", potential == 0 ? 0 : -potential));
-  const double scale = std::max({f.milling_dose, f.kinetic_start, f.kinetic_end});
-  rows.push_back({"closure error, by rounding", readable(f.closure, 2),
-                  scale > 0 ? readable(std::abs(f.closure) / scale, 2) + " of the " +
-                                  (f.milling_dose < scale ? "kinetic energy" : "dose")
-                            : "\u2013"});
+    rows.push_back(less("dissipated, " + name_of(run.partners[k]),
+                        f.number("milling_dose_by_partner/" + run.partners[k].key)));
+  rows.push_back(row("supplied by the least separation speed", f.number("least_separation/supplied_energy")));
+  rows.push_back(less("stored as kinetic energy of the balls", gain("kinetic")));
+  rows.push_back(less("stored as potential energy", gain("potential")));
+  const auto closure = f.find("energy/closure_relative");
+  rows.push_back(
+      {"closure error, by rounding", readable(f.number("energy/closure"), 2),
+       closure ? readable(std::abs(*closure), 2) + " of the " + io::energy_scale_of(f) : "\u2013"});
   add_table(section, "ledger", "From the start of statistics to their end",
             {"part", "energy [J]", "rate [W]"}, rows);
 }
@@ -120,23 +126,24 @@ void add_case(pugi::xml_node main, const RunFolder& run) {
   const auto& f = run.facts;
   auto section = add_section(main, "case", "Case");
   auto rows = case_rows(run);
-  rows.push_back({"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.start_time, 12),
-                                            brief(f.end_time, 12), model::name(f.end_reason))});
-  rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.seed, f.precision)});
-  if (f.right_digits)
-    rows.push_back({"right digits", fmt::format("{:.0f}, of every impact to the end", *f.right_digits)});
-  rows.push_back({"least separation speed", fmt::format("{} % of the impacts, {} % of the dose",
-                                                        readable(100 * f.touched_impact_share, 3),
-                                                        readable(100 * f.touched_dose_share, 2))});
-  rows.push_back({"stalls, without friction", fmt::format("{} % of the impacts, {} % of the dose",
-                                                          readable(100 * f.stall_impact_share, 3),
-                                                          readable(100 * f.stall_dose_share, 2))});
-  rows.push_back({"deepest overlap", readable(f.deepest_overlap, 2) + " m"});
-  rows.push_back({"program", fmt::format("edmill {} ({}), {}", f.version, f.commit, f.compiler)});
-  rows.push_back({"CPU time", fmt::format("{} s for {} impacts", readable(f.cpu_seconds, 3),
-                                          brief(f.impacts_since_start, 12))});
+  rows.push_back(
+      {"statistics", fmt::format("{} s to {} s, ended by {}", brief(f.number("start_time"), 12),
+                                 brief(f.number("end_time"), 12), model::name(io::end_reason_of(f)))});
+  rows.push_back({"seed, precision", fmt::format("{:.0f}, {}", f.number("seed"), f.text("precision"))});
+  if (const auto digits = f.find("right_digits"))
+    rows.push_back({"right digits", fmt::format("{:.0f}, of every impact to the end", *digits)});
+  for (const auto& [name, group] : {std::pair{"least separation speed", std::string("least_separation")},
+                                    std::pair{"stalls, without friction", std::string("stalls")}})
+    rows.push_back({name, fmt::format("{} % of the impacts, {} % of the dose",
+                                      readable(100 * f.number(group + "/impact_share"), 3),
+                                      readable(100 * f.number(group + "/milling_dose_share"), 2))});
+  rows.push_back({"deepest overlap", readable(f.number("deepest_overlap"), 2) + " m"});
+  rows.push_back({"program", fmt::format("edmill {} ({}), {}", f.text("version"), f.text("commit"),
+                                         f.text("compiler"))});
+  rows.push_back({"CPU time", fmt::format("{} s for {} impacts", readable(f.number("cpu_seconds"), 3),
+                                          brief(f.number("impacts_since_start"), 12))});
   for (const auto& setting : spec.settings) rows.push_back({"set over the case file", setting});
-  rows.push_back({"digest of the case", f.case_digest});
+  rows.push_back({"digest of the case", f.text("case_digest")});
   add_table(section, "run", "Run", {"name", "value"}, rows);
   auto details = add(section, "details");
   add(details, "summary", {}, "The case file");
@@ -160,8 +167,8 @@ std::string page_of_run(const RunFolder& run) {
   add_energy(main, run);
   add_case(main, run);
   const bool plays = static_cast<bool>(main.select_node("//div[@id='player']"));
-  const auto title = std::filesystem::path(run.facts.case_file).filename().string();
-  return page_of({title, subtitle_of(run), run.facts.version, run.facts.commit, document,
+  const auto title = std::filesystem::path(run.facts.text("case_file")).filename().string();
+  return page_of({title, subtitle_of(run), run.facts.text("version"), run.facts.text("commit"), document,
                   plays ? player() : "", plays ? "The animation is played by three.js (MIT licence)." : ""});
 }
 

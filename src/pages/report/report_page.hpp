@@ -8,6 +8,7 @@
 
 #include "casefile/case_spec.hpp"
 #include "io/summary.hpp"
+#include "model/parts/partners.hpp"
 
 namespace edmill::study {
 class Study;
@@ -36,7 +37,7 @@ void write_comparison(const std::vector<std::string>& folders, const std::filesy
 std::string study_page(const study::Study& study, const std::string& kind, const std::string& finding);
 
 /// The results of a run on the terminal.
-std::string result_table(const io::Summary<double>& summary);
+std::string result_table(const io::Facts& summary, const model::Partners& partners);
 
 /// An SVG with three views of a mill's motion, along z, x and y: the vessel at time 0 and at three later
 /// quarters of a period of the clock, the path of its centre and of one of its points over the period, and

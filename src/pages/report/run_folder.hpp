@@ -4,15 +4,14 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "casefile/case_spec.hpp"
-#include "model/outcome.hpp"
+#include "io/facts.hpp"
+#include "model/parts/partners.hpp"
 #include "plot/chart.hpp"
 
 namespace edmill::report {
@@ -27,45 +26,13 @@ struct RateOf {
   }
 };
 
-/// The content of summary.json, in double for any scalar of the run. Names and units as in docs/files.md.
-struct RunFacts {
-  std::string version, commit, compiler, case_file, case_digest, precision, error;
-  std::vector<std::string> settings;  ///< over the case file
-  bool reported = false;              ///< with the outputs of the report
-  model::EndReason end_reason{};
-  double seed = 0;
-  double start_time = 0, end_time = 0;     ///< of the statistics [s]
-  std::vector<double> collisions, dose;    ///< with each partner [1], [J]
-  double milling_dose = 0, wall_work = 0;  ///< [J]
-  std::optional<double> right_digits;      ///< where digits were asked for
-  std::optional<double> powder_mass;       ///< [kg]
-  double kinetic_start = 0, potential_start = 0, kinetic_end = 0, potential_end = 0;  ///< [J]
-  double closure = 0;                                                                 ///< [J]
-  double touched_impact_share = 0, touched_dose_share = 0;  ///< by the least separation speed
-  double stall_impact_share = 0, stall_dose_share = 0;      ///< without friction, in stalls
-  double supplied_energy = 0;                               ///< by it [J]
-  double deepest_overlap = 0;                               ///< [m]
-  double impacts_since_start = 0, cpu_seconds = 0;
-  double batches = 0, batch_length = 0;                         ///< of the intervals [s]
-  std::map<std::string, double> half_widths;                    ///< of 95 % intervals, by the names of rates
-  std::map<std::string, std::string> warnings;                  ///< by kind
-  std::optional<double> target_dose;                            ///< [J/kg]
-  std::string target_counts;                                    ///< what counts toward it
-  std::optional<double> milling_time, milling_time_half_width;  ///< to it [s]
-
-  std::optional<double> half_width(const std::string& rate) const {
-    const auto found = half_widths.find(rate);
-    return found == half_widths.end() ? std::nullopt : std::optional<double>(found->second);
-  }
-
-  double duration() const { return end_time - start_time; }
-  double all_collisions() const { return std::accumulate(collisions.begin(), collisions.end(), 0.0); }
-};
+/// A rate of a summary with its interval; nothing where the run lacks what it needs.
+std::optional<RateOf> rate_in(const io::Facts& summary, const std::string& path);
 
 /// summary.json and case.toml of a run, and the tables of the case.
 struct RunFolder {
   std::filesystem::path place;
-  RunFacts facts;
+  io::Facts facts;          ///< of summary.json
   casefile::CaseSpec spec;  ///< with the outputs of the report if the run had them
   model::Partners partners;
   std::string name = {};  ///< among runs that are compared

@@ -54,7 +54,7 @@ struct MainRate {
   std::optional<RateOf> rate;  ///< nothing where the run lacks what it needs
 };
 /// The rates by which mills are compared, of any run in the same order.
-std::vector<MainRate> main_rates(const RunFacts& facts);
+std::vector<MainRate> main_rates(const io::Facts& summary);
 /// "27.92 ± 0.23"
 std::string text_of(const RateOf& rate);
 /// "Milling dose rate"

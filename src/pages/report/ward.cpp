@@ -93,12 +93,12 @@ std::optional<WardCase> ward_case_of(const CaseSpec& spec) {
 void add_ward(pugi::xml_node main, const RunFolder& run) {
   const auto ward = ward_case_of(run.spec);
   const auto& f = run.facts;
-  if (!ward || !(f.duration() > 0) || !(f.milling_dose > 0)) return;
+  const auto inverse = rate_in(f, "inverse_milling_dose_rate");
+  if (!ward || !inverse) return;
   auto section = add_section(main, "thesis", "Comparison with the thesis");
-  const double inverse = f.duration() / f.milling_dose, rate = f.all_collisions() / f.duration();
-  Rows rows{{"inverse milling dose rate [s/J]",
-             text_of(RateOf{inverse, f.half_width("inverse_milling_dose_rate")}),
-             readable(ward->inverse_dose_rate), readable(ward->inverse_dose_rate / inverse, 3)}};
+  const double rate = f.number("collision_rate/total");
+  Rows rows{{"inverse milling dose rate [s/J]", text_of(*inverse), readable(ward->inverse_dose_rate),
+             readable(ward->inverse_dose_rate / inverse->value, 3)}};
   if (ward->collision_rate)
     rows.push_back({"collisions [1/s]", readable(rate), readable(*ward->collision_rate),
                     readable(*ward->collision_rate / rate, 3)});

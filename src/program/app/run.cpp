@@ -3,6 +3,7 @@
 #include "base/errors.hpp"
 #include "casefile/memory_for.hpp"
 #include "io/input_file.hpp"
+#include "io/summary.hpp"
 #include "report/report_page.hpp"
 #include "run/run_folder.hpp"
 
@@ -21,8 +22,12 @@ RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOp
       run->finish();
     } catch (const UndecidedError&) {  // the summary says so, and covers the time up to then
     }
-    const auto summary = run->summary();
-    RunResult result{summary.end_reason, summary.error, report::result_table(summary), run->goes_on(), {}};
+    const auto facts = run->facts();
+    RunResult result{io::end_reason_of(facts),
+                     facts.has("error") ? facts.text("error") : "",
+                     report::result_table(facts, casefile::partners_of(spec)),
+                     run->goes_on(),
+                     {}};
     run->commit([&] {
       if (options.report) result.report = report::put_report(options.folder);
       Archive archive;

@@ -36,7 +36,7 @@ study::RunRecord do_job(const study::Job& job, const std::atomic<bool>* interrup
       run->finish();
     } catch (const UndecidedError&) {  // part of the record
     }
-    return study::record_of(run->summary());
+    return study::record_of(run->facts());
   });
 }
 

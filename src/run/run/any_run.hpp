@@ -14,7 +14,8 @@
 #include "edmill/contact_law.hpp"
 #include "edmill/impact.hpp"
 #include "io/checkpoint_file.hpp"
-#include "io/summary.hpp"
+#include "io/facts.hpp"
+#include "model/outcome.hpp"
 
 namespace edmill::run {
 
@@ -86,7 +87,7 @@ class AnyRun {
   virtual std::string time() const = 0;  ///< [s] @pre the run has begun
   /// State of a ball now. @pre the run has begun
   virtual BallState<std::string> ball(int i) const = 0;
-  virtual io::Summary<double> summary() const = 0;
+  virtual io::Facts facts() const = 0;           ///< of summary.json
   virtual std::string summary_json() const = 0;  ///< as in summary.json
 
   /// Whether it can be resumed from its checkpoint.

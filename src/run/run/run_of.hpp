@@ -250,9 +250,9 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
     return driver_->simulation().state_at(i, driver_->simulation().now());
   }
 
-  io::Summary<double> summary() const override {
+  io::Facts facts() const override {
     const auto scope = use();
-    return io::in_double(result());
+    return io::facts_of(result());
   }
   std::string summary_json() const override {
     const auto scope = use();

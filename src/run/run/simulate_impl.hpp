@@ -197,7 +197,7 @@ io::Summary<Real> empty_summary(const casefile::CaseSpec& spec, const casefile::
 template <class Real>
 void finish_summary(io::Summary<Real>& summary, model::EndReason end_reason, const std::string& error) {
   summary.end_reason = end_reason;
-  summary.warnings = warnings_of(measures_of(summary));
+  summary.warnings = warnings_of(io::facts_of(summary), summary.wanted_precision);
   summary.error = summary.stall ? io::stall_message(summary) : error;
 }
 

@@ -33,26 +33,29 @@ bool drifts(const std::vector<double>& means) {
          numerics::differ({means.begin(), half}, {half, means.end()}, 0.01);
 }
 
-void check_dose_rate(const Measures& m, std::vector<io::Warning>& list) {
+void check_dose_rate(const io::Facts& f, const std::optional<double>& wanted,
+                     std::vector<io::Warning>& list) {
+  const double duration = f.number("duration");
   const auto warn = [&](const char* kind, const std::string& text) { list.push_back({kind, text}); };
-  if (m.dose_rates.size() < 2) {
-    if (m.duration > 0)
+  const auto* means = f.numbers("intervals/milling_dose_rate_of_batches");
+  if (!means) {
+    if (duration > 0)
       warn("too_short", fmt::format("The statistics cover fewer than {} drive periods: the rates have no "
                                     "intervals. Run longer.",
                                     io::Intervals::fewest));
     return;
   }
-  const auto e = numerics::estimate(m.dose_rates);
+  const auto e = numerics::estimate(*means);
   const double relative = *e.mean != 0 ? std::abs(*e.half_width / *e.mean) : 0;
-  if (drifts(m.dose_rates))
+  if (drifts(*means))
     warn("transient",
          "The dose rate drifts within the statistics: begin them later (run.start_time), when it "
          "is steady.");
-  if (m.wanted_precision && relative > *m.wanted_precision) {
-    const double ratio = relative / *m.wanted_precision;
+  if (wanted && relative > *wanted) {
+    const double ratio = relative / *wanted;
     warn("precision",
          fmt::format("The dose rate is known to {}, {} was asked for: some {:.2g} s more are needed.",
-                     percent(relative), percent(*m.wanted_precision), (ratio * ratio - 1) * m.duration));
+                     percent(relative), percent(*wanted), (ratio * ratio - 1) * duration));
   } else if (relative > interval_limit) {
     warn("wide_interval",
          fmt::format("The 95 % interval of the dose rate is wider than \u00b1{}: run longer.",
@@ -62,37 +65,45 @@ void check_dose_rate(const Measures& m, std::vector<io::Warning>& list) {
 
 }  // namespace
 
-std::vector<io::Warning> warnings_of(const Measures& m) {
+std::vector<io::Warning> warnings_of(const io::Facts& f, const std::optional<double>& wanted_precision) {
+  const std::string scale = io::energy_scale_of(f);
+  const double collisions = f.number("collisions/total"), impacts = f.number("impacts_since_start"),
+               by_rule = impacts > 0 ? f.number("simultaneous_contacts") / impacts : 0,
+               supplied = f.number("least_separation/supplied_energy_share"),
+               in_stalls = f.number("stalls/milling_dose_share"),
+               closure = std::abs(f.find("energy/closure_relative").value_or(0));
+  const bool has_dose = io::has_dose(f);
+  const double touched =
+      f.number(has_dose ? "least_separation/milling_dose_share" : "least_separation/impact_share");
+  const auto end_reason = io::end_reason_of(f);
   std::vector<io::Warning> list;
   const auto warn = [&](const char* kind, const std::string& text) { list.push_back({kind, text}); };
   for (const auto& [reason, text] : ends)
-    if (m.end_reason == reason) warn("end_reason", text);
-  if (m.collisions < fewest_collisions)
+    if (end_reason == reason) warn("end_reason", text);
+  if (collisions < fewest_collisions)
     warn("too_few_collisions",
-         fmt::format("Only {:g} collisions were counted; below {:g} the rates are not reliable.",
-                     m.collisions, fewest_collisions));
-  check_dose_rate(m, list);
-  if (m.touched_share > touched_share_limit)
+         fmt::format("Only {:g} collisions were counted; below {:g} the rates are not reliable.", collisions,
+                     fewest_collisions));
+  check_dose_rate(f, wanted_precision, list);
+  if (touched > touched_share_limit)
     warn("separation_share",
          fmt::format("{} of the {} that the least separation speed decides: run also with half of "
                      "contact.least_separation.",
-                     percent(m.touched_share),
-                     m.has_dose ? "dose comes from impacts" : "impacts are among those"));
-  if (m.stall_dose_share > stall_share_limit)
+                     percent(touched), has_dose ? "dose comes from impacts" : "impacts are among those"));
+  if (in_stalls > stall_share_limit)
     warn("stall_share", fmt::format("{} of the dose comes from impacts without friction, in stalls of bodies "
                                     "that touch: friction acts less than the case says.",
-                                    percent(m.stall_dose_share)));
-  if (m.supplied_share > supplied_share_limit)
+                                    percent(in_stalls)));
+  if (supplied > supplied_share_limit)
     warn("supplied_energy", fmt::format("The least separation speed supplies energy, {} of the {}: "
                                         "run with a smaller contact.least_separation.",
-                                        percent(m.supplied_share), m.energy_scale));
-  if (m.by_rule_share > by_rule_share_limit)
+                                        percent(supplied), scale));
+  if (by_rule > by_rule_share_limit)
     warn("by_rule", fmt::format("{} of the impacts come at the same time as another one of their ball, in an "
                                 "order that a rule decides: compare with other seeds or another precision.",
-                                percent(m.by_rule_share)));
-  if (std::abs(m.closure_share) > closure_limit)
-    warn("energy",
-         fmt::format("Energy closes only to {:.2g} of the {}.", std::abs(m.closure_share), m.energy_scale));
+                                percent(by_rule)));
+  if (closure > closure_limit)
+    warn("energy", fmt::format("Energy closes only to {:.2g} of the {}.", closure, scale));
   return list;
 }
 

@@ -242,12 +242,12 @@ void Forecast::make(const std::vector<Job>& jobs, Executor& executor,
   }
   const auto take = [&](const RunRecord& record) {
     const auto& job = tried.at(record.digest);
-    const double simulated = record.end_time - job.initial_time;
+    const double simulated = record.facts.find("end_time").value_or(0) - job.initial_time;
     if (record.lasting()) {
-      rates_[job.cost] = record.cpu_seconds / job.cost;
+      rates_[job.cost] = record.cpu_seconds() / job.cost;
       done(record);
     } else if (simulated > 0 && std::isfinite(job.end_time)) {
-      const double all = record.cpu_seconds * (job.end_time - job.initial_time) / simulated;
+      const double all = record.cpu_seconds() * (job.end_time - job.initial_time) / simulated;
       rates_[job.cost] = std::min(all, job.max_cpu_time) / job.cost;
     }
   };

@@ -1,13 +1,12 @@
 // The record of a run in a study: enough for its tables, and to identify it.
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "io/summary.hpp"
+#include "io/facts.hpp"
+#include "model/outcome.hpp"
 
 namespace edmill::study {
 
@@ -15,15 +14,11 @@ struct RunRecord {
   std::string digest;  ///< of the case
   std::string status;  ///< done, inelastic_collapse, stalled, max_cpu_time, undecided, bad_case, error
                        ///< or interrupted
-  std::string end_reason, message;
-  double start_time = 0, end_time = 0;     ///< of the statistics [s]
-  std::vector<std::uint64_t> collisions;   ///< with each partner; none of a run that could not start
-  double milling_dose = 0, wall_work = 0;  ///< [J]
-  std::optional<double> powder_mass, ball_mass;
-  std::optional<double> dose_rate_half_width;  ///< of the run's own 95 % interval [W]
-  std::optional<double> milling_time;          ///< to the case's target dose [s]
-  double cpu_seconds = 0;
+  std::string message;
+  io::Facts facts = io::Facts();  ///< of the summary; none of a run that could not start
 
+  std::string end_reason() const { return facts.has("end_reason") ? facts.text("end_reason") : ""; }
+  double cpu_seconds() const { return facts.find("cpu_seconds").value_or(0); }
   bool done() const { return status == "done"; }
   /// Whether repeating the run would give the same result.
   bool lasting() const {
@@ -33,7 +28,8 @@ struct RunRecord {
   }
 };
 
-RunRecord record_of(const io::Summary<double>& summary);
+/// @param summary  of a run that has ended
+RunRecord record_of(io::Facts summary);
 
 /// The record of a run that could not start.
 RunRecord failed_run(const std::string& digest, const std::string& status, const std::string& message);
@@ -46,9 +42,13 @@ std::optional<RunRecord> from_json(const std::string& text);
 /// A number that tables average.
 struct Quantity {
   std::string name;
+  std::string path;  ///< in the summary
+
   /// Nothing where nothing defines it, such as rates of a wall that the run's vessel does not have.
-  std::function<std::optional<double>(const RunRecord&)> of;
+  std::optional<double> of(const RunRecord& record) const { return record.facts.find(path); }
 };
+/// What the table of runs has before these: times, energies, the charge ratio.
+std::vector<Quantity> amounts();
 /// All of them, with the collision rates of so many walls.
 std::vector<Quantity> quantities(int walls);
 /// The one of a name, which is no collision rate.

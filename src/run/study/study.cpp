@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "base/errors.hpp"
@@ -75,11 +76,6 @@ std::vector<Column> point_columns(const std::vector<std::string>& keys) {
 void put_point(Table& table, std::size_t index, const Point& point, const std::vector<std::string>& keys) {
   table.put(index + 1, point.name);
   for (const auto& key : keys) table.put(setting_of(point, key));
-}
-
-std::optional<double> charge_ratio(const RunRecord& r) {
-  if (!r.powder_mass || !r.ball_mass) return std::nullopt;
-  return *r.ball_mass / *r.powder_mass;
 }
 
 }  // namespace
@@ -191,7 +187,7 @@ std::vector<Job> Study::collect_jobs() {
       if (!waiting_.contains(run.job.digest)) {
         run.record = from_json(io::content_of(record_file(run.job.digest)));
         if (run.record && run.record->digest == run.job.digest && run.record->lasting()) {
-          log_.emplace_back("kept", run.record->cpu_seconds);
+          log_.emplace_back("kept", run.record->cpu_seconds());
           ++kept_;
           continue;
         }
@@ -207,7 +203,7 @@ void Study::put(const RunRecord& record) {
   if (record.lasting()) write_file(record_file(record.digest), to_json(record));
   const auto [first, last] = waiting_.equal_range(record.digest);
   for (auto entry = first; entry != last; ++entry) entry->second->record = record;
-  log_.emplace_back("ran", record.cpu_seconds);
+  log_.emplace_back("ran", record.cpu_seconds());
   ++ran_;
 }
 
@@ -345,25 +341,19 @@ Table Study::point_table() const {
 
 Table Study::run_table() const {
   const auto varied = keys();
-  const auto shown = quantities();
+  auto shown = amounts();
+  std::ranges::copy(quantities(), std::back_inserter(shown));
   auto columns = point_columns(varied);
   columns.push_back({"seed", Type::integer});
   for (const auto* name : {"status", "end_reason"}) columns.push_back({name, Type::text});
-  for (const auto* name : {"start_time", "end_time", "charge_ratio_reached", "milling_dose", "wall_work",
-                           "milling_dose_rate_ci95"})
-    columns.push_back({name, Type::number});
   for (const auto& quantity : shown) columns.push_back({quantity.name, Type::number});
   for (const auto* name : {"digest", "message"}) columns.push_back({name, Type::text});
   Table table(std::move(columns));
   for (std::size_t k = 0; k < points_.size(); ++k)
     for (const auto& run : points_[k].runs) {
       const auto record = run.record.value_or(RunRecord{});
-      const bool ran = run.record && !run.record->end_reason.empty();
-      const auto if_ran = [&](double x) { return ran ? std::optional<double>(x) : std::nullopt; };
       put_point(table, k, points_[k], varied);
-      table.put(run.seed, run.record ? record.status : "pending", record.end_reason);
-      table.put(if_ran(record.start_time), if_ran(record.end_time), charge_ratio(record),
-                if_ran(record.milling_dose), if_ran(record.wall_work), record.dose_rate_half_width);
+      table.put(run.seed, run.record ? record.status : "pending", record.end_reason());
       for (const auto& quantity : shown) table.put(quantity.of(record));
       table.put(run.job.digest, record.message);
     }

@@ -10,15 +10,15 @@ namespace {
 
 using namespace edmill::run;
 namespace model = edmill::model;
+using edmill::io::Facts;
 using Rates = std::vector<double>;
 
-Measures good_facts() {
-  Measures m;
-  m.end_reason = model::EndReason::end_time;
-  m.duration = 10;
-  m.collisions = 4000;
-  m.touched_share = 0.03, m.supplied_share = 0.008;
-  return m;
+Facts good_facts() {
+  edmill::io::Summary<double> s;
+  s.end_time = 10;
+  s.collisions[0] = s.total_impacts = 4000;
+  s.milling_dose = 1, s.touched_dose = 0.03, s.supplied_energy = 0.008;
+  return facts_of(s);
 }
 
 Rates steady() {
@@ -29,13 +29,15 @@ Rates steady() {
   return rates;
 }
 
-std::vector<edmill::io::Warning> warnings_of(Measures m, const Rates& rates) {
-  m.dose_rates = rates;
-  return edmill::run::warnings_of(m);
+std::vector<edmill::io::Warning> warnings_of(Facts f, const Rates& rates,
+                                             const std::optional<double>& wanted_precision = {}) {
+  if (!rates.empty()) f.set("intervals/milling_dose_rate_of_batches", rates);
+  return edmill::run::warnings_of(f, wanted_precision);
 }
-std::vector<std::string> kinds(const Measures& m, const Rates& rates) {
+std::vector<std::string> kinds(const Facts& f, const Rates& rates,
+                               const std::optional<double>& wanted_precision = {}) {
   std::vector<std::string> list;
-  for (const auto& warning : warnings_of(m, rates)) list.push_back(warning.kind);
+  for (const auto& warning : warnings_of(f, rates, wanted_precision)) list.push_back(warning.kind);
   return list;
 }
 
@@ -55,16 +57,16 @@ TEST(Warnings, AGoodRunHasNone) {
 
 TEST(Warnings, ALargeShareOfTheDoseByTheLeastSeparationSpeedIsTold) {
   auto f = good_facts();
-  f.touched_share = 0.0501;
+  f.set("least_separation/milling_dose_share", 0.0501);
   EXPECT_EQ(kinds(f, steady()), Kinds{"separation_share"});
   EXPECT_NE(warnings_of(f, steady())[0].text.find("5 %"), std::string::npos);
 }
 
 TEST(Warnings, MoreThanOnePercentOfTheDoseAsSuppliedEnergyIsTold) {
   auto f = good_facts();
-  f.supplied_share = 0.00998;
+  f.set("least_separation/supplied_energy_share", 0.00998);
   EXPECT_EQ(kinds(f, steady()), Kinds{});
-  f.supplied_share = 0.0152;
+  f.set("least_separation/supplied_energy_share", 0.0152);
   EXPECT_EQ(kinds(f, steady()), Kinds{"supplied_energy"});
   EXPECT_NE(warnings_of(f, steady())[0].text.find("1.5 %"), std::string::npos);
 }
@@ -77,18 +79,18 @@ edmill::io::Summary<double> elastic(std::uint64_t touched, double supplied) {
   s.energy_at_start.kinetic = 1, s.energy_at_end.kinetic = 1 + supplied, s.supplied_energy = supplied;
   return s;
 }
-Kinds kinds(const edmill::io::Summary<double>& s) { return kinds(measures_of(s), steady()); }
+Kinds kinds(const edmill::io::Summary<double>& s) { return kinds(facts_of(s), steady()); }
 
 TEST(Warnings, EnergyThatIsSuppliedWithoutADoseIsTold) {
   EXPECT_EQ(kinds(elastic(400, 0.009)), Kinds{});
   EXPECT_EQ(kinds(elastic(400, 9.5)), Kinds{"supplied_energy"});
-  EXPECT_NE(warnings_of(measures_of(elastic(400, 9.5)), steady())[0].text.find("90 % of the kinetic energy"),
+  EXPECT_NE(warnings_of(facts_of(elastic(400, 9.5)), steady())[0].text.find("90 % of the kinetic energy"),
             std::string::npos);
 }
 
 TEST(Warnings, ALargeShareOfTheImpactsIsToldWithoutADose) {
   EXPECT_EQ(kinds(elastic(501, 0)), Kinds{"separation_share"});
-  EXPECT_NE(warnings_of(measures_of(elastic(2000, 0)), steady())[0].text.find("20 % of the impacts"),
+  EXPECT_NE(warnings_of(facts_of(elastic(2000, 0)), steady())[0].text.find("20 % of the impacts"),
             std::string::npos);
   auto rounding = elastic(501, 0);
   rounding.milling_dose = 1e-14;
@@ -138,9 +140,9 @@ TEST(Warnings, SteadyRunsAreCalledTransientAboutAsRarelyAsTheTestsSay) {
 
 TEST(Warnings, FewerThanAThousandCollisionsAreTooFew) {
   auto f = good_facts();
-  f.collisions = 999;
+  f.set("collisions/total", 999.0);
   EXPECT_EQ(kinds(f, steady()), Kinds{"too_few_collisions"});
-  f.collisions = 1000;
+  f.set("collisions/total", 1000.0);
   EXPECT_EQ(kinds(f, steady()), Kinds{});
 }
 
@@ -152,33 +154,31 @@ TEST(Warnings, AWideIntervalIsTold) {
 
 TEST(Warnings, APrecisionThatWasNotReachedIsToldWithTheTimeThatIsLeft) {
   auto f = good_facts();
-  f.wanted_precision = 0.002;  // t 2.09 * 0.05 / sqrt(20) = 0.5 % of 5
-  EXPECT_EQ(kinds(f, steady()), Kinds{"precision"});
-  f.wanted_precision = 0.01;
-  EXPECT_EQ(kinds(f, steady()), Kinds{});
+  EXPECT_EQ(kinds(f, steady(), 0.002), Kinds{"precision"});  // t 2.09 * 0.05 / sqrt(20) = 0.5 % of 5
+  EXPECT_EQ(kinds(f, steady(), 0.01), Kinds{});
 }
 
 TEST(Warnings, EnergyThatDoesNotCloseIsTold) {
   auto f = good_facts();
-  f.closure_share = -1e-9 * 2;
+  f.set("energy/closure_relative", -1e-9 * 2);
   EXPECT_EQ(kinds(f, steady()), Kinds{"energy"});
-  f.closure_share = 1e-9;
+  f.set("energy/closure_relative", 1e-9);
   EXPECT_EQ(kinds(f, steady()), Kinds{});
 }
 
 TEST(Warnings, ARunThatDidNotReachItsEndIsTold) {
   for (const std::string reason : {"interrupted", "inelastic_collapse", "undecided"}) {
     auto f = good_facts();
-    f.end_reason = *model::end_reason_named(reason);
+    f.set("end_reason", reason);
     EXPECT_EQ(kinds(f, steady()), Kinds{"end_reason"}) << reason;
   }
 }
 
 TEST(Warnings, ManyContactsInTheOrderOfARuleAreSaid) {
   auto f = good_facts();
-  f.by_rule_share = 0.009;
+  f.set("simultaneous_contacts", 0.009 * 4000);
   EXPECT_EQ(kinds(f, steady()), Kinds{});
-  f.by_rule_share = 0.011;
+  f.set("simultaneous_contacts", 0.011 * 4000);
   EXPECT_EQ(kinds(f, steady()), Kinds{"by_rule"});
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <random>
 
+#include "io/summary.hpp"
 #include "study/executor.hpp"
 
 namespace edmill::study {
@@ -22,14 +23,14 @@ struct Made {
   }
   RunRecord run(const Job& job) {
     const double all = seconds(job), own = std::min(all, job.max_cpu_time);
-    RunRecord r;
-    r.digest = job.digest;
-    r.status = own < all ? "max_cpu_time" : "done";
-    r.cpu_seconds = own;
-    r.end_time = job.initial_time + (job.end_time - job.initial_time) * own / all;
+    io::Summary<double> s;
+    s.provenance.case_digest = job.digest;
+    s.end_reason = own < all ? model::EndReason::max_cpu_time : model::EndReason::end_time;
+    s.cpu_seconds = own;
+    s.end_time = job.initial_time + (job.end_time - job.initial_time) * own / all;
     const std::lock_guard lock(mutex);
     taken += own;
-    return r;
+    return record_of(io::facts_of(s));
   }
 };
 

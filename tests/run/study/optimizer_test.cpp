@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "io/summary.hpp"
 #include "program.hpp"
 
 namespace edmill {
@@ -33,14 +34,12 @@ class Optimizer : public ProgramTest {
     for (const auto& o : job.overrides)
       if (o.starts_with("balls.0.diameter=")) d = std::stod(o.substr(17));
     const double chance = static_cast<double>(std::hash<std::string>{}(job.digest) % 1000) / 1000 - 0.5;
-    study::RunRecord r;
-    r.digest = job.digest;
-    r.status = "done";
-    r.end_reason = "end_time";
-    r.end_time = 1;
-    r.powder_mass = 1;
-    r.milling_dose = 100 - (d - peak) * (d - peak) + noise * chance;
-    return r;
+    io::Summary<double> s;
+    s.provenance.case_digest = job.digest;
+    s.end_time = 1;
+    s.powder_mass = s.ball_mass = 1;
+    s.milling_dose = 100 - (d - peak) * (d - peak) + noise * chance;
+    return study::record_of(io::facts_of(s));
   }
 
   struct Found {

@@ -5,17 +5,18 @@
 
 #include <algorithm>
 
+#include "io/summary.hpp"
+
 namespace edmill::study {
 namespace {
 
 /// A record of a run whose statistics cover 1 s to 3 s.
 RunRecord record_with(const std::vector<std::uint64_t>& collisions) {
-  RunRecord record;
-  record.status = "done";
-  record.start_time = 1, record.end_time = 3;
-  record.collisions = collisions;
-  record.milling_dose = 8, record.wall_work = 10;
-  return record;
+  io::Summary<double> s(model::Partners(std::vector<model::WallInfo>(collisions.size() - 1)));
+  s.start_time = 1, s.end_time = 3;
+  s.collisions = collisions;
+  s.milling_dose = 8, s.wall_work = 10;
+  return record_of(io::facts_of(s));
 }
 
 std::optional<double> value(const RunRecord& record, const std::string& name, int walls) {
@@ -44,10 +45,30 @@ TEST(RunRecords, ARunThatCouldNotStartHasNoValues) {
 }
 
 TEST(RunRecords, JsonKeepsTheCollisionsWithEveryPartner) {
-  for (const auto& collisions : {std::vector<std::uint64_t>{}, {5}, {1, 2, 3, 4}, {1, 2, 3, 4, 5, 6, 7}}) {
-    const auto read = from_json(to_json(record_with(collisions)));
+  for (const auto& collisions : {std::vector<std::uint64_t>{5}, {1, 2, 3, 4}, {1, 2, 3, 4, 5, 6, 7}}) {
+    const auto record = record_with(collisions);
+    const auto read = from_json(to_json(record));
     ASSERT_TRUE(read);
-    EXPECT_EQ(read->collisions, collisions);
+    EXPECT_EQ(read->status, "done");
+    for (const auto& list : {amounts(), quantities(6)})
+      for (const auto& quantity : list) EXPECT_EQ(quantity.of(*read), quantity.of(record)) << quantity.name;
+    for (std::size_t k = 0; k < collisions.size(); ++k)
+      EXPECT_EQ(
+          read->facts.number("collisions/" + model::partner_key(static_cast<int>(k),
+                                                                static_cast<int>(collisions.size()) - 1)),
+          static_cast<double>(collisions[k]));
+  }
+  const auto failed = from_json(to_json(failed_run("digest", "error", "why")));
+  ASSERT_TRUE(failed);
+  EXPECT_EQ(failed->digest + failed->status + failed->message, "digesterrorwhy");
+}
+
+TEST(RunRecords, AWrongNumberMakesARecordUseless) {
+  auto record = record_with({1, 2});
+  for (const auto* key : {"end_time", "collision_rate/wall_0", "cpu_seconds", "end_reason"}) {
+    auto wrong = record;
+    wrong.facts.set(key, true);
+    EXPECT_FALSE(from_json(to_json(wrong))) << key;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "casefile/output_entry.hpp"
 #include "casefile/quantity.hpp"
 #include "cli/exit_codes.hpp"
+#include "io/summary.hpp"
 #include "io/terminal.hpp"
 
 namespace edmill::cli {
@@ -154,7 +155,7 @@ inline std::string outputs() {
 
 }  // namespace detail
 
-/// docs/reference.md: commands with options, exit codes, keys of files, outputs.
+/// docs/reference.md: commands with options, exit codes, keys of files, outputs, keys of summary.json.
 inline std::string reference(const CLI::App& app) {
   using namespace detail;
   return "# Reference\n\nPrinted by `edmill reference` from the tables with which the program reads command "
@@ -166,7 +167,9 @@ inline std::string reference(const CLI::App& app) {
          "unit are SI. Decimals are exact in every scalar, and have a point. Powers can be written `m/s2`, "
          "`m/s^2` or `m/s\u00b2`.\n\n"
          "### Units\n\n" +
-         units() + sections();
+         units() + sections() +
+         "## Keys of summary.json\n\nThe result of a run; docs/files.md says how to read it.\n\n" +
+         io::summary_reference();
 }
 
 /// @tparam text  of the whole command line

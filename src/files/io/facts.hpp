@@ -1,0 +1,67 @@
+// The fields of a result in double, by their keys.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "io/json_text.hpp"
+
+namespace edmill::io {
+
+/// A result as its JSON has it, in double for any scalar: values by the paths of their keys
+/// ("energy/closure"), in the order of the file.
+class Facts {
+ public:
+  using Texts = std::vector<std::string>;
+  /// monostate is null, as nan and infinity are in the file.
+  using Value = std::variant<std::monostate, bool, double, std::string, Texts, std::vector<double>>;
+
+  /// @param source  of messages: the file
+  explicit Facts(std::string source = {}) : source_(std::move(source)) {}
+
+  /// Adds a value, or replaces that of the path.
+  void set(const std::string& path, Value value);
+
+  /// Whether there is a field, which may be null.
+  bool has(std::string_view path) const { return value(path) != nullptr; }
+  /// @param expected  what it should be, for messages
+  /// @throws InputError with file and key when there is no such value
+  const std::string& text(std::string_view path, const char* expected = "a text") const {
+    return get<std::string>(path, expected);
+  }
+  double number(std::string_view path) const { return get<double>(path, "a number"); }
+  bool flag(std::string_view path) const { return get<bool>(path, "true or false"); }
+  const Texts& texts(std::string_view path) const { return get<Texts>(path, "a list of texts"); }
+  /// Nothing where there is no such field, or it is null. @throws InputError for anything but a number
+  std::optional<double> find(std::string_view path) const;
+  /// Null where there are none.
+  const std::vector<double>* numbers(std::string_view path) const {
+    const auto* found = value(path);
+    return found ? std::get_if<std::vector<double>>(found) : nullptr;
+  }
+  /// The keys in a group, in their order.
+  Texts keys_of(const std::string& group) const;
+
+  InputError wrong(std::string_view path, const char* expected) const;
+  /// As JSON.
+  std::string json() const;
+
+ private:
+  const Value* value(std::string_view path) const;
+  template <class T>
+  const T& get(std::string_view path, const char* expected) const {
+    const auto* found = value(path);
+    if (!found || !std::holds_alternative<T>(*found)) throw wrong(path, expected);
+    return std::get<T>(*found);
+  }
+
+  std::string source_;
+  std::vector<std::pair<std::string, Value>> values_;
+};
+
+}  // namespace edmill::io
