@@ -53,7 +53,8 @@ void check_times(Section run, const CaseSpec& spec) {
   run.require(!spec.end_time || within(*spec.end_time), "end_time", expected);
 }
 
-/// The lines of [run]. Digests of 1.0 name its keys in this order.
+/// The lines of [run]. Digests of 1.0 name its keys in this order, those without a value too; of later keys
+/// they name those that are given.
 std::string text_of_run(const CaseSpec& c) {
   constexpr std::array<std::string_view, 8> of_1_0{"precision",      "seed",          "initial_time",
                                                    "start_time",     "end_time",      "max_milling_dose",
@@ -61,6 +62,7 @@ std::string text_of_run(const CaseSpec& c) {
   std::string first[of_1_0.size()], others;
   for (const auto& [key, value, named] : digest_values(c)) {
     const auto found = std::find(of_1_0.begin(), of_1_0.end(), key);
+    if (found == of_1_0.end() && value == "-") continue;
     (found == of_1_0.end() ? others : first[found - of_1_0.begin()]) += "\n" + key + " " + value;
   }
   std::string text;

@@ -68,14 +68,10 @@ struct MaxBallSpeed {
 
 /// A dose rate that is known well enough.
 struct DoseRatePrecision {
-  static constexpr Parameter key{"dose_rate_precision",
-                                 Dimension::none,
+  static constexpr Parameter key{"dose_rate_precision", Dimension::none,
                                  "the run ends when the half-width of the 95 % interval of the dose rate is "
                                  "this part of it; tried first after 40 drive periods of statistics",
-                                 Range(0.0001, 1),
-                                 nullptr,
-                                 nullptr,
-                                 Parameter::Digest::named};
+                                 Range(0.0001, 1)};
 
   /// Few looks at the interval, each after a time that the one before predicts, so that a run does not end
   /// because its interval is narrow by chance. (docs/theory.md, section 8)
