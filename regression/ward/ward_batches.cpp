@@ -53,27 +53,27 @@ std::string list(const std::vector<Batches::Totals>& totals, Value value) {
 
 void write(const io::Summary<double>& s, double length, const std::vector<Batches::Totals>& totals) {
   io::JsonText json;
-  json.text("format", "edmill ward run 1");
-  json.text("commit", s.provenance.commit);
-  json.text("compiler", s.provenance.compiler);
-  json.text("case_digest", s.provenance.case_digest);
-  json.integer("seed", s.provenance.seed);
-  json.text("end_reason", std::string(model::name(s.end_reason)));
-  json.number("start_time", s.start_time);
-  json.number("end_time", s.end_time);
-  json.number("batch_length", length);
-  json.number("milling_dose", s.milling_dose);
-  json.number("energy_closure", s.energy_closure);
-  json.number("touched_milling_dose", s.touched_dose);
-  json.integer("touched_impacts", s.touched_impacts);
-  json.integer("impacts_since_start", s.total_impacts);
-  json.number("cpu_seconds", s.cpu_seconds);
-  json.begin("batches");
-  json.text("milling_dose", list(totals, [](const auto& t) { return to_text<double>(t.milling_dose); }));
-  for (int k = 0; k < s.partners.count(); ++k)
-    json.text(s.partners[k].key,
-              list(totals, [k](const auto& t) { return std::to_string(t.collisions[k]); }));
-  json.end();
+  json.add("format", "edmill ward run 1");
+  json.add("commit", s.provenance.commit);
+  json.add("compiler", s.provenance.compiler);
+  json.add("case_digest", s.provenance.case_digest);
+  json.add("seed", s.provenance.seed);
+  json.add("end_reason", model::name(s.end_reason));
+  json.add("start_time", s.start_time);
+  json.add("end_time", s.end_time);
+  json.add("batch_length", length);
+  json.add("milling_dose", s.milling_dose);
+  json.add("energy_closure", s.energy_closure);
+  json.add("touched_milling_dose", s.touched_dose);
+  json.add("touched_impacts", s.touched_impacts);
+  json.add("impacts_since_start", s.total_impacts);
+  json.add("cpu_seconds", s.cpu_seconds);
+  json.group("batches", [&] {
+    json.add("milling_dose", list(totals, [](const auto& t) { return to_text<double>(t.milling_dose); }));
+    for (int k = 0; k < s.partners.count(); ++k)
+      json.add(s.partners[k].key,
+               list(totals, [k](const auto& t) { return std::to_string(t.collisions[k]); }));
+  });
   std::cout << json.finish();
 }
 

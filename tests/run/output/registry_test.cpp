@@ -68,10 +68,8 @@ TEST_F(OutputRegistry, ATypeThatIsNotThereIsNotDropped) {
 }
 
 TEST(OutputsPage, EveryTypeSaysWhatItWrites) {
-  for (const auto& type : casefile::output_types()) {
+  for (const auto& type : casefile::output_types())
     EXPECT_FALSE(type.what.empty()) << type.name;  // docs/reference.md is made from it
-    for (const auto& key : type.keys) EXPECT_FALSE(key.kind.empty() || key.fallback.empty()) << key.name;
-  }
 }
 
 }  // namespace
