@@ -290,34 +290,18 @@ Facts facts_of(const Summary<Real>& s) {
   return visited<FactsVisitor>(s).facts;
 }
 
-model::EndReason end_reason_of(const Facts& f) {
-  constexpr const char *key = "end_reason", *expected = "why the run ended";
-  const auto reason = model::end_reason_named(f.text(key, expected));
-  if (!reason) throw f.wrong(key, expected);
-  return *reason;
-}
-
-/// At an end of the record, the larger one [J].
-static double kinetic_energy(const Facts& f) {
-  return std::max(f.number("energy/kinetic_start"), f.number("energy/kinetic_end"));
-}
-const char* energy_scale_of(const Facts& f) {
-  return f.number("milling_dose") < kinetic_energy(f) ? "kinetic energy" : "dose";
-}
-bool has_dose(const Facts& f) {
-  const double dose = f.number("milling_dose");
-  return dose * 1e9 > std::max(dose, kinetic_energy(f));
-}
-
 std::string summary_reference() {
   Summary<double> s(
       model::Partners(std::vector<model::WallInfo>{{"", "and so on for every wall"}}));  // with every part
-  s.provenance.right_digits = 0, s.error = "-", s.powder_mass = s.ball_mass = 1,
-  s.milling_dose = s.end_time = 1;
+  s.provenance.right_digits = 0;
+  s.error = "-";
+  s.powder_mass = s.ball_mass = s.milling_dose = s.end_time = 1;
   s.intervals.batches = Intervals::fewest;
-  s.intervals.collision_rates.resize(2), s.intervals.dose_rates.resize(2);
+  s.intervals.collision_rates.resize(2);
+  s.intervals.dose_rates.resize(2);
   s.target = {1, "", 1};
-  s.collapse.emplace(), s.stall.emplace();
+  s.collapse.emplace();
+  s.stall.emplace();
   s.notes = {{"NAME", 0}};
   s.escalations.push_back({"SCALAR", {}, {}, {}});
   return visited<ReferenceVisitor>(s).text;
