@@ -161,7 +161,7 @@ struct PistonTable {
   Entries<SwingTable> swings{{}, {Dimension::length, "inward"}};
 
   static constexpr const char* what =
-      "A wall that stands inward of its nominal position by distance + speed t + swings.";
+      "A wall that is displaced inward from its nominal position by distance + speed t + swings.";
   static void keys(auto& p, auto&& row) {
     row(Parameter{"wall", Dimension::none, "a flat wall by its label or its number: `\"cap -y\"`, `wall_0`"}
             .as("name")
