@@ -82,7 +82,7 @@ void read_wall_materials(Section& vessel, VesselTable& table, CaseSpec& spec) {
   const int common = material_of(vessel, "material", table.material, spec);
   if (vessel.of_unknown_kind()) return;
   Section& walls = *table.materials.section;
-  WallMaterials given;
+  Named<WallName> given;
   read_keys(walls, given);
   const auto partners = known_partners(spec);
   if (!partners) return;

@@ -29,9 +29,8 @@ struct MaterialSpec {
 
   static constexpr const char* what = "Materials of balls and walls.";
   static void keys(auto& m, auto&& row) {
-    row(Parameter{"name", Dimension::none, "by which balls, walls and pairs name it"}, m.name);
-    row(Parameter{"density", Dimension::density, "required for a material of balls", Range::positive},
-        m.density);
+    row({"name", "by which balls, walls and pairs name it"}, m.name);
+    row({"density", Dimension::density, "required for a material of balls", Range::positive}, m.density);
   }
 };
 
@@ -55,7 +54,7 @@ struct BallSpec {
   static constexpr Parameter colour_key{"colour", Dimension::none, "in pictures",          Range::any,
                                         nullptr,  "blue",          Parameter::Digest::none};
   static constexpr Parameter material_key =
-      Parameter{"material", Dimension::none, "of a `[[material]]`"}.as("name").usually("none").undigested();
+      Parameter{"material", "of a `[[material]]`"}.as("name").usually("none").undigested();
   static constexpr Parameter velocity_of(const char* meaning) {
     return {"velocity", Dimension::speed, meaning, Range::any, nullptr, "at rest"};
   }
@@ -75,33 +74,26 @@ struct BallBatch : BallSpec {
 
   static constexpr const char* what = "Batches of balls, placed at random after the single balls.";
   static void keys(auto& b, auto&& row) {
-    row(Parameter{"count", Dimension::none, "of balls that are placed at random", {0, largest_count}, "1"},
-        b.count);
-    row(Parameter{"mass", Dimension::mass,
-                  "of all balls of the batch, in place of `count`: the nearest number of balls",
-                  Range::not_negative, nullptr, "none", Parameter::Digest::none},
+    row({"count", "of balls that are placed at random", {0, largest_count}, "1"}, b.count);
+    row({"mass", Dimension::mass,
+         "of all balls of the batch, in place of `count`: the nearest number of balls", Range::not_negative,
+         nullptr, "none", Parameter::Digest::none},
         b.mass);
     row(diameter_key, b.diameter);
-    row(Parameter{"diameter_spread", Dimension::length,
-                  "diameters are uniform within this much of `diameter`, on either side", Range::not_negative,
-                  "0 m"},
+    row({"diameter_spread", Dimension::length,
+         "diameters are uniform within this much of `diameter`, on either side", Range::not_negative, "0 m"},
         b.diameter_spread);
     row(density_key, b.density);
     row(inertia_key, b.reduced_inertia);
     row(velocity_of("of each ball of the batch"), b.velocity);
-    row(
-        Parameter{
-            "random_speed", Dimension::speed,
-            "each ball gets a random direction and a random speed up to this one, in place of `velocity`",
-            Range::not_negative},
+    row({"random_speed", Dimension::speed,
+         "each ball gets a random direction and a random speed up to this one, in place of `velocity`",
+         Range::not_negative},
         b.random_speed);
-    row(Parameter{"gap_ball", Dimension::length, "least distance to other balls", Range::not_negative,
-                  "1 mm"},
+    row({"gap_ball", Dimension::length, "least distance to other balls", Range::not_negative, "1 mm"},
         b.gap_ball);
-    row(Parameter{"gap_wall", Dimension::length, "least distance to walls", Range::not_negative, "1 mm"},
-        b.gap_wall);
-    row(Parameter{"max_relocations", Dimension::none, "attempts to place a ball", Range::any, "100000"},
-        b.max_relocations);
+    row({"gap_wall", Dimension::length, "least distance to walls", Range::not_negative, "1 mm"}, b.gap_wall);
+    row({"max_relocations", "attempts to place a ball", Range::any, "100000"}, b.max_relocations);
     row(colour_key, b.colour);
     row(material_key, b.material_name);
   }
@@ -117,12 +109,11 @@ struct ExplicitBall : BallSpec {
     row(diameter_key, b.diameter);
     row(density_key, b.density);
     row(inertia_key, b.reduced_inertia);
-    row(Parameter{"position", Dimension::length, "of the centre, in the inertial frame", Range::any, nullptr,
-                  "required without `run.initial_state`"},
+    row({"position", Dimension::length, "of the centre, in the inertial frame", Range::any, nullptr,
+         "required without `run.initial_state`"},
         b.position);
     row(velocity_of("in the inertial frame"), b.velocity);
-    row(Parameter{"spin", Dimension::angular_speed, "in the inertial frame", Range::any, nullptr, "none"},
-        b.spin);
+    row({"spin", Dimension::angular_speed, "in the inertial frame", Range::any, nullptr, "none"}, b.spin);
     row(colour_key, b.colour);
     row(material_key, b.material_name);
   }
@@ -140,27 +131,20 @@ struct PairSpec {
   }
 };
 
-/// A name of ours, theirs with its unit: "t [ms]".
+/// A column of another code's log: its name here, and its name there with its unit, "t [ms]".
 struct ColumnName : std::pair<std::string, std::string> {
   using pair::pair;
-  static std::optional<ColumnName> read(Section& section, const std::string& ours);
-};
-
-/// Names of columns of another code's log.
-struct ColumnNames : std::vector<ColumnName> {
   static constexpr const char* what = "Names of columns.";
-  static void keys(auto& c, auto&& row) {
-    row(Parameter{"*", Dimension::none,
-                  "ours = theirs, with a unit in brackets: `approach_speed = \"vn [mm/s]\"`"}
-            .as("text")
-            .usually("the same name"),
-        static_cast<std::vector<ColumnName>&>(c));
-  }
+  static constexpr Parameter entry =
+      Parameter{"*", "ours = theirs, with a unit in brackets: `approach_speed = \"vn [mm/s]\"`"}
+          .as("text")
+          .usually("the same name");
+  static std::optional<ColumnName> read(Section& section, const std::string& ours);
 };
 
 /// Section [audit]: how another code's collision log is to be read and judged. docs/audit.md
 struct AuditSpec {
-  ColumnNames columns;
+  Named<ColumnName> columns;
   std::optional<Quantity> tolerance, gap_tolerance;
   std::optional<std::uint64_t> first_ball;
   std::string walls;  ///< "-1, -2, -3": what stands for the walls, by id; empty when not given
@@ -168,21 +152,16 @@ struct AuditSpec {
 
   static constexpr const char* what = "How `edmill audit` reads another code's log.";
   static void keys(auto& a, auto&& row) {
-    row(Parameter{"tolerance", Dimension::none, "relative", Range::share, nullptr, "1e-9"}, a.tolerance);
-    row(Parameter{"gap_tolerance", Dimension::length, "largest gap or overlap of bodies in contact",
-                  Range::positive, nullptr, "by rounding"},
+    row({"tolerance", "relative", Range::share, nullptr, "1e-9"}, a.tolerance);
+    row({"gap_tolerance", Dimension::length, "largest gap or overlap of bodies in contact", Range::positive,
+         nullptr, "by rounding"},
         a.gap_tolerance);
-    row(Parameter{"first_ball", Dimension::none, "number of the log's first ball", Range(0, largest_count),
-                  nullptr, "0"},
+    row({"first_ball", "number of the log's first ball", Range(0, largest_count), nullptr, "0"},
         a.first_ball);
-    row(Parameter{"walls", Dimension::none, "numbers of the walls by id: `\"1, 2, 3\"`", Range::any, nullptr,
-                  "those of edmill"},
+    row({"walls", "numbers of the walls by id: `\"1, 2, 3\"`", Range::any, nullptr, "those of edmill"},
         a.walls);
-    row(Parameter{"from_start", Dimension::none, "the log begins at the initial state of the case",
-                  Range::any, "false"},
-        a.from_start);
-    row(Parameter{"columns", Dimension::none, "names of columns in the other code's log, `[audit.columns]`"},
-        a.columns);
+    row({"from_start", "the log begins at the initial state of the case", Range::any, "false"}, a.from_start);
+    row({"columns", "names of columns in the other code's log, `[audit.columns]`"}, a.columns);
   }
 };
 
@@ -192,13 +171,13 @@ struct TargetSpec {
   model::CountedDose<Quantity> counted{false, {}};
 
   static void keys(auto& t, auto&& row) {
-    row(Parameter{"target_dose", Dimension::specific_energy,
-                  "target milling dose per mass of powder, \"10 kJ/g\": the milling time follows",
-                  Range::positive, nullptr, "none"},
+    row({"target_dose", Dimension::specific_energy,
+         "target milling dose per mass of powder, \"10 kJ/g\": the milling time follows", Range::positive,
+         nullptr, "none"},
         t.dose);
-    row(Parameter{"counts_above", Dimension::energy,
-                  "an impact counts toward the target when what it has of `counts` is at least this",
-                  Range::not_negative, "0 J"},
+    row({"counts_above", Dimension::energy,
+         "an impact counts toward the target when what it has of `counts` is at least this",
+         Range::not_negative, "0 J"},
         t.counted.least);
   }
   /// "the dose along the normal, of impacts with 0.001 J of it or more", for readers.
@@ -243,36 +222,30 @@ struct CaseSpec {
 
   static constexpr const char* what = "Begin and end of the run, its scalar, gravity.";
   static void keys(auto& c, auto&& row) {
-    row(Parameter{"seed", Dimension::none, "of the random placement", Range::any, "1"}, c.seed);
-    row(
-        Parameter{
-            "digits",
-            Dimension::none,
-            "every event in its true order and every number of the logs correct to this many digits: the "
-            "precision is "
-            "chosen for it",
-            {1, 100000},
-            nullptr,
-            nullptr,
-            Parameter::Digest::none},
+    row({"seed", "of the random placement", Range::any, "1"}, c.seed);
+    row({"digits",
+         "every event in its true order and every number of the logs correct to this many digits: the "
+         "precision is chosen for it",
+         {1, 100000},
+         nullptr,
+         nullptr,
+         Parameter::Digest::none},
         c.digits);
-    row(Parameter{"initial_time", Dimension::time, "instant of the initial state", Range::not_negative,
-                  "0 s"},
+    row({"initial_time", Dimension::time, "instant of the initial state", Range::not_negative, "0 s"},
         c.initial_time);
-    row(Parameter{"start_time", Dimension::time, "statistics begin here", Range::any, nullptr,
-                  "`initial_time`"},
+    row({"start_time", Dimension::time, "statistics begin here", Range::any, nullptr, "`initial_time`"},
         c.statistics_start);
-    row(Parameter{"end_time", Dimension::time,
-                  "the run ends here; this or another stop rule, a key `max_...`, is required, and the first "
-                  "that is met ends the run"},
+    row({"end_time", Dimension::time,
+         "the run ends here; this or another stop rule, a key `max_...`, is required, and the first that is "
+         "met ends the run"},
         c.end_time);
-    row(Parameter{"initial_state", Dimension::none,
-                  "a `final_state.csv` to start from, relative to the case file; the properties of the balls "
-                  "stay those of the case",
-                  Range::any, nullptr, "none", Parameter::Digest::none},
+    row({"initial_state",
+         "a `final_state.csv` to start from, relative to the case file; the properties of the balls stay "
+         "those of the case",
+         Range::any, nullptr, "none", Parameter::Digest::none},
         c.initial_state);
     model::for_each_stop_rule([&](auto rule, std::size_t place) { row(rule.key, c.stop_limits[place]); });
-    row(Parameter{"precision", Dimension::none,
+    row(Parameter{"precision",
                   "scalar of the run; `edmill --version` lists all, and `\"mpfr:3000\"` has 3000 digits",
                   Range::any, "double"}
             .as("name of a scalar")

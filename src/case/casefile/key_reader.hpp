@@ -29,7 +29,7 @@ Quantity fallback_of(const Parameter& p);
 /// keys all have values without it.
 template <class T>
 concept Keyed = requires(T& t) {
-  T::keys(t, [](const auto&...) {});
+  T::keys(t, [](const Parameter&, const auto&) {});
 };
 /// A value with a form of its own in a file: `read_from(section, key)` reads it where the key is present.
 template <class T>
@@ -139,6 +139,17 @@ class KeyReader {
 
 void read_keys(Section& section, Keyed auto& keyed) { keyed.keys(keyed, KeyReader(section)); }
 
+/// Every entry of a list, and nothing else.
+template <Keyed T>
+std::vector<T> read_entries(Entries<T>& entries) {
+  std::vector<T> list;
+  for (Section& entry : entries) {
+    read_keys(entry, list.emplace_back(entries.like));
+    entry.reject_unknown_keys();
+  }
+  return list;
+}
+
 /// Reports values out of range that were not read from a file.
 struct KeyChecker {
   Section& section;
@@ -204,7 +215,7 @@ template <class T>
 std::vector<DigestValue> digest_values(const T& keyed) {
   T plain{};
   std::vector<std::string> defaults;
-  T::keys(plain, [&](const auto&, const auto& value) { defaults.push_back(digest_of(value)); });
+  T::keys(plain, [&](const Parameter&, const auto& value) { defaults.push_back(digest_of(value)); });
   std::vector<DigestValue> values;
   auto usual = defaults.begin();
   T::keys(keyed, [&](const Parameter& p, const auto& value) {

@@ -21,31 +21,28 @@ struct ColumnTable {
   static constexpr const char* what = "A list of tables, one for each column.";
   static void keys(auto& c, auto&& row) {
     using enum Dimension;
-    row(Parameter{"variable", none, "a variable; of `trends_balls` a quantity of a ball"}.as("name").usually(
+    row(Parameter{"variable", "a variable; of `trends_balls` a quantity of a ball"}.as("name").usually(
             "required"),
         c.variable);
     if (c.has_statistics)
-      row(
-          Parameter{
-              "statistics", none,
-              "`sum`, `average`, `minimum`, `maximum`, `rate` (per second), `percentage` (of the total's "
-              "sum); of flags `sum`, `rate` and `percentage`. Not of `trends_instant`"}
+      row(Parameter{"statistics",
+                    "`sum`, `average`, `minimum`, `maximum`, `rate` (per second), `percentage` (of the "
+                    "total's sum); of flags `sum`, `rate` and `percentage`. Not of `trends_instant`"}
               .as("list of names")
               .usually("required"),
           c.statistics);
-    row(Parameter{"label", none, "in the table's header"}.usually("the variable's name"), c.label);
+    row(Parameter{"label", "in the table's header"}.usually("the variable's name"), c.label);
     if (c.has_texts && (c.variable.empty() || is_flag(c.variable))) {
-      row(Parameter{"true_text", none, "for a flag that is true", Range::any, "1"}.usually("`\"1\"`").only_of(
+      row(Parameter{"true_text", "for a flag that is true", Range::any, "1"}.usually("`\"1\"`").only_of(
               "trends_instant"),
           c.true_text);
-      row(Parameter{"false_text", none, "for a flag that is false", Range::any, "0"}
-              .usually("`\"0\"`")
-              .only_of("trends_instant"),
+      row(Parameter{"false_text", "for a flag that is false", Range::any, "0"}.usually("`\"0\"`").only_of(
+              "trends_instant"),
           c.false_text);
     }
     if (c.has_ball)
-      row(Parameter{"with_ball", none, "also which ball has the minimum or maximum", Range::any, "false"}
-              .only_of("trends_balls"),
+      row(Parameter{"with_ball", "also which ball has the minimum or maximum", Range::any, "false"}.only_of(
+              "trends_balls"),
           c.with_ball);
   }
   static bool is_flag(const std::string& variable);
@@ -67,7 +64,7 @@ struct ColumnReader {
 };
 
 inline constexpr Parameter columns_key =
-    Parameter{"columns", Dimension::none, "what the table contains"}.as("list of tables").usually("required");
+    Parameter{"columns", "what the table contains"}.as("list of tables").usually("required");
 constexpr Parameter interval_key(const char* fallback) {
   return {"interval", Dimension::time, "length of an interval", Range::positive, fallback};
 }

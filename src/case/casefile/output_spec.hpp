@@ -30,44 +30,41 @@ struct TimerSpec {
   /// Of every output; some have an interval beside them.
   static void keys(auto& t, auto&& row) {
     using enum Dimension;
-    row(Parameter{"on", none, "false leaves the table empty", Range::any, "true"}, t.on);
-    row(Parameter{"start_time", time,
-                  "the record begins at this time or at `start_collision`, whichever is earlier",
-                  Range::not_negative, nullptr, "the start of the run"},
+    row({"on", "false leaves the table empty", Range::any, "true"}, t.on);
+    row({"start_time", time, "the record begins at this time or at `start_collision`, whichever is earlier",
+         Range::not_negative, nullptr, "the start of the run"},
         t.start_time);
-    row(Parameter{"start_collision", none, "index of an impact, from 0", Range::any, nullptr, "none"},
-        t.start_collision);
-    row(
-        Parameter{
-            "end_time", time,
-            "the record ends at this time, after `duration` or after `collisions`, whichever is earliest",
-            Range::not_negative, nullptr, "the end of the run"},
+    row({"start_collision", "index of an impact, from 0", Range::any, nullptr, "none"}, t.start_collision);
+    row({"end_time", time,
+         "the record ends at this time, after `duration` or after `collisions`, whichever is earliest",
+         Range::not_negative, nullptr, "the end of the run"},
         t.end_time);
-    row(Parameter{"duration", time, "of the record", Range::positive}, t.duration);
-    row(Parameter{"collisions", none, "number of impacts in the record, with those that `only` excludes",
-                  Range::count, nullptr, "none"},
+    row({"duration", time, "of the record", Range::positive}, t.duration);
+    row({"collisions", "number of impacts in the record, with those that `only` excludes", Range::count,
+         nullptr, "none"},
         t.collisions);
   }
 };
 
 class Section;
 
+/// A table whose keys are the user's names: entries of a T, which has `read(section, name)`, and `what` and
+/// `entry` for readers.
+template <class T>
+struct Named : std::vector<T> {
+  static constexpr const char* what = T::what;
+  static void keys(auto& names, auto&& row) { row(T::entry, static_cast<std::vector<T>&>(names)); }
+};
+
 /// Only impacts for which a flag or a count has this value.
 struct Restriction {
   int variable;  ///< place in model::impact_variables
   std::uint64_t value;
 
-  static std::optional<Restriction> read(Section& section, const std::string& variable);
-};
-
-struct Restrictions : std::vector<Restriction> {
   static constexpr const char* what = "`only = { ball_ball = false, partner = 1 }`";
-  static void keys(auto& r, auto&& row) {
-    row(Parameter{"*", Dimension::none, "the key is a flag or a count"}
-            .as("true, false or count")
-            .usually(""),
-        static_cast<std::vector<Restriction>&>(r));
-  }
+  static constexpr Parameter entry =
+      Parameter{"*", "the key is a flag or a count"}.as("true, false or count").usually("");
+  static std::optional<Restriction> read(Section& section, const std::string& variable);
 };
 
 enum class Statistic { sum, average, minimum, maximum, rate, percentage };
@@ -103,10 +100,8 @@ struct ContactPointSpec {
 
   static constexpr const char* what = "A table.";
   static void keys(auto& c, auto&& row) {
-    row(Parameter{"radius", Dimension::length, "of the sphere that marks it", Range::positive, "1 mm"},
-        c.radius);
-    row(Parameter{"colour", Dimension::none, "of the sphere that marks it", Range::any, nullptr, "yellow"},
-        c.colour);
+    row({"radius", Dimension::length, "of the sphere that marks it", Range::positive, "1 mm"}, c.radius);
+    row({"colour", "of the sphere that marks it", Range::any, nullptr, "yellow"}, c.colour);
   }
 };
 
@@ -117,12 +112,9 @@ struct AnimationSpec {
   std::uint64_t min_frames = 8;
 
   static void keys(auto& a, auto&& row) {
-    row(Parameter{"speed", Dimension::none, "of playback; 1 is real time", Range::positive, "0.001"},
-        a.speed);
-    row(Parameter{"frames_per_minute", Dimension::none, "of playback", Range::count, "60"},
-        a.frames_per_minute);
-    row(Parameter{"min_frames", Dimension::none, "of the whole animation, at least", Range::count, "8"},
-        a.min_frames);
+    row({"speed", "of playback; 1 is real time", Range::positive, "0.001"}, a.speed);
+    row({"frames_per_minute", "of playback", Range::count, "60"}, a.frames_per_minute);
+    row({"min_frames", "of the whole animation, at least", Range::count, "8"}, a.min_frames);
   }
 };
 
@@ -134,7 +126,7 @@ struct OutputSpec {
   bool append = false;
   bool table = true;  ///< whether it is one, which can be appended to another
   TimerSpec timer;
-  Restrictions only;
+  Named<Restriction> only;
   std::vector<ColumnSpec> columns;
   FrequencySpec frequency;
   bool accumulated = false;                       ///< trends: since the start instead of for each interval
@@ -146,22 +138,21 @@ struct OutputSpec {
   /// Of every type.
   static void keys(auto& o, auto&& row) {
     using enum Dimension;
-    row(Parameter{"type", none, "which table or picture: see the types of outputs above"}.as("name").usually(
+    row(Parameter{"type", "which table or picture: see the types of outputs above"}.as("name").usually(
             "required"),
         o.type);
     TimerSpec::keys(o.timer, row);
-    row(Parameter{"file", none, "a plain name; a table whose name ends in `.h5` is written as HDF5"}.usually(
+    row(Parameter{"file", "a plain name; a table whose name ends in `.h5` is written as HDF5"}.usually(
             "type and extension"),
         o.file);
-    row(Parameter{"folder", none, "inside the run's folder; created if absent"}.usually("the run's folder"),
+    row(Parameter{"folder", "inside the run's folder; created if absent"}.usually("the run's folder"),
         o.folder);
     if (o.table)
-      row(Parameter{"append", none,
-                    "of CSV: keep the content of the file and add to it; outputs that all append can share a "
-                    "file",
-                    Range::any, "false"},
+      row({"append",
+           "of CSV: keep the content of the file and add to it; outputs that all append can share a file",
+           Range::any, "false"},
           o.append);
-    row(Parameter{"only", none, "only impacts with these values of flags and counts"}.usually("all impacts"),
+    row(Parameter{"only", "only impacts with these values of flags and counts"}.usually("all impacts"),
         o.only);
   }
 

@@ -84,26 +84,15 @@ class Hull {
 
 std::vector<Face<Quantity>> read_planes(Entries<PlaneTable>& planes) {
   std::vector<Face<Quantity>> faces;
-  for (Section& entry : planes) {
-    PlaneTable plane;
-    read_keys(entry, plane);
-    entry.reject_unknown_keys();
-    Face<Quantity> face;
-    face.normal = plane.normal;
-    face.distance = plane.distance;
-    faces.push_back(face);
-  }
+  for (auto& plane : read_entries(planes))
+    faces.push_back({.normal = plane.normal, .point = {}, .distance = plane.distance});
   return faces;
 }
 
 std::vector<Face<Quantity>> read_vertices(Section& vessel, Entries<VertexTable>& entries) {
   std::vector<Point> vertices;
-  for (Section& entry : entries) {
-    VertexTable vertex;
-    read_keys(entry, vertex);
-    entry.reject_unknown_keys();
+  for (const auto& vertex : read_entries(entries))
     vertices.push_back({rational(vertex.at[0]), rational(vertex.at[1]), rational(vertex.at[2])});
-  }
   if (vertices.size() < 4 || vertices.size() > 60) {
     vessel.problem("vertex", std::to_string(vertices.size()) + " vertices", "4 to 60");
     return {};

@@ -59,7 +59,7 @@ void read_point(Section& entry, SweepSpec& spec) {
   if (table.ball.text) point.set.emplace_back("ball", *table.ball.text);
   if (!entry.has("set") && !entry.has("balls") && !entry.has("ball"))
     entry.problem("set", "nothing", "a table of keys and values, or [[sweep.point.balls]]");
-  SettingTable settings;
+  Named<Setting> settings;
   Section& set = *table.set.section;
   read_keys(set, settings);
   for (const auto& key : set.keys()) {
@@ -160,7 +160,7 @@ std::optional<GridAxis> GridAxis::read(Section& grid, const std::string& key) {
 SweepSpec read_sweep(const std::string& path) {
   return read_study_file<SweepTable>(path, "sweep", [](Section& s, SweepTable& table) {
     Section& grid = *table.grid_table.section;
-    Grid axes;
+    Named<GridAxis> axes;
     read_keys(grid, axes);
     table.grid = axes;
     for (const auto& axis : table.grid) check_key(grid, axis.key);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "casefile/quantity.hpp"
+#include "model/parts/parameter.hpp"
 
 namespace edmill::casefile {
 
@@ -21,6 +22,9 @@ inline constexpr int most_runs = 1000000;
 /// A key of the case and its value as `--set` would take it.
 struct Setting : std::pair<std::string, std::string> {
   using pair::pair;
+  static constexpr const char* what = "A table.";
+  static constexpr model::Parameter entry =
+      model::Parameter{"*", "the key is one of the case"}.as("value").usually("");
   static std::optional<Setting> read(Section& section, const std::string& key);
 };
 
@@ -44,6 +48,11 @@ struct StudySpec {
 struct GridAxis {
   std::string key;
   std::vector<std::string> values;
+  static constexpr const char* what = "Values of keys.";
+  static constexpr model::Parameter entry =
+      model::Parameter{"*", "the key is one of the case, as `--set` takes it, or `charge_ratio`"}
+          .as("list of values")
+          .usually("");
   static std::optional<GridAxis> read(Section& grid, const std::string& key);
 };
 

@@ -11,68 +11,42 @@ inline constexpr Parameter study_seed_key{
 /// @param relative  "relative to the sweep file"
 inline void shared_keys(auto& s, auto&& row, const char* relative) {
   using enum Dimension;
-  row(Parameter{"case", none, relative}.as("file").usually("required"), s.case_file);
-  row(Parameter{"precision", none, "of all runs"}.as("name of a scalar").usually("that of the case"),
-      s.precision);
-  row(Parameter{"max_cpu_time", time, "of processor time, after which a run ends without a result",
-                Range::positive},
+  row(Parameter{"case", relative}.as("file").usually("required"), s.case_file);
+  row(Parameter{"precision", "of all runs"}.as("name of a scalar").usually("that of the case"), s.precision);
+  row({"max_cpu_time", time, "of processor time, after which a run ends without a result", Range::positive},
       s.cpu_limit);
 }
 
-/// set of [[sweep.point]]
-struct SettingTable : std::vector<Setting> {
-  static constexpr const char* what = "A table.";
-  static void keys(auto& s, auto&& row) {
-    row(Parameter{"*", Dimension::none, "the key is one of the case"}.as("value").usually(""),
-        static_cast<std::vector<Setting>&>(s));
-  }
-};
-
 struct PointTable {
   std::string name;
-  Inner<SettingTable> set;
+  Inner<Named<Setting>> set;
   AnyValue balls, ball;
 
   static constexpr const char* what = "Single points.";
   static void keys(auto& p, auto&& row) {
     using enum Dimension;
-    row(Parameter{"name", none, "of the point in the tables"}.usually("none"), p.name);
-    row(Parameter{"set", none, "keys of the case with their values"}.usually("this or a list"), p.set);
-    row(Parameter{"balls", none, "whole list, entries `[[sweep.point.balls]]`"}.as("tables").usually(
+    row(Parameter{"name", "of the point in the tables"}.usually("none"), p.name);
+    row(Parameter{"set", "keys of the case with their values"}.usually("this or a list"), p.set);
+    row(Parameter{"balls", "whole list, entries `[[sweep.point.balls]]`"}.as("tables").usually(
             "those of the case"),
         p.balls);
-    row(Parameter{"ball", none, "whole list, entries `[[sweep.point.ball]]`"}.as("tables").usually(
+    row(Parameter{"ball", "whole list, entries `[[sweep.point.ball]]`"}.as("tables").usually(
             "those of the case"),
         p.ball);
   }
 };
 
-/// In the order of the file.
-struct Grid : std::vector<GridAxis> {
-  static constexpr const char* what = "Values of keys.";
-  static void keys(auto& g, auto&& row) {
-    row(Parameter{"*", Dimension::none, "the key is one of the case, as `--set` takes it, or `charge_ratio`"}
-            .as("list of values")
-            .usually(""),
-        static_cast<std::vector<GridAxis>&>(g));
-  }
-};
-
 struct SweepTable : SweepSpec {
-  Inner<Grid> grid_table;
+  Inner<Named<GridAxis>> grid_table;
   Entries<PointTable> points;
 
   static constexpr const char* what = "Of a sweep file.";
   static void keys(auto& s, auto&& row) {
     row(study_seed_key, s.seed);
-    row(Parameter{"replicas", Dimension::none, "runs of each point, with successive seeds",
-                  Range(1, most_runs), "1"},
-        s.replicas);
+    row({"replicas", "runs of each point, with successive seeds", Range(1, most_runs), "1"}, s.replicas);
     shared_keys(s, row, "relative to the sweep file");
-    row(Parameter{"grid", Dimension::none, "every combination of the values, `[sweep.grid]`"}, s.grid_table);
-    row(Parameter{"point", Dimension::none,
-                  "single points, each with all of the grid, entries `[[sweep.point]]`"},
-        s.points);
+    row({"grid", "every combination of the values, `[sweep.grid]`"}, s.grid_table);
+    row({"point", "single points, each with all of the grid, entries `[[sweep.point]]`"}, s.points);
   }
 };
 
@@ -85,11 +59,11 @@ struct VariableTable {
   static constexpr const char* what = "What is varied.";
   static void keys(auto& v, auto&& row) {
     using enum Dimension;
-    row(Parameter{"key", none, "a key of the case, or `charge_ratio`"}.usually("required"), v.key);
-    row(Parameter{"low", none, "lower bound"}.as("value").usually("required without `values`"), v.low);
-    row(Parameter{"high", none, "upper bound"}.as("value").usually("required without `values`"), v.high);
-    row(Parameter{"integer", none, "whole numbers only", Range::any, "false"}, v.integer);
-    row(Parameter{"values", none, "the only values, in place of bounds"}.as("list of values").usually("none"),
+    row(Parameter{"key", "a key of the case, or `charge_ratio`"}.usually("required"), v.key);
+    row(Parameter{"low", "lower bound"}.as("value").usually("required without `values`"), v.low);
+    row(Parameter{"high", "upper bound"}.as("value").usually("required without `values`"), v.high);
+    row({"integer", "whole numbers only", Range::any, "false"}, v.integer);
+    row(Parameter{"values", "the only values, in place of bounds"}.as("list of values").usually("none"),
         v.values);
   }
 };
@@ -101,17 +75,16 @@ struct OptimizeTable : OptimizeSpec {
   static void keys(auto& o, auto&& row) {
     using enum Dimension;
     row(study_seed_key, o.seed);
-    row(Parameter{"runs_max", none, "the whole budget", {1, most_runs}}, o.runs_max);
-    row(Parameter{"replicas_first", none, "runs of every point", {2, 1000}, "3"}, o.replicas_first);
-    row(Parameter{"replicas_max", none, "runs of a point that may be the best", {2, 1000}, "24"},
-        o.replicas_max);
-    row(Parameter{"points", none, "of the first grid along each variable", {2, 100}, "5"}, o.points);
-    row(Parameter{"refinements", none, "finer grids around the best point", {0, 20}, "2"}, o.refinements);
+    row({"runs_max", "the whole budget", {1, most_runs}}, o.runs_max);
+    row({"replicas_first", "runs of every point", {2, 1000}, "3"}, o.replicas_first);
+    row({"replicas_max", "runs of a point that may be the best", {2, 1000}, "24"}, o.replicas_max);
+    row({"points", "of the first grid along each variable", {2, 100}, "5"}, o.points);
+    row({"refinements", "finer grids around the best point", {0, 20}, "2"}, o.refinements);
     shared_keys(o, row, "relative to the optimisation file");
-    row(Parameter{"objective", none, "this or `milling_dose_rate`"}.as("name").usually(
+    row(Parameter{"objective", "this or `milling_dose_rate`"}.as("name").usually(
             "`\"specific_milling_dose_rate\"`"),
         o.wanted);
-    row(Parameter{"variable", none, "one to three entries `[[optimize.variable]]`"}.usually("required"),
+    row(Parameter{"variable", "one to three entries `[[optimize.variable]]`"}.usually("required"),
         o.variable_tables);
   }
 };
@@ -122,8 +95,8 @@ struct StudyFile {
   Inner<OptimizeTable> optimize;
 
   static void keys(auto& f, auto&& row) {
-    row(Parameter{"sweep", Dimension::none, ""}, f.sweep);
-    row(Parameter{"optimize", Dimension::none, ""}, f.optimize);
+    row({"sweep", ""}, f.sweep);
+    row({"optimize", ""}, f.optimize);
   }
 };
 

@@ -19,8 +19,8 @@ struct SwingTable {
   static void keys(auto& s, auto&& row) {
     const Parameter amplitude{"amplitude", s.dimension, s.meaning};
     row(s.dimension == Dimension::none ? amplitude.as("angle or length") : amplitude, s.amplitude);
-    row(Parameter{"speed", Dimension::angular_speed, "2 pi times the frequency"}, s.speed);
-    row(Parameter{"phase", Dimension::angle, "at the time 0", Range::any, "0 deg"}, s.phase);
+    row({"speed", Dimension::angular_speed, "2 pi times the frequency"}, s.speed);
+    row({"phase", Dimension::angle, "at the time 0", Range::any, "0 deg"}, s.phase);
   }
 };
 
@@ -48,20 +48,20 @@ struct JointTable {
     using enum Dimension;
     const bool rotates = j.rotates.value_or(true), translates = !j.rotates.value_or(false);
     if (rotates)
-      row(Parameter{"rotate", none,
+      row(Parameter{"rotate",
                     "`\"x\"`, `\"y\"`, `\"z\"` or three numbers: the axis in the frame of the joint before"}
               .as("axis")
               .usually("this or `translate`"),
           j.rotate);
     if (translates)
-      row(Parameter{"translate", none,
+      row(Parameter{"translate",
                     "along an axis: `\"x\"`, `\"y\"`, `\"z\"`, or three numbers with `speed` or `swing`; "
                     "without them, three lengths are a constant shift"}
               .as("axis or three lengths")
               .usually("this or `rotate`"),
           j.translate);
     if (rotates)
-      row(Parameter{"angle", Dimension::angle, "constant part of a rotation", Range::any, "0 deg"}, j.angle);
+      row({"angle", Dimension::angle, "constant part of a rotation", Range::any, "0 deg"}, j.angle);
     row(Parameter{"speed", translates ? Dimension::speed : angular_speed,
                   "constant, as the joint rotates or translates; rotations need no common period, a "
                   "translation needs `run.end_time`",
@@ -70,8 +70,8 @@ struct JointTable {
             .usually("`0`"),
         j.speed);
     if (translates)
-      row(Parameter{"distance", length, "constant part of a translation along `\"x\"`, `\"y\"` or `\"z\"`",
-                    Range::any, "0 m"},
+      row({"distance", length, "constant part of a translation along `\"x\"`, `\"y\"` or `\"z\"`", Range::any,
+           "0 m"},
           j.distance);
     row(SwingTable::key, j.swings);
   }
@@ -82,9 +82,8 @@ struct ChainTable {
   Entries<JointTable> joints;
 
   static void keys(auto& c, auto&& row) {
-    row(Parameter{"joint", Dimension::none,
-                  "from the ground to the vessel, any number of entries `[[mill.joint]]`"}
-            .usually("required"),
+    row(Parameter{"joint", "from the ground to the vessel, any number of entries `[[mill.joint]]`"}.usually(
+            "required"),
         c.joints);
   }
 };
@@ -94,8 +93,7 @@ struct MillTable {
 
   static constexpr const char* what = "How the vessel moves.";
   static void keys(auto& m, auto&& row) {
-    row(Parameter{"type", Dimension::none, "how the vessel moves"}.as("name").usually("`\"spex8000\"`"),
-        m.motion);
+    row(Parameter{"type", "how the vessel moves"}.as("name").usually("`\"spex8000\"`"), m.motion);
   }
 };
 
@@ -105,8 +103,8 @@ struct PlaneTable {
 
   static constexpr const char* what = "Walls of a polyhedron.";
   static void keys(auto& p, auto&& row) {
-    row(Parameter{"normal", Dimension::none, "outward, of any length"}, p.normal);
-    row(Parameter{"distance", Dimension::length, "from the vessel's origin, which is inside"}, p.distance);
+    row({"normal", "outward, of any length"}, p.normal);
+    row({"distance", Dimension::length, "from the vessel's origin, which is inside"}, p.distance);
   }
 };
 
@@ -114,9 +112,7 @@ struct VertexTable {
   QuantityVector at{};
 
   static constexpr const char* what = "Corners of a polyhedron.";
-  static void keys(auto& v, auto&& row) {
-    row(Parameter{"at", Dimension::length, "in the vessel frame"}, v.at);
-  }
+  static void keys(auto& v, auto&& row) { row({"at", Dimension::length, "in the vessel frame"}, v.at); }
 };
 
 /// [vessel] type = "polyhedron"
@@ -125,11 +121,10 @@ struct PolyhedronTable {
   Entries<VertexTable> vertices;
 
   static void keys(auto& p, auto&& row) {
-    row(Parameter{"plane", Dimension::none, "entries `[[vessel.plane]]`, one for each wall"}.usually(
-            "this or `vertex`"),
+    row(Parameter{"plane", "entries `[[vessel.plane]]`, one for each wall"}.usually("this or `vertex`"),
         p.planes);
-    row(Parameter{"vertex", Dimension::none, "entries `[[vessel.vertex]]`, the corners of a convex vessel"}
-            .usually("this or `plane`"),
+    row(Parameter{"vertex", "entries `[[vessel.vertex]]`, the corners of a convex vessel"}.usually(
+            "this or `plane`"),
         p.vertices);
   }
 };
@@ -140,19 +135,12 @@ inline PolyhedronTable table_of(const model::Polyhedron<Quantity>&) { return {};
 
 /// A name in [vessel.materials]. Whether it is a wall is known when the vessel has been read.
 struct WallName : std::string {
-  static std::optional<WallName> read(Section&, const std::string& name) { return WallName{name}; }
-};
-
-/// [vessel.materials]
-struct WallMaterials : std::vector<WallName> {
   static constexpr const char* what = "Materials of single walls.";
-  static void keys(auto& m, auto&& row) {
-    row(Parameter{"*", Dimension::none,
-                  "the key is a wall by its label or its number: `\"cap +y\"`, `wall_1`"}
-            .as("name")
-            .usually("`vessel.material`"),
-        static_cast<std::vector<WallName>&>(m));
-  }
+  static constexpr Parameter entry =
+      Parameter{"*", "the key is a wall by its label or its number: `\"cap +y\"`, `wall_1`"}
+          .as("name")
+          .usually("`vessel.material`");
+  static std::optional<WallName> read(Section&, const std::string& name) { return WallName{name}; }
 };
 
 struct PistonTable {
@@ -163,14 +151,13 @@ struct PistonTable {
   static constexpr const char* what =
       "A wall that is displaced inward from its nominal position by distance + speed t + swings.";
   static void keys(auto& p, auto&& row) {
-    row(Parameter{"wall", Dimension::none, "a flat wall by its label or its number: `\"cap -y\"`, `wall_0`"}
+    row(Parameter{"wall", "a flat wall by its label or its number: `\"cap -y\"`, `wall_0`"}
             .as("name")
             .usually("required"),
         p.wall);
-    row(Parameter{"distance", Dimension::length, "inward of the wall's nominal position at time 0",
-                  Range::any, "0 m"},
+    row({"distance", Dimension::length, "inward of the wall's nominal position at time 0", Range::any, "0 m"},
         p.distance);
-    row(Parameter{"speed", Dimension::speed, "inward; needs `run.end_time`", Range::any, "0 m/s"}, p.speed);
+    row({"speed", Dimension::speed, "inward; needs `run.end_time`", Range::any, "0 m/s"}, p.speed);
     row(SwingTable::key, p.swings);
   }
 };
@@ -179,22 +166,21 @@ struct VesselTable {
   VesselSpec shape;
   Colour colour{1, 1, 0};
   std::string material;
-  Inner<WallMaterials> materials;
+  Inner<Named<WallName>> materials;
   Entries<PistonTable> pistons;
 
   static constexpr const char* what = "Shape, walls and materials of the vessel, inside.";
   static void keys(auto& v, auto&& row) {
     using enum Dimension;
-    row(Parameter{"type", none, "shape of the inside; its y axis is the axis of round vessels"}
-            .as("name")
-            .usually("`\"cylinder\"`"),
+    row(Parameter{"type", "shape of the inside; its y axis is the axis of round vessels"}.as("name").usually(
+            "`\"cylinder\"`"),
         v.shape);
-    row(Parameter{"colour", none, "in pictures: a name, three integers up to 255 or three decimals up to 1",
-                  Range::any, nullptr, "yellow"},
+    row({"colour", "in pictures: a name, three integers up to 255 or three decimals up to 1", Range::any,
+         nullptr, "yellow"},
         v.colour);
-    row(Parameter{"material", none, "of all walls"}.as("name").usually("none"), v.material);
-    row(Parameter{"materials", none, "by wall, `[vessel.materials]`"}, v.materials);
-    row(Parameter{"piston", none, "flat walls that move, entries `[[vessel.piston]]`"}, v.pistons);
+    row(Parameter{"material", "of all walls"}.as("name").usually("none"), v.material);
+    row({"materials", "by wall, `[vessel.materials]`"}, v.materials);
+    row({"piston", "flat walls that move, entries `[[vessel.piston]]`"}, v.pistons);
   }
 };
 
@@ -211,7 +197,7 @@ struct PairTable {
 
   static constexpr const char* what = "A law for two materials.";
   static void keys(auto& p, auto&& row) {
-    row(Parameter{"materials", Dimension::none, "beside these, all keys of `[contact]` that describe a law"}
+    row(Parameter{"materials", "beside these, all keys of `[contact]` that describe a law"}
             .as("two names")
             .usually("required"),
         p.materials);
@@ -243,14 +229,14 @@ struct LawTable {
 
   static void keys(auto& given, auto&& row) {
     using enum Dimension;
-    row(Parameter{"model", none, "the contact law"}.as("name").usually("`\"walton-braun\"`"), given.name);
+    row(Parameter{"model", "the contact law"}.as("name").usually("`\"walton-braun\"`"), given.name);
     for_each_kind<Laws>([&](auto law) {
       law.parameters(law, [&](const Parameter& p, const Quantity&) {
         const Parameter own = p.only_of(law.name);
         row(p.fallback || p.otherwise ? own : own.usually("required"), given.parameters[p.key]);
       });
     });
-    row(Parameter{"restitution_normal", none, "another name of `restitution`", {0, 1}}.only_of(
+    row(Parameter{"restitution_normal", "another name of `restitution`", {0, 1}}.only_of(
             "walton-braun, constant"),
         given.parameters["restitution"]);
     for_each_kind<Laws>([&]<class Law>(const Law&) {
@@ -258,10 +244,10 @@ struct LawTable {
         row(Law::table.as("list of pairs").usually("required").only_of(Law::name),
             PointsOf<Law>{given.points});
     });
-    row(Parameter{"least_separation", speed,
-                  "bodies do not separate more slowly after an impact; `\"0 m/s\"` is the exact model, which "
-                  "ends at a Zeno point",
-                  Range::not_negative, "1 cm/s"},
+    row({"least_separation", speed,
+         "bodies do not separate more slowly after an impact; `\"0 m/s\"` is the exact model, which ends at "
+         "a Zeno point",
+         Range::not_negative, "1 cm/s"},
         given.least_separation);
   }
 };
@@ -277,13 +263,10 @@ struct ContactTable {
   static void keys(auto& c, auto&& row) {
     using enum Dimension;
     LawTable::keys(c.shared, row);
-    row(Parameter{"ball_ball", none, "keys that override those of `[contact]` between balls"}.as("table"),
+    row(Parameter{"ball_ball", "keys that override those of `[contact]` between balls"}.as("table"),
         c.ball_ball);
-    row(Parameter{"ball_wall", none, "keys that override those of `[contact]` at walls"}.as("table"),
-        c.ball_wall);
-    row(Parameter{"pair", none,
-                  "keys that override those of `[contact]` between two materials, entries "
-                  "`[[contact.pair]]`"},
+    row(Parameter{"ball_wall", "keys that override those of `[contact]` at walls"}.as("table"), c.ball_wall);
+    row({"pair", "keys that override those of `[contact]` between two materials, entries `[[contact.pair]]`"},
         c.pairs);
   }
 };
@@ -299,9 +282,8 @@ struct PowderTable {
   static constexpr const char* what = "Powder that the balls mill.";
   static void keys(auto& p, auto&& row) {
     TargetSpec::keys(p.target, row);
-    row(Parameter{"mass", Dimension::mass, "for the charge ratio and the specific dose", Range::positive},
-        p.mass);
-    row(Parameter{"counts", Dimension::none,
+    row({"mass", Dimension::mass, "for the charge ratio and the specific dose", Range::positive}, p.mass);
+    row(Parameter{"counts",
                   "which part of the dose counts toward the target: all of it, or the part along the normal"}
             .as("`\"all\"` or `\"normal\"`")
             .usually("`\"all\"`"),
@@ -324,16 +306,16 @@ struct CaseFile {
 
   static void keys(auto& f, auto&& row) {
     using enum Dimension;
-    row(Parameter{"run", none, ""}, f.run);
-    row(Parameter{"mill", none, ""}, f.mill);
-    row(Parameter{"vessel", none, ""}, f.vessel);
-    row(Parameter{"material", none, ""}, f.materials);
-    row(Parameter{"contact", none, ""}, f.contact);
-    row(Parameter{"powder", none, ""}, f.powder);
-    row(Parameter{"balls", none, ""}, f.batches);
-    row(Parameter{"ball", none, ""}, f.balls);
-    row(Parameter{"output", none, ""}, f.outputs);
-    row(Parameter{"audit", none, ""}, f.audit);
+    row({"run", ""}, f.run);
+    row({"mill", ""}, f.mill);
+    row({"vessel", ""}, f.vessel);
+    row({"material", ""}, f.materials);
+    row({"contact", ""}, f.contact);
+    row({"powder", ""}, f.powder);
+    row({"balls", ""}, f.batches);
+    row({"ball", ""}, f.balls);
+    row({"output", ""}, f.outputs);
+    row({"audit", ""}, f.audit);
   }
 };
 

@@ -32,7 +32,7 @@ struct Range {
 /// gives lists its keys; reading, range, reference and digest follow.
 struct Parameter {
   const char* key;  ///< "*" where names are the user's; null for a constant, which a file does not give
-  Dimension dimension;
+  Dimension dimension = Dimension::none;
   const char* meaning;
   Range range = Range::any;
   const char* fallback = nullptr;   ///< as in a file
@@ -45,6 +45,22 @@ struct Parameter {
   } digest = Digest::value;
   const char* kind = nullptr;  ///< what it takes, for readers, where the member's type does not say it
   const char* of = nullptr;    ///< the types that alone have it, for readers; null for all
+
+  constexpr Parameter(const char* name, Dimension quantity, const char* text, Range values = Range::any,
+                      const char* usual = nullptr, const char* else_true = nullptr,
+                      Digest use = Digest::value)
+      : key(name),
+        dimension(quantity),
+        meaning(text),
+        range(values),
+        fallback(usual),
+        otherwise(else_true),
+        digest(use) {}
+  /// What has no dimension: a number, or no number.
+  constexpr Parameter(const char* name, const char* text, Range values = Range::any,
+                      const char* usual = nullptr, const char* else_true = nullptr,
+                      Digest use = Digest::value)
+      : Parameter(name, Dimension::none, text, values, usual, else_true, use) {}
 
   constexpr Parameter as(const char* kind_for_readers) const {
     Parameter p = *this;
