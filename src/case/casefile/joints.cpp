@@ -60,9 +60,9 @@ TurnFraction fraction_of(const Quantity& turns) {
     scaled = in_units_of(turns, fraction_bits);
   }
   const cpp_int one = cpp_int(1) << fraction_bits;
-  fraction.whole = static_cast<std::int64_t>(cpp_int(scaled / one));
-  scaled %= one;
-  if (scaled < 0) scaled += one, --fraction.whole;
+  const cpp_int whole = scaled / one - (scaled % one < 0 ? 1 : 0);  // rounded down
+  fraction.whole = static_cast<std::int64_t>(whole);
+  scaled -= whole * one;
   for (std::size_t k = TurnFraction::words + fraction.further.size(); k-- > 0; scaled >>= 64)
     (k < TurnFraction::words ? fraction.bits[k] : fraction.further[k - TurnFraction::words]) =
         static_cast<std::uint64_t>(scaled & 0xffffffffffffffffu);

@@ -52,7 +52,9 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
     const std::size_t edits = edit_distance(given, known),
                       most = (std::max(given.size(), known.size()) + 1) / 3;
     const bool near = edits <= most || begins(known, given) || begins(given, known);
-    if (near && (best.empty() || edits < fewest)) best = candidate, fewest = edits;
+    if (!near || (!best.empty() && edits >= fewest)) continue;
+    best = candidate;
+    fewest = edits;
   }
   return best;
 }

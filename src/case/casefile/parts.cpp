@@ -68,7 +68,8 @@ class Hull {
     bool below = false, above = false;
     for (std::size_t v = 0; v < vertices_.size(); ++v) {
       const Rational side = along(normal, difference(vertices_[v], vertices_[i]));
-      below |= side<0, above |= side> 0;
+      below = below || side < 0;
+      above = above || side > 0;
       if (side == 0) on.insert(v);
     }
     if (below == above || !corners_.insert(on).second) return;

@@ -40,7 +40,7 @@ std::pair<cpp_int, int> in_decimals(const std::string& number) {
   cpp_int denominator = boost::multiprecision::denominator(value);
   int exponent = 0;
   cpp_int power = 1;
-  while (power % denominator != 0) power *= 10, --exponent;
+  for (; power % denominator != 0; --exponent) power *= 10;
   return {cpp_int(numerator(value) * (power / denominator)), exponent};
 }
 

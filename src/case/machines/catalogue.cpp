@@ -46,7 +46,8 @@ Catalogue read() {
                             text_of(c, "restitution"), source_of(c)});
   });
   const auto& friction = *root["friction"].as_table();
-  all.friction = text_of(friction, "value"), all.friction_source = source_of(friction);
+  all.friction = text_of(friction, "value");
+  all.friction_source = source_of(friction);
   return all;
 }
 

@@ -78,7 +78,8 @@ struct Charge {
       const auto& b = batches.back();
       const double density = value_of("density", b.material->density, Dimension::density);
       mass += static_cast<double>(b.count) * density * std::numbers::pi / 6 * b.size * b.size * b.size;
-      smallest = std::min(smallest, b.size), largest = std::max(largest, b.size);
+      smallest = std::min(smallest, b.size);
+      largest = std::max(largest, b.size);
     }
   }
 };
@@ -117,7 +118,11 @@ void put_machine(Writer& out, const Machine& machine, const Wanted& wanted) {
   std::string section, source;
   for (const auto& s : machine.settings) {
     const auto dot = s.key.find('.');
-    if (s.key.substr(0, dot) != section) out.section(section = s.key.substr(0, dot)), source.clear();
+    if (s.key.substr(0, dot) != section) {
+      section = s.key.substr(0, dot);
+      out.section(section);
+      source.clear();
+    }
     const bool given = s.key == "mill.speed" && !wanted.speed.empty();
     std::string comment = given ? "as given" : s.source == source ? "" : brief(s.source);
     if (!given && !s.note.empty()) comment = s.note + (comment.empty() ? "" : "; " + comment);
