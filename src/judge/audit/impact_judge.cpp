@@ -40,7 +40,7 @@ bool ImpactJudge::tell_broken_equations(const LoggedImpact& impact, const Residu
                                         Findings& plain) {
   const bool spin = off.spin > allowed;
   const auto tell_plainly = [&](Kind kind, double size, double found, double expected) {
-    plain.add(finding(kind, *impact.event, size, found, expected));
+    plain.add({*impact.event, kind, size, found, expected});
   };
   if (off.momentum > allowed) tell_plainly(Kind::momentum, off.momentum, off.momentum, 0);
   if (spin) tell_plainly(Kind::spin_change, off.spin, off.spin, 0);
@@ -89,7 +89,7 @@ bool ImpactJudge::judge_outcome(const Scene& scene, const Known& known, const Al
   if (!found) return tell_broken_equations(impact, off, allowed.slack, findings_);
   tell_broken_equations(impact, off, allowed.slack, found->mistake->plain());
   found->mistake->explains(found->off, found->left)
-      .add(finding(found->kind, *impact.event, off.largest(), off.largest(), 0, found->note, true));
+      .add({*impact.event, found->kind, off.largest(), off.largest(), 0, found->note, true});
   theirs = found->impact;
   return found->kind == Kind::wall_velocity;
 }
@@ -227,7 +227,7 @@ void ImpactJudge::judge_dose(const LoggedImpact& right, const LoggedImpact& thei
 void ImpactJudge::tell_dose(const LoggedEvent& event, double off, double expected, double allowed,
                             double left, double changes, Suspicion& mistake, const char* note) {
   const auto found = [&](const char* name, bool explained) {
-    return finding(Kind::milling_dose, event, off, event.milling_dose, expected, name, explained);
+    return Finding{event, Kind::milling_dose, off, event.milling_dose, expected, name, explained};
   };
   if (off > allowed && vanishes(off, left, allowed)) {
     mistake.explains(off, left).add(found(note, true));
