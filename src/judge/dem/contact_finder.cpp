@@ -192,9 +192,9 @@ void ContactFinder::settle() {
 std::vector<ContactFinder::Touch> ContactFinder::touches_of(const Stretch& s) const {
   std::vector<int> spells(static_cast<std::size_t>(vessel_.walls()));
   std::vector<bool> inside(spells.size());
-  const auto see = [&](const std::vector<double>& gaps) {
+  const auto see = [&](const auto& gap_from) {
     for (std::size_t wall = 0; wall < spells.size(); ++wall) {
-      const bool under = gaps[wall] < 0;
+      const bool under = gap_from(static_cast<int>(wall)) < 0;
       if (under && !inside[wall]) ++spells[wall];
       inside[wall] = under;
     }
@@ -203,19 +203,20 @@ std::vector<ContactFinder::Touch> ContactFinder::touches_of(const Stretch& s) co
     for (int k = 0; k <= tried; ++k) {
       const double t = from.time + (to.time - from.time) * k / tried;
       const auto pose = vessel_.at(t);
-      auto gaps =
-          vessel_.gaps(pose, s.ball, flown(from.balls[s.ball], frames_.gravity, t - from.time).position);
-      const auto back =
-          vessel_.gaps(pose, s.ball, flown(to.balls[s.ball], frames_.gravity, t - to.time).position);
-      for (std::size_t wall = 0; wall < gaps.size(); ++wall) gaps[wall] = std::min(gaps[wall], back[wall]);
-      see(gaps);
+      const Vector on = flown(from.balls[s.ball], frames_.gravity, t - from.time).position,
+                   back = flown(to.balls[s.ball], frames_.gravity, t - to.time).position;
+      see([&](int wall) {
+        return std::min(vessel_.gap(pose, s.ball, wall, on), vessel_.gap(pose, s.ball, wall, back));
+      });
     }
   };
   if (s.last - s.first <= 2)
     see_flights(frame(s.first), frame(s.last));
   else if (resolved())
     for (std::size_t k = s.first; k <= s.last; ++k)
-      see(vessel_.gaps(vessel_.at(frame(k).time), s.ball, frame(k).balls[s.ball].position));
+      see([&, pose = vessel_.at(frame(k).time)](int wall) {
+        return vessel_.gap(pose, s.ball, wall, frame(k).balls[s.ball].position);
+      });
   else
     for (std::size_t k = s.first; k < s.last; ++k) see_flights(frame(k), frame(k + 1));
   std::vector<Touch> touches;
