@@ -94,12 +94,7 @@ auto ImpactJudge::explaining(const Scene& scene, double allowed, bool violated)
     if (seen.g_n() > seen.law->least_separation + allowed) continue;
     const bool explains = violated && vanishes(off, left, allowed);
     if (explains && !found)
-      found = Explanation{.kind = mistake.kind,
-                          .note = mistake.note,
-                          .mistake = &suspicions_[k],
-                          .impact = seen,
-                          .off = off,
-                          .left = left};
+      found = Explanation{mistake.kind, mistake.note, &suspicions_[k], seen, off, left};
     else if (shows && !explains)
       suspicions_[k].contradicted();
   }
