@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,23 +25,18 @@ double change_of(const Frame& from, const Frame& to, std::size_t ball, const Vec
 /// Where a gap falls to zero first, or rises from it last; nothing where it does not.
 std::optional<double> crossing(const auto& gap, double low, double high, bool falling) {
   for (int round = 0; round < 4; ++round) {
-    double left = low, value = gap(low), found_low = 0, found_high = 0;
-    bool found = false;
-    for (int k = 1; k <= tried; ++k) {
-      const double right = low + (high - low) * k / tried, next = gap(right);
-      if (falling ? value > 0 && next <= 0 : value <= 0 && next > 0) {
-        if (!found || !falling) {
-          found_low = left;
-          found_high = right;
-        }
-        found = true;
-      }
-      left = right;
-      value = next;
+    std::array<double, tried + 1> places, values;
+    for (int k = 0; k <= tried; ++k) {
+      const auto place = static_cast<std::size_t>(k);
+      places[place] = low + (high - low) * k / tried;
+      values[place] = gap(places[place]);
     }
-    if (!found) return std::nullopt;
-    low = found_low;
-    high = found_high;
+    std::size_t found = 0;
+    for (std::size_t k = 1; k <= tried && !(falling && found > 0); ++k)
+      if ((values[k - 1] > 0) == falling && (values[k] > 0) != falling) found = k;
+    if (found == 0) return std::nullopt;
+    low = places[found - 1];
+    high = places[found];
   }
   const double one = gap(low), other = gap(high);
   return one == other ? low : low + (high - low) * one / (one - other);

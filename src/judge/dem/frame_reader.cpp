@@ -236,12 +236,12 @@ FrameReader::Row FrameReader::row_of(const std::vector<double>& values) const {
 void FrameReader::finish(std::vector<Row> rows, double time, Frame& frame) {
   if (rows.size() != count_)
     fail(fmt::format("{} balls in a frame", rows.size()), fmt::format("{}, as in the case", count_));
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.id < b.id; });
+  std::ranges::sort(rows, {}, &Row::id);
+  if (const auto twice = std::ranges::adjacent_find(rows, {}, &Row::id); twice != rows.end())
+    fail(fmt::format("ball {} twice in a frame", twice->id), "each once");
   std::vector<long> ids;
   frame.balls.clear();
   for (const auto& row : rows) {
-    if (!ids.empty() && ids.back() == row.id)
-      fail(fmt::format("ball {} twice in a frame", row.id), "each once");
     ids.push_back(row.id);
     frame.balls.push_back(row.state);
   }
