@@ -237,12 +237,11 @@ class Auditor : Judge {
     const double radius = radius_of(event.ball);
     const Vec& position = event.body[0].position;
     const double printed_gap = std::abs(gap_of(event, case_, scene.printed));
-    const auto off_the_wall =
-        finding(gap < 0 ? Kind::late_event : Kind::early_event, event, std::abs(gap), gap, 0);
+    const Finding off_the_wall{event, gap < 0 ? Kind::late_event : Kind::early_event, std::abs(gap), gap, 0};
     if (vanishes(std::abs(gap), printed_gap, allowed)) {
       rotations_.explains(std::abs(gap), printed_gap)
-          .add(finding(Kind::rotation_order, event, std::abs(gap), gap, 0,
-                       "touches with the printed matrix (2.14)", true));
+          .add({event, Kind::rotation_order, std::abs(gap), gap, 0, "touches with the printed matrix (2.14)",
+                true});
       rotations_.plain().add(off_the_wall);
       flights_.set_printed_walls(rotations_.is_named());
       // The other checks use the wall as that code has it.

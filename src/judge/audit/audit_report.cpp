@@ -32,8 +32,7 @@ double share_of(const Audit& a, Kind kind) {
   return judged > 0 ? static_cast<double>(a.findings.of(kind).count) / static_cast<double>(judged) : unknown;
 }
 
-void put_finding(io::JsonText& json, std::string_view key, const Finding& f) {
-  json.begin(key);
+void put_finding(io::JsonText& json, const Finding& f) {
   json.add("line", f.line);
   json.add("time", f.time);
   json.add("ball", f.ball);
@@ -43,7 +42,6 @@ void put_finding(io::JsonText& json, std::string_view key, const Finding& f) {
   json.add("found", f.found);
   json.add("expected", f.expected);
   if (*f.note != '\0') json.add("note", f.note);
-  json.end();
 }
 
 /// What the rounding of times does, where it is more than the relative tolerance, and what cannot be checked.
@@ -78,7 +76,7 @@ void put_violations(io::JsonText& json, const Audit& a) {
           });
         json.group("examples", [&] {
           for (std::size_t k = 0; k < tally.examples.size(); ++k)
-            put_finding(json, std::to_string(k + 1), tally.examples[k]);
+            json.group(std::to_string(k + 1), [&] { put_finding(json, tally.examples[k]); });
         });
       });
 }

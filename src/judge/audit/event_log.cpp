@@ -234,13 +234,12 @@ std::optional<LoggedEvent> EventLog::read() {
 
 std::optional<LoggedEvent> EventLog::next() {
   while (!at_end_ && ahead_.size() < window) {
-    auto event = read();
-    if (!event) {
+    if (auto event = read()) {
+      ahead_.push_back(std::move(*event));
+      std::push_heap(ahead_.begin(), ahead_.end(), later);
+    } else {
       at_end_ = true;
-      break;
     }
-    ahead_.push_back(std::move(*event));
-    std::push_heap(ahead_.begin(), ahead_.end(), later);
   }
   if (ahead_.empty()) return std::nullopt;
   std::pop_heap(ahead_.begin(), ahead_.end(), later);

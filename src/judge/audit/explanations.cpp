@@ -1,6 +1,5 @@
 // ImpactJudge: the mistakes that may reproduce a logged outcome.
 #include <algorithm>
-#include <boost/container/static_vector.hpp>
 #include <cmath>
 
 #include "audit/impact_judge.hpp"
@@ -61,23 +60,6 @@ const std::vector<KnownMistake>& known_mistakes() {
   return list;
 }
 
-/// What comes of an impact with the mistake, as the code saw it. Of a number of two balls either one.
-struct Way {
-  LoggedImpact impact;
-  std::array<BodyState, 2> outcome;
-};
-using Ways = boost::container::static_vector<Way, 2>;
-
-Ways ways_of(const KnownMistake& mistake, const Scene& scene) {
-  Ways ways;
-  LoggedImpact impact = scene.impact;
-  if (mistake.where == (impact.with_wall() ? Where::balls : Where::walls)) return ways;
-  if (mistake.wall) impact.set_wall_velocity(*mistake.wall, scene.nested, scene.printed);
-  for (std::size_t ball = 0; ball < impact.count(); ++ball)
-    ways.push_back({impact, outcome(impact, mistake.formula(impact, ball))});
-  return ways;
-}
-
 }  // namespace
 
 ImpactJudge::ImpactJudge(const Judge& shared)
@@ -97,29 +79,22 @@ auto ImpactJudge::explaining(const Scene& scene, double allowed, bool violated)
     // What nothing has pointed to is looked at in the first impacts only.
     if (!violated && !suspicions_[k].is_suspected() && explained_impacts_ > 200) continue;
     const KnownMistake& mistake = known_mistakes()[k];
-    const Ways ways = ways_of(mistake, scene);
-    bool shows = !ways.empty();
-    const Way* best = nullptr;
+    LoggedImpact seen = scene.impact;  // by the code
+    if (mistake.where == (seen.with_wall() ? Where::balls : Where::walls)) continue;
+    if (mistake.wall) seen.set_wall_velocity(*mistake.wall, scene.nested, scene.printed);
+    bool shows = true;  // of a number of two balls codes take either one
     double left = std::numeric_limits<double>::infinity();
-    for (const Way& way : ways) {
-      shows = shows && distance(scene.impact, due, way.outcome) > allowed;
-      const double of_way = distance(way.impact, logged, way.outcome);
-      if (of_way < left) {
-        left = of_way;
-        best = &way;
-      }
+    for (std::size_t ball = 0; ball < seen.count(); ++ball) {
+      const auto result = outcome(seen, mistake.formula(seen, ball));
+      shows = shows && distance(scene.impact, due, result) > allowed;
+      left = std::min(left, distance(seen, logged, result));
     }
     // Bodies that separate faster than v_s when the mistake is assumed keep their velocities, which proves
     // nothing.
-    if (best && best->impact.g_n() > scene.impact.law->least_separation + allowed) continue;
-    const bool explains = violated && best && vanishes(off, left, allowed);
+    if (seen.g_n() > seen.law->least_separation + allowed) continue;
+    const bool explains = violated && vanishes(off, left, allowed);
     if (explains && !found)
-      found = Explanation{.kind = mistake.kind,
-                          .note = mistake.note,
-                          .mistake = &suspicions_[k],
-                          .impact = best->impact,
-                          .off = off,
-                          .left = left};
+      found = Explanation{mistake.kind, mistake.note, &suspicions_[k], seen, off, left};
     else if (shows && !explains)
       suspicions_[k].contradicted();
   }
@@ -133,11 +108,12 @@ void ImpactJudge::tell_normal(const LoggedImpact& impact, double off, double all
   const double g_n = impact.g_n(), left = impact.g_n_after();
   const double due = impact.separation_speed(g_n), by_restitution = impact.by_restitution(g_n);
   const double least = impact.law->least_separation;
-  const auto as_found = g_n != 0 ? finding(Kind::normal_restitution, event, off, -left / g_n, -due / g_n)
-                                 : finding(Kind::normal_restitution, event, off, unknown, unknown);
+  const bool moving = g_n != 0;
+  const Finding as_found{event, Kind::normal_restitution, off, moving ? -left / g_n : unknown,
+                         moving ? -due / g_n : unknown};
   if (&plain != &findings_) return plain.add(as_found);
   const auto name = [&](Suspicion& suspicion, double left_off, const char* note) {
-    suspicion.explains(off, left_off).add(finding(Kind::separation_law, event, off, left, due, note, true));
+    suspicion.explains(off, left_off).add({event, Kind::separation_law, off, left, due, note, true});
     suspicion.plain().add(as_found);
   };
   auto& of_law = separations_.try_emplace(number_of_law(impact), findings_.examples()).first->second;

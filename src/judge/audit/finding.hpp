@@ -6,8 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <string_view>
 #include <vector>
+
+#include "model/impact_record.hpp"
 
 namespace edmill::audit {
 
@@ -46,14 +49,10 @@ inline constexpr std::size_t kind_count = kinds.size(), check_count = checks.siz
 inline const KindInfo& info(Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 inline const CheckInfo& info(Check check) { return checks[static_cast<std::size_t>(check)]; }
 
-struct Finding {
+/// A violation at an impact, of which it has the bodies, the time and the line.
+struct Finding : model::ImpactRecord<double> {
   Kind kind;
-  double size;         ///< size of the violation, in the unit of the kind
-  std::uint64_t line;  ///< of the log
-  double time;         ///< [s]
-  int ball;
-  bool with_wall;
-  int partner;
+  double size;             ///< of the violation, in the unit of the kind
   double found, expected;  ///< nan where they do not apply
   const char* note = "";   ///< a literal: what the finding looks like
   bool explained = false;  ///< the note is a mistake that makes the violation vanish
@@ -72,12 +71,28 @@ class Findings {
   /// @param examples  kept of each kind
   explicit Findings(std::size_t examples) : examples_(examples) {}
 
-  void add(const Finding& finding);
+  void add(const Finding& finding) {
+    Tally& tally = tallies_[static_cast<std::size_t>(finding.kind)];
+    ++tally.count;
+    if (finding.explained) ++tally.explained;
+    if (*finding.note != '\0') ++tally.notes[finding.note];
+    keep(tally, finding);
+  }
   void judged(Check check) { ++judged_[static_cast<std::size_t>(check)]; }
   /// The tolerance of what would be checked is as large as itself.
   void unresolved(Check check) { ++unresolved_[static_cast<std::size_t>(check)]; }
   /// Takes what others have found.
-  void take(const Findings& others);
+  void take(const Findings& others) {
+    for (std::size_t k = 0; k < kind_count; ++k) {
+      const Tally& from = others.tallies_[k];
+      Tally& tally = tallies_[k];
+      tally.count += from.count;
+      tally.explained += from.explained;
+      for (const auto& [note, count] : from.notes) tally.notes[note] += count;
+      for (const auto& finding : from.examples) keep(tally, finding);
+      tally.worst = std::max(tally.worst, from.worst);
+    }
+  }
 
   const Tally& of(Kind kind) const { return tallies_[static_cast<std::size_t>(kind)]; }
   std::uint64_t judged_number(Check check) const { return judged_[static_cast<std::size_t>(check)]; }
@@ -86,13 +101,30 @@ class Findings {
   /// Number of violations that their notes explain.
   std::uint64_t explained() const { return sum(&Tally::explained); }
   /// Kinds that were found, the most frequent first.
-  std::vector<Kind> ranked() const;
+  std::vector<Kind> ranked() const {
+    std::vector<Kind> found;
+    for (std::size_t k = 0; k < kind_count; ++k)
+      if (tallies_[k].count > 0) found.push_back(static_cast<Kind>(k));
+    std::stable_sort(found.begin(), found.end(), [&](Kind a, Kind b) { return of(a).count > of(b).count; });
+    return found;
+  }
 
   std::size_t examples() const { return examples_; }
 
  private:
-  void keep(Tally& tally, const Finding& finding) const;
-  std::uint64_t sum(std::uint64_t Tally::*number) const;
+  void keep(Tally& tally, const Finding& finding) const {
+    tally.worst = std::max(tally.worst, finding.size);
+    auto& worst = tally.examples;
+    if (worst.size() == examples_ && !(examples_ > 0 && finding.size > worst.back().size)) return;
+    const auto place = std::upper_bound(worst.begin(), worst.end(), finding,
+                                        [](const Finding& a, const Finding& b) { return a.size > b.size; });
+    worst.insert(place, finding);
+    if (worst.size() > examples_) worst.pop_back();
+  }
+  std::uint64_t sum(std::uint64_t Tally::*number) const {
+    return std::accumulate(tallies_.begin(), tallies_.end(), std::uint64_t{0},
+                           [&](std::uint64_t sum, const Tally& tally) { return sum + tally.*number; });
+  }
 
   std::size_t examples_;
   std::array<Tally, kind_count> tallies_;

@@ -1,11 +1,15 @@
 // What happens between the impacts of a log: whether flights are ballistic, and whether an impact was missed.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "audit/finding.hpp"
 #include "audit/impact_judge.hpp"
+#include "base/errors.hpp"
 #include "dynamics/decision_ladder.hpp"
 
 namespace edmill::audit {
@@ -44,7 +48,14 @@ struct FlightEnd {
 
 class Flights : Judge {
  public:
-  explicit Flights(const Judge& shared);
+  explicit Flights(const Judge& shared)
+      : Judge(shared),
+        clock_(case_.mill.motion.period()),
+        ladder_(case_.mill, smallest_radius(case_), 32.0),
+        top_speed_(32),
+        tracks_(case_.balls.size()),
+        flown_through_(case_.mill.vessel.walls().size()),
+        looks_(look_notes.size(), Suspicion(findings_.examples())) {}
 
   Track& of(int ball) { return tracks_[ball]; }
   const Track& of(int ball) const { return tracks_[ball]; }
@@ -56,14 +67,70 @@ class Flights : Judge {
   VesselFrame printed_at(double time) const { return vessel_at(case_.mill, time, true); }
 
   /// Checks the flight of a ball that an event ends.
-  void judge(int ball, const FlightEnd& end);
+  void judge(int ball, const FlightEnd& end) {
+    Track& track = of(ball);
+    const double time = end.event->time;
+    settle_held(track, end.event);
+    if (!track.state_known || time < track.start) return;
+    double off = 0;  // distance of the logged position from the end of the flight [m]
+    judge_state(ball, track, end, off, false);
+    const double until = track.broken ? std::min(time, track.broken_from) : time;
+    // Balls are searched with radii that are smaller by the tolerance, if that leaves half of them.
+    const double speed = size(track.flight.velocity) + tolerances_.gravity * (time - track.start);
+    const double slack =
+        tolerances_.touch(time, true) + tolerances_.position(time, speed * (time - track.start), speed);
+    if (slack > radius_of(ball) / 2) {
+      findings_.unresolved(Check::missed);
+      track.pending.clear();
+      return judge_state(ball, track, end, off, true);
+    }
+    findings_.judged(Check::missed);
+    std::optional<Contact> missed;
+    if (!end.displaced) missed = first_wall(ball, track, until, slack);
+    // The impact that ends the flight is late, not missed.
+    if (missed && end.late && end.event->with_wall && missed->partner == end.event->partner) missed.reset();
+    if (missed && stays_in_printed_vessel(ball, track, until, slack)) missed.reset();
+    auto pair = first_ball(ball, track, end, slack);
+    if (pair && (pair->time > until || (missed && missed->time <= pair->time))) pair.reset();
+    if (pair) missed.reset();
+
+    double missed_at = until;
+    bool told = track.broken;
+    if (missed) told |= report_missed_wall(ball, track, *missed, end, off, missed_at);
+    if (pair) told |= report_missed_ball(ball, *pair, end, off, missed_at);
+    settle_pending(track, end, off, told ? missed_at : time);
+    if (!told) judge_state(ball, track, end, off, true);
+  }
 
   /// At the end of the log.
-  void finish();
+  void finish() {
+    for (auto& track : tracks_) settle_held(track, nullptr);
+    for (const auto& look : looks_) findings_.take(look.findings());
+  }
 
   /// Begins a new flight.
-  void begin(int ball, double time, const BodyState& state, const Available::Body& has);
-  void begin_at_start(int ball, const model::BallState<double>& state, double time);
+  void begin(int ball, double time, const BodyState& state, const Available::Body& has) {
+    Track& track = of(ball);
+    track.state_known = has.position && has.velocity_after;
+    track.spin_known = has.spin_after;
+    track.flight = {state.position, state.velocity_after, clock_.at(time)};
+    track.spin = state.spin_after;
+    track.start = time;
+    track.broken = false;
+    track.pending.clear();
+    const double speed = size(state.velocity_after);
+    if (!(speed < fastest_judged)) track.state_known = false;
+    if (2 * speed > top_speed_ && track.state_known) {
+      top_speed_ = 4 * speed;
+      ladder_.raise_top_speed(top_speed_);
+    }
+  }
+
+  void begin_at_start(int ball, const model::BallState<double>& state, double time) {
+    begin(ball, time,
+          {.position = state.position, .velocity_after = state.velocity, .spin_after = state.spin},
+          {true, true, true, true, true});
+  }
 
   /// Flights through each wall, for the diagnosis.
   const std::vector<std::uint64_t>& flown_through() const { return flown_through_; }
@@ -72,37 +139,332 @@ class Flights : Judge {
   std::uint64_t undecided() const { return undecided_; }
 
  private:
+  static constexpr std::size_t pending_kept = 8;
+  static constexpr double fastest_judged = 1e4;  ///< [m/s]
+  static constexpr int samples = 32;             ///< of a flight
+  /// Mistakes of a flight. The last two are of steps of one length, unknown before.
+  static constexpr std::array<const char*, 4> look_notes = {
+      "flight without gravity", "flight with the opposite gravity",
+      "falls too far at the right velocity: first-order steps, velocity before position",
+      "falls too little at the right velocity: first-order steps, position before velocity"};
+
+  /// Half of the smallest sum of two balls' radii: they are reduced by tolerances.
+  static double smallest_radius(const model::Case<double>& c) {
+    const auto smaller = [](const auto& a, const auto& b) { return a.radius < b.radius; };
+    return std::min_element(c.balls.begin(), c.balls.end(), smaller)->radius;
+  }
+
   struct Contact {
     double time = 0;
     bool with_wall = false;
     int partner = -1;
     double depth = 0;  ///< largest overlap of the bodies later in the flight [m]
   };
-  std::optional<Contact> first_wall(int ball, const Track& track, double until, double slack);
-  std::optional<Contact> wall_contact(const Flying& own, double radius, double until);
-  std::optional<Contact> first_ball(int ball, const Track& track, const FlightEnd& end, double slack);
-  bool explained_by_walls(int ball, const Track& track, const FlightEnd& end);
-  bool explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const;
-  BodyState before_impact(const Flying& own, double time) const;
-  Flying after_impact(const LoggedEvent& event) const;
-  bool arrives(const Flying& own, const FlightEnd& end) const;
-  void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it);
-  void tell_flight(const Track& track, const BodyState& state, const Finding& finding, bool good);
-  double look(std::size_t k, const Track& track, const BodyState& state, double dt, double& shows);
+  /// The ball is searched with its radius reduced by the tolerance, so that a contact is certainly an
+  /// overlap.
+  std::optional<Contact> first_wall(int ball, const Track& track, double until, double slack) {
+    const double radius = radius_of(ball);
+    const auto frame = nested_at(track.start);
+    double overlap = 0;
+    for (int wall = 0; wall < walls(); ++wall)
+      overlap = std::max(overlap, -wall_gap(frame, case_, wall, ball, track.flight.position));
+    const double smaller = radius - overlap - slack;
+    if (smaller < radius / 2) return std::nullopt;  // outside the vessel, which was reported before
+    auto contact = wall_contact(track, smaller, until);
+    if (contact) contact->depth = deepest(ball, track, contact->partner, contact->time, until);
+    return contact;
+  }
+
+  /// First contact of a ball with the walls, in (start, until].
+  std::optional<Contact> wall_contact(const Flying& own, double radius, double until) {
+    auto begin = own.flight.start;
+    double rest = until - own.start;
+    while (rest > 0) {
+      const double length = std::min(rest, ladder_.walls().longest_window());
+      try {
+        const auto answer = ladder_.wall({own.flight, radius, begin, length});
+        if (answer.verdict == dynamics::Verdict::contact) {
+          const double time = own.start + clock_.elapsed(own.flight.start, answer.time);
+          if (time > until) return std::nullopt;
+          return Contact{time, true, answer.wall};
+        }
+        begin = clock_.after(begin, answer.searched);
+        rest -= answer.searched;
+      } catch (const UndecidedError&) {
+        ++undecided_;
+        return std::nullopt;
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Contact> first_ball(int ball, const Track& track, const FlightEnd& end, double slack) {
+    const double until = end.event->time;
+    const double radius = radius_of(ball);
+    const auto& pairs = ladder_.pairs();
+    const auto seen_at_start = pairs.state(track.flight, track.flight.start);
+    std::optional<Contact> first;
+    for (int other = 0; other < balls(); ++other) {
+      const Track& theirs = of(other);
+      if (other == ball || !theirs.state_known) continue;
+      const bool later = theirs.start > track.start;
+      const double from = later ? theirs.start : track.start;
+      const double to = theirs.broken ? std::min(until, theirs.broken_from) : until;
+      if (from >= to) continue;
+      const auto& now = later ? theirs.flight.start : track.flight.start;
+      const double sum = radius + radius_of(other);
+      // The other ball's place has an uncertain time of its own.
+      const double off = slack + 2 * tolerances_.time(until) * size(theirs.flight.velocity);
+      if (off > sum / 2) continue;
+      const auto seen = later ? pairs.state(track.flight, now) : seen_at_start;
+      dynamics::PairAnswer<double> answer;
+      try {
+        answer = ladder_.pair(seen, track.flight, theirs.flight, now, sum - off);
+      } catch (const UndecidedError&) {
+        ++undecided_;
+      }
+      if (answer.verdict != dynamics::Verdict::contact || from + answer.delay > to) continue;
+      if (first && first->time <= from + answer.delay) continue;
+      const Vec apart = position_at(ball, from) - position_at(other, from);
+      if (size(apart) < sum - off) continue;  // they overlapped already, which was reported before
+      if (end.late && !end.event->with_wall && end.partner() == other) continue;
+      const Vec relative = velocity_of(track, from) - velocity_of(theirs, from);
+      const double nearest = std::clamp(-dot(apart, relative) / dot(relative, relative), 0.0, to - from);
+      first = Contact{from + answer.delay, false, other, sum - size(Vec(apart + relative * nearest))};
+    }
+    return first;
+  }
+
+  /// Tries up to four impacts with walls that are not in the log.
+  bool explained_by_walls(int ball, const Track& track, const FlightEnd& end) {
+    if (!track.spin_known) return false;
+    Flying own = track;
+    for (int k = 0; k < 4; ++k) {
+      const auto contact = wall_contact(own, radius_of(ball), end.event->time);
+      if (!contact) return false;
+      LoggedEvent event{
+          {.ball = ball, .with_wall = true, .partner = contact->partner, .time = contact->time}};
+      event.body[0] = before_impact(own, event.time);
+      own = after_impact(event);
+      if (arrives(own, end)) return true;
+    }
+    return false;
+  }
+
+  /// Tries the impact with a ball that is not in the log.
+  bool explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const {
+    const Track &own = of(ball), &other = of(contact.partner);
+    if (!own.spin_known || !other.spin_known) return false;
+    // The contact of the actual balls, slightly before that of the reduced ones.
+    const double sum = radius_of(ball) + radius_of(contact.partner);
+    const Vec apart = position_at(ball, contact.time) - position_at(contact.partner, contact.time);
+    const Vec relative = velocity_of(own, contact.time) - velocity_of(other, contact.time);
+    const double closing = -dot(apart, relative) / size(apart);
+    const double time = closing > 0 ? contact.time - (sum - size(apart)) / closing : contact.time;
+    return arrives(after_impact({{.ball = ball, .partner = contact.partner, .time = time},
+                                 {before_impact(own, time), before_impact(other, time)}}),
+                   end);
+  }
+
+  /// A ball as it comes into an impact.
+  BodyState before_impact(const Flying& own, double time) const {
+    return {.position = position_of(own, time),
+            .velocity_before = velocity_of(own, time),
+            .spin_before = own.spin};
+  }
+
+  /// The ball of an impact as it leaves.
+  Flying after_impact(const LoggedEvent& event) const {
+    const auto after = outcome(impact_of(event, case_, nested_at(event.time), true), {})[0];
+    return {{after.position, after.velocity_after, clock_.at(event.time)}, after.spin_after, event.time};
+  }
+
+  /// Whether a ball reaches the logged end of the flight.
+  bool arrives(const Flying& own, const FlightEnd& end) const {
+    const auto& logged = end.state();
+    const double near = std::max(1e-6, 10 * tolerances_.relative);
+    const Vec velocity = velocity_of(own, end.event->time);
+    return size(Vec(logged.position - position_of(own, end.event->time))) <= near * tolerances_.reach &&
+           size(Vec(logged.velocity_before - velocity)) <= 10 * near * std::max(size(velocity), 1.0);
+  }
+
+  /// Position, velocity and spin at the end of a flight.
+  /// @param off  becomes the distance from the end of the flight, 0 when within the tolerances
+  void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it) {
+    const LoggedEvent& event = *end.event;
+    const BodyState& state = end.state();
+    const auto& has = available_.body[end.body];
+    const double time = event.time, dt = time - track.start;
+    const double speed = std::max(size(track.flight.velocity), size(state.velocity_before));
+    const auto finding = [&](Kind kind, double amount, double found, const char* note) {
+      Finding at_end{event, kind, amount, found, 0, note};
+      at_end.ball = ball;
+      at_end.partner = end.partner();
+      return at_end;
+    };
+    off = 0;
+    if (has.position && has.velocity_before) {
+      const double dp = size(Vec(state.position - position_at(ball, time)));
+      const double dv = size(Vec(state.velocity_before - velocity_of(track, time)));
+      const double fastest = speed + tolerances_.gravity * dt;
+      const bool good =
+          dp <= tolerances_.position(time, speed * dt, fastest) && dv <= tolerances_.velocity(time, fastest);
+      if (!good) off = std::max(dp, dv * dt);
+      if (!good && off == 0) off = std::numeric_limits<double>::min();
+      if (tell_it && tolerances_.position(time, 0, fastest) > tolerances_.reach)
+        findings_.unresolved(Check::flight);
+      else if (tell_it)
+        tell_flight(track, state, finding(Kind::non_ballistic, std::max(dp, dv * dt), dv, ""), good);
+    }
+    if (tell_it && has.spin_before && track.spin_known) {
+      findings_.judged(Check::spin_kept);
+      const double radius = radius_of(ball);
+      const double change = radius * size(Vec(state.spin_before - track.spin));
+      if (change > tolerances_.relative *
+                       std::max({speed, radius * size(track.spin), radius * size(state.spin_before)}))
+        findings_.add(finding(Kind::lost_spin, change, change,
+                              size(state.spin_before) == 0 ? "the spin is 0 before the impact" : ""));
+    }
+  }
+
+  /// Reports a flight unless it is good, by the mistake that explains it.
+  void tell_flight(const Track& track, const BodyState& state, Finding finding, bool good) {
+    findings_.judged(Check::flight);
+    const double dt = finding.time - track.start,
+                 speed = std::max(size(track.flight.velocity), size(state.velocity_before));
+    const double allowed = tolerances_.position(finding.time, speed * dt, speed);
+    bool told = good;
+    for (std::size_t k = 0; k < looks_.size() && tolerances_.gravity > 0 && dt > 0; ++k) {
+      if (good && !looks_[k].is_suspected()) continue;
+      const bool first = k >= 2 && !(step_ > 0);
+      double shows = 0;
+      const double left = look(k, track, state, dt, shows);
+      if (!told && vanishes(finding.size, left, allowed)) {
+        told = true;
+        looks_[k].plain().add(finding);
+        finding.note = look_notes[k];
+        finding.explained = true;
+        // The first one gives the step.
+        looks_[k].explains(finding.size, first ? finding.size : left).add(finding);
+      } else if (looks_[k].is_suspected() && shows > allowed && !(left <= allowed)) {
+        looks_[k].contradicted();
+      }
+      if (first && !looks_[k].is_suspected()) step_ = 0;
+    }
+    if (!told) findings_.add(finding);
+  }
+
+  /// How far the end of a flight is from where a mistake leads. @param shows  how far the mistake leads [m]
+  double look(std::size_t k, const Track& track, const BodyState& state, double dt, double& shows) {
+    const Vec& g = case_.mill.gravity;
+    const Vec fallen = state.position - (track.flight.position + track.flight.velocity * dt);
+    const Vec gained = state.velocity_before - track.flight.velocity;
+    // Shares of the fall and of the velocity that gravity gives in the time.
+    double fall = k == 0 ? 0 : -1, gain = fall;
+    if (k >= 2) {
+      const double excess = dot(fallen, g) / dot(g, g) - dt * dt / 2, sign = k == 2 ? 1 : -1;
+      if (!(step_ > 0) && sign * excess > 0) step_ = 2 * sign * excess / dt;
+      fall = 1 + sign * step_ / dt;
+      gain = 1;
+    }
+    shows = std::abs(fall - 1) * tolerances_.gravity * dt * dt / 2;
+    return std::max(size(Vec(fallen - g * (fall * dt * dt / 2))), size(Vec(gained - g * (gain * dt))) * dt);
+  }
+
   Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note,
-                         bool explained) const;
+                         bool explained) const {
+    Finding missed{*end.event, Kind::missed_event, contact.depth, unknown, unknown, note, explained};
+    missed.ball = ball;
+    missed.with_wall = contact.with_wall;
+    missed.partner = contact.partner;
+    missed.time = contact.time;
+    return missed;
+  }
+
+  /// @param off  distance of the logged position from the end of the flight [m]
+  /// @return whether it is reported; then `missed_at` becomes its time
   bool report_missed_wall(int ball, Track& track, const Contact& missed, const FlightEnd& end, double off,
-                          double& missed_at);
-  bool report_missed_ball(int ball, const Contact& pair, const FlightEnd& end, double off, double& missed_at);
-  void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at);
-  void settle_held(Track& track, const LoggedEvent* next);
+                          double& missed_at) {
+    const bool explained = off > 0 && explained_by_walls(ball, track, end);
+    if (off == 0) ++flown_through_[missed.partner];
+    if (!explained && off > 0 && missed.depth <= 2 * off) return false;
+    track.held = missed_finding(ball, missed, end,
+                                explained  ? "the state changes as in this impact, which is not logged"
+                                : off == 0 ? "the ball flew through the wall"
+                                           : "",
+                                explained);
+    missed_at = missed.time;
+    return true;
+  }
+
+  /// Reports a missed impact of two balls; what only the partner's flight can confirm waits for that flight.
+  bool report_missed_ball(int ball, const Contact& pair, const FlightEnd& end, double off,
+                          double& missed_at) {
+    Track& other = of(pair.partner);
+    if (off > 0 && explained_by_ball(ball, pair, end)) {
+      findings_.add(
+          missed_finding(ball, pair, end, "the state changes as in this impact, which is not logged", true));
+      if (!other.broken || pair.time < other.broken_from) other.broken_from = pair.time;
+      other.broken = true;
+      missed_at = pair.time;
+      return true;
+    }
+    if ((off > 0 && pair.depth <= 2 * off) || other.pending.size() >= pending_kept) return false;
+    const char* note = off == 0 ? "the balls flew through each other" : "";
+    other.pending.push_back({missed_finding(ball, pair, end, note, false), pair.depth});
+    missed_at = pair.time;
+    return off > 0;
+  }
+
+  /// Missed impacts that were found with other balls' flights are confirmed if this flight agrees with the
+  /// log.
+  void settle_pending(Track& track, const FlightEnd& end, double off, double missed_at) {
+    const int other = end.partner();
+    for (const auto& p : track.pending) {
+      const bool told_late = end.late && !end.event->with_wall && p.finding.ball == other;
+      if (!told_late && p.finding.time <= missed_at && (off == 0 || p.depth > 2 * off))
+        findings_.add(p.finding);
+    }
+    track.pending.clear();
+  }
+
+  /// Time-stepping codes log several impacts of a ball at one time: the second one is late, not missed.
+  void settle_held(Track& track, const LoggedEvent* next) {
+    if (!track.held) return;
+    const bool told =
+        next && next->time == track.start && next->with_wall && next->partner == track.held->partner;
+    if (!told) findings_.add(*track.held);
+    track.held.reset();
+  }
+
   int walls() const { return static_cast<int>(flown_through_.size()); }
-  bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const;
-  double deepest(int ball, const Track& track, int wall, double from, double until) const;
+  /// Whether the log's walls are those of the printed matrix, which was reported, and the flight ends inside
+  /// of them.
+  bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const {
+    if (!printed_walls_) return false;
+    for (int k = 0; k <= samples; ++k) {
+      const double time = track.start + (until - track.start) * k / samples;
+      const auto frame = printed_at(time);
+      const Vec position = position_of(track, time);
+      for (int wall = 0; wall < walls(); ++wall)
+        if (wall_gap(frame, case_, wall, ball, position) < -slack) return false;
+    }
+    return true;
+  }
+
+  double deepest(int ball, const Track& track, int wall, double from, double until) const {
+    double depth = 0;
+    for (int k = 0; k <= samples; ++k) {
+      const double time = from + (until - from) * k / samples;
+      depth = std::max(depth, -wall_gap(nested_at(time), case_, wall, ball, position_of(track, time)));
+    }
+    return depth;
+  }
 
   Vec position_of(const Flying& own, double time) const {
     return dynamics::position_after(own.flight, case_.mill.gravity, time - own.start);
   }
+
   Vec velocity_of(const Flying& own, double time) const {
     return dynamics::velocity_after(own.flight, case_.mill.gravity, time - own.start);
   }

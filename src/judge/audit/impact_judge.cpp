@@ -39,24 +39,21 @@ auto ImpactJudge::residuals(const LoggedImpact& impact, const Known& known, bool
 bool ImpactJudge::tell_broken_equations(const LoggedImpact& impact, const Residuals& off, double allowed,
                                         Findings& plain) {
   const bool spin = off.spin > allowed;
-  const auto tell_plainly = [&](Kind kind, double size, double found, double expected) {
-    plain.add(finding(kind, *impact.event, size, found, expected));
-  };
-  if (off.momentum > allowed) tell_plainly(Kind::momentum, off.momentum, off.momentum, 0);
-  if (spin) tell_plainly(Kind::spin_change, off.spin, off.spin, 0);
+  const LoggedEvent& event = *impact.event;
+  if (off.momentum > allowed) plain.add({event, Kind::momentum, off.momentum, off.momentum, 0});
+  if (spin) plain.add({event, Kind::spin_change, off.spin, off.spin, 0});
   if (!spin)
     if (const auto wall = other_wall_speed(impact, off, allowed)) {
-      tell_plainly(Kind::wall_velocity, std::max(off.normal, off.tangential), *wall,
-                   impact.along(impact.wall_velocity));
+      plain.add({event, Kind::wall_velocity, std::max(off.normal, off.tangential), *wall,
+                 impact.along(impact.wall_velocity)});
       return true;
     }
   if (off.normal > allowed) tell_normal(impact, off.normal, allowed, plain);
   // With a wrong torque the slip after the impact carries no further information.
   if (off.tangential > allowed && !spin) {
     const Vec slip = impact.across(impact.before()), slip_after = impact.across(impact.after());
-    tell_plainly(Kind::tangential_restitution, off.tangential,
-                 dot(slip, slip) > 0 ? dot(slip, slip_after) / dot(slip, slip) : unknown,
-                 off.restitution_tangential);
+    const double found = dot(slip, slip) > 0 ? dot(slip, slip_after) / dot(slip, slip) : unknown;
+    plain.add({event, Kind::tangential_restitution, off.tangential, found, off.restitution_tangential});
   }
   return false;
 }
@@ -89,7 +86,7 @@ bool ImpactJudge::judge_outcome(const Scene& scene, const Known& known, const Al
   if (!found) return tell_broken_equations(impact, off, allowed.slack, findings_);
   tell_broken_equations(impact, off, allowed.slack, found->mistake->plain());
   found->mistake->explains(found->off, found->left)
-      .add(finding(found->kind, *impact.event, off.largest(), off.largest(), 0, found->note, true));
+      .add({*impact.event, found->kind, off.largest(), off.largest(), 0, found->note, true});
   theirs = found->impact;
   return found->kind == Kind::wall_velocity;
 }
@@ -227,7 +224,7 @@ void ImpactJudge::judge_dose(const LoggedImpact& right, const LoggedImpact& thei
 void ImpactJudge::tell_dose(const LoggedEvent& event, double off, double expected, double allowed,
                             double left, double changes, Suspicion& mistake, const char* note) {
   const auto found = [&](const char* name, bool explained) {
-    return finding(Kind::milling_dose, event, off, event.milling_dose, expected, name, explained);
+    return Finding{event, Kind::milling_dose, off, event.milling_dose, expected, name, explained};
   };
   if (off > allowed && vanishes(off, left, allowed)) {
     mistake.explains(off, left).add(found(note, true));

@@ -13,21 +13,6 @@
 
 namespace edmill::audit {
 
-inline Finding finding(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-                       const char* note = "", bool explained = false) {
-  return {.kind = kind,
-          .size = size,
-          .line = event.line,
-          .time = event.time,
-          .ball = event.ball,
-          .with_wall = event.with_wall,
-          .partner = event.partner,
-          .found = found,
-          .expected = expected,
-          .note = note,
-          .explained = explained};
-}
-
 /// What all judges of a log share.
 class Judge {
  public:
@@ -38,7 +23,7 @@ class Judge {
  protected:
   void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
             const char* note = "") {
-    findings_.add(finding(kind, event, size, found, expected, note));
+    findings_.add({event, kind, size, found, expected, note});
   }
   double radius_of(int ball) const { return case_.balls[ball].radius; }
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "base/statistics.hpp"
@@ -16,20 +16,17 @@ namespace edmill::compare {
 
 namespace {
 
-/// Both scans, or the problems of both.
-std::pair<LogScan, LogScan> scan_both(const Options& options) {
+/// @throws InputError with the problems of both logs
+void scan_both(Comparison& c) {
   std::vector<std::string> problems;
-  const auto scan = [&](const std::filesystem::path& place) {
+  for (const auto& [place, scan] : {std::pair{&c.options.a, &c.a}, {&c.options.b, &c.b}}) {
     try {
-      return scan_log(place);
+      *scan = scan_log(*place);
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-      return LogScan{};
     }
-  };
-  auto a = scan(options.a), b = scan(options.b);
+  }
   if (!problems.empty()) throw InputError(problems);
-  return {std::move(a), std::move(b)};
 }
 
 /// @throws InputError when the logs, or the options, leave no time in common
@@ -204,8 +201,7 @@ class Judge {
 
  private:
   void skip(const std::string& name, const std::string& unit, const std::string& reason) {
-    rows_.push_back({name, unit});
-    rows_.back().reason = reason;
+    rows_.push_back({.name = name, .unit = unit, .reason = reason});
   }
   void add(Quantity q, double events, double probability) {
     q.verdict = Verdict::too_few;
@@ -289,7 +285,7 @@ std::string_view name_of(Verdict verdict) {
 Comparison compare(const Options& options) {
   Comparison c;
   c.options = options;
-  std::tie(c.a, c.b) = scan_both(options);
+  scan_both(c);
   c.times = common_times(c.a, c.b, options);
   c.events = compare_events(c);
   if (options.events) {

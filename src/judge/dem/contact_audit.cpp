@@ -158,42 +158,24 @@ void judge_laws(const std::vector<Shown>& list, const std::string& where, Contac
   judge("friction " + where, "(2.24')", 0.01, list, sliding_friction, &Shown::friction, audit);
 }
 
+/// What holds for the whole log.
 void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
-  const auto& s = audit.facts.statistics;
-  const auto within = [](double value, double half_width) {
-    return Median{value, value - half_width, value + half_width, 1};
+  const auto& facts = audit.facts;
+  const auto add = [&](const std::string& name, double found, double half_width, double expected,
+                       double allowed, const char* unit = "") {
+    audit.judged.push_back(
+        {name, unit, "", {found, found - half_width, found + half_width, 1}, expected, allowed});
   };
-  for (Eigen::Index k = 0; k < 3 && !audit.facts.of_list(); ++k) {
-    audit.judged.push_back({.name = fmt::format("gravity along {}", "XYZ"[k]),
-                            .unit = "m/s^2",
-                            .equation = "",
-                            .found = within(s.gravity[k], s.gravity_half_width[k]),
-                            .expected = mill.gravity[k],
-                            .allowed = 1e-3 * norm<double>(mill.gravity) + 1e-3});
-  }
-  const auto judge_factor = [&](const char* name, double factor) {
-    audit.judged.push_back({.name = name,
-                            .unit = "",
-                            .equation = "",
-                            .found = within(factor, 0),
-                            .expected = 1,
-                            .allowed = 1e-6});
-  };
-  judge_factor("density over the case's", audit.facts.mass_factor / std::pow(audit.facts.radius_factor, 3));
-  judge_factor("diameter over the case's", audit.facts.radius_factor);
-}
-
-/// A ball that leaves its flight has met something, as far as frames resolve it.
-void judge_unexplained(ContactAudit& audit) {
-  const double all = audit.facts.dose();
-  if (!(all > 0)) return;
-  const double share = audit.facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all;
-  audit.judged.push_back({.name = "dose with no wall or ball",
-                          .unit = "",
-                          .equation = "",
-                          .found = {share, share, share, 1},
-                          .expected = 0,
-                          .allowed = 0.01});
+  for (Eigen::Index k = 0; k < 3 && !facts.of_list(); ++k)
+    add(fmt::format("gravity along {}", "XYZ"[k]), facts.statistics.gravity[k],
+        facts.statistics.gravity_half_width[k], mill.gravity[k], 1e-3 * norm<double>(mill.gravity) + 1e-3,
+        "m/s^2");
+  add("density over the case's", facts.mass_factor / std::pow(facts.radius_factor, 3), 0, 1, 1e-6);
+  add("diameter over the case's", facts.radius_factor, 0, 1, 1e-6);
+  // A ball that leaves its flight has met something, as far as frames resolve it.
+  if (const double all = facts.dose(); all > 0)
+    add("dose with no wall or ball", facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all,
+        0, 0, 0.01);
 }
 
 std::vector<SlipBin> slips_of(const std::vector<Shown>& walls, const std::vector<Shown>& balls) {
@@ -215,11 +197,8 @@ std::vector<SlipBin> slips_of(const std::vector<Shown>& walls, const std::vector
   return bins;
 }
 
-const char* name_of(ContactVerdict verdict) {
-  return verdict == ContactVerdict::agrees    ? "agrees with the case"
-         : verdict == ContactVerdict::differs ? "differs from the case"
-                                              : "too few contacts to judge";
-}
+constexpr std::array<const char*, 3> verdicts{"agrees", "differs", "too few"},
+    sentences{"agrees with the case", "differs from the case", "too few contacts to judge"};
 
 std::string interval(const Median& m) {
   return m.high > m.low ? fmt::format("{:.4f} ({:.4f} to {:.4f})", m.value, m.low, m.high)
@@ -282,7 +261,6 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
   const bool enough = !audit.judged.empty();
   judge_facts(mill, audit);
   audit.slips = slips_of(walls, balls);
-  judge_unexplained(audit);
   // Balls of another size meet the walls elsewhere.
   if (audit.facts.radius_factor == 1 && !audit.facts.of_list())
     judge_places(spec, at_walls, options.interrupt, audit);
@@ -330,16 +308,14 @@ std::string table(const ContactAudit& a) {
     };
     out += fmt::format("  {:<16.3f}{:<20}{}\n", s.ratio, cell(s.of_walls), cell(s.of_balls));
   }
-  return out + fmt::format("\n  verdict: {}\n", name_of(a.verdict));
+  return out + fmt::format("\n  verdict: {}\n", sentences[static_cast<std::size_t>(a.verdict)]);
 }
 
 std::string to_json(const ContactAudit& a) {
   io::JsonText json;
   json.add("format", "edmill contact audit 1");
   json.add("version", version());
-  json.add("verdict", a.verdict == ContactVerdict::agrees    ? "agrees"
-                      : a.verdict == ContactVerdict::differs ? "differs"
-                                                             : "too few");
+  json.add("verdict", verdicts[static_cast<std::size_t>(a.verdict)]);
   json.add("case", a.case_name);
   json.add("log", a.log_name);
   json.add("contacts", a.facts.contacts);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,23 +25,18 @@ double change_of(const Frame& from, const Frame& to, std::size_t ball, const Vec
 /// Where a gap falls to zero first, or rises from it last; nothing where it does not.
 std::optional<double> crossing(const auto& gap, double low, double high, bool falling) {
   for (int round = 0; round < 4; ++round) {
-    double left = low, value = gap(low), found_low = 0, found_high = 0;
-    bool found = false;
-    for (int k = 1; k <= tried; ++k) {
-      const double right = low + (high - low) * k / tried, next = gap(right);
-      if (falling ? value > 0 && next <= 0 : value <= 0 && next > 0) {
-        if (!found || !falling) {
-          found_low = left;
-          found_high = right;
-        }
-        found = true;
-      }
-      left = right;
-      value = next;
+    std::array<double, tried + 1> places, values;
+    for (int k = 0; k <= tried; ++k) {
+      const auto place = static_cast<std::size_t>(k);
+      places[place] = low + (high - low) * k / tried;
+      values[place] = gap(places[place]);
     }
-    if (!found) return std::nullopt;
-    low = found_low;
-    high = found_high;
+    std::size_t found = 0;
+    for (std::size_t k = 1; k <= tried && !(falling && found > 0); ++k)
+      if ((values[k - 1] > 0) == falling && (values[k] > 0) != falling) found = k;
+    if (found == 0) return std::nullopt;
+    low = places[found - 1];
+    high = places[found];
   }
   const double one = gap(low), other = gap(high);
   return one == other ? low : low + (high - low) * one / (one - other);
@@ -192,9 +188,9 @@ void ContactFinder::settle() {
 std::vector<ContactFinder::Touch> ContactFinder::touches_of(const Stretch& s) const {
   std::vector<int> spells(static_cast<std::size_t>(vessel_.walls()));
   std::vector<bool> inside(spells.size());
-  const auto see = [&](const std::vector<double>& gaps) {
+  const auto see = [&](const auto& gap_from) {
     for (std::size_t wall = 0; wall < spells.size(); ++wall) {
-      const bool under = gaps[wall] < 0;
+      const bool under = gap_from(static_cast<int>(wall)) < 0;
       if (under && !inside[wall]) ++spells[wall];
       inside[wall] = under;
     }
@@ -203,19 +199,20 @@ std::vector<ContactFinder::Touch> ContactFinder::touches_of(const Stretch& s) co
     for (int k = 0; k <= tried; ++k) {
       const double t = from.time + (to.time - from.time) * k / tried;
       const auto pose = vessel_.at(t);
-      auto gaps =
-          vessel_.gaps(pose, s.ball, flown(from.balls[s.ball], frames_.gravity, t - from.time).position);
-      const auto back =
-          vessel_.gaps(pose, s.ball, flown(to.balls[s.ball], frames_.gravity, t - to.time).position);
-      for (std::size_t wall = 0; wall < gaps.size(); ++wall) gaps[wall] = std::min(gaps[wall], back[wall]);
-      see(gaps);
+      const Vector on = flown(from.balls[s.ball], frames_.gravity, t - from.time).position,
+                   back = flown(to.balls[s.ball], frames_.gravity, t - to.time).position;
+      see([&](int wall) {
+        return std::min(vessel_.gap(pose, s.ball, wall, on), vessel_.gap(pose, s.ball, wall, back));
+      });
     }
   };
   if (s.last - s.first <= 2)
     see_flights(frame(s.first), frame(s.last));
   else if (resolved())
     for (std::size_t k = s.first; k <= s.last; ++k)
-      see(vessel_.gaps(vessel_.at(frame(k).time), s.ball, frame(k).balls[s.ball].position));
+      see([&, pose = vessel_.at(frame(k).time)](int wall) {
+        return vessel_.gap(pose, s.ball, wall, frame(k).balls[s.ball].position);
+      });
   else
     for (std::size_t k = s.first; k < s.last; ++k) see_flights(frame(k), frame(k + 1));
   std::vector<Touch> touches;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -17,28 +18,35 @@ namespace edmill::dem {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What counts of a record.
 struct Window {
-  double from, until;
+  double from, until = infinity;
+  bool compared = false;  ///< with that of another record: nothing beside it counts, and it is not empty
 };
 
 /// @param transient  until when a run that it is compared with takes no statistics, which a log leaves out,
 /// too, if it is long enough [s]
-ContactRates rates_of_contacts(const std::string& file, const Window& window, double transient = 0) {
+ContactRates rates_of_contacts(const std::string& file, const Window& window, double transient) {
   ContactLogReader log(file);
   log.need_frames();
   ContactRates r{.log = file};
   if (log.facts().last < 2 * transient) transient = 0;
   r.first = std::max({window.from, log.facts().first, transient});
   r.last = std::min(window.until, log.facts().last);
-  if (!(r.last > r.first))
+  if (window.compared && !(r.last > r.first))
     throw InputError(file + ": found no frames in the time that is compared, expected some");
+  if (!window.compared && !(r.last > window.from))
+    throw InputError(fmt::format("{}: found a record that ends at {} s, expected one beyond {} s", file,
+                                 r.last, window.from));
   DoseRate rate(r.first, r.last);
   std::vector<double> durations;
   double all = 0, grouped = 0;
   std::uint64_t singles = 0;
   while (const auto c = log.next()) {
     const double time = (c->begin + c->end) / 2;
-    if (time < r.first || time > r.last) continue;
+    if (window.compared && (time < r.first || time > r.last)) continue;
     rate.add(time, c->dose);
     const bool single = c->kind == ContactClass::wall || c->kind == ContactClass::pair;
     all += c->dose;
@@ -46,8 +54,11 @@ ContactRates rates_of_contacts(const std::string& file, const Window& window, do
     singles += single ? 1 : 0;
     if (c->kind == ContactClass::wall) durations.push_back(c->end - c->begin);
   }
+  if (!window.compared && durations.size() < 20)
+    throw InputError(
+        fmt::format("{}: found {} single contacts with walls, expected at least 20", file, durations.size()));
   r.dose_rate = rate.mean();
-  r.dose_rate_half_width = rate.half_width();
+  r.half_width = rate.half_width();
   r.contact_time = median_of(std::move(durations)).value;
   r.single_rate = static_cast<double>(singles) / (r.last - r.first);
   r.grouped = all > 0 ? grouped / all : 0;
@@ -57,75 +68,48 @@ ContactRates rates_of_contacts(const std::string& file, const Window& window, do
 ContactRates rates_of_impacts(const std::string& place, const Window& window) {
   const auto scan = compare::scan_log(place);
   if (!scan.has[model::milling_dose])
-    throw InputError(scan.file + ": found no column milling_dose, expected one: the dose is compared");
+    throw InputError(scan.file + ": found no column milling_dose, expected " +
+                     (window.compared ? "one: the dose is compared" : "that of edmill's collision log"));
   ContactRates r{.log = place};
   r.first = std::max(window.from, scan.statistics_start.value_or(scan.first));
   r.last = std::min(window.until, scan.last);
-  if (!(r.last > r.first))
+  if (window.compared && !(r.last > r.first))
     throw InputError(scan.file + ": found no impacts in the time that is compared, expected some");
   DoseRate rate(r.first, r.last);
   std::uint64_t impacts = 0;
   compare::LogReader log(place);
   while (const auto event = log.next()) {
     const double time = event->time;
-    if (time < r.first || time > r.last) continue;
+    if (window.compared && (time < r.first || time > r.last)) continue;
     rate.add(time, event->milling_dose);
     ++impacts;
   }
   r.dose_rate = rate.mean();
-  r.dose_rate_half_width = rate.half_width();
+  r.half_width = rate.half_width();
   r.single_rate = static_cast<double>(impacts) / (r.last - r.first);
   return r;
 }
 
+/// Of a ratio, from those of both numbers.
+double relative_half_width(double one, double other) { return std::sqrt(one * one + other * other); }
+
 std::string sentence(const ContactComparison& c) {
   return fmt::format("dose rate of B over that of A: {:.4f} ± {:.4f}", 1 + c.difference, c.half_width);
-}
-
-LimitPoint point_of(const std::string& file, double from) {
-  ContactLogReader log(file);
-  log.need_frames();
-  const auto& facts = log.facts();
-  if (!(facts.last > from))
-    throw InputError(fmt::format("{}: found a record that ends at {} s, expected one beyond {} s", file,
-                                 facts.last, from));
-  DoseRate rate(std::max(from, facts.first), facts.last);
-  std::vector<double> durations;
-  while (const auto c = log.next()) {
-    rate.add((c->begin + c->end) / 2, c->dose);
-    if (c->kind == ContactClass::wall) durations.push_back(c->end - c->begin);
-  }
-  if (durations.size() < 20)
-    throw InputError(
-        fmt::format("{}: found {} single contacts with walls, expected at least 20", file, durations.size()));
-  return {file, median_of(std::move(durations)).value, rate.mean(), rate.half_width()};
-}
-
-LimitPoint point_of_edmill(const std::string& run, double from) {
-  const auto scan = compare::scan_log(run);
-  if (!scan.has[model::milling_dose])
-    throw InputError(scan.file + ": found no column milling_dose, expected that of edmill's collision log");
-  DoseRate rate(std::max(from, scan.statistics_start.value_or(scan.first)), scan.last);
-  compare::LogReader log(run);
-  while (const auto event = log.next()) rate.add(event->time, event->milling_dose);
-  return {run, 0, rate.mean(), rate.half_width()};
 }
 
 }  // namespace
 
 ContactComparison compare_contacts(const std::string& a, const std::string& b, double from, double until) {
   ContactComparison c;
-  const Window window{from, until};
-  c.a = is_contact_log(a) ? rates_of_contacts(a, window) : rates_of_impacts(a, window);
+  const Window window{from, until, true};
+  c.a = is_contact_log(a) ? rates_of_contacts(a, window, 0) : rates_of_impacts(a, window);
   c.b = is_contact_log(b) ? rates_of_contacts(b, window, is_contact_log(a) ? 0 : c.a.first)
                           : rates_of_impacts(b, window);
   c.known = c.a.dose_rate > 0 && c.b.dose_rate > 0;
   if (!c.known) return c;
   const double ratio = c.b.dose_rate / c.a.dose_rate;
-  const double one = c.a.dose_rate_half_width / c.a.dose_rate,
-               other = c.b.dose_rate_half_width / c.b.dose_rate;
   c.difference = ratio - 1;
-  c.half_width = ratio * std::sqrt(one * one + other * other);
+  c.half_width = ratio * relative_half_width(c.a.half_width / c.a.dose_rate, c.b.half_width / c.b.dose_rate);
   return c;
 }
 
@@ -140,9 +124,8 @@ std::string table(const ContactComparison& c) {
       [](const ContactRates& r) { return fmt::format("{:.5g}", r.single_rate); });
   row("dose in groups and lasting ones",
       [](const ContactRates& r) { return fmt::format("{:.2f} %", 100 * r.grouped); });
-  row("dose rate [W]", [](const ContactRates& r) {
-    return fmt::format("{:.4f} ± {:.4f}", r.dose_rate, r.dose_rate_half_width);
-  });
+  row("dose rate [W]",
+      [](const ContactRates& r) { return fmt::format("{:.4f} ± {:.4f}", r.dose_rate, r.half_width); });
   out += fmt::format("\n  {}\n", sentence(c));
   if (c.b.contact_time > 0)
     out +=
@@ -166,7 +149,7 @@ std::string to_json(const ContactComparison& c) {
     json.add("single_rate", r->single_rate);
     json.add("grouped_dose_share", r->grouped);
     json.add("milling_dose_rate", r->dose_rate);
-    json.add("milling_dose_rate_half_width", r->dose_rate_half_width);
+    json.add("milling_dose_rate_half_width", r->half_width);
     json.end();
   }
   json.add("difference", c.difference);
@@ -179,13 +162,12 @@ std::string to_junit(const ContactComparison& c) {
 }
 
 double Limit::ratio_half_width() const {
-  const double own = half_width / value, other = edmill->half_width / edmill->dose_rate;
-  return ratio() * std::sqrt(own * own + other * other);
+  return ratio() * relative_half_width(half_width / value, edmill->half_width / edmill->dose_rate);
 }
 
 Limit limit_of(const std::vector<std::string>& logs, const std::string& run, double from) {
   Limit limit;
-  for (const auto& log : logs) limit.points.push_back(point_of(log, from));
+  for (const auto& log : logs) limit.points.push_back(rates_of_contacts(log, {from}, -infinity));
   std::sort(limit.points.begin(), limit.points.end(),
             [](const auto& a, const auto& b) { return a.contact_time > b.contact_time; });
   double weights = 0, times = 0, rates = 0;
@@ -210,7 +192,7 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
   limit.slope = products / squares;
   limit.value = mean_rate - limit.slope * mean_time;
   limit.half_width = std::sqrt(1 / weights + mean_time * mean_time / squares);
-  if (!run.empty()) limit.edmill = point_of_edmill(run, from);
+  if (!run.empty()) limit.edmill = rates_of_impacts(run, {from});
   return limit;
 }
 
@@ -232,7 +214,7 @@ std::string table(const Limit& limit) {
 std::string to_json(const Limit& limit) {
   io::JsonText json;
   json.add("format", "edmill limit 1");
-  json.groups("points", limit.points, &LimitPoint::log, [&](const LimitPoint& p) {
+  json.groups("points", limit.points, &ContactRates::log, [&](const ContactRates& p) {
     json.add("contact_time", p.contact_time);
     json.add("milling_dose_rate", p.dose_rate);
     json.add("half_width", p.half_width);
@@ -255,7 +237,7 @@ std::string to_svg(const Limit& limit) {
   chart.title = "dose rate over contact time";
   chart.description = "dose rates of runs with contacts of several durations, and their limit";
   double low = limit.value - limit.half_width, high = limit.value + limit.half_width;
-  const auto see = [&](const LimitPoint& p) {
+  const auto see = [&](const ContactRates& p) {
     low = std::min(low, p.dose_rate - p.half_width);
     high = std::max(high, p.dose_rate + p.half_width);
   };
@@ -264,17 +246,16 @@ std::string to_svg(const Limit& limit) {
   const double last = limit.points.front().contact_time, room = 0.08 * (high - low);
   chart.x = {"contact time [us]", 0, 1.08e6 * last};
   chart.y = {"dose rate [W]", low - room, high + room};
-  const auto bar = [&](const LimitPoint& p, const std::string& colour, const std::string& name) {
-    const double x = 1e6 * p.contact_time;
-    chart.curves.push_back(
-        {name, colour, {{x, p.dose_rate - p.half_width}, {x, p.dose_rate + p.half_width}}});
+  const auto bar = [&](double time, double value, double half_width, const char* colour, const char* name) {
+    const double x = 1e6 * time;
+    chart.curves.push_back({name, colour, {{x, value - half_width}, {x, value + half_width}}});
   };
   chart.curves.push_back({"line", "c0", {{0, limit.value}, {1e6 * last, limit.value + limit.slope * last}}});
   bool first = true;
-  for (const auto& p : limit.points) bar(p, "c1", std::exchange(first, false) ? "runs" : "");
-  bar({"", 0.004 * last, limit.value, limit.half_width}, "c0", "limit");
-  if (limit.edmill)
-    bar({"", 0.012 * last, limit.edmill->dose_rate, limit.edmill->half_width}, "c2", "edmill");
+  for (const auto& p : limit.points)
+    bar(p.contact_time, p.dose_rate, p.half_width, "c1", std::exchange(first, false) ? "runs" : "");
+  bar(0.004 * last, limit.value, limit.half_width, "c0", "limit");
+  if (limit.edmill) bar(0.012 * last, limit.edmill->dose_rate, limit.edmill->half_width, "c2", "edmill");
   std::ostringstream out;
   plot::save(out, chart);
   return out.str();

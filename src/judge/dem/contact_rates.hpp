@@ -12,12 +12,11 @@ namespace edmill::dem {
 /// Rates of one record with their 95 % intervals.
 struct ContactRates {
   std::string log;
-  double first = 0, last = 0;  ///< of what counts [s]
-  double dose_rate = 0,
-         dose_rate_half_width = 0;  ///< [W]; of contacts by the balance of energy, groups included
-  double contact_time = 0;          ///< [s]; 0 of impacts
-  double single_rate = 0;           ///< single contacts per second
-  double grouped = 0;               ///< share of the dose that groups and lasting contacts have
+  double first = 0, last = 0;            ///< of what counts [s]
+  double dose_rate = 0, half_width = 0;  ///< [W]; of contacts by the balance of energy, groups included
+  double contact_time = 0;               ///< median of single contacts with walls [s]; 0 of impacts
+  double single_rate = 0;                ///< single contacts per second
+  double grouped = 0;                    ///< share of the dose that groups and lasting contacts have
 };
 
 struct ContactComparison {
@@ -37,17 +36,11 @@ std::string table(const ContactComparison& comparison);
 std::string to_json(const ContactComparison& comparison);
 std::string to_junit(const ContactComparison& comparison);
 
-struct LimitPoint {
-  std::string log;
-  double contact_time = 0;               ///< median of single contacts with walls [s]
-  double dose_rate = 0, half_width = 0;  ///< [W]
-};
-
 struct Limit {
-  std::vector<LimitPoint> points;
-  double value = 0, half_width = 0;  ///< dose rate at contact time zero, with its 95 % interval [W]
-  double slope = 0;                  ///< [W/s]
-  std::optional<LimitPoint> edmill;  ///< contact time 0
+  std::vector<ContactRates> points;
+  double value = 0, half_width = 0;    ///< dose rate at contact time zero, with its 95 % interval [W]
+  double slope = 0;                    ///< [W/s]
+  std::optional<ContactRates> edmill;  ///< contact time 0
 
   double ratio() const { return value / edmill->dose_rate; }
   double ratio_half_width() const;

@@ -145,10 +145,8 @@ class ContactLogReader {
 };
 
 /// A contact of a ball with a wall as a code has found it by itself, in SI. The states have no places.
-struct ListedContact {
-  int ball = 0, boundary = 0;  ///< numbers of the file
-  double begin = 0, end = 0;
-  model::BallState<double> before, after;
+struct ListedContact : Contact {
+  int boundary = 0;  ///< of the file, as the ball's number
   std::optional<double> mass, diameter;
 };
 

@@ -159,8 +159,13 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
   refuse_what_no_code_has(spec, built);
   const auto& c = built.the_case;
   const DriveClock<double> clock(c.mill.motion.period());
-  const double begin = clock.seconds(built.start);
-  DeckCase deck{
+  const double begin = clock.seconds(built.start), time_step = options.contact_time / options.steps;
+  const double duration = options.duration > 0 ? options.duration
+                          : spec.end_time      ? spec.end_time->to<double>() - begin
+                                               : 0;
+  const double interval = options.frame_interval > 0 ? options.frame_interval : options.contact_time / 5;
+  const auto& largest = *std::ranges::max_element(c.balls, {}, &model::BallProperties<double>::radius);
+  const DeckCase deck{
       .file = spec.file,
       .digest = spec.digest,
       .balls = c.balls,
@@ -174,26 +179,14 @@ Deck make_deck(const casefile::CaseSpec& spec, const DeckOptions& options) {
       .begin = begin,
       .period = casefile::period_of(spec.mill).to<double>(),
       .pose = c.mill.motion.pose(clock.at(begin)),
-      .young = 0,
-      .time_step = options.contact_time / options.steps,
-      .steps = 0,
-      .frame_every = 1,
-      .largest_radius = 0};
-  double mass = 0;
-  for (const auto& ball : c.balls)
-    if (ball.radius > deck.largest_radius) {
-      deck.largest_radius = ball.radius;
-      mass = ball.mass;
-    }
-  deck.young = young_for(options.contact_time, options.speed, deck.largest_radius, mass, DeckCase::poisson);
-  const double duration = options.duration > 0 ? options.duration
-                          : spec.end_time      ? spec.end_time->to<double>() - deck.begin
-                                               : 0;
+      .young =
+          young_for(options.contact_time, options.speed, largest.radius, largest.mass, DeckCase::poisson),
+      .time_step = time_step,
+      .steps = std::lround(duration / time_step),
+      .frame_every = std::max(1L, std::lround(interval / time_step)),
+      .largest_radius = largest.radius};
   if (!(duration > 0))
     throw InputError(spec.file + ": found no run.end_time and no --duration, expected one of them");
-  deck.steps = std::lround(duration / deck.time_step);
-  const double interval = options.frame_interval > 0 ? options.frame_interval : options.contact_time / 5;
-  deck.frame_every = std::max(1L, std::lround(interval / deck.time_step));
   if (options.code == "lammps") return lammps_deck(deck, options);
   auto filled = options;
   // A ball at an edge between two triangles of YADE touches both, so that they must be few.

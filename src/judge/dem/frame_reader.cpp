@@ -39,13 +39,6 @@ std::vector<std::string> words(const std::string& line) {
   return list;
 }
 
-struct Units {
-  const char* name;
-  double length, time, mass;
-};
-constexpr Units known_units[] = {
-    {"si", 1, 1, 1}, {"cgs", 1e-2, 1, 1e-3}, {"micro", 1e-6, 1e-6, 1e-15}, {"nano", 1e-9, 1e-9, 1e-21}};
-
 int facets_of(const std::string& word, const std::string& deck) {
   int facets = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), facets);
@@ -181,13 +174,11 @@ double FrameReader::number(std::string_view text) const {
 }
 
 void FrameReader::set_units(const std::string& units) {
-  const auto* found = std::find_if(std::begin(known_units), std::end(known_units),
-                                   [&](const Units& u) { return units == u.name; });
-  if (found == std::end(known_units)) fail("units '" + units + "'", "si, cgs, micro or nano");
-  length_ = found->length;
-  time_ = found->time;
-  mass_ = found->mass;
-  speed_ = length_ / time_;
+  static constexpr Units known[] = {
+      {"si", 1, 1, 1}, {"cgs", 1e-2, 1, 1e-3}, {"micro", 1e-6, 1e-6, 1e-15}, {"nano", 1e-9, 1e-9, 1e-21}};
+  const auto* found = std::ranges::find(known, units, &Units::name);
+  if (found == std::end(known)) fail("units '" + units + "'", "si, cgs, micro or nano");
+  units_ = *found;
 }
 
 void FrameReader::read_columns(const std::vector<std::string>& columns) {
@@ -225,31 +216,32 @@ FrameReader::Row FrameReader::row() const {
 FrameReader::Row FrameReader::row_of(const std::vector<double>& values) const {
   const auto at = [&](std::size_t what) { return values[static_cast<std::size_t>(places_[what])]; };
   if (!(std::abs(at(id)) < 1e15)) fail(fmt::format("ball {}", at(id)), "the number of a ball");
+  const double length = units_.length, time = units_.time;
   Row row;
   row.id = static_cast<long>(at(id));
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
     row.state.position[axis] =
-        length_ * (places_[x + k] >= 0 ? at(x + k) : low_[k] + size_[k] * at(scaled_x + k));
-    row.state.velocity[axis] = speed_ * at(vx + k);
-    row.state.spin[axis] = at(wx + k) / time_;
+        length * (places_[x + k] >= 0 ? at(x + k) : low_[k] + size_[k] * at(scaled_x + k));
+    row.state.velocity[axis] = length / time * at(vx + k);
+    row.state.spin[axis] = at(wx + k) / time;
   }
-  if (places_[mass] >= 0) row.mass = mass_ * at(mass);
-  if (places_[radius] >= 0) row.radius = length_ * at(radius);
-  if (places_[radius] < 0 && places_[diameter] >= 0) row.radius = length_ * at(diameter) / 2;
-  if (places_[moment] >= 0) row.time = time_ * at(moment);
+  if (places_[mass] >= 0) row.mass = units_.mass * at(mass);
+  if (places_[radius] >= 0) row.radius = length * at(radius);
+  if (places_[radius] < 0 && places_[diameter] >= 0) row.radius = length * at(diameter) / 2;
+  if (places_[moment] >= 0) row.time = time * at(moment);
   return row;
 }
 
 void FrameReader::finish(std::vector<Row> rows, double time, Frame& frame) {
   if (rows.size() != count_)
     fail(fmt::format("{} balls in a frame", rows.size()), fmt::format("{}, as in the case", count_));
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.id < b.id; });
+  std::ranges::sort(rows, {}, &Row::id);
+  if (const auto twice = std::ranges::adjacent_find(rows, {}, &Row::id); twice != rows.end())
+    fail(fmt::format("ball {} twice in a frame", twice->id), "each once");
   std::vector<long> ids;
   frame.balls.clear();
   for (const auto& row : rows) {
-    if (!ids.empty() && ids.back() == row.id)
-      fail(fmt::format("ball {} twice in a frame", row.id), "each once");
     ids.push_back(row.id);
     frame.balls.push_back(row.state);
   }
@@ -278,7 +270,7 @@ bool FrameReader::next(Frame& frame) {
 double FrameReader::time_of(std::optional<double> time, std::optional<double> step) const {
   if (!time && !(step && format_.time_step))
     fail("a frame without time", "its time in it, or the time step: --timestep or --deck");
-  return time ? *time * time_ : *step * *format_.time_step;
+  return time ? *time * units_.time : *step * *format_.time_step;
 }
 
 bool FrameReader::next_of_binary(Frame& frame) try {

@@ -59,6 +59,12 @@ class FrameReader {
     std::optional<double> mass, radius, time;
   };
 
+  /// In SI.
+  struct Units {
+    std::string_view name;
+    double length, time, mass;
+  };
+
   bool next_of_dump(Frame& frame);
   bool next_of_binary(Frame& frame);
   bool next_of_table(Frame& frame);
@@ -83,7 +89,7 @@ class FrameReader {
   std::vector<std::string> names_;        ///< of the columns
   std::vector<int> places_;               ///< of what is needed among them; -1 for what is absent
   std::array<double, 3> low_{}, size_{};  ///< of the box, for scaled coordinates
-  double length_ = 1, speed_ = 1, time_ = 1, mass_ = 1;  ///< units to SI
+  Units units_{"si", 1, 1, 1};
   std::vector<long> ids_;
   std::vector<double> masses_, radii_;
   std::optional<Row> waiting_;  ///< of the next frame of a table

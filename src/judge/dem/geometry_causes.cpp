@@ -22,19 +22,13 @@ struct Meeting {
   Vector position;
 };
 
-/// What a mill may have otherwise beside the numbers of its case.
-struct Offset {
-  double delay = 0;     ///< of the drive [s]
-  int wall = -1;        ///< that is moved
-  double distance = 0;  ///< outward [m]
-};
-
 struct Candidate {
   std::string key;
   Dimension dimension;
   double value, change;
   std::vector<double> starts;
-  std::function<void(Assumptions&, Offset&, double)> set;
+  std::function<void(Assumptions&, double)> set;
+  int wall = -1;  ///< that is moved outward by the value [m], beside what is set
 };
 
 class Geometry {
@@ -67,7 +61,7 @@ class Geometry {
       reaches.push_back(norm<double>(impulse) / 1.5 * frames.interval / 2);
     }
     resolution = median_of(reaches).value;
-    distance = of(gaps(nominal_, {}));
+    distance = of(gaps(nominal_));
   }
 
   bool known() const { return meetings_.size() >= 20; }
@@ -75,14 +69,14 @@ class Geometry {
   double distance = 0, resolution = 0;
 
   /// Gaps with a mill; empty where it can be none.
-  std::vector<double> gaps(const Assumptions& assumed, const Offset& offset) const {
+  std::vector<double> gaps(const Assumptions& assumed, int moved = -1, double outward = 0) const {
     std::vector<double> gaps;
     const auto built = assumed.built();
     if (!built) return gaps;
     const MovingVessel vessel(built->mill, built->balls, facets_);
     for (const auto& m : meetings_)
-      gaps.push_back(vessel.gap(vessel.at(m.time + offset.delay), m.ball, m.wall, m.position) +
-                     (m.wall == offset.wall ? offset.distance : 0));
+      gaps.push_back(vessel.gap(vessel.at(m.time + assumed.log.delay), m.ball, m.wall, m.position) +
+                     (m.wall == moved ? outward : 0));
     return gaps;
   }
   /// The largest of the walls' medians: a mistake may move one wall alone.
@@ -98,9 +92,8 @@ class Geometry {
   }
   std::vector<double> gaps_with(const Candidate& c, double value) const {
     Assumptions assumed = nominal_;
-    Offset offset;
-    c.set(assumed, offset, value);
-    return gaps(assumed, offset);
+    if (c.set) c.set(assumed, value);
+    return gaps(assumed, c.wall, value);
   }
 
   std::optional<GeometryCause> fit(const Candidate& c) const {
@@ -151,12 +144,7 @@ class Geometry {
 };
 
 Candidate of_number(const Parameter& p) {
-  Candidate c{.key = p.key,
-              .dimension = p.dimension,
-              .value = p.value,
-              .change = p.change,
-              .starts = {},
-              .set = [set = p.set](Assumptions& a, Offset&, double x) { set(a, x); }};
+  Candidate c{p.key, p.dimension, p.value, p.change, {}, p.set};
   for (const double share : {0.001, 0.003, 0.01, 0.03, 0.05, 0.1, 0.2, 0.5})
     for (const double sign : {-1.0, 1.0}) c.starts.push_back(p.value * (1 + sign * share));
   c.starts.push_back(2 * p.value);
@@ -168,42 +156,27 @@ void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
   std::vector<double> starts;
   for (int k = 1; k < 16; ++k) starts.push_back(turn * (k <= 8 ? k : k - 16) / 16);
   const double period = casefile::period_of(nominal.spec.mill).to<double>();
-  list.push_back(
-      {.key = "phase of the drive",
-       .dimension = Dimension::angle,
-       .value = 0,
-       .change = 1,
-       .starts = starts,
-       .set = [period, turn](Assumptions&, Offset& offset, double x) { offset.delay = x / turn * period; }});
+  const auto add = [&](const std::string& key, const std::function<void(Assumptions&, double)>& set) {
+    list.push_back({key, Dimension::angle, 0, 1, starts, set});
+  };
+  add("phase of the drive", [=](Assumptions& a, double x) { a.log.delay = x / turn * period; });
   const auto* vibratory = std::get_if<model::Vibratory<casefile::Quantity>>(&nominal.spec.mill);
   for (std::size_t axis = 0; vibratory && axis < 3; ++axis) {
     if (vibratory->amplitude[axis].zero() && vibratory->quarter[axis].zero()) continue;
-    list.push_back({.key = fmt::format("phase of mill.amplitude along {}", "xyz"[axis]),
-                    .dimension = Dimension::angle,
-                    .value = 0,
-                    .change = 1,
-                    .starts = starts,
-                    .set = [axis](Assumptions& a, Offset&, double x) {
-                      auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
-                      const double s = mill.amplitude[axis].to<double>(), q = mill.quarter[axis].to<double>();
-                      mill.amplitude[axis] = identify::exactly(s * std::cos(x) - q * std::sin(x));
-                      mill.quarter[axis] = identify::exactly(s * std::sin(x) + q * std::cos(x));
-                    }});
+    add(fmt::format("phase of mill.amplitude along {}", "xyz"[axis]), [axis](Assumptions& a, double x) {
+      auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
+      const double s = mill.amplitude[axis].to<double>(), q = mill.quarter[axis].to<double>();
+      mill.amplitude[axis] = identify::exactly(s * std::cos(x) - q * std::sin(x));
+      mill.quarter[axis] = identify::exactly(s * std::sin(x) + q * std::cos(x));
+    });
   }
 }
 
 void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
   const auto partners = casefile::partners_of(spec);
+  const std::vector<double> starts{-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3};
   for (int wall = 0; wall < partners.walls(); ++wall)
-    list.push_back({.key = "place of " + partners[wall].label,
-                    .dimension = Dimension::length,
-                    .value = 0,
-                    .change = 1e-3,
-                    .starts = {-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3},
-                    .set = [wall](Assumptions&, Offset& offset, double x) {
-                      offset.wall = wall;
-                      offset.distance = x;
-                    }});
+    list.push_back({"place of " + partners[wall].label, Dimension::length, 0, 1e-3, starts, {}, wall});
 }
 
 }  // namespace

@@ -118,20 +118,16 @@ ContactClass class_of(const std::vector<ListedContact>& list, std::size_t k, dou
   return c.end - c.begin > 3 * usual ? ContactClass::lasting : ContactClass::wall;
 }
 
-Contact contact_of(const ListedContact& c, const MovingVessel& vessel, const FlatWalls& walls, int wall) {
+/// Completes a contact from what its list has.
+Contact contact_of(Contact c, const MovingVessel& vessel, const FlatWalls& walls, int wall) {
   const auto ball = static_cast<std::size_t>(c.ball);
-  Contact contact;
-  contact.begin = contact.free_until = c.begin;
-  contact.end = contact.free_from = c.end;
-  contact.ball = c.ball;
-  contact.partner = wall;
-  contact.before = c.before;
-  contact.after = c.after;
-  contact.before.position = walls.touching(c.begin, ball, wall);
-  contact.after.position = walls.touching(c.end, ball, wall);
-  contact.dose = vessel.energy(vessel.at(c.begin), ball, contact.before) -
-                 vessel.energy(vessel.at(c.end), ball, contact.after);
-  return contact;
+  c.free_until = c.begin;
+  c.free_from = c.end;
+  c.partner = wall;
+  c.before.position = walls.touching(c.begin, ball, wall);
+  c.after.position = walls.touching(c.end, ball, wall);
+  c.dose = vessel.energy(vessel.at(c.begin), ball, c.before) - vessel.energy(vessel.at(c.end), ball, c.after);
+  return c;
 }
 
 /// A list of contacts with walls has no places. Its contacts can be judged where the velocity of a wall and
@@ -169,10 +165,7 @@ Imported import_contact_list(const casefile::CaseSpec& spec, const ImportOptions
     auto contact = contact_of(list[k], vessel, walls, wall_of.at(list[k].boundary));
     contact.kind = class_of(list, k, facts.statistics.contact_time);
     facts.first = std::min(facts.first, contact.begin);
-    const auto kind = static_cast<std::size_t>(contact.kind);
-    ++facts.contacts;
-    ++result.counts[kind];
-    facts.doses[kind] += contact.dose;
+    result.count(contact);
     log.add(contact);
   }
   return result;
@@ -219,9 +212,7 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
   facts.mass_factor = factor_of(ratios_of(reader.masses(), balls, &model::BallProperties<double>::mass));
   facts.radius_factor = factor_of(ratios_of(reader.radii(), balls, &model::BallProperties<double>::radius));
   ContactFinder finder(vessel, facts.statistics, [&](const Contact& contact) {
-    ++facts.contacts;
-    ++result.counts[static_cast<std::size_t>(contact.kind)];
-    facts.doses[static_cast<std::size_t>(contact.kind)] += contact.dose;
+    result.count(contact);
     log.add(contact);
   });
   facts.first = head.front().time;

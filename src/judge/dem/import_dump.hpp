@@ -25,6 +25,13 @@ struct Imported {
   ContactLogFacts facts;
   std::array<std::uint64_t, contact_class_names.size()> counts{};
   bool interrupted = false;  ///< what was read until then is in the log
+
+  void count(const Contact& contact) {
+    const auto kind = static_cast<std::size_t>(contact.kind);
+    ++facts.contacts;
+    ++counts[kind];
+    facts.doses[kind] += contact.dose;
+  }
 };
 
 /// Memory does not depend on the length of a dump of frames.

@@ -31,22 +31,12 @@ const model::Tube<double>* MovingVessel::prism(int wall) const {
 }
 
 // Gap functions need not be lengths; overlaps are.
-double MovingVessel::gap_in_vessel(std::size_t ball, int wall, const Vector& place) const {
+double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
+  const Vector place = mill_.motion.position_in_vessel(pose, position);
   if (const auto* tube = prism(wall))
     return tube->radius - balls_[ball].radius -
            dot<double>(place - tube->frame.origin, facet_normal(*tube, facets_, place));
   return -inset(ball).overlap(wall, place);
-}
-
-double MovingVessel::gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
-  return gap_in_vessel(ball, wall, mill_.motion.position_in_vessel(pose, position));
-}
-
-std::vector<double> MovingVessel::gaps(const Pose& pose, std::size_t ball, const Vector& position) const {
-  const Vector p = mill_.motion.position_in_vessel(pose, position);
-  std::vector<double> gaps;
-  for (int wall = 0; wall < walls(); ++wall) gaps.push_back(gap_in_vessel(ball, wall, p));
-  return gaps;
 }
 
 Vector MovingVessel::normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const {
@@ -76,12 +66,11 @@ double MovingVessel::work(const Pose& from, const BallState& before, const Pose&
                        in_axes(m, to, gravity - m.wall_acceleration(to, after.position));
   const Vector way = m.position_in_vessel(to, after.position) - m.position_in_vessel(from, before.position);
   const auto& b = balls_[ball];
-  double work = b.mass / 2 * dot<double>(force, way);
   // The torque -J w' on a spin relative to the vessel.
   const Vector turn = m.angular_velocity(to) - m.angular_velocity(from);
   const Vector spins = before.spin - m.angular_velocity(from) + after.spin - m.angular_velocity(to);
-  work -= b.reduced_inertia * b.mass * b.radius * b.radius / 2 * dot<double>(turn, spins);
-  return work;
+  return b.mass / 2 * dot<double>(force, way) -
+         b.reduced_inertia * b.mass * b.radius * b.radius / 2 * dot<double>(turn, spins);
 }
 
 BallState MovingVessel::inertial(const Pose& pose, const BallState& seen) const {

@@ -21,8 +21,7 @@ class MovingVessel {
   using Pose = model::AnyPose<double>;
   Pose at(double time) const;
 
-  /// Gap of a ball's surface from each wall; negative for an overlap [m].
-  std::vector<double> gaps(const Pose& pose, std::size_t ball, const Vector& position) const;
+  /// Gap of a ball's surface from a wall; negative for an overlap [m].
   double gap(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
   /// Unit, into the vessel, inertial, of the wall at the place of a ball.
   Vector normal(const Pose& pose, std::size_t ball, int wall, const Vector& position) const;
@@ -47,7 +46,6 @@ class MovingVessel {
   const model::AnyVessel<double>& inset(std::size_t ball) const { return insets_[inset_of_[ball]]; }
   /// The tube that a wall is where facets stand for it.
   const model::Tube<double>* prism(int wall) const;
-  double gap_in_vessel(std::size_t ball, int wall, const Vector& place) const;
 
   model::Mill<double> mill_;
   std::vector<model::BallProperties<double>> balls_;
