@@ -1,10 +1,10 @@
-// A case file with the page's settings in it.
+#include "browser/case_with_values.hpp"
+
 #include <algorithm>
 #include <sstream>
 #include <vector>
 
 #include "base/errors.hpp"
-#include "browser/session.hpp"
 #include "casefile/section.hpp"
 
 namespace edmill::browser {

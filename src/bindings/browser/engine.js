@@ -18,8 +18,7 @@ class Engine {
 
   /// Loads it, the first time. @throws Error when this browser cannot
   start() {
-    this.ready ??= this.load();
-    return this.ready;
+    return this.ready ??= this.load();
   }
   async load() {
     if (typeof WebAssembly !== 'object' || typeof DecompressionStream !== 'function')

@@ -12,12 +12,15 @@
 #include "casefile/build_case.hpp"
 #include "check.hpp"
 #include "compare/comparison.hpp"
+#include "edmill/run.hpp"
 #include "identify/identify.hpp"
+#include "io/input_file.hpp"
 #include "io/json_text.hpp"
+#include "run/case_access.hpp"
 
 namespace {
 
-using edmill::browser::content_of;
+using edmill::io::content_of;
 using edmill::io::JsonText;
 
 std::unique_ptr<edmill::browser::Session> session;
@@ -63,6 +66,20 @@ void tell_stage(const std::string& stage) {
   EM_ASM({ postMessage({what : 'stage', stage : UTF8ToString($0)}); }, stage.c_str());
 }
 
+/// Those of a case, a wall as -1 - its number.
+struct FirstImpacts : edmill::Observer<double> {
+  explicit FirstImpacts(int most) : most(static_cast<std::size_t>(most)) {}
+  void on_impact(const edmill::Impact<double>& impact, edmill::Run<double>& run) override {
+    times.push_back(impact.time);
+    balls.push_back(impact.ball);
+    partners.push_back(impact.with_wall ? -1 - impact.partner : impact.partner);
+    if (times.size() == most) run.stop();
+  }
+  std::size_t most;
+  std::vector<double> times;
+  std::vector<int> balls, partners;
+};
+
 }  // namespace
 
 extern "C" {
@@ -97,7 +114,16 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_finish() {
 }
 
 EMSCRIPTEN_KEEPALIVE const char* edmill_first_impacts(int most) {
-  return answer([&](JsonText& json) { edmill::browser::first_impacts(case_text(), settings(), most, json); });
+  return answer([&](JsonText& json) {
+    edmill::Run<double> run(
+        edmill::CaseAccess::make(edmill::casefile::parse_case(case_text(), "case.toml", settings())));
+    FirstImpacts found(most);
+    run.attach(found);
+    run.finish();
+    json.add("time", found.times);
+    json.add("ball", found.balls);
+    json.add("partner", found.partners);
+  });
 }
 
 /// The log is the file /log.

@@ -59,7 +59,7 @@ RunResult run(const Words& words, RunOptions options) {
   if (saves) edmill::run::parse_checkpoint_interval(interval);
   const auto spec = edmill::casefile::read_case(words[first], settings);
   options.folder = words[first + 1];
-  if (saves) options.checkpoint = edmill::app::first_checkpoint(spec, settings, precision, false, interval);
+  if (saves) options.checkpoint = edmill::app::first_checkpoint(spec, precision, false, interval);
   return edmill::app::run(precision, spec, options);
 }
 

@@ -8,8 +8,8 @@
 #include <chrono>
 #include <future>
 #include <thread>
-#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "base/standard_arithmetic.hpp"
 
@@ -29,21 +29,18 @@ class Module : public pybind11::module_ {
 /// list names it. The class Case and the exceptions are in the module before.
 class Binding {
  public:
-  explicit Binding(void (*add)(Module&)) : add_(add), next_(first()) { first() = this; }
+  explicit Binding(void (*add)(Module&)) { all().push_back(add); }
 
-  static void add_all(const pybind11::module_& all) {
-    Module m(all);
-    for (const Binding* b = first(); b; b = b->next_) b->add_(m);
+  static void add_all(const pybind11::module_& module) {
+    Module m(module);
+    for (const auto add : all()) add(m);
   }
 
  private:
-  static const Binding*& first() {
-    static const Binding* binding = nullptr;
-    return binding;
+  static std::vector<void (*)(Module&)>& all() {
+    static std::vector<void (*)(Module&)> bindings;
+    return bindings;
   }
-
-  void (*add_)(Module&);
-  const Binding* next_;
 };
 
 /// Calls Python from where no lock or object of Python is left to destroy. Python ends a daemon thread that
@@ -80,6 +77,13 @@ class Locked {
   PyGILState_STATE state_;
 };
 
+/// Lets Python's signal handlers run. @return whether Ctrl-C came
+inline bool control_c_came() {
+  if (call_python(PyErr_CheckSignals) == 0) return false;
+  PyErr_Clear();
+  return true;
+}
+
 /// The new object that a function of C returns. @throws py::error_already_set
 template <class Make>
 pybind11::object made_by(const Make& make) {
@@ -95,21 +99,20 @@ pybind11::object call(const pybind11::object& callable, Argument&&... argument) 
   return made_by([&] { return PyObject_CallObject(callable.ptr(), arguments.ptr()); });
 }
 
-/// Work on a thread of its own, while this one lets Python's signal handlers run: Ctrl-C sets the flag, which
-/// the work obeys, and is raised when that has ended.
-template <class Work>
-std::invoke_result_t<Work> interruptible(std::atomic<bool>& interrupt, const Work& work) {
-  auto done = std::async(std::launch::async, work);
+/// Work on a thread of its own, with options that take a flag, while this one lets Python's signal handlers
+/// run: Ctrl-C sets the flag, which the work obeys, and is raised when that has ended.
+template <class Options, class Work>
+auto with_interrupt(Options options, const Work& work) {
+  std::atomic<bool> interrupt{false};
+  options.interrupt = &interrupt;
+  auto done = std::async(std::launch::async, [&] { return work(options); });
   bool raised = false;
   for (;;) {
     {
       const Unlocked others;
       if (done.wait_for(std::chrono::milliseconds(100)) == std::future_status::ready) break;
     }
-    if (call_python(PyErr_CheckSignals) != 0) {
-      PyErr_Clear();
-      raised = interrupt = true;
-    }
+    if (control_c_came()) raised = interrupt = true;
   }
   auto result = done.get();
   if (raised) {
@@ -117,14 +120,6 @@ std::invoke_result_t<Work> interruptible(std::atomic<bool>& interrupt, const Wor
     throw pybind11::error_already_set();
   }
   return result;
-}
-
-/// The same with options that take the flag.
-template <class Options, class Work>
-auto with_interrupt(Options options, const Work& work) {
-  std::atomic<bool> interrupt{false};
-  options.interrupt = &interrupt;
-  return interruptible(interrupt, [&] { return work(options); });
 }
 
 }  // namespace edmill::python

@@ -16,15 +16,12 @@ namespace py = pybind11;
 PYBIND11_MODULE(_edmill, m) {
   using namespace edmill;
   m.attr("__version__") = version();
-  m.attr("commit") = commit();
 
   py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
   py::register_exception<UndecidedError>(m, "UndecidedError", PyExc_ArithmeticError);
 
   py::class_<Case>(m, "Case")
-      .def_static("read", &Case::read, py::arg("path"), py::arg("settings") = std::vector<std::string>{})
-      .def_static("parse", &Case::parse, py::arg("text"), py::arg("name") = "case.toml",
-                  py::arg("settings") = std::vector<std::string>{})
+      .def_static("parse", &Case::parse)
       .def_property_readonly("digest", &Case::digest)
       .def_property_readonly("precision", &Case::precision)
       .def_property_readonly("digits", [](const Case& c) { return CaseAccess::spec(c).digits; })

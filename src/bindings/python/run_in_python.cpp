@@ -16,6 +16,7 @@
 #include "run/case_access.hpp"
 
 namespace py = pybind11;
+using namespace py::literals;
 
 namespace edmill::python {
 
@@ -52,8 +53,16 @@ struct Numbers {
   }
 };
 
-/// Ctrl-C while Python code runs in a callback.
-bool is_control_c(const py::error_already_set& error) { return error.matches(PyExc_KeyboardInterrupt); }
+/// Calls Python. @return false when Ctrl-C came meanwhile. @throws py::error_already_set for other exceptions
+bool is_done(const auto& work) {
+  try {
+    work();
+    return true;
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+    return false;
+  }
+}
 
 /// Calls f(name, member of an impact in doubles, member of one in texts) for everything that is known of one.
 template <class F>
@@ -153,19 +162,11 @@ class Pulse : public run::Watcher {
     if (now - last_ < std::chrono::milliseconds(100)) return;
     last_ = now;
     const Locked python;
-    if (call_python(PyErr_CheckSignals) != 0) {
-      PyErr_Clear();
-      interrupted_ = true;
-      run.stop(model::EndReason::interrupted);
-    } else if (!progress_.is_none()) {
-      try {
-        call(progress_, impact.time(), impact.index() + 1);
-      } catch (const py::error_already_set& error) {
-        if (!is_control_c(error)) throw;
-        interrupted_ = true;
-        run.stop(model::EndReason::interrupted);
-      }
-    }
+    const auto tell = [&] {
+      if (!progress_.is_none()) call(progress_, impact.time(), impact.index() + 1);
+    };
+    interrupted_ = control_c_came() || !is_done(tell);
+    if (interrupted_) run.stop(model::EndReason::interrupted);
   }
 
  private:
@@ -190,17 +191,10 @@ class CallingObserver : public run::Watcher {
       : callable_(std::move(callable)), numbers_(numbers), interrupted_(interrupted) {}
   void on_impact(const SeenImpact& impact, AnyRun& run) override {
     const Locked python;
-    try {
-      const RunOfPython seen{run, numbers_};
-      if (numbers_.wide)
-        call(callable_, impact.in_texts(), seen);
-      else
-        call(callable_, impact.in_double(), seen);
-    } catch (const py::error_already_set& error) {
-      if (!is_control_c(error)) throw;
-      interrupted_ = true;
-      run.stop(model::EndReason::interrupted);
-    }
+    const py::object seen = numbers_.wide ? py::cast(impact.in_texts()) : py::cast(impact.in_double());
+    if (is_done([&] { call(callable_, seen, RunOfPython{run, numbers_}); })) return;
+    interrupted_ = true;
+    run.stop(model::EndReason::interrupted);
   }
 
  private:
@@ -239,13 +233,12 @@ class CallingLaw : public run::LawInTexts {
   /// An impact needs an answer: after Ctrl-C the law is asked again, and the run ends after the impact.
   template <class Ask>
   std::string ask(const char* what, const Ask& of_law) const {
-    try {
-      return numbers_.text_of(of_law(), what);
-    } catch (const py::error_already_set& error) {
-      if (!is_control_c(error)) throw;
-      interrupted_ = true;
-    }
-    return numbers_.text_of(of_law(), what);
+    std::string answer;
+    const auto answers = [&] { answer = numbers_.text_of(of_law(), what); };
+    if (is_done(answers)) return answer;
+    interrupted_ = true;
+    answers();
+    return answer;
   }
 
   py::object restitution_, of_slip_;
@@ -253,63 +246,47 @@ class CallingLaw : public run::LawInTexts {
   bool& interrupted_;
 };
 
-struct Wishes {
-  std::string folder;  ///< of the outputs; none when empty
-  bool events, report;
-  std::vector<py::object> observers;
-  py::object ball_ball, ball_wall, progress;
-};
-
-py::dict run_in(casefile::CaseSpec spec, const std::string& precision, const Wishes& wishes) {
-  if (wishes.report) report::add_report_outputs(spec);
-  const Numbers numbers{precision != "double"};
-  bool interrupted = false;
-  const auto law_of = [&](const py::object& law) {
-    return law.is_none() ? nullptr : std::make_shared<CallingLaw>(law, numbers, interrupted);
-  };
-  run::RunSetup setup;
-  setup.ball_ball = law_of(wishes.ball_ball), setup.ball_wall = law_of(wishes.ball_wall);
-  Collector collector(numbers);
-  Pulse pulse(wishes.progress, numbers, interrupted);
-  std::vector<std::unique_ptr<CallingObserver>> callables;
-  for (const auto& o : wishes.observers)
-    callables.push_back(std::make_unique<CallingObserver>(o, numbers, interrupted));
-
-  std::unique_ptr<AnyRun> run;
-  {
-    const Unlocked others;
-    run = run::make_run(precision, spec, setup);
-    run->begin();
-    if (!wishes.folder.empty()) run->write_to(wishes.folder);
-    if (wishes.events) run->attach(collector);
-    for (auto& callable : callables) run->attach(*callable);
-    run->attach(pulse);
-    run->finish();
-    if (!wishes.folder.empty())
-      run->commit([&] {
-        if (wishes.report) report::put_report(wishes.folder);
-        return std::string();
-      });
-  }
-  if (PyErr_CheckSignals() != 0) {  // Ctrl-C when the run was already over
-    PyErr_Clear();
-    interrupted = true;
-  }
-  py::dict result;
-  result["summary"] = run->summary_json();
-  result["events"] = collector.events();
-  result["states"] = states_of(*run, numbers);
-  result["time"] = numbers.of(run->time());
-  result["interrupted"] = interrupted;
-  return result;
-}
-
+/// @param folder  of the outputs; none when empty
 py::dict run_case(const Case& the_case, const std::string& precision, const std::string& folder, bool events,
                   bool report, const std::vector<py::object>& observers, const py::object& ball_ball,
-                  const py::object& ball_wall, const py::object& progress) {
-  const Wishes wishes{folder, events, report, observers, ball_ball, ball_wall, progress};
-  const auto& spec = CaseAccess::spec(the_case);
-  return casefile::with_memory_for(spec, [&] { return run_in(spec, precision, wishes); });
+                  const py::object& ball_wall, py::object progress) {
+  return casefile::with_memory_for(CaseAccess::spec(the_case), [&] {
+    auto spec = CaseAccess::spec(the_case);
+    if (report) report::add_report_outputs(spec);
+    const Numbers numbers{precision != "double"};
+    bool interrupted = false;
+    const auto law_of = [&](const py::object& law) {
+      return law.is_none() ? nullptr : std::make_shared<CallingLaw>(law, numbers, interrupted);
+    };
+    run::RunSetup setup;
+    setup.ball_ball = law_of(ball_ball), setup.ball_wall = law_of(ball_wall);
+    Collector collector(numbers);
+    Pulse pulse(std::move(progress), numbers, interrupted);
+    std::vector<std::unique_ptr<CallingObserver>> callables;
+    for (const auto& o : observers)
+      callables.push_back(std::make_unique<CallingObserver>(o, numbers, interrupted));
+
+    std::unique_ptr<AnyRun> run;
+    {
+      const Unlocked others;
+      run = run::make_run(precision, spec, setup);
+      run->begin();
+      if (!folder.empty()) run->write_to(folder);
+      if (events) run->attach(collector);
+      for (auto& callable : callables) run->attach(*callable);
+      run->attach(pulse);
+      run->finish();
+      if (!folder.empty())
+        run->commit([&] {
+          if (report) report::put_report(folder);
+          return std::string();
+        });
+    }
+    if (control_c_came()) interrupted = true;  // when the run was already over
+    return py::dict("summary"_a = run->summary_json(), "events"_a = collector.events(),
+                    "states"_a = states_of(*run, numbers), "time"_a = numbers.of(run->time()),
+                    "interrupted"_a = interrupted);
+  });
 }
 
 const Binding runs([](Module& m) {

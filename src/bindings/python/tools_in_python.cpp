@@ -1,24 +1,20 @@
 #include <pybind11/stl.h>
 
 #include <atomic>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <tuple>
 
-#include "app/audit.hpp"
 #include "app/certify.hpp"
 #include "app/check_case.hpp"
+#include "app/judge.hpp"
 #include "app/run.hpp"
 #include "app/study.hpp"
 #include "base/errors.hpp"
-#include "compare/comparison.hpp"
-#include "dem/contact_audit.hpp"
 #include "dem/contact_rates.hpp"
 #include "dem/contacts.hpp"
 #include "dem/deck.hpp"
 #include "dem/import_dump.hpp"
-#include "io/input_file.hpp"
 #include "io/output_folder.hpp"
 #include "machines/machines.hpp"
 #include "model/impact_record.hpp"
@@ -31,13 +27,15 @@
 #include "run/sensitivity.hpp"
 
 namespace py = pybind11;
+using namespace py::literals;
 
 namespace edmill::python {
 
 namespace {
 
 /// @return how many runs failed
-std::size_t study(const std::string& file, const std::string& folder, int jobs, const auto& command) {
+template <std::optional<app::StudyResult> (*command)(const app::StudyOptions&)>
+std::size_t study(const std::string& file, const std::string& folder, int jobs) {
   const auto result = with_interrupt(app::StudyOptions{file, folder, jobs, true}, command);
   return result ? result->counts.failed : 0;
 }
@@ -46,15 +44,8 @@ std::size_t study(const std::string& file, const std::string& folder, int jobs, 
 std::string compare(const std::string& a, const std::string& b, double tolerance,
                     std::optional<std::uint64_t> events, std::optional<double> from,
                     std::optional<double> until, std::optional<double> batch) {
-  compare::Options options;
-  options.a = a, options.b = b, options.tolerance = tolerance, options.events = events;
-  options.limits.from = from, options.limits.until = until, options.batch = batch;
   const Unlocked others;
-  const io::Spool pipes;
-  if (dem::is_contact_log(a) || dem::is_contact_log(b))
-    return dem::to_json(dem::compare_contacts(a, b, from.value_or(0),
-                                              until.value_or(std::numeric_limits<double>::infinity())));
-  return compare::to_json(compare::compare(options));
+  return app::compare({a, b, {from, until}, batch, tolerance, events}).json;
 }
 
 /// @return the result in JSON
@@ -63,12 +54,8 @@ std::string audit(const Case& the_case, const std::string& log, const std::vecto
                   std::optional<int> first_ball, const std::string& walls, bool from_start, bool identify) {
   const app::AuditOptions options{log,        columns, tolerance,  gap_tolerance,
                                   first_ball, walls,   from_start, identify};
-  const auto& spec = CaseAccess::spec(the_case);
-  return with_interrupt(options, [&](const app::AuditOptions& o) {
-    const io::Spool pipes;
-    return dem::is_contact_log(log) ? dem::to_json(dem::audit_contacts(spec, {log, o.interrupt}))
-                                    : app::audit(spec, o).json();
-  });
+  return with_interrupt(options, [&](const auto& o) { return app::audit(CaseAccess::spec(the_case), o); })
+      .json;
 }
 
 py::str name_of(std::size_t quantity) {
@@ -113,18 +100,18 @@ py::tuple certify(const Case& the_case, std::size_t collisions, int digits, cons
 }
 
 py::dict shadow(const Case& the_case, const std::string& precision, const std::string& wider) {
-  std::atomic<bool> interrupt{false};
+  struct {
+    const std::atomic<bool>* interrupt = nullptr;
+  } options;
   app::require_wider(precision, wider, "wider");
-  const auto found = interruptible(
-      interrupt, [&] { return app::shadow(CaseAccess::spec(the_case), precision, wider, &interrupt); });
-  py::dict result;
-  result["events"] = found.agreement.events();
-  result["digits"] = digits_of(found.agreement);
-  result["digits_lost_per_event"] = found.agreement.digits_lost_per_event();
-  result["diverged"] = py::none();
-  if (found.diverged) result["diverged"] = bodies_of({found.diverged->first, found.diverged->second});
-  result["text"] = found.text();
-  return result;
+  const auto found = with_interrupt(options, [&](const auto& o) {
+    return app::shadow(CaseAccess::spec(the_case), precision, wider, o.interrupt);
+  });
+  py::object diverged = py::none();
+  if (found.diverged) diverged = bodies_of({found.diverged->first, found.diverged->second});
+  return py::dict("events"_a = found.agreement.events(), "digits"_a = digits_of(found.agreement),
+                  "digits_lost_per_event"_a = found.agreement.digits_lost_per_event(),
+                  "diverged"_a = diverged, "text"_a = found.text());
 }
 
 /// @return the precision, the units, the events, and the derivatives by number, event after event: of their
@@ -169,14 +156,11 @@ py::dict estimate(const Case& the_case, const std::string& precision) {
   const auto found = with_interrupt(app::DigitsOptions(), [&](const auto& options) {
     return app::estimate_run(CaseAccess::spec(the_case), precision, options);
   });
-  py::dict facts;
-  facts["precision"] = found.precision, facts["events"] = found.events;
-  facts["digits_lost_per_event"] = found.lost_per_event, facts["right_events"] = found.right_events;
-  facts["cpu_seconds"] = found.cpu_seconds(),
-  facts["verifying_cpu_seconds"] =
-      (found.verifying > 0 ? found.trials + found.verifying * found.cpu_seconds() : 0.0);
-  facts["bytes"] = found.bytes;
-  return facts;
+  const double verifying = found.verifying > 0 ? found.trials + found.verifying * found.cpu_seconds() : 0;
+  return py::dict("precision"_a = found.precision, "events"_a = found.events,
+                  "digits_lost_per_event"_a = found.lost_per_event, "right_events"_a = found.right_events,
+                  "cpu_seconds"_a = found.cpu_seconds(), "verifying_cpu_seconds"_a = verifying,
+                  "bytes"_a = found.bytes);
 }
 
 /// @return the events as CSV, the bits of the proof and those that are left
@@ -206,7 +190,7 @@ void run_with_checkpoints(const Case& the_case, const std::string& precision, co
   run::parse_checkpoint_interval(interval);
   app::RunOptions options;
   options.folder = folder, options.report = report;
-  options.checkpoint = app::first_checkpoint(spec, spec.settings, precision, report, interval);
+  options.checkpoint = app::first_checkpoint(spec, precision, report, interval);
   in_folder(options, [&](const app::RunOptions& o) { return app::run(precision, spec, o); });
 }
 
@@ -242,14 +226,12 @@ py::dict import_dump(const Case& the_case, const std::string& dump, const std::s
     file.write([&](std::ostream& stream) { log.write(stream, result.facts); });
     return result;
   });
-  py::dict result, classes;
+  py::dict classes;
   const auto& facts = imported.facts;
-  result["frames"] = facts.frames, result["contacts"] = facts.contacts;
-  result["first"] = facts.first, result["last"] = facts.last, result["milling_dose"] = facts.dose();
   for (std::size_t k = 0; k < dem::contact_class_names.size(); ++k)
     classes[dem::contact_class_names[k]] = py::make_tuple(imported.counts[k], facts.doses[k]);
-  result["classes"] = classes;
-  return result;
+  return py::dict("frames"_a = facts.frames, "contacts"_a = facts.contacts, "first"_a = facts.first,
+                  "last"_a = facts.last, "milling_dose"_a = facts.dose(), "classes"_a = classes);
 }
 
 py::list machines_in_python() {
@@ -269,12 +251,8 @@ std::string new_case(const std::string& machine, const std::vector<std::string>&
 }
 
 const Binding tools([](Module& m) {
-  m.def("sweep", [](const std::string& file, const std::string& folder, int jobs) {
-    return study(file, folder, jobs, app::sweep);
-  });
-  m.def("optimize", [](const std::string& file, const std::string& folder, int jobs) {
-    return study(file, folder, jobs, app::optimize);
-  });
+  m.def("sweep", &study<app::sweep>);
+  m.def("optimize", &study<app::optimize>);
   m.def("compare", &compare);
   m.def("audit", &audit);
   m.def("prove", &prove);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <sstream>
@@ -20,9 +21,7 @@ using Json = nlohmann::json;
 
 std::vector<double> numbers_of(const pugi::xml_attribute& attribute) {
   std::istringstream text(attribute.as_string());
-  std::vector<double> numbers;
-  for (double x = 0; text >> x;) numbers.push_back(x);
-  return numbers;
+  return {std::istream_iterator<double>(text), {}};
 }
 
 /// As many numbers as `width`, or nothing where the node has none.

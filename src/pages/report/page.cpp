@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <map>
 
 #include "base/clean_text.hpp"
 #include "report/embedded.hpp"
@@ -13,19 +12,6 @@
 namespace edmill::report {
 
 namespace {
-
-/// Puts values in place of {{names}}; what a value holds is not looked at again.
-std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto open = text.find("{{", at), close = text.find("}}", open == text.npos ? at : open);
-    if (open == text.npos || close == text.npos) return out.append(text.substr(at));
-    out.append(text.substr(at, open - at));
-    out.append(values.at(std::string(text.substr(open + 2, close - open - 2))));
-    at = close + 2;
-  }
-  return out;
-}
 
 std::string escaped(const std::string& text) {
   pugi::xml_document document;
@@ -114,21 +100,20 @@ void add_terms(pugi::xml_node main) {
 }  // namespace
 
 std::string page_of(const Page& page) {
+  using namespace fmt::literals;
   add_terms(page.main.first_child());
-  return filled(page_html, {{"title", escaped(page.title)},
-                            {"subtitle", escaped(page.subtitle)},
-                            {"program", escaped(fmt::format("edmill {} ({})", page.version, page.commit))},
-                            {"main", plot::html_of(page.main)},
-                            {"style", std::string(page_css)},
-                            {"contents", contents_of(page.main)},
-                            {"player", fmt::format("<script>\n{}</script>\n", figures_js) + page.scripts},
-                            {"player_note", page.note}});
+  return fmt::format(fmt::runtime(page_html),  //
+                     "title"_a = escaped(page.title), "subtitle"_a = escaped(page.subtitle),
+                     "program"_a = escaped(fmt::format("edmill {} ({})", page.version, page.commit)),
+                     "main"_a = plot::html_of(page.main), "style"_a = page_css,
+                     "contents"_a = contents_of(page.main),
+                     "player"_a = fmt::format("<script>\n{}</script>\n", figures_js) + page.scripts,
+                     "player_note"_a = page.note);
 }
 
-std::string name_of(const model::PartnerInfo& partner) {
+std::string typeset(const std::string& label) {
   std::string name;
-  for (const char c : partner.label)
-    name += c != '-' ? std::string(1, c) : name.ends_with(' ') ? "\u2212" : "\u2013";
+  for (const char c : label) name += c != '-' ? std::string(1, c) : name.ends_with(' ') ? "\u2212" : "\u2013";
   return name;
 }
 

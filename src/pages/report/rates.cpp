@@ -26,7 +26,7 @@ void add_dose_rate(pugi::xml_node grid, const RunFolder& run) {
   auto chart = over_time(run, "dose-rate", "Milling dose rate over time", "milling dose rate [W]");
   chart.curves.push_back({"", "c0", points_of(*series), false});
   if (const auto rate = rate_in(f, "milling_dose_rate"); rate && rate->half_width) {
-    chart.curves[0].name = fmt::format("over {} s", readable(series->end[0] - series->begin[0], 2));
+    chart.curves[0].name = fmt::format("over {} s", readable(series->front().end - series->front().begin, 2));
     add_level(chart, f.number("start_time"), f.number("end_time"), *rate, "mean with its 95 % interval",
               "c1");
   }
@@ -41,7 +41,7 @@ void add_collision_rates(pugi::xml_node grid, const RunFolder& run) {
   for (int k = 0; k < run.partners.count(); ++k)
     if (const auto series = rate_of(run, "collision", most_points, k))
       chart.curves.push_back(
-          {name_of(run.partners[k]), partner_colour(run.partners, k), points_of(*series), false});
+          {typeset(run.partners[k].label), partner_colour(run.partners, k), points_of(*series), false});
   if (chart.curves.empty())
     if (const auto all = rate_of(run, "collision", most_points))
       chart.curves.push_back({"all", "c4", points_of(*all), false});
@@ -85,7 +85,7 @@ void add_partners(pugi::xml_node section, const RunFolder& run) {
   };
   for (int k = 0; k < run.partners.count(); ++k) {
     const auto& partner = run.partners[k];
-    row(name_of(partner), partner.key, f.number("milling_dose_by_partner/" + partner.key),
+    row(typeset(partner.label), partner.key, f.number("milling_dose_by_partner/" + partner.key),
         areas[static_cast<std::size_t>(k)]);
   }
   row("all", "total", whole_dose, 0);
@@ -116,7 +116,7 @@ void add_cutoffs(pugi::xml_node section, const RunFolder& run) {
     rows.push_back(std::move(row));
   }
   std::vector<std::string> headings{"approach speed [m/s]"};
-  for (int k = 0; k < run.partners.count(); ++k) headings.push_back(name_of(run.partners[k]));
+  for (int k = 0; k < run.partners.count(); ++k) headings.push_back(typeset(run.partners[k].label));
   headings.insert(headings.end(), {"all", "dose rate of all [W]"});
   add_table(section, "above-cutoffs", "Collisions per second at or above an approach speed", headings, rows);
 }

@@ -108,7 +108,7 @@ void add_energy(pugi::xml_node main, const RunFolder& run) {
   };
   Rows rows{row("work of the walls on the balls", f.number("wall_work"))};
   for (int k = 0; k < run.partners.count(); ++k)
-    rows.push_back(less("dissipated, " + name_of(run.partners[k]),
+    rows.push_back(less("dissipated, " + typeset(run.partners[k].label),
                         f.number("milling_dose_by_partner/" + run.partners[k].key)));
   rows.push_back(row("supplied by the least separation speed", f.number("least_separation/supplied_energy")));
   rows.push_back(less("stored as kinetic energy of the balls", gain("kinetic")));

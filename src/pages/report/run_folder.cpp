@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
@@ -98,23 +99,22 @@ std::optional<std::size_t> place_of_rate(const casefile::OutputSpec& output, int
 
 /// Drops a last interval that is shorter than the first: its rate has another variance.
 Series whole(Series s) {
-  if (s.rate.size() > 1 && s.end.back() - s.begin.back() < (1 - 1e-6) * (s.end.front() - s.begin.front()))
-    s.begin.pop_back(), s.end.pop_back(), s.rate.pop_back();
+  if (s.size() > 1 && s.back().end - s.back().begin < (1 - 1e-6) * (s.front().end - s.front().begin))
+    s.pop_back();
   return s;
 }
 
 /// Whether an output contains the impacts with one partner; with any for -1.
 bool records(const casefile::OutputSpec& output, const model::Partners& partners, int partner) {
   const int ball_ball = *model::find_variable("ball_ball"), id = *model::find_variable("partner");
-  if (partner < 0) return output.only.empty();
-  const auto is = [&](const casefile::Restriction& r, int variable, std::uint64_t value) {
-    return r.variable == variable && r.value == value;
-  };
-  const auto& only = output.only;
-  if (partner == partners.ball_ball()) return only.size() == 1 && is(only[0], ball_ball, 1);
-  const auto wall = static_cast<std::uint64_t>(partner);
-  return only.size() == 2 && ((is(only[0], ball_ball, 0) && is(only[1], id, wall)) ||
-                              (is(only[1], ball_ball, 0) && is(only[0], id, wall)));
+  std::vector<casefile::Restriction> expected;
+  if (partner == partners.ball_ball())
+    expected = {{ball_ball, 1}};
+  else if (partner >= 0)
+    expected = {{ball_ball, 0}, {id, static_cast<std::uint64_t>(partner)}};
+  return std::ranges::is_permutation(output.only, expected, [](const auto& a, const auto& b) {
+    return a.variable == b.variable && a.value == b.value;
+  });
 }
 
 }  // namespace
@@ -231,11 +231,8 @@ std::optional<Series> series_of(const casefile::OutputSpec& output, const Output
   Series series;
   double begin = start;
   if (output.timer.start_time) begin = std::max(begin, output.timer.start_time->to<double>());
-  for (const auto& row : table.numbers) {
-    series.begin.push_back(begin);
-    series.end.push_back(begin = row.at(0));
-    series.rate.push_back(row.at(*place));
-  }
+  for (const auto& row : table.numbers)
+    series.push_back({std::exchange(begin, row.at(0)), row.at(0), row.at(*place)});
   return series;
 }
 
@@ -253,23 +250,21 @@ std::optional<Series> rate_of(const RunFolder& run, const char* variable, std::s
 }
 
 Series coarser(const Series& series, std::size_t most) {
-  const std::size_t count = series.rate.size(), together = (count + most - 1) / most;
+  const std::size_t count = series.size(), together = (count + most - 1) / most;
   Series result;
   for (std::size_t first = 0; first < count; first += together) {
     const std::size_t last = std::min(count, first + together) - 1;
     double amount = 0;
-    for (std::size_t k = first; k <= last; ++k) amount += series.rate[k] * (series.end[k] - series.begin[k]);
-    result.begin.push_back(series.begin[first]);
-    result.end.push_back(series.end[last]);
-    result.rate.push_back(amount / (series.end[last] - series.begin[first]));
+    for (std::size_t k = first; k <= last; ++k) amount += series[k].rate * (series[k].end - series[k].begin);
+    const double begin = series[first].begin, end = series[last].end;
+    result.push_back({begin, end, amount / (end - begin)});
   }
   return result;
 }
 
 plot::Points points_of(const Series& series) {
   plot::Points points;
-  for (std::size_t k = 0; k < series.rate.size(); ++k)
-    points.emplace_back((series.begin[k] + series.end[k]) / 2, series.rate[k]);
+  for (const auto& [begin, end, rate] : series) points.emplace_back((begin + end) / 2, rate);
   return points;
 }
 

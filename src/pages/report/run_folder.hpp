@@ -68,10 +68,12 @@ struct OutputTable {
 /// @throws InputError when it is no such table
 OutputTable read_table(const std::filesystem::path& file, const std::string& expected, std::size_t texts = 0);
 
-/// The mean of a rate over each of successive intervals.
-struct Series {
-  std::vector<double> begin, end, rate;  ///< [s], [s], [unit/s]
+/// An interval of time with the mean of a rate over it.
+struct Interval {
+  double begin, end, rate;  ///< [s], [s], [unit/s]
 };
+/// Successive ones.
+using Series = std::vector<Interval>;
 
 /// A rate in a table of trends.
 /// @param start  initial time of the run, at which the first interval begins unless the table begins later

@@ -44,8 +44,8 @@ void add_spectra_of(pugi::xml_node main, const std::vector<RunFolder>& runs);
 /// The colour of one of several runs in charts.
 std::string run_colour(std::size_t place);
 
-/// The label of a partner with the signs of typesetting: "cap −y", "ball–ball".
-std::string name_of(const model::PartnerInfo& partner);
+/// The label of a wall or a partner with the signs of typesetting: "cap −y", "ball–ball".
+std::string typeset(const std::string& label);
 /// The colour of a partner in charts, by its place; balls have the same beside any walls.
 std::string partner_colour(const model::Partners& partners, int place);
 

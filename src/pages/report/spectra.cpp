@@ -90,7 +90,7 @@ void draw_partners(pugi::xml_node grid, plot::Chart chart, const OutputTable& ta
                    const std::string& spectrum, const std::string& quantity,
                    const model::Partners& partners) {
   for (int k = 0; k < partners.count(); ++k)
-    chart.curves.push_back({name_of(partners[k]), partner_colour(partners, k),
+    chart.curves.push_back({typeset(partners[k].label), partner_colour(partners, k),
                             density(table, spectrum, partners[k].key + " " + quantity, 1 / table.duration()),
                             true});
   fit(chart);

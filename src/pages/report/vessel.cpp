@@ -25,10 +25,7 @@ struct WallMap {
   model::WallInfo info;
   plot::HeatMap map{};
 
-  bool has(Coordinate c) const {
-    const auto own = surface.coordinates();
-    return std::find(own.begin(), own.end(), c) != own.end();
-  }
+  bool has(Coordinate c) const { return std::ranges::count(surface.coordinates(), c) > 0; }
   /// Where the wall begins and ends along an axis of the map; its own coordinate may run the other way.
   std::pair<double, double> ends(int axis) const {
     return std::minmax(scale(axis) * surface.edge(axis, 0, 1), scale(axis) * surface.edge(axis, 1, 1));
@@ -40,13 +37,6 @@ struct WallMap {
     return angle ? 180 / std::numbers::pi : 1000;
   }
 };
-
-/// The label of a wall as a heading: "Cap \u2212y".
-std::string heading_of(const std::string& label) {
-  std::string text;
-  for (const char c : label) text += c == '-' ? "\u2212" : std::string(1, c);
-  return capitalised(text);
-}
 
 std::string axis_title(const Surface& surface, int axis) {
   const auto coordinate = surface.coordinates()[static_cast<std::size_t>(axis)];
@@ -62,7 +52,7 @@ std::string axis_title(const Surface& surface, int axis) {
 
 void label(WallMap& wall) {
   auto& map = wall.map;
-  const std::string name = heading_of(wall.info.label);
+  const std::string name = capitalised(typeset(wall.info.label));
   map.value = "dose rate [kW/m\u00b2]";
   map.highest = 0;
   map.disc = wall.has(Coordinate::radius);

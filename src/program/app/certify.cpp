@@ -20,12 +20,12 @@ namespace edmill::app {
 
 namespace {
 
-/// Does both at a time. The second one's failure counts only where the first one has none.
-template <class One, class Two>
-auto together(const One& one, const Two& two) {
-  auto later = std::async(std::launch::async, two);
-  auto first = one();
-  return std::pair{std::move(first), later.get()};
+/// What work(0) and work(1), done at a time, give. The second one's failure counts only where the first one
+/// has none.
+auto of_both(const auto& work) {
+  auto later = std::async(std::launch::async, work, 1);
+  auto first = work(0);
+  return std::array{std::move(first), later.get()};
 }
 
 using run::Agreement;
@@ -99,9 +99,7 @@ std::string describe(const Event& e) {
 /// What is found on the way to a certain sequence.
 class Certifier {
  public:
-  Certifier(const casefile::CaseSpec& spec, const CertifyOptions& options,
-            const std::function<void(const Evidence&)>& found)
-      : spec_(spec), options_(options), found_(found) {}
+  Certifier(const casefile::CaseSpec& spec, const CertifyOptions& options) : spec_(spec), options_(options) {}
 
   /// @return whether the matter is settled: certain, impossible, or interrupted
   bool by_fixed_scalars() {
@@ -144,7 +142,7 @@ class Certifier {
   bool is_interrupted() { return result.interrupted = stop_asked(options_.interrupt); }
   void tell(Evidence evidence) {
     result.evidence.push_back(std::move(evidence));
-    found_(result.evidence.back());
+    options_.found(result.evidence.back());
   }
 
   unsigned digits_needed() const {
@@ -206,7 +204,6 @@ class Certifier {
 
   const casefile::CaseSpec& spec_;
   const CertifyOptions& options_;
-  const std::function<void(const Evidence&)>& found_;
   std::size_t expected_ = 0;  ///< events, as the widest run so far has them
 };
 
@@ -214,14 +211,15 @@ class Certifier {
 
 SideBySide::SideBySide(const casefile::CaseSpec& spec, const std::string& narrow, const std::string& wide,
                        bool to_end, const std::atomic<bool>* interrupt)
-    : interrupt_(interrupt), digits_{chosen_digits_of(narrow), chosen_digits_of(wide)} {
-  std::tie(narrow_, wide_) = together([&] { return run::make_source(narrow, spec, to_end, interrupt); },
-                                      [&] { return run::make_source(wide, spec, to_end, interrupt); });
+    : interrupt_(interrupt),
+      digits_{chosen_digits_of(narrow), chosen_digits_of(wide)},
+      sources_(
+          of_both([&](int k) { return run::make_source(k == 0 ? narrow : wide, spec, to_end, interrupt); })) {
 }
 
 std::vector<run::Event> SideBySide::next(std::size_t count) {
   if (diverged_ || uneven_) return {};
-  auto [one, two] = together([&] { return narrow_->next(count); }, [&] { return wide_->next(count); });
+  auto [one, two] = of_both([&](int k) { return sources_[k]->next(count); });
   if (interrupt_ && *interrupt_) return {};
   const std::size_t shared = std::min(one.size(), two.size());
   std::size_t same = 0;
@@ -229,7 +227,7 @@ std::vector<run::Event> SideBySide::next(std::size_t count) {
   if (same < shared)
     diverged_ = {one[same], two[same]};
   else  // a wider scalar follows a collapse for some events more
-    uneven_ = one.size() != two.size() && !narrow_->has_collapsed() && !wide_->has_collapsed();
+    uneven_ = one.size() != two.size() && !sources_[0]->has_collapsed() && !sources_[1]->has_collapsed();
   two.resize(same);
   drop_lost_digits();
   return std::move(two);
@@ -243,19 +241,14 @@ void SideBySide::drop_lost_digits() {
   const double needed = std::max(agreement_.least_digits() + kept, least);
   if (digits_[0] - needed < dropped_ + std::max(worthwhile, digits_[0] / 32)) return;
   dropped_ = static_cast<unsigned>(digits_[0] - needed);
-  together(
-      [&] {
-        narrow_->continue_in(digits_[0] - dropped_);
-        return 0;
-      },
-      [&] {
-        wide_->continue_in(digits_[1] - dropped_);
-        return 0;
-      });
+  of_both([&](int k) {
+    sources_[k]->continue_in(digits_[k] - dropped_);
+    return 0;
+  });
 }
 
 double SideBySide::digits_of_states() const {
-  const auto one = narrow_->states(), two = wide_->states();
+  const auto one = sources_[0]->states(), two = sources_[1]->states();
   constexpr std::size_t kinds = 3, per_ball = 3 * kinds;
   std::array<run::Number, kinds> difference{}, size{};
   for (std::size_t k = 0; k < one.size(); ++k) {
@@ -271,12 +264,11 @@ double SideBySide::digits_of_states() const {
 
 unsigned wider_than(unsigned digits) { return digits + std::max(20u, digits / 20); }
 
-Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options,
-                      const std::function<void(const Evidence&)>& found) try {
+Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options) try {
   if (options.collisions == 0 && !spec.end_time)
     throw InputError(spec.file + ": found no run.end_time, expected one, or a number of collisions");
   auto file = io::file_for(options.file);
-  Certifier certifier(spec, options, found);
+  Certifier certifier(spec, options);
   if (!certifier.by_fixed_scalars()) certifier.by_chosen_digits();
   auto result = std::move(certifier.result);
   if (file && !result.events.empty())

@@ -51,20 +51,12 @@ class SideBySide {
   void drop_lost_digits();
 
   const std::atomic<bool>* interrupt_;
-  std::unique_ptr<run::EventSource> narrow_, wide_;
   std::array<unsigned, 2> digits_;  ///< of both at the start; 0 where they are fixed
+  std::array<std::unique_ptr<run::EventSource>, 2> sources_;
   unsigned dropped_ = 0;
   run::Agreement agreement_;
   std::optional<std::pair<run::Event, run::Event>> diverged_;
   bool uneven_ = false;
-};
-
-struct CertifyOptions {
-  std::string file;            ///< of the certified sequence; none when empty
-  std::size_t collisions = 0;  ///< all up to the case's end time when 0
-  int digits = 25;
-  const std::atomic<bool>* interrupt = nullptr;
-  std::function<void(const std::string& precision, std::size_t events)> progress = [](const auto&, auto) {};
 };
 
 /// How far the first events agree in two scalars.
@@ -77,6 +69,15 @@ struct Evidence {
   std::string text() const;
 };
 
+struct CertifyOptions {
+  std::string file;            ///< of the certified sequence; none when empty
+  std::size_t collisions = 0;  ///< all up to the case's end time when 0
+  int digits = 25;
+  const std::atomic<bool>* interrupt = nullptr;
+  std::function<void(const std::string& precision, std::size_t events)> progress = [](const auto&, auto) {};
+  std::function<void(const Evidence&)> found = [](const auto&) {};  ///< called with each pair of scalars
+};
+
 struct Certification {
   std::vector<Evidence> evidence{};  ///< the narrowest first
   std::vector<run::Event> events{};  ///< what is certain; empty where it is not
@@ -87,11 +88,8 @@ struct Certification {
 /// Raises the precision until two scalars agree on the first events, in order and in the digits required, and
 /// writes them with the evidence: those of a fixed number of digits first, then `mpfr` with as many as the
 /// digits that were lost lead to expect.
-/// @param found  called with each pair of scalars
 /// @throws InputError for a case that ends before, or has no end
-Certification certify(
-    const casefile::CaseSpec& spec, const CertifyOptions& options,
-    const std::function<void(const Evidence&)>& found = [](const auto&) {});
+Certification certify(const casefile::CaseSpec& spec, const CertifyOptions& options);
 
 /// Digits of the wider run that judges one of so many.
 unsigned wider_than(unsigned digits);

@@ -29,7 +29,7 @@ RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOp
                      run->goes_on(),
                      {}};
     run->commit([&] {
-      if (options.report) result.report = report::put_report(options.folder);
+      if (options.report) result.report = report::put_report(options.folder).string();
       Archive archive;
       archive(result);
       return archive.bytes();
@@ -38,8 +38,8 @@ RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOp
   });
 }
 
-io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vector<std::string>& overrides,
-                                const std::string& precision, bool report, const std::string& interval) {
+io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::string& precision, bool report,
+                                const std::string& interval) {
   io::Checkpoint c;
   c.case_file = spec.file;
   c.case_text = spec.text;
@@ -48,7 +48,7 @@ io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vecto
     throw InputError(
         "key 'run.initial_state': found a pipe, expected a file, since a resumed run reads it again");
   if (!spec.initial_state.empty()) c.initial_state = std::filesystem::absolute(spec.initial_state).string();
-  c.overrides = overrides;
+  c.overrides = spec.settings;
   c.precision = precision;
   c.right_digits = spec.right_digits;
   c.report = report;

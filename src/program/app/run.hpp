@@ -31,17 +31,15 @@ struct RunOptions {
 
 struct RunResult {
   model::EndReason end_reason{};
-  std::string error;             ///< why the run ended before its end; empty where it did not
-  std::string table;             ///< of the results, for a terminal
-  bool goes_on = false;          ///< it can be resumed
-  std::filesystem::path report;  ///< the page; empty without one
+  std::string error;     ///< why the run ended before its end; empty where it did not
+  std::string table;     ///< of the results, for a terminal
+  bool goes_on = false;  ///< it can be resumed
+  std::string report;    ///< place of the page; empty without one
 
   void archive(Archive& a) {
     auto reason = static_cast<int>(end_reason);
-    std::string page = report.string();
-    a(reason, error, table, goes_on, page);
+    a(reason, error, table, goes_on, report);
     end_reason = static_cast<model::EndReason>(reason);
-    report = page;
   }
 };
 
@@ -52,8 +50,8 @@ RunResult run(const std::string& precision, casefile::CaseSpec spec, const RunOp
 
 /// What the checkpoints of a run tell of it, at its start.
 /// @throws InputError for a case that cannot be read again
-io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::vector<std::string>& overrides,
-                                const std::string& precision, bool report, const std::string& interval);
+io::Checkpoint first_checkpoint(const casefile::CaseSpec& spec, const std::string& precision, bool report,
+                                const std::string& interval);
 
 /// Continues the run of `options.folder` from its checkpoint. @param interval  empty to keep the previous one
 /// @throws InputError when the checkpoint is not valid for this program

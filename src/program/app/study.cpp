@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <set>
+#include <map>
 
 #include "base/errors.hpp"
 #include "casefile/memory_for.hpp"
@@ -88,18 +88,13 @@ void write_drawing(std::ostream& out, const BifurcationOptions& options, const B
       "phases of the drive at impacts of ball 0, for each value of " + options.over,
       {options.over + (found.unit.empty() ? "" : " [" + found.unit + "]"), options.from, options.to},
       {"phase of the drive [periods]"}};
-  std::set<int> walls;
-  for (const auto& point : found.points) walls.insert(point.wall);
-  int colour = 0;
-  for (const int wall : walls) {
-    plot::Curve curve{fmt::format("wall {}", wall), fmt::format("c{}", colour++ % 4), {}};
-    for (const auto& point : found.points)
-      if (point.wall == wall)
-        curve.points.insert(curve.points.end(), {{point.value, point.phase},
-                                                 {point.value, point.phase},
-                                                 {point.value, std::numeric_limits<double>::quiet_NaN()}});
-    chart.curves.push_back(std::move(curve));
-  }
+  std::map<int, plot::Points> walls;
+  for (const auto& [value, phase, wall] : found.points)
+    for (const double y : {phase, phase, std::numeric_limits<double>::quiet_NaN()})
+      walls[wall].emplace_back(value, y);
+  for (const auto& [wall, points] : walls)
+    chart.curves.push_back(
+        {fmt::format("wall {}", wall), fmt::format("c{}", chart.curves.size() % 4), points});
   plot::save(out, chart);
 }
 

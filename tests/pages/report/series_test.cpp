@@ -12,24 +12,26 @@ using report::Series;
 Series counting(std::size_t count, double length) {
   Series s;
   for (std::size_t k = 0; k < count; ++k) {
-    s.begin.push_back(static_cast<double>(k) * length);
-    s.end.push_back(static_cast<double>(k + 1) * length);
-    s.rate.push_back(static_cast<double>(k));
+    const auto number = static_cast<double>(k);
+    s.push_back({number * length, (number + 1) * length, number});
   }
   return s;
 }
 
+double amount_of(const Series& series) {
+  double amount = 0;
+  for (const auto& [begin, end, rate] : series) amount += rate * (end - begin);
+  return amount;
+}
+
 TEST(Series, CoarserIntervalsKeepTheAmount) {
   auto fine = counting(10, 1);
-  fine.end.back() = 9.5;
+  fine.back().end = 9.5;
   const auto coarse = report::coarser(fine, 4);
-  ASSERT_EQ(coarse.rate.size(), 4u);  // 3, 3, 3, 1
-  EXPECT_DOUBLE_EQ(coarse.rate[0], 1);
-  EXPECT_DOUBLE_EQ(coarse.rate[3], 9);
-  double amount = 0, whole = 0;
-  for (std::size_t k = 0; k < 4; ++k) amount += coarse.rate[k] * (coarse.end[k] - coarse.begin[k]);
-  for (std::size_t k = 0; k < 10; ++k) whole += fine.rate[k] * (fine.end[k] - fine.begin[k]);
-  EXPECT_DOUBLE_EQ(amount, whole);
+  ASSERT_EQ(coarse.size(), 4u);  // 3, 3, 3, 1
+  EXPECT_DOUBLE_EQ(coarse[0].rate, 1);
+  EXPECT_DOUBLE_EQ(coarse[3].rate, 9);
+  EXPECT_DOUBLE_EQ(amount_of(coarse), amount_of(fine));
 }
 
 TEST(Series, FindsItsColumnAmongOthers) {
@@ -42,8 +44,11 @@ TEST(Series, FindsItsColumnAmongOthers) {
   table.numbers = {{1, 10, 11, 12, 13}, {2, 20, 21, 22, 23}};
   const auto series = report::series_of(output, table, dose, 0.5);
   ASSERT_TRUE(series.has_value());
-  EXPECT_EQ(series->rate, (std::vector<double>{13, 23}));
-  EXPECT_EQ(series->begin, (std::vector<double>{0.5, 1}));
+  ASSERT_EQ(series->size(), 2u);
+  EXPECT_EQ((*series)[0].rate, 13);
+  EXPECT_EQ((*series)[1].rate, 23);
+  EXPECT_EQ((*series)[0].begin, 0.5);
+  EXPECT_EQ((*series)[1].begin, 1);
   EXPECT_FALSE(report::series_of(output, table, *model::find_variable("collision"), 0).has_value());
 }
 

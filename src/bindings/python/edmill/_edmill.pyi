@@ -4,7 +4,6 @@ from typing import Any
 import numpy as np
 
 __version__: str
-commit: str
 precisions: tuple[str, ...]
 event_dtype: np.dtype
 state_dtype: np.dtype
@@ -14,9 +13,7 @@ class UndecidedError(ArithmeticError): ...
 
 class Case:
     @staticmethod
-    def read(path: str, settings: Sequence[str] = ...) -> Case: ...
-    @staticmethod
-    def parse(text: str, name: str = ..., settings: Sequence[str] = ...) -> Case: ...
+    def parse(text: str, name: str, settings: Sequence[str]) -> Case: ...
     @property
     def digest(self) -> str: ...
     @property

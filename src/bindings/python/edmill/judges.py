@@ -129,9 +129,9 @@ class Certification:
     evidence: list[Agreement]  #: the narrowest pair of scalars first; the last one certifies
 
 
-def _certified(row: Mapping[str, Any]) -> CertifiedEvent:
-    whole_or_text = {"ball", "partner", "partner_kind"}
-    return CertifiedEvent(**{k: v if k in whole_or_text else Decimal(v) for k, v in row.items()})
+def _event(kind: type, row: Mapping[str, Any]) -> Any:
+    types = {"partner_kind": str, "index": int, "ball": int, "partner": int}
+    return kind(**{name: types.get(name, Decimal)(value) for name, value in row.items()})
 
 
 def certify(case: Case | Mapping | str | os.PathLike, collisions: int | None = None, *, digits: int = 25,
@@ -142,7 +142,7 @@ def certify(case: Case | Mapping | str | os.PathLike, collisions: int | None = N
     collisions = 0 if collisions is None else whole("collisions", collisions, 1, LARGEST)
     digits = whole("digits", digits, 1, 100_000)
     evidence, events = _edmill.certify(case._case, collisions, digits, "" if file is None else place("file", file))
-    return Certification([_certified(row) for row in events], [Agreement(*row) for row in evidence])
+    return Certification([_event(CertifiedEvent, row) for row in events], [Agreement(*row) for row in evidence])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -178,7 +178,7 @@ def sensitivity(case: Case | Mapping | str | os.PathLike, by: Iterable[str], eve
         columns = number(np.array(quantities, dtype=object).reshape(len(rows), len(names)))
         derivatives[key] = Derivative(key, unit, dict(zip(names, columns.T)),
                                       number(np.array(states, dtype=object).reshape(len(rows), 2, 9)))
-    return Sensitivities([_certified(row) for row in rows], derivatives, precision)
+    return Sensitivities([_event(CertifiedEvent, row) for row in rows], derivatives, precision)
 
 
 def estimate(case: Case | Mapping | str | os.PathLike, *, digits: int | None = None, precision: str | None = None) -> dict[str, Any]:
@@ -207,7 +207,7 @@ def shadow(case: Case | Mapping | str | os.PathLike, wider: str, precision: str 
     precision = case.precision if precision is None else scalar("precision", precision)
     found = _edmill.shadow(case._case, precision, scalar("wider", wider))
     if found["diverged"]:
-        found["diverged"] = tuple(_certified(row) for row in found["diverged"])
+        found["diverged"] = tuple(_event(CertifiedEvent, row) for row in found["diverged"])
     return Shadow(**found)
 
 
@@ -219,11 +219,8 @@ def prove(case: Case | Mapping | str | os.PathLike, collisions: int, *, certific
     collisions, most_bits = whole("collisions", collisions, 1, LARGEST), whole("most_bits", most_bits, 128, 1048576)
     file = "" if certificate is None else place("certificate", certificate)
     rows, bits, left = _edmill.prove(case._case, collisions, most_bits, file)
-    counts = {"index", "ball", "partner"}
     rows = csv.DictReader(itertools.dropwhile(lambda line: line.startswith("#"), rows.split("\n")))
-    events = [ProvenEvent(**{k: int(v) if k in counts else v if k == "partner_kind" else Decimal(v) for k, v in row.items()})
-              for row in rows]
-    return Proof(events, bits, left)
+    return Proof([_event(ProvenEvent, row) for row in rows], bits, left)
 
 
 def check_certificate(case: Case | Mapping | str | os.PathLike, certificate: str | os.PathLike) -> list[str]:

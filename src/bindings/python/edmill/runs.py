@@ -163,58 +163,52 @@ def _array(rows: Any, dtype: np.dtype) -> np.ndarray:
     return np.array(rows, dtype=_wide(dtype))
 
 
-class _Line:
-    """A line of text on standard error, a call ten times a second."""
+def _line(until: float | None):
+    """A line of text on standard error: how it shows and how it ends."""
+    of = "" if until is None else f" of {until:g} s"
 
-    def __init__(self, until: float | None):
-        self._of = "" if until is None else f" of {until:g} s"
+    def show(time: float, collisions: int) -> None:
+        print(f"\rsimulated {time:.3f} s{of}, {collisions} collisions", end="", file=sys.stderr, flush=True)
 
-    def __call__(self, time: float, collisions: int) -> None:
-        print(f"\rsimulated {time:.3f} s{self._of}, {collisions} collisions", end="", file=sys.stderr, flush=True)
-
-    def close(self) -> None:
-        print(file=sys.stderr)
+    return show, lambda: print(file=sys.stderr)
 
 
-class _Bar:
-    """A bar of tqdm: of widgets in a notebook from tqdm.auto, of text from tqdm."""
+def _bar(module: str, until: float | None):
+    """The same of a bar of tqdm: of widgets in a notebook from tqdm.auto, of text from tqdm."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of notebooks without widgets
+        bar = importlib.import_module(module).tqdm(total=until, unit="s", unit_scale=True, desc="simulated")
 
-    def __init__(self, module: str, until: float | None):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of notebooks without widgets
-            self._bar = importlib.import_module(module).tqdm(total=until, unit="s", unit_scale=True, desc="simulated")
+    def show(time: float, collisions: int) -> None:
+        bar.n = time
+        bar.set_postfix(collisions=collisions)
 
-    def __call__(self, time: float, collisions: int) -> None:
-        self._bar.n = time
-        self._bar.set_postfix(collisions=collisions)
-
-    def close(self) -> None:
-        self._bar.close()
+    return show, bar.close
 
 
 class _Progress:
     """Shows how far a run is, in the best way that works: one that fails gives way to the next, and none ends the run."""
 
     def __init__(self, until: float | None):
-        self._ways = [lambda: _Bar("tqdm.auto", until), lambda: _Bar("tqdm", until), lambda: _Line(until)]
+        self._ways = [lambda: _bar("tqdm.auto", until), lambda: _bar("tqdm", until), lambda: _line(until)]
         self._shown: Any = None
-        self._do(lambda shown: None)
+        self._do(lambda show, close: None)
 
-    def _do(self, action: Callable[[Any], object]) -> None:
+    def _do(self, action: Callable[..., object]) -> None:
         while self._shown or self._ways:
             try:
                 self._shown = self._shown or self._ways.pop(0)()
-                action(self._shown)
+                action(*self._shown)
                 return
             except Exception:  # of any kind: widgets, terminals and files have many
                 self._shown = None
 
     def __call__(self, time: float, collisions: int) -> None:
-        self._do(lambda shown: shown(time, collisions))
+        self._do(lambda show, close: show(time, collisions))
 
     def close(self) -> None:
         self._ways = []
-        self._do(lambda shown: shown.close())
+        self._do(lambda show, close: close())
 
 
 def _check_law(name: str, law: Any) -> None:
@@ -313,13 +307,12 @@ def read_run(folder: str | pathlib.Path) -> Run:
     place = pathlib.Path(checks.place("folder", folder))
     files = [place / name for name in ("summary.json", "case.toml", "final_state.csv")]
     try:
-        summary, case, _ = (file.read_text(encoding="utf-8") for file in files)
+        summary, case, table = (file.read_text(encoding="utf-8") for file in files)
     except OSError as error:
         raise _edmill.InputError(f"{error.filename}: found no readable file, expected one of a run's folder") from None
     facts = json.loads(summary)
     number = float if facts["precision"] == "double" else decimal.Decimal
-    with open(files[2], newline="", encoding="utf-8") as stream:
-        states = list(csv.DictReader(stream))
+    states = list(csv.DictReader(table.splitlines()))
     rows = np.empty(len(states), dtype=_edmill.state_dtype if number is float else _wide(_edmill.state_dtype))
     for field in _edmill.state_dtype.names:
         for k, axis in enumerate("xyz"):

@@ -40,36 +40,27 @@ class Records(np.ndarray):
         return xarray.Dataset(variables, coords=coordinates)
 
 
-def _cell(text: str):
-    for kind in (int, float):
+def _column(cells: list[str]) -> np.ndarray:
+    """Whole numbers, or numbers, NaN where a cell is empty, or texts."""
+    for kind in (np.int64, np.float64) if cells else (np.float64,):
         try:
-            return kind(text)
+            return np.array([cell or "nan" for cell in cells], dtype=kind)
         except ValueError:
             pass
-    return text
+    return np.array(cells, dtype=object)
 
 
 def read_table(file: str | pathlib.Path) -> Records:
     """A CSV file of edmill: its columns have the names of the header without units, which `dtype.fields` keep as titles.
     Empty cells are NaN."""
     with open(file, newline="", encoding="utf-8") as stream:
-        rows = list(csv.reader(itertools.dropwhile(lambda line: line.startswith("#"), stream)))
-    header, cells = rows[0], rows[1:]
-    fields, columns = [], []
-    for k, title in enumerate(header):
-        values = [_cell(row[k]) for row in cells]
-        if any(isinstance(v, str) and v for v in values):
-            column = np.array([str(row[k]) for row in cells], dtype=object)
-        else:
-            numbers = [np.nan if v == "" else v for v in values]
-            whole = all(isinstance(v, int) for v in numbers)
-            column = np.array(numbers, dtype=np.int64 if whole and numbers else np.float64)
-        name = title.split(" [")[0]
-        fields.append(((title, name) if title != name else name, column.dtype))
-        columns.append(column)
-    table = np.empty(len(cells), dtype=fields)
-    for field, column in zip(fields, columns):
-        table[field[0][1] if isinstance(field[0], tuple) else field[0]] = column
+        header, *rows = csv.reader(itertools.dropwhile(lambda line: line.startswith("#"), stream))
+    names = [title.split(" [")[0] for title in header]
+    columns = [_column([row[k] for row in rows]) for k in range(len(header))]
+    table = np.empty(len(rows), dtype=[((title, name) if title != name else name, column.dtype)
+                                       for title, name, column in zip(header, names, columns)])
+    for name, column in zip(names, columns):
+        table[name] = column
     return table.view(Records)
 
 

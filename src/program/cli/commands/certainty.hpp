@@ -33,10 +33,11 @@ struct Certify : CaseCommand<app::CertifyOptions> {
         const auto all = options.collisions == 0 ? "" : fmt::format(" of {}", options.collisions);
         line.show(fmt::format("{}: {}{} events ", precision, events, all));
       };
-      const auto result = app::certify(spec, options, [&](const app::Evidence& evidence) {
+      options.found = [&](const app::Evidence& evidence) {
         line.clear();
         if (!quiet_) io::print("{} ({:.1f} s)\n", evidence.text(), evidence.seconds);
-      });
+      };
+      const auto result = app::certify(spec, options);
       line.clear();
       if (result.interrupted) return ok;
       if (!result.undecided.empty()) return tell_undecided(result.undecided);

@@ -1,17 +1,12 @@
 // The commands that judge logs.
 #pragma once
 
-#include <limits>
 #include <optional>
 
-#include "app/audit.hpp"
+#include "app/judge.hpp"
 #include "cli/commands/case_argument.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/progress_line.hpp"
-#include "compare/comparison.hpp"
-#include "dem/contact_audit.hpp"
-#include "dem/contact_rates.hpp"
-#include "io/input_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/terminal.hpp"
 
@@ -21,26 +16,27 @@ namespace edmill::cli {
 class Judgement {
  public:
   void add_to(CLI::App& command, const char* meaning_of_quiet) {
-    command.add_option("--json", json_name_, "file for the result in JSON");
-    command.add_option("--junit", junit_name_, "file for the result as JUnit's XML");
+    command.add_option("--json", json_, "file for the result in JSON");
+    command.add_option("--junit", junit_, "file for the result as JUnit's XML");
     command.add_flag("--quiet", quiet, meaning_of_quiet);
   }
-  /// Makes its files, before the judgement.
-  void open() {
-    if (!json_name_.empty()) json_.emplace(json_name_);
-    if (!junit_name_.empty()) junit_.emplace(junit_name_);
-  }
-  void write(const std::string& json, const std::string& junit, const std::string& table) {
-    if (json_) json_->write([&](std::ostream& out) { out << json; });
-    if (junit_) junit_->write([&](std::ostream& out) { out << junit; });
-    if (!quiet) io::print("{}", table);
+  /// Makes the files, then judges. @return the exit code
+  int of(const auto& judge) const {
+    using Verdict = app::Judged::Verdict;
+    auto json = io::file_for(json_), junit = io::file_for(junit_);
+    const app::Judged judged = judge();
+    if (json) json->write([&](std::ostream& out) { out << judged.json; });
+    if (junit) junit->write([&](std::ostream& out) { out << judged.junit; });
+    if (!quiet) io::print("{}", judged.table);
+    return judged.verdict == Verdict::good  ? ok
+           : judged.verdict == Verdict::bad ? outputs_differ
+                                            : too_few_data;
   }
 
   bool quiet = false;
 
  private:
-  std::string json_name_, junit_name_;
-  std::optional<io::NamedFile> json_, junit_;
+  std::string json_, junit_;
 };
 
 struct Compare {
@@ -60,20 +56,7 @@ struct Compare {
     judgement_.add_to(command, "no table");
   }
   int run() {
-    judgement_.open();
-    const io::Spool pipes;
-    const auto a = options_.a.string(), b = options_.b.string();
-    if (dem::is_contact_log(a) || dem::is_contact_log(b)) {
-      const auto& [from, until] = options_.limits;
-      const auto compared = dem::compare_contacts(a, b, from.value_or(0),
-                                                  until.value_or(std::numeric_limits<double>::infinity()));
-      judgement_.write(dem::to_json(compared), dem::to_junit(compared), dem::table(compared));
-      return !compared.known ? too_few_data : compared.agree() ? ok : outputs_differ;
-    }
-    const auto compared = compare::compare(options_);
-    judgement_.write(compare::to_json(compared), compare::to_junit(compared), compare::table(compared));
-    if (compared.verdict == compare::Verdict::agree) return ok;
-    return compared.verdict == compare::Verdict::differ ? outputs_differ : too_few_data;
+    return judgement_.of([this] { return app::compare(options_); });
   }
 
  private:
@@ -110,36 +93,23 @@ struct Audit {
     judgement_.add_to(command, "no progress line and no table");
   }
   int run() {
-    return interruptible(given_.read(), options_,
-                         [this](const auto& spec, auto& options) { return judge(spec, options); });
+    return interruptible(given_.read(), options_, [this](const casefile::CaseSpec& spec, auto& options) {
+      return judgement_.of([&] {
+        ProgressLine line(judgement_.quiet);
+        if (line) {
+          std::optional<double> end;
+          if (spec.end_time) end = spec.end_time->to<double>();
+          options.progress = [&line, end](double time, std::uint64_t events) {
+            line.show(time, end, events);
+          };
+          options.searching = [&line](const std::string& stage) { line.show("searching: " + stage); };
+        }
+        return app::audit(spec, options);
+      });
+    });
   }
 
  private:
-  int judge(const casefile::CaseSpec& spec, app::AuditOptions& options) {
-    const io::Spool pipes;
-    const bool contacts = dem::is_contact_log(options.log);
-    judgement_.open();
-    if (contacts) {
-      const auto audited = dem::audit_contacts(spec, {options.log, options.interrupt});
-      judgement_.write(dem::to_json(audited), dem::to_junit(audited), dem::table(audited));
-      if (audited.verdict == dem::ContactVerdict::agrees) return ok;
-      return audited.verdict == dem::ContactVerdict::differs ? outputs_differ : too_few_data;
-    }
-    ProgressLine line(judgement_.quiet);
-    if (line) {
-      std::optional<double> end;
-      if (spec.end_time) end = spec.end_time->to<double>();
-      options.progress = [&line, end](double time, std::uint64_t events) { line.show(time, end, events); };
-      options.searching = [&line](const std::string& stage) { line.show("searching: " + stage); };
-    }
-    const auto audited = app::audit(spec, options);
-    line.clear();
-    judgement_.write(audited.json(), audited.junit(), audited.table());
-    const auto verdict = audited.result.verdict;
-    if (verdict == audit::Verdict::clean) return ok;
-    return verdict == audit::Verdict::violations ? outputs_differ : too_few_data;
-  }
-
   CaseArgument given_;
   app::AuditOptions options_;
   Judgement judgement_;

@@ -63,8 +63,7 @@ class RunCommand {
       const ReservedFolder reserved(folder_, !checkpoint_.empty(), spec);
       if (const int code = choose_digits(spec, scalar); code != ok) return code;
     }
-    if (!checkpoint_.empty())
-      options.checkpoint = app::first_checkpoint(spec, overrides_, scalar, report_, checkpoint_);
+    if (!checkpoint_.empty()) options.checkpoint = app::first_checkpoint(spec, scalar, report_, checkpoint_);
     const int code = with_progress(options, [&] { return app::run(scalar, spec, options); });
     if (code != ok || shadow_.empty()) return code;
     const auto result = app::shadow(spec, scalar, shadow_, options.interrupt);
@@ -80,7 +79,6 @@ class RunCommand {
   std::string precision_;   ///< scalar of the run; that of the case when empty
   std::string shadow_;      ///< a wider scalar to compare with; none when empty
   std::string checkpoint_;  ///< how often to save the state; when empty, never, or as before
-  std::vector<std::string> overrides_;
   bool report_ = false, quiet_ = false;
   bool estimate_ = false;  ///< estimate the cost of the run, and do not run
 
@@ -115,7 +113,7 @@ class RunCommand {
       if (result.goes_on) io::print("Continue with: edmill resume {}\n", folder_);
     }
     if (!result.error.empty()) io::tell("edmill: {}\n", result.error);
-    if (!result.report.empty() && !quiet_) io::print("The report is {}\n", result.report.string());
+    if (!result.report.empty() && !quiet_) io::print("The report is {}\n", result.report);
     return plus_signal(code_of(result.end_reason));
   }
 
@@ -197,7 +195,7 @@ struct Run : RunCommand {
   }
   int run() {
     auto spec = given_.read();
-    auto& settings = overrides_ = given_.overrides;
+    auto settings = given_.overrides;
     if (!until_precision_.empty()) run_until_precision(spec, settings);
     if (digits_ > 0) settings.push_back(fmt::format("run.digits={}", digits_));
     if (!target_.empty()) settings.push_back("powder.target_dose=\"" + target_ + "\"");

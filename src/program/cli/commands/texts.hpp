@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -113,8 +114,7 @@ inline std::string codes() {
 }
 
 inline std::string keys_of(const casefile::KeySection& section) {
-  bool types = false;
-  for (const auto& key : section.keys) types = types || !key.of.empty();
+  const bool types = std::ranges::any_of(section.keys, [](const auto& key) { return !key.of.empty(); });
   std::string text = types ? "| key | of | value | default | meaning |\n|---|---|---|---|---|\n"
                            : "| key | value | default | meaning |\n|---|---|---|---|\n";
   for (const auto& key : section.keys) {

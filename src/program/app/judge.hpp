@@ -1,21 +1,32 @@
-// Another code's collision log against the physics of a case, and what explains its violations.
+// Logs judged: by another log, or by the physics of a case, with what explains the violations.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "audit/audit.hpp"
 #include "casefile/case_spec.hpp"
+#include "compare/comparison.hpp"
 #include "identify/identify.hpp"
 
 namespace edmill::app {
 
+struct Judged {
+  enum class Verdict { good, bad, too_few_data };
+  Verdict verdict;
+  std::string json, junit, table;
+};
+
+/// Of collision logs, or where one has contacts that last, of their dose rates.
+/// @throws InputError
+Judged compare(const compare::Options& options);
+
 /// They override the case's section [audit].
 struct AuditOptions {
-  std::string log;
+  std::string log;                   ///< of collisions, or of contacts that last
   std::vector<std::string> columns;  ///< "ours=theirs [unit]"
   std::optional<double> tolerance, gap_tolerance;
   std::optional<int> first_ball;
@@ -28,16 +39,7 @@ struct AuditOptions {
   identify::Progress searching{};  ///< called at each stage of a search for the cause
 };
 
-struct Audited {
-  audit::Audit result;
-  std::optional<identify::Identification> identified;
-
-  std::string table() const;
-  std::string json() const;
-  std::string junit() const;
-};
-
 /// @throws InputError
-Audited audit(const casefile::CaseSpec& spec, const AuditOptions& options);
+Judged audit(const casefile::CaseSpec& spec, const AuditOptions& options);
 
 }  // namespace edmill::app

@@ -1,9 +1,13 @@
-#include "app/audit.hpp"
+#include "app/judge.hpp"
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "base/errors.hpp"
 #include "compare/junit.hpp"
+#include "dem/contact_audit.hpp"
+#include "dem/contact_rates.hpp"
 #include "io/input_file.hpp"
 #include "io/json_text.hpp"
 
@@ -36,31 +40,7 @@ audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given)
   return options;
 }
 
-}  // namespace
-
-Audited audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
-  auto options = merged(spec, given);
-  const io::Spool pipes;
-  const auto built = casefile::build_case<double>(spec);
-  Audited audited{audit::audit(built.the_case, built.states, options), {}};
-  audited.result.case_name = spec.file;
-  if (given.identify && !audited.result.interrupted)
-    audited.identified = identify::identify(spec, options, given.searching);
-  return audited;
-}
-
-std::string Audited::table() const {
-  return audit::table(result) + (identified ? identify::table(*identified) : "");
-}
-
-std::string Audited::json() const {
-  io::JsonText text;
-  audit::put_json(text, result);
-  if (identified) identify::put_json(text, *identified);
-  return text.finish();
-}
-
-std::string Audited::junit() const {
+std::string to_junit(const audit::Audit& result) {
   std::vector<compare::JunitCase> cases;
   for (std::size_t k = 0; k < audit::check_count; ++k) {
     const auto check = static_cast<audit::Check>(k);
@@ -80,6 +60,52 @@ std::string Audited::junit() const {
                          ? ""
                          : "too few impacts to judge");
   return compare::junit_text("edmill audit of " + result.log_name, cases);
+}
+
+Judged::Verdict verdict_of(bool good, bool bad) {
+  return good ? Judged::Verdict::good : bad ? Judged::Verdict::bad : Judged::Verdict::too_few_data;
+}
+
+Judged judged(const auto& found, bool good, bool bad) {
+  return {verdict_of(good, bad), to_json(found), to_junit(found), table(found)};
+}
+
+}  // namespace
+
+Judged compare(const compare::Options& options) {
+  const io::Spool pipes;
+  const auto a = options.a.string(), b = options.b.string();
+  if (dem::is_contact_log(a) || dem::is_contact_log(b)) {
+    const auto& [from, until] = options.limits;
+    const auto found = dem::compare_contacts(a, b, from.value_or(0),
+                                             until.value_or(std::numeric_limits<double>::infinity()));
+    return judged(found, found.known && found.agree(), found.known);
+  }
+  const auto found = compare::compare(options);
+  return judged(found, found.verdict == compare::Verdict::agree, found.verdict == compare::Verdict::differ);
+}
+
+Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
+  const io::Spool pipes;
+  if (dem::is_contact_log(given.log)) {
+    const auto found = dem::audit_contacts(spec, {given.log, given.interrupt});
+    return judged(found, found.verdict == dem::ContactVerdict::agrees,
+                  found.verdict == dem::ContactVerdict::differs);
+  }
+  const auto options = merged(spec, given);
+  const auto built = casefile::build_case<double>(spec);
+  auto found = audit::audit(built.the_case, built.states, options);
+  found.case_name = spec.file;
+  std::string table = audit::table(found);
+  io::JsonText json;
+  audit::put_json(json, found);
+  if (given.identify && !found.interrupted) {
+    const auto identified = identify::identify(spec, options, given.searching);
+    table += identify::table(identified);
+    identify::put_json(json, identified);
+  }
+  return {verdict_of(found.verdict == audit::Verdict::clean, found.verdict == audit::Verdict::violations),
+          json.finish(), to_junit(found), table};
 }
 
 }  // namespace edmill::app
