@@ -11,14 +11,13 @@ namespace edmill::testing {
 /// Calls f(at, bodies, impact) for each of the first impacts.
 class TangentObserver : public engine::Observer<double> {
  public:
-  using Body = tangent::Spectrum::Body;
-  using Call =
-      std::function<void(const tangent::ImpactAt<double>&, const Body (&)[2], const engine::Impact<double>&)>;
+  using Call = std::function<void(const tangent::ImpactAt&, const tangent::Struck (&)[2],
+                                  const engine::Impact<double>&)>;
 
   TangentObserver(std::size_t impacts, Call call) : left_(impacts), call_(std::move(call)) {}
 
   void on_impact(const engine::Impact<double>& impact, engine::Simulation<double>& simulation) override {
-    Body bodies[2];
+    tangent::Struck bodies[2];
     const auto fill = [&](int place, int ball) {
       const auto& flight = simulation.flight(ball);
       bodies[place] = {ball, flight.position, impact.velocity_before[place], impact.spin_before[place],

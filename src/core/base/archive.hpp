@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,10 +22,9 @@ namespace edmill {
 template <class T>
 T in_file_order(T value) {
   if constexpr (std::endian::native == std::endian::big) {
-    std::array<unsigned char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), &value, sizeof(T));
+    auto bytes = std::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
     std::reverse(bytes.begin(), bytes.end());
-    std::memcpy(&value, bytes.data(), sizeof(T));
+    value = std::bit_cast<T>(bytes);
   }
   return value;
 }

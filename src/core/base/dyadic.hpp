@@ -17,6 +17,7 @@ class Dyadic {
   /// @throws ContractError when x is not finite
   template <class Real>
   static Dyadic of(const Real& x) {
+    using std::floor;
     using std::frexp;
     using std::isfinite;
     using std::ldexp;
@@ -28,12 +29,9 @@ class Dyadic {
     Real rest = frexp(x, &exponent);
     for (; rest != 0; exponent -= bits) {
       rest = ldexp(rest, bits);
-      const int part = static_cast<int>(static_cast<double>(rest));  // the integer part
-      const int whole = Real(part) > rest && rest > 0   ? part - 1
-                        : Real(part) < rest && rest < 0 ? part + 1
-                                                        : part;
-      rest -= Real(whole);
-      exact.n_ = (exact.n_ << bits) + whole;
+      const Real whole = floor(rest);
+      rest -= whole;
+      exact.n_ = (exact.n_ << bits) + static_cast<int>(static_cast<double>(whole));
     }
     exact.e_ = exact.n_ == 0 ? 0 : exponent;
     return exact;

@@ -18,6 +18,4 @@ void* allocate_pages(std::size_t size) {
   return start;
 }
 
-void free_pages(void* start) { std::free(start); }
-
 }  // namespace edmill

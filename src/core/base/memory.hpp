@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -16,10 +17,9 @@ inline void fetch(const void* address) {
 
 inline constexpr std::size_t large_page = std::size_t{1} << 21;  ///< [bytes]
 
-/// @return at least `size` bytes, from the start of a large page on
+/// @return at least `size` bytes, from the start of a large page on, to be freed by std::free
 /// @throws std::bad_alloc
 void* allocate_pages(std::size_t size);
-void free_pages(void* start);
 
 /// Large arrays in large pages, where the system has them: an event among many balls touches dozens of small
 /// pages, each of which would have to be found.
@@ -37,7 +37,7 @@ struct LargePages {
   }
   void deallocate(T* array, std::size_t count) {
     if (!is_large(count)) return std::allocator<T>().deallocate(array, count);
-    free_pages(array);
+    std::free(array);
   }
   friend bool operator==(const LargePages&, const LargePages&) { return true; }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace edmill {
 
@@ -44,9 +45,7 @@ struct ScalarName<double> {
 
 /// The next wider scalar of the decision ladder; void where the ladder ends.
 template <class Real>
-struct WiderScalar {
-  using type = void;
-};
+struct WiderScalar : std::type_identity<void> {};
 
 template <class Real>
 using Wider = typename WiderScalar<Real>::type;
@@ -87,9 +86,7 @@ constexpr int binary_digits() {
 /// For numbers that are hints or bounds and need few digits, but the range of the scalar's small numbers.
 /// Where digits are chosen at run time, see also `double_hints`.
 template <class Real>
-struct HintOf {
-  using type = double;
-};
+struct HintOf : std::type_identity<double> {};
 template <class Real>
 using Hint = typename HintOf<Real>::type;
 /// Whether a double has the range of such numbers.

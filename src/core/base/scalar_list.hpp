@@ -121,9 +121,7 @@ inline int binary_digits<mpfr>() {
   return static_cast<int>(mpfr::bits());
 }
 template <>
-struct HintOf<mpfr> {
-  using type = mpfr;
-};
+struct HintOf<mpfr> : std::type_identity<mpfr> {};
 template <>
 inline bool double_hints<mpfr>() {
   return mpfr::digits() <= 200;
@@ -139,13 +137,9 @@ inline mpfr::Digits with_all_digits_of(const mpfr& x) {
 #endif
 
 template <>
-struct WiderScalar<double> {
-  using type = float128;
-};
+struct WiderScalar<double> : std::type_identity<float128> {};
 template <>
-struct WiderScalar<float128> {
-  using type = mpfr50;
-};
+struct WiderScalar<float128> : std::type_identity<mpfr50> {};
 
 /// Calls `function.operator()<Real>()` with the scalar of this name.
 /// @throws ContractError when there is none: names are checked where they are read

@@ -1,6 +1,7 @@
 #include "base/statistics.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "base/student.hpp"
 
@@ -9,9 +10,7 @@ namespace edmill::numerics {
 namespace {
 
 double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return sum / static_cast<double>(values.size());
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// Variance of the mean.

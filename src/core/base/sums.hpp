@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/instant.hpp"
+#include "base/scalar.hpp"
 
 namespace edmill::numerics {
 
@@ -14,8 +15,7 @@ class CompensatedSum {
  public:
   CompensatedSum& operator+=(const Real& term) {
     const Real next = sum_ + term;
-    const Real size = sum_ < 0 ? Real(-sum_) : sum_, term_size = term < 0 ? Real(-term) : term;
-    lost_ += size >= term_size ? Real((sum_ - next) + term) : Real((term - next) + sum_);
+    lost_ += magnitude(sum_) >= magnitude(term) ? Real((sum_ - next) + term) : Real((term - next) + sum_);
     sum_ = next;
     return *this;
   }

@@ -74,13 +74,10 @@ struct Mill {
   }
   /// The smallest and the largest least separation speed of all laws [m/s].
   std::pair<Real, Real> least_separations() const {
-    auto [low, high] = std::minmax(ball_ball.least_separation, ball_wall.least_separation);
-    Real least = low, most = high;
-    for (const auto& law : pairs.laws) {
-      if (law.least_separation < least) least = law.least_separation;
-      if (law.least_separation > most) most = law.least_separation;
-    }
-    return {least, most};
+    std::pair<Real, Real> range = std::minmax(ball_ball.least_separation, ball_wall.least_separation);
+    for (const auto& law : pairs.laws)
+      range = {std::min(range.first, law.least_separation), std::max(range.second, law.least_separation)};
+    return range;
   }
 };
 

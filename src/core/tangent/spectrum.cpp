@@ -25,10 +25,6 @@ Vec3<Number> with_slopes(const Vec3<double>& value, const Vec3<double>& slope) {
 }
 Vec3<double> slopes_of(const Vec3<Number>& v) { return {v[0].slope, v[1].slope, v[2].slope}; }
 
-model::BallProperties<Number> constant(const model::BallProperties<double>& ball) {
-  return {ball.radius, ball.mass, ball.reduced_inertia, ball.material};
-}
-
 /// By how much later the motion nearby has its impact. Bodies that do not approach each other have it at
 /// once.
 double delay(const Vec3<double>& normal, const Vec3<double>& gap, double approach_speed) {
@@ -40,12 +36,12 @@ struct Nearby {
   Vec3<Number> position, velocity, spin;
 
   /// At its own impact, `delay` after the run's.
-  Nearby(const Struck<double>& body, const Tangent<double>& t, const Vec3<double>& gravity, double delay)
+  Nearby(const Struck& body, const Tangent<double>& t, const Vec3<double>& gravity, double delay)
       : position(with_slopes(body.position, t.position + body.velocity * delay)),
         velocity(with_slopes(body.velocity, t.velocity + gravity * delay)),
         spin(with_slopes(body.spin, t.spin)) {}
   /// Behind it, at the time of the run's.
-  Tangent<double> back(const Struck<double>& body, const Vec3<double>& gravity, double delay) const {
+  Tangent<double> back(const Struck& body, const Vec3<double>& gravity, double delay) const {
     return {slopes_of(position) - body.velocity_after * delay, slopes_of(velocity) - gravity * delay,
             slopes_of(spin)};
   }
@@ -79,17 +75,20 @@ class Mixer {
 
 struct TangentMap::InDuals {
   model::Mill<Number> mill;
+  std::vector<model::BallProperties<Number>> balls;
   Vec3<double> gravity;
 };
 
-TangentMap::TangentMap(const model::Mill<double>& mill)
-    : mill_(new InDuals{model::mill_cast<Number>(mill), mill.gravity}) {}
+TangentMap::TangentMap(const model::Mill<double>& mill, const Balls& balls)
+    : mill_(new InDuals{model::mill_cast<Number>(mill), {}, mill.gravity}) {
+  for (const auto& b : balls) mill_->balls.push_back({b.radius, b.mass, b.reduced_inertia, b.material});
+}
 TangentMap::~TangentMap() = default;
 
-void TangentMap::with_wall(const ImpactAt<double>& impact, int wall, const Struck<double>& struck,
+void TangentMap::with_wall(const ImpactAt& impact, int wall, const Struck& struck,
                            std::span<Tangent<double>> directions) const {
   const auto& mill = mill_->mill;
-  const auto ball = constant(struck.ball);
+  const auto& ball = mill_->balls[static_cast<std::size_t>(struck.ball)];
   const auto& law = mill.law_with_wall(ball, wall);
   for (auto& direction : directions) {
     const double later = delay(impact.normal, direction.position, impact.approach_speed);
@@ -109,9 +108,10 @@ void TangentMap::with_wall(const ImpactAt<double>& impact, int wall, const Struc
   }
 }
 
-void TangentMap::of_pair(const ImpactAt<double>& impact, const Struck<double>& one, const Struck<double>& two,
+void TangentMap::of_pair(const ImpactAt& impact, const Struck& one, const Struck& two,
                          std::span<Tangent<double>> of_one, std::span<Tangent<double>> of_two) const {
-  const auto ball = constant(one.ball), partner = constant(two.ball);
+  const auto &ball = mill_->balls[static_cast<std::size_t>(one.ball)],
+             &partner = mill_->balls[static_cast<std::size_t>(two.ball)];
   const auto& law = mill_->mill.law_between(ball, partner);
   for (std::size_t k = 0; k < of_one.size(); ++k) {
     const double later = delay(impact.normal, of_one[k].position - of_two[k].position, impact.approach_speed);
@@ -125,18 +125,17 @@ void TangentMap::of_pair(const ImpactAt<double>& impact, const Struck<double>& o
   }
 }
 
-Spectrum::Spectrum(const model::Mill<double>& mill, Balls balls, const Instant<double>& start,
+Spectrum::Spectrum(const model::Mill<double>& mill, const Balls& balls, const Instant<double>& start,
                    std::size_t directions)
-    : map_(mill),
-      balls_(std::move(balls)),
+    : map_(mill, balls),
       clock_(mill.motion.period()),
-      count_(std::min(directions, 9 * balls_.size())),
-      length_(balls_.at(0).radius),
+      balls_(balls.size()),
+      count_(std::min(directions, 9 * balls_)),
+      length_(balls.at(0).radius),
       speed_(length_ / clock_.period()),
       spin_(1 / clock_.period()),
-      state_{std::vector<Tangent<double>>(count_ * balls_.size()),
-             std::vector<Instant<double>>(balls_.size(), start), std::vector<double>(count_, 0.0), 0,
-             std::vector<std::int64_t>(balls_.size(), 0)} {
+      state_{std::vector<Tangent<double>>(count_ * balls_), std::vector<Instant<double>>(balls_, start),
+             std::vector<double>(count_, 0.0), 0, std::vector<std::int64_t>(balls_, 0)} {
   Mixer mixer;
   for (auto& t : state_.tangents) t = {mixer.vector(length_), mixer.vector(speed_), mixer.vector(spin_)};
   orthonormalise(start);
@@ -150,16 +149,16 @@ void Spectrum::fly(int ball, const Instant<double>& now) {
   since = now;
 }
 
-void Spectrum::with_wall(const ImpactAt<double>& impact, int wall, const Body& body) {
-  fly(body.ball, impact.time);
-  map_.with_wall(impact, wall, struck(body), of_ball(body.ball));
-  count_impact(impact.time, body.ball, body.ball);
+void Spectrum::with_wall(const ImpactAt& impact, int wall, const Struck& struck) {
+  fly(struck.ball, impact.time);
+  map_.with_wall(impact, wall, struck, of_ball(struck.ball));
+  count_impact(impact.time, struck.ball, struck.ball);
 }
 
-void Spectrum::of_pair(const ImpactAt<double>& impact, const Body& one, const Body& two) {
+void Spectrum::of_pair(const ImpactAt& impact, const Struck& one, const Struck& two) {
   fly(one.ball, impact.time);
   fly(two.ball, impact.time);
-  map_.of_pair(impact, struck(one), struck(two), of_ball(one.ball), of_ball(two.ball));
+  map_.of_pair(impact, one, two, of_ball(one.ball), of_ball(two.ball));
   count_impact(impact.time, one.ball, two.ball);
 }
 
@@ -170,13 +169,12 @@ void Spectrum::count_impact(const Instant<double>& now, int ball, int partner) {
   auto& of_one = ++state_.of_ball[static_cast<std::size_t>(ball)];
   auto& of_other = state_.of_ball[static_cast<std::size_t>(partner)];
   if (partner != ball) ++of_other;
-  if (++state_.since_orthonormal >= balls_.size() || std::max(of_one, of_other) >= most_of_ball)
-    orthonormalise(now);
+  if (++state_.since_orthonormal >= balls_ || std::max(of_one, of_other) >= most_of_ball) orthonormalise(now);
 }
 
 double Spectrum::product(std::size_t a, std::size_t b) const {
   double r = 0, v = 0, w = 0;
-  for (std::size_t ball = 0; ball < balls_.size(); ++ball) {
+  for (std::size_t ball = 0; ball < balls_; ++ball) {
     const auto &one = state_.tangents[ball * count_ + a], &two = state_.tangents[ball * count_ + b];
     r += dot<double>(one.position, two.position);
     v += dot<double>(one.velocity, two.velocity);
@@ -188,10 +186,10 @@ double Spectrum::product(std::size_t a, std::size_t b) const {
 void Spectrum::orthonormalise(const Instant<double>& now) {
   constexpr double rounding = 1e-13;  // of a sum of many numbers, relative to the largest
   state_.since_orthonormal = 0;
-  state_.of_ball.assign(balls_.size(), 0);
-  for (std::size_t ball = 0; ball < balls_.size(); ++ball) fly(static_cast<int>(ball), now);
+  state_.of_ball.assign(balls_, 0);
+  for (std::size_t ball = 0; ball < balls_; ++ball) fly(static_cast<int>(ball), now);
   const auto add = [this](std::size_t to, std::size_t from, double factor) {
-    for (std::size_t ball = 0; ball < balls_.size(); ++ball) {
+    for (std::size_t ball = 0; ball < balls_; ++ball) {
       auto& t = state_.tangents[ball * count_ + to];
       const auto& f = state_.tangents[ball * count_ + from];
       t.position += f.position * factor;

@@ -25,34 +25,34 @@ struct Tangent {
 };
 
 /// One body of an impact just before it, and its velocity after it.
-template <class Real>
 struct Struck {
-  const model::BallProperties<Real>& ball;
-  Vec3<Real> position, velocity, spin, velocity_after;
+  int ball;  ///< its number
+  Vec3<double> position, velocity, spin, velocity_after;
 };
 
 /// An impact of a run.
-template <class Real>
 struct ImpactAt {
-  Instant<Real> time;
-  Vec3<Real> normal;    ///< unit, from the partner to the ball
-  Real approach_speed;  ///< [m/s]
-  bool in_stall;        ///< friction rested
+  Instant<double> time;
+  Vec3<double> normal;    ///< unit, from the partner to the ball
+  double approach_speed;  ///< [m/s]
+  bool in_stall;          ///< friction rested
 };
+
+using Balls = std::vector<model::BallProperties<double>>;
 
 /// The derivative of impacts in a mill. The motion nearby meets its partner a little earlier or later: its
 /// state is taken to its own impact, through it, and back to the time of the run's (the saltation of
 /// piecewise smooth systems).
 class TangentMap {
  public:
-  explicit TangentMap(const model::Mill<double>& mill);
+  TangentMap(const model::Mill<double>& mill, const Balls& balls);
   ~TangentMap();
 
   /// @param directions  of the ball at the impact; they become those after it
-  void with_wall(const ImpactAt<double>& impact, int wall, const Struck<double>& ball,
+  void with_wall(const ImpactAt& impact, int wall, const Struck& struck,
                  std::span<Tangent<double>> directions) const;
   /// @param of_one, of_two  directions of either ball, in the same order
-  void of_pair(const ImpactAt<double>& impact, const Struck<double>& one, const Struck<double>& two,
+  void of_pair(const ImpactAt& impact, const Struck& one, const Struck& two,
                std::span<Tangent<double>> of_one, std::span<Tangent<double>> of_two) const;
 
  private:
@@ -64,19 +64,12 @@ class TangentMap {
 /// before it is summed: the sums over the time tend to the largest exponents, in order.
 class Spectrum {
  public:
-  using Balls = std::vector<model::BallProperties<double>>;
-
   /// @param directions  how many; at most nine for each ball
-  Spectrum(const model::Mill<double>& mill, Balls balls, const Instant<double>& start,
+  Spectrum(const model::Mill<double>& mill, const Balls& balls, const Instant<double>& start,
            std::size_t directions);
 
-  /// A body of an impact; `ball` is its number.
-  struct Body {
-    int ball;
-    Vec3<double> position, velocity, spin, velocity_after;
-  };
-  void with_wall(const ImpactAt<double>& impact, int wall, const Body& body);
-  void of_pair(const ImpactAt<double>& impact, const Body& one, const Body& two);
+  void with_wall(const ImpactAt& impact, int wall, const Struck& struck);
+  void of_pair(const ImpactAt& impact, const Struck& one, const Struck& two);
 
   /// Makes the directions orthonormal as they are at this instant, and adds to the sums what they grew by.
   void orthonormalise(const Instant<double>& now);
@@ -103,17 +96,13 @@ class Spectrum {
   std::span<Tangent<double>> of_ball(int ball) {
     return {state_.tangents.data() + static_cast<std::size_t>(ball) * count_, count_};
   }
-  Struck<double> struck(const Body& b) const {
-    return {balls_[static_cast<std::size_t>(b.ball)], b.position, b.velocity, b.spin, b.velocity_after};
-  }
   void fly(int ball, const Instant<double>& now);
   double product(std::size_t a, std::size_t b) const;
   void count_impact(const Instant<double>& now, int ball, int partner);
 
   TangentMap map_;
-  Balls balls_;
   DriveClock<double> clock_;
-  std::size_t count_;
+  std::size_t balls_, count_;     ///< numbers of balls and of directions
   double length_, speed_, spin_;  ///< units in which directions are measured
   State state_;
 };

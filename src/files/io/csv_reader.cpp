@@ -52,21 +52,13 @@ std::optional<double> number_in(std::string_view text) {
 
 /// The character that separates the fields of a header: a comma, unless there are more semicolons or tabs.
 char separator_of(std::string_view header) {
-  char best = ',';
-  std::size_t most = 0;
-  for (const char candidate : {',', ';', '\t'}) {
-    bool quoted = false;
-    std::size_t count = 0;
-    for (const char c : header) {
-      quoted = quoted != (c == '"');
-      count += !quoted && c == candidate;
-    }
-    if (count > most) {
-      most = count;
-      best = candidate;
-    }
+  std::string unquoted;
+  for (bool quoted = false; const char c : header) {
+    quoted = quoted != (c == '"');
+    if (!quoted) unquoted += c;
   }
-  return best;
+  const auto count = [&](char c) { return std::count(unquoted.begin(), unquoted.end(), c); };
+  return std::max({',', ';', '\t'}, [&](char a, char b) { return count(a) < count(b); });
 }
 
 /// Whether a text is a number with a comma where the point should be, which is no separator there.

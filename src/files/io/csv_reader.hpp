@@ -46,7 +46,6 @@ class CsvReader {
 
   void bad_line(const std::string& problem);
   void bad_field(std::size_t column, const std::string& expected);
-  std::size_t problem_count() const { return problems_.size(); }
   /// @throws InputError when there were problems
   void throw_problems() const;
 

@@ -1,6 +1,8 @@
 // Implementation of final_state.hpp; included by the instantiation files only.
 #pragma once
 
+#include <fmt/format.h>
+
 #include "base/errors.hpp"
 #include "base/scalar.hpp"
 #include "io/csv_reader.hpp"
@@ -33,8 +35,7 @@ SavedState<Real> read_final_state(const std::string& path) {
     csv.bad_line("found " + found + ", expected " + expected);
     csv.throw_problems();
   };
-  std::string header;
-  for (const auto& name : csv.header()) header += (header.empty() ? "" : ",") + name;
+  const auto header = fmt::format("{}", fmt::join(csv.header(), ","));
   if (header != final_state_header)
     fail("'" + header.substr(0, 120) + "'", std::string("'") + final_state_header + "'");
   SavedState<Real> saved;

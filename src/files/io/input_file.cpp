@@ -12,7 +12,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "base/errors.hpp"
@@ -93,10 +92,7 @@ class Spooled {
   }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  using File = std::unique_ptr<std::FILE, Close>;
+  using File = std::unique_ptr<std::FILE, decltype([](std::FILE* file) { std::fclose(file); })>;
 
   static File copied(const std::string& path) {
     const int in = open_for_reading(path);
@@ -236,9 +232,7 @@ std::string read_whole(const std::string& path, const std::string& expected) {
 
 std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace edmill::io

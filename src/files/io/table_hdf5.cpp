@@ -1,5 +1,7 @@
 #include "io/table_hdf5.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <limits>
 #include <set>
@@ -112,9 +114,7 @@ std::string hdf5_columns(const std::vector<StoredColumn>& columns, const std::ve
                          const std::vector<FileNote>& notes) {
   return hdf5_image([&](hid_t file) {
     add_notes(file, notes);
-    std::string comment;
-    for (const auto& line : comments) comment += (comment.empty() ? "" : "\n") + line;
-    if (!comment.empty()) note(file, "comment", comment);
+    if (!comments.empty()) note(file, "comment", fmt::format("{}", fmt::join(comments, "\n")));
     std::set<std::string> taken;
     for (const auto& n : notes) taken.insert(n.key);
     for (const auto& column : columns) add_column(file, dataset_name(column.what.name, taken), column);

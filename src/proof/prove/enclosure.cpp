@@ -10,20 +10,13 @@ thread_local slong Precision::current = 64;
 
 namespace {
 
-/// Owner of one of FLINT's integers.
-struct Integer {
-  fmpz_t v;
-  Integer() { fmpz_init(v); }
-  Integer(const Integer&) = delete;
-  Integer& operator=(const Integer&) = delete;
-  ~Integer() { fmpz_clear(v); }
-};
-
 Enclosure integer(const boost::multiprecision::cpp_int& value) {
-  Integer whole;
-  fmpz_set_str(whole.v, value.str().c_str(), 10);
   Enclosure result;
-  arb_set_fmpz(result.arb(), whole.v);
+  fmpz_t whole;
+  fmpz_init(whole);
+  fmpz_set_str(whole, value.str().c_str(), 10);
+  arb_set_fmpz(result.arb(), whole);
+  fmpz_clear(whole);
   return result;
 }
 
@@ -54,13 +47,9 @@ Enclosure rounded_out(const Enclosure& value, slong bits) {
   Enclosure more;
   arb_mul_2exp_si(more.arb(), radius.arb(), -20);
   arb_add(more.arb(), more.arb(), radius.arb(), ARF_PREC_EXACT);
-  arf_t ten;
-  arf_init(ten);
-  arf_set_round(ten, arb_midref(more.arb()), 10, ARF_RND_UP);
-  Integer mantissa, exponent;
-  arf_get_fmpz_2exp(mantissa.v, exponent.v, ten);
-  arf_clear(ten);
-  mag_set_ui_2exp_si(arb_radref(result.arb()), fmpz_get_ui(mantissa.v), fmpz_get_si(exponent.v));
+  const auto size = arb_midref(more.arb());
+  arf_set_round(size, size, 10, ARF_RND_UP);
+  arf_get_mag_lower(arb_radref(result.arb()), size);  // exact: a radius holds 30 bits
   return result;
 }
 

@@ -74,20 +74,11 @@ Vessel vessel_of(const Other& other) {
 }
 
 ExactLaw law_of(const casefile::ContactSpec& spec, const std::string& file) {
-  ExactLaw law;
-  law.least_separation = spec.least_separation;
-  if (const auto* walton = std::get_if<model::WaltonBraun<Quantity>>(&spec.law)) {
-    law.restitution = walton->normal;
-    law.friction = walton->friction;
-    law.tangential = walton->min_tangential;
-    return law;
-  }
-  if (const auto* constant = std::get_if<model::ConstantRestitution<Quantity>>(&spec.law)) {
-    law.coulomb = false;
-    law.restitution = constant->normal;
-    law.tangential = constant->tangential;
-    return law;
-  }
+  const auto& v_s = spec.least_separation;
+  if (const auto* walton = std::get_if<model::WaltonBraun<Quantity>>(&spec.law))
+    return {true, walton->normal, walton->min_tangential, walton->friction, v_s};
+  if (const auto* constant = std::get_if<model::ConstantRestitution<Quantity>>(&spec.law))
+    return {false, constant->normal, constant->tangential, Quantity(), v_s};
   throw InputError(file + ": key 'contact.model': found \"" + spec.name() +
                    "\", expected \"walton-braun\" or \"constant\": `prove` knows no others");
 }

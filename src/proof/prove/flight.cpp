@@ -2,6 +2,16 @@
 
 namespace edmill::prove {
 
+Vector turned(const Matrix& m, const Vector& v) {
+  const auto row = [&](int k) { return m(k, 0) * v[0] + m(k, 1) * v[1] + m(k, 2) * v[2]; };
+  return {row(0), row(1), row(2)};
+}
+
+Vector turned_back(const Matrix& m, const Vector& v) {
+  const auto column = [&](int k) { return m(0, k) * v[0] + m(1, k) * v[1] + m(2, k) * v[2]; };
+  return {column(0), column(1), column(2)};
+}
+
 namespace {
 
 /// Rotation about the unit vector e: E_kk = e_k^2 + cos (1 - e_k^2), E_kl = e_k e_l (1 - cos) -/+ e_m sin.
@@ -18,14 +28,6 @@ Matrix rotation(const Vector& e, const SinCos& angle) {
   return result;
 }
 
-Vector turned(const Matrix& m, const Vector& v) {
-  const auto row = [&](int k) { return m(k, 0) * v[0] + m(k, 1) * v[1] + m(k, 2) * v[2]; };
-  return {row(0), row(1), row(2)};
-}
-Vector turned_back(const Matrix& m, const Vector& v) {
-  const auto column = [&](int k) { return m(0, k) * v[0] + m(1, k) * v[1] + m(2, k) * v[2]; };
-  return {column(0), column(1), column(2)};
-}
 Matrix product(const Matrix& a, const Matrix& b) {
   Matrix result;
   for (int k = 0; k < 3; ++k)
@@ -116,14 +118,6 @@ InVessel Motion::in_vessel(const Pose& p, const Vector& position, const Vector& 
                        cross<Enclosure>(p.omega, carried) +
                        cross<Enclosure>(p.omega, Vector(u * Enclosure(2)));
   return {turned_back(p.axes, d), turned_back(p.axes, u), turned_back(p.axes, gravity - frame)};
-}
-
-Vector Motion::place_in_vessel(const Pose& pose, const Vector& position) {
-  return turned_back(pose.axes, position - pose.centre);
-}
-
-Vector Motion::direction_to_inertial(const Pose& pose, const Vector& direction) {
-  return turned(pose.axes, direction);
 }
 
 Flight rounded(const Flight& flight, slong bits) {

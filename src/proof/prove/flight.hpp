@@ -19,6 +19,10 @@ struct Pose {
   Vector omega, omega_rate;               ///< [rad/s], [rad/s^2]
 };
 
+Vector turned(const Matrix& m, const Vector& v);
+/// By the transposed matrix.
+Vector turned_back(const Matrix& m, const Vector& v);
+
 /// Place, velocity and acceleration of a ball in the vessel frame.
 struct InVessel {
   Vector place, velocity, acceleration;
@@ -34,11 +38,6 @@ class Motion {
   /// @param position, velocity, gravity  inertial, of a ball in flight
   static InVessel in_vessel(const Pose& pose, const Vector& position, const Vector& velocity,
                             const Vector& gravity);
-  static Vector place_in_vessel(const Pose& pose, const Vector& position);
-  static Vector direction_to_inertial(const Pose& pose, const Vector& direction);
-  static Vector to_inertial(const Pose& pose, const Vector& place) {
-    return pose.centre + direction_to_inertial(pose, place);
-  }
 
  private:
   struct Joint {

@@ -88,20 +88,10 @@ Impulse impulse(const Law& law, const Vector& normal, const Vector& contact, con
 
 auto Prover::tools(const ExactCase& exact, slong bits) -> Tools {
   const Precision scope(bits);
-  Tools result{.bits = bits,
-               .motion = Motion(exact),
-               .gravity = enclosure_of(exact.gravity),
-               .walls = {},
-               .radius = {},
-               .density = {},
-               .inertia = {},
-               .laws = {}};
-  for (const auto& ball : exact.balls) {
-    result.walls.emplace_back(exact, ball);
-    result.radius.push_back(enclosure_of(ball.radius));
-    result.density.push_back(enclosure_of(ball.density));
-    result.inertia.push_back(enclosure_of(ball.reduced_inertia));
-  }
+  Tools result{bits, Motion(exact), enclosure_of(exact.gravity), {}, {}};
+  for (const auto& ball : exact.balls)
+    result.balls.push_back({Walls(exact, ball), enclosure_of(ball.radius), enclosure_of(ball.density),
+                            enclosure_of(ball.reduced_inertia)});
   for (const auto& law : exact.laws)
     result.laws.push_back({law.coulomb, enclosure_of(law.restitution), enclosure_of(law.tangential),
                            enclosure_of(law.friction), enclosure_of(law.least_separation)});
@@ -114,7 +104,7 @@ Prover::Prover(const ExactCase& exact, slong bits)
   const Pose pose = fine_.motion.pose(Enclosure());
   for (const auto& ball : exact.balls) {
     Vector position = enclosure_of(ball.position);
-    if (ball.in_vessel) position = Motion::to_inertial(pose, position);
+    if (ball.in_vessel) position = pose.centre + turned(pose.axes, position);
     Track track;
     track.flight = {Enclosure(), blurred(position, bits, false),
                     blurred(enclosure_of(ball.velocity), bits, true),
@@ -140,7 +130,7 @@ Gap Prover::gap_at(const Meeting& next, const Enclosure& time) const {
   if (next.with_wall) {
     const auto seen = Motion::in_vessel(fine_.motion.pose(time), one.position_at(time, fine_.gravity),
                                         one.velocity_at(time, fine_.gravity), fine_.gravity);
-    return fine_.walls[next.ball].gap(next.partner, seen);
+    return fine_.balls[next.ball].walls.gap(next.partner, seen);
   }
   const Flight& two = tracks_[next.partner].flight;
   // The motion against each other is uniform: from the middle of a bracket without gravity.
@@ -149,7 +139,7 @@ Gap Prover::gap_at(const Meeting& next, const Enclosure& time) const {
   PairGap pair{one.position_at(middle, fine_.gravity) - two.position_at(middle, fine_.gravity) +
                    relative * Enclosure(time - middle),
                relative, Enclosure()};
-  const Enclosure reach = fine_.radius[next.ball] + fine_.radius[next.partner];
+  const Enclosure reach = fine_.balls[next.ball].radius + fine_.balls[next.partner].radius;
   pair.square = reach * reach;
   return {pair.value(), 2 * pair.half_rate(), 2 * squared_norm<Enclosure>(pair.relative)};
 }
@@ -193,8 +183,8 @@ std::vector<std::string> Prover::exclude_walls(int ball, const Enclosure& end, i
   const Track& track = tracks_[ball];
   const Span quick{track.coarse, track.begin, end, track.wall, end_wall};
   const Span exact{track.flight, track.begin, end, track.wall, end_wall};
-  WallExclusion first(coarse_.motion, coarse_.walls[ball], coarse_.gravity, quick),
-      second(fine_.motion, fine_.walls[ball], fine_.gravity, exact);
+  WallExclusion first(coarse_.motion, coarse_.balls[ball].walls, coarse_.gravity, quick),
+      second(fine_.motion, fine_.balls[ball].walls, fine_.gravity, exact);
   std::vector<std::string> texts;
   for (std::size_t wall = 0; wall < exact_.walls.size(); ++wall) {
     {
@@ -218,16 +208,13 @@ void Prover::exclude_balls(int ball, int partner, const Enclosure& end, long thr
     // Balls that have just left each other: their distance grows for ever.
     if (track.with == k && other.with == ball && track.event == other.event) continue;
     const Enclosure& begin = track.event > other.event ? track.begin : other.begin;
-    bool proven;
-    {
-      const Precision scope(coarse_.bits);
-      proven = apart(track.coarse, other.coarse, coarse_.radius[ball] + coarse_.radius[k], coarse_.gravity,
-                     begin, end);
-    }
-    if (!proven)
-      proven =
-          apart(track.flight, other.flight, fine_.radius[ball] + fine_.radius[k], fine_.gravity, begin, end);
-    if (!proven) throw Undecided{fmt::format("whether balls {} and {} meet before", ball, k)};
+    const auto proven_in = [&](const Tools& tools, Flight Track::*flight) {
+      const Precision scope(tools.bits);
+      return apart(track.*flight, other.*flight, tools.balls[ball].radius + tools.balls[k].radius,
+                   tools.gravity, begin, end);
+    };
+    if (!proven_in(coarse_, &Track::coarse) && !proven_in(fine_, &Track::flight))
+      throw Undecided{fmt::format("whether balls {} and {} meet before", ball, k)};
   }
 }
 
@@ -244,23 +231,24 @@ bool Prover::friction_rests(int ball, const Law& law, const Enclosure& time) {
 ProvenEvent Prover::impact_on_wall(const Meeting& next, const Enclosure& time) {
   const int own = next.ball, wall = next.partner;
   const Flight& flight = tracks_[own].flight;
+  const Tools::Ball& ball = fine_.balls[own];
   const Enclosure middle = time.middle(), d = time - middle;
   const Vector position = flight.position_at(middle, fine_.gravity),
                velocity = flight.velocity_at(middle, fine_.gravity);
   const Vector fast = velocity + fine_.gravity * d;
   const Pose pose = fine_.motion.pose(time);
   const auto seen = Motion::in_vessel(pose, position + fast * d, fast, fine_.gravity);
-  const Vector place = Motion::place_in_vessel(fine_.motion.pose(middle), position) + seen.velocity * d;
-  const Vector inward = fine_.walls[own].normal(wall, place);
-  const Vector normal = Motion::direction_to_inertial(pose, inward);
-  const Vector arm = Motion::direction_to_inertial(pose, place - inward * fine_.radius[own]);
+  const Pose pose_at_middle = fine_.motion.pose(middle);
+  const Vector place = turned_back(pose_at_middle.axes, position - pose_at_middle.centre) + seen.velocity * d;
+  const Vector inward = ball.walls.normal(wall, place);
+  const Vector normal = turned(pose.axes, inward);
+  const Vector arm = turned(pose.axes, place - inward * ball.radius);
   const Vector wall_velocity = pose.velocity + cross<Enclosure>(pose.omega, arm);
-  const Vector contact = fast - wall_velocity - cross<Enclosure>(flight.spin * fine_.radius[own], normal);
-  const Enclosure& inertia = fine_.inertia[own];
+  const Vector contact = fast - wall_velocity - cross<Enclosure>(flight.spin * ball.radius, normal);
   const Law& law = fine_.laws[exact_.law_of_walls[own][wall]];
-  const auto hit = impulse(law, normal, contact, 1 + 1 / inertia, friction_rests(own, law, time));
+  const auto hit = impulse(law, normal, contact, 1 + 1 / ball.inertia, friction_rests(own, law, time));
   const Flight after{middle, position - hit.push * d, velocity + hit.push,
-                     flight.spin + hit.turn * Enclosure(1 / (fine_.radius[own] * inertia))};
+                     flight.spin + hit.turn * Enclosure(1 / (ball.radius * ball.inertia))};
   return {{next.ball, true, next.partner, time}, hit.approach_speed, hit.slip_speed, {after}, {}};
 }
 
@@ -272,21 +260,22 @@ ProvenEvent Prover::impact_of_balls(const Meeting& next, const Enclosure& time) 
   const Vector position[2] = {one.position_at(middle, g), two.position_at(middle, g)};
   const Vector velocity[2] = {one.velocity_at(middle, g), two.velocity_at(middle, g)};
   const Vector relative = velocity[0] - velocity[1];
-  const Enclosure &R_i = fine_.radius[i], &R_j = fine_.radius[j];
+  const Tools::Ball &ball = fine_.balls[i], &partner = fine_.balls[j];
+  const Enclosure &R_i = ball.radius, &R_j = partner.radius, &J_i = ball.inertia, &J_j = partner.inertia;
   const Vector normal = (position[0] - position[1] + relative * d) / Enclosure(R_i + R_j);
   // Masses without 4/3 pi: only their ratios count.
-  const Enclosure m_i = fine_.density[i] * (R_i * R_i * R_i), m_j = fine_.density[j] * (R_j * R_j * R_j);
+  const Enclosure m_i = ball.density * (R_i * R_i * R_i), m_j = partner.density * (R_j * R_j * R_j);
   const Enclosure share_i = m_j / (m_i + m_j), share_j = m_i / (m_i + m_j);
-  const Enclosure compliance = 1 + share_i / fine_.inertia[i] + share_j / fine_.inertia[j];
+  const Enclosure compliance = 1 + share_i / J_i + share_j / J_j;
   const Vector contact = relative - cross<Enclosure>(one.spin * R_i + two.spin * R_j, normal);
   const Law& law = fine_.laws[exact_.law_of_balls[i][j]];
   const bool rests_for_i = friction_rests(i, law, time), rests_for_j = friction_rests(j, law, time);
   const auto hit = impulse(law, normal, contact, compliance, rests_for_i || rests_for_j);
   const Vector push_i = hit.push * share_i, push_j = hit.push * share_j;
   const Flight after_i{middle, position[0] - push_i * d, velocity[0] + push_i,
-                       one.spin + hit.turn * Enclosure(share_i / (R_i * fine_.inertia[i]))};
+                       one.spin + hit.turn * Enclosure(share_i / (R_i * J_i))};
   const Flight after_j{middle, position[1] + push_j * d, velocity[1] - push_j,
-                       two.spin + hit.turn * Enclosure(share_j / (R_j * fine_.inertia[j]))};
+                       two.spin + hit.turn * Enclosure(share_j / (R_j * J_j))};
   return {{next.ball, false, next.partner, time}, hit.approach_speed, hit.slip_speed, {after_i, after_j}, {}};
 }
 

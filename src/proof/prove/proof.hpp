@@ -53,11 +53,14 @@ class Prover {
  private:
   /// What arithmetic at one precision needs.
   struct Tools {
+    struct Ball {
+      Walls walls;
+      Enclosure radius, density, inertia;
+    };
     slong bits;
     Motion motion;
     Vector gravity;
-    std::vector<Walls> walls;
-    std::vector<Enclosure> radius, density, inertia;
+    std::vector<Ball> balls;
     std::vector<Law> laws;
   };
   struct Track {

@@ -76,12 +76,11 @@ class LyapunovOutput : public TableOutput<Real> {
     const auto& impact = f.impact;
     if (!spectrum_)
       make_spectrum(simulation, in_double(simulation.clock().after(impact.time, -impact.flight_time[0])));
-    const tangent::ImpactAt<double> at{in_double(impact.time), vector_cast<double>(impact.normal),
-                                       static_cast<double>(impact.outcome.approach_speed),
-                                       impact.outcome.in_stall};
+    const tangent::ImpactAt at{in_double(impact.time), vector_cast<double>(impact.normal),
+                               static_cast<double>(impact.outcome.approach_speed), impact.outcome.in_stall};
     const auto body = [&](int place, int ball) {
       const auto& flight = simulation.flight(ball);
-      return tangent::Spectrum::Body{
+      return tangent::Struck{
           ball, vector_cast<double>(flight.position), vector_cast<double>(impact.velocity_before[place]),
           vector_cast<double>(impact.spin_before[place]), vector_cast<double>(flight.velocity)};
     };
@@ -155,13 +154,13 @@ class LyapunovOutput : public TableOutput<Real> {
   }
 
   void make_spectrum(const engine::Simulation<Real>& simulation, const Instant<double>& start) {
-    tangent::Spectrum::Balls balls;
+    tangent::Balls balls;
     for (int k = 0; k < simulation.ball_count(); ++k) {
       const auto& p = simulation.properties(k);
       balls.push_back({static_cast<double>(p.radius), static_cast<double>(p.mass),
                        static_cast<double>(p.reduced_inertia), p.material});
     }
-    spectrum_.emplace(model::mill_cast<double>(simulation.mill()), std::move(balls), start,
+    spectrum_.emplace(model::mill_cast<double>(simulation.mill()), balls, start,
                       static_cast<std::size_t>(wanted_));
     if (!saved_.tangents.empty()) spectrum_->restore(saved_);
   }

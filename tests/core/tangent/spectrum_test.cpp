@@ -96,7 +96,7 @@ TEST(Spectrum, PairsInAnElasticSmoothGas) {
   const auto built = casefile::build_case<double>(spec);
   const std::size_t balls = built.states.size();
   engine::Simulation<double> simulation(built.the_case, built.states, built.start);
-  const TangentMap map(built.the_case.mill);
+  const TangentMap map(built.the_case.mill, built.the_case.balls);
   const auto places = static_cast<Eigen::Index>(3 * balls);
   // Each ball's derivative in all directions; lengths in centimetres and times so that factors are of one
   // size.
@@ -115,17 +115,13 @@ TEST(Spectrum, PairsInAnElasticSmoothGas) {
   };
   Instant<double> last = built.start;
   TangentObserver observer(30, [&](const auto& at, const auto& bodies, const auto& impact) {
-    const auto struck = [&](int place) {
-      const auto& b = bodies[place];
-      fly(b.ball, at.time);
-      return Struck<double>{simulation.properties(b.ball), b.position, b.velocity, b.spin, b.velocity_after};
-    };
     auto& of_one = tangents[static_cast<std::size_t>(impact.ball)];
+    fly(impact.ball, at.time);
     if (impact.with_wall) {
-      map.with_wall(at, impact.partner, struck(0), of_one);
+      map.with_wall(at, impact.partner, bodies[0], of_one);
     } else {
-      const auto one = struck(0), two = struck(1);
-      map.of_pair(at, one, two, of_one, tangents[static_cast<std::size_t>(impact.partner)]);
+      fly(impact.partner, at.time);
+      map.of_pair(at, bodies[0], bodies[1], of_one, tangents[static_cast<std::size_t>(impact.partner)]);
     }
     last = at.time;
   });

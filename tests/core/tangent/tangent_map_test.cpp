@@ -19,7 +19,7 @@ std::vector<std::vector<double>> by_dual_numbers(const casefile::CaseSpec& spec,
                                                  const Start& start) {
   const auto built = casefile::build_case<double>(spec);
   engine::Simulation<double> simulation(built.the_case, built.states, built.start);
-  const TangentMap map(built.the_case.mill);
+  const TangentMap map(built.the_case.mill, built.the_case.balls);
   const DriveClock<double>& clock = simulation.clock();
   std::vector<Tangent<double>> tangents(built.states.size());
   std::vector<Instant<double>> since(built.states.size(), built.start);
@@ -33,19 +33,15 @@ std::vector<std::vector<double>> by_dual_numbers(const casefile::CaseSpec& spec,
     const auto of = [&](int place) -> Tangent<double>& {
       return tangents[static_cast<std::size_t>(bodies[place].ball)];
     };
-    const auto struck = [&](int place) {
-      const auto& b = bodies[place];
-      return Struck<double>{simulation.properties(b.ball), b.position, b.velocity, b.spin, b.velocity_after};
-    };
     for (int place = 0; place < (impact.with_wall ? 1 : 2); ++place) {
       auto& when = since[static_cast<std::size_t>(bodies[place].ball)];
       of(place).fly(clock.elapsed(when, at.time));
       when = at.time;
     }
     if (impact.with_wall)
-      map.with_wall(at, impact.partner, struck(0), {&of(0), 1});
+      map.with_wall(at, impact.partner, bodies[0], {&of(0), 1});
     else
-      map.of_pair(at, struck(0), struck(1), {&of(0), 1}, {&of(1), 1});
+      map.of_pair(at, bodies[0], bodies[1], {&of(0), 1}, {&of(1), 1});
     auto& row = rows.emplace_back();
     const bool turned = !impact.with_wall && impact.partner < impact.ball;
     for (int place = turned ? 1 : 0, left = impact.with_wall ? 1 : 2; left > 0; place = 1 - place, --left)

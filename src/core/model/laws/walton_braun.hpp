@@ -62,8 +62,7 @@ struct WaltonBraun {
 
   static void parameters(auto& law, auto&& visit) {
     visit(Parameter{"restitution", Dimension::none, "e_n", {0, 1}}, law.normal);
-    visit(Parameter{"friction", Dimension::none, "mu", {0, 1000000}}, law.friction);
-    visit(Parameter{"min_tangential", Dimension::none, "least e_t", {-1, 1}, "-1"}, law.min_tangential);
+    CoulombSlip<Number>::parameters(law, visit);
   }
 
   const Number& restitution(const Number&) const { return normal; }

@@ -229,20 +229,18 @@ class ChainMotion {
         bounds_(joints_, ChainBounds<Real>::Speeds::summed),
         terms_(joints_, ChainBounds<Real>::Speeds::apart) {
     for (const auto& joint : joints_.list) {
-      Step step{.rotates = joint.rotates,
-                .axis = ChainBounds<Real>::direction(joint),
-                .aligned = joint.rotates ? aligned(joint.axis) : -1,
-                .shift = {joint.shift[0], joint.shift[1], joint.shift[2]},
-                .angle = joint.angle,
-                .drive = {},
-                .slide = {},
-                .swings = {}};
+      const bool drives = joint.rotates && !(joint.speed == 0);
       const Real turn = 2 * numerics::pi<Real>();
-      if (joint.rotates && !(joint.speed == 0))
-        step.drive = Drive<Real>{joint.speed, turn * joint.speed, joint.per_period};
-      if (!joint.rotates) step.slide = joint.speed;
-      step.swings = Swings<Real>(joint.swings);
-      step.fixed = numerics::sin_cos_turns<Real>(step.angle);
+      Step step{
+          .rotates = joint.rotates,
+          .axis = ChainBounds<Real>::direction(joint),
+          .aligned = joint.rotates ? aligned(joint.axis) : -1,
+          .shift = {joint.shift[0], joint.shift[1], joint.shift[2]},
+          .angle = joint.angle,
+          .drive = drives ? Drive<Real>{joint.speed, turn * joint.speed, joint.per_period} : Drive<Real>{},
+          .slide = joint.rotates ? Real(0) : joint.speed,
+          .swings = Swings<Real>(joint.swings),
+          .fixed = numerics::sin_cos_turns<Real>(joint.angle)};
       step.moves = joint.speed != 0 || !step.swings.empty();
       steps_.push_back(std::move(step));
     }
@@ -401,14 +399,7 @@ class ChainMotion {
   template <bool with_rates>
   Pose made(const Instant<Real>& when) const {
     const Vec3<Real> zero = Vec3<Real>::Zero();
-    Pose p{.x = Vec3<Real>::UnitX(),
-           .y = Vec3<Real>::UnitY(),
-           .z = Vec3<Real>::UnitZ(),
-           .centre = zero,
-           .velocity = zero,
-           .acceleration = zero,
-           .omega = zero,
-           .omega_rate = zero};
+    Pose p{Vec3<Real>::UnitX(), Vec3<Real>::UnitY(), Vec3<Real>::UnitZ(), zero, zero, zero, zero, zero};
     for (const auto& step : steps_) {
       if (step.rotates)
         rotate<with_rates>(p, step, when);

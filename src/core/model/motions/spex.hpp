@@ -188,17 +188,15 @@ class SpexMotion {
   Vec3<Real> wall_acceleration(const Pose& pose, const Vec3<Real>& point) const {
     const Vec3<Real> centre{-pose.sin_alpha * arm_, pose.cos_alpha * arm_, Real(0)};
     const Vec3<Real> about_z{Real(0), Real(0), pose.theta_rate};
+    const Vec3<Real> about_z_rate{Real(0), Real(0), pose.theta_acceleration};
     const Vec3<Real> omega = angular_velocity(pose);
     const Vec3<Real> axis = axis_x(pose);
     // d/dt omega: the arm axis itself turns about Z.
     const Vec3<Real> about_arm = axis * pose.gamma_rate;
-    const Vec3<Real> omega_rate = Vec3<Real>(Real(0), Real(0), pose.theta_acceleration) +
-                                  Vec3<Real>(axis * pose.gamma_acceleration) +
-                                  cross<Real>(about_z, about_arm);
-    const Vec3<Real> centre_velocity = cross<Real>(about_z, centre);
+    const Vec3<Real> omega_rate =
+        about_z_rate + Vec3<Real>(axis * pose.gamma_acceleration) + cross<Real>(about_z, about_arm);
     const Vec3<Real> centre_acceleration =
-        cross<Real>(Vec3<Real>(Real(0), Real(0), pose.theta_acceleration), centre) +
-        cross<Real>(about_z, centre_velocity);
+        cross<Real>(about_z_rate, centre) + cross<Real>(about_z, cross<Real>(about_z, centre));
     const Vec3<Real> d = point - centre;
     const Vec3<Real> turning = cross<Real>(omega, d);
     return centre_acceleration + cross<Real>(omega_rate, d) + cross<Real>(omega, turning);

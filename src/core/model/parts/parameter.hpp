@@ -62,28 +62,23 @@ struct Parameter {
                       Digest use = Digest::value)
       : Parameter(name, Dimension::none, text, values, usual, else_true, use) {}
 
-  constexpr Parameter as(const char* kind_for_readers) const {
+  /// With another value of a member.
+  template <class Value>
+  constexpr Parameter with(Value Parameter::*member, Value value) const {
     Parameter p = *this;
-    p.kind = kind_for_readers;
+    p.*member = value;
     return p;
+  }
+  constexpr Parameter as(const char* kind_for_readers) const {
+    return with(&Parameter::kind, kind_for_readers);
   }
   /// @param default_for_readers  what is true without the key
   constexpr Parameter usually(const char* default_for_readers) const {
-    Parameter p = *this;
-    p.otherwise = default_for_readers;
-    return p;
+    return with(&Parameter::otherwise, default_for_readers);
   }
-  constexpr Parameter only_of(const char* types) const {
-    Parameter p = *this;
-    p.of = types;
-    return p;
-  }
+  constexpr Parameter only_of(const char* types) const { return with(&Parameter::of, types); }
   /// Not part of the digest.
-  constexpr Parameter undigested() const {
-    Parameter p = *this;
-    p.digest = Digest::none;
-    return p;
-  }
+  constexpr Parameter undigested() const { return with(&Parameter::digest, Digest::none); }
 };
 
 /// Calls use(number) with a number, or with each of three.

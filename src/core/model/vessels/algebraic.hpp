@@ -144,7 +144,7 @@ class AlgebraicVessel {
     return !is_empty() && has_room(p, radius_);
   }
   std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    const Vec3<Real> half = half_sizes(), p{drawn[0] * half[0], drawn[1] * half[1], drawn[2] * half[2]};
+    const Vec3<Real> p = drawn.cwiseProduct(half_sizes());
     return contains(p) ? std::optional<Vec3<Real>>(p) : std::nullopt;
   }
 

@@ -57,7 +57,7 @@ struct BoxVessel {
     return inside;
   }
   std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    return Vec3<Real>{drawn[0] * half[0], drawn[1] * half[1], drawn[2] * half[2]};
+    return Vec3<Real>(drawn.cwiseProduct(half));
   }
 
   PerWall<Real> gaps(const Vec3<Real>& p) const {

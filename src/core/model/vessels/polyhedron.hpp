@@ -96,7 +96,7 @@ class PolyhedronVessel {
     return inside;
   }
   std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    const Vec3<Real> p{drawn[0] * half_sizes_[0], drawn[1] * half_sizes_[1], drawn[2] * half_sizes_[2]};
+    const Vec3<Real> p = drawn.cwiseProduct(half_sizes_);
     return contains(p) ? std::optional<Vec3<Real>>(p) : std::nullopt;
   }
 

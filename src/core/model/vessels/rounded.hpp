@@ -109,8 +109,7 @@ class RoundedVessel {
     return squared_norm<Real>(d) <= rounding_ * rounding_;
   }
   std::optional<Vec3<Real>> place(const Vec3<Real>& drawn) const {
-    const Vec3<Real> sizes = half_sizes();
-    const Vec3<Real> p{drawn[0] * sizes[0], drawn[1] * sizes[1], drawn[2] * sizes[2]};
+    const Vec3<Real> p = drawn.cwiseProduct(half_sizes());
     return contains(p) ? std::optional<Vec3<Real>>(p) : std::nullopt;
   }
 
