@@ -17,17 +17,6 @@ namespace edmill::output {
 struct LyapunovKeys {
   std::uint64_t exponents = 1;
 
-  static void keys(auto& t, auto&& row) {
-    row(
-        casefile::Parameter{
-            "exponents", Dimension::none,
-            "how many, the largest first; of N balls there are 9 N, and more than that are all of them",
-            casefile::Range(1, 9000), "1"},
-        t.exponents);
-  }
-};
-
-struct LyapunovOutputKeys {
   static void keys(auto& output, auto&& row) {
     row(
         casefile::Parameter{
@@ -38,7 +27,12 @@ struct LyapunovOutputKeys {
             .usually("the whole record"),
         output.timer.interval);
     row(casefile::max_rows_key(), output.timer.max_rows);
-    LyapunovKeys::keys(output.template make_own<LyapunovKeys>(), row);
+    row(
+        casefile::Parameter{
+            "exponents", Dimension::none,
+            "how many, the largest first; of N balls there are 9 N, and more than that are all of them",
+            casefile::Range(1, 9000), "1"},
+        output.template make_own<LyapunovKeys>().exponents);
   }
   static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
     s.require(output.only.empty(), "only", "none: exponents belong to the whole motion");

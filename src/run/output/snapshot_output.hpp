@@ -33,7 +33,7 @@ class SnapshotOutput : public SceneOutput<Real> {
   void archive_record(Archive& a) override { a(pages_); }
   void record(const ImpactFacts<Real>& f) override {
     const Real& time = f.time;
-    Scene s = this->scene(f.simulation, time, [&](int i) { return f.state_before(i, time); });
+    Scene s = this->scene({f, time});
     if (this->spec.contact_point) s.contact = this->contact_at(f.contact_point);
     look_at(this->walls(), frames_around(f.simulation.mill().motion, static_cast<double>(time)), s);
     pages_.emplace_back(f.impact.index, x3d_text(s));

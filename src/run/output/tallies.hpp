@@ -131,11 +131,11 @@ using PartnerTally = std::vector<Tally<Real>>;
 
 /// Calls `put` with the value of each partner and with their total.
 /// @param value_of  of what the list has for a partner
-template <class Value, class List, class ValueOf, class Put>
-void put_partners(const List& list, ValueOf&& value_of, Put&& put) {
-  Value total{0};
+template <class Real>
+void put_partners(const PartnerTally<Real>& list, auto&& put, auto&& value_of) {
+  decltype(value_of(list.front())) total{0};
   for (const auto& partner : list) {
-    const Value value = value_of(partner);
+    const auto value = value_of(partner);
     put(value);
     total += value;
   }
