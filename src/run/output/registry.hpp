@@ -25,14 +25,9 @@
 
 namespace edmill::output {
 
-/// How a type of output is read from a case, and, in any scalar, made.
+/// How a type of output is read from a case, and what makes it in any scalar.
 template <template <class> class Type>
-struct OutputRow : casefile::OutputType {
-  template <class Real>
-  std::unique_ptr<Output<Real>> make(const casefile::OutputSpec& spec, const RunContext<Real>& run) const {
-    return std::make_unique<Type<Real>>(spec, run);
-  }
-};
+struct OutputRow : casefile::OutputType {};
 
 /// @tparam Keys  those that only this type has
 template <template <class> class Type, class Keys = casefile::NoKeys>
@@ -87,8 +82,8 @@ inline constexpr std::tuple output_registry{
 template <class Real>
 std::unique_ptr<Output<Real>> make_output(const casefile::OutputSpec& spec, const RunContext<Real>& run) {
   std::unique_ptr<Output<Real>> made;
-  const auto try_row = [&](const auto& row) {
-    if (row.name == spec.type) made = row.template make<Real>(spec, run);
+  const auto try_row = [&]<template <class> class Type>(const OutputRow<Type>& row) {
+    if (row.name == spec.type) made = std::make_unique<Type<Real>>(spec, run);
   };
   std::apply([&](const auto&... row) { (try_row(row), ...); }, output_registry);
   EDMILL_REQUIRE(made != nullptr, "the registry has the type of an output");
