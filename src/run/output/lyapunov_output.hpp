@@ -98,10 +98,8 @@ class LyapunovOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
-    if (begun_ && !ended_) {
-      if (!spectrum_) make_spectrum(simulation, in_double(simulation.now()));
-      end_record(simulation, until);
-    }
+    if (begun_ && !spectrum_) make_spectrum(simulation, in_double(simulation.now()));
+    if (begun_ && !ended_) end_record(simulation, until);
     if (!this->spec.timer.interval) put_exponents(simulation, until);
   }
 
@@ -122,7 +120,6 @@ class LyapunovOutput : public TableOutput<Real> {
                   "decimal digits that an impact of the run costs in this direction"}},
                 std::move(comments));
     if (!(duration > 0)) return;
-    if (!spectrum_) make_spectrum(simulation, in_double(simulation.now()));
     const double per_ball =
         static_cast<double>(of_balls_) / static_cast<double>(this->run.ball_colours.size());
     const double share = duration / static_cast<double>(until - this->timer().from());  // of the impacts

@@ -41,7 +41,7 @@ class StatisticsOutput : public TableOutput<Real> {
                                 {"statistic", text, "", "which statistic of it"},
                                 {"unit", text, "", "of the numbers in the row"}};
     const auto groups = groups_of(partners, true);
-    for (const auto& group : groups) columns.push_back({group.column.name, number, "", group.column.meaning});
+    for (const auto& group : groups) columns.push_back({group.column.key, number, "", group.column.meaning});
     this->begin(std::move(columns), {this->window(until) + "; " + std::to_string(simulation.ball_count()) +
                                      " balls, " + std::to_string(partners.walls()) + " walls"});
     for (std::size_t c = 0; c < gathered_.size(); ++c) {
