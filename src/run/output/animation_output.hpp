@@ -6,7 +6,6 @@
 
 #include "base/errors.hpp"
 #include "casefile/output_entry.hpp"
-#include "io/atomic_file.hpp"
 #include "output/scene_output.hpp"
 
 namespace edmill::output {
@@ -23,11 +22,7 @@ template <class Real>
 class AnimationOutput : public FramesOutput<Real> {
  public:
   AnimationOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
-      : FramesOutput<Real>(spec, run, frames_of(spec.animation)), file_(this->place()) {}
-
-  void complete() override { file_.complete(); }
-  void commit() override { file_.commit(); }
-  std::vector<std::filesystem::path> places() const override { return file_.places(); }
+      : FramesOutput<Real>(spec, run, frames_of(spec.animation)) {}
 
  protected:
   void before(const ImpactFacts<Real>& f) override {
@@ -52,7 +47,7 @@ class AnimationOutput : public FramesOutput<Real> {
   }
   void archive_record(Archive& a) override {
     FramesOutput<Real>::archive_record(a);
-    a(file_, first_, paths_, frames_);
+    a(first_, paths_, frames_);
     const auto balls = this->run.ball_colours.size();
     if (first_ ? first_->balls.size() != balls || paths_.balls.size() != balls : !paths_.balls.empty())
       throw InputError("found a saved animation of other balls");
@@ -66,13 +61,12 @@ class AnimationOutput : public FramesOutput<Real> {
     return timer;
   }
 
-  void add_frame(const engine::Simulation<Real>& simulation, const Real& time,
-                 const StateOf<Real>& state_of) override {
+  void add_frame(const Moment<Real>& at) override {
     if (!first_) {
-      first_ = this->scene(simulation, time, state_of);
+      first_ = this->scene(at);
       paths_.balls.resize(first_->balls.size());
     }
-    for (int i = 0; i < simulation.ball_count(); ++i) add_key(i, time, state_of(i).position);
+    for (int i = 0; i < at.simulation.ball_count(); ++i) add_key(i, at.time, at.state_of(i).position);
     ++frames_;
   }
   void add_key(int ball, const Real& time, const Vec3<Real>& place) {
@@ -116,10 +110,9 @@ class AnimationOutput : public FramesOutput<Real> {
     for (const auto& [key, frame] : paths_.vessel) frames.push_back(frame);
     look_at(this->walls(), frames, *first_);
     paths_.duration = length / this->spec.animation.speed.template to<double>();
-    file_.stream() << x3d_text(*first_, &paths_);
+    this->file_.stream() << x3d_text(*first_, &paths_);
   }
 
-  io::AtomicFile file_;
   std::optional<Scene> first_;
   SceneMotion paths_{};
   std::uint64_t frames_ = 0;

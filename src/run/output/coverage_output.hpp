@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "casefile/output_entry.hpp"
@@ -24,16 +25,7 @@ struct CoverageKeys {
   }
 
   std::size_t parts_of(model::Coordinate c) const {
-    switch (c) {
-      case model::Coordinate::angle:
-        return angles;
-      case model::Coordinate::height:
-        return heights;
-      case model::Coordinate::radius:
-        return rings;
-      default:
-        return parts;
-    }
+    return std::array{angles, heights, rings, parts, parts}[static_cast<std::size_t>(c)];
   }
 };
 

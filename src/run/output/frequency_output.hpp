@@ -74,9 +74,9 @@ class FrequencyOutput : public TableOutput<Real> {
         {"lower", number, "", "lower end, in the interval"},
         {"upper", number, "", "upper end, not in the interval"},
         {"mean", number, "", "middle of the interval"}};
-    for (const auto& part : parts_) columns.push_back({part.column.name, integer, "", part.column.meaning});
+    for (const auto& part : parts_) columns.push_back({part.column.key, integer, "", part.column.meaning});
     if (asked().percentages)
-      for (const auto& part : parts_) columns.push_back({part.column.name + "_percentage", number});
+      for (const auto& part : parts_) columns.push_back({part.column.key + "_percentage", number});
     std::vector<std::string> comments;
     if (!asked().title.empty()) comments.push_back(asked().title);
     comments.push_back(name_of(asked().variable, variable.name) + " [" + std::string(variable.unit) +

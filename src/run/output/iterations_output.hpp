@@ -16,8 +16,8 @@ class IterationsOutput : public TableOutput<Real> {
     for (const auto& v : model::impact_variables) {
       std::string meaning(v.meaning);
       // Files of all versions describe these two like the columns of that name in other tables.
-      for (const auto& column : {walls_column, column_of(partners[partners.ball_ball()])})
-        if (v.name == column.name) meaning = column.meaning;
+      for (const auto& column : {walls_column, partners[partners.ball_ball()]})
+        if (v.name == column.key) meaning = column.meaning;
       columns.push_back({std::string(v.name), type_of(v), std::string(v.unit), meaning});
     }
     this->begin(std::move(columns));

@@ -17,17 +17,6 @@ namespace edmill::output {
 struct LyapunovKeys {
   std::uint64_t exponents = 1;
 
-  static void keys(auto& t, auto&& row) {
-    row(
-        casefile::Parameter{
-            "exponents", Dimension::none,
-            "how many, the largest first; of N balls there are 9 N, and more than that are all of them",
-            casefile::Range(1, 9000), "1"},
-        t.exponents);
-  }
-};
-
-struct LyapunovOutputKeys {
   static void keys(auto& output, auto&& row) {
     row(
         casefile::Parameter{
@@ -38,7 +27,12 @@ struct LyapunovOutputKeys {
             .usually("the whole record"),
         output.timer.interval);
     row(casefile::max_rows_key(), output.timer.max_rows);
-    LyapunovKeys::keys(output.template make_own<LyapunovKeys>(), row);
+    row(
+        casefile::Parameter{
+            "exponents", Dimension::none,
+            "how many, the largest first; of N balls there are 9 N, and more than that are all of them",
+            casefile::Range(1, 9000), "1"},
+        output.template make_own<LyapunovKeys>().exponents);
   }
   static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
     s.require(output.only.empty(), "only", "none: exponents belong to the whole motion");
@@ -103,10 +97,8 @@ class LyapunovOutput : public TableOutput<Real> {
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
-    if (begun_ && !ended_) {
-      if (!spectrum_) make_spectrum(simulation, in_double(simulation.now()));
-      end_record(simulation, until);
-    }
+    if (begun_ && !spectrum_) make_spectrum(simulation, in_double(simulation.now()));
+    if (begun_ && !ended_) end_record(simulation, until);
     if (!this->spec.timer.interval) put_exponents(simulation, until);
   }
 
@@ -127,7 +119,6 @@ class LyapunovOutput : public TableOutput<Real> {
                   "decimal digits that an impact of the run costs in this direction"}},
                 std::move(comments));
     if (!(duration > 0)) return;
-    if (!spectrum_) make_spectrum(simulation, in_double(simulation.now()));
     const double per_ball =
         static_cast<double>(of_balls_) / static_cast<double>(this->run.ball_colours.size());
     const double share = duration / static_cast<double>(until - this->timer().from());  // of the impacts

@@ -10,18 +10,14 @@
 namespace edmill::output {
 
 /// What the table can show; a field has no value where nothing defines it: specific doses without powder.
-inline const std::vector<Column>& dose_fields() {
-  using enum Column::Type;
-  static const std::vector<Column> fields{
-      {"milling_dose", number, "J", meaning_of("milling_dose")},
-      {"milling_dose_rate", number, "W", "milling dose per second of the record"},
-      {"inverse_milling_dose_rate", number, "s/J", "time of the record over its milling dose"},
-      {"specific_milling_dose", number, "J/kg", "milling dose over the mass of the powder"},
-      {"specific_milling_dose_rate", number, "W/kg", "milling dose per second over the mass of the powder"},
-      {"powder_mass", number, "kg", "mass of the powder"},
-      {"charge_ratio", number, "1", "mass of the balls over the mass of the powder"}};
-  return fields;
-}
+inline const std::vector<Column> dose_fields{
+    {"milling_dose", number, "J", meaning_of("milling_dose")},
+    {"milling_dose_rate", number, "W", "milling dose per second of the record"},
+    {"inverse_milling_dose_rate", number, "s/J", "time of the record over its milling dose"},
+    {"specific_milling_dose", number, "J/kg", "milling dose over the mass of the powder"},
+    {"specific_milling_dose_rate", number, "W/kg", "milling dose per second over the mass of the powder"},
+    {"powder_mass", number, "kg", "mass of the powder"},
+    {"charge_ratio", number, "1", "mass of the balls over the mass of the powder"}};
 
 struct MillingDoseKeys {
   std::optional<std::vector<std::string>> names;
@@ -40,7 +36,7 @@ struct MillingDoseKeys {
   static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
     auto& own = output.make_own<MillingDoseKeys>();
     std::vector<std::string> known;
-    for (const auto& field : dose_fields()) known.push_back(field.name);
+    for (const auto& field : dose_fields) known.push_back(field.name);
     for (const auto& name : own.names.value_or(known)) {
       const auto row = std::find(known.begin(), known.end(), name);
       if (row != known.end())
@@ -76,7 +72,7 @@ class MillingDoseOutput : public TableOutput<Real> {
         io::value_if(powder, [&] { return Real(ball_mass / *powder_mass); })};
     const auto& fields = this->spec.template own_keys<MillingDoseKeys>().fields;
     std::vector<Column> columns;
-    for (const int field : fields) columns.push_back(dose_fields()[field]);
+    for (const int field : fields) columns.push_back(dose_fields[field]);
     this->begin(std::move(columns));
     for (const int field : fields) this->put(values[field]);
   }

@@ -40,9 +40,27 @@ struct RunContext {
   }
 };
 
-/// The state of a ball, by its id, at the time of a row or a frame.
+/// The run at the time of a row or a frame.
 template <class Real>
-using StateOf = std::function<model::BallState<Real>(int ball)>;
+struct Moment {
+  /// @param time  not before the last impact, not after that of `f`
+  Moment(const ImpactFacts<Real>& f, const Real& time)
+      : simulation(f.simulation),
+        time(time),
+        impacts(f.impact.index),
+        state_of([&f, time](int ball) { return f.state_before(ball, time); }) {}
+  /// @param time  not before the last impact
+  Moment(const engine::Simulation<Real>& s, const Real& time)
+      : simulation(s),
+        time(time),
+        impacts(s.counts().impacts),
+        state_of([&s, when = s.instant_of(time)](int ball) { return s.state_at(ball, when); }) {}
+
+  const engine::Simulation<Real>& simulation;
+  Real time;
+  std::uint64_t impacts;                                ///< up to then
+  std::function<model::BallState<Real>(int)> state_of;  ///< by the ball's id
+};
 
 /// The vessel at the impact.
 template <class Real>
@@ -120,13 +138,13 @@ class Output {
 };
 
 /// An output that is one file, to which each impact adds.
-template <class Real, class File>
-class OneFileOutput : public Output<Real> {
+template <class Real, class File, class Base = Output<Real>>
+class OneFileOutput : public Base {
  public:
   /// @param arguments  of the file's constructor, after its place
   template <class... Arguments>
   OneFileOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run, Arguments&&... arguments)
-      : Output<Real>(spec, run), file_(this->place(), std::forward<Arguments>(arguments)...) {}
+      : Base(spec, run), file_(this->place(), std::forward<Arguments>(arguments)...) {}
 
   void complete() override { file_.complete(); }
   void commit() override { file_.commit(); }

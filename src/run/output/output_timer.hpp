@@ -30,53 +30,49 @@ class OutputTimer {
   /// Called once for each impact, in order: whether it is recorded.
   bool admits(const Real& time, std::uint64_t index) {
     if (!on_ || closed_) return false;
-    if (!open_) {
+    if (!from_) {
       if (start_time_ && time >= *start_time_)
         open(*start_time_);
       else if (index >= *start_collision_)
         open(time);
     }
-    if (!open_ || time < from_) return false;
-    if (ends_ && time > until_) {
+    if (!from_ || time < *from_) return false;
+    if (until_ && time > *until_) {
       closed_ = true;
       return false;
     }
     if (collisions_ && ++recorded_ == *collisions_) {
-      closed_ = ends_ = true;
+      closed_ = true;
       until_ = time;
     }
     return true;
   }
 
   /// Whether it is known where the record begins.
-  bool is_open() const { return open_; }
+  bool is_open() const { return from_.has_value(); }
   /// Where it begins [s]. @pre is_open()
-  const Real& from() const { return from_; }
+  const Real& from() const { return *from_; }
   /// Where it ends if the run goes on to `run_end` [s].
-  Real until(const Real& run_end) const { return ends_ && until_ < run_end ? until_ : run_end; }
+  Real until(const Real& run_end) const { return until_ && *until_ < run_end ? *until_ : run_end; }
   /// Whether the record has ended before or at `time`.
-  bool ends_by(const Real& time) const { return ends_ && until_ <= time; }
+  bool ends_by(const Real& time) const { return until_ && *until_ <= time; }
   /// Whether there is a record in a run that ends at `run_end`.
-  bool recorded(const Real& run_end) const { return on_ && open_ && from_ <= run_end; }
+  bool recorded(const Real& run_end) const { return on_ && from_ && *from_ <= run_end; }
 
-  void archive(Archive& a) { a(open_, ends_, closed_, recorded_, from_, until_); }
+  void archive(Archive& a) { a(closed_, recorded_, from_, until_); }
 
  private:
   void open(const Real& time) {
-    open_ = true;
     from_ = time;
     for (const auto& end : {end_time_, duration_ ? std::optional<Real>(time + *duration_) : std::nullopt})
-      if (end && (!ends_ || *end < until_)) {
-        ends_ = true;
-        until_ = *end;
-      }
+      if (end && (!until_ || *end < *until_)) until_ = end;
   }
 
-  bool on_, open_ = false, ends_ = false, closed_ = false;
+  bool on_, closed_ = false;
   std::optional<Real> start_time_, end_time_, duration_;
   std::optional<std::uint64_t> start_collision_, collisions_;
   std::uint64_t recorded_ = 0;
-  Real from_{0}, until_{0};
+  std::optional<Real> from_, until_;  ///< of the record, where they are known
 };
 
 /// The ends of a record's intervals, one after the other.

@@ -19,7 +19,6 @@ class ParaviewOutput : public FramesOutput<Real> {
  public:
   ParaviewOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
       : FramesOutput<Real>(spec, run, spec.timer),
-        index_(this->place()),
         folder_(std::filesystem::path(this->place()).replace_extension()) {
     std::error_code ignored;
     if (std::filesystem::exists(folder_, ignored) && !std::filesystem::is_directory(folder_, ignored))
@@ -33,17 +32,17 @@ class ParaviewOutput : public FramesOutput<Real> {
       for (const char* of : {"balls", "vessel"})
         names.push_back((folder_.filename() / name_of(of, frame)).generic_string());
     }
-    index_.stream() << pvd_text(list);
-    index_.complete();
+    this->file_.stream() << pvd_text(list);
+    this->file_.complete();
   }
   void commit() override {
     std::filesystem::create_directories(folder_);
     frames_.commit();
-    index_.commit();
+    this->file_.commit();
   }
   std::vector<std::filesystem::path> places() const override {
     auto places = frames_.places();
-    for (auto& place : index_.places()) places.push_back(std::move(place));
+    for (auto& place : this->file_.places()) places.push_back(std::move(place));
     return places;
   }
 
@@ -56,15 +55,14 @@ class ParaviewOutput : public FramesOutput<Real> {
   }
   void archive_record(Archive& a) override {
     FramesOutput<Real>::archive_record(a);
-    a(index_, times_, doses_);
+    a(times_, doses_);
     for (std::size_t frame = 0; a.loading() && frame < times_.size(); ++frame) add_files(frame, "", "");
     a(frames_);
   }
 
  private:
-  void add_frame(const engine::Simulation<Real>& simulation, const Real& time,
-                 const StateOf<Real>& state_of) override {
-    Scene s = this->scene(simulation, time, state_of);
+  void add_frame(const Moment<Real>& at) override {
+    Scene s = this->scene(at);
     for (std::size_t i = 0; i < doses_.size(); ++i) s.balls[i].milling_dose = doses_[i];
     times_.push_back(s.time);
     add_files(times_.size() - 1, vtp_balls(s), vtp_vessel(s));
@@ -83,7 +81,6 @@ class ParaviewOutput : public FramesOutput<Real> {
     add("vessel", vessel);
   }
 
-  io::AtomicFile index_;
   std::filesystem::path folder_;
   io::AtomicFiles frames_;
   std::vector<double> times_;  ///< of the frames [s]

@@ -25,82 +25,65 @@
 
 namespace edmill::output {
 
-/// How a type of output is read from a case, and, in any scalar, made.
+/// How a type of output is read from a case, and what makes it in any scalar.
 template <template <class> class Type>
-struct OutputRow : casefile::OutputType {
-  template <class Real>
-  std::unique_ptr<Output<Real>> make(const casefile::OutputSpec& spec, const RunContext<Real>& run) const {
-    return std::make_unique<Type<Real>>(spec, run);
-  }
-};
+struct OutputRow : casefile::OutputType {};
+
+/// @tparam Keys  those that only this type has
+template <template <class> class Type, class Keys = casefile::NoKeys>
+constexpr OutputRow<Type> row(std::string_view name, std::string_view extension, std::string_view what) {
+  return {{name, extension, what, casefile::output_keys<Keys>}};
+}
 
 inline constexpr std::tuple output_registry{
-    OutputRow<CollisionsOutput>{{"collisions", ".csv", "the log of files.md, a row for each impact",
-                                 casefile::output_keys<CollisionsKeys>}},
-    OutputRow<MillingDoseOutput>{{"milling_dose", ".csv",
-                                  "one row: dose, rates and specific doses of the record",
-                                  casefile::output_keys<MillingDoseKeys>}},
-    OutputRow<FrequencyOutput>{{"frequency", ".csv",
-                                "how often a number falls in each of equal intervals, lower <= value < upper",
-                                casefile::output_keys<FrequencyKeys>}},
-    OutputRow<StatisticsOutput>{
-        {"statistics", ".csv",
-         "statistics of flags and numbers, for each wall, all walls, other balls, all impacts",
-         casefile::output_keys<StatisticsKeys>}},
-    OutputRow<TrendsOutput>{
-        {"trends", ".csv",
-         "statistics of each interval of time, with a last, shorter one if the record ends within it",
-         casefile::output_keys<TrendsKeys>}},
-    OutputRow<TrendsInstantOutput>{{"trends_instant", ".csv",
-                                    "values of variables at each impact, or at the first after each interval",
-                                    casefile::output_keys<TrendsInstantKeys>}},
-    OutputRow<TrendsBallsOutput>{{"trends_balls", ".csv",
-                                  "statistics over the balls at the end of each interval",
-                                  casefile::output_keys<TrendsBallsKeys>}},
-    OutputRow<TraceOutput>{{"trace", ".csv",
-                            "position of one ball at each of its impacts, or at the end of each interval",
-                            casefile::output_keys<TraceOutputKeys>}},
-    OutputRow<IterationsOutput>{
-        {"iterations", ".csv", "all variables of each impact", casefile::output_keys<casefile::NoKeys>}},
-    OutputRow<EventsOutput>{{"events", ".h5",
-                             "the log as HDF5: `/events` with one dataset per column, and the final state of "
-                             "the balls; 64-bit numbers in every scalar",
-                             casefile::output_keys<casefile::OwnKeys<StatesKey>>}},
-    OutputRow<SpectraOutput>{
-        {"spectra", ".csv",
-         "impact energies, normal, tangential and total, or impact speeds, in logarithmic bins",
-         casefile::output_keys<SpectraKeys>}},
-    OutputRow<RatesAboveOutput>{{"rates_above", ".csv",
-                                 "collision rates and dose rates of the impacts above speed cutoffs",
-                                 casefile::output_keys<RatesAboveKeys>}},
-    OutputRow<VesselLoadOutput>{
-        {"vessel_load", ".csv",
-         "impulse, force and torque on the vessel, and the power draw, of each interval",
-         casefile::output_keys<VesselLoadKeys>}},
-    OutputRow<BodiesOutput>{
-        {"bodies", ".csv", "dose of each ball and of each wall", casefile::output_keys<casefile::NoKeys>}},
-    OutputRow<TreatmentOutput>{{"treatment", ".csv",
-                                "how often powder has been hit, if it is mixed and if it stays in place",
-                                casefile::output_keys<casefile::OwnKeys<TreatmentKeys>>}},
-    OutputRow<LyapunovOutput>{
-        {"lyapunov", ".csv", "Lyapunov exponents: how fast neighbouring motions diverge from that of the run",
-         casefile::output_keys<LyapunovOutputKeys>}},
-    OutputRow<CoverageOutput>{{"coverage", ".csv", "dose and impacts by position on the vessel's walls",
-                               casefile::output_keys<casefile::OwnKeys<CoverageKeys>>}},
-    OutputRow<SnapshotOutput>{{"snapshot", ".x3d", "an X3D page for each impact, `NAME_<index>.x3d`",
-                               casefile::output_keys<SnapshotKeys>}},
-    OutputRow<AnimationOutput>{
-        {"animation", ".x3d", "an X3D page that plays the record", casefile::output_keys<AnimationKeys>}},
-    OutputRow<ParaviewOutput>{{"paraview", ".pvd",
-                               "`NAME.pvd` and a folder `NAME` with balls and vessel of each frame as VTP",
-                               casefile::output_keys<ParaviewKeys>}}};
+    row<CollisionsOutput, CollisionsKeys>("collisions", ".csv", "the log of files.md, a row for each impact"),
+    row<MillingDoseOutput, MillingDoseKeys>("milling_dose", ".csv",
+                                            "one row: dose, rates and specific doses of the record"),
+    row<FrequencyOutput, FrequencyKeys>(
+        "frequency", ".csv", "how often a number falls in each of equal intervals, lower <= value < upper"),
+    row<StatisticsOutput, StatisticsKeys>(
+        "statistics", ".csv",
+        "statistics of flags and numbers, for each wall, all walls, other balls, all impacts"),
+    row<TrendsOutput, TrendsKeys>(
+        "trends", ".csv",
+        "statistics of each interval of time, with a last, shorter one if the record ends within it"),
+    row<TrendsInstantOutput, TrendsInstantKeys>(
+        "trends_instant", ".csv", "values of variables at each impact, or at the first after each interval"),
+    row<TrendsBallsOutput, TrendsBallsKeys>("trends_balls", ".csv",
+                                            "statistics over the balls at the end of each interval"),
+    row<TraceOutput, TraceKeys>(
+        "trace", ".csv", "position of one ball at each of its impacts, or at the end of each interval"),
+    row<IterationsOutput>("iterations", ".csv", "all variables of each impact"),
+    row<EventsOutput, casefile::OwnKeys<StatesKey>>(
+        "events", ".h5",
+        "the log as HDF5: `/events` with one dataset per column, and the final state of "
+        "the balls; 64-bit numbers in every scalar"),
+    row<SpectraOutput, SpectraKeys>(
+        "spectra", ".csv",
+        "impact energies, normal, tangential and total, or impact speeds, in logarithmic bins"),
+    row<RatesAboveOutput, RatesAboveKeys>(
+        "rates_above", ".csv", "collision rates and dose rates of the impacts above speed cutoffs"),
+    row<VesselLoadOutput, VesselLoadKeys>(
+        "vessel_load", ".csv",
+        "impulse, force and torque on the vessel, and the power draw, of each interval"),
+    row<BodiesOutput>("bodies", ".csv", "dose of each ball and of each wall"),
+    row<TreatmentOutput, casefile::OwnKeys<TreatmentKeys>>(
+        "treatment", ".csv", "how often powder has been hit, if it is mixed and if it stays in place"),
+    row<LyapunovOutput, LyapunovKeys>(
+        "lyapunov", ".csv", "Lyapunov exponents: how fast neighbouring motions diverge from that of the run"),
+    row<CoverageOutput, casefile::OwnKeys<CoverageKeys>>(
+        "coverage", ".csv", "dose and impacts by position on the vessel's walls"),
+    row<SnapshotOutput, SnapshotKeys>("snapshot", ".x3d", "an X3D page for each impact, `NAME_<index>.x3d`"),
+    row<AnimationOutput, AnimationKeys>("animation", ".x3d", "an X3D page that plays the record"),
+    row<ParaviewOutput, ParaviewKeys>(
+        "paraview", ".pvd", "`NAME.pvd` and a folder `NAME` with balls and vessel of each frame as VTP")};
 
 /// @throws ContractError when there is no such type
 template <class Real>
 std::unique_ptr<Output<Real>> make_output(const casefile::OutputSpec& spec, const RunContext<Real>& run) {
   std::unique_ptr<Output<Real>> made;
-  const auto try_row = [&](const auto& row) {
-    if (row.name == spec.type) made = row.template make<Real>(spec, run);
+  const auto try_row = [&]<template <class> class Type>(const OutputRow<Type>& row) {
+    if (row.name == spec.type) made = std::make_unique<Type<Real>>(spec, run);
   };
   std::apply([&](const auto&... row) { (try_row(row), ...); }, output_registry);
   EDMILL_REQUIRE(made != nullptr, "the registry has the type of an output");

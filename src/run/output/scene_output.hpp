@@ -1,6 +1,7 @@
 // What pictures have in common. In double: nothing is computed from them.
 #pragma once
 
+#include "io/atomic_file.hpp"
 #include "output/output.hpp"
 #include "output/scene.hpp"
 
@@ -36,15 +37,16 @@ class SceneOutput : public Output<Real> {
   }
 
   /// Nobody looks at it yet: look_at.
-  /// @param state_of  state of a ball by its id at `time`
-  Scene scene(const engine::Simulation<Real>& simulation, const Real& time, auto&& state_of) const {
-    const auto& mill = simulation.mill();
-    const auto now = static_cast<double>(time);
-    Scene s{.vessel = {walls_at(mill.vessel, time), this->run.vessel_colour, vessel_frame(mill.motion, now)},
-            .time = now};
-    for (int i = 0; i < simulation.ball_count(); ++i) {
-      const auto state = state_of(i);
-      s.balls.push_back({static_cast<double>(simulation.properties(i).radius),
+  Scene scene(const Moment<Real>& at) const {
+    const auto& mill = at.simulation.mill();
+    const auto now = static_cast<double>(at.time);
+    Scene s{.vessel = {walls_, this->run.vessel_colour, vessel_frame(mill.motion, now)}, .time = now};
+    for_each_piston(mill.vessel, at.time, [&](std::size_t wall, const Vec3<double>& moved) {
+      for (auto& point : s.vessel.walls[wall].points) point += moved;
+    });
+    for (int i = 0; i < at.simulation.ball_count(); ++i) {
+      const auto state = at.state_of(i);
+      s.balls.push_back({static_cast<double>(at.simulation.properties(i).radius),
                          this->run.ball_colours[static_cast<std::size_t>(i)],
                          vector_cast<double>(state.position), vector_cast<double>(state.velocity),
                          vector_cast<double>(state.spin)});
@@ -53,37 +55,25 @@ class SceneOutput : public Output<Real> {
   }
 
  private:
-  /// The walls, with pistons where they stand.
-  std::vector<model::Mesh> walls_at(const model::AnyVessel<Real>& vessel, const Real& time) const {
-    auto walls = walls_;
-    for_each_piston(vessel, time, [&](std::size_t wall, const Vec3<double>& moved) {
-      for (auto& point : walls[wall].points) point += moved;
-    });
-    return walls;
-  }
-
   std::vector<model::Mesh> walls_;
 };
 
-/// A frame at the start of the record, at the end of each interval, and at the end of the record.
+/// A file with a frame at the start of the record, at the end of each interval, and at the end of the record.
 template <class Real>
-class FramesOutput : public SceneOutput<Real> {
+class FramesOutput : public OneFileOutput<Real, io::AtomicFile, SceneOutput<Real>> {
  public:
   /// @param interval  its `interval` and `max_rows` are those of the frames
   FramesOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run,
                const casefile::TimerSpec& interval)
-      : SceneOutput<Real>(spec, run), clock_(interval) {}
+      : OneFileOutput<Real, io::AtomicFile, SceneOutput<Real>>(spec, run), clock_(interval) {}
 
  protected:
-  virtual void add_frame(const engine::Simulation<Real>& simulation, const Real& time,
-                         const StateOf<Real>& state_of) = 0;
+  virtual void add_frame(const Moment<Real>& at) = 0;
 
   void before(const ImpactFacts<Real>& f) override {
     const Real& now = f.time;
     if (complete_ || now < this->timer().from()) return;
-    const auto frame = [&](const Real& time) {
-      add_frame(f.simulation, time, [&](int i) { return f.state_before(i, time); });
-    };
+    const auto frame = [&](const Real& time) { add_frame({f, time}); };
     if (!begun_) frame(this->timer().from());
     begun_ = true;
     clock_.pass(this->timer(), now, [&](const Real&, const Real& end) { frame(end); });
@@ -91,15 +81,12 @@ class FramesOutput : public SceneOutput<Real> {
     if (complete_) frame(this->timer().until(now));
   }
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
-    const auto frame = [&](const Real& time) {
-      const auto when = simulation.instant_of(time);
-      add_frame(simulation, time, [&](int i) { return simulation.state_at(i, when); });
-    };
+    const auto frame = [&](const Real& time) { add_frame({simulation, time}); };
     const Real& from = this->timer().from();
     if (!begun_) frame(from);
     if (!complete_) clock_.finish(from, until, [&](const Real&, const Real& end) { frame(end); });
   }
-  void archive_record(Archive& a) override { a(clock_, begun_, complete_); }
+  void archive_record(Archive& a) override { a(this->file_, clock_, begun_, complete_); }
 
  private:
   IntervalClock<Real> clock_;

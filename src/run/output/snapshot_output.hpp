@@ -23,8 +23,11 @@ class SnapshotOutput : public SceneOutput<Real> {
   using SceneOutput<Real>::SceneOutput;
 
   void complete() override {
-    for (const auto& [index, text] : pages_)
-      files_.add(place_of(index), [&page = text](std::ostream& out) { out << page; });
+    const auto place = this->place();
+    for (const auto& [index, text] : pages_) {
+      const auto name = place.stem().string() + "_" + std::to_string(index) + place.extension().string();
+      files_.add(place.parent_path() / name, [&page = text](std::ostream& out) { out << page; });
+    }
   }
   void commit() override { files_.commit(); }
   std::vector<std::filesystem::path> places() const override { return files_.places(); }
@@ -33,7 +36,7 @@ class SnapshotOutput : public SceneOutput<Real> {
   void archive_record(Archive& a) override { a(pages_); }
   void record(const ImpactFacts<Real>& f) override {
     const Real& time = f.time;
-    Scene s = this->scene(f.simulation, time, [&](int i) { return f.state_before(i, time); });
+    Scene s = this->scene({f, time});
     if (this->spec.contact_point) s.contact = this->contact_at(f.contact_point);
     look_at(this->walls(), frames_around(f.simulation.mill().motion, static_cast<double>(time)), s);
     pages_.emplace_back(f.impact.index, x3d_text(s));
@@ -48,12 +51,6 @@ class SnapshotOutput : public SceneOutput<Real> {
     std::vector<Frame<double>> frames{vessel_frame(motion, time)};
     for (int k = 0; k < parts; ++k) frames.push_back(vessel_frame(motion, begin + period * k / parts));
     return frames;
-  }
-
-  std::filesystem::path place_of(std::uint64_t index) const {
-    const auto place = this->place();
-    return place.parent_path() /
-           (place.stem().string() + "_" + std::to_string(index) + place.extension().string());
   }
 
   io::AtomicFiles files_;

@@ -122,10 +122,8 @@ class SpectraOutput : public TableOutput<Real> {
                   io::value_if(!above, [&] { return edges_[bin]; }));
         const auto put = [&](const auto& value) { this->put(value); };
         const auto& tallies = spectra_[s][bin];
-        put_partners<std::uint64_t>(
-            tallies, [](const Tally<Real>& t) { return t.impacts; }, put);
-        put_partners<Real>(
-            tallies, [](const Tally<Real>& t) { return t.energy.value(); }, put);
+        put_partners(tallies, put, [](const Tally<Real>& t) { return t.impacts; });
+        put_partners(tallies, put, [](const Tally<Real>& t) { return t.energy.value(); });
       }
   }
 
@@ -202,10 +200,8 @@ class RatesAboveOutput : public TableOutput<Real> {
         for (int p = 0; p < partners.count(); ++p) above[p].add(from_[bin][p]);
       this->put(cutoffs_[k]);
       const auto put = [&](const Real& value) { this->put(value); };
-      put_partners<Real>(
-          above, [&](const Tally<Real>& t) { return Real(Real(t.impacts) / duration); }, put);
-      put_partners<Real>(
-          above, [&](const Tally<Real>& t) { return Real(t.energy.value() / duration); }, put);
+      put_partners(above, put, [&](const Tally<Real>& t) { return Real(Real(t.impacts) / duration); });
+      put_partners(above, put, [&](const Tally<Real>& t) { return Real(t.energy.value() / duration); });
     }
   }
 

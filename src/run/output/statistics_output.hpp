@@ -25,17 +25,13 @@ template <class Real>
 class StatisticsOutput : public TableOutput<Real> {
  public:
   StatisticsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
-      : TableOutput<Real>(spec, run) {
-    for (const auto& c : spec.columns)
-      gathered_.push_back({c, variable_formula<Real>(c.variable), Accumulators(run.partners.count())});
-  }
+      : TableOutput<Real>(spec, run), gathered_(spec.columns.size(), Accumulators(run.partners.count())) {}
 
  protected:
-  void archive_record(Archive& a) override {
-    for (auto& g : gathered_) a(g.by_partner);
-  }
+  void archive_record(Archive& a) override { a(gathered_); }
   void record(const ImpactFacts<Real>& f) override {
-    for (auto& g : gathered_) of_partner(f, g.by_partner).add(g.formula(f));
+    for (std::size_t k = 0; k < gathered_.size(); ++k)
+      of_partner(f, gathered_[k]).add(variable_formula<Real>(this->spec.columns[k].variable)(f));
   }
 
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
@@ -45,17 +41,18 @@ class StatisticsOutput : public TableOutput<Real> {
                                 {"statistic", text, "", "which statistic of it"},
                                 {"unit", text, "", "of the numbers in the row"}};
     const auto groups = groups_of(partners, true);
-    for (const auto& group : groups) columns.push_back({group.column.name, number, "", group.column.meaning});
+    for (const auto& group : groups) columns.push_back({group.column.key, number, "", group.column.meaning});
     this->begin(std::move(columns), {this->window(until) + "; " + std::to_string(simulation.ball_count()) +
                                      " balls, " + std::to_string(partners.walls()) + " walls"});
-    for (const auto& g : gathered_) {
-      const auto& variable = model::impact_variables[g.column.variable];
-      std::vector<Accumulator<Real>> shown(groups.size());
+    for (std::size_t c = 0; c < gathered_.size(); ++c) {
+      const auto& column = this->spec.columns[c];
+      const auto& variable = model::impact_variables[column.variable];
+      Accumulators shown(groups.size());
       for (std::size_t k = 0; k < groups.size(); ++k)
         for (int partner = groups[k].first; partner <= groups[k].last; ++partner)
-          shown[k].add(g.by_partner[partner]);
-      for (const Statistic s : g.column.statistics) {
-        this->put(name_of(g.column, variable.name), statistic_name(s), statistic_unit(s, variable.unit));
+          shown[k].add(gathered_[c][partner]);
+      for (const Statistic s : column.statistics) {
+        this->put(name_of(column, variable.name), statistic_name(s), statistic_unit(s, variable.unit));
         for (const auto& group : shown) this->put(group.value(s, duration, shown.back().sum()));
       }
     }
@@ -63,12 +60,7 @@ class StatisticsOutput : public TableOutput<Real> {
 
  private:
   using Accumulators = std::vector<Accumulator<Real>>;
-  struct Gathered {
-    casefile::ColumnSpec column;
-    VariableFormula<Real> formula;
-    Accumulators by_partner;
-  };
-  std::vector<Gathered> gathered_;
+  std::vector<Accumulators> gathered_;  ///< for each column, by partner
 };
 
 }  // namespace edmill::output

@@ -107,28 +107,20 @@ class IntervalOutput : public TableOutput<Real> {
   }
 
  protected:
-  /// The run at the end of an interval.
-  struct Moment {
-    const engine::Simulation<Real>& simulation;
-    std::uint64_t impacts;  ///< up to then
-    StateOf<Real> state_of;
-  };
-  virtual void write_row(const Real& begin, const Real& end, const Moment& at_end) = 0;
+  virtual void write_row(const Real& begin, const Moment<Real>& end) = 0;
 
   void archive_record(Archive&) override {}
   void record(const ImpactFacts<Real>&) override {}
   void before(const ImpactFacts<Real>& f) override {
     if (!this->spec.timer.interval) return;
     clock_.pass(this->timer(), f.time, [&](const Real& begin, const Real& end) {
-      write_row(begin, end, {f.simulation, f.impact.index, [&](int i) { return f.state_before(i, end); }});
+      write_row(begin, {f, end});
     });
   }
   void end_of_record(const engine::Simulation<Real>& simulation, const Real& until) override {
     if (!this->spec.timer.interval) return;
     clock_.finish(this->timer().from(), until, [&](const Real& begin, const Real& end) {
-      const auto when = simulation.instant_of(end);
-      const auto state_of = [&](int i) { return simulation.state_at(i, when); };
-      write_row(begin, end, {simulation, simulation.counts().impacts, state_of});
+      write_row(begin, {simulation, end});
     });
   }
 

@@ -74,16 +74,13 @@ auto& of_partner(const ImpactFacts<Real>& f, List& list) {
   return f.impact.with_wall ? list[f.impact.partner] : list.back();
 }
 
-/// A partner, or several together, as columns of tables count them.
-struct PartnerColumn {
-  std::string name, meaning;
-};
-inline PartnerColumn column_of(const model::PartnerInfo& partner) { return {partner.key, partner.meaning}; }
-inline const PartnerColumn walls_column{"walls", "with all walls"}, total_column{"total", "of all impacts"};
+/// Several partners together, as columns of tables count them.
+inline const model::PartnerInfo walls_column{"walls", "", "with all walls"},
+    total_column{"total", "", "of all impacts"};
 
 /// A column for several partners, whose places are in a row.
 struct PartnerGroup {
-  PartnerColumn column;
+  model::PartnerInfo column;
   int first, last;  ///< of the partners that it counts
 };
 
@@ -92,9 +89,9 @@ inline std::vector<PartnerGroup> groups_of(const model::Partners& partners, bool
   std::vector<PartnerGroup> list;
   const int balls = partners.ball_ball();
   if (each_wall)
-    for (int wall = 0; wall < balls; ++wall) list.push_back({column_of(partners[wall]), wall, wall});
+    for (int wall = 0; wall < balls; ++wall) list.push_back({partners[wall], wall, wall});
   list.push_back({walls_column, 0, balls - 1});
-  list.push_back({column_of(partners[balls]), balls, balls});
+  list.push_back({partners[balls], balls, balls});
   list.push_back({total_column, 0, balls});
   return list;
 }
@@ -103,9 +100,9 @@ inline std::vector<PartnerGroup> groups_of(const model::Partners& partners, bool
 inline void add_partner_columns(std::vector<io::Column>& columns, const model::Partners& partners,
                                 const io::Column& of_each) {
   for (int place = 0; place <= partners.count(); ++place) {
-    const auto [partner, meaning] = place < partners.count() ? column_of(partners[place]) : total_column;
-    columns.push_back(
-        {partner + " " + of_each.name, of_each.type, of_each.unit, of_each.description + ", " + meaning});
+    const auto& partner = place < partners.count() ? partners[place] : total_column;
+    columns.push_back({partner.key + " " + of_each.name, of_each.type, of_each.unit,
+                       of_each.description + ", " + partner.meaning});
   }
 }
 
@@ -131,11 +128,11 @@ using PartnerTally = std::vector<Tally<Real>>;
 
 /// Calls `put` with the value of each partner and with their total.
 /// @param value_of  of what the list has for a partner
-template <class Value, class List, class ValueOf, class Put>
-void put_partners(const List& list, ValueOf&& value_of, Put&& put) {
-  Value total{0};
+template <class Real>
+void put_partners(const PartnerTally<Real>& list, auto&& put, auto&& value_of) {
+  decltype(value_of(list.front())) total{0};
   for (const auto& partner : list) {
-    const Value value = value_of(partner);
+    const auto value = value_of(partner);
     put(value);
     total += value;
   }

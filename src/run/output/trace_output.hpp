@@ -9,16 +9,11 @@ namespace edmill::output {
 struct TraceKeys {
   std::uint64_t ball = 0;
 
-  static void keys(auto& k, auto&& row) {
-    row(casefile::Parameter{"ball", Dimension::none, "its id", casefile::Range::any, "0"}, k.ball);
-  }
-};
-
-struct TraceOutputKeys {
   static void keys(auto& output, auto&& row) {
     row(casefile::interval_key(nullptr).usually("each impact"), output.timer.interval);
     row(casefile::max_rows_key(), output.timer.max_rows);
-    TraceKeys::keys(output.template make_own<TraceKeys>(), row);
+    row(casefile::Parameter{"ball", Dimension::none, "its id", casefile::Range::any, "0"},
+        output.template make_own<TraceKeys>().ball);
   }
   static void check(casefile::Section& s, const casefile::CaseSpec& spec, casefile::OutputSpec& output) {
     if (spec.ball_count() > 0)
@@ -44,8 +39,8 @@ class TraceOutput : public IntervalOutput<Real> {
         (f.impact.ball == ball_ || (!f.impact.with_wall && f.impact.partner == ball_)))
       put_place(f.time, f.simulation.flight(ball_).position);
   }
-  void write_row(const Real&, const Real& end, const typename IntervalOutput<Real>::Moment& at_end) override {
-    put_place(end, at_end.state_of(ball_).position);
+  void write_row(const Real&, const Moment<Real>& end) override {
+    put_place(end.time, end.state_of(ball_).position);
   }
 
  private:

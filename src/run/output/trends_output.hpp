@@ -32,11 +32,10 @@ template <class Real>
 class TrendsOutput : public IntervalOutput<Real> {
  public:
   TrendsOutput(const casefile::OutputSpec& spec, const RunContext<Real>& run)
-      : IntervalOutput<Real>(spec, run) {
+      : IntervalOutput<Real>(spec, run), sums_(spec.columns.size()) {
     std::vector<Column> columns{
         {"time", number, "s", spec.accumulated ? "up to which the statistics count" : "end of the interval"}};
     for (const auto& c : spec.columns) {
-      gathered_.push_back({c, variable_formula<Real>(c.variable), {}});
       const auto& v = model::impact_variables[c.variable];
       for (const Statistic s : c.statistics)
         columns.push_back({name_of(c, v.name, s), number, statistic_unit(s, v.unit),
@@ -46,28 +45,23 @@ class TrendsOutput : public IntervalOutput<Real> {
   }
 
  protected:
-  void archive_record(Archive& a) override {
-    for (auto& g : gathered_) a(g.sums);
-  }
+  void archive_record(Archive& a) override { a(sums_); }
   void record(const ImpactFacts<Real>& f) override {
-    for (auto& g : gathered_) g.sums.add(g.formula(f));
+    for (std::size_t k = 0; k < sums_.size(); ++k)
+      sums_[k].add(variable_formula<Real>(this->spec.columns[k].variable)(f));
   }
-  void write_row(const Real& begin, const Real& end, const typename IntervalOutput<Real>::Moment&) override {
-    const Real duration = end - (this->spec.accumulated ? this->timer().from() : begin);
-    this->put(end);
-    for (auto& g : gathered_) {
-      for (const Statistic s : g.column.statistics) this->put(g.sums.value(s, duration, g.sums.sum()));
-      if (!this->spec.accumulated) g.sums = {};
+  void write_row(const Real& begin, const Moment<Real>& end) override {
+    const Real duration = end.time - (this->spec.accumulated ? this->timer().from() : begin);
+    this->put(end.time);
+    for (std::size_t k = 0; k < sums_.size(); ++k) {
+      for (const Statistic s : this->spec.columns[k].statistics)
+        this->put(sums_[k].value(s, duration, sums_[k].sum()));
+      if (!this->spec.accumulated) sums_[k] = {};
     }
   }
 
  private:
-  struct Gathered {
-    casefile::ColumnSpec column;
-    VariableFormula<Real> formula;
-    Accumulator<Real> sums;
-  };
-  std::vector<Gathered> gathered_;
+  std::vector<Accumulator<Real>> sums_;  ///< of the variable of each column
 };
 
 struct TrendsInstantKeys {
@@ -153,11 +147,11 @@ class TrendsBallsOutput : public IntervalOutput<Real> {
   }
 
  protected:
-  void write_row(const Real&, const Real& end, const typename IntervalOutput<Real>::Moment& at_end) override {
-    const auto& simulation = at_end.simulation;
+  void write_row(const Real&, const Moment<Real>& end) override {
+    const auto& simulation = end.simulation;
     std::vector<model::BallState<Real>> states;
-    for (int i = 0; i < simulation.ball_count(); ++i) states.push_back(at_end.state_of(i));
-    this->put(end, at_end.impacts);
+    for (int i = 0; i < simulation.ball_count(); ++i) states.push_back(end.state_of(i));
+    this->put(end.time, end.impacts);
     for (const auto& c : this->spec.columns) {
       Accumulator<Real> sums;
       int least = 0, largest = 0;

@@ -50,9 +50,9 @@ class VesselLoadOutput : public IntervalOutput<Real> {
     work_ += f.outcome.wall_work;
   }
 
-  void write_row(const Real& begin, const Real& end, const typename IntervalOutput<Real>::Moment&) override {
-    const Real duration = end - begin;
-    this->put(end, duration);
+  void write_row(const Real& begin, const Moment<Real>& end) override {
+    const Real duration = end.time - begin;
+    this->put(end.time, duration);
     this->put(impulse_);
     for (const auto* sum : {&impulse_, &moment_, &vessel_impulse_, &vessel_moment_})
       this->put(Vec3<Real>(*sum / duration));

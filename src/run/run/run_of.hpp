@@ -261,7 +261,7 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
   /// So far, with its warnings; of a run that has ended always the same, processor time included.
   io::Summary<Real> result() const {
     if (ended_) return *ended_;
-    auto s = driver_ ? summary_of(*spec_, built_, *driver_) : empty_summary(*spec_, built_);
+    auto s = summary_of(*spec_, built_, driver_);
     if (driver_) s.end_time = now();
     finish_summary(s, end_reason_, error_);
     if (end_reason_ != model::EndReason::paused) ended_ = s;
@@ -274,14 +274,8 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
   void commit(const std::function<std::string()>& when_written) override {
     const auto scope = use();
     EDMILL_REQUIRE(outputs_, "write_to was called");
-    io::SavedState<Real> saved{built_.start, built_.states};
-    if (driver_) {
-      const auto& simulation = driver_->simulation();
-      outputs_->on_end(simulation);
-      saved.time = simulation.now();
-      for (int k = 0; k < ball_count(); ++k) saved.states[static_cast<std::size_t>(k)] = state_of(k);
-    }
-    write_results(saved);
+    if (driver_) outputs_->on_end(driver_->simulation());
+    write_results();
     const std::string left = when_written();
     if (!goes_on()) folder_->remove_checkpoint(left);
     outputs_.reset();
@@ -308,11 +302,12 @@ class RunOf : public AnyRun, private engine::Observer<Real> {
 
   /// Nothing is put in place before everything is written. The summary comes last: results that it tells of
   /// are there.
-  void write_results(const io::SavedState<Real>& saved) {
+  void write_results() {
     const DriveClock<Real> clock(built_.the_case.mill.motion.period());
     outputs_->complete(goes_on());
-    folder_->write("final_state.csv",
-                   [&](std::ostream& out) { io::write_final_state<Real>(out, saved, clock); });
+    folder_->write("final_state.csv", [&](std::ostream& out) {
+      io::write_final_state<Real>(out, saved_state(built_, driver_), clock);
+    });
     folder_->write("case.toml", [&](std::ostream& out) { out << casefile::text_with_settings(*spec_); });
     folder_->write("summary.json", [&](std::ostream& out) { out << summary_json(); });
     folder_->commit(outputs_->places(), [&] { outputs_->commit(goes_on()); });

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "base/errors.hpp"
 #include "base/wide_trigonometry.hpp"
@@ -28,11 +27,8 @@ struct Perturbation {
   mpfr step{0};                  ///< negative where no larger value is allowed
 };
 
-/// Two bodies, or one and a wall, at an impact and after it.
-struct Collision {
-  std::array<Vector, 2> position, velocity, spin;
-  dynamics::ImpactOutcome<mpfr> outcome{};
-};
+/// Of a ball and, if it is one, its partner.
+using States = std::array<model::BallState<mpfr>, 2>;
 
 /// The same time on the clock of a mill with another drive period.
 Instant<mpfr> on_clock_of(const model::Mill<mpfr>& mill, const mpfr& period, const Instant<mpfr>& t,
@@ -48,29 +44,29 @@ mpfr gap_of(const model::Mill<mpfr>& mill, const mpfr& radius, int wall, const I
   return gap;
 }
 
-void collide(const Perturbation& in, const engine::Impact<mpfr>& impact, const Instant<mpfr>& time,
-             Collision& c) {
-  const auto ball = static_cast<std::size_t>(impact.ball), partner = static_cast<std::size_t>(impact.partner);
-  const auto& own = in.balls[ball];
+/// @param states  just before the impact; they become those after it
+dynamics::ImpactOutcome<mpfr> collide(const Perturbation& in, const engine::Impact<mpfr>& impact,
+                                      const Instant<mpfr>& time, States& states) {
+  auto& [one, two] = states;
+  const auto& own = in.balls[impact.ball];
   const bool rests = impact.outcome.in_stall;
   if (!impact.with_wall) {
-    const Vector between = c.position[0] - c.position[1];
+    const Vector between = one.position - two.position;
     const Vector normal = between * (mpfr(1) / norm<mpfr>(between));
-    const auto& law = in.mill.law_between(own, in.balls[partner]);
-    c.outcome = dynamics::collide_balls<mpfr>(normal, own, in.balls[partner], c.velocity[0], c.spin[0],
-                                              c.velocity[1], c.spin[1], law, rests);
-    return;
+    const auto& partner = in.balls[impact.partner];
+    return dynamics::collide_balls<mpfr>(normal, own, partner, one.velocity, one.spin, two.velocity, two.spin,
+                                         in.mill.law_between(own, partner), rests);
   }
   const auto& motion = in.mill.motion;
   const auto pose = motion.pose(time);
-  const auto place = motion.position_in_vessel(pose, c.position[0]);
+  const auto place = motion.position_in_vessel(pose, one.position);
   const Vector normal =
       motion.direction_to_inertial(pose, in.mill.vessel.inset(own.radius).normal(impact.partner, place));
-  Vector wall_velocity = motion.wall_velocity(pose, Vector(c.position[0] - normal * own.radius));
+  Vector wall_velocity = motion.wall_velocity(pose, Vector(one.position - normal * own.radius));
   if (const auto* pistons = in.mill.vessel.pistons())
     wall_velocity += normal * pistons->of_wall(impact.partner, time).rate;
-  c.outcome = dynamics::collide_with_wall<mpfr>(normal, own, wall_velocity, c.velocity[0], c.spin[0],
-                                                in.mill.law_with_wall(own, impact.partner), rests);
+  return dynamics::collide_with_wall<mpfr>(normal, own, wall_velocity, one.velocity, one.spin,
+                                           in.mill.law_with_wall(own, impact.partner), rests);
 }
 
 /// Observes a run, and carries the states of motions that are infinitely close to it from impact to impact.
@@ -87,45 +83,38 @@ class Linearised : public engine::Observer<mpfr> {
 
   void on_impact(const engine::Impact<mpfr>& impact, engine::Simulation<mpfr>& simulation) override {
     const mpfr::Digits evaluation(digits_);
-    const auto body = [&](std::size_t k, int ball) -> Body {
-      return {ball, simulation.flight(ball).position, impact.velocity_before[k], impact.spin_before[k],
-              impact.flight_time[k]};
-    };
-    const std::array<Body, 2> bodies{body(0, impact.ball),
-                                     impact.with_wall ? Body{} : body(1, impact.partner)};
+    States before;
+    for (int k = 0; k < (impact.with_wall ? 1 : 2); ++k)
+      before[k] = {simulation.flight(ball_of(impact, k)).position, impact.velocity_before[k],
+                   impact.spin_before[k]};
     events_.emplace_back();
     for (std::size_t which = 0; which < others_.size(); ++which)
-      events_.back().push_back(derivative(impact, bodies, which));
+      events_.back().push_back(derivative(impact, before, which));
   }
 
   /// By impact, and then by perturbation.
   const std::vector<std::vector<EventDerivative>>& events() const { return events_; }
 
  private:
-  struct Body {
-    int ball = -1;
-    Vector position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};
-    mpfr flight_time{0};
-  };
+  static int ball_of(const engine::Impact<mpfr>& impact, int k) {
+    return k == 0 ? impact.ball : impact.partner;
+  }
 
-  EventDerivative derivative(const engine::Impact<mpfr>& impact, const std::array<Body, 2>& bodies,
-                             std::size_t which) {
+  EventDerivative derivative(const engine::Impact<mpfr>& impact, const States& before, std::size_t which) {
     const auto& other = others_[which];
     const mpfr& step = other.step;
     const auto& gravity = base_.mill.gravity;
     const Vector gravity_rate = (other.mill.gravity - gravity) / step;
-    const std::size_t count = impact.with_wall ? 1 : 2;
+    const int count = impact.with_wall ? 1 : 2;
     std::array<Tangent*, 2> t{};
-    for (std::size_t k = 0; k < count; ++k) {
-      const mpfr& dt = bodies[k].flight_time;
-      t[k] = &tangents_[which][static_cast<std::size_t>(bodies[k].ball)];
+    for (int k = 0; k < count; ++k) {
+      const mpfr& dt = impact.flight_time[k];
+      t[k] = &tangents_[which][ball_of(impact, k)];
       t[k]->fly(dt);
       t[k]->position += gravity_rate * mpfr(dt * dt / 2);
       t[k]->velocity += gravity_rate * dt;
     }
-    const auto radius = [&](const Perturbation& in, std::size_t k) {
-      return in.balls[static_cast<std::size_t>(bodies[k].ball)].radius;
-    };
+    const auto radius = [&](const Perturbation& in, int k) { return in.balls[ball_of(impact, k)].radius; };
     const mpfr& period = base_.mill.motion.period();
     mpfr gap;
     if (impact.with_wall) {
@@ -133,8 +122,8 @@ class Linearised : public engine::Observer<mpfr> {
         return gap_of(in.mill, radius(in, 0), impact.partner, on_clock_of(in.mill, period, impact.time, 0),
                       position);
       };
-      const Vector moved = bodies[0].position + t[0]->position * step;
-      gap = (at(other, moved) - at(base_, bodies[0].position)) / step;
+      const Vector moved = before[0].position + t[0]->position * step;
+      gap = (at(other, moved) - at(base_, before[0].position)) / step;
     } else {
       gap = dot<mpfr>(impact.normal, Vector(t[0]->position - t[1]->position)) -
             (radius(other, 0) + radius(other, 1) - radius(base_, 0) - radius(base_, 1)) / step;
@@ -142,28 +131,23 @@ class Linearised : public engine::Observer<mpfr> {
     const mpfr& approach = impact.outcome.approach_speed;
     const mpfr later = approach > 0 ? mpfr(gap / approach) : mpfr(0);
 
-    Collision run, nearby;
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto& b = bodies[k];
-      run.position[k] = b.position;
-      run.velocity[k] = b.velocity;
-      run.spin[k] = b.spin;
-      nearby.position[k] = b.position + (t[k]->position + b.velocity * later) * step;
-      nearby.velocity[k] = b.velocity + (t[k]->velocity + gravity * later) * step;
-      nearby.spin[k] = b.spin + t[k]->spin * step;
+    States run = before, nearby;
+    for (int k = 0; k < count; ++k) {
+      const auto& b = before[k];
+      nearby[k] = {b.position + (t[k]->position + b.velocity * later) * step,
+                   b.velocity + (t[k]->velocity + gravity * later) * step, b.spin + t[k]->spin * step};
     }
-    collide(base_, impact, impact.time, run);
-    collide(other, impact, on_clock_of(other.mill, period, impact.time, later * step), nearby);
+    const auto o = collide(base_, impact, impact.time, run);
+    const auto p = collide(other, impact, on_clock_of(other.mill, period, impact.time, later * step), nearby);
 
     EventDerivative d;
     const auto rate = [&](const mpfr& a, const mpfr& b) { return mpfr((b - a) / step); };
-    const auto &o = run.outcome, &p = nearby.outcome;
     d.values = {later, rate(o.approach_speed, p.approach_speed), rate(o.slip_speed, p.slip_speed),
                 rate(o.milling_dose, p.milling_dose), rate(o.wall_work, p.wall_work)};
-    for (std::size_t k = 0; k < count; ++k) {
-      t[k]->position += (bodies[k].velocity - run.velocity[k]) * later;
-      t[k]->velocity = (nearby.velocity[k] - run.velocity[k]) / step - gravity * later;
-      t[k]->spin = (nearby.spin[k] - run.spin[k]) / step;
+    for (int k = 0; k < count; ++k) {
+      t[k]->position += (before[k].velocity - run[k].velocity) * later;
+      t[k]->velocity = (nearby[k].velocity - run[k].velocity) / step - gravity * later;
+      t[k]->spin = (nearby[k].spin - run[k].spin) / step;
       d.states_after[k] = *t[k];
     }
     return d;
@@ -227,24 +211,23 @@ class Differentiator : private engine::Observer<mpfr> {
   /// With so many digits for the run. @return the digits that it needs
   double run(unsigned digits) {
     const unsigned step_digits = std::min(digits, most_digits_of_step), evaluation = digits + 2 * step_digits;
-    std::unique_ptr<Linearised> linearised;
-    {
+    Linearised linearised = [&] {
       const mpfr::Digits wide(evaluation);
       const auto base = casefile::build_case<mpfr>(spec_);
       std::vector<Perturbation> others;
       for (const auto& number : numbers_) others.push_back(perturbed(number, base, step_digits));
-      linearised = std::make_unique<Linearised>(without_change(base), std::move(others), evaluation);
-    }
+      return Linearised(without_change(base), std::move(others), evaluation);
+    }();
     const mpfr::Digits of_run(digits);
     result.precision = fmt::format("mpfr:{}", digits);
     const auto built = casefile::build_case<mpfr>(spec_);
     engine::Simulation<mpfr> simulation(built.the_case, built.states, built.start);
-    simulation.attach(*linearised);
+    simulation.attach(linearised);
     simulation.attach(*this);
     result.events.clear();
     simulation.run_until(built.the_case.stop.end_time.value_or(Instant<mpfr>::never()));
     result.interrupted = options_.interrupt && *options_.interrupt;
-    result.derivatives = linearised->events();
+    result.derivatives = linearised.events();
     put_lower_first();
     return needed();
   }

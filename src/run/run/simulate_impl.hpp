@@ -133,16 +133,24 @@ io::Summary<Real> blank_summary(const casefile::CaseSpec& spec, const casefile::
 }
 
 /// Summary of what has been simulated so far.
+/// @param driver  none where the first contacts of the balls could not be decided
 template <class Real>
 io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built,
-                             const RunDriver<Real>& driver) {
+                             const std::optional<RunDriver<Real>>& driver) {
   using Totals = typename RunStatistics<Real>::Totals;
   auto summary = blank_summary(spec, built);
-  const auto& simulation = driver.simulation();
-  const auto& statistics = driver.statistics();
-  summary.cpu_seconds = driver.cpu_spent();
-  summary.start_time = driver.counted_from();
-  summary.energy_at_start = driver.energy_at_start();
+  if (!driver) {
+    summary.period = built.the_case.mill.motion.period();
+    summary.start_time = summary.end_time = DriveClock<Real>(summary.period).seconds(built.start);
+    summary.energy_at_start = summary.energy_at_end =
+        model::energy_of(built.the_case.balls, built.states, built.the_case.mill.gravity);
+    return summary;
+  }
+  const auto& simulation = driver->simulation();
+  const auto& statistics = driver->statistics();
+  summary.cpu_seconds = driver->cpu_spent();
+  summary.start_time = driver->counted_from();
+  summary.energy_at_start = driver->energy_at_start();
   summary.end_time = simulation.seconds();
   summary.period = simulation.clock().period();
   summary.energy_at_end = simulation.energy_at(simulation.now());
@@ -167,7 +175,7 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   const auto &first = summary.energy_at_start, &last = summary.energy_at_end;
   summary.energy_closure = summary.wall_work - summary.milling_dose + summary.supplied_energy -
                            ((last.kinetic + last.potential) - (first.kinetic + first.potential));
-  driver.every_run().note(summary);
+  driver->every_run().note(summary);
   // An instant is whole periods and a rest, whose sum is rounded: where the case names the time, it is that.
   const auto name = [&](Real& seconds, const Instant<Real>& when, const casefile::Quantity& given) {
     if (seconds == simulation.clock().seconds(when)) seconds = given.template to<Real>();
@@ -182,15 +190,16 @@ io::Summary<Real> summary_of(const casefile::CaseSpec& spec, const casefile::Ini
   return summary;
 }
 
-/// Summary of a run whose balls' first contacts could not be decided.
+/// The balls as they are now.
 template <class Real>
-io::Summary<Real> empty_summary(const casefile::CaseSpec& spec, const casefile::InitialCase<Real>& built) {
-  auto summary = blank_summary(spec, built);
-  summary.period = built.the_case.mill.motion.period();
-  summary.start_time = summary.end_time = DriveClock<Real>(summary.period).seconds(built.start);
-  summary.energy_at_start = summary.energy_at_end =
-      model::energy_of(built.the_case.balls, built.states, built.the_case.mill.gravity);
-  return summary;
+io::SavedState<Real> saved_state(const casefile::InitialCase<Real>& built,
+                                 const std::optional<RunDriver<Real>>& driver) {
+  if (!driver) return {built.start, built.states};
+  const auto& simulation = driver->simulation();
+  io::SavedState<Real> saved{simulation.now(), {}};
+  for (int k = 0; k < simulation.ball_count(); ++k)
+    saved.states.push_back(simulation.state_at(k, saved.time));
+  return saved;
 }
 
 /// Adds what follows from the numbers.
@@ -213,18 +222,9 @@ Result<Real> simulate(const casefile::CaseSpec& spec, const casefile::InitialCas
   } catch (const UndecidedError& undecided) {
     error = undecided.what();
   }
-  Result<Real> result;
-  if (driver) {
-    const auto& simulation = driver->simulation();
-    for (auto* observer : guests.observers) observer->on_end(simulation);
-    result.summary = summary_of(spec, built, *driver);
-    result.saved.time = simulation.now();
-    for (int k = 0; k < simulation.ball_count(); ++k)
-      result.saved.states.push_back(simulation.state_at(k, simulation.now()));
-  } else {
-    result.summary = empty_summary(spec, built);
-    result.saved = {built.start, built.states};
-  }
+  if (driver)
+    for (auto* observer : guests.observers) observer->on_end(driver->simulation());
+  Result<Real> result{summary_of(spec, built, driver), saved_state(built, driver)};
   finish_summary(result.summary, end_reason, error);
   return result;
 }

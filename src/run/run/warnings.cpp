@@ -33,10 +33,8 @@ bool drifts(const std::vector<double>& means) {
          numerics::differ({means.begin(), half}, {half, means.end()}, 0.01);
 }
 
-void check_dose_rate(const io::Facts& f, const std::optional<double>& wanted,
-                     std::vector<io::Warning>& list) {
+void check_dose_rate(const io::Facts& f, const std::optional<double>& wanted, const auto& warn) {
   const double duration = f.number("duration");
-  const auto warn = [&](const char* kind, const std::string& text) { list.push_back({kind, text}); };
   const auto* means = f.numbers("intervals/milling_dose_rate_of_batches");
   if (!means) {
     if (duration > 0)
@@ -84,7 +82,7 @@ std::vector<io::Warning> warnings_of(const io::Facts& f, const std::optional<dou
     warn("too_few_collisions",
          fmt::format("Only {:g} collisions were counted; below {:g} the rates are not reliable.", collisions,
                      fewest_collisions));
-  check_dose_rate(f, wanted_precision, list);
+  check_dose_rate(f, wanted_precision, warn);
   if (touched > touched_share_limit)
     warn("separation_share",
          fmt::format("{} of the {} that the least separation speed decides: run also with half of "

@@ -84,20 +84,6 @@ std::vector<Job> chosen(std::vector<Job> jobs, std::size_t most) {
   return few;
 }
 
-// Messages. From rank 0: a job, or nothing to stop; to rank 0: a number of threads, or a record.
-std::string to_message(Job job) {
-  Archive archive;
-  archive(job);
-  return archive.bytes();
-}
-
-Job to_job(const std::string& message) {
-  Job job;
-  Archive archive(message);
-  archive(job);
-  return job;
-}
-
 }  // namespace
 
 class Workers {
@@ -178,20 +164,23 @@ Executor::~Executor() {
 
 int Executor::threads() const { return workers_->threads() + threads_elsewhere_; }
 
-bool Executor::hand_out(const Job& job) {
+// Messages. From rank 0: a job, or nothing to stop; to rank 0: a number of threads, or a record.
+bool Executor::hand_out(Job& job) {
   if (workers_->has_idle()) {
     workers_->start(job);
   } else {
     const auto slots = std::find_if(free_slots_.begin(), free_slots_.end(), [](int n) { return n > 0; });
     if (slots == free_slots_.end()) return false;
     --*slots;
-    ranks_.send(static_cast<int>(slots - free_slots_.begin()), to_message(job));
+    Archive message;
+    message(job);
+    ranks_.send(static_cast<int>(slots - free_slots_.begin()), message.bytes());
   }
   ++running_;
   return true;
 }
 
-void Executor::take(const RunRecord& record, const std::function<void(const RunRecord&)>& done) {
+void Executor::take(const RunRecord& record, const RecordFunction& done) {
   --running_;
   // A signal that reached only another rank ends the whole study.
   if (record.status == "interrupted")
@@ -200,7 +189,7 @@ void Executor::take(const RunRecord& record, const std::function<void(const RunR
     done(record);
 }
 
-void Executor::take_messages(const std::function<void(const RunRecord&)>& done) {
+void Executor::take_messages(const RecordFunction& done) {
   while (const auto message = ranks_.receive()) {
     auto& slots = free_slots_[static_cast<std::size_t>(message->first)];
     if (!message->second.starts_with("{")) {
@@ -215,8 +204,7 @@ void Executor::take_messages(const std::function<void(const RunRecord&)>& done) 
   }
 }
 
-void Executor::run(std::vector<Job> jobs, const std::function<void(const RunRecord&)>& done,
-                   const std::function<void()>& tick) {
+void Executor::run(std::vector<Job> jobs, const RecordFunction& done, const std::function<void()>& tick) {
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost > b.cost; });
   std::size_t next = 0;
   while (running_ > 0 || (next < jobs.size() && !interrupt_)) {
@@ -231,8 +219,7 @@ void Executor::run(std::vector<Job> jobs, const std::function<void(const RunReco
   }
 }
 
-void Forecast::make(const std::vector<Job>& jobs, Executor& executor,
-                    const std::function<void(const RunRecord&)>& done) {
+void Forecast::make(const std::vector<Job>& jobs, Executor& executor, const RecordFunction& done) {
   std::map<std::string, Job> tried;
   std::vector<Job> short_jobs;
   for (const auto& job : chosen(jobs, trials)) {
@@ -290,7 +277,9 @@ void serve(Ranks& ranks, int threads, const RunFunction& run, std::atomic<bool>&
         interrupt = true;
         return;
       }
-      workers.start(to_job(message->second));
+      Job job;
+      Archive(message->second)(job);
+      workers.start(job);
     }
     for (const auto& record : workers.finished(milliseconds(2))) ranks.send(0, to_json(record));
   }

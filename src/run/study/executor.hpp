@@ -52,6 +52,8 @@ struct Job {
 
 /// Does a run; called in several threads at once. An exception becomes the record of a failed run.
 using RunFunction = std::function<RunRecord(const Job&)>;
+/// Takes the record of a run that has ended.
+using RecordFunction = std::function<void(const RunRecord&)>;
 
 /// Threads of this process that do jobs.
 class Workers;
@@ -68,17 +70,16 @@ class Executor {
   /// Does all jobs; returns early, with the finished ones, when it is interrupted.
   /// @param done  called with every record, in any order
   /// @param tick  called regularly
-  void run(std::vector<Job> jobs, const std::function<void(const RunRecord&)>& done,
-           const std::function<void()>& tick);
+  void run(std::vector<Job> jobs, const RecordFunction& done, const std::function<void()>& tick);
 
   bool interrupted() const { return interrupt_; }
   /// Of all ranks that have reported.
   int threads() const;
 
  private:
-  bool hand_out(const Job& job);
-  void take_messages(const std::function<void(const RunRecord&)>& done);
-  void take(const RunRecord& record, const std::function<void(const RunRecord&)>& done);
+  bool hand_out(Job& job);
+  void take_messages(const RecordFunction& done);
+  void take(const RunRecord& record, const RecordFunction& done);
 
   Ranks& ranks_;
   std::atomic<bool>& interrupt_;
@@ -93,8 +94,7 @@ class Forecast {
  public:
   /// Runs at most `trials` of the jobs for `trial_time` [s] of processor time each, of all costs.
   /// @param done  called with the records of trials that got to their end: results as any other
-  void make(const std::vector<Job>& jobs, Executor& executor,
-            const std::function<void(const RunRecord&)>& done);
+  void make(const std::vector<Job>& jobs, Executor& executor, const RecordFunction& done);
 
   /// Processor time of a job [s]; nothing where its end is not known beforehand.
   std::optional<double> seconds(const Job& job) const;

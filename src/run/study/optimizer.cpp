@@ -56,11 +56,10 @@ class Search {
 
   bool stopped() const { return out_of_budget_ || study_.interrupted(); }
 
-  /// Adds runs unless that would exceed the budget.
-  bool add_runs(std::size_t point, std::uint64_t count) {
-    if (used_ + count > spec_.runs_max) return out_of_budget_ = true, false;
-    used_ += count;
-    study_.add_runs(point, count);
+  /// Takes runs from the budget, where it has so many.
+  bool spend(std::uint64_t runs) {
+    if (used_ + runs > spec_.runs_max) return out_of_budget_ = true, false;
+    used_ += runs;
     return true;
   }
 
@@ -79,11 +78,11 @@ class Search {
       if (v.values.empty() && (at[k] < v.low - slack || at[k] > v.high + slack)) return false;
       point.settings.emplace_back(v.key, text_of(v, at[k]));
     }
-    if (seen_.contains(point.settings)) return false;
-    if (used_ + spec_.replicas_first > spec_.runs_max) return out_of_budget_ = true, false;
+    if (seen_.contains(point.settings) || !spend(spec_.replicas_first)) return false;
     seen_.insert(point.settings);
     places_.push_back(at);
-    return add_runs(study_.add_point(std::move(point)), spec_.replicas_first);
+    study_.add_runs(study_.add_point(std::move(point)), spec_.replicas_first);
+    return true;
   }
 
   /// All combinations of a list of values for each variable, the last one changing fastest.
@@ -145,7 +144,9 @@ class Search {
       for (const auto k : group) {
         const auto have = study_.points()[k].runs.size();
         const auto want = std::min<std::uint64_t>(2 * have, spec_.replicas_max);
-        if (want > have) added = add_runs(k, want - have) || added;
+        if (want <= have || !spend(want - have)) continue;
+        study_.add_runs(k, want - have);
+        added = true;
       }
       if (!added) return;
       study_.run();

@@ -17,18 +17,11 @@ constexpr const char* format_name = "edmill run record 2";
 }  // namespace
 
 RunRecord record_of(io::Facts summary) {
+  using enum model::EndReason;
+  constexpr model::EndReason before_the_end[] = {inelastic_collapse, stalled, max_cpu_time, undecided,
+                                                 interrupted};
   RunRecord r{summary.text("case_digest"), "done", "", std::move(summary)};
-  switch (io::end_reason_of(r.facts)) {
-    case model::EndReason::inelastic_collapse:
-    case model::EndReason::stalled:
-    case model::EndReason::max_cpu_time:
-    case model::EndReason::undecided:
-    case model::EndReason::interrupted:
-      r.status = r.end_reason();
-      break;
-    default:
-      break;
-  }
+  if (std::ranges::count(before_the_end, io::end_reason_of(r.facts)) > 0) r.status = r.end_reason();
   if (r.facts.has("error")) r.message = r.facts.text("error");
   if (const auto ball = r.facts.find("inelastic_collapse/ball"))
     r.message = fmt::format("ball {:.0f} came to rest in a series of impacts", *ball);

@@ -230,7 +230,7 @@ std::string Study::time_left(double spent) const {
   return left ? ", " + in_words(*left) + " left" : "";
 }
 
-std::string Study::forecast(const std::vector<Job>& jobs, const std::function<void(const RunRecord&)>& done) {
+std::string Study::forecast(const std::vector<Job>& jobs, const RecordFunction& done) {
   forecast_.make(jobs, executor_, done);
   const auto threads = executor_.threads();
   const auto wall_time = forecast_.wall_time(jobs, threads);

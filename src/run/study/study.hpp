@@ -87,7 +87,7 @@ class Study {
   void put(const RunRecord& record);
   void tick();
   /// @param done  called with the records of trials that got to their end
-  std::string forecast(const std::vector<Job>& jobs, const std::function<void(const RunRecord&)>& done);
+  std::string forecast(const std::vector<Job>& jobs, const RecordFunction& done);
   std::string time_left(double spent) const;
   io::Table<double> log_table() const;
   std::filesystem::path record_file(const std::string& digest) const;
