@@ -16,12 +16,10 @@ struct CoverageKeys {
 
   static void keys(auto& c, auto&& row) {
     using casefile::table_size;
-    row(casefile::Parameter{"angles", Dimension::none, "cells about the axis", table_size, "36"}, c.angles);
-    row(casefile::Parameter{"heights", Dimension::none, "cells along the axis", table_size, "24"}, c.heights);
-    row(casefile::Parameter{"rings", Dimension::none, "of equal area on round caps", table_size, "6"},
-        c.rings);
-    row(casefile::Parameter{"parts", Dimension::none, "along each edge of a rectangle", table_size, "12"},
-        c.parts);
+    row({"angles", "cells about the axis", table_size, "36"}, c.angles);
+    row({"heights", "cells along the axis", table_size, "24"}, c.heights);
+    row({"rings", "of equal area on round caps", table_size, "6"}, c.rings);
+    row({"parts", "along each edge of a rectangle", table_size, "12"}, c.parts);
   }
 
   std::size_t parts_of(model::Coordinate c) const {

@@ -16,9 +16,8 @@ struct StatesKey {
   bool states = false;
 
   static void keys(auto& k, auto&& row) {
-    row(casefile::Parameter{"states", Dimension::none,
-                            "also the positions and velocities before and after each impact",
-                            casefile::Range::any, "false"},
+    row({"states", "also the positions and velocities before and after each impact", casefile::Range::any,
+         "false"},
         k.states);
   }
 };

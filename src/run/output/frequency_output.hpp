@@ -13,7 +13,7 @@ struct FrequencyKeys {
   static void keys(auto& output, auto&& row) {
     using casefile::Parameter;
     auto& f = output.frequency;
-    row(Parameter{"variable", Dimension::none, "a number"}.as("name").usually("required"), f.name);
+    row(Parameter{"variable", "a number"}.as("name").usually("required"), f.name);
     const auto variable = model::find_variable(f.name);
     const bool known = variable && model::impact_variables[*variable].kind == model::VariableKind::number;
     const auto dimension =
@@ -27,11 +27,9 @@ struct FrequencyKeys {
     };
     bound("low", "begin of the first interval", f.low);
     bound("high", "end of the last interval", f.high);
-    row(Parameter{"intervals", Dimension::none, "of equal length", casefile::Range(1, 1000000), "10"},
-        f.intervals);
-    row(Parameter{"label", Dimension::none, "in the header"}.usually("the variable's name"),
-        f.variable.label);
-    row(Parameter{"title", Dimension::none, "of the table"}.usually("none"), f.title);
+    row({"intervals", "of equal length", casefile::Range(1, 1000000), "10"}, f.intervals);
+    row(Parameter{"label", "in the header"}.usually("the variable's name"), f.variable.label);
+    row(Parameter{"title", "of the table"}.usually("none"), f.title);
     const auto flag = [&](const char* key, const char* meaning, bool& value) {
       row(Parameter{key, Dimension::none, meaning, casefile::Range::any, "false"}, value);
     };

@@ -18,18 +18,16 @@ struct LyapunovKeys {
   std::uint64_t exponents = 1;
 
   static void keys(auto& output, auto&& row) {
-    row(
-        casefile::Parameter{
-            "interval", Dimension::time,
-            "finite-time exponents: a row for the growth in each such interval, in place of the "
-            "table of exponents",
-            casefile::Range::positive}
+    row(casefile::Parameter{"interval", Dimension::time,
+                            "finite-time exponents: a row for the growth in each such interval, in place of "
+                            "the table of exponents",
+                            casefile::Range::positive}
             .usually("the whole record"),
         output.timer.interval);
     row(casefile::max_rows_key(), output.timer.max_rows);
     row(
         casefile::Parameter{
-            "exponents", Dimension::none,
+            "exponents",
             "how many, the largest first; of N balls there are 9 N, and more than that are all of them",
             casefile::Range(1, 9000), "1"},
         output.template make_own<LyapunovKeys>().exponents);

@@ -26,7 +26,7 @@ struct MillingDoseKeys {
   static void keys(auto& output, auto&& row) {
     row(
         casefile::Parameter{
-            "fields", Dimension::none,
+            "fields",
             "`milling_dose`, `milling_dose_rate`, `inverse_milling_dose_rate`, `specific_milling_dose`, "
             "`specific_milling_dose_rate`, `powder_mass`, `charge_ratio`"}
             .as("list of names")

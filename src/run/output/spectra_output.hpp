@@ -29,7 +29,7 @@ struct SpectraKeys {
   static void keys(auto& output, auto&& row) {
     using casefile::Parameter;
     auto& k = output.template make_own<SpectraKeys>();
-    row(Parameter{"of", Dimension::none, "this or `speed`"}.as("name").usually("`\"energy\"`"), k.by);
+    row(Parameter{"of", "this or `speed`"}.as("name").usually("`\"energy\"`"), k.by);
     const bool speed = k.by == BinnedBy::speed;
     const auto dimension = speed ? Dimension::speed : Dimension::energy;
     row(Parameter{"low", dimension, "begin of the first bin", casefile::Range::any,
@@ -41,9 +41,7 @@ struct SpectraKeys {
             .as("energy or speed")
             .usually("`\"1 J\"`, `\"10 m/s\"`"),
         k.high);
-    row(Parameter{"bins_per_decade", Dimension::none, "in which impacts are counted", casefile::table_size,
-                  "10"},
-        k.bins_per_decade);
+    row({"bins_per_decade", "in which impacts are counted", casefile::table_size, "10"}, k.bins_per_decade);
   }
   static void check(casefile::Section& s, const casefile::CaseSpec&, casefile::OutputSpec& output) {
     const auto& k = output.own_keys<SpectraKeys>();
@@ -144,7 +142,7 @@ struct RatesAboveKeys {
   std::vector<casefile::Quantity> cutoffs;  ///< ascending [m/s]
 
   static void keys(auto& output, auto&& row) {
-    row(casefile::Parameter{"cutoffs", Dimension::none, "a row for each"}
+    row(casefile::Parameter{"cutoffs", "a row for each"}
             .as("list of speeds")
             .usually("0, 1 mm/s, 1 cm/s, 0.1 m/s, 1 m/s"),
         output.template make_own<RatesAboveKeys>().texts);

@@ -12,8 +12,7 @@ struct TraceKeys {
   static void keys(auto& output, auto&& row) {
     row(casefile::interval_key(nullptr).usually("each impact"), output.timer.interval);
     row(casefile::max_rows_key(), output.timer.max_rows);
-    row(casefile::Parameter{"ball", Dimension::none, "its id", casefile::Range::any, "0"},
-        output.template make_own<TraceKeys>().ball);
+    row({"ball", "its id", casefile::Range::any, "0"}, output.template make_own<TraceKeys>().ball);
   }
   static void check(casefile::Section& s, const casefile::CaseSpec& spec, casefile::OutputSpec& output) {
     if (spec.ball_count() > 0)

@@ -15,16 +15,13 @@ struct TreatmentKeys {
   CoverageKeys cells;
 
   static void keys(auto& t, auto&& row) {
-    row(casefile::Parameter{"share_per_impact", Dimension::none,
-                            "fraction of the powder's volume that one impact works",
-                            casefile::Range(1e-12, 1)},
+    row({"share_per_impact", "fraction of the powder's volume that one impact works",
+         casefile::Range(1e-12, 1)},
         t.share);
-    row(casefile::Parameter{"threshold", Dimension::energy, "impacts that dissipate less work no powder",
-                            model::Range::not_negative, "0 J"},
+    row({"threshold", Dimension::energy, "impacts that dissipate less work no powder",
+         model::Range::not_negative, "0 J"},
         t.threshold);
-    row(casefile::Parameter{"most", Dimension::none, "largest number of hits with a row of its own",
-                            casefile::table_size, "10"},
-        t.most);
+    row({"most", "largest number of hits with a row of its own", casefile::table_size, "10"}, t.most);
     CoverageKeys::keys(t.cells, row);
   }
 };

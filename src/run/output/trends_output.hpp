@@ -14,9 +14,8 @@ struct TrendsKeys {
     using enum casefile::Statistic;
     row(casefile::interval_key("30 s"), output.timer.interval);
     row(casefile::max_rows_key("32000"), output.timer.max_rows);
-    row(casefile::Parameter{"accumulated", Dimension::none,
-                            "from the start of the record in place of the interval", casefile::Range::any,
-                            "false"},
+    row({"accumulated", "from the start of the record in place of the interval", casefile::Range::any,
+         "false"},
         output.accumulated);
     row(casefile::columns_key, casefile::ColumnReader{{.flags = true,
                                                        .counts = true,

@@ -74,7 +74,7 @@ struct RestitutionBySlip {
   LawTable<Number> points;  ///< |g_t| / |g_n|, rising, and e_t
 
   static void parameters(auto& law, auto&& visit) {
-    visit(Parameter{"restitution", Dimension::none, "e_n", {0, 1}}, law.normal);
+    visit(Parameter{"restitution", "e_n", {0, 1}}, law.normal);
     for (auto& point : law.points)
       for (std::size_t k = 0; k < 2; ++k) visit(table_rows[k], point[k]);
   }
@@ -109,8 +109,8 @@ struct PowderLoad : CoulombSlip<Number> {
   Number charge_ratio{5};  ///< mass of the balls over that of the powder
 
   static void parameters(auto& law, auto&& visit) {
-    visit(Parameter{"charge_ratio", Dimension::none, "mass of the balls over that of the powder",
-                    Range(2.5, 10), nullptr, "that of the case"},
+    visit(Parameter{"charge_ratio", "mass of the balls over that of the powder", Range(2.5, 10), nullptr,
+                    "that of the case"},
           law.charge_ratio);
     CoulombSlip<Number>::parameters(law, visit);
   }

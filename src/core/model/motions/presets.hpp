@@ -31,7 +31,7 @@ struct Chain {
       visit(Parameter{"speed", joint.rotates ? Dimension::angular_speed : Dimension::speed, ""}, joint.speed);
       for (auto& swing : joint.swings)
         for (auto* number : {&swing.amplitude, &swing.frequency, &swing.phase})
-          visit(Parameter{"swing", Dimension::none, ""}, *number);
+          visit(Parameter{"swing", ""}, *number);
     }
   }
   Joints<Number> joints() const { return given; }
@@ -49,7 +49,7 @@ struct Planetary {
     visit(Parameter{"radius", Dimension::length, "of the disc, to the centre of the jar", Range::positive},
           part.radius);
     visit(Parameter{"speed", Dimension::angular_speed, "of the disc, about Y", Range::drive}, part.period);
-    visit(Parameter{"ratio", Dimension::none,
+    visit(Parameter{"ratio",
                     "speed of the jar as seen from the disc, over that of the disc: negative where the jar "
                     "turns the other way, -1 where it keeps its direction in space"},
           part.ratio);
