@@ -73,7 +73,7 @@ class Laws {
  private:
   using Law = casefile::ContactSpec;
   struct Entry {
-    std::string key, meaning;
+    std::string key;
     Dimension dimension;
     double value;
   };
@@ -81,15 +81,15 @@ class Laws {
   template <class L, class F>
   static void each(L& law, F&& f) {
     const auto visit = [&]<class Value>(const auto& p, Value& value) {
-      if constexpr (std::is_same_v<Value, Quantity>) f(p.key, p.meaning, p.dimension, value);
+      if constexpr (std::is_same_v<Value, Quantity>) f(p.key, p.dimension, value);
     };
     std::visit([&](auto& own) { own.parameters(own, visit); }, law.law);
-    f("least_separation", "v_s", Dimension::speed, law.least_separation);
+    f("least_separation", Dimension::speed, law.least_separation);
   }
   static std::vector<Entry> entries(Law law) {
     std::vector<Entry> list;
-    each(law, [&](const char* key, const char* meaning, Dimension dimension, Quantity& q) {
-      list.push_back({key, meaning, dimension, q.to<double>()});
+    each(law, [&](const char* key, Dimension dimension, Quantity& q) {
+      list.push_back({key, dimension, q.to<double>()});
     });
     return list;
   }
@@ -97,7 +97,7 @@ class Laws {
   /// by their place.
   static void put(Law& law, const std::string& key, std::size_t which, double value) {
     std::size_t k = 0;
-    each(law, [&](const char* own, const char*, Dimension, Quantity& q) {
+    each(law, [&](const char* own, Dimension, Quantity& q) {
       if (own == key && k++ == which) q = exactly(value);
     });
   }
@@ -107,7 +107,7 @@ class Laws {
                                                   [&](const Entry& e) { return e.key == list[place].key; }));
   }
   void push(const Entry& e, const std::string& section, std::function<void(Assumptions&, double)> set) {
-    auto p = number(section + "." + e.key, e.meaning, e.dimension, e.value, std::move(set));
+    auto p = number(section + "." + e.key, e.dimension, e.value, std::move(set));
     if (e.value == 0) p.change = e.dimension == Dimension::speed ? 0.01 : 0.1;
     list_.push_back(std::move(p));
   }
@@ -117,7 +117,7 @@ class Laws {
     const auto own = entries(law);
     bool complete = true;
     law.law = law_named(other.model);
-    each(law, [&](const char* key, const char*, Dimension, Quantity& q) {
+    each(law, [&](const char* key, Dimension, Quantity& q) {
       const auto same = std::find_if(own.begin(), own.end(), [&](const Entry& e) { return e.key == key; });
       const auto value_there = key == other.number ? value : same != own.end() ? same->value : otherwise(key);
       complete = complete && value_there;
@@ -131,7 +131,6 @@ class Laws {
       Law tried = law;
       if (law.name() == other.model || !replace(tried, other, other.first_values.front())) continue;
       list_.push_back({.key = fmt::format("{}, law \"{}\": {}", section, other.model, other.number),
-                       .meaning = "",
                        .dimension = other.dimension,
                        .value = std::numeric_limits<double>::quiet_NaN(),
                        .change = other.change,

@@ -50,24 +50,12 @@ void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, L
 
 }  // namespace
 
-/// Takes rows; when `allowed` is given they are divided by it, otherwise what they are allowed is noted.
 struct LogResiduals::Writer {
-  std::vector<double>* values = nullptr;
-  const std::vector<double>* allowed = nullptr;
-  std::vector<double>* note = nullptr;
-  std::vector<RowKind>* kinds = nullptr;
-  std::vector<RowPlace>* places = nullptr;
+  std::vector<Row>& rows;
   RowPlace at = {};
 
   void add(RowKind kind, double off, double allow) {
-    if (note) {
-      note->push_back(allow > 0 && std::isfinite(allow) ? allow : 1.0);
-      kinds->push_back(kind);
-      places->push_back(at);
-      return;
-    }
-    const double row = off / (*allowed)[values->size()];
-    values->push_back(std::isfinite(row) ? std::clamp(row, -out_of_range, out_of_range) : out_of_range);
+    rows.push_back({off, allow > 0 && std::isfinite(allow) ? allow : 1.0, kind, at});
   }
   void add(RowKind kind, const Vec& off, double allow) {
     for (int k = 0; k < 3; ++k) add(kind, off[k], allow);
@@ -120,10 +108,10 @@ Branches LogResiduals::branches_of(const LoggedEvent& event) const {
 
 Residuals LogResiduals::on(const std::vector<std::size_t>& events) const {
   Residuals sample(*this);
-  Writer note{nullptr, nullptr, &sample.allowed_, &sample.kinds_, &sample.places_};
+  Writer out{sample.of_case_};
   for (const std::size_t k : events) {
     if (!log_.events[k].problem.empty()) continue;
-    event_rows(k, {nominal_, {}, {}}, note);
+    event_rows(k, {nominal_, {}, {}}, out);
     sample.chosen_.push_back(k);
   }
   return sample;
@@ -139,7 +127,7 @@ std::vector<double> Residuals::rows(const Assumptions& assumed) const {
   std::vector<std::size_t> set_of(count(), 0);
   for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
     for (std::size_t k = 0; k < count(); ++k)
-      if (assumed.restricted[r].part->holds(places_[k])) set_of[k] |= std::size_t{1} << r;
+      if (assumed.restricted[r].part->holds(of_case_[k].at)) set_of[k] |= std::size_t{1} << r;
   for (std::size_t set = 1; set < sets; ++set) {
     if (std::find(set_of.begin(), set_of.end(), set) == set_of.end()) continue;
     Assumptions here = whole;
@@ -159,10 +147,16 @@ std::vector<double> Residuals::of_whole(const Assumptions& assumed) const {
   EDMILL_REQUIRE(model->balls.size() == nominal.balls.size() &&
                      model->mill.vessel.wall_count() == nominal.mill.vessel.wall_count(),
                  "the bodies that the log is of");
-  std::vector<double> values;
-  values.reserve(count());
-  LogResiduals::Writer out{&values, &allowed_};
+  std::vector<Row> rows;
+  rows.reserve(count());
+  LogResiduals::Writer out{rows};
   for (const std::size_t k : chosen_) log_->event_rows(k, {*model, assumed.log, assumed.terms}, out);
+  std::vector<double> values(count());
+  std::transform(
+      rows.begin(), rows.end(), of_case_.begin(), values.begin(), [](const Row& r, const Row& due) {
+        const double value = r.difference / due.allowed;
+        return std::isfinite(value) ? std::clamp(value, -out_of_range, out_of_range) : out_of_range;
+      });
   return values;
 }
 
