@@ -34,18 +34,18 @@ Joints reversed(Joints joints) {
   return joints;
 }
 
-Parameter mistake(std::string key, std::string text, std::function<void(Assumptions&)> make) {
-  return {.key = std::move(key),
-          .set = [make = std::move(make)](Assumptions& a, double) { make(a); },
-          .first_values = {1},
-          .mistake = std::move(text)};
+void add(std::vector<Parameter>& list, std::string key, std::string text,
+         std::function<void(Assumptions&)> make) {
+  list.push_back({.key = std::move(key),
+                  .set = [make = std::move(make)](Assumptions& a, double) { make(a); },
+                  .first_values = {1},
+                  .mistake = std::move(text)});
 }
 
 void add_motions(const Assumptions& nominal, std::vector<Parameter>& list) {
   const Joints joints = casefile::joints_of(nominal.spec.mill);
-  const auto add = [&](const char* what, const char* text, const Joints& others) {
-    list.push_back(
-        mistake(fmt::format("mill, {}", what), text, [others](Assumptions& a) { put_chain(a, others); }));
+  const auto add_joints = [&](const char* what, const char* text, const Joints& others) {
+    add(list, fmt::format("mill, {}", what), text, [others](Assumptions& a) { put_chain(a, others); });
     list.back().of_motion = true;
   };
   const bool is_spex = std::holds_alternative<model::Spex8000<Quantity>>(nominal.spec.mill);
@@ -54,18 +54,18 @@ void add_motions(const Assumptions& nominal, std::vector<Parameter>& list) {
     auto back = joints[0];
     back.angle = -back.angle;
     for (auto& swing : back.swings) swing.amplitude = -swing.amplitude;
-    add("order of rotations",
-        "R_x(gamma) R_z(theta), as (2.14) is printed, in place of R_z(theta) R_x(gamma)",
-        {joints[0], joints[1], back, joints[2], joints[0]});
+    add_joints("order of rotations",
+               "R_x(gamma) R_z(theta), as (2.14) is printed, in place of R_z(theta) R_x(gamma)",
+               {joints[0], joints[1], back, joints[2], joints[0]});
     auto turned = joints;
     for (auto& swing : turned[2].swings) swing.amplitude = -swing.amplitude;
-    add("sign of gamma", "-gamma_max sin(phase) in place of gamma_max sin(phase)", turned);
+    add_joints("sign of gamma", "-gamma_max sin(phase) in place of gamma_max sin(phase)", turned);
   }
   const auto moves = [](const auto& joint) { return !joint.speed.zero() || !joint.swings.empty(); };
   if (std::any_of(joints.begin(), joints.end(), moves))
-    add("direction of rotation",
-        is_spex ? "the drive turns the other way" : "all joints move the other way in time",
-        reversed(joints));
+    add_joints("direction of rotation",
+               is_spex ? "the drive turns the other way" : "all joints move the other way in time",
+               reversed(joints));
 }
 
 /// Factors by which a wrong unit, or a diameter in place of a radius, changes a number.
@@ -97,71 +97,57 @@ void add_factors(const std::vector<Parameter>& numbers, std::vector<Parameter>& 
     for (const auto& factor : factors) {
       if (!p.has_unit || p.dimension == Dimension::none || !factor.changes(p)) continue;
       const double value = factor.by * p.value;
-      list.push_back(mistake(p.key,
-                             fmt::format("{} in place of {}, a factor of {}", value_text(p.dimension, value),
-                                         value_text(p.dimension, p.value), factor.text),
-                             [set = p.set, value](Assumptions& a) { set(a, value); }));
+      add(list, p.key,
+          fmt::format("{} in place of {}, a factor of {}", value_text(p.dimension, value),
+                      value_text(p.dimension, p.value), factor.text),
+          [set = p.set, value](Assumptions& a) { set(a, value); });
       list.back().by_factor = true;
     }
 }
 
-/// Which columns of vectors a log has, of the ball.
-struct Vectors {
-  bool positions, velocities, spins;
-
-  explicit Vectors(const audit::Available::Body& has)
-      : positions(has.position),
-        velocities(has.velocity_before || has.velocity_after),
-        spins(has.spin_before || has.spin_after) {}
-};
-
 void add_units(const audit::Available& has, std::vector<Parameter>& list) {
-  const Vectors ball(has.body[0]);
-  const bool energies = has.milling_dose || has.wall_work;
-  struct Unit {
-    bool logged;
-    const char* columns;
-    double LogChange::*factor;
-    double value;
-    const char* text;
+  const auto& ball = has.body[0];
+  const auto add_unit = [&](const char* columns, double LogChange::*member, double factor, std::string text) {
+    add(list, fmt::format("the log's {}", columns), std::move(text),
+        [=](Assumptions& a) { a.log.*member = factor; });
   };
-  const Unit units[] = {
-      {true, "times", &LogChange::time, 1e-3, "in ms in place of s"},
-      {true, "times", &LogChange::time, 1e3, "in units of 1000 s"},
-      {ball.positions, "positions", &LogChange::positions, 1e-3, "in mm in place of m"},
-      {ball.positions, "positions", &LogChange::positions, 1e3, "in units of 1000 m"},
-      {ball.velocities, "velocities", &LogChange::velocities, 1e-3, "in mm/s in place of m/s"},
-      {ball.velocities, "velocities", &LogChange::velocities, 1e3, "in units of 1000 m/s"},
-      {ball.spins, "spins", &LogChange::spins, pi / 180, "in degrees per second in place of rad/s"},
-      {ball.spins, "spins", &LogChange::spins, 180 / pi, "multiplied by pi/180 once too often"},
-      {ball.spins, "spins", &LogChange::spins, 2 * pi, "in revolutions per second in place of rad/s"},
-      {energies, "energies", &LogChange::energies, 1e-3, "in mJ in place of J"},
-      {energies, "energies", &LogChange::energies, 1e3, "in units of 1000 J"},
-      {has.approach_speed, "speeds", &LogChange::speeds, 1e-3, "in mm/s in place of m/s"},
-      {has.approach_speed, "speeds", &LogChange::speeds, 1e3, "in units of 1000 m/s"}};
-  for (const auto& unit : units)
-    if (unit.logged)
-      list.push_back(
-          mistake(fmt::format("the log's {}", unit.columns), unit.text,
-                  [factor = unit.factor, value = unit.value](Assumptions& a) { a.log.*factor = value; }));
+  struct Columns {
+    bool logged;
+    const char* name;
+    double LogChange::*factor;
+    const char *small, *unit;
+  };
+  const Columns with_units[] = {
+      {true, "times", &LogChange::time, "ms", "s"},
+      {ball.position, "positions", &LogChange::positions, "mm", "m"},
+      {ball.velocity_before || ball.velocity_after, "velocities", &LogChange::velocities, "mm/s", "m/s"},
+      {has.milling_dose || has.wall_work, "energies", &LogChange::energies, "mJ", "J"},
+      {has.approach_speed, "speeds", &LogChange::speeds, "mm/s", "m/s"}};
+  for (const auto& c : with_units) {
+    if (!c.logged) continue;
+    add_unit(c.name, c.factor, 1e-3, fmt::format("in {} in place of {}", c.small, c.unit));
+    add_unit(c.name, c.factor, 1e3, fmt::format("in units of 1000 {}", c.unit));
+  }
+  if (!ball.spin_before && !ball.spin_after) return;
+  add_unit("spins", &LogChange::spins, pi / 180, "in degrees per second in place of rad/s");
+  add_unit("spins", &LogChange::spins, 180 / pi, "multiplied by pi/180 once too often");
+  add_unit("spins", &LogChange::spins, 2 * pi, "in revolutions per second in place of rad/s");
 }
 
 /// Axes that a code has in another order or direction.
 void add_axes(const audit::Available& has, std::vector<Parameter>& list) {
-  const Vectors ball(has.body[0]);
-  using Changed = std::vector<Axes LogChange::*>;
-  struct Group {
+  const auto& ball = has.body[0];
+  struct Vectors {
     bool logged;
     const char* name;
-    Changed changed;
+    Axes LogChange::*axes;
   };
-  const Group groups[] = {
-      {ball.positions && ball.velocities && ball.spins,
-       "vectors",
-       {&LogChange::axes_of_positions, &LogChange::axes_of_velocities, &LogChange::axes_of_spins}},
-      {ball.positions, "positions", {&LogChange::axes_of_positions}},
-      {ball.velocities, "velocities", {&LogChange::axes_of_velocities}},
-      {ball.spins, "spins", {&LogChange::axes_of_spins}}};
+  const Vectors vectors[] = {
+      {ball.position, "positions", &LogChange::axes_of_positions},
+      {ball.velocity_before || ball.velocity_after, "velocities", &LogChange::axes_of_velocities},
+      {ball.spin_before || ball.spin_after, "spins", &LogChange::axes_of_spins}};
+  const bool all =
+      std::all_of(std::begin(vectors), std::end(vectors), [](const auto& v) { return v.logged; });
   std::array<int, 3> from{0, 1, 2};
   do {
     for (unsigned signs = 0; signs < 8; ++signs) {
@@ -172,42 +158,47 @@ void add_axes(const audit::Available& has, std::vector<Parameter>& list) {
         text += fmt::format("{}{}{}", k > 0 ? ", " : "", axes.sign[k] < 0 ? "-" : "", "xyz"[axes.from[k]]);
       }
       if (axes == Axes{}) continue;
-      for (const auto& group : groups)
-        if (group.logged)
-          list.push_back(mistake(fmt::format("the log's {}", group.name),
-                                 fmt::format("{} of the log are x, y, z of the case", text),
-                                 [axes, changed = group.changed](Assumptions& a) {
-                                   for (const auto member : changed) a.log.*member = axes;
-                                 }));
+      text += " of the log are x, y, z of the case";
+      if (all)
+        add(list, "the log's vectors", text, [=](Assumptions& a) {
+          for (const auto& v : vectors) a.log.*v.axes = axes;
+        });
+      for (const auto& v : vectors)
+        if (v.logged)
+          add(list, fmt::format("the log's {}", v.name), text, [=](Assumptions& a) { a.log.*v.axes = axes; });
     }
   } while (std::next_permutation(from.begin(), from.end()));
 }
 
-/// What columns stand for, and formulas.
-void add_conventions(const audit::Available& has, const Assumptions& nominal, std::vector<Parameter>& list) {
-  const auto add = [&](bool can_be, const char* key, const char* text, auto make) {
-    if (can_be) list.push_back(mistake(key, text, make));
-  };
+/// What columns stand for.
+void add_frames(const audit::Available& has, std::vector<Parameter>& list) {
   const auto& [ball, partner] = has.body;
-  add(Vectors(partner).velocities, "the log's columns of the partner",
-      "the states of ball and partner exchanged", [](Assumptions& a) { a.log.states_exchanged = true; });
-  add(ball.position, "the log's frame", "vectors in components along the vessel's axes",
+  if (partner.velocity_before || partner.velocity_after)
+    add(list, "the log's columns of the partner", "the states of ball and partner exchanged",
+        [](Assumptions& a) { a.log.states_exchanged = true; });
+  if (!ball.position) return;
+  add(list, "the log's frame", "vectors in components along the vessel's axes",
       [](Assumptions& a) { a.log.frame = LogFrame::axes_of_vessel; });
-  add(ball.position, "the log's frame", "places, velocities and spins as seen from the vessel",
+  add(list, "the log's frame", "places, velocities and spins as seen from the vessel",
       [](Assumptions& a) { a.log.frame = LogFrame::vessel; });
-  add(ball.position && ball.velocity_before && ball.velocity_after, "the log's states",
-      "before and after the impact exchanged", [](Assumptions& a) { a.log.reversed_in_time = true; });
+  if (ball.velocity_before && ball.velocity_after)
+    add(list, "the log's states", "before and after the impact exchanged",
+        [](Assumptions& a) { a.log.reversed_in_time = true; });
   for (std::size_t formula = 1; formula < audit::wall_velocities.size(); ++formula)
-    add(ball.position, "velocity of the wall (2.27)", audit::wall_velocities[formula].note,
+    add(list, "velocity of the wall (2.27)", audit::wall_velocities[formula].note,
         [formula](Assumptions& a) { a.terms.wall_velocity_formula = formula; });
+}
+
+/// Formulas that hold for balls that are alike, for those that are not.
+void add_equal_balls(const Assumptions& nominal, std::vector<Parameter>& list) {
   using Form = Terms::EqualBalls;
-  const auto alike = [&](const auto& own) { return own == nominal.balls.front(); };
-  const bool some_differ = !std::all_of(nominal.balls.begin(), nominal.balls.end(), alike);
+  const auto alike = [&](const auto& ball) { return ball == nominal.balls.front(); };
+  if (std::all_of(nominal.balls.begin(), nominal.balls.end(), alike)) return;
   for (const auto& [form, text] :
        {std::pair(Form::limit_of_sliding, "1 + 1/J, as (2.24) is printed, in the limit of sliding"),
         std::pair(Form::friction, "1 + 1/J, as (2.24) is printed, in the impulse too"),
         std::pair(Form::masses, "each takes half of the relative change, as for equal masses")})
-    add(some_differ, "impacts of balls that are not alike (2.24')", text,
+    add(list, "impacts of balls that are not alike (2.24')", text,
         [form = form](Assumptions& a) { a.terms.equal_balls = form; });
 }
 
@@ -219,11 +210,10 @@ void add_exchanged_balls(const Assumptions& nominal, std::vector<Parameter>& lis
   for (int i = 0; i < count; ++i)
     for (int j = i + 1; j < count; ++j)
       if (!(nominal.balls[i] == nominal.balls[j]))
-        list.push_back(mistake("the log's numbers of balls",
-                               fmt::format("balls {} and {} taken for each other", i, j),
-                               [=](Assumptions& a) {
-                                 a.log.exchanged = {i, j};
-                               }));
+        add(list, "the log's numbers of balls", fmt::format("balls {} and {} taken for each other", i, j),
+            [=](Assumptions& a) {
+              a.log.exchanged = {i, j};
+            });
 }
 
 }  // namespace
@@ -234,7 +224,8 @@ std::vector<Parameter> mistakes_of(const Assumptions& nominal, const std::vector
   add_motions(nominal, list);
   add_units(has, list);
   add_axes(has, list);
-  add_conventions(has, nominal, list);
+  add_frames(has, list);
+  add_equal_balls(nominal, list);
   add_exchanged_balls(nominal, list);
   add_factors(parameters, list);
   return list;

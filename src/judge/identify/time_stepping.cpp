@@ -133,19 +133,17 @@ class Measured {
     const auto impact = audit::impact_of(event, case_, frame, true);
     const auto& [ball, other] = impact.ball;
     normal = impact.normal;
-    contact.effective_mass = ball.mass;
-    contact.effective_radius = ball.radius;
-    if (event.with_wall) {
-      carrier = impact.wall_velocity;
-      contact.approach = -audit::dot(Vec(one.velocity_before - carrier), normal);
-    } else {
-      const auto& two = event.body[1];
-      carrier = (one.velocity_before * ball.mass + two.velocity_before * other.mass) *
-                (1 / (ball.mass + other.mass));
-      contact.effective_mass = ball.mass * other.mass / (ball.mass + other.mass);
-      contact.effective_radius = ball.radius * other.radius / (ball.radius + other.radius);
-      contact.approach = -audit::dot(Vec(one.velocity_before - two.velocity_before), normal);
-    }
+    const Vec& met = event.with_wall ? impact.wall_velocity : event.body[1].velocity_before;
+    const auto combined = [&](double own, double of_other) {
+      return event.with_wall ? own : own * of_other / (own + of_other);
+    };
+    contact.effective_mass = combined(ball.mass, other.mass);
+    contact.effective_radius = combined(ball.radius, other.radius);
+    contact.approach = -audit::dot(Vec(one.velocity_before - met), normal);
+    carrier =
+        event.with_wall
+            ? met
+            : Vec((one.velocity_before * ball.mass + met * other.mass) * (1 / (ball.mass + other.mass)));
     const bool late = gap < -tolerances_.touch(event.time, event.with_wall);
     // Grazes have no time at which they begin.
     if (contact.approach > audit::size(one.velocity_before) / 10)
