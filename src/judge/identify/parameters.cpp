@@ -47,10 +47,9 @@ void add_numbers(const std::string& section, const Assumptions& nominal, Member 
         if (k++ == own) target = exactly(drive ? 2 * pi / value : value);
       });
     };
-    auto parameter = number(section + "." + with_axis(p.key, axis), p.dimension, nominal_value, set);
-    parameter.is_speed = drive;
-    parameter.is_diameter = parameter.key == "vessel.diameter";
-    list.push_back(std::move(parameter));
+    list.push_back(number(section + "." + with_axis(p.key, axis), p.dimension, nominal_value, set));
+    list.back().is_speed = drive;
+    list.back().is_diameter = list.back().key == "vessel.diameter";
   });
 }
 
@@ -140,10 +139,9 @@ void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
   };
   if (size == 0) {
     for (int axis = 0; axis < 3; ++axis) {
-      auto p = number(with_axis("run.gravity", axis), Dimension::acceleration, 0,
-                      [=](Assumptions& a, double x) { a.spec.gravity[axis] = exactly(x); });
-      p.change = 10;
-      list.push_back(std::move(p));
+      list.push_back(number(with_axis("run.gravity", axis), Dimension::acceleration, 0,
+                            [=](Assumptions& a, double x) { a.spec.gravity[axis] = exactly(x); }));
+      list.back().change = 10;
     }
     return;
   }
@@ -288,11 +286,10 @@ std::vector<Parameter> parameters_of(const Assumptions& nominal) {
     add_numbers("mill", nominal, &casefile::CaseSpec::mill, list);
   if (!std::holds_alternative<model::StillMill<Quantity>>(nominal.spec.mill)) {
     const double period = casefile::period_of(nominal.spec.mill).to<double>();
-    auto phase =
-        number("phase of the drive", Dimension::time, 0, [](Assumptions& a, double x) { a.log.delay = x; });
-    phase.change = period / 10;
-    phase.cycle = period;
-    list.push_back(std::move(phase));
+    list.push_back(
+        number("phase of the drive", Dimension::time, 0, [](Assumptions& a, double x) { a.log.delay = x; }));
+    list.back().change = period / 10;
+    list.back().cycle = period;
     add_phases(nominal, list);
   }
   if (!std::holds_alternative<model::Polyhedron<Quantity>>(nominal.spec.vessel))

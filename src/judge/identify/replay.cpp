@@ -82,11 +82,11 @@ class Replay {
 
   /// How many impacts from the first on two lists have in common.
   std::size_t common(const std::vector<Impact>& one, const std::vector<Impact>& two) const {
-    std::size_t n = 0;
-    while (n < std::min(one.size(), two.size()) && one[n].same_bodies(two[n]) &&
-           std::abs(one[n].time - two[n].time) < same_time * period_)
-      ++n;
-    return n;
+    const auto same = [&](const Impact& a, const Impact& b) {
+      return a.same_bodies(b) && std::abs(a.time - b.time) < same_time * period_;
+    };
+    const auto differing = std::mismatch(one.begin(), one.end(), two.begin(), two.end(), same);
+    return static_cast<std::size_t>(differing.first - one.begin());
   }
   std::size_t follows(const std::vector<Impact>& list) const { return common(list, log_); }
 

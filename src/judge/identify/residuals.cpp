@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/errors.hpp"
 #include "identify/fit.hpp"
@@ -123,13 +124,12 @@ std::vector<double> Residuals::rows(const Assumptions& assumed) const {
   whole.restricted.clear();
   auto values = of_whole(whole);
   // Each set of parts that a row may be in has rows of its own.
-  const std::size_t sets = std::size_t{1} << assumed.restricted.size();
   std::vector<std::size_t> set_of(count(), 0);
   for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
     for (std::size_t k = 0; k < count(); ++k)
       if (assumed.restricted[r].part->holds(of_case_[k].at)) set_of[k] |= std::size_t{1} << r;
-  for (std::size_t set = 1; set < sets; ++set) {
-    if (std::find(set_of.begin(), set_of.end(), set) == set_of.end()) continue;
+  for (const std::size_t set : std::set<std::size_t>(set_of.begin(), set_of.end())) {
+    if (set == 0) continue;
     Assumptions here = whole;
     for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
       if (set >> r & 1) assumed.restricted[r].make(here);
