@@ -47,19 +47,6 @@ class LogResiduals {
     std::size_t body = 0;
   };
   struct Writer;
-  /// What a row is computed from.
-  struct Given {
-    const model::Case<double>& model;
-    const LogChange& change;
-    const Terms& terms;
-  };
-  void event_rows(std::size_t k, const Given& given, Writer& out) const;
-  void flight_rows(std::size_t k, std::size_t body, const audit::LoggedEvent& event, const Given& given,
-                   Writer& out) const;
-  void impact_rows(const audit::LoggedImpact& impact, const Terms& terms, Writer& out) const;
-  void energy_rows(const audit::LoggedImpact& impact, const audit::Speeds& speeds, const Terms& terms,
-                   double allowed, Writer& out) const;
-  void speed_rows(const audit::LoggedImpact& impact, const Terms& terms, Writer& out) const;
   Branches branches_of(const audit::LoggedEvent& event) const;
 
   const audit::EventsAtHand& log_;
