@@ -144,16 +144,15 @@ std::vector<SharedSubset> subsets_of(const model::Case<double>& the_case,
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
     of_impacts("at " + walls[wall].meaning,
                [wall](const LoggedEvent& e, std::size_t) { return e.with_wall && e.partner == wall; });
-  of_impacts("where contacts stick",
-             [&](const LoggedEvent&, std::size_t k) { return branches[k].known && branches[k].sticks; });
-  of_impacts("where contacts slide",
-             [&](const LoggedEvent&, std::size_t k) { return branches[k].known && !branches[k].sticks; });
-  of_impacts("where the least separation speed applies", [&](const LoggedEvent&, std::size_t k) {
-    return branches[k].known && branches[k].at_least_separation;
-  });
-  of_impacts("where the restitution applies", [&](const LoggedEvent&, std::size_t k) {
-    return branches[k].known && !branches[k].at_least_separation;
-  });
+  const auto of_branch = [&](const char* name, bool Branches::*member, bool value) {
+    of_impacts(name, [=, &branches](const LoggedEvent&, std::size_t k) {
+      return branches[k].known && branches[k].*member == value;
+    });
+  };
+  of_branch("where contacts stick", &Branches::sticks, true);
+  of_branch("where contacts slide", &Branches::sticks, false);
+  of_branch("where the least separation speed applies", &Branches::at_least_separation, true);
+  of_branch("where the restitution applies", &Branches::at_least_separation, false);
   const auto& balls = the_case.balls;
   of_impacts("between balls that are not alike", [&balls](const LoggedEvent& e, std::size_t) {
     return !e.with_wall && !(balls[e.ball] == balls[e.partner]);

@@ -34,108 +34,120 @@ Joints reversed(Joints joints) {
   return joints;
 }
 
-void add_motions(const Assumptions& nominal, std::vector<Mistake>& list) {
+void add(std::vector<Parameter>& list, std::string key, std::string text,
+         std::function<void(Assumptions&)> make) {
+  list.push_back({.key = std::move(key),
+                  .set = [make = std::move(make)](Assumptions& a, double) { make(a); },
+                  .first_values = {1},
+                  .mistake = std::move(text)});
+}
+
+void add_motions(const Assumptions& nominal, std::vector<Parameter>& list) {
   const Joints joints = casefile::joints_of(nominal.spec.mill);
-  if (std::holds_alternative<model::Spex8000<Quantity>>(nominal.spec.mill)) {
-    list.push_back({"mill, order of rotations",
-                    "R_x(gamma) R_z(theta), as (2.14) is printed, in place of R_z(theta) R_x(gamma)",
-                    [joints](Assumptions& a) {
-                      // The centre stays on its circle; the axes are turned by theta first, then by gamma
-                      // about X.
-                      auto back = joints[0];
-                      back.angle = -back.angle;
-                      for (auto& swing : back.swings) swing.amplitude = -swing.amplitude;
-                      put_chain(a, {joints[0], joints[1], back, joints[2], joints[0]});
-                    },
-                    false, true});
-    list.push_back({"mill, sign of gamma", "-gamma_max sin(phase) in place of gamma_max sin(phase)",
-                    [joints](Assumptions& a) {
-                      auto turned = joints;
-                      for (auto& swing : turned[2].swings) swing.amplitude = -swing.amplitude;
-                      put_chain(a, turned);
-                    },
-                    false, true});
-    list.push_back({"mill, direction of rotation", "the drive turns the other way",
-                    [joints](Assumptions& a) { put_chain(a, reversed(joints)); }, false, true});
-    return;
+  const auto add_joints = [&](const char* what, const char* text, const Joints& others) {
+    add(list, fmt::format("mill, {}", what), text, [others](Assumptions& a) { put_chain(a, others); });
+    list.back().of_motion = true;
+  };
+  const bool is_spex = std::holds_alternative<model::Spex8000<Quantity>>(nominal.spec.mill);
+  if (is_spex) {
+    // The centre stays on its circle; the axes are turned by theta first, then by gamma about X.
+    auto back = joints[0];
+    back.angle = -back.angle;
+    for (auto& swing : back.swings) swing.amplitude = -swing.amplitude;
+    add_joints("order of rotations",
+               "R_x(gamma) R_z(theta), as (2.14) is printed, in place of R_z(theta) R_x(gamma)",
+               {joints[0], joints[1], back, joints[2], joints[0]});
+    auto turned = joints;
+    for (auto& swing : turned[2].swings) swing.amplitude = -swing.amplitude;
+    add_joints("sign of gamma", "-gamma_max sin(phase) in place of gamma_max sin(phase)", turned);
   }
   const auto moves = [](const auto& joint) { return !joint.speed.zero() || !joint.swings.empty(); };
   if (std::any_of(joints.begin(), joints.end(), moves))
-    list.push_back({"mill, direction of rotation", "all joints move the other way in time",
-                    [joints](Assumptions& a) { put_chain(a, reversed(joints)); }, false, true});
+    add_joints("direction of rotation",
+               is_spex ? "the drive turns the other way" : "all joints move the other way in time",
+               reversed(joints));
 }
 
+/// Factors by which a wrong unit, or a diameter in place of a radius, changes a number.
 struct Factor {
+  enum class Of { any, angle, angular_speed, diameter } of;
   double by;
   const char* text;
-};
-constexpr Factor unit_factors[] = {
-    {1e3, "a factor of 1000: its unit"},
-    {1e-3, "a factor of 1/1000: its unit"},
-    {pi / 180, "a factor of pi/180: degrees taken for radians, or the reverse"},
-    {180 / pi, "a factor of 180/pi: degrees taken for radians, or the reverse"}};
 
-void add_units(const std::vector<Parameter>& parameters, std::vector<Mistake>& list) {
-  for (const auto& p : parameters) {
-    if (!p.has_unit || p.dimension == Dimension::none) continue;
-    const auto add = [&](const Factor& factor) {
-      list.push_back({p.key,
-                      fmt::format("{} in place of {}, {}", value_text(p.dimension, factor.by * p.value),
-                                  value_text(p.dimension, p.value), factor.text),
-                      [set = p.set, value = factor.by * p.value](Assumptions& a) { set(a, value); }, true});
-    };
-    const bool angle = p.dimension == Dimension::angle || p.dimension == Dimension::angular_speed;
-    for (const auto& factor : unit_factors)
-      if (angle || factor.by == 1e3 || factor.by == 1e-3) add(factor);
-    if (p.dimension == Dimension::angular_speed) {
-      add({60, "a factor of 60: revolutions per minute taken for per second"});
-      add({1.0 / 60, "a factor of 1/60: revolutions per second taken for per minute"});
-      add({2 * pi, "a factor of 2 pi: revolutions taken for radians"});
-      add({0.5 / pi, "a factor of 1/(2 pi): radians taken for revolutions"});
-    }
-    if (p.is_diameter) add({2, "a factor of 2: the diameter taken for the radius"});
-    if (p.is_diameter) add({0.5, "a factor of 1/2: the radius taken for the diameter"});
+  bool changes(const Parameter& p) const {
+    const bool turns = p.dimension == Dimension::angular_speed;
+    return of == Of::any || (of == Of::angle && (turns || p.dimension == Dimension::angle)) ||
+           (of == Of::angular_speed && turns) || (of == Of::diameter && p.is_diameter);
   }
+};
+constexpr Factor factors[] = {
+    {Factor::Of::any, 1e3, "1000: its unit"},
+    {Factor::Of::any, 1e-3, "1/1000: its unit"},
+    {Factor::Of::angle, pi / 180, "pi/180: degrees taken for radians, or the reverse"},
+    {Factor::Of::angle, 180 / pi, "180/pi: degrees taken for radians, or the reverse"},
+    {Factor::Of::angular_speed, 60, "60: revolutions per minute taken for per second"},
+    {Factor::Of::angular_speed, 1.0 / 60, "1/60: revolutions per second taken for per minute"},
+    {Factor::Of::angular_speed, 2 * pi, "2 pi: revolutions taken for radians"},
+    {Factor::Of::angular_speed, 0.5 / pi, "1/(2 pi): radians taken for revolutions"},
+    {Factor::Of::diameter, 2, "2: the diameter taken for the radius"},
+    {Factor::Of::diameter, 0.5, "1/2: the radius taken for the diameter"}};
+
+void add_factors(const std::vector<Parameter>& numbers, std::vector<Parameter>& list) {
+  for (const auto& p : numbers)
+    for (const auto& factor : factors) {
+      if (!p.has_unit || p.dimension == Dimension::none || !factor.changes(p)) continue;
+      const double value = factor.by * p.value;
+      add(list, p.key,
+          fmt::format("{} in place of {}, a factor of {}", value_text(p.dimension, value),
+                      value_text(p.dimension, p.value), factor.text),
+          [set = p.set, value](Assumptions& a) { set(a, value); });
+      list.back().by_factor = true;
+    }
 }
 
-void add_columns(const audit::Available& has, std::vector<Mistake>& list) {
-  const auto add = [&](const std::string& columns, double LogChange::*member, double factor,
-                       const std::string& text) {
-    list.push_back({"the log's " + columns, text, [=](Assumptions& a) { a.log.*member = factor; }});
+void add_units(const audit::Available& has, std::vector<Parameter>& list) {
+  const auto& ball = has.body[0];
+  const auto add_unit = [&](const char* columns, double LogChange::*member, double factor, std::string text) {
+    add(list, fmt::format("the log's {}", columns), std::move(text),
+        [=](Assumptions& a) { a.log.*member = factor; });
   };
-  const auto thousands = [&](const std::string& columns, double LogChange::*member, const char* small,
-                             const char* unit) {
-    add(columns, member, 1e-3, fmt::format("in {} in place of {}", small, unit));
-    add(columns, member, 1e3, fmt::format("in units of 1000 {}", unit));
+  struct Columns {
+    bool logged;
+    const char* name;
+    double LogChange::*factor;
+    const char *small, *unit;
   };
-  thousands("times", &LogChange::time, "ms", "s");
-  if (has.body[0].position) thousands("positions", &LogChange::positions, "mm", "m");
-  if (has.body[0].velocity_before || has.body[0].velocity_after)
-    thousands("velocities", &LogChange::velocities, "mm/s", "m/s");
-  if (has.body[0].spin_before || has.body[0].spin_after) {
-    add("spins", &LogChange::spins, pi / 180, "in degrees per second in place of rad/s");
-    add("spins", &LogChange::spins, 180 / pi, "multiplied by pi/180 once too often");
-    add("spins", &LogChange::spins, 2 * pi, "in revolutions per second in place of rad/s");
+  const Columns with_units[] = {
+      {true, "times", &LogChange::time, "ms", "s"},
+      {ball.position, "positions", &LogChange::positions, "mm", "m"},
+      {ball.velocity_before || ball.velocity_after, "velocities", &LogChange::velocities, "mm/s", "m/s"},
+      {has.milling_dose || has.wall_work, "energies", &LogChange::energies, "mJ", "J"},
+      {has.approach_speed, "speeds", &LogChange::speeds, "mm/s", "m/s"}};
+  for (const auto& c : with_units) {
+    if (!c.logged) continue;
+    add_unit(c.name, c.factor, 1e-3, fmt::format("in {} in place of {}", c.small, c.unit));
+    add_unit(c.name, c.factor, 1e3, fmt::format("in units of 1000 {}", c.unit));
   }
-  if (has.milling_dose || has.wall_work) thousands("energies", &LogChange::energies, "mJ", "J");
-  if (has.approach_speed) thousands("speeds", &LogChange::speeds, "mm/s", "m/s");
-  if (has.body[1].velocity_before || has.body[1].velocity_after)
-    list.push_back({"the log's columns of the partner", "the states of ball and partner exchanged",
-                    [](Assumptions& a) { a.log.states_exchanged = true; }});
+  if (!ball.spin_before && !ball.spin_after) return;
+  add_unit("spins", &LogChange::spins, pi / 180, "in degrees per second in place of rad/s");
+  add_unit("spins", &LogChange::spins, 180 / pi, "multiplied by pi/180 once too often");
+  add_unit("spins", &LogChange::spins, 2 * pi, "in revolutions per second in place of rad/s");
 }
 
 /// Axes that a code has in another order or direction.
-void add_axes(const audit::Available& has, std::vector<Mistake>& list) {
-  struct Group {
+void add_axes(const audit::Available& has, std::vector<Parameter>& list) {
+  const auto& ball = has.body[0];
+  struct Vectors {
+    bool logged;
     const char* name;
-    bool positions, velocities, spins;
+    Axes LogChange::*axes;
   };
-  const bool velocities = has.body[0].velocity_before || has.body[0].velocity_after,
-             spins = has.body[0].spin_before || has.body[0].spin_after;
-  constexpr Group groups[] = {{"vectors", true, true, true},
-                              {"positions", true, false, false},
-                              {"velocities", false, true, false},
-                              {"spins", false, false, true}};
+  const Vectors vectors[] = {
+      {ball.position, "positions", &LogChange::axes_of_positions},
+      {ball.velocity_before || ball.velocity_after, "velocities", &LogChange::axes_of_velocities},
+      {ball.spin_before || ball.spin_after, "spins", &LogChange::axes_of_spins}};
+  const bool all =
+      std::all_of(std::begin(vectors), std::end(vectors), [](const auto& v) { return v.logged; });
   std::array<int, 3> from{0, 1, 2};
   do {
     for (unsigned signs = 0; signs < 8; ++signs) {
@@ -146,75 +158,76 @@ void add_axes(const audit::Available& has, std::vector<Mistake>& list) {
         text += fmt::format("{}{}{}", k > 0 ? ", " : "", axes.sign[k] < 0 ? "-" : "", "xyz"[axes.from[k]]);
       }
       if (axes == Axes{}) continue;
-      for (const auto& group : groups) {
-        if ((group.positions && !has.body[0].position) || (group.velocities && !velocities) ||
-            (group.spins && !spins))
-          continue;
-        list.push_back({fmt::format("the log's {}", group.name),
-                        fmt::format("{} of the log are x, y, z of the case", text), [=](Assumptions& a) {
-                          if (group.positions) a.log.axes_of_positions = axes;
-                          if (group.velocities) a.log.axes_of_velocities = axes;
-                          if (group.spins) a.log.axes_of_spins = axes;
-                        }});
-      }
+      text += " of the log are x, y, z of the case";
+      if (all)
+        add(list, "the log's vectors", text, [=](Assumptions& a) {
+          for (const auto& v : vectors) a.log.*v.axes = axes;
+        });
+      for (const auto& v : vectors)
+        if (v.logged)
+          add(list, fmt::format("the log's {}", v.name), text, [=](Assumptions& a) { a.log.*v.axes = axes; });
     }
   } while (std::next_permutation(from.begin(), from.end()));
 }
 
-void add_frames(const audit::Available& has, std::vector<Mistake>& list) {
-  if (!has.body[0].position) return;
-  list.push_back({"the log's frame", "vectors in components along the vessel's axes",
-                  [](Assumptions& a) { a.log.frame = LogFrame::axes_of_vessel; }});
-  list.push_back({"the log's frame", "places, velocities and spins as seen from the vessel",
-                  [](Assumptions& a) { a.log.frame = LogFrame::vessel; }});
-  if (has.body[0].velocity_before && has.body[0].velocity_after)
-    list.push_back({"the log's states", "before and after the impact exchanged",
-                    [](Assumptions& a) { a.log.reversed_in_time = true; }});
+/// What columns stand for.
+void add_frames(const audit::Available& has, std::vector<Parameter>& list) {
+  const auto& [ball, partner] = has.body;
+  if (partner.velocity_before || partner.velocity_after)
+    add(list, "the log's columns of the partner", "the states of ball and partner exchanged",
+        [](Assumptions& a) { a.log.states_exchanged = true; });
+  if (!ball.position) return;
+  add(list, "the log's frame", "vectors in components along the vessel's axes",
+      [](Assumptions& a) { a.log.frame = LogFrame::axes_of_vessel; });
+  add(list, "the log's frame", "places, velocities and spins as seen from the vessel",
+      [](Assumptions& a) { a.log.frame = LogFrame::vessel; });
+  if (ball.velocity_before && ball.velocity_after)
+    add(list, "the log's states", "before and after the impact exchanged",
+        [](Assumptions& a) { a.log.reversed_in_time = true; });
   for (std::size_t formula = 1; formula < audit::wall_velocities.size(); ++formula)
-    list.push_back({"velocity of the wall (2.27)", audit::wall_velocities[formula].note,
-                    [formula](Assumptions& a) { a.terms.wall_velocity_formula = formula; }});
+    add(list, "velocity of the wall (2.27)", audit::wall_velocities[formula].note,
+        [formula](Assumptions& a) { a.terms.wall_velocity_formula = formula; });
 }
 
 /// Formulas that hold for balls that are alike, for those that are not.
-void add_equal_balls(const Assumptions& nominal, std::vector<Mistake>& list) {
+void add_equal_balls(const Assumptions& nominal, std::vector<Parameter>& list) {
   using Form = Terms::EqualBalls;
   const auto alike = [&](const auto& ball) { return ball == nominal.balls.front(); };
   if (std::all_of(nominal.balls.begin(), nominal.balls.end(), alike)) return;
-  const auto add = [&](const char* text, Form form) {
-    list.push_back({"impacts of balls that are not alike (2.24')", text,
-                    [form](Assumptions& a) { a.terms.equal_balls = form; }});
-  };
-  add("1 + 1/J, as (2.24) is printed, in the limit of sliding", Form::limit_of_sliding);
-  add("1 + 1/J, as (2.24) is printed, in the impulse too", Form::friction);
-  add("each takes half of the relative change, as for equal masses", Form::masses);
+  for (const auto& [form, text] :
+       {std::pair(Form::limit_of_sliding, "1 + 1/J, as (2.24) is printed, in the limit of sliding"),
+        std::pair(Form::friction, "1 + 1/J, as (2.24) is printed, in the impulse too"),
+        std::pair(Form::masses, "each takes half of the relative change, as for equal masses")})
+    add(list, "impacts of balls that are not alike (2.24')", text,
+        [form = form](Assumptions& a) { a.terms.equal_balls = form; });
 }
 
 /// Numbers of balls of different kinds that a log has exchanged. Balls alike cannot be told apart.
-void add_exchanged_balls(const Assumptions& nominal, std::vector<Mistake>& list) {
+void add_exchanged_balls(const Assumptions& nominal, std::vector<Parameter>& list) {
   constexpr int most = 40;
   const int count = static_cast<int>(nominal.balls.size());
   if (count > most) return;
   for (int i = 0; i < count; ++i)
     for (int j = i + 1; j < count; ++j)
       if (!(nominal.balls[i] == nominal.balls[j]))
-        list.push_back({"the log's numbers of balls",
-                        fmt::format("balls {} and {} taken for each other", i, j), [=](Assumptions& a) {
-                          a.log.exchanged = {i, j};
-                        }});
+        add(list, "the log's numbers of balls", fmt::format("balls {} and {} taken for each other", i, j),
+            [=](Assumptions& a) {
+              a.log.exchanged = {i, j};
+            });
 }
 
 }  // namespace
 
-std::vector<Mistake> mistakes_of(const Assumptions& nominal, const std::vector<Parameter>& parameters,
-                                 const audit::Available& has) {
-  std::vector<Mistake> list;
+std::vector<Parameter> mistakes_of(const Assumptions& nominal, const std::vector<Parameter>& parameters,
+                                   const audit::Available& has) {
+  std::vector<Parameter> list;
   add_motions(nominal, list);
-  add_columns(has, list);
+  add_units(has, list);
   add_axes(has, list);
   add_frames(has, list);
   add_equal_balls(nominal, list);
   add_exchanged_balls(nominal, list);
-  add_units(parameters, list);
+  add_factors(parameters, list);
   return list;
 }
 

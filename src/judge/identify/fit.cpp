@@ -1,6 +1,5 @@
 #include "identify/fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -35,9 +34,8 @@ std::vector<double> scales_for(const std::vector<double>& rows) {
 }
 
 /// A step of a parameter, in its unit: backwards where a case cannot have a larger value.
-double possible_step(Assumptions assumed, const Parameter& p, double value, double step) {
-  p.set(assumed, value + step * p.change);
-  return assumed.built() ? step : -step;
+double possible_step(const Assumptions& assumed, const Parameter& p, double value, double step) {
+  return p.on(assumed, value + step * p.change).built() ? step : -step;
 }
 
 /// What Eigen asks for weighted rows and their derivatives through.
@@ -48,19 +46,19 @@ struct Problem {
   using JacobianType = Eigen::MatrixXd;
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
-  const Residuals& residuals;
-  const Model& model;
+  const Residuals& sample;
+  const Hypothesis& tried;
   Eigen::VectorXd roots{};  ///< of the weights
 
-  int inputs() const { return static_cast<int>(model.free.size()); }
-  int values() const { return static_cast<int>(residuals.count()); }
+  int inputs() const { return static_cast<int>(tried.numbers.size()); }
+  int values() const { return static_cast<int>(sample.count()); }
   std::vector<double> values_at(const Eigen::VectorXd& x) const {
     std::vector<double> values;
-    for (std::size_t k = 0; k < model.free.size(); ++k) values.push_back(x[k] * model.free[k]->change);
+    for (std::size_t k = 0; k < tried.numbers.size(); ++k) values.push_back(x[k] * tried.numbers[k].change);
     return values;
   }
   Eigen::VectorXd rows_of(const std::vector<double>& values) const {
-    const auto rows = residuals.rows(model.with(values));
+    const auto rows = sample.rows(tried.with(values));
     return Eigen::Map<const Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size()));
   }
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
@@ -77,8 +75,8 @@ struct Problem {
     const auto values = values_at(x);
     const auto here = rows_of(values);
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const Parameter& free = *model.free[k];
-      const double step = possible_step(model.with(values), free, values[k], 1e-7);
+      const Parameter& free = tried.numbers[k];
+      const double step = possible_step(tried.with(values), free, values[k], 1e-7);
       auto moved = values;
       moved[k] += step * free.change;
       columns.col(k) = (rows_of(moved) - here) / step;
@@ -97,8 +95,8 @@ Eigen::VectorXd weights_of(const std::vector<double>& rows, double scale) {
 /// Intervals: what noise of the rows' own size leaves open, and what a shift of all rows by that size, each
 /// in the worst direction, would do; rounding of a log does shift rows of a kind together.
 std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const std::vector<double>& rows,
-                                   const Eigen::VectorXd& weights, const Model& model,
-                                   const std::vector<double>& values) {
+                                   const Hypothesis& tried) {
+  const auto weights = weights_of(rows, 1);
   double sum = 0, total = 0;
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     if (j.row(i).isZero(0)) continue;  // tells nothing of the parameters, nor of their noise
@@ -112,10 +110,10 @@ std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const std::vector<d
   const Eigen::MatrixXd influence = inverse * j.transpose() * weights.asDiagonal();
   std::vector<double> half;
   for (Eigen::Index c = 0; c < j.cols(); ++c) {
-    const auto& parameter = *model.free[c];
+    const auto& parameter = tried.numbers[c];
     const double random = 3 * std::sqrt(std::max(0.0, inverse(c, c))) * noise,
                  shift = influence.row(c).cwiseAbs().sum() * noise;
-    const double rounding = 2e-15 * std::max(std::abs(values[c]), std::abs(parameter.value));
+    const double rounding = 2e-15 * std::max(std::abs(tried.values[c]), std::abs(parameter.value));
     half.push_back((random + shift) * parameter.change + rounding);
   }
   return half;
@@ -123,16 +121,36 @@ std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const std::vector<d
 
 }  // namespace
 
-Assumptions Model::with(const std::vector<double>& values) const {
-  Assumptions result = base;
-  for (std::size_t k = 0; k < free.size(); ++k) free[k]->set(result, values[k]);
+double Hypothesis::evidence() const {
+  double choices = 0;
+  for (const auto& p : numbers) choices += p.prior;
+  return score - choices;
+}
+
+std::set<std::string> Hypothesis::names() const {
+  std::set<std::string> all;
+  for (const auto* list : {&mistakes, &numbers})
+    for (const auto& p : *list) all.insert(p.name());
+  return all;
+}
+
+bool Hypothesis::allows(const Parameter& more) const {
+  const auto is_free = [&](const Parameter& own) { return !own.excludes(more) && !more.excludes(own); };
+  return std::all_of(mistakes.begin(), mistakes.end(), is_free) &&
+         std::all_of(numbers.begin(), numbers.end(), is_free);
+}
+
+Assumptions Hypothesis::with(const std::vector<double>& other_values) const {
+  Assumptions result = nominal;
+  for (const auto& mistake : mistakes) mistake.set(result, 1);
+  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k].set(result, other_values[k]);
   return result;
 }
 
-double misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds) {
+double misfit(const Residuals& sample, const std::vector<double>& rows) {
   std::array<std::vector<double>, row_kinds> of_kind;
   for (std::size_t k = 0; k < rows.size(); ++k)
-    of_kind[static_cast<std::size_t>(kinds[k])].push_back(rows[k]);
+    of_kind[static_cast<std::size_t>(sample.of_case()[k].kind)].push_back(rows[k]);
   double cost = 0;
   for (const auto& own : of_kind) {
     const double scale = std::max(median_size(own), perfect);
@@ -141,12 +159,12 @@ double misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds
   return cost;
 }
 
-Fit fit(const Residuals& residuals, const Model& model, std::vector<double> start) {
-  const auto p = static_cast<Eigen::Index>(model.free.size());
-  Problem problem{residuals, model};
+double fit(const Residuals& sample, Hypothesis& tried) {
+  const auto p = static_cast<Eigen::Index>(tried.numbers.size());
+  Problem problem{sample, tried};
   Eigen::VectorXd x(p);
-  for (Eigen::Index k = 0; k < p; ++k) x[k] = start[k] / model.free[k]->change;
-  auto rows = residuals.rows(model.with(start));
+  for (Eigen::Index k = 0; k < p; ++k) x[k] = tried.values[k] / tried.numbers[k].change;
+  auto rows = sample.rows(tried.assumed());
   const auto scales = scales_for(rows);
   constexpr std::size_t most_rounds = 25;
   for (std::size_t round = 0; round < scales.size() + most_rounds; ++round) {
@@ -163,69 +181,44 @@ Fit fit(const Residuals& residuals, const Model& model, std::vector<double> star
       moved = std::max(moved, std::abs(now[k] - x[k]) / std::max(1.0, std::abs(now[k])));
       x[k] = now[k];
     }
-    rows = residuals.rows(model.with(problem.values_at(x)));
+    rows = sample.rows(tried.with(problem.values_at(x)));
     if (round >= scales.size() && moved < 1e-13) break;
   }
-  Fit result;
-  result.values = problem.values_at(x);
-  result.half_widths =
-      half_widths_of(problem.derivatives(x), rows, weights_of(rows, 1), model, result.values);
-  result.cost = misfit(rows, residuals.kinds());
-  return result;
+  tried.values = problem.values_at(x);
+  tried.half_widths = half_widths_of(problem.derivatives(x), rows, tried);
+  return misfit(sample, rows);
 }
 
-std::vector<std::vector<double>> slopes_of(const Residuals& residuals, const Assumptions& base,
-                                           const std::vector<Parameter>& parameters) {
-  const auto rows = residuals.rows(base);
-  const auto slopes = [&](const Parameter& p, double length) {
-    const double step = possible_step(base, p, p.value, length);
-    Assumptions moved = base;
-    p.set(moved, p.value + step * p.change);
-    auto column = residuals.rows(moved);
+std::vector<double> sensitivity(const Residuals& sample, const Assumptions& base,
+                                const std::vector<double>& rows, const Parameter& number) {
+  // A restitution of 0, or no least separation speed, shows nothing until it is large enough for some impact.
+  for (const double length : {1e-6, 1.0}) {
+    if (!number.is_of_case() || (length == 1 && number.value != 0)) break;
+    const double step = possible_step(base, number, number.value, length);
+    auto column = sample.rows(number.on(base, number.value + step * number.change));
     for (std::size_t i = 0; i < column.size(); ++i) column[i] = (column[i] - rows[i]) / step;
-    const bool any = std::any_of(column.begin(), column.end(), [](double slope) { return slope != 0; });
-    return any ? column : std::vector<double>{};
-  };
-  std::vector<std::vector<double>> list;
-  for (const auto& p : parameters) {
-    list.push_back(p.is_of_case() ? slopes(p, 1e-6) : std::vector<double>{});
-    // A restitution of 0, or no least separation speed, shows nothing until it is large enough for some
-    // impact.
-    if (list.back().empty() && p.value == 0) list.back() = slopes(p, 1);
+    if (std::any_of(column.begin(), column.end(), [](double slope) { return slope != 0; })) return column;
   }
-  return list;
+  return {};
 }
 
-double linear_misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds,
-                     const std::vector<const std::vector<double>*>& columns, std::vector<double>& change) {
-  const auto p = static_cast<Eigen::Index>(columns.size());
-  const std::size_t n = rows.size();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(p);
+double linear_misfit(const Residuals& sample, const std::vector<double>& rows,
+                     const std::vector<double>& slope) {
   std::vector<double> left = rows;
   const auto scales = scales_for(rows);
   for (std::size_t round = 0; round < scales.size() + 2; ++round) {
     const double s = scales[std::min(round, scales.size() - 1)];
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(p, p);
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(p);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double w = 1 / (1 + left[i] * left[i] / (s * s));
-      for (Eigen::Index k = 0; k < p; ++k) {
-        const double jk = (*columns[k])[i];
-        if (jk == 0) continue;
-        b[k] -= w * jk * rows[i];
-        for (Eigen::Index l = 0; l <= k; ++l) a(k, l) += w * jk * (*columns[l])[i];
-      }
+    double squares = 0, products = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double weighted = slope[i] / (1 + left[i] * left[i] / (s * s));
+      squares += weighted * slope[i];
+      products += weighted * rows[i];
     }
-    const Eigen::VectorXd now = a.selfadjointView<Eigen::Lower>().ldlt().solve(b);
-    if (!now.allFinite()) break;
-    x = now;
-    for (std::size_t i = 0; i < n; ++i) {
-      left[i] = rows[i];
-      for (Eigen::Index k = 0; k < p; ++k) left[i] += (*columns[k])[i] * x[k];
-    }
+    const double change = -products / squares;
+    if (!std::isfinite(change)) break;
+    for (std::size_t i = 0; i < rows.size(); ++i) left[i] = rows[i] + slope[i] * change;
   }
-  change.assign(x.data(), x.data() + p);
-  return misfit(left, kinds);
+  return misfit(sample, left);
 }
 
 }  // namespace edmill::identify

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "audit/audit.hpp"
@@ -13,6 +16,13 @@ namespace edmill::identify {
 /// What a row compares; rows of one kind have one scale of noise.
 enum class RowKind : unsigned char { touch, law, energy, speed, place, velocity };
 inline constexpr std::size_t row_kinds = 6;
+
+/// A difference between a log and a model, and what the audit allows it to be.
+struct Row {
+  double difference, allowed;
+  RowKind kind;
+  RowPlace at;
+};
 
 class Residuals;
 
@@ -37,19 +47,6 @@ class LogResiduals {
     std::size_t body = 0;
   };
   struct Writer;
-  /// What a row is computed from.
-  struct Given {
-    const model::Case<double>& model;
-    const LogChange& change;
-    const Terms& terms;
-  };
-  void event_rows(std::size_t k, const Given& given, Writer& out) const;
-  void flight_rows(std::size_t k, std::size_t body, const audit::LoggedEvent& event, const Given& given,
-                   Writer& out) const;
-  void impact_rows(const audit::LoggedImpact& impact, const Terms& terms, Writer& out) const;
-  void energy_rows(const audit::LoggedImpact& impact, const audit::Speeds& speeds, const Terms& terms,
-                   double allowed, Writer& out) const;
-  void speed_rows(const audit::LoggedImpact& impact, const Terms& terms, Writer& out) const;
   Branches branches_of(const audit::LoggedEvent& event) const;
 
   const audit::EventsAtHand& log_;
@@ -63,12 +60,11 @@ class LogResiduals {
 /// The rows of a sample of events. What it was made from must outlive it.
 class Residuals {
  public:
-  std::size_t count() const { return kinds_.size(); }
-  const std::vector<RowKind>& kinds() const { return kinds_; }
-  /// Where each row stands.
-  const std::vector<RowPlace>& places() const { return places_; }
-  /// @return one number for each row; a large one where it is not finite, and all of them for a case that
-  /// cannot be
+  std::size_t count() const { return of_case_.size(); }
+  /// With the case as it is.
+  const std::vector<Row>& of_case() const { return of_case_; }
+  /// @return one number for each row, its difference over what is allowed of the case; a large one where it
+  /// is not finite, and all of them for a case that cannot be
   std::vector<double> rows(const Assumptions& assumed) const;
 
  private:
@@ -79,48 +75,54 @@ class Residuals {
 
   const LogResiduals* log_;
   std::vector<std::size_t> chosen_;
-  std::vector<double> allowed_;  ///< by row
-  std::vector<RowKind> kinds_;
-  std::vector<RowPlace> places_;
+  std::vector<Row> of_case_;
 };
 
-/// Parameters that are fitted together, on top of assumptions that hold already.
-struct Model {
-  Assumptions base;
-  std::vector<const Parameter*> free;
+/// What may explain a log: mistakes, and numbers that are fitted together.
+struct Hypothesis {
+  Assumptions nominal;
+  std::vector<Parameter> mistakes = {}, numbers = {};
+  std::vector<double> values = {};       ///< of the numbers, SI
+  std::vector<double> half_widths = {};  ///< their intervals hold 99.7 % of normal noise, and a common shift
+  double score = 0;      ///< Schwarz's criterion: misfit + numbers ln(rows) + what each choice costs
+  double plainness = 0;  ///< of factors with a name, which are no coincidence
+  std::uint64_t left = 0, of = 0;  ///< violations with it and without, or events that are off
 
-  Assumptions with(const std::vector<double>& values) const;
+  /// The least is the best.
+  double rank() const { return score - plainness; }
+  /// The score without the cost of choices: what the log says.
+  double evidence() const;
+  std::size_t size() const { return numbers.size() + mistakes.size(); }
+  std::set<std::string> names() const;
+  /// Whether this can be assumed as well.
+  bool allows(const Parameter& more) const;
+
+  Assumptions assumed() const { return with(values); }
+  Assumptions with(const std::vector<double>& other_values) const;
 };
 
-struct Fit {
-  std::vector<double> values,
-      half_widths;  ///< SI; the intervals hold 99.7 % of normal noise, and a common shift
-  double cost = 0;  ///< `misfit` of the rows
-};
-
-/// 2 sum ln(1 + (r/s)^2) + 2 n ln s over the rows, with the median of |r| of each kind as s: minus twice the
-/// log of Cauchy's likelihood. Wild rows count little, and rows that fit by orders of magnitude better count
-/// much.
-double misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds);
+/// 2 sum ln(1 + (r/s)^2) + 2 n ln s over the rows of a sample, with the median of |r| of each kind as s:
+/// minus twice the log of Cauchy's likelihood. Wild rows count little, and rows that fit by orders of
+/// magnitude better count much.
+double misfit(const Residuals& sample, const std::vector<double>& rows);
 inline double misfit(const Residuals& sample, const Assumptions& assumed) {
-  return misfit(sample.rows(assumed), sample.kinds());
+  return misfit(sample, sample.rows(assumed));
 }
 
 /// Least squares by Eigen's Levenberg and Marquardt (that of MINPACK), repeated with Cauchy weights whose
 /// scale shrinks from the misfits of the start down to the tolerance, so that rows with other causes lose
 /// their say.
-/// @param start  values to begin with
-Fit fit(const Residuals& residuals, const Model& model, std::vector<double> start);
-
-/// Derivatives of the rows by each parameter, at the base; empty for one that the rows do not depend on.
-std::vector<std::vector<double>> slopes_of(const Residuals& residuals, const Assumptions& base,
-                                           const std::vector<Parameter>& parameters);
-
-/// The change of the parameters that explains the rows best if they are linear in them, in units of
-/// `columns`.
-/// @param columns  derivative of the rows by each parameter
+/// @param tried  with values to begin with; gets the best ones and their intervals
 /// @return the misfit that is left
-double linear_misfit(const std::vector<double>& rows, const std::vector<RowKind>& kinds,
-                     const std::vector<const std::vector<double>*>& columns, std::vector<double>& change);
+double fit(const Residuals& sample, Hypothesis& tried);
+
+/// Derivatives of the rows by a number, at the base; empty where they do not depend on it.
+/// @param rows  at the base
+std::vector<double> sensitivity(const Residuals& sample, const Assumptions& base,
+                                const std::vector<double>& rows, const Parameter& number);
+
+/// The misfit that the best change of a number leaves if the rows are linear in it.
+double linear_misfit(const Residuals& sample, const std::vector<double>& rows,
+                     const std::vector<double>& slope);
 
 }  // namespace edmill::identify

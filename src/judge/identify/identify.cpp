@@ -1,14 +1,11 @@
 #include "identify/identify.hpp"
 
 #include <algorithm>
-#include <deque>
-#include <functional>
 #include <optional>
 #include <set>
-#include <span>
 #include <utility>
 
-#include "identify/candidates.hpp"
+#include "identify/evidence.hpp"
 
 namespace edmill::identify {
 
@@ -16,14 +13,35 @@ namespace {
 
 constexpr std::size_t most_events = 20000;
 constexpr double same_evidence = 2;
+constexpr std::size_t most_judged = 12;  ///< hypotheses of a stage, by the whole log
 
-std::string name_of(const Mistake& m) { return m.key + ": " + m.text; }
-
-/// The first of a list, at most so many.
-template <class Item>
-std::span<const Item> first_of(const std::vector<Item>& list, std::size_t most) {
-  return std::span(list).first(std::min(most, list.size()));
-}
+/// A step of the search: the best hypotheses of one size, each extended by one mistake, one number, or one
+/// number in a part of the log. Steps without parts extend what holds in the whole log.
+struct Stage {
+  const char* name;                                     ///< none: it belongs to the stage before
+  std::size_t size, bases = 1;                          ///< of the hypotheses that it extends, and how many
+  std::size_t mistakes = 0, numbers = 0, in_parts = 0;  ///< tried on top of each, the most promising
+  double share = 0;  ///< of the rows that a base leaves off: what a part must hold at least
+  bool draws_samples = false;
+};
+constexpr Stage stages[] = {
+    {.name = "single causes", .size = 0, .mistakes = 8, .numbers = 6},
+    {.name = "causes in a part of the log", .size = 0, .in_parts = 8, .share = 0.9},
+    {.name = "two causes together",
+     .size = 1,
+     .bases = 10,
+     .mistakes = 2,
+     .numbers = 5,
+     .draws_samples = true},
+    {.name = "two causes, of parts of the log", .size = 0, .in_parts = 4, .share = 0.2},
+    {.name = nullptr, .size = 1, .bases = 10, .in_parts = 3, .share = 0.9},
+    {.name = "three causes together",
+     .size = 2,
+     .bases = 4,
+     .mistakes = 2,
+     .numbers = 3,
+     .in_parts = 3,
+     .share = 0.9}};
 
 class Search {
  public:
@@ -38,7 +56,10 @@ class Search {
     options_.progress = nullptr;
     log_ = audit::read_events(the_case_, options_, most_events);
     interrupt_ = std::exchange(options_.interrupt, nullptr);  // an audit that ends early finds nothing wrong
-    parameters_ = parameters_of(nominal_);
+    numbers_ = parameters_of(nominal_);
+    std::copy_if(numbers_.begin(), numbers_.end(), std::back_inserter(periodic_),
+                 [](const Parameter& p) { return p.is_periodic(); });
+    mistakes_ = mistakes_of(nominal_, numbers_, log_.available);
   }
 
   const audit::EventsAtHand& log() const { return log_; }
@@ -59,44 +80,32 @@ class Search {
     result.too_few = std::count_if(log_.events.begin(), log_.events.end(),
                                    [](const auto& e) { return e.problem.empty(); }) < 12;
     if (result.too_few) return result;
-    candidates_.emplace(log_, options_, the_case_, nominal_, result.violations);
-    if ((result.too_few = !candidates_->suffice())) return result;
-    tell("single causes");
-    auto accepted = singles();
-    const auto explained = [&] { return !accepted.empty() && accepted.front().left == 0; };
-    const auto search = [&](const char* what, std::vector<Candidate> (Search::*more)()) {
-      if (explained()) return;
-      tell(what);
-      for (auto& c : (this->*more)()) accepted.push_back(std::move(c));
-      sort(accepted);
-    };
-    search("causes in a part of the log", &Search::in_parts);
-    if (!explained()) resample(accepted);
-    search("two causes together", &Search::pairs);
-    search("two causes, of parts of the log", &Search::pairs_in_parts);
-    search("three causes together", &Search::threes);
-    result.tried = {parameters_.size(), mistakes_.size(), candidates_->part_count(), stages_};
+    evidence_.emplace(log_, options_, the_case_, nominal_, result.violations);
+    if ((result.too_few = !evidence_->suffices())) return result;
+    tried_ = {{nominal_}};
+    result.tried = {numbers_.size(), mistakes_.size(), evidence_->part_count(), {}};
+    for (const auto& stage : stages) {
+      if (!accepted_.empty() && accepted_.front().left == 0) break;
+      if (stage.name) {
+        result.tried.stages.push_back(stage.name);
+        if (told_) told_(stage.name);
+      }
+      extend(stage);
+    }
     result.interrupted = is_interrupted();
-    report(accepted, result);
+    report(result);
     return result;
   }
 
  private:
-  void tell(const char* what) {
-    stages_.push_back(what);
-    if (told_) told_(what);
-  }
-
   bool is_interrupted() const { return interrupt_ && interrupt_->load(std::memory_order_relaxed); }
 
   /// Without places impacts cannot be checked, but a run from the case's start can follow the log.
   void follow(Identification& result) const {
     // A run of a case has the terms of the equations as they are.
-    std::vector<Parameter> numbers;
-    for (const auto& p : parameters_)
-      if (p.equation.empty() && p.is_of_case()) numbers.push_back(p);
-    auto mistakes = mistakes_of(nominal_, numbers, log_.available);
-    std::erase_if(mistakes, [&](const Mistake& m) { return !m.on(nominal_).is_case(); });
+    auto numbers = numbers_, mistakes = mistakes_;
+    std::erase_if(numbers, [](const Parameter& p) { return !p.equation.empty() || !p.is_of_case(); });
+    std::erase_if(mistakes, [&](const Parameter& m) { return !m.on(nominal_, 1).is_case(); });
     auto found = replay(nominal_, numbers, mistakes, log_, [this] { return is_interrupted(); });
     result.interrupted = is_interrupted();
     result.too_few = found.too_few;
@@ -106,209 +115,83 @@ class Search {
     result.causes = std::move(found.causes);
   }
 
-  /// The best of the fits of one more number on top of a base.
-  std::vector<Candidate> one_more(
-      const Candidate& base, std::size_t most,
-      const std::function<bool(const Parameter&)>& free_of = [](const auto&) { return true; }) {
-    std::vector<Candidate> found;
-    for (const auto* p : candidates_->ranked(base.assumed(), parameters_, most))
-      if (!is_interrupted() && free_of(*p)) found.push_back(with_one_more(base, *p));
-    return found;
+  std::vector<Hypothesis> best_of_size(std::size_t size, std::size_t most, bool in_parts) const {
+    std::vector<Hypothesis> best;
+    std::copy_if(tried_.begin(), tried_.end(), std::back_inserter(best), [&](const Hypothesis& h) {
+      return h.size() == size && (in_parts || h.assumed().restricted.empty());
+    });
+    sort(best);
+    best.erase(best.begin() + static_cast<std::ptrdiff_t>(std::min(most, best.size())), best.end());
+    return best;
   }
 
-  std::vector<Candidate> accepted_of(std::vector<Candidate> tried) {
-    std::vector<Candidate> good;
-    sort(tried);
-    for (auto& c : tried)
-      if (!is_interrupted() && candidates_->accept(c)) good.push_back(std::move(c));
-    sort(good);
-    return good;
-  }
-
-  std::vector<Candidate> singles() {
-    mistakes_ = mistakes_of(nominal_, parameters_, log_.available);
-    promising_ = candidates_->promising(nominal_, mistakes_, 8);
-    std::vector<Candidate> tried;
-    for (const auto& t : promising_) tried.push_back(with(t.mistake));
-    singles_ = one_more(none(), 6);
-    tried.insert(tried.end(), singles_.begin(), singles_.end());
-    return accepted_of(std::move(tried));
-  }
-
-  /// One number or term more, in a part of the log where that share of what is off lies.
-  std::vector<Candidate> one_more_in_parts(const Candidate& base, std::size_t most, double share) {
-    std::vector<Candidate> found;
-    for (auto& p : candidates_->ranked_in_parts(base.assumed(), parameters_, most, share)) {
-      if (is_interrupted()) break;
-      found.push_back(with_one_more(base, restricted_.emplace_back(std::move(p))));
+  void extend(const Stage& stage) {
+    if (stage.draws_samples) resample();
+    std::vector<Hypothesis> more;
+    for (const auto& base : best_of_size(stage.size, stage.bases, stage.in_parts > 0)) {
+      const auto assumed = base.assumed();
+      auto names = base.names();
+      const auto add = [&](const std::vector<Parameter>& list) {
+        for (const auto& p : list)
+          if (!is_interrupted() && base.allows(p) && names.insert(p.name()).second)
+            more.push_back(evidence_->with(base, p));
+      };
+      if (stage.mistakes > 0) add(evidence_->by_trial_values(assumed, mistakes_, stage.mistakes));
+      if (stage.numbers > 0) add(evidence_->best_numbers(assumed, numbers_, stage.numbers));
+      if (stage.in_parts > 0) add(evidence_->best_in_parts(assumed, numbers_, stage.in_parts, stage.share));
+      if (stage.size == 0 && stage.numbers > 0) add(periodic_);
     }
-    return found;
+    sort(more);
+    tried_.insert(tried_.end(), more.begin(), more.end());
+    more.resize(std::min(most_judged, more.size()), {nominal_});
+    for (auto& h : more)
+      if (!is_interrupted() && evidence_->accept(h)) accepted_.push_back(std::move(h));
+    sort(accepted_);
   }
 
-  /// One more number, fitted together with those of a candidate.
-  Candidate with_one_more(const Candidate& base, const Parameter& p) const {
-    Model model = base.model;
-    model.free.push_back(&p);
-    std::vector<Candidate> of_starts;
-    for (const double start : candidates_->starts(base.assumed(), p)) {
-      auto values = base.values;
-      values.push_back(start);
-      of_starts.push_back(candidates_->fitted(model, base.mistakes, values));
-    }
-    sort(of_starts);
-    return of_starts.front();
-  }
-
-  std::vector<Candidate> in_parts() { return accepted_of(one_more_in_parts(none(), 8, 0.9)); }
-  Candidate none() const { return {{nominal_, {}}, {}, {}, {}}; }
-  Candidate with(const Mistake& mistake) const {
-    return candidates_->with_mistakes(mistake.on(nominal_), {name_of(mistake)});
-  }
-
-  /// A cause in a part of the log on top of another one, which may be in a part itself.
-  std::vector<Candidate> pairs_in_parts() {
-    const auto best = first_of(singles_, 3);
-    std::vector<Candidate> bases(best.begin(), best.end());
-    auto some = one_more_in_parts(none(), 4, 0.2);
-    sort(some);
-    for (auto& c : some) bases.push_back(std::move(c));
-    for (const auto& t : first_of(promising_, 2)) bases.push_back(with(t.mistake));
-    std::vector<Candidate> tried;
-    for (const auto& base : bases)
-      for (auto& c : one_more_in_parts(base, 3, 0.9)) tried.push_back(std::move(c));
-    pairs_.insert(pairs_.end(), tried.begin(), tried.end());
-    return accepted_of(std::move(tried));
-  }
-
-  /// One more number or mistake on top of the best pairs.
-  std::vector<Candidate> threes() {
-    sort(pairs_);
-    std::vector<Candidate> tried;
-    for (const auto& base : first_of(pairs_, 4)) {
-      const auto names = base.names();
-      for (const auto* p : candidates_->ranked(base.assumed(), parameters_, 3))
-        if (!is_interrupted() && !names.contains(p->key)) tried.push_back(with_one_more(base, *p));
-      for (auto& c : one_more_in_parts(base, 3, 0.9)) tried.push_back(std::move(c));
-      for (const auto& t : candidates_->promising(base.assumed(), mistakes_, 2)) {
-        if (names.contains(name_of(t.mistake))) continue;
-        Candidate c = base;
-        t.mistake.make(c.model.base);
-        c.mistakes.push_back(name_of(t.mistake));
-        tried.push_back(candidates_->fitted(c.model, c.mistakes, c.values));
-      }
-    }
-    return accepted_of(std::move(tried));
-  }
-
-  /// New samples with the events that the best single causes leave unexplained.
-  void resample(std::vector<Candidate>& accepted) {
-    sort(singles_);
+  /// With the events that the best single causes leave unexplained.
+  void resample() {
     std::vector<Assumptions> bases;
-    for (const auto& c : first_of(singles_, 2)) bases.push_back(c.assumed());
+    for (const auto& single : best_of_size(1, 2, false)) bases.push_back(single.assumed());
     if (bases.empty()) bases.push_back(nominal_);
-    candidates_->draw_samples(bases);
-    for (auto* list : {&accepted, &singles_}) {
-      for (auto& c : *list) candidates_->judge(c);
-      sort(*list);
-    }
+    evidence_->draw_samples(bases);
+    for (auto* list : {&accepted_, &tried_})
+      for (auto& h : *list) evidence_->judge(h);
+    sort(accepted_);
   }
 
-  std::vector<Candidate> pairs() {
-    std::vector<Candidate> tried;
-    // A mistake and another one, or a number.
-    for (const auto& t : promising_) {
-      const Assumptions base = t.mistake.on(nominal_);
-      for (const auto& other : candidates_->promising(base, mistakes_, 2)) {
-        if (other.mistake.key == t.mistake.key || (other.mistake.of_motion && t.mistake.of_motion)) continue;
-        tried.push_back(
-            candidates_->with_mistakes(other.mistake.on(base), {name_of(t.mistake), name_of(other.mistake)}));
-      }
-      const auto free_of = [&](const Parameter& p) {
-        return p.key != t.mistake.key && !(t.mistake.of_motion && p.key.starts_with("mill."));
-      };
-      const Candidate mistaken{{base, {}}, {name_of(t.mistake)}, {}, {}};
-      for (auto& c : one_more(mistaken, 3, free_of)) tried.push_back(std::move(c));
-    }
-    for (auto& c : two_numbers()) tried.push_back(std::move(c));
-    // A number on top of the best ones, then both together.
-    for (const auto& single : first_of(singles_, 3)) {
-      const auto* first = single.model.free[0];
-      for (const auto* p : candidates_->ranked(single.assumed(), parameters_, 3))
-        if (p != first) {
-          const double start = p->is_of_case() ? p->value : candidates_->starts(single.assumed(), *p).front();
-          tried.push_back(candidates_->fitted({nominal_, {first, p}}, {}, {single.values[0], start}));
-        }
-    }
-    pairs_ = tried;
-    return accepted_of(std::move(tried));
-  }
-
-  std::vector<Candidate> two_numbers() {
-    const auto order = candidates_->ranked_pairs(parameters_);
-    std::vector<Candidate> found;
-    for (const auto& pair : first_of(order, 12)) {
-      if (is_interrupted()) break;
-      const Parameter &one = parameters_[pair.one], &two = parameters_[pair.two];
-      const Model model{nominal_, {&one, &two}};
-      auto best = candidates_->fitted(model, {}, {one.value, two.value});
-      const auto from = [&](double a, double b) {
-        auto other = candidates_->fitted(model, {}, {a, b});
-        if (other.criterion < best.criterion) best = std::move(other);
-      };
-      from(one.value + pair.start[0] * one.change, two.value + pair.start[1] * two.change);
-      for (const auto& single : singles_) {
-        if (single.model.free[0] == &one) from(single.values[0], two.value);
-        if (single.model.free[0] == &two) from(one.value, single.values[0]);
-      }
-      found.push_back(std::move(best));
-    }
-    return found;
-  }
-
-  Cause cause_of(const Candidate& c) const {
+  Cause cause_of(const Hypothesis& h) const {
     Cause cause;
-    for (std::size_t k = 0; k < c.values.size(); ++k) {
-      const auto& p = *c.model.free[k];
-      cause.values.push_back({.key = p.key,
-                              .dimension = p.dimension,
-                              .value = c.values[k],
-                              .half_width = c.half_widths[k],
-                              .nominal = p.value,
-                              .equation = p.equation,
-                              .in_place_of = p.in_place_of});
-    }
-    cause.mistakes = c.mistakes;
-    cause.of = c.of;
-    cause.explains = cause.of - std::min(cause.of, c.left);
-    cause.gain = candidates_->without() - c.criterion;
+    for (std::size_t k = 0; k < h.values.size(); ++k)
+      cause.values.push_back(found_value(h.numbers[k], h.values[k], h.half_widths[k]));
+    for (const auto& mistake : h.mistakes) cause.mistakes.push_back(mistake.name());
+    cause.of = h.of;
+    cause.explains = cause.of - std::min(cause.of, h.left);
+    cause.gain = evidence_->score_of_case() - h.score;
     return cause;
   }
 
   /// The best cause, and of the others those that are no worse with as few numbers.
-  void report(const std::vector<Candidate>& accepted, Identification& result) const {
-    if (accepted.empty()) return;
-    const auto& best = accepted.front();
-    Cause cause = cause_of(best);
-    std::set<std::set<std::string>> told = {best.names()};  // two numbers may have been tried in either order
-    for (std::size_t k = 1; k < accepted.size(); ++k)
-      if (accepted[k].evidence() - best.evidence() < same_evidence &&
-          accepted[k].complexity() <= best.complexity() && told.insert(accepted[k].names()).second)
-        cause.alike.push_back(cause_of(accepted[k]).text());
-    result.causes.push_back(std::move(cause));
+  void report(Identification& result) const {
+    if (accepted_.empty()) return;
+    const auto& best = accepted_.front();
+    result.causes = {cause_of(best)};
+    std::set<std::set<std::string>> told;  // two numbers may have been tried in either order
+    for (const auto& other : accepted_)
+      if (other.evidence() - best.evidence() < same_evidence && other.size() <= best.size() &&
+          told.insert(other.names()).second && &other != &best)
+        result.causes[0].alike.push_back(cause_of(other).text());
   }
 
   Progress told_;
-  std::vector<std::string> stages_;
   Assumptions nominal_;
   model::Case<double> the_case_;
   audit::Options options_;
   audit::EventsAtHand log_;
-  std::vector<Parameter> parameters_;
-  std::vector<Mistake> mistakes_;
-  std::optional<Candidates> candidates_;
-  std::vector<Tried> promising_;
-  std::vector<Candidate> singles_, pairs_;
-  std::deque<Parameter> restricted_;  ///< which candidates point to
+  std::vector<Parameter> numbers_, mistakes_;
+  std::vector<Parameter> periodic_;  ///< of the numbers
+  std::optional<Evidence> evidence_;
+  std::vector<Hypothesis> tried_, accepted_;
   const std::atomic<bool>* interrupt_ = nullptr;
   bool from_start_ = false;
 };

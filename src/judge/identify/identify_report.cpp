@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <utility>
+
 #include "identify/identify.hpp"
 
 namespace edmill::identify {
@@ -66,16 +68,13 @@ std::string table(const Identification& found) {
 
 namespace {
 
-void put_optional(io::JsonText& json, std::string_view key, const std::optional<double>& value) {
-  if (value) json.add(key, *value);
-}
-
 void put_stepping(io::JsonText& json, const TimeStepping& stepping) {
   json.begin("time_stepping");
-  put_optional(json, "step", stepping.step);
-  put_optional(json, "step_by_depth", stepping.step_by_depth);
-  put_optional(json, "first_order_step", stepping.first_order_step);
-  put_optional(json, "jitter", stepping.jitter);
+  for (const auto& [key, value] : {std::pair("step", stepping.step),
+                                   {"step_by_depth", stepping.step_by_depth},
+                                   {"first_order_step", stepping.first_order_step},
+                                   {"jitter", stepping.jitter}})
+    if (value) json.add(key, *value);
   if (stepping.second_order) json.add("order", 2);
   if (const auto& soft = stepping.soft) {
     json.begin("soft_contacts");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <type_traits>
@@ -57,129 +58,118 @@ AnyLaw law_named(std::string_view name) {
   }
 }
 
-/// Numbers of contact laws: those of both kinds of contact together where they are equal, and of each.
-class Laws {
- public:
-  explicit Laws(const Assumptions& nominal, std::vector<Parameter>& list) : nominal_(nominal), list_(list) {}
-
-  void add() {
-    const auto& spec = nominal_.spec;
-    if (!spec.pairs_only) add_both(spec.ball_ball, spec.ball_wall);
-    for (std::size_t k = 0; k < spec.pairs.size(); ++k)
-      add_law(fmt::format("contact.pair.{}", k), spec.pairs[k].law,
-              [k](Assumptions& a) -> casefile::ContactSpec& { return a.spec.pairs[k].law; });
-  }
-
- private:
-  using Law = casefile::ContactSpec;
-  struct Entry {
-    std::string key, meaning;
-    Dimension dimension;
-    double value;
-  };
-  /// The single numbers of a law; tables of numbers are left out.
-  template <class L, class F>
-  static void each(L& law, F&& f) {
-    const auto visit = [&]<class Value>(const auto& p, Value& value) {
-      if constexpr (std::is_same_v<Value, Quantity>) f(p.key, p.meaning, p.dimension, value);
-    };
-    std::visit([&](auto& own) { own.parameters(own, visit); }, law.law);
-    f("least_separation", "v_s", Dimension::speed, law.least_separation);
-  }
-  static std::vector<Entry> entries(Law law) {
-    std::vector<Entry> list;
-    each(law, [&](const char* key, const char* meaning, Dimension dimension, Quantity& q) {
-      list.push_back({key, meaning, dimension, q.to<double>()});
-    });
-    return list;
-  }
-  /// The number of this name; another law may not have it. Points of tables have one name, and are told apart
-  /// by their place.
-  static void put(Law& law, const std::string& key, std::size_t which, double value) {
-    std::size_t k = 0;
-    each(law, [&](const char* own, const char*, Dimension, Quantity& q) {
-      if (own == key && k++ == which) q = exactly(value);
-    });
-  }
-  static std::size_t which(const std::vector<Entry>& list, std::size_t place) {
-    return static_cast<std::size_t>(std::count_if(list.begin(),
-                                                  list.begin() + static_cast<std::ptrdiff_t>(place),
-                                                  [&](const Entry& e) { return e.key == list[place].key; }));
-  }
-  void push(const Entry& e, const std::string& section, std::function<void(Assumptions&, double)> set) {
-    auto p = number(section + "." + e.key, e.meaning, e.dimension, e.value, std::move(set));
-    if (e.value == 0) p.change = e.dimension == Dimension::speed ? 0.01 : 0.1;
-    list_.push_back(std::move(p));
-  }
-  /// The law with one number of another: its others are the law's own where they have the same name.
-  /// @return whether it has all numbers that such a law needs
-  static bool replace(Law& law, const OtherLaw& other, double value) {
-    const auto own = entries(law);
-    bool complete = true;
-    law.law = law_named(other.model);
-    each(law, [&](const char* key, const char*, Dimension, Quantity& q) {
-      const auto same = std::find_if(own.begin(), own.end(), [&](const Entry& e) { return e.key == key; });
-      const auto value_there = key == other.number ? value : same != own.end() ? same->value : otherwise(key);
-      complete = complete && value_there;
-      q = exactly(value_there.value_or(0));
-    });
-    return complete;
-  }
-  template <class Find>
-  void add_others(const std::string& section, const Law& law, Find find) {
-    for (const auto& other : other_laws) {
-      Law tried = law;
-      if (law.name() == other.model || !replace(tried, other, other.first_values.front())) continue;
-      list_.push_back({.key = fmt::format("{}, law \"{}\": {}", section, other.model, other.number),
-                       .meaning = "",
-                       .dimension = other.dimension,
-                       .value = std::numeric_limits<double>::quiet_NaN(),
-                       .change = other.change,
-                       .set =
-                           [find, &other](Assumptions& a, double x) {
-                             for (Law* own : find(a)) replace(*own, other, x);
-                           },
-                       .of_flights = false,
-                       .prior = 1,  // of two that fit alike, a number of the case's law comes first
-                       .in_place_of = fmt::format("the law \"{}\"", law.name()),
-                       .first_values = other.first_values});
-    }
-  }
-  template <class Find>
-  void add_law(const std::string& section, const Law& law, Find find) {
-    const auto own = entries(law);
-    for (std::size_t k = 0; k < own.size(); ++k)
-      push(own[k], section, [find, key = own[k].key, n = which(own, k)](Assumptions& a, double x) {
-        put(find(a), key, n, x);
-      });
-  }
-  void add_both(const Law& balls, const Law& walls) {
-    const auto one = entries(balls), two = entries(walls);
-    const bool alike = balls.law.index() == walls.law.index();
-    for (std::size_t k = 0; alike && k < one.size(); ++k)
-      if (one[k].value == two[k].value)
-        push(one[k], "contact", [key = one[k].key, n = which(one, k)](Assumptions& a, double x) {
-          put(a.spec.ball_ball, key, n, x);
-          put(a.spec.ball_wall, key, n, x);
-        });
-    if (alike)
-      add_others("contact", balls, [](Assumptions& a) -> std::vector<Law*> {
-        return {&a.spec.ball_ball, &a.spec.ball_wall};
-      });
-    add_others("contact.ball_ball", balls,
-               [](Assumptions& a) -> std::vector<Law*> { return {&a.spec.ball_ball}; });
-    add_others("contact.ball_wall", walls,
-               [](Assumptions& a) -> std::vector<Law*> { return {&a.spec.ball_wall}; });
-    add_law("contact.ball_ball", balls, [](Assumptions& a) -> Law& { return a.spec.ball_ball; });
-    add_law("contact.ball_wall", walls, [](Assumptions& a) -> Law& { return a.spec.ball_wall; });
-  }
-
-  const Assumptions& nominal_;
-  std::vector<Parameter>& list_;
+using Law = casefile::ContactSpec;
+struct Entry {
+  std::string key;
+  Dimension dimension;
+  double value;
 };
+
+/// The single numbers of a law; tables of numbers are left out.
+template <class F>
+void each(Law& law, F&& f) {
+  const auto visit = [&]<class Value>(const auto& p, Value& value) {
+    if constexpr (std::is_same_v<Value, Quantity>) f(p.key, p.dimension, value);
+  };
+  std::visit([&](auto& own) { own.parameters(own, visit); }, law.law);
+  f("least_separation", Dimension::speed, law.least_separation);
+}
+
+std::vector<Entry> entries(Law law) {
+  std::vector<Entry> list;
+  each(law, [&](const char* key, Dimension dimension, Quantity& q) {
+    list.push_back({key, dimension, q.to<double>()});
+  });
+  return list;
+}
+
+/// The number of this name; another law may not have it. Points of tables have one name, and are told apart
+/// by their place.
+void put(Law& law, const std::string& key, std::size_t which, double value) {
+  std::size_t k = 0;
+  each(law, [&](const char* own, Dimension, Quantity& q) {
+    if (own == key && k++ == which) q = exactly(value);
+  });
+}
+
+/// The law with one number of another: its others are the law's own where they have the same name.
+/// @return whether it has all numbers that such a law needs
+bool replace(Law& law, const OtherLaw& other, double value) {
+  const auto own = entries(law);
+  bool complete = true;
+  law.law = law_named(other.model);
+  each(law, [&](const char* key, Dimension, Quantity& q) {
+    const auto same = std::find_if(own.begin(), own.end(), [&](const Entry& e) { return e.key == key; });
+    const auto value_there = key == other.number ? value : same != own.end() ? same->value : otherwise(key);
+    complete = complete && value_there;
+    q = exactly(value_there.value_or(0));
+  });
+  return complete;
+}
+
+/// Where a case gives a law, or two that are alike.
+struct Section {
+  std::string key;  ///< "contact.ball_wall"
+  std::function<std::vector<Law*>(Assumptions&)> laws;
+};
+
+/// The numbers of a section that its laws have alike.
+void add_numbers_of(const Section& section, Assumptions nominal, std::vector<Parameter>& list) {
+  const auto laws = section.laws(nominal);
+  const auto own = entries(*laws.front()), others = entries(*laws.back());
+  if (own.size() != others.size()) return;  // tables with other points
+  std::map<std::string, std::size_t> seen;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const auto& [key, dimension, value] = own[k];
+    const auto set = [laws = section.laws, key = key, which = seen[key]++](Assumptions& a, double x) {
+      for (Law* law : laws(a)) put(*law, key, which, x);
+    };
+    if (value != others[k].value) continue;
+    list.push_back(number(section.key + "." + key, dimension, value, set));
+    if (value == 0) list.back().change = dimension == Dimension::speed ? 0.01 : 0.1;
+  }
+}
+
+void add_other_laws(const Section& section, Assumptions nominal, std::vector<Parameter>& list) {
+  const Law& law = *section.laws(nominal).front();
+  for (const auto& other : other_laws) {
+    Law tried = law;
+    if (law.name() == other.model || !replace(tried, other, other.first_values.front())) continue;
+    list.push_back({.key = fmt::format("{}, law \"{}\": {}", section.key, other.model, other.number),
+                    .dimension = other.dimension,
+                    .value = std::numeric_limits<double>::quiet_NaN(),
+                    .change = other.change,
+                    .set =
+                        [laws = section.laws, &other](Assumptions& a, double x) {
+                          for (Law* own : laws(a)) replace(*own, other, x);
+                        },
+                    .of_flights = false,
+                    .prior = 1,  // of two that fit alike, a number of the case's law comes first
+                    .in_place_of = fmt::format("the law \"{}\"", law.name()),
+                    .first_values = other.first_values});
+  }
+}
 
 }  // namespace
 
-void add_laws(const Assumptions& nominal, std::vector<Parameter>& list) { Laws(nominal, list).add(); }
+void add_laws(const Assumptions& nominal, std::vector<Parameter>& list) {
+  using Laws = std::vector<Law*>;
+  const auto& spec = nominal.spec;
+  std::vector<Section> sections;
+  if (!spec.pairs_only) {
+    if (spec.ball_ball.law.index() == spec.ball_wall.law.index())
+      sections.push_back({"contact", [](Assumptions& a) {
+                            return Laws{&a.spec.ball_ball, &a.spec.ball_wall};
+                          }});
+    sections.push_back({"contact.ball_ball", [](Assumptions& a) { return Laws{&a.spec.ball_ball}; }});
+    sections.push_back({"contact.ball_wall", [](Assumptions& a) { return Laws{&a.spec.ball_wall}; }});
+  }
+  for (const auto& section : sections) add_numbers_of(section, nominal, list);
+  for (const auto& section : sections) add_other_laws(section, nominal, list);
+  for (std::size_t k = 0; k < spec.pairs.size(); ++k)
+    add_numbers_of(
+        {fmt::format("contact.pair.{}", k), [k](Assumptions& a) { return Laws{&a.spec.pairs[k].law}; }},
+        nominal, list);
+}
 
 }  // namespace edmill::identify

@@ -47,11 +47,9 @@ void add_numbers(const std::string& section, const Assumptions& nominal, Member 
         if (k++ == own) target = exactly(drive ? 2 * pi / value : value);
       });
     };
-    auto parameter =
-        number(section + "." + with_axis(p.key, axis), p.meaning, p.dimension, nominal_value, set);
-    parameter.is_speed = drive;
-    parameter.is_diameter = parameter.key == "vessel.diameter";
-    list.push_back(std::move(parameter));
+    list.push_back(number(section + "." + with_axis(p.key, axis), p.dimension, nominal_value, set));
+    list.back().is_speed = drive;
+    list.back().is_diameter = list.back().key == "vessel.diameter";
   });
 }
 
@@ -65,7 +63,7 @@ void add_joints(const Assumptions& nominal, std::vector<Parameter>& list) {
       if (value.zero()) return;
       const bool turns = dimension == Dimension::angle || dimension == Dimension::angular_speed;
       const double unit = turns ? 2 * pi : 1;
-      list.push_back(number(fmt::format("mill.joint.{}.{}", j, key), "", dimension, unit * value.to<double>(),
+      list.push_back(number(fmt::format("mill.joint.{}.{}", j, key), dimension, unit * value.to<double>(),
                             [=](Assumptions& a, double x) {
                               auto& chain = std::get<model::Chain<Quantity>>(a.spec.mill);
                               *member(chain.given.list[j]) = exactly(x / unit);
@@ -102,7 +100,7 @@ void add_phases(const Assumptions& nominal, std::vector<Parameter>& list) {
   std::vector<Parameter> phases;
   const auto add = [&](std::size_t j, std::size_t place, std::string key, const Quantity& turns) {
     const double value = chain ? 2 * pi * turns.to<double>() : 0;
-    auto p = number(std::move(key), "", Dimension::angle, value, [=](Assumptions& a, double x) {
+    auto p = number(std::move(key), Dimension::angle, value, [=](Assumptions& a, double x) {
       a.phases[{j, place}] = x - value;
     });
     p.change = 0.1;
@@ -141,15 +139,13 @@ void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
   };
   if (size == 0) {
     for (int axis = 0; axis < 3; ++axis) {
-      auto p =
-          number(with_axis("run.gravity", axis), "gravity, which the case has not", Dimension::acceleration,
-                 0, [=](Assumptions& a, double x) { a.spec.gravity[axis] = exactly(x); });
-      p.change = 10;
-      list.push_back(std::move(p));
+      list.push_back(number(with_axis("run.gravity", axis), Dimension::acceleration, 0,
+                            [=](Assumptions& a, double x) { a.spec.gravity[axis] = exactly(x); }));
+      list.back().change = 10;
     }
     return;
   }
-  list.push_back(number("run.gravity", "size", Dimension::acceleration, size, [=](Assumptions& a, double x) {
+  list.push_back(number("run.gravity", Dimension::acceleration, size, [=](Assumptions& a, double x) {
     Vec3<double> now = gravity_of(a);
     if (norm<double>(now) == 0) now = g;
     put(a, Vec3<double>(now * (x / norm<double>(now))));
@@ -160,7 +156,7 @@ void add_gravity(const Assumptions& nominal, std::vector<Parameter>& list) {
   const int along = axes[2];
   for (int tilt = 0; tilt < 2; ++tilt) {
     const int axis = axes[tilt];
-    auto p = number(with_axis("run.gravity, tilted towards", axis), "direction", Dimension::angle, 0,
+    auto p = number(with_axis("run.gravity, tilted towards", axis), Dimension::angle, 0,
                     [=](Assumptions& a, double x) {
                       Vec3<double> now = gravity_of(a);
                       const double c = std::cos(x), s = std::sin(x), side = g[along] < 0 ? -1 : 1;
@@ -190,7 +186,7 @@ void add_balls(const std::string& key, std::size_t first, std::size_t last, cons
     }
   };
   const double diameter = spec.diameter.to<double>(), density = spec.density.to<double>();
-  list.push_back(number(key + ".diameter", "", Dimension::length, diameter, [=](Assumptions& a, double x) {
+  list.push_back(number(key + ".diameter", Dimension::length, diameter, [=](Assumptions& a, double x) {
     const double by = x / diameter;
     each(a, &Spec::diameter, x, [&](auto& ball) {
       ball.radius *= by;
@@ -198,10 +194,10 @@ void add_balls(const std::string& key, std::size_t first, std::size_t last, cons
     });
   }));
   list.back().is_diameter = true;
-  list.push_back(number(key + ".density", "", Dimension::density, density, [=](Assumptions& a, double x) {
+  list.push_back(number(key + ".density", Dimension::density, density, [=](Assumptions& a, double x) {
     each(a, &Spec::density, x, [&](auto& ball) { ball.mass *= x / density; });
   }));
-  list.push_back(number(key + ".reduced_inertia", "J", Dimension::none, spec.reduced_inertia.to<double>(),
+  list.push_back(number(key + ".reduced_inertia", Dimension::none, spec.reduced_inertia.to<double>(),
                         [=](Assumptions& a, double x) {
                           each(a, &Spec::reduced_inertia, x, [&](auto& ball) { ball.reduced_inertia = x; });
                         }));
@@ -246,20 +242,35 @@ Unit unit_of(Dimension dimension, double value) {
 
 }  // namespace
 
-std::vector<double> Parameter::values_from_afar() const {
+std::vector<double> Parameter::trial_values(double end) const {
   if (!is_of_case()) return first_values;
-  if (is_speed || cycle > 0) return {};  // of a periodic motion: Candidates::starts
-  if (value == 0) return {0.1 * change, change, 10 * change, -change};
   std::vector<double> values;
-  for (const double factor : {-1.0, 0.0, 0.1, 0.5, 0.75, 1.3, 2.0, 10.0}) values.push_back(factor * value);
+  if (cycle > 0) {
+    for (int k = -7; k <= 8; ++k)
+      if (k != 0) values.push_back(value + cycle * k / 16);
+  } else if (is_speed) {
+    // Steps of a tenth of a turn; far off only where the log begins so early that they are few.
+    constexpr double most_turns = 15, near = 0.12, far = 2.5;
+    const double turns = std::abs(end * value) / (2 * pi);
+    const auto steps = [&](double most) { return static_cast<int>(std::ceil(most * turns * 10)); };
+    const int few = std::clamp(steps(near), 1, 400), all = turns < most_turns ? steps(far) : 0;
+    for (int k = -few; k <= few; ++k)
+      if (k != 0) values.push_back(value * (1 + near * k / few));
+    for (const double factor : {-1.0, 0.5, 2.0}) values.push_back(factor * value);
+    for (int k = -all; k <= all; ++k)
+      if (k != 0) values.push_back(value * far * k / all);
+  } else if (value == 0) {
+    values = {0.1 * change, change, 10 * change, -change};
+  } else {
+    for (const double factor : {-1.0, 0.0, 0.1, 0.5, 0.75, 1.3, 2.0, 10.0}) values.push_back(factor * value);
+  }
   return values;
 }
 
-Parameter number(std::string key, std::string meaning, Dimension dimension, double value,
+Parameter number(std::string key, Dimension dimension, double value,
                  std::function<void(Assumptions&, double)> set) {
   const double size = std::abs(value);
   return {.key = std::move(key),
-          .meaning = std::move(meaning),
           .dimension = dimension,
           .value = value,
           .change = size > 0 ? size : 1.0,
@@ -275,11 +286,10 @@ std::vector<Parameter> parameters_of(const Assumptions& nominal) {
     add_numbers("mill", nominal, &casefile::CaseSpec::mill, list);
   if (!std::holds_alternative<model::StillMill<Quantity>>(nominal.spec.mill)) {
     const double period = casefile::period_of(nominal.spec.mill).to<double>();
-    auto phase = number("phase of the drive", "as a time that the log's clock is behind", Dimension::time, 0,
-                        [](Assumptions& a, double x) { a.log.delay = x; });
-    phase.change = period / 10;
-    phase.cycle = period;
-    list.push_back(std::move(phase));
+    list.push_back(
+        number("phase of the drive", Dimension::time, 0, [](Assumptions& a, double x) { a.log.delay = x; }));
+    list.back().change = period / 10;
+    list.back().cycle = period;
     add_phases(nominal, list);
   }
   if (!std::holds_alternative<model::Polyhedron<Quantity>>(nominal.spec.vessel))

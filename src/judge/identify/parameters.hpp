@@ -9,13 +9,13 @@
 
 namespace edmill::identify {
 
-/// A number that a log may have been made with another value of.
+/// What a log may have been made with otherwise than the case says: a number with another value, or a
+/// mistake.
 struct Parameter {
-  std::string key;      ///< as in the case file, "mill.arm"
-  std::string meaning;  ///< "l, from the fulcrum to the vessel's centre"
-  Dimension dimension;
-  double value;   ///< of the case, SI
-  double change;  ///< that is small against what matters, SI: the unit of a fit
+  std::string key;  ///< as in the case file, "mill.arm"; of a mistake "mill, order of rotations"
+  Dimension dimension = Dimension::none;
+  double value = 0;   ///< of the case, SI
+  double change = 1;  ///< that is small against what matters, SI: the unit of a fit
   std::function<void(Assumptions&, double)> set;
   /// A wrong unit (1e3, pi/180) or a diameter in place of a radius changes it by a factor.
   bool has_unit = false, is_diameter = false;
@@ -26,29 +26,30 @@ struct Parameter {
   bool of_impacts = true,
        of_flights = true;  ///< the rows that depend on it, which a part of the log may restrict
   double prior = 0;        ///< what the choice among parts of the log costs in Schwarz's criterion
-  /// Of a number of another contact law: what the case has in its place, and values to begin with. `value` is
-  /// not a number.
+  /// Of a number of another contact law: what the case has in its place. `value` is not a number.
   std::string in_place_of = {};
-  std::vector<double> first_values = {};
+  std::vector<double> first_values = {};  ///< of such a number, and of a mistake: to begin with
+  std::string mistake =
+      {};                  ///< "R_x(gamma) R_z(theta) in place of R_z(theta) R_x(gamma)"; empty for a number
+  bool by_factor = false;  ///< a mistake of a number, as a wrong unit makes it
+  bool of_motion = false;  ///< a mistake that makes another mill, which has not the numbers of the case's
 
-  bool is_of_case() const { return in_place_of.empty(); }
-  /// Values over decades at which a number that is far off, or a term that is reversed or left out, shows.
-  std::vector<double> values_from_afar() const;
-};
-
-/// A mistake that is made or not.
-struct Mistake {
-  std::string key;   ///< "mill, order of rotations"
-  std::string text;  ///< "R_x(gamma) R_z(theta) in place of R_z(theta) R_x(gamma)"
-  std::function<void(Assumptions&)> make;
-  bool by_factor = false;  ///< of a number, as a wrong unit makes it
-  bool of_motion = false;  ///< it makes another mill, which has not the numbers of the case's
-
-  /// The assumptions with it.
-  Assumptions on(Assumptions base) const {
-    make(base);
+  bool is_of_case() const { return first_values.empty(); }
+  bool is_periodic() const { return is_speed || cycle > 0; }
+  std::string name() const { return mistake.empty() ? key : key + ": " + mistake; }
+  /// Whether the other one says the same, or cannot be said of such a mill.
+  bool excludes(const Parameter& other) const {
+    return key == other.key || (of_motion && (other.of_motion || other.key.starts_with("mill.")));
+  }
+  /// The assumptions with this value, or this mistake.
+  Assumptions on(Assumptions base, double x) const {
+    set(base, x);
     return base;
   }
+  /// Values over decades at which a number that is far off, or a term that is reversed or left out, shows;
+  /// over the cycle of a phase; of a speed, so close together that none of its turns is missed.
+  /// @param end  of the events that show them [s]
+  std::vector<double> trial_values(double end) const;
 };
 
 /// All numbers of the mill, the vessel, gravity, the contact laws and the balls.
@@ -61,7 +62,7 @@ inline std::string with_axis(const std::string& key, int axis) {
   return axis < 0 ? key : key + "." + std::string(1, "xyz"[axis]);
 }
 /// With the unit of a fit that its size suggests.
-Parameter number(std::string key, std::string meaning, Dimension dimension, double value,
+Parameter number(std::string key, Dimension dimension, double value,
                  std::function<void(Assumptions&, double)> set);
 
 /// The factors and shifts of the terms of the equations.
@@ -71,8 +72,8 @@ Parameter restricted_to(const SharedSubset& part, const Parameter& parameter, st
 
 /// Mistakes other than wrong numbers that can be told apart in a log with these columns: orders, signs,
 /// directions, units, and what columns stand for.
-std::vector<Mistake> mistakes_of(const Assumptions& nominal, const std::vector<Parameter>& parameters,
-                                 const audit::Available& has);
+std::vector<Parameter> mistakes_of(const Assumptions& nominal, const std::vector<Parameter>& parameters,
+                                   const audit::Available& has);
 
 /// "reversed", "left out", "doubled", "halved", where an interval holds such a factor and little else; else
 /// empty.

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "base/errors.hpp"
-#include "identify/candidates.hpp"
+#include "identify/evidence.hpp"
 #include "run/event_source.hpp"
 
 namespace edmill::identify {
@@ -82,11 +82,11 @@ class Replay {
 
   /// How many impacts from the first on two lists have in common.
   std::size_t common(const std::vector<Impact>& one, const std::vector<Impact>& two) const {
-    std::size_t n = 0;
-    while (n < std::min(one.size(), two.size()) && one[n].same_bodies(two[n]) &&
-           std::abs(one[n].time - two[n].time) < same_time * period_)
-      ++n;
-    return n;
+    const auto same = [&](const Impact& a, const Impact& b) {
+      return a.same_bodies(b) && std::abs(a.time - b.time) < same_time * period_;
+    };
+    const auto differing = std::mismatch(one.begin(), one.end(), two.begin(), two.end(), same);
+    return static_cast<std::size_t>(differing.first - one.begin());
   }
   std::size_t follows(const std::vector<Impact>& list) const { return common(list, log_); }
 
@@ -149,12 +149,10 @@ std::pair<double, double> fitted_value(const Replay& replay, const Assumptions& 
   for (const std::size_t depth : {1, 1, 2, 2, 3, 4, 6, 8, 8}) {
     const std::size_t count = std::min(replay.count(), 2 * depth * nominal.balls.size() + 20);
     const double step = 1e-7 * p.change;
-    Assumptions here = nominal, there = nominal;
-    p.set(here, value);
-    p.set(there, value + step);
     std::vector<std::size_t> places, places_there;
-    const auto off = replay.differences(replay.impacts(here, count), depth, places);
-    const auto off_there = replay.differences(replay.impacts(there, count), depth, places_there);
+    const auto off = replay.differences(replay.impacts(p.on(nominal, value), count), depth, places);
+    const auto off_there =
+        replay.differences(replay.impacts(p.on(nominal, value + step), count), depth, places_there);
     if (places != places_there || off.empty()) continue;
     std::vector<std::pair<double, double>> steps;
     for (std::size_t k = 0; k < off.size(); ++k) {
@@ -177,8 +175,8 @@ std::pair<double, double> fitted_value(const Replay& replay, const Assumptions& 
 
 }  // namespace
 
-Identification replay(const Assumptions& nominal, const std::vector<Parameter>& parameters,
-                      const std::vector<Mistake>& mistakes, const audit::EventsAtHand& log,
+Identification replay(const Assumptions& nominal, const std::vector<Parameter>& numbers,
+                      const std::vector<Parameter>& mistakes, const audit::EventsAtHand& log,
                       const std::function<bool()>& is_interrupted) {
   Replay runs(nominal, log);
   Identification result;
@@ -212,23 +210,15 @@ Identification replay(const Assumptions& nominal, const std::vector<Parameter>& 
     for (const auto& mistake : mistakes) {
       if (is_interrupted()) return result;
       if (mistake.by_factor) continue;  // a mill that turns a thousand times as fast is not run in a hurry
-      const Assumptions assumed = mistake.on(nominal);
+      const Assumptions assumed = mistake.on(nominal, 1);
       if (runs.follows(runs.impacts(assumed, 30)) < std::min<std::size_t>(20, runs.count())) continue;
-      consider({.mistakes = {mistake.key + ": " + mistake.text}}, assumed);
+      consider({.mistakes = {mistake.name()}}, assumed);
     }
-    for (const auto& p : parameters) {
+    for (const auto& p : numbers) {
       if (is_interrupted()) return result;
       const auto [value, open] = fitted_value(runs, nominal, p);
       if (!(std::abs(value - p.value) > open)) continue;
-      Assumptions assumed = nominal;
-      p.set(assumed, value);
-      consider({.values = {{.key = p.key,
-                            .dimension = p.dimension,
-                            .value = value,
-                            .half_width = open,
-                            .nominal = p.value,
-                            .equation = p.equation}}},
-               assumed);
+      consider({.values = {found_value(p, value, open)}}, p.on(nominal, value));
     }
   }
   return result;

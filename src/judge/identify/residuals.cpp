@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/errors.hpp"
 #include "identify/fit.hpp"
@@ -50,27 +51,148 @@ void assume_wall_velocity(const model::Mill<double>& mill, const Terms& terms, L
 
 }  // namespace
 
-/// Takes rows; when `allowed` is given they are divided by it, otherwise what they are allowed is noted.
+/// Writes the rows of events: what a log differs by from a case, if it is written so and with these terms.
 struct LogResiduals::Writer {
-  std::vector<double>* values = nullptr;
-  const std::vector<double>* allowed = nullptr;
-  std::vector<double>* note = nullptr;
-  std::vector<RowKind>* kinds = nullptr;
-  std::vector<RowPlace>* places = nullptr;
+  const LogResiduals& of;
+  const model::Case<double>& model;
+  const LogChange& change;
+  const Terms& terms;
+  std::vector<Row> rows = {};
   RowPlace at = {};
 
   void add(RowKind kind, double off, double allow) {
-    if (note) {
-      note->push_back(allow > 0 && std::isfinite(allow) ? allow : 1.0);
-      kinds->push_back(kind);
-      places->push_back(at);
-      return;
-    }
-    const double row = off / (*allowed)[values->size()];
-    values->push_back(std::isfinite(row) ? std::clamp(row, -out_of_range, out_of_range) : out_of_range);
+    rows.push_back({off, allow > 0 && std::isfinite(allow) ? allow : 1.0, kind, at});
   }
   void add(RowKind kind, const Vec& off, double allow) {
     for (int k = 0; k < 3; ++k) add(kind, off[k], allow);
+  }
+
+  void event_rows(std::size_t k) {
+    LoggedEvent event = of.log_.events[k];
+    change.apply(event, model.mill);
+    const bool placed = of.log_.available.positions(event.with_wall);
+    const auto frame =
+        event.with_wall && placed ? audit::vessel_at(model.mill, event.time, false) : audit::VesselFrame{};
+    auto impact = audit::impact_of(event, model, frame, placed);
+    impact.in_stall = of.in_stall_[k];
+    if (event.with_wall && placed) assume_wall_velocity(model.mill, terms, impact);
+    at = {k, -1, false};
+    if (placed)
+      add(RowKind::touch, audit::gap_of(event, model, frame) - terms.contact_gap,
+          of.tolerances_.touch(event.time, event.with_wall));
+    if (placed && of.log_.available.velocities_before(event.with_wall))
+      impact_rows(impact);
+    else
+      speed_rows(impact);
+    for (std::size_t body = 0; body < impact.count(); ++body) flight_rows(k, body, event);
+  }
+
+  void impact_rows(const LoggedImpact& impact) {
+    const auto& has = of.log_.available;
+    const LoggedEvent& event = *impact.event;
+    const bool after = has.velocities_after(event.with_wall), spins = has.spins(event.with_wall);
+    const double scale = audit::velocity_scale(impact, spins);
+    const double by_wall =
+        event.with_wall ? of.tolerances_.of_wall(event.time, scale, impact.bend, impact.ball[0].radius) : 0;
+    const double allowed = of.tolerances_.relative * scale + by_wall;
+    LoggedEvent seen_event = event;  // by the velocity of the contact point
+    for (auto& body : seen_event.body) body.spin_before *= terms.arm;
+    LoggedImpact seen = impact;
+    seen.event = &seen_event;
+    const auto speeds = audit::speeds_before(seen);
+    if (after && spins) {
+      const auto expected = audit::outcome(seen, formula_of(terms, impact));
+      for (std::size_t b = 0; b < impact.count(); ++b) {
+        const auto &logged = event.body[b], &due = expected[b];
+        at.body = static_cast<int>(b);
+        const Vec spin_change = due.spin_after - seen_event.body[b].spin_before;
+        add(RowKind::law, Vec(logged.velocity_after - due.velocity_after), allowed);
+        add(RowKind::law, Vec((logged.spin_after - logged.spin_before - spin_change) * impact.ball[b].radius),
+            allowed);
+      }
+      at.body = -1;
+    } else if (after) {
+      add(RowKind::law, impact.g_n_after() - impact.separation_speed(speeds.g_n), allowed);
+      if (!event.with_wall) {
+        Vec momentum(0, 0, 0);
+        for (std::size_t b = 0; b < 2; ++b)
+          momentum += (event.body[b].velocity_after - event.body[b].velocity_before) *
+                      (impact.ball[b].mass / impact.effective_mass);
+        add(RowKind::law, momentum, allowed);
+      }
+    }
+    if (has.approach_speed)
+      add(RowKind::speed, event.approach_speed + speeds.g_n * terms.approach_speed, allowed);
+    if (has.slip_speed && spins)
+      add(RowKind::speed, event.slip_speed - speeds.slip * terms.slip_speed, allowed);
+    if (after && spins) energy_rows(impact, speeds, 4 * allowed * impact.effective_mass * scale);
+  }
+
+  void energy_rows(const LoggedImpact& impact, const audit::Speeds& speeds, double allowed) {
+    const LoggedEvent& event = *impact.event;
+    const double work = audit::work_of_wall(impact);
+    if (of.log_.available.milling_dose) {
+      LoggedEvent still_event = event;
+      for (auto& body : still_event.body) body.spin_before = body.spin_after = Vec(0, 0, 0);
+      LoggedImpact still = impact;
+      still.event = &still_event;
+      const double kinetic = audit::kinetic_change(impact), of_spin = kinetic - audit::kinetic_change(still);
+      const double supplied = audit::supplied(impact, speeds.g_n, impact.g_n_after());
+      const double dose = work * terms.work_in_dose - kinetic - of_spin * (terms.spin_in_dose - 1) +
+                          supplied * terms.supply_in_dose;
+      double off = event.milling_dose - dose * terms.dose;
+      // A code whose impulse is wrong may have its dose from the law of the case.
+      if (terms.change_impulse())
+        if (const double other = event.milling_dose - terms.dose * audit::dose_by_law(impact, speeds);
+            std::abs(other) < std::abs(off))
+          off = other;
+      add(RowKind::energy, off, allowed);
+    }
+    if (of.log_.available.wall_work && event.with_wall)
+      add(RowKind::energy, event.wall_work - work * terms.wall_work, allowed);
+  }
+
+  /// Without states the dose follows from the logged speeds.
+  void speed_rows(const LoggedImpact& impact) {
+    const auto& has = of.log_.available;
+    if (!has.approach_speed || !has.slip_speed || !has.milling_dose) return;
+    const LoggedEvent& event = *impact.event;
+    const auto true_of = [](double logged, double factor) { return factor == 0 ? logged : logged / factor; };
+    const double approach = true_of(event.approach_speed, terms.approach_speed);
+    const double slip = true_of(event.slip_speed, terms.slip_speed);
+    const double speed = std::max({std::abs(approach), slip, impact.law->least_separation});
+    add(RowKind::energy, event.milling_dose - terms.dose * audit::dose_by_law(impact, {-approach, slip}),
+        4 * of.tolerances_.relative * impact.effective_mass * speed * speed);
+  }
+
+  void flight_rows(std::size_t k, std::size_t body, const LoggedEvent& event) {
+    const auto& has = of.log_.available.body[body];
+    const Before& begin = of.before_[k][body];
+    if (!has.position || begin.event < 0) return;
+    const auto& had = of.log_.available.body[begin.body];
+    if (!had.position || !had.velocity_after) return;
+    at = {k, static_cast<int>(body), true};
+    LoggedEvent earlier = of.log_.events[begin.event];
+    change.apply(earlier, model.mill);
+    const auto &from = earlier.body[begin.body], &to = event.body[body];
+    const double dt = event.time - earlier.time + terms.time_of_flight;
+    const Vec g = model.mill.gravity * terms.gravity;
+    const double path = audit::size(from.velocity_after) * dt, speed = audit::size(from.velocity_after);
+    const Vec in_places = g * terms.gravity_in_places;
+    add(RowKind::place,
+        Vec(to.position - (from.position + (from.velocity_after + in_places * (dt / 2)) * dt)),
+        of.tolerances_.position(event.time, path, speed));
+    if (!has.velocity_before) return;
+    const double allowed =
+        of.tolerances_.velocity(event.time, std::max(speed, audit::size(to.velocity_before)));
+    const Vec fallen = g * (terms.gravity_in_velocities * (dt - terms.age_of_velocities));
+    add(RowKind::velocity, Vec(to.velocity_before - (from.velocity_after + fallen)), allowed);
+    if (has.spin_before && had.spin_after) {
+      const double radius = model.balls[event.ball_at(body)].radius;
+      const double spin = radius * std::max(audit::size(to.spin_before), audit::size(from.spin_after));
+      add(RowKind::velocity, Vec((to.spin_before - from.spin_after * terms.spin_in_flight) * radius),
+          allowed + of.tolerances_.velocity(event.time, spin));
+    }
   }
 };
 
@@ -120,12 +242,15 @@ Branches LogResiduals::branches_of(const LoggedEvent& event) const {
 
 Residuals LogResiduals::on(const std::vector<std::size_t>& events) const {
   Residuals sample(*this);
-  Writer note{nullptr, nullptr, &sample.allowed_, &sample.kinds_, &sample.places_};
+  const LogChange as_it_is;
+  const Terms right;
+  Writer out{*this, nominal_, as_it_is, right};
   for (const std::size_t k : events) {
     if (!log_.events[k].problem.empty()) continue;
-    event_rows(k, {nominal_, {}, {}}, note);
+    out.event_rows(k);
     sample.chosen_.push_back(k);
   }
+  sample.of_case_ = std::move(out.rows);
   return sample;
 }
 
@@ -135,13 +260,12 @@ std::vector<double> Residuals::rows(const Assumptions& assumed) const {
   whole.restricted.clear();
   auto values = of_whole(whole);
   // Each set of parts that a row may be in has rows of its own.
-  const std::size_t sets = std::size_t{1} << assumed.restricted.size();
   std::vector<std::size_t> set_of(count(), 0);
   for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
     for (std::size_t k = 0; k < count(); ++k)
-      if (assumed.restricted[r].part->holds(places_[k])) set_of[k] |= std::size_t{1} << r;
-  for (std::size_t set = 1; set < sets; ++set) {
-    if (std::find(set_of.begin(), set_of.end(), set) == set_of.end()) continue;
+      if (assumed.restricted[r].part->holds(of_case_[k].at)) set_of[k] |= std::size_t{1} << r;
+  for (const std::size_t set : std::set<std::size_t>(set_of.begin(), set_of.end())) {
+    if (set == 0) continue;
     Assumptions here = whole;
     for (std::size_t r = 0; r < assumed.restricted.size(); ++r)
       if (set >> r & 1) assumed.restricted[r].make(here);
@@ -159,142 +283,16 @@ std::vector<double> Residuals::of_whole(const Assumptions& assumed) const {
   EDMILL_REQUIRE(model->balls.size() == nominal.balls.size() &&
                      model->mill.vessel.wall_count() == nominal.mill.vessel.wall_count(),
                  "the bodies that the log is of");
-  std::vector<double> values;
-  values.reserve(count());
-  LogResiduals::Writer out{&values, &allowed_};
-  for (const std::size_t k : chosen_) log_->event_rows(k, {*model, assumed.log, assumed.terms}, out);
+  LogResiduals::Writer out{*log_, *model, assumed.log, assumed.terms};
+  out.rows.reserve(count());
+  for (const std::size_t k : chosen_) out.event_rows(k);
+  std::vector<double> values(count());
+  std::transform(
+      out.rows.begin(), out.rows.end(), of_case_.begin(), values.begin(), [](const Row& r, const Row& due) {
+        const double value = r.difference / due.allowed;
+        return std::isfinite(value) ? std::clamp(value, -out_of_range, out_of_range) : out_of_range;
+      });
   return values;
-}
-
-void LogResiduals::event_rows(std::size_t k, const Given& given, Writer& out) const {
-  const auto& model = given.model;
-  LoggedEvent event = log_.events[k];
-  given.change.apply(event, model.mill);
-  const bool placed = log_.available.positions(event.with_wall);
-  const auto frame =
-      event.with_wall && placed ? audit::vessel_at(model.mill, event.time, false) : audit::VesselFrame{};
-  auto impact = audit::impact_of(event, model, frame, placed);
-  impact.in_stall = in_stall_[k];
-  if (event.with_wall && placed) assume_wall_velocity(model.mill, given.terms, impact);
-  out.at = {k, -1, false};
-  if (placed)
-    out.add(RowKind::touch, audit::gap_of(event, model, frame) - given.terms.contact_gap,
-            tolerances_.touch(event.time, event.with_wall));
-  if (placed && log_.available.velocities_before(event.with_wall))
-    impact_rows(impact, given.terms, out);
-  else
-    speed_rows(impact, given.terms, out);
-  for (std::size_t body = 0; body < impact.count(); ++body) flight_rows(k, body, event, given, out);
-}
-
-void LogResiduals::impact_rows(const LoggedImpact& impact, const Terms& terms, Writer& out) const {
-  const auto& has = log_.available;
-  const LoggedEvent& event = *impact.event;
-  const bool after = has.velocities_after(event.with_wall), spins = has.spins(event.with_wall);
-  const double scale = audit::velocity_scale(impact, spins);
-  const double by_wall =
-      event.with_wall ? tolerances_.of_wall(event.time, scale, impact.bend, impact.ball[0].radius) : 0;
-  const double allowed = tolerances_.relative * scale + by_wall;
-  LoggedEvent seen_event = event;  // by the velocity of the contact point
-  for (auto& body : seen_event.body) body.spin_before *= terms.arm;
-  LoggedImpact seen = impact;
-  seen.event = &seen_event;
-  const auto speeds = audit::speeds_before(seen);
-  if (after && spins) {
-    const auto expected = audit::outcome(seen, formula_of(terms, impact));
-    for (std::size_t b = 0; b < impact.count(); ++b) {
-      const auto &logged = event.body[b], &due = expected[b];
-      out.at.body = static_cast<int>(b);
-      const Vec spin_change = due.spin_after - seen_event.body[b].spin_before;
-      out.add(RowKind::law, Vec(logged.velocity_after - due.velocity_after), allowed);
-      out.add(RowKind::law,
-              Vec((logged.spin_after - logged.spin_before - spin_change) * impact.ball[b].radius), allowed);
-    }
-    out.at.body = -1;
-  } else if (after) {
-    out.add(RowKind::law, impact.g_n_after() - impact.separation_speed(speeds.g_n), allowed);
-    if (!event.with_wall) {
-      Vec momentum(0, 0, 0);
-      for (std::size_t b = 0; b < 2; ++b)
-        momentum += (event.body[b].velocity_after - event.body[b].velocity_before) *
-                    (impact.ball[b].mass / impact.effective_mass);
-      out.add(RowKind::law, momentum, allowed);
-    }
-  }
-  if (has.approach_speed)
-    out.add(RowKind::speed, event.approach_speed + speeds.g_n * terms.approach_speed, allowed);
-  if (has.slip_speed && spins)
-    out.add(RowKind::speed, event.slip_speed - speeds.slip * terms.slip_speed, allowed);
-  if (after && spins) energy_rows(impact, speeds, terms, 4 * allowed * impact.effective_mass * scale, out);
-}
-
-void LogResiduals::energy_rows(const LoggedImpact& impact, const audit::Speeds& speeds, const Terms& terms,
-                               double allowed, Writer& out) const {
-  const LoggedEvent& event = *impact.event;
-  const double work = audit::work_of_wall(impact);
-  if (log_.available.milling_dose) {
-    LoggedEvent still_event = event;
-    for (auto& body : still_event.body) body.spin_before = body.spin_after = Vec(0, 0, 0);
-    LoggedImpact still = impact;
-    still.event = &still_event;
-    const double kinetic = audit::kinetic_change(impact), of_spin = kinetic - audit::kinetic_change(still);
-    const double supplied = audit::supplied(impact, speeds.g_n, impact.g_n_after());
-    const double dose = work * terms.work_in_dose - kinetic - of_spin * (terms.spin_in_dose - 1) +
-                        supplied * terms.supply_in_dose;
-    double off = event.milling_dose - dose * terms.dose;
-    // A code whose impulse is wrong may have its dose from the law of the case.
-    if (terms.change_impulse())
-      if (const double other = event.milling_dose - terms.dose * audit::dose_by_law(impact, speeds);
-          std::abs(other) < std::abs(off))
-        off = other;
-    out.add(RowKind::energy, off, allowed);
-  }
-  if (log_.available.wall_work && event.with_wall)
-    out.add(RowKind::energy, event.wall_work - work * terms.wall_work, allowed);
-}
-
-/// Without states the dose follows from the logged speeds.
-void LogResiduals::speed_rows(const LoggedImpact& impact, const Terms& terms, Writer& out) const {
-  const auto& has = log_.available;
-  if (!has.approach_speed || !has.slip_speed || !has.milling_dose) return;
-  const LoggedEvent& event = *impact.event;
-  const auto true_of = [](double logged, double factor) { return factor == 0 ? logged : logged / factor; };
-  const double approach = true_of(event.approach_speed, terms.approach_speed);
-  const double slip = true_of(event.slip_speed, terms.slip_speed);
-  const double speed = std::max({std::abs(approach), slip, impact.law->least_separation});
-  out.add(RowKind::energy, event.milling_dose - terms.dose * audit::dose_by_law(impact, {-approach, slip}),
-          4 * tolerances_.relative * impact.effective_mass * speed * speed);
-}
-
-void LogResiduals::flight_rows(std::size_t k, std::size_t body, const LoggedEvent& event, const Given& given,
-                               Writer& out) const {
-  const auto& has = log_.available.body[body];
-  const Before& begin = before_[k][body];
-  if (!has.position || begin.event < 0) return;
-  const auto& had = log_.available.body[begin.body];
-  if (!had.position || !had.velocity_after) return;
-  out.at = {k, static_cast<int>(body), true};
-  LoggedEvent earlier = log_.events[begin.event];
-  given.change.apply(earlier, given.model.mill);
-  const auto &from = earlier.body[begin.body], &to = event.body[body];
-  const auto& terms = given.terms;
-  const double dt = event.time - earlier.time + terms.time_of_flight;
-  const Vec g = given.model.mill.gravity * terms.gravity;
-  const double path = audit::size(from.velocity_after) * dt, speed = audit::size(from.velocity_after);
-  const Vec in_places = g * terms.gravity_in_places;
-  out.add(RowKind::place,
-          Vec(to.position - (from.position + (from.velocity_after + in_places * (dt / 2)) * dt)),
-          tolerances_.position(event.time, path, speed));
-  if (!has.velocity_before) return;
-  const double allowed = tolerances_.velocity(event.time, std::max(speed, audit::size(to.velocity_before)));
-  const Vec fallen = g * (terms.gravity_in_velocities * (dt - terms.age_of_velocities));
-  out.add(RowKind::velocity, Vec(to.velocity_before - (from.velocity_after + fallen)), allowed);
-  if (has.spin_before && had.spin_after) {
-    const double radius = given.model.balls[event.ball_at(body)].radius;
-    const double spin = radius * std::max(audit::size(to.spin_before), audit::size(from.spin_after));
-    out.add(RowKind::velocity, Vec((to.spin_before - from.spin_after * terms.spin_in_flight) * radius),
-            allowed + tolerances_.velocity(event.time, spin));
-  }
 }
 
 }  // namespace edmill::identify

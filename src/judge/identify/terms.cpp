@@ -47,7 +47,6 @@ std::vector<Parameter> term_parameters() {
     const bool is_factor = row.shift == Dimension::none;
     const double change = is_factor ? 1.0 : row.shift == Dimension::time ? 1e-5 : 1e-4;
     list.push_back({.key = row.name,
-                    .meaning = "",
                     .dimension = row.shift,
                     .value = is_factor ? 1.0 : 0.0,
                     .change = change,

@@ -26,6 +26,14 @@ double quantile(std::vector<double>& values, double share) {
   return *place;
 }
 
+/// Those that are known, if they are nine tenths of the values and not few; else none.
+std::vector<double> mostly_known(std::vector<double> values) {
+  const auto all = values.size();
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  const bool enough = values.size() >= least_number && audit::accounts_for(values.size(), all);
+  return enough ? values : std::vector<double>{};
+}
+
 /// Whether the values agree within a factor: their quartiles are within half of the median.
 bool agree(std::vector<double>& values) {
   const double middle = quantile(values, 0.5);
@@ -125,19 +133,17 @@ class Measured {
     const auto impact = audit::impact_of(event, case_, frame, true);
     const auto& [ball, other] = impact.ball;
     normal = impact.normal;
-    contact.effective_mass = ball.mass;
-    contact.effective_radius = ball.radius;
-    if (event.with_wall) {
-      carrier = impact.wall_velocity;
-      contact.approach = -audit::dot(Vec(one.velocity_before - carrier), normal);
-    } else {
-      const auto& two = event.body[1];
-      carrier = (one.velocity_before * ball.mass + two.velocity_before * other.mass) *
-                (1 / (ball.mass + other.mass));
-      contact.effective_mass = ball.mass * other.mass / (ball.mass + other.mass);
-      contact.effective_radius = ball.radius * other.radius / (ball.radius + other.radius);
-      contact.approach = -audit::dot(Vec(one.velocity_before - two.velocity_before), normal);
-    }
+    const Vec& met = event.with_wall ? impact.wall_velocity : event.body[1].velocity_before;
+    const auto combined = [&](double own, double of_other) {
+      return event.with_wall ? own : own * of_other / (own + of_other);
+    };
+    contact.effective_mass = combined(ball.mass, other.mass);
+    contact.effective_radius = combined(ball.radius, other.radius);
+    contact.approach = -audit::dot(Vec(one.velocity_before - met), normal);
+    carrier =
+        event.with_wall
+            ? met
+            : Vec((one.velocity_before * ball.mass + met * other.mass) * (1 / (ball.mass + other.mass)));
     const bool late = gap < -tolerances_.touch(event.time, event.with_wall);
     // Grazes have no time at which they begin.
     if (contact.approach > audit::size(one.velocity_before) / 10)
@@ -252,10 +258,8 @@ std::optional<SoftContacts> soft_contacts(const std::vector<Contact>& contacts, 
 /// What single times are off by if that alone puts flights off their paths: as many flights are too short as
 /// too long. Between two times that are off by e each the flight is off by the square root of 2 times e.
 std::optional<double> jitter_of(std::vector<double> surplus) {
-  const auto flights = surplus.size();
-  std::erase_if(surplus, [](double time) { return !std::isfinite(time); });
-  if (surplus.size() < least_number || !audit::accounts_for(surplus.size(), flights)) return std::nullopt;
-  if (!(quantile(surplus, 0.25) < 0 && quantile(surplus, 0.75) > 0)) return std::nullopt;
+  surplus = mostly_known(std::move(surplus));
+  if (surplus.empty() || !(quantile(surplus, 0.25) < 0 && quantile(surplus, 0.75) > 0)) return std::nullopt;
   double squares = 0;
   for (const double time : surplus) squares += time * time;
   return std::sqrt(squares / (2 * static_cast<double>(surplus.size())));
@@ -270,22 +274,16 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
   const auto& has = log.available;
   if (!has.positions(false) || !has.velocities_before(false) || !has.velocities_after(false)) return result;
   Measured measured(log, the_case, audit::tolerances_of(the_case, options));
-  const auto begin = soft_contacts(measured.contacts(), LoggedAt::begin),
-             end = soft_contacts(measured.contacts(), LoggedAt::end);
+  result.soft = soft_contacts(measured.contacts(), LoggedAt::begin);
+  const auto end = soft_contacts(measured.contacts(), LoggedAt::end);
   const auto spread = [](const SoftContacts& s) { return (s.high - s.low) / s.duration; };
-  if (begin && end)
-    result.soft = spread(*end) < 0.8 * spread(*begin) ? end : begin;
-  else
-    result.soft = begin ? begin : end;
+  if (end && (!result.soft || spread(*end) < 0.8 * spread(*result.soft))) result.soft = end;
   if (const double step = measured.delays.step(); step > 0) result.step_by_depth = step;
   // Rounding to a step is off by up to half of it.
   const auto jitter = jitter_of(measured.surplus);
   if (jitter && !(result.step && *jitter < *result.step)) result.jitter = jitter;
-  auto& orders = measured.first_order;
-  const auto flights = orders.size();
-  std::erase_if(orders, [](double order) { return !std::isfinite(order); });
-  if (!audit::accounts_for(orders.size(), flights)) return result;
-  if (orders.size() < least_number || audit::size(the_case.mill.gravity) == 0) return result;
+  auto orders = mostly_known(std::move(measured.first_order));  // none without gravity
+  if (orders.empty()) return result;
   const double middle = std::abs(quantile(orders, 0.5));
   const double step = result.step.value_or(result.step_by_depth.value_or(0));
   if (agree(orders) && middle > 1e-9 && (step == 0 || middle > step / 10)) result.first_order_step = middle;
@@ -310,23 +308,17 @@ std::string table(const TimeStepping& found) {
         s.duration * 1e6, s.low * 1e6, s.high * 1e6, s.contacts, s.at == LoggedAt::begin ? "start" : "end",
         law, s.spring, s.modulus / 1e9);
   }
-  if (found.step)
-    out += fmt::format(
-        "  looks like   time steps: all times are multiples of {:.6g} s, the step or the rounding of times\n",
-        *found.step);
-  if (found.step_by_depth)
-    out += fmt::format("  looks like   contacts found by overlap, with a step near {:.3g} s\n",
-                       *found.step_by_depth);
-  if (found.first_order_step)
-    out += fmt::format(
-        "  looks like   an integrator of first order with steps of {:.3g} s: flights leave the parabola by "
-        "g h t/2, h the step\n",
-        *found.first_order_step);
-  if (found.jitter)
-    out += fmt::format(
-        "  looks like   times that are off by {:.3g} s (root mean square), early and late alike: flights are "
-        "off along their paths alone\n",
-        *found.jitter);
+  const auto add = [&](const std::optional<double>& value, fmt::format_string<const double&> text) {
+    if (value) out += "  looks like   " + fmt::format(text, *value) + "\n";
+  };
+  add(found.step, "time steps: all times are multiples of {:.6g} s, the step or the rounding of times");
+  add(found.step_by_depth, "contacts found by overlap, with a step near {:.3g} s");
+  add(found.first_order_step,
+      "an integrator of first order with steps of {:.3g} s: flights leave the parabola by g h t/2, h the "
+      "step");
+  add(found.jitter,
+      "times that are off by {:.3g} s (root mean square), early and late alike: flights are off along their "
+      "paths alone");
   if (found.second_order) out += "    flights under gravity have no error of first order in the step\n";
   return out;
 }
