@@ -135,7 +135,8 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
     options.log = "/log";
     const auto built = edmill::casefile::build_case<double>(spec);
     auto audited = edmill::audit::audit(built.the_case, built.states, options);
-    audited.case_name = spec.file, audited.log_name = "log";
+    audited.case_name = spec.file;
+    audited.log_name = "log";
     json.add("verdict", edmill::audit::name_of(audited.verdict));
     std::string table = edmill::audit::table(audited);
     if (identify != 0 && audited.verdict == edmill::audit::Verdict::violations)
@@ -163,7 +164,8 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_check() {
 EMSCRIPTEN_KEEPALIVE const char* edmill_compare() {
   return answer([&](JsonText& json) {
     edmill::compare::Options options;
-    options.a = "/reference", options.b = "/log";
+    options.a = "/reference";
+    options.b = "/log";
     const auto comparison = edmill::compare::compare(options);
     json.add("verdict", edmill::compare::name_of(comparison.verdict));
     json.add("table", edmill::compare::table(comparison));

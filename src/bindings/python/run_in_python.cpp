@@ -259,7 +259,8 @@ py::dict run_case(const Case& the_case, const std::string& precision, const std:
       return law.is_none() ? nullptr : std::make_shared<CallingLaw>(law, numbers, interrupted);
     };
     run::RunSetup setup;
-    setup.ball_ball = law_of(ball_ball), setup.ball_wall = law_of(ball_wall);
+    setup.ball_ball = law_of(ball_ball);
+    setup.ball_wall = law_of(ball_wall);
     Collector collector(numbers);
     Pulse pulse(std::move(progress), numbers, interrupted);
     std::vector<std::unique_ptr<CallingObserver>> callables;

@@ -78,7 +78,9 @@ py::list bodies_of(const std::vector<run::Event>& events) {
   py::list rows;
   for (const auto& e : events) {
     py::dict row;
-    row["ball"] = e.ball, row["partner_kind"] = e.with_wall ? "wall" : "ball", row["partner"] = e.partner;
+    row["ball"] = e.ball;
+    row["partner_kind"] = e.with_wall ? "wall" : "ball";
+    row["partner"] = e.partner;
     for (std::size_t k = 0; k < model::logged_count; ++k) row[name_of(k)] = e[k].str();
     rows.append(row);
   }
@@ -119,7 +121,9 @@ py::dict shadow(const Case& the_case, const std::string& precision, const std::s
 py::tuple sensitivity(const Case& the_case, const std::vector<std::string>& by, std::size_t events,
                       unsigned digits) {
   run::SensitivityOptions options;
-  options.by = by, options.events = events, options.digits = digits;
+  options.by = by;
+  options.events = events;
+  options.digits = digits;
   const auto found =
       with_interrupt(options, [&](const auto& o) { return run::sensitivity(CaseAccess::spec(the_case), o); });
   py::list of_numbers;
@@ -168,7 +172,9 @@ py::dict estimate(const Case& the_case, const std::string& precision) {
 py::tuple prove(const Case& the_case, std::size_t collisions, long most_bits,
                 const std::string& certificate) {
   app::ProveOptions options;
-  options.collisions = collisions, options.most_bits = most_bits, options.certificate = certificate;
+  options.collisions = collisions;
+  options.most_bits = most_bits;
+  options.certificate = certificate;
   const auto proof =
       with_interrupt(options, [&](const auto& o) { return app::prove(CaseAccess::spec(the_case), o); }).proof;
   if (!proof.impossible.empty()) throw UndecidedError(proof.impossible);
@@ -189,7 +195,8 @@ void run_with_checkpoints(const Case& the_case, const std::string& precision, co
   const auto& spec = CaseAccess::spec(the_case);
   run::parse_checkpoint_interval(interval);
   app::RunOptions options;
-  options.folder = folder, options.report = report;
+  options.folder = folder;
+  options.report = report;
   options.checkpoint = app::first_checkpoint(spec, precision, report, interval);
   in_folder(options, [&](const app::RunOptions& o) { return app::run(precision, spec, o); });
 }
@@ -217,7 +224,10 @@ py::dict import_dump(const Case& the_case, const std::string& dump, const std::s
                      const std::string& deck, std::optional<double> time_step,
                      std::optional<std::string> units, bool in_vessel) {
   dem::ImportOptions options;
-  options.dump = dump, options.deck = deck, options.time_step = time_step, options.units = units;
+  options.dump = dump;
+  options.deck = deck;
+  options.time_step = time_step;
+  options.units = units;
   options.in_vessel = in_vessel;
   const auto imported = with_interrupt(options, [&](const dem::ImportOptions& o) {
     io::NamedFile file(out);

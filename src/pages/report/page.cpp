@@ -67,7 +67,10 @@ bool has_word(const std::string& text, const std::string& word) {
 
 /// What a reader sees of a node, without the text of the case file and of other verbatim parts.
 void collect_text(const pugi::xml_node& node, std::string& text) {
-  if (node.type() == pugi::node_pcdata) text += node.value(), text += ' ';
+  if (node.type() == pugi::node_pcdata) {
+    text += node.value();
+    text += ' ';
+  }
   const std::string name = node.name();
   if (name == "pre" || name == "code" || name == "script" || name == "style") return;
   for (const auto& child : node.children()) collect_text(child, text);

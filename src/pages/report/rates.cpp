@@ -144,7 +144,9 @@ void add_speeds_over_time(pugi::xml_node grid, const RunFolder& run) {
     double sum = 0, low = table.numbers[first].at(3), high = 0;
     for (std::size_t k = first; k < last; ++k) {
       const auto& row = table.numbers[k];
-      sum += row.at(2), low = std::min(low, row.at(3)), high = std::max(high, row.at(4));
+      sum += row.at(2);
+      low = std::min(low, row.at(3));
+      high = std::max(high, row.at(4));
     }
     const double time = (table.numbers[first][0] + table.numbers[last - 1][0]) / 2;
     mean.points.emplace_back(time, sum / static_cast<double>(last - first));
@@ -188,7 +190,8 @@ void add_speed_frequency(pugi::xml_node grid, const RunFolder& run) {
     }
     chart.curves.push_back(std::move(curve));
   }
-  chart.x.title = "speed before the impact [m/s]", chart.x.high = last > chart.x.low ? last : chart.x.low + 1;
+  chart.x.title = "speed before the impact [m/s]";
+  chart.x.high = last > chart.x.low ? last : chart.x.low + 1;
   chart.y.title = "share of impacts [1/(m/s)]";
   draw_fitted(grid, chart);
 }
@@ -270,7 +273,10 @@ plot::Chart over_time(const RunFolder& run, const std::string& id, const std::st
 void draw_fitted(pugi::xml_node grid, plot::Chart chart) {
   double low = 0, high = 0;
   const auto see = [&](double y) {
-    if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
+    if (std::isfinite(y)) {
+      low = std::min(low, y);
+      high = std::max(high, y);
+    }
   };
   for (const auto& curve : chart.curves)
     for (const auto& [x, y] : curve.points) see(y);

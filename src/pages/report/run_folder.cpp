@@ -82,8 +82,10 @@ void read_times(OutputTable& table) {
   std::ifstream in(table.file);
   std::string line;
   double from = 0, until = 0;
-  if (std::getline(in, line) && std::sscanf(line.c_str(), "# from %lf s to %lf s", &from, &until) == 2)
-    table.from = from, table.until = until;
+  if (std::getline(in, line) && std::sscanf(line.c_str(), "# from %lf s to %lf s", &from, &until) == 2) {
+    table.from = from;
+    table.until = until;
+  }
 }
 
 /// The column of a variable's rate in a table of trends; nothing where it has none.

@@ -46,9 +46,11 @@ void fit(plot::Chart& chart) {
       last = std::max(last, curve.points[k + 1].first);
     }
   chart.x.logarithmic = true;
-  chart.x.low = first > 0 ? first : 0.1, chart.x.high = last > chart.x.low ? last : 10 * chart.x.low;
+  chart.x.low = first > 0 ? first : 0.1;
+  chart.x.high = last > chart.x.low ? last : 10 * chart.x.low;
   if (!chart.y.logarithmic) {
-    chart.y.low = 0, chart.y.high = top > 0 ? 1.06 * top : 1;
+    chart.y.low = 0;
+    chart.y.high = top > 0 ? 1.06 * top : 1;
     return;
   }
   chart.y.high = top > 0 ? 2 * top : 10;

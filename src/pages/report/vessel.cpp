@@ -80,7 +80,8 @@ void read_cells(std::vector<WallMap>& walls, const OutputTable& table) {
     std::array<std::size_t, 4> columns;
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const std::string name = model::info_of(wall.surface.coordinates()[axis]).name;
-      columns[2 * axis] = table.column(name + "_low"), columns[2 * axis + 1] = table.column(name + "_high");
+      columns[2 * axis] = table.column(name + "_low");
+      columns[2 * axis + 1] = table.column(name + "_high");
     }
     for (const auto& row : table.numbers) {
       if (row[wall_id] != static_cast<double>(wall.id)) continue;

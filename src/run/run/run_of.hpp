@@ -59,7 +59,8 @@ model::AnyMotion<Real> to_motion(const Joints<Real>& given, const Real& period) 
   model::Joints<Real> joints{{}, period};
   for (const auto& j : given) {
     model::Joint<Quantity> phase;
-    phase.rotates = j.rotates, phase.speed = exactly(j.speed);
+    phase.rotates = j.rotates;
+    phase.speed = exactly(j.speed);
     model::Joint<Real> joint{j.rotates, j.axis, j.shift, j.angle, Real(0)};
     for (const auto& h : j.harmonics) {
       phase.swings.push_back({Quantity{1}, exactly(h.frequency), Quantity{0}});

@@ -99,7 +99,9 @@ class RunStatistics : public engine::Observer<Real> {
       found.collision_rates.push_back(next());
       found.dose_rates.push_back(next());
     }
-    found.collision_rate = next(), found.dose_rate = next(), found.wall_work_rate = next();
+    found.collision_rate = next();
+    found.dose_rate = next();
+    found.wall_work_rate = next();
     found.counted_dose_rate = next();
     return found;
   }
@@ -111,7 +113,8 @@ class RunStatistics : public engine::Observer<Real> {
     for (const auto& t : totals_) {
       now.push_back(static_cast<double>(t.collisions));
       now.push_back(static_cast<double>(t.milling_dose.value()));
-      collisions += now[now.size() - 2], dose += now.back();
+      collisions += now[now.size() - 2];
+      dose += now.back();
       work += static_cast<double>(t.wall_work.value());
     }
     now.insert(now.end(),

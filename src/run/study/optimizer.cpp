@@ -162,7 +162,10 @@ class Search {
     for (std::size_t k = 0; k < study_.points().size(); ++k) {
       const auto mean = numerics::estimate(values(k)).mean;
       if (!mean || study_.points()[k].failed() > 0) continue;
-      if (!best || *mean > largest) best = k, largest = *mean;
+      if (!best || *mean > largest) {
+        best = k;
+        largest = *mean;
+      }
     }
     return best;
   }
