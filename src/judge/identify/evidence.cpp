@@ -1,6 +1,7 @@
 #include "identify/evidence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -246,11 +247,12 @@ std::vector<Parameter> Evidence::by_sensitivity(const Residuals& sample, const A
                                                 const std::vector<SharedSubset>& parts,
                                                 std::size_t most) const {
   const auto rows = sample.rows(base);
+  std::vector<double> change;
   std::vector<std::pair<double, Parameter>> order;
   for (const auto& p : numbers) {
     const auto slope = sensitivity(sample, base, rows, p);
     if (slope.empty()) continue;
-    if (parts.empty()) order.emplace_back(linear_misfit(sample, rows, slope), p);
+    if (parts.empty()) order.emplace_back(linear_misfit(sample, rows, {&slope}, change), p);
     for (const auto& part : parts) {
       if (!fits(*part, p)) continue;
       auto inside = slope;
@@ -258,18 +260,58 @@ std::vector<Parameter> Evidence::by_sensitivity(const Residuals& sample, const A
         if (!part->holds(sample.of_case()[k].at)) inside[k] = 0;
       const auto is_zero = [](double row) { return row == 0; };
       if (inside == slope || std::all_of(inside.begin(), inside.end(), is_zero)) continue;
-      order.emplace_back(linear_misfit(sample, rows, inside), restricted_to(part, p, parts_.size()));
+      order.emplace_back(linear_misfit(sample, rows, {&inside}, change),
+                         restricted_to(part, p, parts_.size()));
     }
   }
   return best_of(std::move(order), most);
 }
 
+/// In the first span a wrong speed has not gone far; the whole log where that span shows nothing.
+const Residuals& Evidence::early_or_whole(const Assumptions& base) const {
+  return count_off(early().rows(base)) > 12 ? early() : whole();
+}
+
 std::vector<Parameter> Evidence::best_numbers(const Assumptions& base, const std::vector<Parameter>& numbers,
                                               std::size_t most) const {
-  // In the first span a wrong speed has not gone far; the whole log where that span shows nothing.
-  const auto& sample = count_off(early().rows(base)) > 12 ? early() : whole();
-  auto best = by_sensitivity(sample, base, numbers, {}, most);
+  auto best = by_sensitivity(early_or_whole(base), base, numbers, {}, most);
   for (auto& p : by_trial_values(base, numbers, most / 2)) best.push_back(std::move(p));
+  return best;
+}
+
+std::vector<Hypothesis> Evidence::best_pairs(const std::vector<Parameter>& numbers, std::size_t most) const {
+  const auto& sample = early_or_whole(nominal_);
+  const auto rows = sample.rows(nominal_);
+  std::vector<std::pair<const Parameter*, std::vector<double>>> sensitive;
+  for (const auto& p : numbers)
+    if (auto slope = sensitivity(sample, nominal_, rows, p); !slope.empty())
+      sensitive.emplace_back(&p, std::move(slope));
+  struct Pair {
+    std::array<const Parameter*, 2> numbers;
+    std::vector<double> change;
+  };
+  std::vector<std::pair<double, Pair>> order;
+  for (auto one = sensitive.begin(); one != sensitive.end(); ++one)
+    for (auto two = std::next(one); two != sensitive.end(); ++two) {
+      Pair pair{{one->first, two->first}, {}};
+      const double left = linear_misfit(sample, rows, {&one->second, &two->second}, pair.change);
+      order.emplace_back(left, std::move(pair));
+    }
+  std::vector<Hypothesis> best;
+  for (const auto& pair : best_of(std::move(order), most)) {
+    std::vector<Hypothesis> fitted;
+    for (const double share : {0, 1}) {
+      auto& tried = fitted.emplace_back(Hypothesis{nominal_});
+      for (std::size_t k = 0; k < 2; ++k) {
+        const auto& p = *pair.numbers[k];
+        tried.numbers.push_back(p);
+        tried.values.push_back(p.value + share * pair.change[k] * p.change);
+      }
+      fit_and_judge(tried);
+    }
+    sort(fitted);
+    best.push_back(std::move(fitted.front()));
+  }
   return best;
 }
 

@@ -52,13 +52,17 @@ class Evidence {
   /// The numbers whose fit promises most on top of a base, by a linear fit of the rows and by trial values.
   std::vector<Parameter> best_numbers(const Assumptions& base, const std::vector<Parameter>& numbers,
                                       std::size_t most) const;
-  /// The same in parts of the log that have this share of the rows that are off with the base.
+  /// Two numbers of the case, fitted together: those whose linear fit promises most.
+  std::vector<Hypothesis> best_pairs(const std::vector<Parameter>& numbers, std::size_t most) const;
+  /// The numbers whose fit promises most in parts of the log that have this share of the rows that are off
+  /// with the base.
   std::vector<Parameter> best_in_parts(const Assumptions& base, const std::vector<Parameter>& numbers,
                                        std::size_t most, double share) const;
 
  private:
   const Residuals& early() const { return windows_.front(); }
   const Residuals& whole() const { return windows_.back(); }
+  const Residuals& early_or_whole(const Assumptions& base) const;
   std::vector<Parameter> by_sensitivity(const Residuals& sample, const Assumptions& base,
                                         const std::vector<Parameter>& numbers,
                                         const std::vector<SharedSubset>& parts, std::size_t most) const;

@@ -202,21 +202,23 @@ std::vector<double> sensitivity(const Residuals& sample, const Assumptions& base
   return {};
 }
 
-double linear_misfit(const Residuals& sample, const std::vector<double>& rows,
-                     const std::vector<double>& slope) {
+double linear_misfit(const Residuals& sample, const std::vector<double>& rows, const Slopes& slopes,
+                     std::vector<double>& change) {
+  const auto count = static_cast<Eigen::Index>(slopes.size());
+  Eigen::MatrixXd j(static_cast<Eigen::Index>(rows.size()), count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    j.col(k) = Eigen::Map<const Eigen::VectorXd>(slopes[static_cast<std::size_t>(k)]->data(), j.rows());
+  const Eigen::VectorXd begin = Eigen::Map<const Eigen::VectorXd>(rows.data(), j.rows());
   std::vector<double> left = rows;
   const auto scales = scales_for(rows);
+  change.assign(slopes.size(), 0);
   for (std::size_t round = 0; round < scales.size() + 2; ++round) {
-    const double s = scales[std::min(round, scales.size() - 1)];
-    double squares = 0, products = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double weighted = slope[i] / (1 + left[i] * left[i] / (s * s));
-      squares += weighted * slope[i];
-      products += weighted * rows[i];
-    }
-    const double change = -products / squares;
-    if (!std::isfinite(change)) break;
-    for (std::size_t i = 0; i < rows.size(); ++i) left[i] = rows[i] + slope[i] * change;
+    const auto weighted = weights_of(left, scales[std::min(round, scales.size() - 1)]).asDiagonal() * j;
+    const Eigen::MatrixXd squares = weighted.transpose() * j;
+    const Eigen::VectorXd x = squares.ldlt().solve(-(weighted.transpose() * begin));
+    if (!x.allFinite()) break;
+    Eigen::Map<Eigen::VectorXd>(change.data(), count) = x;
+    Eigen::Map<Eigen::VectorXd>(left.data(), j.rows()) = begin + j * x;
   }
   return misfit(sample, left);
 }

@@ -121,8 +121,11 @@ double fit(const Residuals& sample, Hypothesis& tried);
 std::vector<double> sensitivity(const Residuals& sample, const Assumptions& base,
                                 const std::vector<double>& rows, const Parameter& number);
 
-/// The misfit that the best change of a number leaves if the rows are linear in it.
-double linear_misfit(const Residuals& sample, const std::vector<double>& rows,
-                     const std::vector<double>& slope);
+using Slopes = std::vector<const std::vector<double>*>;
+/// The misfit that the best change of some numbers leaves if the rows are linear in them.
+/// @param slopes  of the rows, by each number
+/// @param change  becomes that of each number, in its unit of a fit
+double linear_misfit(const Residuals& sample, const std::vector<double>& rows, const Slopes& slopes,
+                     std::vector<double>& change);
 
 }  // namespace edmill::identify

@@ -21,6 +21,7 @@ struct Stage {
   const char* name;                                     ///< none: it belongs to the stage before
   std::size_t size, bases = 1;                          ///< of the hypotheses that it extends, and how many
   std::size_t mistakes = 0, numbers = 0, in_parts = 0;  ///< tried on top of each, the most promising
+  std::size_t pairs = 0;                                ///< of numbers of the case, fitted together
   double share = 0;  ///< of the rows that a base leaves off: what a part must hold at least
   bool draws_samples = false;
 };
@@ -32,6 +33,7 @@ constexpr Stage stages[] = {
      .bases = 10,
      .mistakes = 2,
      .numbers = 5,
+     .pairs = 12,
      .draws_samples = true},
     {.name = "two causes, of parts of the log", .size = 0, .in_parts = 4, .share = 0.2},
     {.name = nullptr, .size = 1, .bases = 10, .in_parts = 3, .share = 0.9},
@@ -141,6 +143,8 @@ class Search {
       if (stage.in_parts > 0) add(evidence_->best_in_parts(assumed, numbers_, stage.in_parts, stage.share));
       if (stage.size == 0 && stage.numbers > 0) add(periodic_);
     }
+    if (stage.pairs > 0 && !is_interrupted())
+      for (auto& pair : evidence_->best_pairs(numbers_, stage.pairs)) more.push_back(std::move(pair));
     sort(more);
     tried_.insert(tried_.end(), more.begin(), more.end());
     more.resize(std::min(most_judged, more.size()), {nominal_});
