@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,9 +23,10 @@ namespace edmill {
 template <class T>
 T in_file_order(T value) {
   if constexpr (std::endian::native == std::endian::big) {
-    auto bytes = std::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
+    std::array<unsigned char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(T));
     std::reverse(bytes.begin(), bytes.end());
-    value = std::bit_cast<T>(bytes);
+    std::memcpy(&value, bytes.data(), sizeof(T));
   }
   return value;
 }
