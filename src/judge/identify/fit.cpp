@@ -213,7 +213,8 @@ double linear_misfit(const Residuals& sample, const std::vector<double>& rows, c
   const auto scales = scales_for(rows);
   change.assign(slopes.size(), 0);
   for (std::size_t round = 0; round < scales.size() + 2; ++round) {
-    const auto weighted = weights_of(left, scales[std::min(round, scales.size() - 1)]).asDiagonal() * j;
+    const Eigen::VectorXd weights = weights_of(left, scales[std::min(round, scales.size() - 1)]);
+    const Eigen::MatrixXd weighted = weights.asDiagonal() * j;
     const Eigen::MatrixXd squares = weighted.transpose() * j;
     const Eigen::VectorXd x = squares.ldlt().solve(-(weighted.transpose() * begin));
     if (!x.allFinite()) break;
