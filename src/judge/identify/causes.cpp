@@ -170,7 +170,7 @@ void add_axes(const audit::Available& has, std::vector<Parameter>& list) {
   } while (std::next_permutation(from.begin(), from.end()));
 }
 
-/// What columns stand for.
+/// What columns contain.
 void add_frames(const audit::Available& has, std::vector<Parameter>& list) {
   const auto& [ball, partner] = has.body;
   if (partner.velocity_before || partner.velocity_after)

@@ -21,10 +21,10 @@ std::vector<Item> best_of(std::vector<std::pair<double, Item>> order, std::size_
   return best;
 }
 
-bool is_off(double row) { return std::abs(row) > 1; }
+bool is_violated(double row) { return std::abs(row) > 1; }
 
-std::uint64_t count_off(const std::vector<double>& rows) {
-  return static_cast<std::uint64_t>(std::count_if(rows.begin(), rows.end(), is_off));
+std::uint64_t count_violated(const std::vector<double>& rows) {
+  return static_cast<std::uint64_t>(std::count_if(rows.begin(), rows.end(), is_violated));
 }
 
 /// Whether the effect of a number can be restricted to this part of the log.
@@ -80,7 +80,7 @@ Evidence::Evidence(const audit::EventsAtHand& log, const audit::Options& options
 
 void Evidence::draw_samples(const std::vector<Assumptions>& bases) {
   std::set<std::size_t> violating;
-  for (const auto& base : bases) violating.merge(events_off(base));
+  for (const auto& base : bases) violating.merge(violating_events(base));
   const auto& events = log_.events;
   const auto sample = [&](double until, std::size_t most) {
     std::vector<std::size_t> all, off;
@@ -115,8 +115,8 @@ void Evidence::count_violations(Hypothesis& tried) const {
   const auto assumed = tried.assumed();
   tried.of = violations_;
   if (!assumed.is_case()) {
-    tried.of = events_off(nominal_).size();
-    tried.left = events_off(assumed).size();
+    tried.of = violating_events(nominal_).size();
+    tried.left = violating_events(assumed).size();
     return;
   }
   tried.left = std::numeric_limits<std::uint64_t>::max();
@@ -127,14 +127,14 @@ void Evidence::count_violations(Hypothesis& tried) const {
   }
 }
 
-std::set<std::size_t> Evidence::events_off(const Assumptions& assumed) const {
+std::set<std::size_t> Evidence::violating_events(const Assumptions& assumed) const {
   std::vector<std::size_t> every(log_.events.size());
   std::iota(every.begin(), every.end(), std::size_t{0});
   const auto all = residuals_.on(every);
   const auto rows = all.rows(assumed);
   std::set<std::size_t> off;
   for (std::size_t k = 0; k < rows.size(); ++k)
-    if (is_off(rows[k])) off.insert(all.of_case()[k].at.event);
+    if (is_violated(rows[k])) off.insert(all.of_case()[k].at.event);
   return off;
 }
 
@@ -218,13 +218,13 @@ void Evidence::widen(Hypothesis& tried, std::size_t place) const {
     tried.half_widths[place] = std::max(tried.half_widths[place], std::abs(tried.values[place]));
 }
 
-/// Whether the rows that are off vanish when a cause is assumed.
+/// Whether the violated rows vanish when a cause is assumed.
 bool Evidence::rows_vanish(const Assumptions& assumed) const {
   const auto before = many_.rows(nominal_), with = many_.rows(assumed);
   std::uint64_t vanished = 0;
   for (std::size_t k = 0; k < before.size(); ++k)
-    if (is_off(before[k]) && audit::vanishes(std::abs(before[k]), std::abs(with[k]), 1)) ++vanished;
-  return audit::accounts_for(vanished, count_off(before));
+    if (is_violated(before[k]) && audit::vanishes(std::abs(before[k]), std::abs(with[k]), 1)) ++vanished;
+  return audit::accounts_for(vanished, count_violated(before));
 }
 
 std::vector<Parameter> Evidence::by_trial_values(const Assumptions& base, const std::vector<Parameter>& list,
@@ -241,7 +241,7 @@ std::vector<Parameter> Evidence::by_trial_values(const Assumptions& base, const 
   return best_of(std::move(order), most);
 }
 
-/// By a linear fit of the rows. A part that holds all rows of a number restricts nothing.
+/// By a linear fit of the rows. A part that contains all rows of a number restricts nothing.
 std::vector<Parameter> Evidence::by_sensitivity(const Residuals& sample, const Assumptions& base,
                                                 const std::vector<Parameter>& numbers,
                                                 const std::vector<SharedSubset>& parts,
@@ -269,7 +269,7 @@ std::vector<Parameter> Evidence::by_sensitivity(const Residuals& sample, const A
 
 /// In the first span a wrong speed has not gone far; the whole log where that span shows nothing.
 const Residuals& Evidence::early_or_whole(const Assumptions& base) const {
-  return count_off(early().rows(base)) > 12 ? early() : whole();
+  return count_violated(early().rows(base)) > 12 ? early() : whole();
 }
 
 std::vector<Parameter> Evidence::best_numbers(const Assumptions& base, const std::vector<Parameter>& numbers,
@@ -322,8 +322,9 @@ std::vector<Parameter> Evidence::best_in_parts(const Assumptions& base, const st
   for (const auto& part : parts_) {
     std::uint64_t inside = 0;
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (is_off(rows[k]) && part->holds(whole().of_case()[k].at)) ++inside;
-    if (static_cast<double>(inside) > share * static_cast<double>(count_off(rows))) parts.push_back(part);
+      if (is_violated(rows[k]) && part->holds(whole().of_case()[k].at)) ++inside;
+    if (static_cast<double>(inside) > share * static_cast<double>(count_violated(rows)))
+      parts.push_back(part);
   }
   if (parts.empty()) return {};
   const auto of_these = of_parts(numbers);

@@ -35,8 +35,8 @@ class Evidence {
   double score_of_case() const { return score_of_case_; }
   std::size_t part_count() const { return parts_.size(); }
 
-  /// Draws the samples again: half of their events such as one of these assumptions leaves off by more than
-  /// the audit allows, half of them any, evenly over a span.
+  /// Draws the samples again: half of their events violate a row under one of these assumptions, the others
+  /// are any, evenly spread over a span.
   void draw_samples(const std::vector<Assumptions>& bases);
   /// Sets the score, with the present samples.
   void judge(Hypothesis& tried) const;
@@ -54,7 +54,7 @@ class Evidence {
                                       std::size_t most) const;
   /// Two numbers of the case, fitted together: those whose linear fit promises most.
   std::vector<Hypothesis> best_pairs(const std::vector<Parameter>& numbers, std::size_t most) const;
-  /// The numbers whose fit promises most in parts of the log that have this share of the rows that are off
+  /// The numbers whose fit promises most in parts of the log that contain this share of the rows violated
   /// with the base.
   std::vector<Parameter> best_in_parts(const Assumptions& base, const std::vector<Parameter>& numbers,
                                        std::size_t most, double share) const;
@@ -71,9 +71,10 @@ class Evidence {
   void fit_and_judge(Hypothesis& tried) const;
   void widen(Hypothesis& tried, std::size_t place) const;
   bool rows_vanish(const Assumptions& assumed) const;
-  /// What an audit finds with these assumptions; events that are off where a case does not say all of them.
+  /// Counts what an audit finds with these assumptions; where no case can express them all, the events with
+  /// violated rows.
   void count_violations(Hypothesis& tried) const;
-  std::set<std::size_t> events_off(const Assumptions& assumed) const;
+  std::set<std::size_t> violating_events(const Assumptions& assumed) const;
 
   const audit::EventsAtHand& log_;
   const audit::Options& options_;

@@ -86,7 +86,7 @@ struct Hypothesis {
   std::vector<double> half_widths = {};  ///< their intervals hold 99.7 % of normal noise, and a common shift
   double score = 0;      ///< Schwarz's criterion: misfit + numbers ln(rows) + what each choice costs
   double plainness = 0;  ///< of factors with a name, which are no coincidence
-  std::uint64_t left = 0, of = 0;  ///< violations with it and without, or events that are off
+  std::uint64_t left = 0, of = 0;  ///< violations, or events with violated rows, with it and without
 
   /// The least is the best.
   double rank() const { return score - plainness; }

@@ -15,14 +15,14 @@ constexpr std::size_t most_events = 20000;
 constexpr double same_evidence = 2;
 constexpr std::size_t most_judged = 12;  ///< hypotheses of a stage, by the whole log
 
-/// A step of the search: the best hypotheses of one size, each extended by one mistake, one number, or one
-/// number in a part of the log. Steps without parts extend what holds in the whole log.
+/// A stage of the search: the best hypotheses of one size, each extended by one mistake, one number, or one
+/// number in a part of the log. Stages without parts extend hypotheses about the whole log.
 struct Stage {
-  const char* name;                                     ///< none: it belongs to the stage before
+  const char* name;                                     ///< null: it is reported with the stage before
   std::size_t size, bases = 1;                          ///< of the hypotheses that it extends, and how many
   std::size_t mistakes = 0, numbers = 0, in_parts = 0;  ///< tried on top of each, the most promising
   std::size_t pairs = 0;                                ///< of numbers of the case, fitted together
-  double share = 0;  ///< of the rows that a base leaves off: what a part must hold at least
+  double share = 0;  ///< of the rows violated with a base that a part must contain
   bool draws_samples = false;
 };
 constexpr Stage stages[] = {
@@ -47,8 +47,8 @@ constexpr Stage stages[] = {
 
 class Search {
  public:
-  Search(const casefile::CaseSpec& spec, audit::Options options, Progress told)
-      : told_(std::move(told)),
+  Search(const casefile::CaseSpec& spec, audit::Options options, Progress progress)
+      : progress_(std::move(progress)),
         nominal_(assumptions_of(spec)),
         the_case_(casefile::build_case<double>(spec).the_case),
         options_(std::move(options)) {
@@ -90,7 +90,7 @@ class Search {
       if (!accepted_.empty() && accepted_.front().left == 0) break;
       if (stage.name) {
         result.tried.stages.push_back(stage.name);
-        if (told_) told_(stage.name);
+        if (progress_) progress_(stage.name);
       }
       extend(stage);
     }
@@ -180,14 +180,14 @@ class Search {
     if (accepted_.empty()) return;
     const auto& best = accepted_.front();
     result.causes = {cause_of(best)};
-    std::set<std::set<std::string>> told;  // two numbers may have been tried in either order
+    std::set<std::set<std::string>> reported;  // two numbers may have been tried in either order
     for (const auto& other : accepted_)
       if (other.evidence() - best.evidence() < same_evidence && other.size() <= best.size() &&
-          told.insert(other.names()).second && &other != &best)
+          reported.insert(other.names()).second && &other != &best)
         result.causes[0].alike.push_back(cause_of(other).text());
   }
 
-  Progress told_;
+  Progress progress_;
   Assumptions nominal_;
   model::Case<double> the_case_;
   audit::Options options_;

@@ -83,7 +83,7 @@ std::vector<Entry> entries(Law law) {
   return list;
 }
 
-/// The number of this name; another law may not have it. Points of tables have one name, and are told apart
+/// The number of this name; another law may not have it. Points of tables have one name, and differ
 /// by their place.
 void put(Law& law, const std::string& key, std::size_t which, double value) {
   std::size_t k = 0;

@@ -83,7 +83,7 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   return best;
 }
 
-/// Stands for the duration where a flight is off, but not as a contact that lasts would put it off.
+/// Sentinel: the flight deviates, but not as a contact that lasts would make it.
 constexpr double no_duration = -1;
 
 /// An impact with its geometry, and what the flights on either side of it miss.
@@ -114,7 +114,7 @@ class Measured {
   const std::vector<Contact>& contacts() const { return contacts_; }
   audit::DelaysByPartner delays;
   std::vector<double> first_order;  ///< the step that each flight implies [s]
-  /// By how much longer than its path each flight took that is off, where it is off along its path alone [s].
+  /// By how much longer than its path each deviating flight took, where it deviates along its path alone [s].
   std::vector<double> surplus;
 
  private:
@@ -256,7 +256,7 @@ std::optional<SoftContacts> soft_contacts(const std::vector<Contact>& contacts, 
 }
 
 /// What single times are off by if that alone puts flights off their paths: as many flights are too short as
-/// too long. Between two times that are off by e each the flight is off by the square root of 2 times e.
+/// too long. Between two times with errors e the error of a flight is the square root of 2 times e.
 std::optional<double> jitter_of(std::vector<double> surplus) {
   surplus = mostly_known(std::move(surplus));
   if (surplus.empty() || !(quantile(surplus, 0.25) < 0 && quantile(surplus, 0.75) > 0)) return std::nullopt;
@@ -317,7 +317,7 @@ std::string table(const TimeStepping& found) {
       "an integrator of first order with steps of {:.3g} s: flights leave the parabola by g h t/2, h the "
       "step");
   add(found.jitter,
-      "times that are off by {:.3g} s (root mean square), early and late alike: flights are off along their "
+      "times with errors of {:.3g} s (root mean square), early and late alike: flights deviate along their "
       "paths alone");
   if (found.second_order) out += "    flights under gravity have no error of first order in the step\n";
   return out;
