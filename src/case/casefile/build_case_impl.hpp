@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "base/wide_trigonometry.hpp"
 #include "casefile/build_case.hpp"
 #include "casefile/filling.hpp"
 #include "casefile/quantity_value.hpp"

@@ -20,29 +20,6 @@ using model::Joint;
 using model::Joints;
 using model::Swing;
 
-/// The whole part of the turns times 2^bits.
-cpp_int in_units_of(const Quantity& turns, int bits) {
-#if defined(EDMILL_WITHOUT_MPFR)
-  using Wide = mpfr_of<2 * 64 * TurnFraction::words * 3 / 10>;
-  return static_cast<cpp_int>(Wide(ldexp(turns.to<Wide>(), bits)));
-#else
-  const mpfr::Digits wide(static_cast<unsigned>(2 * bits * 3 / 10));
-  cpp_int whole;
-  mpz_t z;
-  mpz_init(z);
-  mpfr_get_z(z, ldexp(turns.to<mpfr>(), bits).data(), MPFR_RNDZ);
-  std::vector<std::uint64_t> words(mpz_sizeinbase(z, 2) / 64 + 1);
-  std::size_t count = 0;
-  mpz_export(words.data(), &count, -1, sizeof words[0], 0, 0, z);
-  if (count > 0)  // it fails for no words
-    boost::multiprecision::import_bits(whole, words.begin(),
-                                       words.begin() + static_cast<std::ptrdiff_t>(count), 64, false);
-  if (mpz_sgn(z) < 0) whole = -whole;
-  mpz_clear(z);
-  return whole;
-#endif
-}
-
 /// The share of a turn by which `turns` exceeds whole turns, cut to the bits of a TurnFraction: to those that
 /// the thread's `mpfr` needs, too.
 TurnFraction fraction_of(const Quantity& turns) {
@@ -52,13 +29,8 @@ TurnFraction fraction_of(const Quantity& turns) {
   if (needed > TurnFraction::words) fraction.further.resize(needed - TurnFraction::words);
 #endif
   const int fraction_bits = 64 * static_cast<int>(TurnFraction::words + fraction.further.size());
-  cpp_int scaled;
-  if (turns.pi_power == 0) {
-    const cpp_int shifted = numerator(rational(turns)) << fraction_bits;
-    scaled = shifted / denominator(rational(turns));
-  } else {
-    scaled = in_units_of(turns, fraction_bits);
-  }
+  const Rational value = value_of(turns, 2 * fraction_bits);
+  cpp_int scaled = (numerator(value) << fraction_bits) / denominator(value);
   const cpp_int one = cpp_int(1) << fraction_bits;
   const cpp_int whole = scaled / one - (scaled % one < 0 ? 1 : 0);  // rounded down
   fraction.whole = static_cast<std::int64_t>(whole);

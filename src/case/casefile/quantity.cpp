@@ -106,6 +106,26 @@ static_assert(dimension_names.size() == static_cast<std::size_t>(Dimension::pres
 
 std::string name(Dimension dimension) { return dimension_names[static_cast<std::size_t>(dimension)]; }
 
+/// The arc tangent of 1/x times 2^bits, with an error of a few hundred at most.
+cpp_int arc_tangent_of_inverse(int x, int bits) {
+  cpp_int power = (cpp_int(1) << bits) / x, sum = power;
+  for (int k = 3; power != 0; k += 2) {
+    power /= -x * x;
+    sum += power / k;
+  }
+  return sum;
+}
+
+/// pi times 2^bits, cut. Machin's formula
+cpp_int pi_in_bits(int bits) {
+  constexpr int spare = 64, most = 4096;
+  const auto computed = [](int to) {
+    return cpp_int(16 * arc_tangent_of_inverse(5, to + spare) - 4 * arc_tangent_of_inverse(239, to + spare));
+  };
+  static const cpp_int common = computed(most);
+  return bits <= most ? cpp_int(common >> (most + spare - bits)) : cpp_int(computed(bits) >> spare);
+}
+
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
@@ -208,6 +228,16 @@ Quantity Quantity::exactly(double value) { return quantity_of(Rational(value)); 
 bool Quantity::positive() const { return rational(*this) > 0; }
 bool Quantity::negative() const { return rational(*this) < 0; }
 bool Quantity::zero() const { return rational(*this) == 0; }
+
+Rational value_of(const Quantity& quantity, int bits) {
+  Rational value = rational(quantity);
+  if (quantity.pi_power == 0) return value;
+  constexpr int spare = 16;
+  const Rational pi(pi_in_bits(bits + spare), cpp_int(1) << (bits + spare));
+  for (int k = 0; k < quantity.pi_power; ++k) value *= pi;
+  for (int k = 0; k > quantity.pi_power; --k) value /= pi;
+  return value;
+}
 
 Quantity operator*(const Quantity& a, const Quantity& b) {
   return quantity_of(rational(a) * rational(b), a.pi_power + b.pi_power);

@@ -1,58 +1,45 @@
 // Implementation of Quantity::to; included by the instantiation files only.
 #pragma once
 
+#include "base/dyadic.hpp"
 #include "base/instant.hpp"
-#include "base/scalar_list.hpp"
-#include "base/wide_trigonometry.hpp"
 #include "casefile/rational.hpp"
 
 namespace edmill::casefile {
 
 namespace detail {
 
-#if defined(EDMILL_WITHOUT_MPFR)
-/// With twice the digits of a scalar and `more`.
-template <class Real, unsigned more>
-using Wide = mpfr_of<2 * std::numeric_limits<Real>::digits10 + more>;
+/// The nearest scalar; of two that are as near, the even one.
 template <class Real>
-struct WideDigits {
-  explicit WideDigits(unsigned) {}
-  Real rounded(const auto& value) const { return static_cast<Real>(value); }
-};
-#else
-template <class Real, unsigned more>
-using Wide = mpfr;
-/// Chooses twice the digits of a scalar and `more` for a scope.
+Real nearest(const Rational& value) {
+  using boost::multiprecision::cpp_int;
+  const cpp_int above = abs(numerator(value)), below = denominator(value);
+  if (above == 0) return Real(0);
+  const auto digits = static_cast<unsigned>(binary_digits<Real>());
+  // The quotient has one or two bits more than the scalar; a last bit says whether there is a remainder.
+  int exponent = static_cast<int>(msb(above)) - static_cast<int>(msb(below)) - static_cast<int>(digits) - 1;
+  cpp_int quotient, remainder;
+  divide_qr(exponent < 0 ? cpp_int(above << -exponent) : above,
+            exponent > 0 ? cpp_int(below << exponent) : below, quotient, remainder);
+  quotient = (quotient << 1) | (remainder != 0 ? 1 : 0);
+  const unsigned spare = static_cast<unsigned>(msb(quotient)) + 1 - digits;
+  const cpp_int half = cpp_int(1) << (spare - 1), rest = quotient & (2 * half - 1);
+  quotient >>= spare;
+  if (rest > half || (rest == half && bit_test(quotient, 0))) ++quotient;
+  return Dyadic(value < 0 ? cpp_int(-quotient) : quotient, exponent - 1 + static_cast<int>(spare)).to<Real>();
+}
+
+/// Of pi, so that the last rounding is the only one that counts.
 template <class Real>
-struct WideDigits {
-  explicit WideDigits(unsigned more) : wide(2 * std::numeric_limits<Real>::digits10 + more) {}
-  Real rounded(const mpfr& value) const { return static_cast<Real>(value); }
-  mpfr::Digits wide;
-};
-template <>
-struct WideDigits<mpfr> {
-  explicit WideDigits(unsigned more) : wide(2 * narrow.digits + more) {}
-  mpfr rounded(const mpfr& value) const {
-    const auto scope = narrow.use();
-    return value.rounded();
-  }
-  ChosenDigits<mpfr> narrow;
-  mpfr::Digits wide;
-};
-#endif
+int bits_for() {
+  return 2 * binary_digits<Real>() + 64;
+}
 
 }  // namespace detail
 
 template <class Real>
 Real Quantity::to() const {
-  // Twice the digits and more, so that the last rounding is the only one that counts.
-  using Wide = detail::Wide<Real, 20>;
-  [[maybe_unused]] const detail::WideDigits<Real> digits(20);
-  Wide result = Wide(numerator(rational(*this)).str()) / Wide(denominator(rational(*this)).str());
-  const Wide pi = numerics::pi<Wide>();
-  for (int k = 0; k < pi_power; ++k) result *= pi;
-  for (int k = 0; k > pi_power; --k) result /= pi;
-  return digits.rounded(result);
+  return detail::nearest<Real>(value_of(*this, detail::bits_for<Real>()));
 }
 
 /// The instant at `time` on a clock of whole drive periods, reduced exactly: the offset is as sharp at 1e6 s
@@ -62,22 +49,11 @@ Real Quantity::to() const {
 template <class Real>
 Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
   if (time.zero()) return {};
-  std::int64_t periods;
-  Real offset;
-  if (time.pi_power == period.pi_power) {
-    const Rational count = rational(time / period);
-    periods =
-        static_cast<std::int64_t>(boost::multiprecision::cpp_int(numerator(count) / denominator(count)));
-    offset = quantity_of(rational(time) - periods * rational(period), time.pi_power).to<Real>();
-  } else {
-    // Up to 1e15 periods lead away that many digits more.
-    using Wide = detail::Wide<Real, 40>;
-    [[maybe_unused]] const detail::WideDigits<Real> digits(40);
-    const Wide length = period.to<Wide>(), seconds = time.to<Wide>();
-    const Wide whole = floor(Wide(seconds / length));
-    periods = static_cast<std::int64_t>(whole);
-    offset = digits.rounded(Wide(seconds - whole * length));
-  }
+  const int bits = detail::bits_for<Real>() + 64;  // as many periods as an integer holds
+  const Rational seconds = value_of(time, bits), length = value_of(period, bits), count = seconds / length;
+  const auto periods =
+      static_cast<std::int64_t>(boost::multiprecision::cpp_int(numerator(count) / denominator(count)));
+  const auto offset = detail::nearest<Real>(seconds - periods * length);
   if (offset < period.to<Real>()) return {periods, offset};
   return {periods + 1, Real(0)};  // it is rounded to a whole period
 }

@@ -19,4 +19,7 @@ inline Quantity quantity_of(Rational value, int pi_power = 0) {
   return Quantity(std::make_shared<const Quantity::Exact>(Quantity::Exact{std::move(value)}), pi_power);
 }
 
+/// The number of a quantity in SI units: exact without pi, else with more correct bits than asked for.
+Rational value_of(const Quantity& quantity, int bits);
+
 }  // namespace edmill::casefile

@@ -14,6 +14,7 @@ class Dyadic {
  public:
   Dyadic() = default;
   Dyadic(int whole) : n_(whole) {}  // NOLINT(google-explicit-constructor): exact
+  Dyadic(boost::multiprecision::cpp_int n, int e) : n_(std::move(n)), e_(n_ == 0 ? 0 : e) {}
   /// @throws ContractError when x is not finite
   template <class Real>
   static Dyadic of(const Real& x) {
@@ -36,7 +37,7 @@ class Dyadic {
     exact.e_ = exact.n_ == 0 ? 0 : exponent;
     return exact;
   }
-  /// Rounded: the error is a few units of the last place.
+  /// Exact where n has no more bits than the scalar; otherwise the error is a few units of the last place.
   template <class Real>
   Real to() const {
     using std::ldexp;
@@ -69,8 +70,6 @@ class Dyadic {
 
  private:
   using Integer = boost::multiprecision::cpp_int;
-  Dyadic(Integer n, int e) : n_(std::move(n)), e_(n_ == 0 ? 0 : e) {}
-
   Integer n_ = 0;
   int e_ = 0;
 };

@@ -80,6 +80,7 @@ class Auditor : Judge {
     Scene scene{{}, flights_.nested_at(event.time), flights_.printed_at(event.time)};
     find_wrong_balls(event);
     const Touch touch = judge_touch(event, scene);
+    if (available_.positions(event.with_wall)) scene.impact.bend = bend_of(event, case_, scene.nested);
     scene.friction = stalls_.take(event, *scene.impact.law, tolerances_.relative);
     for (std::size_t body = 0; body < event.count(); ++body)
       flights_.judge(event.ball_at(body), {&event, body, touch.late, touch.displaced});

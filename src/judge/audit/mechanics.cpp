@@ -87,11 +87,12 @@ Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel
   return size(normal) > 0 ? normal : frame.x;  // on the axis of a cylinder there is none
 }
 
-double wall_bend(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
-                 const Vec& position) {
-  if (vessel.is_flat(wall)) return 0;
-  const auto room = vessel.inset(radius);
-  const Vec place = inside(frame, position), normal = room.normal(wall, place);
+double bend_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame) {
+  const auto& vessel = the_case.mill.vessel;
+  const int wall = event.partner;
+  if (!event.with_wall || vessel.is_flat(wall)) return 0;
+  const auto room = vessel.inset(the_case.balls[event.ball].radius);
+  const Vec place = inside(frame, event.body[0].position), normal = room.normal(wall, place);
   const double step = 1e-6 * vessel.reach();
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -150,7 +151,6 @@ LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_
     impact.compliance = 1 + 1 / ball.reduced_inertia;
     if (!placed) return impact;
     impact.normal = wall_normal(frame, mill.vessel, event.partner, ball.radius, place);
-    impact.bend = wall_bend(frame, mill.vessel, event.partner, ball.radius, place);
     impact.set_wall_velocity(wall_velocities[0], frame, frame);
     return impact;
   }
@@ -232,7 +232,7 @@ double velocity_scale(const LoggedImpact& impact, bool with_spins) {
   return scale;
 }
 
-double kinetic_change(const LoggedImpact& impact) {
+double kinetic_change(const LoggedImpact& impact, double spin_factor) {
   double change = 0;
   for (std::size_t k = 0; k < impact.count(); ++k) {
     const auto& ball = impact.ball[k];
@@ -240,7 +240,7 @@ double kinetic_change(const LoggedImpact& impact) {
     // (a - b).(a + b) loses fewer digits than a.a - b.b.
     change += ball.mass / 2 *
               dot(Vec(b.velocity_after - b.velocity_before), Vec(b.velocity_after + b.velocity_before));
-    change += ball.mass * ball.reduced_inertia * ball.radius * ball.radius / 2 *
+    change += spin_factor * ball.mass * ball.reduced_inertia * ball.radius * ball.radius / 2 *
               dot(Vec(b.spin_after - b.spin_before), Vec(b.spin_after + b.spin_before));
   }
   return change;

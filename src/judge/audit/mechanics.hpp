@@ -45,9 +45,8 @@ double gap_of(const LoggedEvent& event, const model::Case<double>& the_case, con
 Vec wall_normal(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
                 const Vec& position);
 
-/// How much the normal turns where the ball is moved [1/m]: 0 on a flat wall.
-double wall_bend(const VesselFrame& frame, const model::AnyVessel<double>& vessel, int wall, double radius,
-                 const Vec& position);
+/// How much the normal turns where the ball is moved [1/m]: 0 on a flat wall, and between balls.
+double bend_of(const LoggedEvent& event, const model::Case<double>& the_case, const VesselFrame& frame);
 
 /// Where a wall's velocity is wanted: the frames of the vessel, the contact point P, and the ball's centre.
 struct WallPoint {
@@ -69,7 +68,7 @@ struct LoggedImpact {
   const model::ContactLaw<double>* law = nullptr;       ///< of the case
   std::array<model::BallProperties<double>, 2> ball{};  ///< the partner only for balls
   Vec normal{1, 0, 0};                                  ///< unit, from the partner to the ball
-  double bend = 0;                                      ///< of a wall's normal with the ball's place [1/m]
+  double bend = 0;                                      ///< bend_of() where tolerances are taken of it [1/m]
   Vec wall_velocity{0, 0, 0};
   bool in_stall = false;  ///< friction rests
   /// M, and c = 1 + M/(m_i J_i) + M/(m_j J_j), for a wall 1 + 1/J_i
@@ -130,7 +129,8 @@ double distance(const LoggedImpact& impact, const std::array<BodyState, 2>& one,
 double velocity_scale(const LoggedImpact& impact, bool with_spins);
 
 /// Kinetic energy that the balls of a logged impact gain [J].
-double kinetic_change(const LoggedImpact& impact);
+/// @param spin_factor  of the energy of spins
+double kinetic_change(const LoggedImpact& impact, double spin_factor = 1);
 /// Work of the wall on the ball of a logged impact [J]. (A.82)
 double work_of_wall(const LoggedImpact& impact);
 

@@ -41,6 +41,7 @@ struct LogChange {
   LogFrame frame = LogFrame::laboratory;
   std::array<int, 2> exchanged = {-1, -1};  ///< numbers of two balls that are taken for each other
 
+  bool operator==(const LogChange&) const = default;
   /// @param mill  of the vessel whose frame it may be
   void apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const;
 };

@@ -190,6 +190,7 @@ std::vector<double> Evidence::starts(const Assumptions& base, const Parameter& p
 
 bool Evidence::accept(Hypothesis& tried) const {
   if (!(score_of_case_ - tried.score >= strong_evidence)) return false;
+  if (vanished(whole(), tried.assumed()) < 0.5) return false;  // a better fit does not help that much
   tried.plainness = 0;
   if (!tried.numbers.empty()) fit(many_, tried);
   for (std::size_t k = 0; k < tried.values.size(); ++k) {
@@ -205,7 +206,7 @@ bool Evidence::accept(Hypothesis& tried) const {
   }
   count_violations(tried);
   return tried.left <= tried.of && audit::accounts_for(tried.of - tried.left, tried.of) &&
-         rows_vanish(tried.assumed());
+         10 * vanished(many_, tried.assumed()) >= 9;
 }
 
 /// A number known from one side only, such as a restitution below which all impacts separate at v_s: the
@@ -218,13 +219,16 @@ void Evidence::widen(Hypothesis& tried, std::size_t place) const {
     tried.half_widths[place] = std::max(tried.half_widths[place], std::abs(tried.values[place]));
 }
 
-/// Whether the violated rows vanish when a cause is assumed.
-bool Evidence::rows_vanish(const Assumptions& assumed) const {
-  const auto before = many_.rows(nominal_), with = many_.rows(assumed);
-  std::uint64_t vanished = 0;
-  for (std::size_t k = 0; k < before.size(); ++k)
-    if (is_violated(before[k]) && audit::vanishes(std::abs(before[k]), std::abs(with[k]), 1)) ++vanished;
-  return audit::accounts_for(vanished, count_violated(before));
+/// The share of the violated rows of a sample that vanish when a cause is assumed.
+double Evidence::vanished(const Residuals& sample, const Assumptions& assumed) const {
+  const auto before = sample.rows(nominal_), with = sample.rows(assumed);
+  std::uint64_t violated = 0, vanished = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (!is_violated(before[k])) continue;
+    ++violated;
+    if (audit::vanishes(std::abs(before[k]), std::abs(with[k]), 1)) ++vanished;
+  }
+  return violated > 0 ? static_cast<double>(vanished) / static_cast<double>(violated) : 0;
 }
 
 std::vector<Parameter> Evidence::by_trial_values(const Assumptions& base, const std::vector<Parameter>& list,

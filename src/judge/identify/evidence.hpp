@@ -70,7 +70,7 @@ class Evidence {
   /// Over growing spans where a motion's speed is free, and over the whole log.
   void fit_and_judge(Hypothesis& tried) const;
   void widen(Hypothesis& tried, std::size_t place) const;
-  bool rows_vanish(const Assumptions& assumed) const;
+  double vanished(const Residuals& sample, const Assumptions& assumed) const;
   /// Counts what an audit finds with these assumptions; where no case can express them all, the events with
   /// violated rows.
   void count_violations(Hypothesis& tried) const;

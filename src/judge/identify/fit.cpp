@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <unsupported/Eigen/NonLinearOptimization>
+#include <utility>
 
 namespace edmill::identify {
 
@@ -92,6 +95,12 @@ Eigen::VectorXd weights_of(const std::vector<double>& rows, double scale) {
   return weights;
 }
 
+/// What the rounds with weights of scale 1 minimise.
+double cauchy_cost(const std::vector<double>& rows) {
+  return std::accumulate(rows.begin(), rows.end(), 0.0,
+                         [](double sum, double r) { return sum + std::log1p(r * r); });
+}
+
 /// Intervals: what noise of the rows' own size leaves open, and what a shift of all rows by that size, each
 /// in the worst direction, would do; rounding of a log does shift rows of a kind together.
 std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const std::vector<double>& rows,
@@ -167,6 +176,7 @@ double fit(const Residuals& sample, Hypothesis& tried) {
   auto rows = sample.rows(tried.assumed());
   const auto scales = scales_for(rows);
   constexpr std::size_t most_rounds = 25;
+  double cost = std::numeric_limits<double>::infinity();
   for (std::size_t round = 0; round < scales.size() + most_rounds; ++round) {
     problem.roots = weights_of(rows, scales[std::min(round, scales.size() - 1)]).cwiseSqrt();
     Eigen::LevenbergMarquardt<Problem> solver(problem);
@@ -182,7 +192,11 @@ double fit(const Residuals& sample, Hypothesis& tried) {
       x[k] = now[k];
     }
     rows = sample.rows(tried.with(problem.values_at(x)));
-    if (round >= scales.size() && moved < 1e-13) break;
+    if (round < scales.size()) continue;
+    // The cost changes by the mean of a row where the numbers change by the noise that is left.
+    constexpr double of_noise = 1e-6;
+    const double last = std::exchange(cost, cauchy_cost(rows));
+    if (moved < 1e-13 || last - cost < of_noise * cost / static_cast<double>(rows.size())) break;
   }
   tried.values = problem.values_at(x);
   tried.half_widths = half_widths_of(problem.derivatives(x), rows, tried);

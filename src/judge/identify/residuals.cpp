@@ -57,8 +57,10 @@ struct LogResiduals::Writer {
   const model::Case<double>& model;
   const LogChange& change;
   const Terms& terms;
+  bool with_tolerances;  ///< otherwise the differences alone
   std::vector<Row> rows = {};
   RowPlace at = {};
+  bool is_changed = !(change == LogChange{});
 
   void add(RowKind kind, double off, double allow) {
     rows.push_back({off, allow > 0 && std::isfinite(allow) ? allow : 1.0, kind, at});
@@ -67,13 +69,22 @@ struct LogResiduals::Writer {
     for (int k = 0; k < 3; ++k) add(kind, off[k], allow);
   }
 
+  /// @param copy  holds the event where the log is written otherwise
+  const LoggedEvent& event_at(std::size_t k, LoggedEvent& copy) const {
+    if (!is_changed) return of.log_.events[k];
+    copy = of.log_.events[k];
+    change.apply(copy, model.mill);
+    return copy;
+  }
+
   void event_rows(std::size_t k) {
-    LoggedEvent event = of.log_.events[k];
-    change.apply(event, model.mill);
+    LoggedEvent copy;
+    const LoggedEvent& event = event_at(k, copy);
     const bool placed = of.log_.available.positions(event.with_wall);
     const auto frame =
         event.with_wall && placed ? audit::vessel_at(model.mill, event.time, false) : audit::VesselFrame{};
     auto impact = audit::impact_of(event, model, frame, placed);
+    if (with_tolerances && placed) impact.bend = audit::bend_of(event, model, frame);
     impact.in_stall = of.in_stall_[k];
     if (event.with_wall && placed) assume_wall_velocity(model.mill, terms, impact);
     at = {k, -1, false};
@@ -91,21 +102,25 @@ struct LogResiduals::Writer {
     const auto& has = of.log_.available;
     const LoggedEvent& event = *impact.event;
     const bool after = has.velocities_after(event.with_wall), spins = has.spins(event.with_wall);
-    const double scale = audit::velocity_scale(impact, spins);
-    const double by_wall =
-        event.with_wall ? of.tolerances_.of_wall(event.time, scale, impact.bend, impact.ball[0].radius) : 0;
+    const double scale = with_tolerances ? audit::velocity_scale(impact, spins) : 0;
+    const double by_wall = with_tolerances && event.with_wall
+                               ? of.tolerances_.of_wall(event.time, scale, impact.bend, impact.ball[0].radius)
+                               : 0;
     const double allowed = of.tolerances_.relative * scale + by_wall;
-    LoggedEvent seen_event = event;  // by the velocity of the contact point
-    for (auto& body : seen_event.body) body.spin_before *= terms.arm;
-    LoggedImpact seen = impact;
-    seen.event = &seen_event;
+    LoggedImpact seen = impact;  // by the velocity of the contact point
+    LoggedEvent seen_event;
+    if (terms.arm != 1) {
+      seen_event = event;
+      for (auto& body : seen_event.body) body.spin_before *= terms.arm;
+      seen.event = &seen_event;
+    }
     const auto speeds = audit::speeds_before(seen);
     if (after && spins) {
       const auto expected = audit::outcome(seen, formula_of(terms, impact));
       for (std::size_t b = 0; b < impact.count(); ++b) {
         const auto &logged = event.body[b], &due = expected[b];
         at.body = static_cast<int>(b);
-        const Vec spin_change = due.spin_after - seen_event.body[b].spin_before;
+        const Vec spin_change = due.spin_after - seen.event->body[b].spin_before;
         add(RowKind::law, Vec(logged.velocity_after - due.velocity_after), allowed);
         add(RowKind::law, Vec((logged.spin_after - logged.spin_before - spin_change) * impact.ball[b].radius),
             allowed);
@@ -132,13 +147,8 @@ struct LogResiduals::Writer {
     const LoggedEvent& event = *impact.event;
     const double work = audit::work_of_wall(impact);
     if (of.log_.available.milling_dose) {
-      LoggedEvent still_event = event;
-      for (auto& body : still_event.body) body.spin_before = body.spin_after = Vec(0, 0, 0);
-      LoggedImpact still = impact;
-      still.event = &still_event;
-      const double kinetic = audit::kinetic_change(impact), of_spin = kinetic - audit::kinetic_change(still);
       const double supplied = audit::supplied(impact, speeds.g_n, impact.g_n_after());
-      const double dose = work * terms.work_in_dose - kinetic - of_spin * (terms.spin_in_dose - 1) +
+      const double dose = work * terms.work_in_dose - audit::kinetic_change(impact, terms.spin_in_dose) +
                           supplied * terms.supply_in_dose;
       double off = event.milling_dose - dose * terms.dose;
       // A code whose impulse is wrong may have its dose from the law of the case.
@@ -172,8 +182,8 @@ struct LogResiduals::Writer {
     const auto& had = of.log_.available.body[begin.body];
     if (!had.position || !had.velocity_after) return;
     at = {k, static_cast<int>(body), true};
-    LoggedEvent earlier = of.log_.events[begin.event];
-    change.apply(earlier, model.mill);
+    LoggedEvent copy;
+    const LoggedEvent& earlier = event_at(static_cast<std::size_t>(begin.event), copy);
     const auto &from = earlier.body[begin.body], &to = event.body[body];
     const double dt = event.time - earlier.time + terms.time_of_flight;
     const Vec g = model.mill.gravity * terms.gravity;
@@ -244,7 +254,7 @@ Residuals LogResiduals::on(const std::vector<std::size_t>& events) const {
   Residuals sample(*this);
   const LogChange as_it_is;
   const Terms right;
-  Writer out{*this, nominal_, as_it_is, right};
+  Writer out{*this, nominal_, as_it_is, right, true};
   for (const std::size_t k : events) {
     if (!log_.events[k].problem.empty()) continue;
     out.event_rows(k);
@@ -283,7 +293,7 @@ std::vector<double> Residuals::of_whole(const Assumptions& assumed) const {
   EDMILL_REQUIRE(model->balls.size() == nominal.balls.size() &&
                      model->mill.vessel.wall_count() == nominal.mill.vessel.wall_count(),
                  "the bodies that the log is of");
-  LogResiduals::Writer out{*log_, *model, assumed.log, assumed.terms};
+  LogResiduals::Writer out{*log_, *model, assumed.log, assumed.terms, false};
   out.rows.reserve(count());
   for (const std::size_t k : chosen_) out.event_rows(k);
   std::vector<double> values(count());
