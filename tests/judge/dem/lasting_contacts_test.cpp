@@ -126,7 +126,7 @@ TEST(LastingContacts, WhatPressesIsNoPartOfTheLaws) {
 /// Numbers as "%g" writes them.
 TEST(LastingContacts, RoundedDumpsAgree) {
   small_dem::Deck deck;
-  deck.number = "%g";
+  deck.digits = 6;
   const auto audit = audited(deck);
   EXPECT_EQ(audit.verdict, dem::ContactVerdict::agrees) << dem::table(audit);
 }

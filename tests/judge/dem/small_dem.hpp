@@ -3,9 +3,10 @@
 #pragma once
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -35,14 +36,22 @@ struct Deck {
   bool attracts = false;  ///< the damping pulls bodies back that separate
   double time_step = 1e-6, duration = 1, frames = 1e-5;
   unsigned seed = 1;
-  const char* number = "%.15g";  ///< in the dump
+  int digits = 15;  ///< in the dump
 
   double mass() const { return density * 4.0 / 3 * std::acos(-1.0) * radius * radius * radius; }
 };
 
 class Run {
  public:
-  explicit Run(const Deck& deck) : d(deck), x(d.balls), v(d.balls), w(d.balls), f(d.balls), torque(d.balls) {
+  explicit Run(const Deck& deck)
+      : d(deck),
+        x(d.balls),
+        v(d.balls),
+        w(d.balls),
+        f(d.balls),
+        torque(d.balls),
+        springs(d.balls * (6 + d.balls)),
+        begun(d.balls * 6) {
     const double effective = d.mass() / std::sqrt(d.radius) * std::pow(2.868 / d.contact_time, 2.5);
     wall_stiffness = 4.0 / 3 * effective * std::sqrt(d.radius);
     pair_stiffness = 4.0 / 3 * effective * std::sqrt(d.radius / 2);
@@ -90,16 +99,15 @@ class Run {
 
   /// Follows whether a ball touches a wall.
   void note(std::size_t ball, std::size_t wall, bool touches, double t) {
-    const auto key = std::make_pair(ball, wall);
-    const auto known = begun.find(key);
-    if (touches && known == begun.end()) begun[key] = {t, v[ball], w[ball]};
-    if (touches || known == begun.end()) return;
-    const State& s = known->second;
+    auto& known = begun[6 * ball + wall];
+    if (touches && !known) known = {t, v[ball], w[ball]};
+    if (touches || !known) return;
+    const State& s = *known;
     std::fprintf(list, "%zu,%.15g,%.15g,%zu,%.15g,%.15g", ball, 2 * d.radius, d.mass(), 10 + wall, s.time, t);
     for (const V& vector : {s.velocity, s.spin, v[ball], w[ball]})
       for (const double a : vector) std::fprintf(list, ",%.15g", a);
     std::fputc('\n', list);
-    begun.erase(known);
+    known.reset();
   }
 
   double inertia() const { return 0.4 * d.mass() * d.radius * d.radius; }
@@ -111,7 +119,12 @@ class Run {
         "ITEM: ATOMS vx vy vz id x y z omegax omegay omegaz mass radius\n",
         step, d.balls);
     for (std::size_t i = d.balls; i-- > 0;) {
-      const auto put = [&](double a) { std::fprintf(out, d.number, a), std::fputc(' ', out); };
+      const auto put = [&](double a) {
+        std::array<char, 40> text;
+        char* end = std::to_chars(text.begin(), text.end(), a, std::chars_format::general, d.digits).ptr;
+        *end++ = ' ';
+        std::fwrite(text.data(), 1, static_cast<std::size_t>(end - text.data()), out);
+      };
       for (const double a : v[i]) put(a);
       std::fprintf(out, "%zu ", i + 1);
       for (const double a : x[i]) put(a);
@@ -123,9 +136,7 @@ class Run {
 
   /// One contact: normal from the other body to ball i, the velocity of the surfaces, and the forces on ball
   /// i.
-  V contact(long key, double overlap, double stiffness, double mass, const V& n, const V& g) {
-    V& spring = springs[key];
-    if (overlap <= 0) return springs.erase(key), V{};
+  V contact(V& spring, double overlap, double stiffness, double mass, const V& n, const V& g) {
     const double root = std::sqrt(overlap), speed = dot(g, n);
     double normal =
         stiffness * overlap * root - d.damping * std::sqrt(stiffness * mass) * std::sqrt(root) * speed;
@@ -151,17 +162,26 @@ class Run {
         V n{};
         n[k] = -side;
         const double overlap = side * (x[i][k] - centre[k]) + d.radius - d.half[k];
-        const V g = v[i] - moving - cross(w[i], n) * d.radius;
         note(i, wall, overlap > 0, t);
-        const V force = contact(static_cast<long>(1000 * i + wall), overlap, wall_stiffness, d.mass(), n, g);
+        V& spring = springs[(6 + d.balls) * i + wall];
+        if (overlap <= 0) {
+          spring = {};
+          continue;
+        }
+        const V g = v[i] - moving - cross(w[i], n) * d.radius;
+        const V force = contact(spring, overlap, wall_stiffness, d.mass(), n, g);
         f[i] = f[i] + force, torque[i] = torque[i] - cross(n, force) * d.radius;
       }
       for (std::size_t j = 0; j < i; ++j) {
         const V apart = x[i] - x[j];
+        V& spring = springs[(6 + d.balls) * i + 6 + j];
+        if (dot(apart, apart) >= 4 * d.radius * d.radius) {
+          spring = {};
+          continue;
+        }
         const double distance = norm(apart);
         const V n = apart * (1 / distance), g = v[i] - v[j] - cross(w[i] + w[j], n) * d.radius;
-        const V force = contact(static_cast<long>(1000 * i + 100 + j), 2 * d.radius - distance,
-                                pair_stiffness, d.mass() / 2, n, g);
+        const V force = contact(spring, 2 * d.radius - distance, pair_stiffness, d.mass() / 2, n, g);
         f[i] = f[i] + force, f[j] = f[j] - force;
         torque[i] = torque[i] - cross(n, force) * d.radius,
         torque[j] = torque[j] - cross(n, force) * d.radius;
@@ -171,8 +191,8 @@ class Run {
 
   Deck d;
   std::vector<V> x, v, w, f, torque;
-  std::map<long, V> springs;
-  std::map<std::pair<std::size_t, std::size_t>, State> begun;
+  std::vector<V> springs;                   ///< of each ball with the walls and with the balls before it
+  std::vector<std::optional<State>> begun;  ///< by ball and wall
   std::FILE* list = nullptr;
   double wall_stiffness = 0, pair_stiffness = 0;
 };
