@@ -7,7 +7,7 @@
 #include <functional>
 #include <map>
 
-#include "output/outputs_impl.hpp"
+#include "output/impact_facts.hpp"
 #include "spex_case.hpp"
 
 namespace edmill::output {
