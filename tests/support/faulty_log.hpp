@@ -10,6 +10,7 @@
 #include "audit/audit.hpp"
 #include "base/errors.hpp"
 #include "faulty_mill.hpp"
+#include "identify/identify.hpp"
 #include "program.hpp"
 #include "spex_case.hpp"
 
@@ -24,17 +25,28 @@ class FaultyLog : public ProgramTest {
 
   /// Two kinds of balls of unequal mass and inertia, gravity; the default least separation speed.
   void prepare(const std::string& contact = "restitution = 0.53") {
-    built = casefile::build_case<double>(casefile::parse_case(
-        testing::spex_text(
-            "end_time = \"10 s\"\nseed = 7", contact,
-            testing::batch(2, "9.52 mm") + testing::batch(3, "4.76 mm", "reduced_inertia = 0.6\n")),
-        "faulty.toml"));
+    spec =
+        casefile::parse_case(testing::spex_text("end_time = \"10 s\"\nseed = 7", contact,
+                                                testing::batch(2, "9.52 mm") +
+                                                    testing::batch(3, "4.76 mm", "reduced_inertia = 0.6\n")),
+                             "faulty.toml");
+    built = casefile::build_case<double>(spec);
   }
   Audit judged(const std::string& name = "log.csv") {
     audit::Options options;
     options.log = scratch / name;
     options.from_start = true;
     return audit::audit(built.the_case, built.states, options);
+  }
+  /// The single cause of the violations, first of those that fit alike; "" for none.
+  std::string cause() const {
+    audit::Options options;
+    options.log = scratch / "log.csv";
+    const auto found = identify::identify(spec, options, identify::Search::single);
+    return found.causes.empty() ? "" : found.causes[0].text();
+  }
+  void expect_cause(const std::string& beginning) const {
+    EXPECT_EQ(cause().substr(0, beginning.size()), beginning);
   }
   /// Kinds found, and the whole table when they are not as wanted.
   static void expect_kinds(const Audit& result, const std::set<Kind>& wanted) {
@@ -95,6 +107,7 @@ class FaultyLog : public ProgramTest {
     throw ContractError("no such line");
   }
 
+  casefile::CaseSpec spec;
   casefile::InitialCase<double> built;
 };
 

@@ -139,8 +139,10 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
     audited.log_name = "log";
     json.add("verdict", edmill::audit::name_of(audited.verdict));
     std::string table = edmill::audit::table(audited);
-    if (identify != 0 && audited.verdict == edmill::audit::Verdict::violations)
-      table += edmill::identify::table(edmill::identify::identify(spec, options, tell_stage));
+    if (audited.verdict == edmill::audit::Verdict::violations)
+      table += edmill::identify::table(edmill::identify::identify(
+          spec, options, identify != 0 ? edmill::identify::Search::all : edmill::identify::Search::single,
+          tell_stage));
     json.add("table", table);
   });
 }

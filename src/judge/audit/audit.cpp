@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "audit/delays.hpp"
 #include "audit/flights.hpp"
 #include "base/errors.hpp"
 
@@ -24,13 +23,6 @@ std::vector<Check> checks_not_made(const Findings& findings, bool any_pairs) {
   return missing;
 }
 
-std::uint64_t noted(const Tally& tally, std::string_view beginning) {
-  std::uint64_t sum = 0;
-  for (const auto& [note, count] : tally.notes)
-    if (note.starts_with(beginning)) sum += count;
-  return sum;
-}
-
 /// What a ball has hit: the other ball, or -1 - wall.
 int other_of(const LoggedEvent& event, std::size_t body) {
   return event.with_wall ? -1 - event.partner : event.ball_at(1 - body);
@@ -45,8 +37,7 @@ class Auditor : Judge {
         flights_(shared),
         stalls_(case_.mill, case_.balls.size()),
         last_(case_.balls.size()),
-        with_wall_(case_.mill.vessel.walls().size()),
-        rotations_(findings_.examples()) {}
+        with_wall_(case_.mill.vessel.walls().size()) {}
 
   /// The log begins with these states.
   void begin(const std::vector<model::BallState<double>>& states, double time) {
@@ -77,14 +68,16 @@ class Auditor : Judge {
         "bodies that the case has");
     if (is_repeated(event)) return tell(Kind::duplicate, event, 0, unknown, unknown);
 
-    Scene scene{{}, flights_.nested_at(event.time), flights_.printed_at(event.time)};
+    const auto frame = flights_.nested_at(event.time);
     find_wrong_balls(event);
-    const Touch touch = judge_touch(event, scene);
-    if (available_.positions(event.with_wall)) scene.impact.bend = bend_of(event, case_, scene.nested);
-    scene.friction = stalls_.take(event, *scene.impact.law, tolerances_.relative);
+    const Touch touch = judge_touch(event, frame);
+    const bool placed = available_.positions(event.with_wall);
+    auto impact = impact_of(event, case_, frame, placed);
+    if (placed) impact.bend = bend_of(event, case_, frame);
+    const auto friction = stalls_.take(event, *impact.law, tolerances_.relative);
     for (std::size_t body = 0; body < event.count(); ++body)
-      flights_.judge(event.ball_at(body), {&event, body, touch.late, touch.displaced});
-    if (touch.usable) impacts_.judge(scene);
+      flights_.judge(event.ball_at(body), {&event, body, touch.late});
+    if (touch.usable) impacts_.judge(impact, friction);
 
     for (std::size_t body = 0; body < event.count(); ++body) {
       const int k = event.ball_at(body);
@@ -95,46 +88,27 @@ class Auditor : Judge {
   }
 
   /// At the end of the log.
-  void finish() {
-    flights_.finish();
-    impacts_.finish();
-    findings_.take(rotations_.findings());
-  }
+  void finish() { flights_.finish(); }
 
   const Energies& energies() const { return impacts_.energies(); }
   const Flights& flights() const { return flights_; }
 
-  /// What a log looks like: printed errors of the thesis, or finite steps.
+  /// Walls that the log's code does not have.
   std::vector<Diagnosis> diagnoses() const {
     std::vector<Diagnosis> found;
-    const auto add = [&](const char* name, std::uint64_t events, std::uint64_t of, const std::string& text) {
-      if (accounts_for(events, of)) found.push_back({name, text, events, of});
-    };
-    const auto count = [&](Kind kind) { return findings_.of(kind).count; };
-    const auto late = count(Kind::late_event), early = count(Kind::early_event);
-    add("rotation_order", count(Kind::rotation_order), count(Kind::rotation_order) + late + early,
-        "printed error (2.14): the vessel is rotated by R_x(gamma) R_z(theta); with that matrix the bodies "
-        "touch. The rotations are nested: R_z(theta) R_x(gamma)");
-    const auto& sign = findings_.of(Kind::tangential_sign);
-    add("tangential_sign", noted(sign, "(2.34)"), sign.count,
-        "printed error (2.34), (A.72): the tangential term of the velocity has the wrong sign; with the "
-        "printed sign the velocities are exactly those of the log");
-    const auto& unequal = findings_.of(Kind::unequal_balls);
-    add("unequal_mass_factor", noted(unequal, "(2.24)"), unequal.count,
-        "printed error (2.24): 1 + 1/J instead of 1 + M/(m_i J_i) + M/(m_j J_j); with it the outcome is "
-        "exactly that of the log");
-    // Other vessels have no such equation.
-    if (case_.mill.vessel.walls()[0].label == "cap -y" && with_wall_[0] == 0 && late + early == 0)
-      add("gap_sign", flights_.flown_through()[0], count(Kind::missed_event),
-          "printed error (2.19), (2.20): no impact with the cap at -y is logged, and balls fly through it; "
-          "y - R - h/2 is negative everywhere in the vessel, the gap is h/2 + y - R");
-    if (const double step = delays_.step(); step > 0 && early == 0)
-      add("time_step", late, late,
-          fmt::format(
-              "finite steps: contacts are seen late by times that are spread evenly from 0 to {:.2g} s, "
-              "alike with all walls and balls; a gap tolerance of {:.2g} m (--gap-tolerance) accepts them "
-              "and leaves any other violation",
-              step, 1.1 * findings_.of(Kind::late_event).worst));
+    const auto walls = case_.mill.vessel.walls();
+    const auto missed = findings_.of(Kind::missed_event).count;
+    for (std::size_t wall = 0; wall < walls.size(); ++wall)
+      if (const auto through = flights_.flown_through()[wall];
+          with_wall_[wall] == 0 && accounts_for(through, missed))
+        found.push_back(
+            {"unseen_wall",
+             fmt::format("no impact with {} is logged, and balls fly through it{}", walls[wall].meaning,
+                         walls[wall].label == "cap -y"
+                             ? "; as with the printed error (2.19), (2.20): y - R - h/2 is negative "
+                               "everywhere in the vessel, the gap is h/2 + y - R"
+                             : ""),
+             through, missed});
     return found;
   }
 
@@ -147,7 +121,7 @@ class Auditor : Judge {
     Vec velocity_before{0, 0, 0}, velocity_after{0, 0, 0};
   };
   struct Touch {
-    bool late = false, displaced = false, usable = true;
+    bool late = false, usable = true;
   };
 
   /// Bodies that have separated cannot have the same impact again at the same time.
@@ -192,85 +166,33 @@ class Auditor : Judge {
     }
   }
 
-  /// Notes how late an event is that does not come before its bodies touch.
-  void note_delay(const LoggedEvent& event, const Scene& scene, double depth) {
-    if (!available_.velocities_before(event.with_wall)) return;
-    const double closing = -scene.impact.g_n();
-    if (closing > velocity_scale(scene.impact, false) / 10)
-      delays_.add(event.with_wall ? event.partner : -1, std::max(depth, 0.0) / closing);
-  }
-
-  Touch judge_touch(LoggedEvent& event, Scene& scene) {
-    const bool placed = available_.positions(event.with_wall);
-    scene.impact = impact_of(event, case_, scene.nested, placed);
-    if (!placed) return {};
-    if (event.with_wall) return judge_wall_touch(event, scene);
-    findings_.judged(Check::touch);
-    const double gap = gap_of(event, case_, scene.nested);
-    const bool late = gap < -tolerances_.gap;
-    if (late) tell(Kind::late_event, event, -gap, gap, 0);
-    if (gap > tolerances_.gap)
-      tell(Kind::early_event, event, gap, gap, 0);
-    else
-      note_delay(event, scene, late ? -gap : 0);
-    return {late, false, true};
-  }
-
-  Touch judge_wall_touch(LoggedEvent& event, Scene& scene) {
-    const double radius = radius_of(event.ball), allowed = tolerances_.touch(event.time, true);
-    ++with_wall_[event.partner];
+  Touch judge_touch(LoggedEvent& event, const VesselFrame& frame) {
+    if (event.with_wall) ++with_wall_[event.partner];
+    if (!available_.positions(event.with_wall)) return {};
+    const double allowed = tolerances_.touch(event.time, event.with_wall);
     // A wall that may be half a radius away is not told from what is beside it.
-    if (tolerances_.wall_places(event.time) > radius / 2) {
+    if (event.with_wall && tolerances_.wall_places(event.time) > radius_of(event.ball) / 2) {
       findings_.unresolved(Check::touch);
       return {};
     }
     findings_.judged(Check::touch);
-    const double gap = gap_of(event, case_, scene.nested);
-    if (std::abs(gap) > allowed) return judge_off_the_wall(event, scene, gap, allowed);
-    note_delay(event, scene, 0);
-    if (rotations_.is_suspected() && std::abs(gap_of(event, case_, scene.printed)) > allowed)
-      rotations_.contradicted();
-    return {};
-  }
-
-  Touch judge_off_the_wall(LoggedEvent& event, Scene& scene, double gap, double allowed) {
-    const auto& vessel = case_.mill.vessel;
-    const double radius = radius_of(event.ball);
-    const Vec& position = event.body[0].position;
-    const double printed_gap = std::abs(gap_of(event, case_, scene.printed));
-    const Finding off_the_wall{event, gap < 0 ? Kind::late_event : Kind::early_event, std::abs(gap), gap, 0};
-    if (vanishes(std::abs(gap), printed_gap, allowed)) {
-      rotations_.explains(std::abs(gap), printed_gap)
-          .add({event, Kind::rotation_order, std::abs(gap), gap, 0, "touches with the printed matrix (2.14)",
-                true});
-      rotations_.plain().add(off_the_wall);
-      flights_.set_printed_walls(rotations_.is_named());
-      // The other checks use the wall as that code has it.
-      scene.displaced = true;
-      scene.impact.normal = wall_normal(scene.printed, vessel, event.partner, radius, position);
-      scene.impact.set_wall_velocity(wall_velocities[0], scene.nested, scene.printed);
-      return {gap < 0, true, true};
-    }
-    if (rotations_.is_suspected()) rotations_.contradicted();
-    if (another_body_is_there(event, scene, allowed, std::abs(gap))) {
-      if (!event.with_wall) return {false, false, false};  // the partner's state is not in the log
-      scene.impact = impact_of(event, case_, scene.nested, true);
-      return {};
-    }
-    findings_.add(off_the_wall);
-    if (gap < 0) note_delay(event, scene, -gap);
-    return {gap < 0, false, true};
+    const double gap = gap_of(event, case_, frame);
+    if (std::abs(gap) <= allowed) return {};
+    if (event.with_wall && another_body_is_there(event, frame, allowed, std::abs(gap)))
+      return {false, event.with_wall};  // the state of another ball is not in the log
+    tell(gap < 0 ? Kind::late_event : Kind::early_event, event, std::abs(gap), gap, 0);
+    return {gap < 0, true};
   }
 
   /// Finds the body that is actually touched, `off` from the one that is logged; the other checks of the
   /// event use it.
-  bool another_body_is_there(LoggedEvent& event, const Scene& scene, double allowed, double off) {
+  bool another_body_is_there(LoggedEvent& event, const VesselFrame& frame, double allowed, double off) {
     const double radius = radius_of(event.ball);
     const Vec& position = event.body[0].position;
     if (!(off > radius / 100)) return false;
     for (int wall = 0; wall < static_cast<int>(with_wall_.size()); ++wall)
       if (wall != event.partner &&
-          vanishes(off, std::abs(wall_gap(scene.nested, case_, wall, event.ball, position)), allowed)) {
+          vanishes(off, std::abs(wall_gap(frame, case_, wall, event.ball, position)), allowed)) {
         tell(Kind::wrong_partner, event, off, event.partner, wall, "another wall is touched");
         event.partner = wall;
         return true;
@@ -295,8 +217,6 @@ class Auditor : Judge {
   StallHistory stalls_;
   std::vector<LastEvent> last_;
   std::vector<std::uint64_t> with_wall_;  ///< logged impacts with each, for the diagnosis
-  DelaysByPartner delays_;                ///< how late each event is that is not a graze
-  Suspicion rotations_;                   ///< the walls are those of the printed matrix
 };
 
 /// @param next  gives the events in order of time

@@ -33,9 +33,9 @@ struct Options {
 /// @throws InputError
 Options options_of(const casefile::CaseSpec& spec);
 
-/// One of the thesis's printed errors, with its evidence.
+/// What a log looks like, with its evidence.
 struct Diagnosis {
-  std::string name;      ///< "rotation_order"
+  std::string name;      ///< "unseen_wall"
   std::string text;      ///< a sentence
   std::uint64_t events;  ///< that it explains
   std::uint64_t of;      ///< number of events that are wrong

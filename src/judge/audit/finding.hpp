@@ -1,4 +1,4 @@
-// The findings of an audit: counts and the worst examples of each kind, and when they may be given a name.
+// The findings of an audit: counts and the worst examples of each kind.
 #pragma once
 
 #include <algorithm>
@@ -55,12 +55,11 @@ struct Finding : model::ImpactRecord<double> {
   double size;             ///< of the violation, in the unit of the kind
   double found, expected;  ///< nan where they do not apply
   const char* note = "";   ///< a literal: what the finding looks like
-  bool explained = false;  ///< the note is a mistake that makes the violation vanish
 };
 
 /// All findings of one kind. Bounded memory: notes are literals of the program.
 struct Tally {
-  std::uint64_t count = 0, explained = 0;
+  std::uint64_t count = 0;
   double worst = 0;
   std::vector<Finding> examples;  ///< the worst, largest first
   std::map<std::string_view, std::uint64_t> notes;
@@ -74,32 +73,19 @@ class Findings {
   void add(const Finding& finding) {
     Tally& tally = tallies_[static_cast<std::size_t>(finding.kind)];
     ++tally.count;
-    if (finding.explained) ++tally.explained;
     if (*finding.note != '\0') ++tally.notes[finding.note];
     keep(tally, finding);
   }
   void judged(Check check) { ++judged_[static_cast<std::size_t>(check)]; }
   /// The tolerance of what would be checked is as large as itself.
   void unresolved(Check check) { ++unresolved_[static_cast<std::size_t>(check)]; }
-  /// Takes what others have found.
-  void take(const Findings& others) {
-    for (std::size_t k = 0; k < kind_count; ++k) {
-      const Tally& from = others.tallies_[k];
-      Tally& tally = tallies_[k];
-      tally.count += from.count;
-      tally.explained += from.explained;
-      for (const auto& [note, count] : from.notes) tally.notes[note] += count;
-      for (const auto& finding : from.examples) keep(tally, finding);
-      tally.worst = std::max(tally.worst, from.worst);
-    }
-  }
-
   const Tally& of(Kind kind) const { return tallies_[static_cast<std::size_t>(kind)]; }
   std::uint64_t judged_number(Check check) const { return judged_[static_cast<std::size_t>(check)]; }
   std::uint64_t unresolved_number(Check check) const { return unresolved_[static_cast<std::size_t>(check)]; }
-  std::uint64_t total() const { return sum(&Tally::count); }
-  /// Number of violations that their notes explain.
-  std::uint64_t explained() const { return sum(&Tally::explained); }
+  std::uint64_t total() const {
+    return std::accumulate(tallies_.begin(), tallies_.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const Tally& tally) { return sum + tally.count; });
+  }
   /// Kinds that were found, the most frequent first.
   std::vector<Kind> ranked() const {
     std::vector<Kind> found;
@@ -108,8 +94,6 @@ class Findings {
     std::stable_sort(found.begin(), found.end(), [&](Kind a, Kind b) { return of(a).count > of(b).count; });
     return found;
   }
-
-  std::size_t examples() const { return examples_; }
 
  private:
   void keep(Tally& tally, const Finding& finding) const {
@@ -121,17 +105,11 @@ class Findings {
     worst.insert(place, finding);
     if (worst.size() > examples_) worst.pop_back();
   }
-  std::uint64_t sum(std::uint64_t Tally::*number) const {
-    return std::accumulate(tallies_.begin(), tallies_.end(), std::uint64_t{0},
-                           [&](std::uint64_t sum, const Tally& tally) { return sum + tally.*number; });
-  }
 
   std::size_t examples_;
   std::array<Tally, kind_count> tallies_;
   std::array<std::uint64_t, check_count> judged_{}, unresolved_{};
 };
-
-// When a mistake may be named. docs/audit.md, "What a log looks like"
 
 /// A mistake explains a violation where the violation vanishes when the mistake is assumed: what is left is
 /// within the tolerance, and at most a tenth of what was off. Within a coarse tolerance alone anything may
@@ -142,39 +120,5 @@ inline bool vanishes(double off, double left, double allowed) { return left <= a
 inline bool accounts_for(std::uint64_t explained, std::uint64_t of) {
   return explained > 0 && 10 * explained >= 9 * of;
 }
-
-/// A mistake while a log is read. It is named at the end of the log, where it accounts for the places at
-/// which it would show and the evidence is strong; else what it seemed to explain is reported as it was
-/// found.
-class Suspicion {
- public:
-  explicit Suspicion(std::size_t examples) : named_(examples), plain_(examples) {}
-
-  /// A violation of size `off` vanishes with the mistake up to `left`. @return where to report it as such
-  Findings& explains(double off, double left) {
-    ++shows_;
-    ++explained_;
-    // A coincidence of one number within a tenth of its size happens in a tenth of all cases.
-    decades_ += std::log10(off / std::max(left, 1e-17 * off));
-    return named_;
-  }
-  /// Where to report the same violation without a name.
-  Findings& plain() { return plain_; }
-  /// The log has no sign of the mistake where it would show.
-  void contradicted() { ++shows_; }
-
-  bool is_suspected() const { return explained_ > 0; }
-  bool is_named() const { return fits() && decades_ >= least_decades; }
-  /// Nothing speaks against it, be there evidence or not.
-  bool fits() const { return accounts_for(explained_, shows_); }
-  const Findings& findings() const { return findings(is_named()); }
-  const Findings& findings(bool named) const { return named ? named_ : plain_; }
-
- private:
-  static constexpr double least_decades = 6;  ///< an exact log has more at a single impact
-  Findings named_, plain_;
-  std::uint64_t shows_ = 0, explained_ = 0;
-  double decades_ = 0;
-};
 
 }  // namespace edmill::audit

@@ -38,9 +38,8 @@ struct Track : Flying {
 /// The end of a flight as logged by an event.
 struct FlightEnd {
   const LoggedEvent* event;
-  std::size_t body;        ///< 0 the event's ball, 1 its partner
-  bool late = false;       ///< the event is late: its bodies have met before, which is reported
-  bool displaced = false;  ///< the walls of the log are displaced, which is reported
+  std::size_t body;   ///< 0 the event's ball, 1 its partner
+  bool late = false;  ///< the event is late: its bodies have met before, which is reported
 
   const BodyState& state() const { return event->body[body]; }
   int partner() const { return body == 0 ? event->partner : event->ball; }  ///< ball or wall
@@ -54,8 +53,7 @@ class Flights : Judge {
         ladder_(case_.mill, smallest_radius(case_), 32.0),
         top_speed_(32),
         tracks_(case_.balls.size()),
-        flown_through_(case_.mill.vessel.walls().size()),
-        looks_(look_notes.size(), Suspicion(findings_.examples())) {}
+        flown_through_(case_.mill.vessel.walls().size()) {}
 
   Track& of(int ball) { return tracks_[ball]; }
   const Track& of(int ball) const { return tracks_[ball]; }
@@ -64,7 +62,6 @@ class Flights : Judge {
   /// Position of a ball, extrapolated from its last known state [m]. @pre its state is known
   Vec position_at(int ball, double time) const { return position_of(of(ball), time); }
   VesselFrame nested_at(double time) const { return vessel_at(case_.mill, time, false); }
-  VesselFrame printed_at(double time) const { return vessel_at(case_.mill, time, true); }
 
   /// Checks the flight of a ball that an event ends.
   void judge(int ball, const FlightEnd& end) {
@@ -85,11 +82,9 @@ class Flights : Judge {
       return judge_state(ball, track, end, off, true);
     }
     findings_.judged(Check::missed);
-    std::optional<Contact> missed;
-    if (!end.displaced) missed = first_wall(ball, track, until, slack);
+    auto missed = first_wall(ball, track, until, slack);
     // The impact that ends the flight is late, not missed.
     if (missed && end.late && end.event->with_wall && missed->partner == end.event->partner) missed.reset();
-    if (missed && stays_in_printed_vessel(ball, track, until, slack)) missed.reset();
     auto pair = first_ball(ball, track, end, slack);
     if (pair && (pair->time > until || (missed && missed->time <= pair->time))) pair.reset();
     if (pair) missed.reset();
@@ -105,7 +100,6 @@ class Flights : Judge {
   /// At the end of the log.
   void finish() {
     for (auto& track : tracks_) settle_held(track, nullptr);
-    for (const auto& look : looks_) findings_.take(look.findings());
   }
 
   /// Begins a new flight.
@@ -134,19 +128,12 @@ class Flights : Judge {
 
   /// Flights through each wall, for the diagnosis.
   const std::vector<std::uint64_t>& flown_through() const { return flown_through_; }
-  /// The walls of the log are those of the printed matrix.
-  void set_printed_walls(bool printed) { printed_walls_ = printed; }
   std::uint64_t undecided() const { return undecided_; }
 
  private:
   static constexpr std::size_t pending_kept = 8;
   static constexpr double fastest_judged = 1e4;  ///< [m/s]
   static constexpr int samples = 32;             ///< of a flight
-  /// Mistakes of a flight. The last two are of steps of one length, unknown before.
-  static constexpr std::array<const char*, 4> look_notes = {
-      "flight without gravity", "flight with the opposite gravity",
-      "falls too far at the right velocity: first-order steps, velocity before position",
-      "falls too little at the right velocity: first-order steps, position before velocity"};
 
   /// Half of the smallest sum of two balls' radii: they are reduced by tolerances.
   static double smallest_radius(const model::Case<double>& c) {
@@ -311,10 +298,12 @@ class Flights : Judge {
           dp <= tolerances_.position(time, speed * dt, fastest) && dv <= tolerances_.velocity(time, fastest);
       if (!good) off = std::max(dp, dv * dt);
       if (!good && off == 0) off = std::numeric_limits<double>::min();
-      if (tell_it && tolerances_.position(time, 0, fastest) > tolerances_.reach)
+      if (tell_it && tolerances_.position(time, 0, fastest) > tolerances_.reach) {
         findings_.unresolved(Check::flight);
-      else if (tell_it)
-        tell_flight(track, state, finding(Kind::non_ballistic, std::max(dp, dv * dt), dv, ""), good);
+      } else if (tell_it) {
+        findings_.judged(Check::flight);
+        if (!good) findings_.add(finding(Kind::non_ballistic, std::max(dp, dv * dt), dv, ""));
+      }
     }
     if (tell_it && has.spin_before && track.spin_known) {
       findings_.judged(Check::spin_kept);
@@ -327,53 +316,8 @@ class Flights : Judge {
     }
   }
 
-  /// Reports a flight unless it is good, by the mistake that explains it.
-  void tell_flight(const Track& track, const BodyState& state, Finding finding, bool good) {
-    findings_.judged(Check::flight);
-    const double dt = finding.time - track.start,
-                 speed = std::max(size(track.flight.velocity), size(state.velocity_before));
-    const double allowed = tolerances_.position(finding.time, speed * dt, speed);
-    bool told = good;
-    for (std::size_t k = 0; k < looks_.size() && tolerances_.gravity > 0 && dt > 0; ++k) {
-      if (good && !looks_[k].is_suspected()) continue;
-      const bool first = k >= 2 && !(step_ > 0);
-      double shows = 0;
-      const double left = look(k, track, state, dt, shows);
-      if (!told && vanishes(finding.size, left, allowed)) {
-        told = true;
-        looks_[k].plain().add(finding);
-        finding.note = look_notes[k];
-        finding.explained = true;
-        // The first one gives the step.
-        looks_[k].explains(finding.size, first ? finding.size : left).add(finding);
-      } else if (looks_[k].is_suspected() && shows > allowed && !(left <= allowed)) {
-        looks_[k].contradicted();
-      }
-      if (first && !looks_[k].is_suspected()) step_ = 0;
-    }
-    if (!told) findings_.add(finding);
-  }
-
-  /// How far the end of a flight is from where a mistake leads. @param shows  how far the mistake leads [m]
-  double look(std::size_t k, const Track& track, const BodyState& state, double dt, double& shows) {
-    const Vec& g = case_.mill.gravity;
-    const Vec fallen = state.position - (track.flight.position + track.flight.velocity * dt);
-    const Vec gained = state.velocity_before - track.flight.velocity;
-    // Shares of the fall and of the velocity that gravity gives in the time.
-    double fall = k == 0 ? 0 : -1, gain = fall;
-    if (k >= 2) {
-      const double excess = dot(fallen, g) / dot(g, g) - dt * dt / 2, sign = k == 2 ? 1 : -1;
-      if (!(step_ > 0) && sign * excess > 0) step_ = 2 * sign * excess / dt;
-      fall = 1 + sign * step_ / dt;
-      gain = 1;
-    }
-    shows = std::abs(fall - 1) * tolerances_.gravity * dt * dt / 2;
-    return std::max(size(Vec(fallen - g * (fall * dt * dt / 2))), size(Vec(gained - g * (gain * dt))) * dt);
-  }
-
-  Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note,
-                         bool explained) const {
-    Finding missed{*end.event, Kind::missed_event, contact.depth, unknown, unknown, note, explained};
+  Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note) const {
+    Finding missed{*end.event, Kind::missed_event, contact.depth, unknown, unknown, note};
     missed.ball = ball;
     missed.with_wall = contact.with_wall;
     missed.partner = contact.partner;
@@ -391,8 +335,7 @@ class Flights : Judge {
     track.held = missed_finding(ball, missed, end,
                                 explained  ? "the state changes as in this impact, which is not logged"
                                 : off == 0 ? "the ball flew through the wall"
-                                           : "",
-                                explained);
+                                           : "");
     missed_at = missed.time;
     return true;
   }
@@ -403,7 +346,7 @@ class Flights : Judge {
     Track& other = of(pair.partner);
     if (off > 0 && explained_by_ball(ball, pair, end)) {
       findings_.add(
-          missed_finding(ball, pair, end, "the state changes as in this impact, which is not logged", true));
+          missed_finding(ball, pair, end, "the state changes as in this impact, which is not logged"));
       if (!other.broken || pair.time < other.broken_from) other.broken_from = pair.time;
       other.broken = true;
       missed_at = pair.time;
@@ -411,7 +354,7 @@ class Flights : Judge {
     }
     if ((off > 0 && pair.depth <= 2 * off) || other.pending.size() >= pending_kept) return false;
     const char* note = off == 0 ? "the balls flew through each other" : "";
-    other.pending.push_back({missed_finding(ball, pair, end, note, false), pair.depth});
+    other.pending.push_back({missed_finding(ball, pair, end, note), pair.depth});
     missed_at = pair.time;
     return off > 0;
   }
@@ -438,19 +381,6 @@ class Flights : Judge {
   }
 
   int walls() const { return static_cast<int>(flown_through_.size()); }
-  /// Whether the log's walls are those of the printed matrix, which was reported, and the flight ends inside
-  /// of them.
-  bool stays_in_printed_vessel(int ball, const Track& track, double until, double slack) const {
-    if (!printed_walls_) return false;
-    for (int k = 0; k <= samples; ++k) {
-      const double time = track.start + (until - track.start) * k / samples;
-      const auto frame = printed_at(time);
-      const Vec position = position_of(track, time);
-      for (int wall = 0; wall < walls(); ++wall)
-        if (wall_gap(frame, case_, wall, ball, position) < -slack) return false;
-    }
-    return true;
-  }
 
   double deepest(int ball, const Track& track, int wall, double from, double until) const {
     double depth = 0;
@@ -474,9 +404,6 @@ class Flights : Judge {
   double top_speed_;
   std::vector<Track> tracks_;
   std::vector<std::uint64_t> flown_through_;
-  std::vector<Suspicion> looks_;  ///< by known mistake of flights
-  double step_ = 0;               ///< of an integrator of first order, from the first flight that has one [s]
-  bool printed_walls_ = false;
   std::uint64_t undecided_ = 0;
 };
 

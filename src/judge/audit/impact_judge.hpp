@@ -2,9 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
-#include <map>
-#include <optional>
+#include <vector>
 
 #include "audit/finding.hpp"
 #include "audit/mechanics.hpp"
@@ -83,14 +81,6 @@ class StallHistory {
   std::vector<Ball> balls_;
 };
 
-/// An impact and where it takes place.
-struct Scene {
-  LoggedImpact impact;  ///< with the right velocity of the wall
-  VesselFrame nested, printed;
-  bool displaced = false;  ///< checked in the printed frame, where that code has its walls
-  Friction friction = Friction::acts;
-};
-
 /// Totals over the impacts of a log that have velocities and spins before and after.
 struct Energies {
   using Sum = numerics::CompensatedSum<double>;
@@ -111,12 +101,10 @@ struct Energies {
 
 class ImpactJudge : Judge {
  public:
-  explicit ImpactJudge(const Judge& shared);
+  explicit ImpactJudge(const Judge& shared) : Judge(shared) {}
 
-  /// Judges an impact by the states of the bodies.
-  void judge(Scene scene);
-  /// At the end of the log.
-  void finish();
+  /// Judges an impact by the states of its bodies, or without them by the logged speeds.
+  void judge(LoggedImpact impact, Friction friction);
 
   const Energies& energies() const { return energies_; }
 
@@ -127,43 +115,17 @@ class ImpactJudge : Judge {
     double restitution_tangential = 1;  ///< that applies
     double largest() const { return std::max({normal, tangential, momentum, spin}); }
   };
-  /// A mistake that reproduces a violating impact.
-  struct Explanation {
-    Kind kind;
-    const char* note;
-    Suspicion* mistake;
-    LoggedImpact impact;  ///< as that code saw it
-    double off, left;     ///< without the mistake and with it [m/s]
-  };
   struct Known {
     bool velocities, spins;  ///< before and after, of all bodies
   };
-  /// What an impact may be off by.
-  struct Allowed {
-    double speed;   ///< [m/s]
-    double slack;   ///< the same with what friction makes of it [m/s]
-    double energy;  ///< [J]
-  };
 
   Residuals residuals(const LoggedImpact& impact, const Known& known, bool parting) const;
-  /// The known mistake that reproduces the logged outcome, if one does. What does not is noted, also of an
-  /// impact that is not violated.
-  std::optional<Explanation> explaining(const Scene& scene, double allowed, bool violated);
   bool fits_without_friction(const LoggedImpact& impact, const Known& known) const;
-  bool tell_broken_equations(const LoggedImpact& impact, const Residuals& off, double allowed,
-                             Findings& plain);
-  void tell_normal(const LoggedImpact& impact, double off, double allowed, Findings& plain);
-  void see_separation(const LoggedImpact& impact, double allowed);
-  std::optional<double> other_wall_speed(const LoggedImpact& impact, const Residuals& off,
-                                         double allowed) const;
-  bool judge_outcome(const Scene& scene, const Known& known, const Allowed& allowed, LoggedImpact& theirs);
+  void judge_outcome(const LoggedImpact& impact, const Known& known, double allowed);
+  void judge_logged_speeds(const LoggedImpact& impact, const Known& known, double allowed);
+  void judge_energies(const LoggedImpact& impact, double allowed);
+  void judge_dose(const LoggedImpact& impact, double allowed);
   void judge_speeds(const LoggedImpact& impact);
-  void judge_logged_speeds(const LoggedImpact& impact, const Known& known, double allowed,
-                           bool wall_velocity_told);
-  void judge_energies(const LoggedImpact& right, const LoggedImpact& theirs, double allowed);
-  void judge_dose(const LoggedImpact& right, const LoggedImpact& theirs, double allowed);
-  void tell_dose(const LoggedEvent& event, double off, double expected, double allowed, double left,
-                 double changes, Suspicion& mistake, const char* note);
   void leave_unresolved(const Known& known);
   double by_wall(const LoggedImpact& impact, double scale) const {
     return impact.with_wall()
@@ -176,23 +138,6 @@ class ImpactJudge : Judge {
   }
 
   Energies energies_;
-  std::vector<Suspicion> suspicions_;  ///< by known mistake
-  std::uint64_t explained_impacts_ = 0;
-  /// Other laws of the speed at which bodies separate.
-  struct SeparationSuspicions {
-    explicit SeparationSuspicions(std::size_t examples) : least(examples), always(examples) {}
-    Suspicion least;   ///< another least speed than the case's: the one of the first impact that has one
-    Suspicion always;  ///< the case's least speed after every impact
-    double speed = std::numeric_limits<double>::infinity(), g_n = 0;
-  };
-  /// Number of the law of an impact: of balls, with walls, pairs of materials.
-  std::ptrdiff_t number_of_law(const LoggedImpact& impact) const {
-    const auto& mill = case_.mill;
-    if (impact.law == &mill.ball_ball) return 0;
-    return impact.law == &mill.ball_wall ? 1 : 2 + (impact.law - mill.pairs.laws.data());
-  }
-  std::map<std::ptrdiff_t, SeparationSuspicions> separations_;  ///< by number of the law
-  Suspicion net_dose_, dose_without_rule_;
 };
 
 }  // namespace edmill::audit

@@ -210,16 +210,6 @@ std::array<BodyState, 2> outcome(const LoggedImpact& impact, const Formula& form
   return result;
 }
 
-double distance(const LoggedImpact& impact, const std::array<BodyState, 2>& one,
-                const std::array<BodyState, 2>& other) {
-  double worst = 0;
-  for (std::size_t k = 0; k < impact.count(); ++k) {
-    worst = std::max(worst, size(Vec(one[k].velocity_after - other[k].velocity_after)));
-    worst = std::max(worst, impact.ball[k].radius * size(Vec(one[k].spin_after - other[k].spin_after)));
-  }
-  return worst;
-}
-
 double velocity_scale(const LoggedImpact& impact, bool with_spins) {
   double scale = size(impact.wall_velocity);
   for (std::size_t k = 0; k < impact.count(); ++k) {

@@ -121,10 +121,6 @@ struct Formula {
 /// Velocities and spins after the impact.
 std::array<BodyState, 2> outcome(const LoggedImpact& impact, const Formula& formula);
 
-/// Largest difference of velocities after an impact, with spins times the radius [m/s].
-double distance(const LoggedImpact& impact, const std::array<BodyState, 2>& one,
-                const std::array<BodyState, 2>& other);
-
 /// Magnitude of the velocities involved [m/s], to which tolerances are relative.
 double velocity_scale(const LoggedImpact& impact, bool with_spins);
 

@@ -57,8 +57,10 @@ struct Terms {
     no,
     limit_of_sliding,
     friction,
-    masses
+    masses,
+    exchanged_masses
   } equal_balls = EqualBalls::no;                     ///< formulas for them
+  bool friction_of_restitution = false;               ///< limited by mu (1 + e_n) |g_n| at v_s as well
   double wall_velocity = 1, wall_velocity_delay = 0;  ///< delay [s]
   std::size_t wall_velocity_formula = 0;              ///< place in audit::wall_velocities
   double wall_work = 1, dose = 1, spin_in_dose = 1, work_in_dose = 1, supply_in_dose = 1;
@@ -73,7 +75,7 @@ struct Terms {
   bool change_impulse() const {
     return friction != 1 || friction_on_velocity != 1 || torque != 1 || share != 1 ||
            compliance_in_limit != 1 || compliance_in_impulse != 1 || arm != 1 ||
-           equal_balls != EqualBalls::no;
+           equal_balls != EqualBalls::no || friction_of_restitution;
   }
 };
 

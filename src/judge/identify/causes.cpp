@@ -189,15 +189,19 @@ void add_frames(const audit::Available& has, std::vector<Parameter>& list) {
         [formula](Assumptions& a) { a.terms.wall_velocity_formula = formula; });
 }
 
-/// Formulas that hold for balls that are alike, for those that are not.
-void add_equal_balls(const Assumptions& nominal, std::vector<Parameter>& list) {
+/// Formulas of impacts: of bodies that separate at v_s, and for balls that are alike in place of those that
+/// are not.
+void add_formulas(const Assumptions& nominal, std::vector<Parameter>& list) {
+  add(list, "limit of the friction (2.24')", "mu (1 + e_n) |g_n| in place of the impulse at v_s",
+      [](Assumptions& a) { a.terms.friction_of_restitution = true; });
   using Form = Terms::EqualBalls;
   const auto alike = [&](const auto& ball) { return ball == nominal.balls.front(); };
   if (std::all_of(nominal.balls.begin(), nominal.balls.end(), alike)) return;
   for (const auto& [form, text] :
        {std::pair(Form::limit_of_sliding, "1 + 1/J, as (2.24) is printed, in the limit of sliding"),
         std::pair(Form::friction, "1 + 1/J, as (2.24) is printed, in the impulse too"),
-        std::pair(Form::masses, "each takes half of the relative change, as for equal masses")})
+        std::pair(Form::masses, "each takes half of the relative change, as for equal masses"),
+        std::pair(Form::exchanged_masses, "the masses are exchanged")})
     add(list, "impacts of balls that are not alike (2.24')", text,
         [form = form](Assumptions& a) { a.terms.equal_balls = form; });
 }
@@ -225,7 +229,7 @@ std::vector<Parameter> mistakes_of(const Assumptions& nominal, const std::vector
   add_units(has, list);
   add_axes(has, list);
   add_frames(has, list);
-  add_equal_balls(nominal, list);
+  add_formulas(nominal, list);
   add_exchanged_balls(nominal, list);
   add_factors(parameters, list);
   return list;

@@ -74,7 +74,11 @@ Evidence::Evidence(const audit::EventsAtHand& log, const audit::Options& options
       parts_(subsets_of(the_case, log.events, residuals_.branches())),
       few_(residuals_.on({})),
       many_(few_),
+      all_(few_),
       violations_(violations) {
+  std::vector<std::size_t> every(log_.events.size());
+  std::iota(every.begin(), every.end(), std::size_t{0});
+  all_ = residuals_.on(every);
   draw_samples({nominal});
 }
 
@@ -128,14 +132,39 @@ void Evidence::count_violations(Hypothesis& tried) const {
 }
 
 std::set<std::size_t> Evidence::violating_events(const Assumptions& assumed) const {
-  std::vector<std::size_t> every(log_.events.size());
-  std::iota(every.begin(), every.end(), std::size_t{0});
-  const auto all = residuals_.on(every);
-  const auto rows = all.rows(assumed);
-  std::set<std::size_t> off;
+  const auto rows = all_.rows(assumed);
+  std::set<std::size_t> events;
   for (std::size_t k = 0; k < rows.size(); ++k)
-    if (is_violated(rows[k])) off.insert(all.of_case()[k].at.event);
-  return off;
+    if (is_violated(rows[k])) events.insert(all_.of_case()[k].at.event);
+  return events;
+}
+
+Evidence::Explained Evidence::explained_by(const Hypothesis& tried) const {
+  if (!(score_of_case_ - tried.score >= strong_evidence)) return {};
+  const auto before = all_.rows(nominal_), with = all_.rows(tried.assumed());
+  // Rows of one kind that stay violated may have another mistake, if none of that kind is explained.
+  std::array<std::uint64_t, row_kinds> vanished{}, left{};
+  std::uint64_t contradicting = 0;
+  Explained explained;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (!is_violated(with[k] - before[k])) continue;
+    const auto& row = all_.of_case()[k];
+    const auto kind = static_cast<std::size_t>(row.kind);
+    if (!is_violated(before[k])) {
+      ++contradicting;
+    } else if (!audit::vanishes(std::abs(before[k]), std::abs(with[k]), 1)) {
+      ++left[kind];
+    } else {
+      ++vanished[kind];
+      explained.rows.insert(k);
+      explained.events.insert(row.at.event);
+    }
+  }
+  for (std::size_t kind = 0; kind < row_kinds; ++kind)
+    if (vanished[kind] > 0) contradicting += left[kind];
+  constexpr std::size_t least_events = 5;  // a number fits one or two by chance
+  const bool all = audit::accounts_for(explained.rows.size(), explained.rows.size() + contradicting);
+  return all && explained.events.size() >= least_events ? explained : Explained{};
 }
 
 void Evidence::judge(Hypothesis& tried) const {

@@ -44,6 +44,13 @@ class Evidence {
   Hypothesis with(const Hypothesis& base, const Parameter& more) const;
   /// The fit with the final sample, and what the audit says of it.
   bool accept(Hypothesis& tried) const;
+  /// What a hypothesis explains of all violated rows.
+  struct Explained {
+    std::set<std::size_t> rows{}, events{};
+  };
+  /// Nothing unless it explains nine tenths of what it changes: one mistake of several.
+  Explained explained_by(const Hypothesis& tried) const;
+  std::set<std::size_t> violating_events(const Assumptions& assumed) const;
 
   /// Of mistakes, and of numbers that have no effect near their value, or another one far from it: those that
   /// fit better on top of a base with one of their trial values, the best first.
@@ -74,7 +81,6 @@ class Evidence {
   /// Counts what an audit finds with these assumptions; where no case can express them all, the events with
   /// violated rows.
   void count_violations(Hypothesis& tried) const;
-  std::set<std::size_t> violating_events(const Assumptions& assumed) const;
 
   const audit::EventsAtHand& log_;
   const audit::Options& options_;
@@ -85,6 +91,7 @@ class Evidence {
   /// Samples of growing spans, the last of the whole log: a motion's speed is fitted from the first on.
   std::vector<Residuals> windows_;
   Residuals few_, many_;  ///< of the whole log: for trials, and for a last fit
+  Residuals all_;         ///< of every event
   double early_end_ = 0;  ///< [s]
   std::uint64_t violations_;
   double score_of_case_ = 0;

@@ -11,7 +11,7 @@ namespace edmill::identify {
 
 namespace {
 
-constexpr std::size_t most_events = 20000;
+constexpr std::size_t most_events = 20000, most_for_single = 4000;
 constexpr double same_evidence = 2;
 constexpr std::size_t most_judged = 12;  ///< hypotheses of a stage, by the whole log
 
@@ -45,10 +45,11 @@ constexpr Stage stages[] = {
      .in_parts = 3,
      .share = 0.9}};
 
-class Search {
+class Searcher {
  public:
-  Search(const casefile::CaseSpec& spec, audit::Options options, Progress progress)
-      : progress_(std::move(progress)),
+  Searcher(const casefile::CaseSpec& spec, audit::Options options, Search search, Progress progress)
+      : search_(search),
+        progress_(std::move(progress)),
         nominal_(assumptions_of(spec)),
         the_case_(casefile::build_case<double>(spec).the_case),
         options_(std::move(options)) {
@@ -56,7 +57,7 @@ class Search {
     options_.from_start = false;
     options_.examples = 0;
     options_.progress = nullptr;
-    log_ = audit::read_events(the_case_, options_, most_events);
+    log_ = audit::read_events(the_case_, options_, search == Search::all ? most_events : most_for_single);
     interrupt_ = std::exchange(options_.interrupt, nullptr);  // an audit that ends early finds nothing wrong
     numbers_ = parameters_of(nominal_);
     std::copy_if(numbers_.begin(), numbers_.end(), std::back_inserter(periodic_),
@@ -72,12 +73,11 @@ class Search {
     result.events = log_.events.size();
     if ((result.interrupted = is_interrupted()) || log_.events.empty()) return result;
     if (!log_.available.body[0].position && from_start_) {
-      follow(result);
+      if (search_ == Search::all) follow(result);
       return result;
     }
     const auto audited = audit::audit(the_case_, log_, options_);
     result.violations = audited.findings.total();
-    result.noted = audited.findings.explained();
     if (result.violations == 0) return result;
     result.too_few = std::count_if(log_.events.begin(), log_.events.end(),
                                    [](const auto& e) { return e.problem.empty(); }) < 12;
@@ -88,6 +88,7 @@ class Search {
     result.tried = {numbers_.size(), mistakes_.size(), evidence_->part_count(), {}};
     for (const auto& stage : stages) {
       if (!accepted_.empty() && accepted_.front().left == 0) break;
+      if (search_ == Search::single && &stage != std::begin(stages)) break;
       if (stage.name) {
         result.tried.stages.push_back(stage.name);
         if (progress_) progress_(stage.name);
@@ -177,6 +178,7 @@ class Search {
 
   /// The best cause, and of the others those that are no worse with as few numbers.
   void report(Identification& result) const {
+    if (accepted_.empty() && !result.interrupted) report_each(result);
     if (accepted_.empty()) return;
     const auto& best = accepted_.front();
     result.causes = {cause_of(best)};
@@ -187,6 +189,23 @@ class Search {
         result.causes[0].alike.push_back(cause_of(other).text());
   }
 
+  /// Of a log with several mistakes those that explain what they change, each other rows.
+  void report_each(Identification& result) const {
+    std::set<std::size_t> explained;
+    const auto violating = evidence_->violating_events(nominal_).size();
+    for (auto h : best_of_size(1, tried_.size(), true)) {
+      auto own = evidence_->explained_by(h);
+      const auto known = std::count_if(own.rows.begin(), own.rows.end(),
+                                       [&](std::size_t row) { return explained.contains(row); });
+      if (own.rows.empty() || 10 * static_cast<std::size_t>(known) > own.rows.size()) continue;
+      h.of = violating;
+      h.left = violating - own.events.size();
+      result.causes.push_back(cause_of(h));
+      explained.merge(own.rows);
+    }
+  }
+
+  Search search_;
   Progress progress_;
   Assumptions nominal_;
   model::Case<double> the_case_;
@@ -202,11 +221,14 @@ class Search {
 
 }  // namespace
 
-Identification identify(const casefile::CaseSpec& spec, const audit::Options& options,
+Identification identify(const casefile::CaseSpec& spec, const audit::Options& options, Search search,
                         const Progress& progress) {
-  Search search(spec, options, progress);
-  auto result = search.run();
-  if (!result.interrupted) result.stepping = time_stepping(search.log(), search.the_case(), options);
+  Searcher searcher(spec, options, search, progress);
+  auto result = searcher.run();
+  if (!result.interrupted) result.stepping = time_stepping(searcher.log(), searcher.the_case(), options);
+  // Overlaps that a cause explains need no step.
+  if (!result.causes.empty() && result.causes[0].explains == result.causes[0].of)
+    result.stepping.step_by_depth.reset();
   return result;
 }
 

@@ -76,7 +76,6 @@ struct SearchedFor {
 
 struct Identification {
   std::uint64_t events = 0, violations = 0;  ///< that were searched
-  std::uint64_t noted = 0;                   ///< violations that the audit's notes explain
   std::vector<Cause> causes;                 ///< the best first; empty where nothing explains the log
   /// For logs without places: how many impacts a run of the case follows, and whether rounding alone ends
   /// that.
@@ -91,11 +90,15 @@ struct Identification {
 /// Called with the name of each stage of a search when it begins.
 using Progress = std::function<void(const std::string& stage)>;
 
-/// Searches the first events of a log: one value or mistake at a time, then two and three together.
+/// How far a search goes: one value or mistake for the whole log, or parts of the log, two and three together
+/// as well, and runs of the case.
+enum class Search { single, all };
+
+/// Searches the first events of a log.
 /// @param options  of the audit; its log is read again
 /// @throws InputError
 Identification identify(const casefile::CaseSpec& spec, const audit::Options& options,
-                        const Progress& progress = {});
+                        Search search = Search::all, const Progress& progress = {});
 
 /// As lines of the audit's report.
 std::string table(const Identification& found);

@@ -52,9 +52,6 @@ std::string table(const Identification& found) {
                      *found.follows)
                : fmt::format("  no cause found: a run of the case reproduces the first {} impacts\n",
                              *found.follows);
-  else if (found.noted > 0 && !found.stepping.found())
-    out += fmt::format("  no other cause: the notes explain {} of {} violations\n", found.noted,
-                       found.violations);
   else if (found.violations > 0 && !found.stepping.found())
     out += fmt::format(
         "  no cause explains nine tenths of the {} violations of {} impacts\n  tried: {}; {} numbers and "
@@ -97,7 +94,6 @@ void put_json(io::JsonText& json, const Identification& found) {
   json.begin("identified");
   json.add("events", found.events);
   json.add("violations", found.violations);
-  json.add("noted", found.noted);
   if (found.too_few) json.add("ended", "too few impacts");
   if (found.interrupted) json.add("ended", "interrupted");
   if (found.follows) json.add("follows", *found.follows);

@@ -20,15 +20,19 @@ audit::Formula formula_of(const Terms& terms, const LoggedImpact& impact) {
   audit::Formula formula;
   formula.velocity_sign = terms.friction * terms.friction_on_velocity;
   formula.spin_sign = terms.friction * terms.torque;
+  formula.friction_of_restitution = terms.friction_of_restitution;
   const double less = impact.compliance - 1;
   if (terms.compliance_in_limit != 1)
     formula.compliance_in_e_t = std::max(1e-3, 1 + less * terms.compliance_in_limit);
   if (terms.compliance_in_impulse != 1)
     formula.compliance_in_impulse = std::max(1e-3, 1 + less * terms.compliance_in_impulse);
   if (!impact.with_wall() && terms.equal_balls != Terms::EqualBalls::no) {
-    const double alone = 1 + 1 / impact.ball[0].reduced_inertia;
+    const auto& [one, two] = impact.ball;
+    const double alone = 1 + 1 / one.reduced_inertia;
     if (terms.equal_balls == Terms::EqualBalls::masses)
       formula.share = {0.5, 0.5};
+    else if (terms.equal_balls == Terms::EqualBalls::exchanged_masses)
+      formula.share = {impact.effective_mass / two.mass, impact.effective_mass / one.mass};
     else
       formula.compliance_in_e_t = alone;
     if (terms.equal_balls == Terms::EqualBalls::friction) formula.compliance_in_impulse = alone;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <vector>
 
-#include "audit/delays.hpp"
 #include "audit/mechanics.hpp"
 #include "identify/identify.hpp"
 
@@ -83,6 +83,44 @@ std::optional<double> common_step(const std::vector<LoggedEvent>& events) {
   return best;
 }
 
+/// How late events are, by what was touched. A step delays all alike, a wrong wall or ball its own contacts
+/// only.
+class Delays {
+ public:
+  void add(int partner, double delay) {
+    all_.push_back(delay);
+    by_partner_[partner].push_back(delay);
+  }
+  /// The step with which a code sees each contact at the first step after it; 0 for none.
+  double step() const {
+    if (all_.size() < least_number) return 0;
+    auto delays = all_;
+    const double step = quantile(delays, 0.98) / 0.98;
+    if (!(step > 0) || !are_even(all_, step)) return 0;
+    const bool alike = std::all_of(by_partner_.begin(), by_partner_.end(), [&](const auto& own) {
+      return own.second.size() < least_number || are_even(own.second, step);
+    });
+    return alike ? step : 0;
+  }
+
+ private:
+  /// Whether they are spread evenly from 0 to a step, by the test of Kolmogorov and Smirnov at 1 %; a tenth
+  /// more for impacts that follow each other within a step.
+  static bool are_even(std::vector<double> delays, double step) {
+    std::sort(delays.begin(), delays.end());
+    const auto all = static_cast<double>(delays.size());
+    double worst = 0;
+    for (std::size_t k = 0; k < delays.size(); ++k) {
+      const double due = std::min(1.0, delays[k] / step), below = static_cast<double>(k) / all;
+      worst = std::max({worst, std::abs(below - due), std::abs(below + 1 / all - due)});
+    }
+    return worst <= 1.63 / std::sqrt(all) + 0.1;
+  }
+
+  std::vector<double> all_;
+  std::map<int, std::vector<double>> by_partner_;
+};
+
 /// Sentinel: the flight deviates, but not as a contact that lasts would make it.
 constexpr double no_duration = -1;
 
@@ -112,7 +150,7 @@ class Measured {
   }
 
   const std::vector<Contact>& contacts() const { return contacts_; }
-  audit::DelaysByPartner delays;
+  Delays delays;
   std::vector<double> first_order;  ///< the step that each flight implies [s]
   /// By how much longer than its path each deviating flight took, where it deviates along its path alone [s].
   std::vector<double> surplus;
@@ -312,7 +350,9 @@ std::string table(const TimeStepping& found) {
     if (value) out += "  looks like   " + fmt::format(text, *value) + "\n";
   };
   add(found.step, "time steps: all times are multiples of {:.6g} s, the step or the rounding of times");
-  add(found.step_by_depth, "contacts found by overlap, with a step near {:.3g} s");
+  add(found.step_by_depth,
+      "contacts found by overlap, with a step near {:.3g} s; a --gap-tolerance of the worst overlap accepts "
+      "them");
   add(found.first_order_step,
       "an integrator of first order with steps of {:.3g} s: flights leave the parabola by g h t/2, h the "
       "step");

@@ -99,8 +99,10 @@ Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   std::string table = audit::table(found);
   io::JsonText json;
   audit::put_json(json, found);
-  if (given.identify && !found.interrupted) {
-    const auto identified = identify::identify(spec, options, given.searching);
+  using identify::Search;
+  if (!found.interrupted && (given.identify || found.verdict == audit::Verdict::violations)) {
+    const auto identified =
+        identify::identify(spec, options, given.identify ? Search::all : Search::single, given.searching);
     table += identify::table(identified);
     identify::put_json(json, identified);
   }

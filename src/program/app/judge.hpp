@@ -32,7 +32,7 @@ struct AuditOptions {
   std::optional<int> first_ball;
   std::string walls;
   bool from_start = false;
-  bool identify = false;  ///< search for the cause
+  bool identify = false;  ///< search beyond single causes
   std::size_t examples = 3;
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double time, std::uint64_t events)> progress{};

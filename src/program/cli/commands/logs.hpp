@@ -87,7 +87,7 @@ struct Audit {
         ->check(CLI::PositiveNumber);
     command.add_flag("--from-start", options_.from_start, "the log begins at the case's initial state");
     command.add_flag("--identify", options_.identify,
-                     "search for the value or mistake that explains the violations");
+                     "search for causes in parts of the log, and for two and three together");
     command.add_option("--examples", options_.examples, "of each kind of violation; 3 unless given")
         ->check(CLI::Range(0, 1000));
     judgement_.add_to(command, "no progress line and no table");
