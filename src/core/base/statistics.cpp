@@ -1,5 +1,6 @@
 #include "base/statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -28,6 +29,15 @@ double student_limit(double freedom, double significance) {
 }
 
 }  // namespace
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto place =
+      std::min(static_cast<std::size_t>(share * static_cast<double>(values.size())), values.size() - 1);
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
 
 Estimate estimate(const std::vector<double>& values) {
   Estimate e;

@@ -6,6 +6,9 @@
 
 namespace edmill::numerics {
 
+/// The value that a share of the others is below; 0 of none.
+double quantile(std::vector<double> values, double share);
+
 struct Estimate {
   std::optional<double> mean, half_width;  ///< of the 95 % interval; needs two values
 };

@@ -164,7 +164,7 @@ std::string table(const Audit& a) {
 }
 
 void put_json(io::JsonText& json, const Audit& a) {
-  json.add("format", "edmill audit 1");
+  json.add("format", "edmill audit 2");
   json.add("version", version());
   json.add("commit", commit());
   json.add("verdict", name_of(a.verdict));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "base/statistics.hpp"
 #include "base/version.hpp"
 #include "compare/junit.hpp"
 #include "dem/soft_contact.hpp"
@@ -121,10 +122,7 @@ std::vector<double> values_of(const std::vector<Shown>& list, double least, cons
 double least_approach(const std::vector<Shown>& list) {
   std::vector<double> speeds;
   for (const auto& shown : list) speeds.push_back(shown.approach);
-  if (speeds.empty()) return 0;
-  const auto place = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() * 9 / 10);
-  std::nth_element(speeds.begin(), place, speeds.end());
-  return *place / 8;
+  return numerics::quantile(std::move(speeds), 0.9) / 8;
 }
 
 /// Sliding throughout: Walton and Braun's limit is at a slip of compliance mu (1 + e) approach.

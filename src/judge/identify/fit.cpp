@@ -9,6 +9,8 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <utility>
 
+#include "base/statistics.hpp"
+
 namespace edmill::identify {
 
 namespace {
@@ -17,11 +19,8 @@ namespace {
 constexpr double perfect = 1e-4;
 
 double median_size(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   for (double& v : values) v = std::abs(v);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return numerics::quantile(std::move(values), 0.5);
 }
 
 /// Scales of the weights, from those of the start down to rounding.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "audit/mechanics.hpp"
+#include "base/statistics.hpp"
 #include "identify/identify.hpp"
 
 namespace edmill::identify {
@@ -16,15 +17,9 @@ namespace {
 
 using audit::LoggedEvent;
 using audit::Vec;
+using numerics::quantile;
 
 constexpr std::size_t least_number = 20;
-
-double quantile(std::vector<double>& values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 /// Those that are known, if they are nine tenths of the values and not few; else none.
 std::vector<double> mostly_known(std::vector<double> values) {
@@ -35,7 +30,7 @@ std::vector<double> mostly_known(std::vector<double> values) {
 }
 
 /// Whether the values agree within a factor: their quartiles are within half of the median.
-bool agree(std::vector<double>& values) {
+bool agree(const std::vector<double>& values) {
   const double middle = quantile(values, 0.5);
   return std::abs(quantile(values, 0.75) - quantile(values, 0.25)) < std::abs(middle);
 }
@@ -94,8 +89,7 @@ class Delays {
   /// The step with which a code sees each contact at the first step after it; 0 for none.
   double step() const {
     if (all_.size() < least_number) return 0;
-    auto delays = all_;
-    const double step = quantile(delays, 0.98) / 0.98;
+    const double step = quantile(all_, 0.98) / 0.98;
     if (!(step > 0) || !are_even(all_, step)) return 0;
     const bool alike = std::all_of(by_partner_.begin(), by_partner_.end(), [&](const auto& own) {
       return own.second.size() < least_number || are_even(own.second, step);

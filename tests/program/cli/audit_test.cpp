@@ -32,7 +32,7 @@ TEST_F(AuditCommand, ACleanLogGivesZeroAndABrokenOneSix) {
   run("--set run.max_collisions=2000");
   const auto good = edmill("audit " + demo + " out --from-start --json result.json");
   EXPECT_EQ(good.code, 0) << good.out << good.err;
-  EXPECT_EQ(result()["format"], "edmill audit 1");
+  EXPECT_EQ(result()["format"], "edmill audit 2");
   EXPECT_EQ(result()["verdict"], "clean");
   EXPECT_EQ(result()["events"], 2000);
   EXPECT_EQ(result()["checked"]["touch"], 2000);

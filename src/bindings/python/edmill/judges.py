@@ -52,8 +52,8 @@ def audit(case: Case | Mapping | str | os.PathLike, log: str | os.PathLike, *, c
           tolerance: float | None = None, gap_tolerance: float | None = None, first_ball: int | None = None,
           walls: str = "", from_start: bool = False, identify: bool = False) -> Judgement:
     """As `edmill audit`: the log of any code, against the physics of the case. `columns` has our name of each of its
-    columns and theirs, with a unit: {"time": "t [ms]"}. With `identify` the result's entry "identified" has the values or
-    mistakes that explain the violations."""
+    columns and theirs, with a unit: {"time": "t [ms]"}. The result's entry "identified" has the single
+    values or mistakes that explain the violations, with `identify` those in parts of the log and two or three together as well."""
     case, log = case_of(case), place("log", log)
     tolerance = _optional(number, "tolerance", tolerance)
     gap_tolerance = _optional(number, "gap_tolerance", gap_tolerance)
