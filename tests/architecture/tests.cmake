@@ -27,7 +27,7 @@ add_test(NAME same_bits_test
          COMMAND ${architecture}/same_bits_test.sh $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/same-bits --every 5 s390x)
 add_test(NAME same_bits_long COMMAND ${architecture}/same_bits_test.sh $<TARGET_FILE:edmill_cli> ${CMAKE_BINARY_DIR}/same-bits-long
                                      g++-O0 g++-native clang++ aarch64 riscv64 s390x wasm32)
-set_tests_properties(same_bits_test PROPERTIES TIMEOUT 1800)
+set_tests_properties(same_bits_test PROPERTIES TIMEOUT 1800 PROCESSORS 2)
 set_tests_properties(same_bits_long PROPERTIES LABELS long TIMEOUT 7200)
 
 # The README's commands on fresh releases of Debian.

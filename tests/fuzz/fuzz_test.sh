@@ -13,7 +13,7 @@ command -v clang++ >/dev/null || {
 optimisation=-O0 # of a short search compiling is most
 [ "$seconds" -lt 60 ] || optimisation=-O1
 cmake --preset fuzz -B "$build" -DEDMILL_FUZZ_OPTIMISATION=$optimisation >/dev/null
-cmake --build "$build" --target "${@/#/fuzz_}" >"$build.log" || {
+cmake --build "$build" --parallel 2 --target "${@/#/fuzz_}" >"$build.log" || {
   tail -n 30 "$build.log" >&2
   exit 1
 }
