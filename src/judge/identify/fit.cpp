@@ -18,6 +18,9 @@ namespace {
 /// Rows below this share of the tolerance fit perfectly: rounding.
 constexpr double perfect = 1e-4;
 
+/// Of a row: that of its doubles over the usual tolerance of 1e-9.
+constexpr double rounding_of_rows = 4e-7;
+
 double median_size(std::vector<double> values) {
   for (double& v : values) v = std::abs(v);
   return numerics::quantile(std::move(values), 0.5);
@@ -111,8 +114,7 @@ std::vector<double> half_widths_of(const Eigen::MatrixXd& j, const std::vector<d
     sum += weights[i] * rows[i] * rows[i];
     total += weights[i];
   }
-  // A few rows may fit better than the rounding of their doubles, over the usual tolerance of 1e-9, allows.
-  constexpr double rounding_of_rows = 4e-7;
+  // A few rows may fit better than rounding allows.
   const double noise = std::max(total > 0 ? std::sqrt(sum / total) : 0, rounding_of_rows);
   const Eigen::MatrixXd inverse = (j.transpose() * weights.asDiagonal() * j).inverse();
   const Eigen::MatrixXd influence = inverse * j.transpose() * weights.asDiagonal();
@@ -209,7 +211,10 @@ std::vector<double> sensitivity(const Residuals& sample, const Assumptions& base
     if (!number.is_of_case() || (length == 1 && number.value != 0)) break;
     const double step = possible_step(base, number, number.value, length);
     auto column = sample.rows(number.on(base, number.value + step * number.change));
-    for (std::size_t i = 0; i < column.size(); ++i) column[i] = (column[i] - rows[i]) / step;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      const double moved = column[i] - rows[i];
+      column[i] = std::abs(moved) > rounding_of_rows ? moved / step : 0;
+    }
     if (std::any_of(column.begin(), column.end(), [](double slope) { return slope != 0; })) return column;
   }
   return {};

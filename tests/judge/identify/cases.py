@@ -256,6 +256,13 @@ speed = "-600 rpm"
         assert is_named(causes, key, math.radians(degrees)), (key, causes["1"]["text"] if causes else "no cause")
 
 
+def density_of_equal_balls():
+    """Ratios of masses have no slope by it but rounding, which an exact log has nowhere else."""
+    write(run(DEMO, "run.max_collisions=800", 'balls.0.density="7 g/cm3"'))
+    said = audit()
+    assert "looks like   balls.0.density = 7000" in said, said
+
+
 def interrupted():
     rows = run(DEMO, "run.max_collisions=20000", 'mill.arm="100.5 mm"', "contact.restitution=0.55")
     write(rows)
@@ -266,7 +273,8 @@ def interrupted():
     assert "interrupted before a cause was found" in said and "looks like" not in said, said
 
 
-for test in (few_lines, unreadable_lines, balls_at_rest, saved_state, other_vessels, numbers_far_off, other_laws, joint_phases, interrupted):
+for test in (few_lines, unreadable_lines, balls_at_rest, saved_state, other_vessels, numbers_far_off, other_laws, joint_phases, density_of_equal_balls,
+             interrupted):
     with Trials():
         test()
     print(f"{test.__name__}: right")
