@@ -145,10 +145,21 @@ def named(causes, wanted):
     return any(all(key in text for key in wanted) for text in first["alike"].values())
 
 
+#: A number of the case that says the same as a term, or half of what a number of both kinds of contact says.
+INSTEAD = {"gravity in flights": ("run.gravity", 9.8), "contact.friction": ("contact.ball_ball.friction", 1),
+           "c - 1 in the limit of sliding": ("contact.friction", None)}
+
+
 def false_names(wanted):
     """Of the single causes that the audit names without a search for several those that are not wanted, {key: value}."""
+    values = dict(wanted)
+    for key, value in wanted.items():
+        other, factor = INSTEAD.get(key, (key, 1))
+        values[other] = None if factor is None else factor * value
+
     def is_wanted(cause):
-        return all(key in wanted and abs(found["value"] - wanted[key]) <= found["half_width"] for key, found in cause["values"].items())
+        return all(key in values and (values[key] is None or abs(found["value"] - values[key]) <= found["half_width"] + 1e-12)
+                   for key, found in cause["values"].items())
     return [cause["text"] for cause in identified()["causes"].values() if cause["mistakes"] or not is_wanted(cause)]
 
 

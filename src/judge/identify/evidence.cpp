@@ -32,6 +32,15 @@ bool fits(const Subset& part, const Parameter& p) {
   return (part.of_impacts && p.of_impacts) || (part.of_flights && p.of_flights);
 }
 
+/// Whether the interval of a number contains that of the case.
+bool has_number_of_case(const Hypothesis& tried) {
+  for (std::size_t k = 0; k < tried.numbers.size(); ++k) {
+    const auto& p = tried.numbers[k];
+    if (p.is_of_case() && !(std::abs(tried.values[k] - p.value) > tried.half_widths[k])) return true;
+  }
+  return false;
+}
+
 /// Terms, and numbers of the contact law; where both kinds of contact have one law, its numbers once.
 std::vector<Parameter> of_parts(const std::vector<Parameter>& numbers) {
   std::set<std::string> common;
@@ -140,7 +149,7 @@ std::set<std::size_t> Evidence::violating_events(const Assumptions& assumed) con
 }
 
 Evidence::Explained Evidence::explained_by(const Hypothesis& tried) const {
-  if (!(score_of_case_ - tried.score >= strong_evidence)) return {};
+  if (!(score_of_case_ - tried.score >= strong_evidence) || has_number_of_case(tried)) return {};
   const auto before = all_.rows(nominal_), with = all_.rows(tried.assumed());
   // Rows of one kind that stay violated may have another mistake, if none of that kind is explained.
   std::array<std::uint64_t, row_kinds> vanished{}, left{};
@@ -222,15 +231,14 @@ bool Evidence::accept(Hypothesis& tried) const {
   if (vanished(whole(), tried.assumed()) < 0.5) return false;  // a better fit does not help that much
   tried.plainness = 0;
   if (!tried.numbers.empty()) fit(many_, tried);
+  for (std::size_t k = 0; k < tried.values.size(); ++k)
+    if (tried.numbers[k].dimension == Dimension::time)  // times are rounded
+      tried.half_widths[k] += 1e-15 * std::abs(log_.events.back().time);
+  if (has_number_of_case(tried)) return false;
   for (std::size_t k = 0; k < tried.values.size(); ++k) {
     const auto& p = tried.numbers[k];
-    const double value = tried.values[k];
-    double& half_width = tried.half_widths[k];
-    if (p.dimension == Dimension::time)  // times are rounded
-      half_width += 1e-15 * std::abs(log_.events.back().time);
-    if (p.is_of_case() && !(std::abs(value - p.value) > half_width)) return false;
     const bool is_factor = !p.equation.empty() && p.value == 1;
-    if (is_factor && !word_for(value, half_width).empty()) tried.plainness += 3;
+    if (is_factor && !word_for(tried.values[k], tried.half_widths[k]).empty()) tried.plainness += 3;
     widen(tried, k);
   }
   count_violations(tried);
