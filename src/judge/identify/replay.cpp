@@ -17,7 +17,7 @@ using Impact = model::ImpactRecord<double>;
 
 class Replay {
  public:
-  Replay(const Assumptions& nominal, const audit::EventsAtHand& log) : nominal_(nominal) {
+  Replay(const Assumptions& nominal, const audit::EventsAtHand& log) {
     const auto initial = casefile::build_case<double>(nominal.spec);
     states_ = initial.states;
     const auto& mill = initial.the_case.mill;
@@ -125,7 +125,6 @@ class Replay {
   bool in_vessel = false;
 
  private:
-  const Assumptions& nominal_;
   std::vector<model::BallState<double>> states_;
   std::vector<Vec3<double>> places_;  ///< in the vessel [m]
   std::vector<Impact> log_;
