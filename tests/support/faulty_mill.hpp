@@ -30,6 +30,7 @@ struct Faults {
   bool tangential_sign = false;       ///< (2.34)
   bool printed_compliance = false;    ///< (2.24)
   bool equal_masses = false;          ///< each of two balls takes half of the relative change
+  bool exchanged_masses = false;      ///< each takes the share of the other
   bool spin_lost = false;             ///< in flight
   bool no_gravity = false;            ///< in flight
   int late_every = 0;                 ///< one in this many impacts is handled 20 us late
@@ -256,13 +257,18 @@ class FaultyMill {
     }
     impact.outcome = dynamics::collide_balls<double>(normal, bi, bj, one.velocity, one.spin, two.velocity,
                                                      two.spin, law, in_stall);
+    const auto scale = [](auto& state, const auto& old, double factor) {
+      state.velocity = old.velocity + (state.velocity - old.velocity) * factor;
+      state.spin = old.spin + (state.spin - old.spin) * factor;
+    };
     if (faults_.equal_masses) {
-      const double total = bi.mass + bj.mass;
-      one.velocity = before.first.velocity + (one.velocity - before.first.velocity) * (0.5 * total / bj.mass);
-      two.velocity =
-          before.second.velocity + (two.velocity - before.second.velocity) * (0.5 * total / bi.mass);
-      one.spin = before.first.spin + (one.spin - before.first.spin) * (0.5 * total / bj.mass);
-      two.spin = before.second.spin + (two.spin - before.second.spin) * (0.5 * total / bi.mass);
+      const double half = (bi.mass + bj.mass) / 2;
+      scale(one, before.first, half / bj.mass);
+      scale(two, before.second, half / bi.mass);
+    }
+    if (faults_.exchanged_masses) {
+      scale(one, before.first, bi.mass / bj.mass);
+      scale(two, before.second, bj.mass / bi.mass);
     }
     return impact;
   }

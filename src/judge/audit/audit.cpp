@@ -50,9 +50,9 @@ class Auditor : Judge {
     findings_.judged(Check::order);
     findings_.judged(Check::bodies);
     if (event.earlier_by > 0)
-      tell(Kind::out_of_order, event, event.earlier_by, event.time, event.time + event.earlier_by);
+      report(Kind::out_of_order, event, event.earlier_by, event.time, event.time + event.earlier_by);
     if (!event.problem.empty()) {
-      tell(event.unknown_body ? Kind::unknown_body : Kind::not_finite, event, 1, unknown, unknown);
+      report(event.unknown_body ? Kind::unknown_body : Kind::not_finite, event, 1, unknown, unknown);
       const auto forget = [&](int k) {
         if (k < 0 || k >= flights_.balls()) return;
         flights_.of(k) = Track{};
@@ -66,7 +66,7 @@ class Auditor : Judge {
         event.ball >= 0 && event.ball < flights_.balls() && event.partner >= 0 &&
             event.partner < (event.with_wall ? static_cast<int>(with_wall_.size()) : flights_.balls()),
         "bodies that the case has");
-    if (is_repeated(event)) return tell(Kind::duplicate, event, 0, unknown, unknown);
+    if (is_repeated(event)) return report(Kind::duplicate, event, 0, unknown, unknown);
 
     const auto frame = flights_.nested_at(event.time);
     find_wrong_balls(event);
@@ -151,7 +151,7 @@ class Auditor : Judge {
       const double own = off(named), speed = size(event.body[body].velocity_before);
       const double path = own >= 0 ? speed * (event.time - flights_.of(named).start) : 0;
       const double allowed = tolerances_.position(event.time, path, speed), radius = radius_of(named);
-      // Balls that may be half a radius away are not told from each other.
+      // Balls that may be half a radius away cannot be distinguished.
       if (own <= radius / 100 + allowed || allowed > radius / 2) continue;
       for (int k = 0; k < flights_.balls(); ++k) {
         const double theirs = off(k);
@@ -159,7 +159,7 @@ class Auditor : Judge {
             !vanishes(own, theirs,
                       tolerances_.position(event.time, speed * (event.time - flights_.of(k).start), speed)))
           continue;
-        tell(Kind::wrong_partner, event, own, named, k, "the states are another ball's");
+        report(Kind::wrong_partner, event, own, named, k, "the states are another ball's");
         (body == 0 ? event.ball : event.partner) = k;
         break;
       }
@@ -170,7 +170,7 @@ class Auditor : Judge {
     if (event.with_wall) ++with_wall_[event.partner];
     if (!available_.positions(event.with_wall)) return {};
     const double allowed = tolerances_.touch(event.time, event.with_wall);
-    // A wall that may be half a radius away is not told from what is beside it.
+    // A wall that may be half a radius away cannot be distinguished from what is beside it.
     if (event.with_wall && tolerances_.wall_places(event.time) > radius_of(event.ball) / 2) {
       findings_.unresolved(Check::touch);
       return {};
@@ -180,7 +180,7 @@ class Auditor : Judge {
     if (std::abs(gap) <= allowed) return {};
     if (event.with_wall && another_body_is_there(event, frame, allowed, std::abs(gap)))
       return {false, event.with_wall};  // the state of another ball is not in the log
-    tell(gap < 0 ? Kind::late_event : Kind::early_event, event, std::abs(gap), gap, 0);
+    report(gap < 0 ? Kind::late_event : Kind::early_event, event, std::abs(gap), gap, 0);
     return {gap < 0, true};
   }
 
@@ -193,7 +193,7 @@ class Auditor : Judge {
     for (int wall = 0; wall < static_cast<int>(with_wall_.size()); ++wall)
       if (wall != event.partner &&
           vanishes(off, std::abs(wall_gap(frame, case_, wall, event.ball, position)), allowed)) {
-        tell(Kind::wrong_partner, event, off, event.partner, wall, "another wall is touched");
+        report(Kind::wrong_partner, event, off, event.partner, wall, "another wall is touched");
         event.partner = wall;
         return true;
       }
@@ -202,7 +202,7 @@ class Auditor : Judge {
       const Vec between = flights_.position_at(k, event.time) - position;
       const double apart = std::abs(size(between) - radius - radius_of(k));
       if (vanishes(off, apart, allowed)) {
-        tell(Kind::wrong_partner, event, off, event.partner, k, "a ball is touched, and no wall");
+        report(Kind::wrong_partner, event, off, event.partner, k, "a ball is touched, and no wall");
         flights_.of(k) = Track{};
         event.with_wall = false;
         event.partner = k;

@@ -111,10 +111,11 @@ class Findings {
   std::array<std::uint64_t, check_count> judged_{}, unresolved_{};
 };
 
-/// A mistake explains a violation where the violation vanishes when the mistake is assumed: what is left is
-/// within the tolerance, and at most a tenth of what was off. Within a coarse tolerance alone anything may
-/// lie.
-inline bool vanishes(double off, double left, double allowed) { return left <= allowed && 10 * left <= off; }
+/// Whether an assumption explains a violation: the residual with it is within the tolerance, and at most a
+/// tenth of the residual without it, since a coarse tolerance alone allows anything.
+inline bool vanishes(double without, double with, double allowed) {
+  return with <= allowed && 10 * with <= without;
+}
 
 /// Nine tenths of a log, the rest of which may have another cause.
 inline bool accounts_for(std::uint64_t explained, std::uint64_t of) {

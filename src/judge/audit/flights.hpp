@@ -90,11 +90,11 @@ class Flights : Judge {
     if (pair) missed.reset();
 
     double missed_at = until;
-    bool told = track.broken;
-    if (missed) told |= report_missed_wall(ball, track, *missed, end, off, missed_at);
-    if (pair) told |= report_missed_ball(ball, *pair, end, off, missed_at);
-    settle_pending(track, end, off, told ? missed_at : time);
-    if (!told) judge_state(ball, track, end, off, true);
+    bool reported = track.broken;
+    if (missed) reported |= report_missed_wall(ball, track, *missed, end, off, missed_at);
+    if (pair) reported |= report_missed_ball(ball, *pair, end, off, missed_at);
+    settle_pending(track, end, off, reported ? missed_at : time);
+    if (!reported) judge_state(ball, track, end, off, true);
   }
 
   /// At the end of the log.
@@ -277,7 +277,7 @@ class Flights : Judge {
 
   /// Position, velocity and spin at the end of a flight.
   /// @param off  becomes the distance from the end of the flight, 0 when within the tolerances
-  void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool tell_it) {
+  void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool report_it) {
     const LoggedEvent& event = *end.event;
     const BodyState& state = end.state();
     const auto& has = available_.body[end.body];
@@ -298,14 +298,14 @@ class Flights : Judge {
           dp <= tolerances_.position(time, speed * dt, fastest) && dv <= tolerances_.velocity(time, fastest);
       if (!good) off = std::max(dp, dv * dt);
       if (!good && off == 0) off = std::numeric_limits<double>::min();
-      if (tell_it && tolerances_.position(time, 0, fastest) > tolerances_.reach) {
+      if (report_it && tolerances_.position(time, 0, fastest) > tolerances_.reach) {
         findings_.unresolved(Check::flight);
-      } else if (tell_it) {
+      } else if (report_it) {
         findings_.judged(Check::flight);
         if (!good) findings_.add(finding(Kind::non_ballistic, std::max(dp, dv * dt), dv, ""));
       }
     }
-    if (tell_it && has.spin_before && track.spin_known) {
+    if (report_it && has.spin_before && track.spin_known) {
       findings_.judged(Check::spin_kept);
       const double radius = radius_of(ball);
       const double change = radius * size(Vec(state.spin_before - track.spin));
@@ -374,9 +374,9 @@ class Flights : Judge {
   /// Time-stepping codes log several impacts of a ball at one time: the second one is late, not missed.
   void settle_held(Track& track, const LoggedEvent* next) {
     if (!track.held) return;
-    const bool told =
+    const bool reported =
         next && next->time == track.start && next->with_wall && next->partner == track.held->partner;
-    if (!told) findings_.add(*track.held);
+    if (!reported) findings_.add(*track.held);
     track.held.reset();
   }
 

@@ -40,7 +40,7 @@ void ImpactJudge::judge_outcome(const LoggedImpact& impact, const Known& known, 
   const auto off = residuals(impact, known, g_n > allowed);
   const auto check = [&](Check check, Kind kind, double size, double found, double expected) {
     findings_.judged(check);
-    if (size > allowed) tell(kind, event, size, found, expected);
+    if (size > allowed) report(kind, event, size, found, expected);
   };
   check(Check::normal_law, Kind::normal_restitution, off.normal,
         g_n != 0 ? -impact.g_n_after() / g_n : unknown,
@@ -55,7 +55,7 @@ void ImpactJudge::judge_outcome(const LoggedImpact& impact, const Known& known, 
         off.restitution_tangential);
 }
 
-/// Where the log does not tell whether friction rests in an impact: whether it obeys the law only if it does.
+/// Where the log leaves open whether friction rests in an impact: whether it obeys the law only if it does.
 bool ImpactJudge::fits_without_friction(const LoggedImpact& impact, const Known& known) const {
   const LoggedEvent& event = *impact.event;
   LoggedImpact rested = impact;
@@ -87,7 +87,7 @@ void ImpactJudge::judge(LoggedImpact impact, Friction friction) {
   if (wall > 0 && wall >= scale) return leave_unresolved(known);
   const double allowed = tolerances_.relative * scale + wall, g_n = impact.g_n();
   findings_.judged(Check::approach);
-  if (g_n > allowed) tell(Kind::not_approaching, *impact.event, g_n, -g_n, 0);
+  if (g_n > allowed) report(Kind::not_approaching, *impact.event, g_n, -g_n, 0);
   if (known.velocities) {
     const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&impact.law->law);
     const double most_friction = coulomb ? std::min(coulomb->friction, 10.0) : 0;
@@ -116,7 +116,7 @@ void ImpactJudge::judge_logged_speeds(const LoggedImpact& impact, const Known& k
   const auto compare = [&](Check check, Kind kind, double logged, double expected) {
     findings_.judged(check);
     const double off = std::abs(logged - expected);
-    if (off > allowed) tell(kind, event, off, logged, expected);
+    if (off > allowed) report(kind, event, off, logged, expected);
   };
   if (available_.approach_speed)
     compare(Check::approach_speed, Kind::approach_speed, event.approach_speed, -speeds.g_n);
@@ -145,7 +145,7 @@ void ImpactJudge::judge_energies(const LoggedImpact& impact, double allowed) {
   if (available_.wall_work) {
     findings_.judged(Check::wall_work);
     const double off = std::abs(event.wall_work - work);
-    if (off > allowed) tell(Kind::wall_work, event, off, event.wall_work, work);
+    if (off > allowed) report(Kind::wall_work, event, off, event.wall_work, work);
   }
 }
 
@@ -161,7 +161,7 @@ void ImpactJudge::judge_dose(const LoggedImpact& impact, double allowed) {
   double off = std::min(away(expected), away(dose_by_law(impact, speeds)));
   if (supplied(impact, speeds.g_n, impact.separation_speed(speeds.g_n)) == 0)
     off = std::min(off, away(balance));
-  if (off > allowed) tell(Kind::milling_dose, event, off, event.milling_dose, expected);
+  if (off > allowed) report(Kind::milling_dose, event, off, event.milling_dose, expected);
 }
 
 /// Judges the dose by the logged speeds, where the log or this impact has no states.
@@ -172,18 +172,18 @@ void ImpactJudge::judge_speeds(const LoggedImpact& impact) {
     const double scale = available_.slip_speed ? std::max(std::abs(event.approach_speed), event.slip_speed)
                                                : std::abs(event.approach_speed);
     if (event.approach_speed < -tolerances_.relative * std::max(scale, 1.0))
-      tell(Kind::not_approaching, event, -event.approach_speed, event.approach_speed, 0);
+      report(Kind::not_approaching, event, -event.approach_speed, event.approach_speed, 0);
     if (available_.slip_speed && available_.milling_dose) {
       findings_.judged(Check::milling_dose);
       const double expected = dose_by_law(impact, {-event.approach_speed, event.slip_speed});
       const double off = std::abs(event.milling_dose - expected);
       if (off > allowed_dose(impact, std::max(scale, impact.law->least_separation)))
-        tell(Kind::milling_dose, event, off, event.milling_dose, expected);
+        report(Kind::milling_dose, event, off, event.milling_dose, expected);
     }
   }
   if (available_.wall_work && !event.with_wall) {
     findings_.judged(Check::wall_work);
-    if (event.wall_work != 0) tell(Kind::wall_work, event, std::abs(event.wall_work), event.wall_work, 0);
+    if (event.wall_work != 0) report(Kind::wall_work, event, std::abs(event.wall_work), event.wall_work, 0);
   }
 }
 

@@ -19,8 +19,8 @@ class Judge {
       : case_(the_case), available_(available), tolerances_(tolerances), findings_(findings) {}
 
  protected:
-  void tell(Kind kind, const LoggedEvent& event, double size, double found, double expected,
-            const char* note = "") {
+  void report(Kind kind, const LoggedEvent& event, double size, double found, double expected,
+              const char* note = "") {
     findings_.add({event, kind, size, found, expected, note});
   }
   double radius_of(int ball) const { return case_.balls[ball].radius; }
@@ -31,7 +31,7 @@ class Judge {
   Findings& findings_;
 };
 
-/// What friction does in an impact, docs/theory.md, section 6; either, where the log does not tell how long
+/// What friction does in an impact, docs/theory.md, section 6; either, where the log leaves open how long
 /// the flights before were.
 enum class Friction { acts, rests, either };
 

@@ -70,10 +70,11 @@ class Searcher {
 
   Identification run() {
     Identification result;
+    result.search = search_;
     result.events = log_.events.size();
     if ((result.interrupted = is_interrupted()) || log_.events.empty()) return result;
-    if (!log_.available.body[0].position && from_start_) {
-      if (search_ == Search::all) follow(result);
+    if (!log_.available.body[0].position && from_start_ && search_ == Search::all) {
+      follow(result);
       return result;
     }
     const auto audited = audit::audit(the_case_, log_, options_);

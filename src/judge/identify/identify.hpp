@@ -68,6 +68,10 @@ struct Cause {
   std::string text() const;
 };
 
+/// How far a search goes: one value or mistake for the whole log, or parts of the log, two and three together
+/// as well, and runs of the case.
+enum class Search { single, all };
+
 /// What was tried, for the answer "none of these".
 struct SearchedFor {
   std::size_t numbers = 0, mistakes = 0, parts = 0;  ///< numbers of the case, and terms of the equations
@@ -81,6 +85,7 @@ struct Identification {
   /// that.
   std::optional<std::uint64_t> follows;
   bool follows_all = false;
+  Search search = Search::all;
   bool too_few = false;      ///< impacts that can be checked or followed; no cause was sought
   bool interrupted = false;  ///< the search ended before it was through; better causes may exist
   SearchedFor tried;
@@ -89,10 +94,6 @@ struct Identification {
 
 /// Called with the name of each stage of a search when it begins.
 using Progress = std::function<void(const std::string& stage)>;
-
-/// How far a search goes: one value or mistake for the whole log, or parts of the log, two and three together
-/// as well, and runs of the case.
-enum class Search { single, all };
 
 /// Searches the first events of a log.
 /// @param options  of the audit; its log is read again

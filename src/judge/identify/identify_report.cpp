@@ -43,7 +43,13 @@ std::string table(const Identification& found) {
     return out + (found.causes.empty() ? "  interrupted before a cause was found\n"
                                        : "  interrupted: better causes were not sought\n");
   if (found.too_few) return out + "  no cause sought: too few impacts\n";
-  if (!found.causes.empty()) return out;
+  const bool explained =
+      !found.causes.empty() && audit::accounts_for(found.causes[0].explains, found.causes[0].of);
+  const std::string further =
+      found.search == Search::all || explained
+          ? ""
+          : "  --identify searches parts of the log, and two and three causes together\n";
+  if (!found.causes.empty()) return out + further;
   if (found.follows)
     out += found.follows_all
                ? fmt::format(
@@ -53,11 +59,13 @@ std::string table(const Identification& found) {
                : fmt::format("  no cause found: a run of the case reproduces the first {} impacts\n",
                              *found.follows);
   else if (found.violations > 0 && !found.stepping.found())
-    out += fmt::format(
-        "  no cause explains nine tenths of the {} violations of {} impacts\n  tried: {}; {} numbers and "
-        "terms, {} mistakes, {} parts of the log\n",
-        found.violations, found.events, fmt::join(found.tried.stages, ", "), found.tried.numbers,
-        found.tried.mistakes, found.tried.parts);
+    out +=
+        fmt::format(
+            "  no cause explains nine tenths of the {} violations of {} impacts\n  tried: {}; {} numbers and "
+            "terms, {} mistakes, {} parts of the log\n",
+            found.violations, found.events, fmt::join(found.tried.stages, ", "), found.tried.numbers,
+            found.tried.mistakes, found.tried.parts) +
+        further;
   else if (found.violations == 0)
     out += fmt::format("  no cause: no violation in the columns of the first {} impacts\n", found.events);
   return out;

@@ -105,6 +105,11 @@ TEST_F(Faulty, UnequalMasses) {
   simulate(faults, 500);
   expect_kinds(judged(), {Kind::tangential_restitution, Kind::momentum});
   expect_cause("impacts of balls that are not alike (2.24'): each takes half");
+  faults = {};
+  faults.exchanged_masses = true;
+  simulate(faults, 200);
+  expect_kinds(judged(), {Kind::tangential_restitution, Kind::momentum});
+  expect_cause("impacts of balls that are not alike (2.24'): the masses are exchanged");
 }
 
 TEST_F(Faulty, WrongWallVelocity) {

@@ -91,6 +91,11 @@ std::vector<Planted> planted() {
        {"impacts of balls that are not alike (2.24'): each takes half of the relative change, as for equal "
         "masses"},
        {.equal_masses = true}},
+      {"exchanged_masses",
+       {"impacts of balls that are not alike (2.24'): the masses are exchanged"},
+       {.exchanged_masses = true},
+       "",
+       200},
       {"spin_lost", {"spin in flights"}, {.spin_lost = true}},
       {"no_gravity", {"run.gravity", "gravity in flights"}, {.no_gravity = true}},
       {"every_fifth_impact_late", {}, {.late_every = 5}},
