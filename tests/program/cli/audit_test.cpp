@@ -73,6 +73,7 @@ TEST_F(AuditCommand, ALogWithAnotherLeastSeparationSpeedIsFoundAndItsEnergyDoesN
   EXPECT_GT(result()["violations"]["normal_restitution"]["count"], 100);
   EXPECT_NEAR(result()["energy"]["closure"], -supplied, 1e-12 * dose);
   EXPECT_NE(bad.out.find("looks like   contact.least_separation = 0.01 "), std::string::npos) << bad.out;
+  EXPECT_EQ(bad.out.find("--identify"), std::string::npos) << bad.out;  // nothing is left to search for
 }
 
 TEST_F(AuditCommand, LogsWithoutStatesAreCheckedAsFarAsTheyGo) {
