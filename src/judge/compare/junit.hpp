@@ -7,8 +7,11 @@
 
 namespace edmill::compare {
 
-/// A name, and what is wrong; nothing where the text is empty.
-using JunitCase = std::pair<std::string, std::string>;
+struct JunitCase {
+  std::string name;
+  std::string problem = {};     ///< empty where there is none
+  std::string not_judged = {};  ///< why it was skipped, if so
+};
 
 /// @param suite  "edmill audit of log.csv"
 std::string junit_text(const std::string& suite, const std::vector<JunitCase>& cases);

@@ -13,14 +13,25 @@ namespace edmill::dem {
 
 /// One value of the code against that of the case.
 struct Judged {
-  std::string name;      ///< "restitution at walls"
-  std::string unit;      ///< empty for numbers
-  std::string equation;  ///< of theory.md that it belongs to
-  Median found;
+  std::string name;           ///< "restitution at walls"
+  std::string unit = {};      ///< empty for numbers
+  std::string equation = {};  ///< of theory.md that it belongs to
+  Median found = {};
   double expected = 0;
-  double allowed = 0;  ///< beyond the interval: what contacts of this duration do, and a time step
+  double allowed = 0;     ///< beyond the interval: what contacts of this duration do, and a time step
+  double dose_share = 0;  ///< of the contacts that show it
 
-  bool agrees() const { return found.low - allowed <= expected && expected <= found.high + allowed; }
+  enum class Of { log, walls, balls } of = Of::log;
+  bool is_part = false;         ///< of the contacts of another value: of one wall, or one kind of balls
+  std::string not_judged = {};  ///< why it is not, other than by too few contacts
+
+  bool known() const { return not_judged.empty() && found.known(); }
+  /// Too few contacts show it for a verdict, and they have more than this share of the dose.
+  static constexpr double large_share = 0.05;
+  bool is_open() const { return not_judged.empty() && !found.known() && dose_share > large_share; }
+  bool agrees() const {
+    return !known() || (found.low - allowed <= expected && expected <= found.high + allowed);
+  }
 };
 
 /// A number of the case that explains where the walls were met.
@@ -44,6 +55,7 @@ struct ContactAudit {
   ContactLogFacts facts;
   ContactVerdict verdict = ContactVerdict::too_few;
   std::array<std::uint64_t, contact_class_names.size()> counts{};
+  std::uint64_t missed_at_walls = 0, missed_between_balls = 0;
   std::vector<Judged> judged;
   std::vector<SlipBin> slips;
   double wall_distance = 0;    ///< median from the walls of the case where balls left their flights [m]

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/errors.hpp"
 #include "dem/contacts.hpp"
@@ -44,30 +45,47 @@ std::optional<double> crossing(const auto& gap, double low, double high, bool fa
 
 }  // namespace
 
+namespace {
+
+/// Free flight is most of the time: the median acceleration is gravity. The longer it is measured, the less
+/// the rounding of numbers matters, until contacts fall into most of the spans: the span with the least
+/// scatter is taken. Where numbers are rounded, many of them are not known better than one.
+void set_gravity(const std::vector<Frame>& frames, FrameStatistics& s) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t span : {1u, 10u, 100u}) {
+    if (span >= frames.size()) break;
+    Vector gravity, half_width;
+    double scatter = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> accelerations, off;
+      for (std::size_t k = span; k < frames.size(); ++k)
+        for (std::size_t i = 0; i < frames[k].balls.size(); ++i)
+          accelerations.push_back(
+              (frames[k].balls[i].velocity[axis] - frames[k - span].balls[i].velocity[axis]) /
+              (frames[k].time - frames[k - span].time));
+      gravity[axis] = median_of(accelerations).value;
+      for (const double value : accelerations) off.push_back(std::abs(value - gravity[axis]));
+      const double one = 1.4826 * median_of(std::move(off)).value;
+      half_width[axis] = one + 1.96 * 1.2533 * one / std::sqrt(static_cast<double>(accelerations.size()));
+      scatter = std::max(scatter, one);
+    }
+    if (scatter >= least) continue;
+    least = scatter;
+    s.gravity = gravity;
+    s.gravity_half_width = half_width;
+  }
+}
+
+}  // namespace
+
 FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& expected_gravity) {
   EDMILL_REQUIRE(frames.size() > 2, "three frames");
   FrameStatistics s;
-  std::vector<double> intervals;
-  std::vector<double> accelerations[3];
   const std::size_t balls = frames[0].balls.size();
-  for (std::size_t k = 1; k < frames.size(); ++k) {
-    const double dt = frames[k].time - frames[k - 1].time;
-    intervals.push_back(dt);
-    for (std::size_t i = 0; i < balls; ++i) {
-      const Vector acceleration = (frames[k].balls[i].velocity - frames[k - 1].balls[i].velocity) / dt;
-      for (int axis = 0; axis < 3; ++axis) accelerations[axis].push_back(acceleration[axis]);
-    }
-  }
+  std::vector<double> intervals;
+  for (std::size_t k = 1; k < frames.size(); ++k) intervals.push_back(frames[k].time - frames[k - 1].time);
   s.interval = median_of(intervals).value;
-  // Free flight is most of the time: the median is gravity, and half of the scatter's quantiles its
-  // sharpness.
-  for (int axis = 0; axis < 3; ++axis) {
-    s.gravity[axis] = median_of(accelerations[axis]).value;
-    std::vector<double> off;
-    for (const double value : accelerations[axis]) off.push_back(std::abs(value - s.gravity[axis]));
-    s.gravity_half_width[axis] =
-        1.96 * 1.2533 * 1.4826 * median_of(off).value / std::sqrt(static_cast<double>(off.size()));
-  }
+  set_gravity(frames, s);
   const Vector off = (s.gravity - expected_gravity).cwiseAbs(), known_to = 3 * s.gravity_half_width;
   if ((off.array() <= known_to.array() + 1e-6).all()) s.gravity = expected_gravity;
   std::vector<double> changes;
@@ -93,20 +111,24 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
 }
 
 ContactFinder::ContactFinder(const MovingVessel& vessel, const FrameStatistics& frames, Found found)
-    : vessel_(vessel), frames_(frames), found_(std::move(found)), open_of_(vessel.ball_count(), -1) {}
+    : vessel_(vessel), frames_(frames), found_(std::move(found)), open_of_(vessel.ball_count(), -1) {
+  for (std::size_t ball = 0; ball < vessel.ball_count(); ++ball)
+    largest_radius_ = std::max(largest_radius_, vessel.ball(ball).radius);
+}
 
 void ContactFinder::add(Frame next) {
   window_.push_back(std::move(next));
   const std::size_t now = first_ + window_.size() - 1;
   if (window_.size() < 2) return;
   std::vector<std::size_t> ended;
+  std::vector<bool> flies(open_of_.size());
   for (std::size_t ball = 0; ball < open_of_.size(); ++ball) {
     int& open = open_of_[ball];
-    const bool flying = change_of(frame(now - 1), frame(now), ball, frames_.gravity) <= frames_.kick;
-    if (!flying && open < 0) {
+    flies[ball] = change_of(frame(now - 1), frame(now), ball, frames_.gravity) <= frames_.kick;
+    if (!flies[ball] && open < 0) {
       open = static_cast<int>(stretches_.size());
       stretches_.push_back({ball, now - 1, now, groups_++});
-    } else if (!flying) {
+    } else if (!flies[ball]) {
       auto& stretch = stretches_[static_cast<std::size_t>(open)];
       stretch.last = now;
       if (now - stretch.first >= longest_stretch) ended.push_back(ball);
@@ -119,10 +141,96 @@ void ContactFinder::add(Frame next) {
     open_of_[ball] = -1;
   }
   if (!ended.empty()) settle();
+  find_jumps();
+  watch_overlaps(flies);
   forget();
 }
 
+/// A ball that has gone farther than its velocities at both ends of an interval lead it.
+void ContactFinder::find_jumps() {
+  const std::size_t now = first_ + window_.size() - 1;
+  const Frame &from = frame(now - 1), &to = frame(now);
+  const double dt = to.time - from.time;
+  for (std::size_t ball = 0; ball < open_of_.size(); ++ball) {
+    const auto &a = from.balls[ball], &b = to.balls[ball];
+    const double way = norm<double>(Vector(b.position - a.position));
+    const double fastest = norm<double>(a.velocity) + norm<double>(b.velocity);
+    if (way <= fastest * dt + vessel_.ball(ball).radius / 10) continue;
+    Contact contact;
+    contact.kind = ContactClass::jump;
+    contact.begin = contact.free_until = from.time;
+    contact.end = contact.free_from = to.time;
+    contact.ball = static_cast<int>(ball);
+    contact.before = a;
+    contact.after = b;
+    found_(contact);
+  }
+}
+
+void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
+  const Frame& now = window_.back();
+  const auto pose = vessel_.at(now.time);
+  for (auto& [bodies, overlap] : overlaps_) overlap.seen = false;
+  const int count = static_cast<int>(open_of_.size());
+  for (int ball = 0; ball < count; ++ball)
+    for (int wall = 0; wall < vessel_.walls(); ++wall)
+      watch({ball, -1 - wall}, -vessel_.gap(pose, ball, wall, now.balls[ball].position), flies);
+  // Balls in the order of x: those that overlap are next to each other.
+  std::vector<int> order(open_of_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](int ball) { return now.balls[ball].position[0]; });
+  for (auto one = order.begin(); one != order.end(); ++one)
+    for (auto two = std::next(one); two != order.end(); ++two) {
+      const Vector apart = now.balls[*two].position - now.balls[*one].position;
+      if (apart[0] > vessel_.ball(*one).radius + largest_radius_) break;
+      const double touch = vessel_.ball(*one).radius + vessel_.ball(*two).radius;
+      watch({std::min(*one, *two), std::max(*one, *two)}, touch - norm<double>(apart), flies);
+    }
+  for (auto& [bodies, overlap] : overlaps_) {
+    if (overlap.seen) continue;
+    note_flights(bodies, flies, overlap);
+    end_overlap(bodies, overlap);
+  }
+  std::erase_if(overlaps_, [](const auto& entry) { return !entry.second.seen; });
+}
+
+void ContactFinder::note_flights(const Bodies& bodies, const std::vector<bool>& flies, Overlap& overlap) {
+  for (std::size_t k = 0; k < 2; ++k)
+    overlap.flies[k] = overlap.flies[k] && bodies[k] >= 0 && flies[static_cast<std::size_t>(bodies[k])];
+}
+
+void ContactFinder::watch(const Bodies& bodies, double depth, const std::vector<bool>& flies) {
+  if (!(depth > 0)) return;
+  const std::size_t now = first_ + window_.size() - 1;
+  const double before = frame(now - 1).time, dt = frame(now).time - before;
+  auto& overlap = overlaps_.try_emplace(bodies, Overlap{before}).first->second;
+  overlap.growth = std::max(overlap.growth, (depth - std::max(overlap.last, 0.0)) / dt);
+  overlap.depth = std::max(overlap.depth, depth);
+  overlap.last = depth;
+  overlap.seen = true;
+  note_flights(bodies, flies, overlap);
+}
+
+/// A contact changes the velocity of both balls. Its depth is less than a third of its duration times the
+/// approach; gentler ones than a thousandth of the radius may be hidden in the noise of the frames.
+void ContactFinder::end_overlap(const Bodies& bodies, const Overlap& overlap) {
+  const double radius = vessel_.ball(static_cast<std::size_t>(bodies[0])).radius;
+  const double deepest = std::clamp(overlap.growth * frames_.contact_time, 1e-3 * radius, radius / 5);
+  if (overlap.depth <= deepest || !(overlap.flies[0] || overlap.flies[1])) return;
+  Contact contact;
+  contact.kind = ContactClass::missed;
+  contact.begin = contact.free_until = overlap.begin;
+  contact.end = contact.free_from = window_.back().time;
+  contact.ball = bodies[0];
+  contact.bodies = bodies[1] < 0 ? 1 : 2;
+  contact.partner = bodies[1] < 0 ? -1 - bodies[1] : bodies[1];
+  contact.before = contact.after = window_.back().balls[static_cast<std::size_t>(bodies[0])];
+  found_(contact);
+}
+
 void ContactFinder::finish() {
+  at_end_ = true;
+  for (const auto& [bodies, overlap] : overlaps_) end_overlap(bodies, overlap);
   for (auto& stretch : stretches_)
     if (stretch.open) close(static_cast<std::size_t>(&stretch - stretches_.data()));
   settle();
@@ -290,6 +398,7 @@ void ContactFinder::report(std::vector<Stretch> group) {
   contact.kind = ContactClass::several;
   const double duration = contact.free_from - contact.free_until;
   const bool lasts = first == 0 || duration > 3 * frames_.contact_time + 2 * frames_.interval;
+  if (at_end_ && !lasts) return;
   const auto impulse = [&](const Stretch& s) {
     const double dt = frame(s.last).time - frame(s.first).time;
     return Vector(vessel_.ball(s.ball).mass * (frame(s.last).balls[s.ball].velocity -

@@ -17,7 +17,8 @@ namespace edmill::dem {
 
 namespace {
 
-constexpr const char* first_line = "# edmill contacts 1";
+constexpr const char* mark = "# edmill contacts ";
+constexpr const char* first_line = "# edmill contacts 2";
 constexpr const char* leading =
     "time,end,class,ball,partner_kind,partner,bodies,free_until,free_from,milling_dose";
 constexpr std::size_t first_state = 10;
@@ -60,18 +61,21 @@ ContactLogFacts read_facts(const std::string& file) {
   io::InputFile in(file, "a log of contacts");
   std::string line;
   if (!std::getline(in, line) || !line.starts_with(first_line))
-    throw InputError(fmt::format("{}:1: found {}, expected '{}'", file, io::in_quotes(line), first_line));
+    throw InputError(fmt::format("{}:1: found {}, expected '{}': run edmill import again", file,
+                                 io::in_quotes(line), first_line));
   ContactLogFacts facts;
   auto& s = facts.statistics;
   auto &gravity = s.gravity, &width = s.gravity_half_width;
   auto& doses = facts.doses;
   double frames = 0, contacts = 0;
+  std::vector<double*> all_doses;
+  for (double& dose : doses) all_doses.push_back(&dose);
   const std::pair<const char*, std::vector<double*>> lines[] = {
       {"# frames ", {&frames, &contacts, &facts.first, &facts.last, &s.interval}},
       {"# gravity ", {&gravity[0], &gravity[1], &gravity[2], &width[0], &width[1], &width[2]}},
       {"# contact_time ", {&s.contact_time, &s.kick}},
       {"# factors ", {&facts.mass_factor, &facts.radius_factor}},
-      {"# doses ", {&doses[0], &doses[1], &doses[2], &doses[3], &doses[4]}}};
+      {"# doses ", all_doses}};
   std::size_t known = 0;
   for (std::uint64_t number = 2; std::getline(in, line) && line.starts_with("#"); ++number) {
     const auto n = numbers_of(line);
@@ -174,7 +178,7 @@ bool is_contact_log(const std::string& file) {
   if (!io::is_readable(file)) return false;
   io::InputFile in(file, "a log of contacts");
   std::string line;
-  return std::getline(in, line) && line.starts_with(first_line);
+  return std::getline(in, line) && line.starts_with(mark);
 }
 
 ContactLogReader::ContactLogReader(const std::string& file)
@@ -206,7 +210,8 @@ std::optional<Contact> ContactLogReader::parse() {
   const auto ball = csv_.whole(3, "the number of a ball", 0, most),
              balls = csv_.whole(6, "a number of balls", 1, most);
   const auto kind = std::find(contact_class_names.begin(), contact_class_names.end(), csv_.field(2));
-  if (kind == contact_class_names.end()) csv_.bad_field(2, "wall, pair, several, lasting or unexplained");
+  if (kind == contact_class_names.end())
+    csv_.bad_field(2, fmt::format("{}", fmt::join(contact_class_names, ", ")));
   if (!begin || !end || !until || !from || !dose || !ball || !balls || kind == contact_class_names.end())
     return std::nullopt;
   c.kind = static_cast<ContactClass>(kind - contact_class_names.begin());

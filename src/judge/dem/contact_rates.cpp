@@ -158,7 +158,8 @@ std::string to_json(const ContactComparison& c) {
 }
 
 std::string to_junit(const ContactComparison& c) {
-  return compare::junit_text("edmill compare", {{"dose rate", c.known && c.agree() ? "" : sentence(c)}});
+  return compare::junit_text("edmill compare",
+                             {{.name = "dose rate", .problem = c.known && c.agree() ? "" : sentence(c)}});
 }
 
 double Limit::ratio_half_width() const {

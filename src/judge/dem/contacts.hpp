@@ -3,9 +3,11 @@
 // docs/dem.md
 #pragma once
 
+#include <array>
 #include <cstdio>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -17,10 +19,12 @@
 
 namespace edmill::dem {
 
-/// What a contact is. `wall` and `pair` are single ones, which laws can be asked of.
-enum class ContactClass { wall, pair, several, lasting, unexplained };
-inline constexpr std::array<const char*, 5> contact_class_names{"wall", "pair", "several", "lasting",
-                                                                "unexplained"};
+/// What a contact is. `wall` and `pair` are single ones, which laws can be asked of; `missed` is one that the
+/// code has not: bodies overlap, and one of them flies on; in a `jump` a ball goes where its velocities do
+/// not lead it.
+enum class ContactClass { wall, pair, several, lasting, unexplained, missed, jump };
+inline constexpr std::array<const char*, 7> contact_class_names{"wall",        "pair",   "several", "lasting",
+                                                                "unexplained", "missed", "jump"};
 
 /// One contact, or a group of bodies whose contacts overlap in time. Of a single one the states are those at
 /// the touch and at the detachment, by the flights before and after; of others those of the frames around it.
@@ -57,7 +61,7 @@ class ContactFinder {
   ContactFinder(const MovingVessel& vessel, const FrameStatistics& frames, Found found);
 
   void add(Frame frame);
-  /// Contacts that have not ended by the last frame are none of the record.
+  /// Contacts that have not ended by the last frame are none of the record, unless they last.
   void finish();
 
  private:
@@ -71,10 +75,24 @@ class ContactFinder {
     int wall;
     int spells;
   };
+  /// A ball overlaps a wall or another ball, from frame to frame.
+  struct Overlap {
+    double begin = 0;                       ///< of the last frame before [s]
+    double last = 0;                        ///< depth in the last frame [m]
+    double depth = 0, growth = 0;           ///< largest so far [m], [m/s]
+    std::array<bool, 2> flies{true, true};  ///< the ball, or its partner, all the while
+    bool seen = true;                       ///< in the last frame
+  };
+  using Bodies = std::array<int, 2>;  ///< the ball, and the other one or -1 - wall
 
   const Frame& frame(std::size_t number) const { return window_[number - first_]; }
   /// Whether a usual contact has frames within it.
   bool resolved() const { return frames_.contact_time >= 3 * frames_.interval; }
+  void find_jumps();
+  void watch_overlaps(const std::vector<bool>& flies);
+  void watch(const Bodies& bodies, double depth, const std::vector<bool>& flies);
+  static void note_flights(const Bodies& bodies, const std::vector<bool>& flies, Overlap& overlap);
+  void end_overlap(const Bodies& bodies, const Overlap& overlap);
   void close(std::size_t stretch);
   bool come_near(const Stretch& one, const Stretch& other) const;
   void settle();
@@ -93,6 +111,9 @@ class ContactFinder {
   std::vector<Stretch> stretches_;  ///< open, or ended in a group that is open
   std::vector<int> open_of_;        ///< by ball: place in stretches_, or -1
   int groups_ = 0;
+  std::map<Bodies, Overlap> overlaps_;
+  double largest_radius_ = 0;
+  bool at_end_ = false;  ///< of the frames
 };
 
 /// What holds for a whole log.
@@ -102,7 +123,7 @@ struct ContactLogFacts {
   double first = 0, last = 0;  ///< times of the frames [s]
   FrameStatistics statistics;
   double mass_factor = 1,
-         radius_factor = 1;  ///< of the dump's balls over the case's; 1 where it does not tell
+         radius_factor = 1;  ///< of the dump's balls over the case's; 0 where it does not have them
   int facets = 0;            ///< of the prism that stands for a round wall; 0 for a round wall
   std::array<double, contact_class_names.size()> doses{};  ///< by class [J]
 

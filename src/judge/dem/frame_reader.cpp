@@ -18,12 +18,13 @@ namespace {
 
 /// Places in `names`; y and z follow x.
 constexpr std::size_t id = 0, x = 1, vx = 4, wx = 7, mass = 10, radius = 11, diameter = 12, scaled_x = 13,
-                      moment = 16, count = 17;
+                      moment = 16, image_x = 17, count = 20;
 /// What a frame may have of each ball, under the names that codes give it.
 constexpr std::array<const char*, 2> names[count] = {
-    {"id", "ball"}, {"x", "xu"},      {"y", "yu"},      {"z", "zu"},      {"vx"},       {"vy"},
-    {"vz"},         {"omegax", "wx"}, {"omegay", "wy"}, {"omegaz", "wz"}, {"mass"},     {"radius"},
-    {"diameter"},   {"xs", "xsu"},    {"ys", "ysu"},    {"zs", "zsu"},    {"time", "t"}};
+    {"id", "ball"}, {"x", "xu"},   {"y", "yu"},      {"z", "zu"},      {"vx"},
+    {"vy"},         {"vz"},        {"omegax", "wx"}, {"omegay", "wy"}, {"omegaz", "wz"},
+    {"mass"},       {"radius"},    {"diameter"},     {"xs", "xsu"},    {"ys", "ysu"},
+    {"zs", "zsu"},  {"time", "t"}, {"ix"},           {"iy"},           {"iz"}};
 
 bool is_required(std::size_t what) { return what == id || (what >= vx && what < mass); }
 
@@ -135,14 +136,26 @@ bool begins_binary_dump(int first_byte) {
 DeckFacts facts_of_deck(const std::string& deck) {
   DeckFacts facts;
   io::InputFile in(deck, "a deck of LAMMPS, LIGGGHTS or YADE");
-  for (std::string line; std::getline(in, line);) {
+  std::string line;
+  int number = 1;
+  for (; std::getline(in, line); ++number) {
     const auto w = words(line);
     if (w.size() == 3 && w[0] == "#" && w[1] == "frame") facts.in_vessel = w[2] == "vessel";
     if (w.size() == 3 && w[0] == "#" && w[1] == "facets") facts.facets = facets_of(w[2], deck);
-    if (w.size() < 2 || w[0] == "#") continue;
-    if (w[0] == "timestep") facts.time_step = std::strtod(w[1].c_str(), nullptr);
+    if (w.size() < 2 || w[0].starts_with("#")) continue;
     if (w[0] == "units") facts.units = w[1];
-    if (w.size() == 3 && w[0] == "O.dt" && w[1] == "=") facts.time_step = std::strtod(w[2].c_str(), nullptr);
+    const bool assigned = w.size() > 2 && w[0] == "O.dt" && w[1] == "=";
+    if (w[0] != "timestep" && !assigned) continue;
+    const auto& text = w[assigned ? 2 : 1];
+    double step = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), step);
+    const bool is_known = error == std::errc() && *end == 0 && step > 0;
+    const bool is_other = facts.time_step && *facts.time_step != step;
+    if ((!is_known || is_other) && facts.no_time_step.empty())
+      facts.no_time_step =
+          fmt::format("{}:{}: found {}, expected {}: give --timestep", deck, number, io::in_quotes(line),
+                      is_known ? "one time step" : "a time step as a number");
+    facts.time_step = step;
   }
   return facts;
 }
@@ -165,11 +178,20 @@ void FrameReader::fail(const std::string& found, const std::string& expected) co
   throw InputError(fmt::format("{}:{}: found {}, expected {}", name_, line_number_, found, expected));
 }
 
-double FrameReader::number(std::string_view text) const {
+/// Also with a sign before it, or with the exponent of Fortran.
+double FrameReader::number(const std::string& text) const {
+  std::string usual = text.substr(text.starts_with('+') ? 1 : 0);
+  std::ranges::replace_if(
+      usual, [](char c) { return c == 'D' || c == 'd'; }, 'e');
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    fail(fmt::format("'{}'", text.substr(0, 40)), "a number");
+  const auto [end, error] = std::from_chars(usual.data(), usual.data() + usual.size(), value);
+  if (error != std::errc() || *end != 0) fail(fmt::format("'{}'", text.substr(0, 40)), "a number");
+  return value;
+}
+
+double FrameReader::finite(const std::string& text) const {
+  const double value = number(text);
+  if (!std::isfinite(value)) fail(fmt::format("'{}'", text.substr(0, 40)), "a number");
   return value;
 }
 
@@ -198,6 +220,14 @@ void FrameReader::read_columns(const std::vector<std::string>& columns) {
   if (!missing.empty())
     fail(fmt::format("no column {}", fmt::join(missing, ", ")),
          "all of id x y z vx vy vz omegax omegay omegaz");
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool is_scaled = places_[x + k] < 0;
+    const auto& place = names_[static_cast<std::size_t>(places_[(is_scaled ? scaled_x : x) + k])];
+    if (place.ends_with('u')) places_[image_x + k] = -1;  // unwrapped already
+    if (is_tilted_ && (is_scaled || places_[image_x + k] >= 0))
+      fail(fmt::format("the column {} of a triclinic box", is_scaled ? place : names[image_x + k][0]),
+           "xu yu zu of such a box: dump them");
+  }
 }
 
 FrameReader::Row FrameReader::row() const {
@@ -223,6 +253,7 @@ FrameReader::Row FrameReader::row_of(const std::vector<double>& values) const {
     const auto axis = static_cast<Eigen::Index>(k);
     row.state.position[axis] =
         length * (places_[x + k] >= 0 ? at(x + k) : low_[k] + size_[k] * at(scaled_x + k));
+    if (places_[image_x + k] >= 0) row.state.position[axis] += length * size_[k] * at(image_x + k);
     row.state.velocity[axis] = length / time * at(vx + k);
     row.state.spin[axis] = at(wx + k) / time;
   }
@@ -242,6 +273,14 @@ void FrameReader::finish(std::vector<Row> rows, double time, Frame& frame) {
   std::vector<long> ids;
   frame.balls.clear();
   for (const auto& row : rows) {
+    // Faster than any mill, so that squares of it are numbers: a code that has become unstable.
+    constexpr double fastest = 1e6;
+    const auto& s = row.state;
+    const double sizes = row.mass.value_or(1) + row.radius.value_or(1);
+    if (!(norm<double>(s.velocity) < fastest && std::isfinite(s.position.sum() + s.spin.sum() + sizes)))
+      fail(fmt::format("ball {} with a velocity of {:.4g}, {:.4g}, {:.4g} m/s at {:.6g} s", row.id,
+                       s.velocity[0], s.velocity[1], s.velocity[2], time),
+           "finite values and less than 1e6 m/s: the code has become unstable");
     ids.push_back(row.id);
     frame.balls.push_back(row.state);
   }
@@ -295,8 +334,6 @@ bool FrameReader::next_of_binary(Frame& frame) try {
     fail(fmt::format("{} names for {} columns", names_.size(), columns), "one for each");
   std::vector<Row> rows;
   for (auto begin = values.begin(); begin != values.end(); begin += columns) {
-    for (const int place : places_)
-      if (place >= 0 && !std::isfinite(begin[place])) fail("a value that is no number", "a number");
     rows.push_back(row_of({begin, begin + columns}));
   }
   finish(std::move(rows), time_of(time, step), frame);
@@ -357,8 +394,8 @@ bool FrameReader::next_of_dump(Frame& frame) {
       if (!line()) return false;
       if (bounds) read_bounds(k);
     }
-    if (item.starts_with("TIMESTEP")) step = number(line_);
-    if (item == "TIME") time = number(line_);
+    if (item.starts_with("TIMESTEP")) step = finite(line_);
+    if (item == "TIME") time = finite(line_);
     if (item == "UNITS") format_.units = line_;
     if (item.starts_with("NUMBER OF ATOMS") && number(line_) != static_cast<double>(count_))
       fail(fmt::format("{} balls", line_), fmt::format("{}, as in the case", count_));
@@ -369,8 +406,9 @@ bool FrameReader::next_of_dump(Frame& frame) {
 void FrameReader::read_bounds(std::size_t axis) {
   const auto ends = words(line_);
   if (ends.size() < 2) fail(fmt::format("'{}'", line_.substr(0, 40)), "two bounds");
-  low_[axis] = number(ends[0]);
-  size_[axis] = number(ends[1]) - low_[axis];
+  low_[axis] = finite(ends[0]);
+  size_[axis] = finite(ends[1]) - low_[axis];
+  is_tilted_ = (axis > 0 && is_tilted_) || (ends.size() > 2 && finite(ends[2]) != 0);
 }
 
 }  // namespace edmill::dem

@@ -21,6 +21,7 @@ struct DumpFormat {
 /// What a deck says: its lines `timestep`, `units`, `# frame vessel` and `# facets`.
 struct DeckFacts {
   std::optional<double> time_step;
+  std::string no_time_step;  ///< why the time step is not known, if so
   std::optional<std::string> units;
   bool in_vessel = false;
   int facets = 0;  ///< of the prism that stands for a round wall
@@ -77,7 +78,8 @@ class FrameReader {
   Row row_of(const std::vector<double>& values) const;
   double time_of(std::optional<double> time, std::optional<double> step) const;
   void finish(std::vector<Row> rows, double time, Frame& frame);
-  double number(std::string_view text) const;
+  double number(const std::string& text) const;  ///< or nan or inf
+  double finite(const std::string& text) const;
 
   std::string name_;
   io::InputFile in_;
@@ -88,7 +90,8 @@ class FrameReader {
   std::uint64_t line_number_ = 0;
   std::vector<std::string> names_;        ///< of the columns
   std::vector<int> places_;               ///< of what is needed among them; -1 for what is absent
-  std::array<double, 3> low_{}, size_{};  ///< of the box, for scaled coordinates
+  std::array<double, 3> low_{}, size_{};  ///< of the box, for scaled and wrapped coordinates
+  bool is_tilted_ = false;
   Units units_{"si", 1, 1, 1};
   std::vector<long> ids_;
   std::vector<double> masses_, radii_;

@@ -161,6 +161,17 @@ void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
   };
   add("phase of the drive", [=](Assumptions& a, double x) { a.log.delay = x / turn * period; });
   const auto* vibratory = std::get_if<model::Vibratory<casefile::Quantity>>(&nominal.spec.mill);
+  if (vibratory)
+    list.push_back({"factor of mill.amplitude",
+                    Dimension::none,
+                    1,
+                    1e-3,
+                    {0.5, 0.9, 0.95, 1.05, 1.1, 1.5, 2},
+                    [](Assumptions& a, double x) {
+                      auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
+                      for (auto* vector : {&mill.amplitude, &mill.quarter})
+                        for (auto& q : *vector) q = identify::exactly(x * q.template to<double>());
+                    }});
   for (std::size_t axis = 0; vibratory && axis < 3; ++axis) {
     if (vibratory->amplitude[axis].zero() && vibratory->quarter[axis].zero()) continue;
     add(fmt::format("phase of mill.amplitude along {}", "xyz"[axis]), [axis](Assumptions& a, double x) {
@@ -190,7 +201,8 @@ void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& co
   if (audit.walls_met()) return;
   std::vector<Candidate> candidates;
   for (const auto& p : identify::parameters_of(geometry.nominal()))
-    if (p.key.starts_with("mill.") || p.key.starts_with("vessel.")) candidates.push_back(of_number(p));
+    if (p.key.starts_with("mill.") || p.key.starts_with("vessel.") || p.is_diameter)
+      candidates.push_back(of_number(p));
   add_phases(geometry.nominal(), candidates);
   add_walls(spec, candidates);
   for (const auto& candidate : candidates) {

@@ -182,6 +182,7 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
   int facets = 0;
   if (!options.deck.empty()) {
     const auto facts = facts_of_deck(options.deck);
+    if (!format.time_step && !facts.no_time_step.empty()) throw InputError(facts.no_time_step);
     if (!format.time_step) format.time_step = facts.time_step;
     if (facts.units && !options.units) format.units = *facts.units;
     in_vessel = in_vessel || facts.in_vessel;

@@ -11,31 +11,57 @@
 
 namespace edmill::dem {
 
-/// A median with its 95 % interval by order statistics, which ask nothing of the distribution.
+/// A median with its interval by order statistics, which ask nothing of the distribution.
 struct Median {
+  static constexpr std::uint64_t least = 8;  ///< values that hold the median between them in 99 %
+
   double value = 0, low = 0, high = 0;
   std::uint64_t count = 0;
 
-  bool known() const { return count >= 20; }
+  bool known() const { return count >= least; }
   double half_width() const { return (high - low) / 2; }
 };
 
 /// Of an even number of values the upper one of the middle.
-inline Median median_of(std::vector<double> values) {
+/// @param alike  number of medians whose intervals hold all of them in 95 %
+inline Median median_of(std::vector<double> values, double alike = 1) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
   const auto at = [&](double place) {
     return values[static_cast<std::size_t>(std::clamp(std::round(place), 0.0, n - 1))];
   };
-  const double middle = (n - 1) / 2, apart = 0.98 * std::sqrt(n);
+  const double normal = boost::math::quantile(numerics::Student(1e6), 1 - 0.025 / alike);
+  const double middle = (n - 1) / 2, apart = normal / 2 * std::sqrt(n);
   return {at(middle), at(middle - apart), at(middle + apart), values.size()};
 }
 
-/// The median of what a record says over what the case says; 1 where it says nothing, or differs by the
-/// rounding of numbers that are written.
+/// The median of y where x is 0, on the straight line with the median slope (Theil and Sen).
+inline Median median_at_zero(const std::vector<double>& x, std::vector<double> y, double alike = 1) {
+  constexpr std::size_t most = 400;  // of pairs there are many
+  std::vector<double> slopes;
+  for (std::size_t i = 0; i < std::min(most, x.size()); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (x[i] != x[j]) slopes.push_back((y[i] - y[j]) / (x[i] - x[j]));
+  const double slope = median_of(slopes).value, centre = median_of(x).value;
+  double spread = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    y[k] -= slope * x[k];
+    spread += (x[k] - centre) * (x[k] - centre);
+  }
+  auto median = median_of(std::move(y), alike);
+  // The slope is known to what the scatter of y leaves of it.
+  const double wider =
+      median.half_width() * centre * std::sqrt(static_cast<double>(x.size()) / std::max(spread, 1e-300));
+  median.low -= wider;
+  median.high += wider;
+  return median;
+}
+
+/// The median of what a record says over what the case says; 0 where it says nothing, 1 where it differs by
+/// the rounding of numbers that are written.
 inline double factor_of(std::vector<double> ratios) {
-  const double factor = ratios.empty() ? 1 : median_of(std::move(ratios)).value;
+  const double factor = ratios.empty() ? 0 : median_of(std::move(ratios)).value;
   return std::abs(factor - 1) < 1e-5 ? 1 : factor;
 }
 

@@ -53,12 +53,10 @@ std::string to_junit(const audit::Audit& result) {
         problem += fmt::format("{}{}: {} times, at worst {:.3g} {}; {}", problem.empty() ? "" : "\n", name,
                                tally.count, tally.worst, unit, meaning);
     }
-    cases.emplace_back(audit::info(check).name, problem);
+    cases.push_back({std::string(audit::info(check).name), problem});
   }
-  cases.emplace_back("enough impacts",
-                     result.verdict == audit::Verdict::clean || result.verdict == audit::Verdict::violations
-                         ? ""
-                         : "too few impacts to judge");
+  const bool judged = result.verdict == audit::Verdict::clean || result.verdict == audit::Verdict::violations;
+  cases.push_back({"enough impacts", judged ? "" : "too few impacts to judge"});
   return compare::junit_text("edmill audit of " + result.log_name, cases);
 }
 

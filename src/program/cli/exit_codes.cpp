@@ -5,6 +5,7 @@
 #include <gmp.h>
 #include <unistd.h>
 
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <csignal>
@@ -60,6 +61,12 @@ void note_hangup(int, char**, char**) { hangup_is_ignored = is_ignored(SIGHUP); 
                                                                              char**) = note_hangup;
 
 }  // namespace
+
+void grow_stack() {
+  std::array<volatile char, 1 << 20> room;
+  const std::vector<char> as_much(2 * room.size());  // throws where the stack would end the program
+  for (std::size_t k = room.size(); k >= 4096; k -= 4096) room[k - 1] = as_much[k];
+}
 
 void throw_for_lack_of_memory() {
   mp_set_memory_functions(

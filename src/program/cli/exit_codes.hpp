@@ -60,6 +60,9 @@ inline constexpr ExitCodeText exit_codes[] = {
 /// GMP ends the program when there is no memory; from here on it throws `std::bad_alloc`. Its functions are
 /// those of the whole process, so that the program may set them and the library may not.
 void throw_for_lack_of_memory();
+/// Gives the stack its size: one that cannot grow ends the program without a word.
+/// @throws std::bad_alloc
+[[gnu::noinline]] void grow_stack();
 
 /// In one line; control characters are escaped.
 void print_problem(const std::string& problem);

@@ -172,5 +172,8 @@ int main(int argc, char** argv) {
   cli::open_standard_descriptors();
   cli::begin_with_signals();
   const io::Spool pipes;
-  return cli::after_output(cli::exit_code_of([&] { return CommandLine().run(argc, argv); }));
+  return cli::after_output(cli::exit_code_of([&] {
+    cli::grow_stack();
+    return CommandLine().run(argc, argv);
+  }));
 }

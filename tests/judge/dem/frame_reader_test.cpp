@@ -140,8 +140,45 @@ TEST_F(FrameReaderTest, ABinaryDumpThatIsCutOffOrDamaged) {
   EXPECT_NE(damaged(22, "\1"s).find("revision 1"), std::string::npos);
   EXPECT_NE(damaged(34, "\3"s).find("3 balls"), std::string::npos);
   EXPECT_NE(damaged(whole.find("omegax"), "ooegax").find("no column omegax"), std::string::npos);
-  EXPECT_NE(damaged(whole.size() - 8, "\xff\xff\xff\xff\xff\xff\xff\xff").find("no number"),
+  EXPECT_NE(damaged(whole.size() - 8, "\xff\xff\xff\xff\xff\xff\xff\xff").find("expected finite"),
             std::string::npos);
+}
+
+/// Boxes that LAMMPS has, and numbers as codes write them.
+TEST_F(FrameReaderTest, WrappedPlacesAndOtherNumbers) {
+  const std::string bounds = "0 2\n0 2\n0 2\n", tilted = "0 2 0.5\n0 2 0\n0 2 0\n";
+  const auto place = [&](const std::string& box, const std::string& names, const std::string& values) {
+    const std::string rest = " 1 2 3 4 5 6\n";
+    std::string text = head;
+    text.replace(text.find(bounds), bounds.size(), box);
+    put(text + "ITEM: ATOMS id " + names + " vx vy vz omegax omegay omegaz\n" + "1 " + values + rest + "2 " +
+        values + rest);
+    dem::FrameReader reader(file, {1e-6, "si"}, 2);
+    dem::Frame frame;
+    EXPECT_TRUE(reader.next(frame));
+    return frame.balls[0].position[0];
+  };
+  EXPECT_DOUBLE_EQ(place(bounds, "x y z ix iy iz", "0.5 0 0 -1 0 0"), -1.5);
+  EXPECT_DOUBLE_EQ(place(bounds, "xs ys zs ix iy iz", "0.25 0 0 1 0 0"), 2.5);
+  EXPECT_DOUBLE_EQ(place(bounds, "xu yu zu ix iy iz", "2.5 0 0 1 0 0"), 2.5);
+  EXPECT_DOUBLE_EQ(place(tilted, "x y z", "0.5 0 0"), 0.5);
+  EXPECT_DOUBLE_EQ(place(bounds, "x y z", "+5.0D-01 0 0"), 0.5);
+  EXPECT_THROW(place(tilted, "xs ys zs", "0.5 0 0"), InputError);
+  EXPECT_THROW(place(tilted, "x y z ix iy iz", "0.5 0 0 1 0 0"), InputError);
+}
+
+TEST_F(FrameReaderTest, TheTimeStepOfADeckIsANumberOrIsNotKnown) {
+  const auto step_of = [&](const std::string& deck) {
+    put(deck);
+    const auto facts = dem::facts_of_deck(file);
+    EXPECT_EQ(facts.no_time_step.empty(), facts.time_step && *facts.time_step == 2e-6) << deck;
+    return facts.no_time_step;
+  };
+  EXPECT_EQ(step_of("units si\ntimestep 2e-6\nrun 10\ntimestep 0.000002\n"), "");
+  EXPECT_EQ(step_of("O.dt = 2e-6\n"), "");
+  for (const auto* deck : {"variable dt equal 2e-6\ntimestep ${dt}\n", "O.dt = 0.8*PWaveTimeStep()\n",
+                           "timestep 1e-6\nrun 10\ntimestep 3e-6\n", "timestep 0\n"})
+    EXPECT_NE(step_of(deck).find("give --timestep"), std::string::npos) << deck;
 }
 
 TEST_F(FrameReaderTest, Problems) {
@@ -157,8 +194,10 @@ TEST_F(FrameReaderTest, Problems) {
   EXPECT_NE(problem(" \nI\n:M").find("no column id"), std::string::npos);
   EXPECT_NE(problem(std::string(head) + "ITEM: ATOMS\n").find("no column id"), std::string::npos);
   EXPECT_NE(problem(good + "1 2 3\n").find("ITEM:"), std::string::npos);
-  EXPECT_NE(problem(std::string(head) + columns + "1 0.1 0.2 0.3 1 nan 3 4 5 6\n" + row_2).find("'nan'"),
-            std::string::npos);
+  for (const auto* value : {"nan", "inf", "-1e160"})
+    EXPECT_NE(problem(std::string(head) + columns + "1 0.1 0.2 0.3 1 " + value + " 3 4 5 6\n" + row_2)
+                  .find("the code has become unstable"),
+              std::string::npos);
   EXPECT_NE(problem(std::string(head) + columns + row_1 + row_1).find("twice"), std::string::npos);
   EXPECT_NE(problem("ITEM: UNITS\nlj\n" + good).find("units 'lj'"), std::string::npos);
   std::string three = good;

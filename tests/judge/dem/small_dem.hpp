@@ -34,6 +34,11 @@ struct Deck {
   V gravity{0, -9.8, 0};
   double contact_time = 50e-6, damping = 0.4024611, friction = 0.4;
   bool attracts = false;  ///< the damping pulls bodies back that separate
+  // Mistakes: a wall, or contacts of pairs, that are missing; an axis along which the box is periodic; a wall
+  // with another damping; a factor of torques, and of the velocity of the walls.
+  int missing_wall = -1, periodic_axis = -1, other_wall = -1;
+  bool has_pairs = true;
+  double other_damping = 0, torque = 1, wall_velocity = 1;
   double time_step = 1e-6, duration = 1, frames = 1e-5;
   unsigned seed = 1;
   int digits = 15;  ///< in the dump
@@ -83,6 +88,9 @@ class Run {
       for (std::size_t i = 0; i < d.balls; ++i) {
         v[i] = v[i] + f[i] * (h / 2 / d.mass()), w[i] = w[i] + torque[i] * (h / 2 / inertia());
         x[i] = x[i] + v[i] * h;
+        if (d.periodic_axis < 0) continue;
+        const auto axis = static_cast<std::size_t>(d.periodic_axis);
+        if (std::abs(x[i][axis]) > d.half[axis]) x[i][axis] -= std::copysign(2 * d.half[axis], x[i][axis]);
       }
       forces((static_cast<double>(step) + 1) * h);
       for (std::size_t i = 0; i < d.balls; ++i)
@@ -136,10 +144,11 @@ class Run {
 
   /// One contact: normal from the other body to ball i, the velocity of the surfaces, and the forces on ball
   /// i.
-  V contact(V& spring, double overlap, double stiffness, double mass, const V& n, const V& g) {
+  V contact(V& spring, double overlap, double stiffness, double mass, double damping, const V& n,
+            const V& g) {
     const double root = std::sqrt(overlap), speed = dot(g, n);
     double normal =
-        stiffness * overlap * root - d.damping * std::sqrt(stiffness * mass) * std::sqrt(root) * speed;
+        stiffness * overlap * root - damping * std::sqrt(stiffness * mass) * std::sqrt(root) * speed;
     if (normal < 0 && !d.attracts) normal = 0;
     spring = spring + (g - n * speed) * d.time_step;
     spring = spring - n * dot(spring, n);
@@ -153,7 +162,8 @@ class Run {
 
   void forces(double t) {
     const double phase = 2 * std::acos(-1.0) * d.frequency, s = std::sin(phase * t), c = std::cos(phase * t);
-    const V centre = d.amplitude * s + d.quarter * c, moving = (d.amplitude * c - d.quarter * s) * phase;
+    const V centre = d.amplitude * s + d.quarter * c;
+    const V moving = (d.amplitude * c - d.quarter * s) * (phase * d.wall_velocity);
     for (std::size_t i = 0; i < d.balls; ++i) f[i] = d.gravity * d.mass(), torque[i] = {};
     for (std::size_t i = 0; i < d.balls; ++i) {
       for (std::size_t wall = 0; wall < 6; ++wall) {
@@ -161,7 +171,9 @@ class Run {
         const double side = wall % 2 ? 1 : -1;
         V n{};
         n[k] = -side;
-        const double overlap = side * (x[i][k] - centre[k]) + d.radius - d.half[k];
+        const auto here = static_cast<int>(wall);
+        const bool missing = here == d.missing_wall || static_cast<int>(k) == d.periodic_axis;
+        const double overlap = missing ? -1 : side * (x[i][k] - centre[k]) + d.radius - d.half[k];
         note(i, wall, overlap > 0, t);
         V& spring = springs[(6 + d.balls) * i + wall];
         if (overlap <= 0) {
@@ -169,10 +181,11 @@ class Run {
           continue;
         }
         const V g = v[i] - moving - cross(w[i], n) * d.radius;
-        const V force = contact(spring, overlap, wall_stiffness, d.mass(), n, g);
-        f[i] = f[i] + force, torque[i] = torque[i] - cross(n, force) * d.radius;
+        const double damping = here == d.other_wall ? d.other_damping : d.damping;
+        const V force = contact(spring, overlap, wall_stiffness, d.mass(), damping, n, g);
+        f[i] = f[i] + force, torque[i] = torque[i] - cross(n, force) * (d.radius * d.torque);
       }
-      for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t j = 0; j < i && d.has_pairs; ++j) {
         const V apart = x[i] - x[j];
         V& spring = springs[(6 + d.balls) * i + 6 + j];
         if (dot(apart, apart) >= 4 * d.radius * d.radius) {
@@ -181,10 +194,11 @@ class Run {
         }
         const double distance = norm(apart);
         const V n = apart * (1 / distance), g = v[i] - v[j] - cross(w[i] + w[j], n) * d.radius;
-        const V force = contact(spring, 2 * d.radius - distance, pair_stiffness, d.mass() / 2, n, g);
+        const V force =
+            contact(spring, 2 * d.radius - distance, pair_stiffness, d.mass() / 2, d.damping, n, g);
         f[i] = f[i] + force, f[j] = f[j] - force;
-        torque[i] = torque[i] - cross(n, force) * d.radius,
-        torque[j] = torque[j] - cross(n, force) * d.radius;
+        const V turning = cross(n, force) * (d.radius * d.torque);
+        torque[i] = torque[i] - turning, torque[j] = torque[j] - turning;
       }
     }
   }

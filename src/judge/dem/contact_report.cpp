@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+
+#include "base/version.hpp"
+#include "compare/junit.hpp"
+#include "dem/contact_audit.hpp"
+#include "io/json_text.hpp"
+
+namespace edmill::dem {
+
+namespace {
+
+constexpr std::array<const char*, 3> verdicts{"agrees", "differs", "too few"},
+    sentences{"agrees with the case", "differs from the case", "too few contacts to judge"};
+
+std::string interval(const Median& m) {
+  return m.high > m.low ? fmt::format("{:.4f} ({:.4f} to {:.4f})", m.value, m.low, m.high)
+                        : fmt::format("{:.6g}", m.value);
+}
+
+std::string why_not(const Judged& j) {
+  if (!j.not_judged.empty()) return j.not_judged;
+  return fmt::format("{} contacts with {:.2g} % of the dose show it, {} are needed", j.found.count,
+                     100 * j.dose_share, Median::least);
+}
+
+std::string sentence(const Judged& j) {
+  return fmt::format("{} is {}{}{}, the case has {:.6g}", j.name, interval(j.found),
+                     j.unit.empty() ? "" : " ", j.unit, j.expected);
+}
+
+void put_values(io::JsonText& json, const std::vector<Judged>& values) {
+  json.groups("values", values, &Judged::name, [&](const Judged& j) {
+    json.add("found", j.found.value);
+    json.add("low", j.found.low);
+    json.add("high", j.found.high);
+    json.add("contacts", j.found.count);
+    json.add("dose_share", j.dose_share);
+    json.add("expected", j.expected);
+    json.add("allowed", j.allowed);
+    json.add("judged", j.known());
+    json.add("agrees", j.agrees());
+    if (!j.equation.empty()) json.add("equation", j.equation);
+  });
+}
+
+}  // namespace
+
+std::string table(const ContactAudit& a) {
+  const auto& f = a.facts;
+  const auto frames = f.of_list()
+                          ? std::string(" with walls")
+                          : fmt::format(" in {} frames, {:.3g} s apart", f.frames, f.statistics.interval);
+  std::string out = fmt::format(
+      "{}: {} contacts{}, {:g} s to {:g} s; a contact lasts {:.3g} s{}\n"
+      "judged by {}\n\n  {:<14}{:>10}{:>12}\n",
+      a.log_name, f.contacts, frames, f.first, f.last, f.statistics.contact_time,
+      a.interrupted ? " (interrupted)" : "", a.case_name, "contacts", "number", "of the dose");
+  const double dose = f.dose();
+  for (std::size_t k = 0; k < contact_class_names.size(); ++k)
+    out += fmt::format("  {:<14}{:>10}{:>11.2f}%\n", contact_class_names[k], a.counts[k],
+                       dose != 0 ? 100 * f.doses[k] / dose : 0);
+  out += fmt::format(
+      "\n  dose rate{}, by the balance of energy: {:.4g} ± {:.2g} W\n\n  {:<44}{:<28}{:>10}{:>10}  {}\n",
+      f.of_list() ? " of these contacts" : "", a.dose_rate, a.dose_rate_half_width, "value",
+      "found, 95 % interval", "case", "allowed", "");
+  for (const auto& j : a.judged)
+    if (!j.is_part || !j.agrees() || j.is_open())
+      out += j.known() ? fmt::format("  {:<44}{:<28}{:>10.5g}{:>10.2g}  {}\n", j.name, interval(j.found),
+                                     j.expected, j.allowed, j.agrees() ? "" : "differs")
+                       : fmt::format("  {:<44}not judged: {}\n", j.name, why_not(j));
+  if (a.wall_resolution > 0)
+    out += fmt::format(
+        "\n  balls leave their flights {:.3g} m from the walls of the case; frames resolve {:.3g} m\n",
+        a.wall_distance, a.wall_resolution);
+  for (const auto& cause : a.causes)
+    out += fmt::format("    with {}: {}; then {:.3g} m\n", cause.key, cause.text, cause.left);
+  if (!a.walls_met() && a.causes.empty()) out += "    no single number of mill or vessel explains it\n";
+  if (!a.slips.empty())
+    out += "\n  what a contact leaves of the slip\n  slip/approach   at walls            between balls\n";
+  for (const auto& s : a.slips) {
+    const auto cell = [](const Median& m) {
+      return m.known() ? fmt::format("{:.3f} ± {:.3f}", m.value, m.half_width()) : "-";
+    };
+    out += fmt::format("  {:<16.3f}{:<20}{}\n", s.ratio, cell(s.of_walls), cell(s.of_balls));
+  }
+  return out + fmt::format("\n  verdict: {}\n", sentences[static_cast<std::size_t>(a.verdict)]);
+}
+
+std::string to_json(const ContactAudit& a) {
+  io::JsonText json;
+  json.add("format", "edmill contact audit 2");
+  json.add("version", version());
+  json.add("verdict", verdicts[static_cast<std::size_t>(a.verdict)]);
+  json.add("case", a.case_name);
+  json.add("log", a.log_name);
+  json.add("contacts", a.facts.contacts);
+  json.add("frames", a.facts.frames);
+  json.add("frame_interval", a.facts.statistics.interval);
+  json.add("contact_time", a.facts.statistics.contact_time);
+  json.begin("classes");
+  for (std::size_t k = 0; k < contact_class_names.size(); ++k) {
+    json.begin(contact_class_names[k]);
+    json.add("contacts", a.counts[k]);
+    json.add("milling_dose", a.facts.doses[k]);
+    json.end();
+  }
+  json.end();
+  json.add("milling_dose_rate", a.dose_rate);
+  json.add("milling_dose_rate_half_width", a.dose_rate_half_width);
+  put_values(json, a.judged);
+  json.add("wall_distance", a.wall_distance);
+  json.add("wall_resolution", a.wall_resolution);
+  const auto ratio_of = [](const auto& s) { return fmt::format("{:.4g}", s.ratio); };
+  json.groups("slips", a.slips, ratio_of, [&](const auto& s) {
+    for (const auto* m : {&s.of_walls, &s.of_balls}) {
+      if (!m->known()) continue;
+      json.add(m == &s.of_walls ? "walls" : "balls", m->value);
+      json.add(m == &s.of_walls ? "walls_half_width" : "balls_half_width", m->half_width());
+    }
+  });
+  json.groups("causes", a.causes, &GeometryCause::key, [&](const GeometryCause& c) {
+    json.add("value", c.value);
+    json.add("half_width", c.half_width);
+    json.add("expected", c.expected);
+    json.add("left", c.left);
+  });
+  return json.finish();
+}
+
+std::string to_junit(const ContactAudit& a) {
+  std::vector<compare::JunitCase> cases;
+  for (const auto& j : a.judged)
+    cases.push_back({j.name, j.agrees() ? "" : sentence(j), j.known() ? "" : why_not(j)});
+  std::string moved;
+  if (!a.walls_met()) moved = "balls leave their flights away from the walls of the case";
+  for (const auto& c : a.causes) moved += fmt::format("; with {}: {}", c.key, c.text);
+  cases.push_back({"places of the walls", moved});
+  cases.push_back(
+      {"enough contacts", a.verdict != ContactVerdict::too_few ? "" : "too few contacts to judge"});
+  return compare::junit_text("edmill audit of " + a.log_name, cases);
+}
+
+}  // namespace edmill::dem
