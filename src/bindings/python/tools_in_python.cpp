@@ -41,11 +41,11 @@ std::size_t study(const std::string& file, const std::string& folder, int jobs) 
 }
 
 /// @return the result in JSON
-std::string compare(const std::string& a, const std::string& b, double tolerance,
+std::string compare(const std::string& a, const std::string& b, std::optional<double> tolerance,
                     std::optional<std::uint64_t> events, std::optional<double> from,
-                    std::optional<double> until, std::optional<double> batch) {
+                    std::optional<double> until, std::optional<double> batch, std::optional<double> within) {
   const Unlocked others;
-  return app::compare({a, b, {from, until}, batch, tolerance, events}).json;
+  return app::compare({a, b, {from, until}, batch, tolerance, events, within}).json;
 }
 
 /// @return the result in JSON

@@ -112,7 +112,7 @@ EventComparison compare_events(const Comparison& c) {
         difference[v] = scale > 0 ? distance / scale : std::numeric_limits<double>::infinity();
     }
     const auto worst = std::max_element(difference.begin(), difference.end());
-    if (*worst > c.options.tolerance) {
+    if (*worst > c.options.event_tolerance()) {
       const auto v = static_cast<std::size_t>(worst - difference.begin());
       result.first = {*a, *b, std::string(model::logged_quantities[v].name), *worst};
       continue;
@@ -216,13 +216,13 @@ class Judge {
 
 std::vector<Quantity> judge(const Comparison& c) {
   // Spectra in classes above what counts as 0: far below the mean, and within the tolerance.
-  const double zero = std::max(c.options.tolerance, 1e-9);
+  const double zero = std::max(c.options.event_tolerance(), 1e-9);
   const SpectrumClasses speed_classes(zero * c.a.mean_magnitude[model::approach_speed]);
   const SpectrumClasses dose_classes(zero * c.a.mean_magnitude[model::milling_dose]);
   const int walls = std::max(c.a.walls, c.b.walls);
   const auto a = cut_into_batches(c.options.a, c.times, walls, speed_classes, dose_classes);
   const auto b = cut_into_batches(c.options.b, c.times, walls, speed_classes, dose_classes);
-  Judge judge(a, b, c.options.tolerance);
+  Judge judge(a, b, c.options.event_tolerance());
   const auto sum_of = [](const std::vector<Batch>& batches, const auto& get) {
     double sum = 0;
     for (const auto& batch : batches) sum += get(batch);

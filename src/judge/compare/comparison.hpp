@@ -33,8 +33,11 @@ struct Options {
   std::filesystem::path a, b;  ///< folders of runs, or logs; A is the reference
   Limits limits;
   std::optional<double> batch;          ///< length [s]; a twentieth of the common time unless given
-  double tolerance = 1e-9;              ///< relative, for events
+  std::optional<double> tolerance;      ///< relative, for events; 1e-9 by default
   std::optional<std::uint64_t> events;  ///< that must agree one by one
+  std::optional<double> within;  ///< largest relative difference of the dose rates of contacts that last
+
+  double event_tolerance() const { return tolerance.value_or(1e-9); }
 };
 
 enum class Verdict { agree, differ, too_few, not_compared };

@@ -53,7 +53,7 @@ std::string table(const Comparison& c) {
   };
   const auto& e = c.events;
   row("event by event",
-      fmt::format("{} agree within {:g}{}{}", e.agreeing, c.options.tolerance,
+      fmt::format("{} agree within {:g}{}{}", e.agreeing, c.options.event_tolerance(),
                   e.agreeing > 0 ? fmt::format(", up to {:g} s", e.horizon) : "",
                   c.events_verdict
                       ? fmt::format(": {} ({} required)", name_of(*c.events_verdict), *c.options.events)
@@ -104,7 +104,7 @@ std::string to_json(const Comparison& c) {
   json.add("verdict", name_of(c.verdict));
   put_log(json, "a", c.a);
   put_log(json, "b", c.b);
-  json.add("tolerance", c.options.tolerance);
+  json.add("tolerance", c.options.event_tolerance());
 
   const auto& e = c.events;
   json.begin("event_by_event");

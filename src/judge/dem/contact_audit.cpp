@@ -106,7 +106,7 @@ Judged judged(const Value& value, const std::string& where, const std::vector<Me
       .name = fmt::format("{} {}", value.name, where), .equation = value.equation, .allowed = value.allowed};
   for (const auto& measured : list)
     if (const auto found = value.found(measured)) {
-      if (all_dose > 0) j.dose_share += measured.dose / all_dose;
+      if (all_dose > 0) j.dose_share += std::abs(measured.dose) / all_dose;
       if (!is_clear(measured)) continue;
       pressed.push_back(std::abs(measured.pressed));
       turned.push_back(measured.turned);
@@ -129,7 +129,7 @@ void judge_laws(const std::vector<Measured>& list, Judged::Of of, ContactAudit& 
     for (const auto& part : measured.parts) parts[part].push_back(measured);
   std::erase_if(parts, [&](const auto& part) { return part.second.size() == list.size(); });
   const Clear is_clear(list);
-  const double dose = audit.facts.dose(), number = static_cast<double>(parts.size());
+  const double dose = audit.magnitude, number = static_cast<double>(parts.size());
   const auto add = [&](Judged judged) {
     judged.of = of;
     if (judged.dose_share > 0) audit.judged.push_back(std::move(judged));
@@ -154,8 +154,7 @@ void leave_out(ContactAudit& audit, const std::string& because, const auto& whic
 /// that leaves less of the differences.
 void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit) {
   const Clear is_clear(walls);
-  auto velocity =
-      judged(wall_velocity, "of the walls over the case's", walls, is_clear, 1, audit.facts.dose());
+  auto velocity = judged(wall_velocity, "of the walls over the case's", walls, is_clear, 1, audit.magnitude);
   const auto e = std::ranges::find(audit.judged, "restitution at walls", &Judged::name);
   if (!velocity.known() || e == audit.judged.end()) return;
   std::vector<double> by_restitution, by_velocity;
@@ -166,12 +165,12 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
     by_velocity.push_back(
         std::abs(off - (velocity.found.value - 1) * (1 + s.law_restitution) * s.wall_speed));
   }
-  const bool is_velocity = 2 * median_of(by_velocity).value < median_of(by_restitution).value;
-  if (is_velocity)
+  const bool is_velocity = median_of(by_velocity).value < median_of(by_restitution).value;
+  if (is_velocity && !velocity.agrees())
     leave_out(audit, "it would follow from the velocity of the walls", [](const Judged& j) {
       return j.of == Judged::Of::walls && j.equation == restitution.equation;
     });
-  else if (!e->agrees())
+  else if (!is_velocity && !e->agrees())
     velocity.not_judged = "it would follow from the restitution";
   velocity.of = Judged::Of::walls;
   audit.judged.push_back(velocity);
@@ -203,6 +202,9 @@ void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
     add("dose with no wall or ball", facts.doses[static_cast<std::size_t>(ContactClass::unexplained)] / all,
         0, 0, 0.01, Judged::Of::walls);
   if (facts.of_list()) return;
+  add("displacements over those by velocities", facts.statistics.way_factor, 0, 1, 0.01);
+  leave_out(audit, "no ball moves",
+            [](const Judged& j) { return j.name.starts_with("displacements") && j.found.value == 0; });
   add("contacts missed at walls", static_cast<double>(audit.missed_at_walls), 0, 0, 0, Judged::Of::walls);
   add("contacts missed between balls", static_cast<double>(audit.missed_between_balls), 0, 0, 0,
       Judged::Of::balls);
@@ -256,6 +258,7 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
                                    balls_of_case, vessel.walls()));
     ++audit.counts[static_cast<std::size_t>(c.kind)];
     rate.add((c.begin + c.end) / 2, c.dose);
+    audit.magnitude += std::abs(c.dose);
     if (c.kind == ContactClass::wall) walls.push_back(contacts.at_wall(c));
     if (c.kind == ContactClass::pair) balls.push_back(contacts.between_balls(c));
     if (c.kind == ContactClass::missed)
@@ -270,12 +273,20 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
   judge_laws(walls, Judged::Of::walls, audit);
   judge_laws(balls, Judged::Of::balls, audit);
   judge_wall_velocity(walls, audit);
+  for (const auto of : {Judged::Of::walls, Judged::Of::balls})
+    if (std::ranges::any_of(audit.judged, [=](const Judged& j) {
+          return j.of == of && j.equation == spin_change.equation && !j.agrees();
+        }))
+      leave_out(audit, "the spins differ",
+                [=](const Judged& j) { return j.of == of && j.equation == friction.equation; });
   judge_facts(mill, audit);
   audit.slips = slips_of(walls, balls);
   // Balls of another size meet the walls elsewhere.
   const double size = audit.facts.radius_factor;
   const bool is_other_size = size != 1 && size != 0;
   if (!is_other_size && !audit.facts.of_list()) judge_places(spec, at_walls, options.interrupt, audit);
+  if (audit.counts[static_cast<std::size_t>(ContactClass::jump)] > 0)
+    leave_out(audit, "balls jump", [](const Judged& j) { return j.name == "dose with no wall or ball"; });
   if (is_other_size || (!audit.causes.empty() && audit.causes[0].key.starts_with("ball")))
     leave_out(audit, "the balls have another size", [](const Judged& j) { return j.of != Judged::Of::log; });
   else if (!audit.walls_met())

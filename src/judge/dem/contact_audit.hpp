@@ -55,6 +55,7 @@ struct ContactAudit {
   ContactLogFacts facts;
   ContactVerdict verdict = ContactVerdict::too_few;
   std::array<std::uint64_t, contact_class_names.size()> counts{};
+  double magnitude = 0;  ///< sum of the doses of all contacts, each without its sign [J]
   std::uint64_t missed_at_walls = 0, missed_between_balls = 0;
   std::vector<Judged> judged;
   std::vector<SlipBin> slips;

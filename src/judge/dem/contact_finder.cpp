@@ -88,10 +88,17 @@ FrameStatistics statistics_of(const std::vector<Frame>& frames, const Vector& ex
   set_gravity(frames, s);
   const Vector off = (s.gravity - expected_gravity).cwiseAbs(), known_to = 3 * s.gravity_half_width;
   if ((off.array() <= known_to.array() + 1e-6).all()) s.gravity = expected_gravity;
-  std::vector<double> changes;
+  std::vector<double> changes, ways;
   for (std::size_t k = 1; k < frames.size(); ++k)
-    for (std::size_t i = 0; i < balls; ++i)
+    for (std::size_t i = 0; i < balls; ++i) {
       changes.push_back(change_of(frames[k - 1], frames[k], i, s.gravity));
+      const auto &a = frames[k - 1].balls[i], &b = frames[k].balls[i];
+      const Vector due = (a.velocity + b.velocity) * ((frames[k].time - frames[k - 1].time) / 2),
+                   way = b.position - a.position;
+      if (const double square = dot<double>(due, due); square > 0)
+        ways.push_back(dot<double>(way, due) / square);
+    }
+  s.way_factor = median_of(std::move(ways)).value;
   std::sort(changes.begin(), changes.end());
   s.kick = std::clamp(20 * changes[changes.size() / 4], 2e-5, 1e-2);
   std::vector<double> stretches;

@@ -74,7 +74,7 @@ ContactLogFacts read_facts(const std::string& file) {
       {"# frames ", {&frames, &contacts, &facts.first, &facts.last, &s.interval}},
       {"# gravity ", {&gravity[0], &gravity[1], &gravity[2], &width[0], &width[1], &width[2]}},
       {"# contact_time ", {&s.contact_time, &s.kick}},
-      {"# factors ", {&facts.mass_factor, &facts.radius_factor}},
+      {"# factors ", {&facts.mass_factor, &facts.radius_factor, &s.way_factor}},
       {"# doses ", all_doses}};
   std::size_t known = 0;
   for (std::uint64_t number = 2; std::getline(in, line) && line.starts_with("#"); ++number) {
@@ -162,10 +162,10 @@ void ContactLogWriter::write(std::ostream& out, const ContactLogFacts& f) {
   const auto& s = f.statistics;
   out << fmt::format(
       "{}\n# dump {}\n# frames {} {} {} {} {}\n# gravity {} {}\n# contact_time {} {}\n"
-      "# factors {} {}\n# facets {}\n# doses {}\n{}\n",
+      "# factors {} {} {}\n# facets {}\n# doses {}\n{}\n",
       first_line, one_line(f.dump), f.frames, f.contacts, f.first, f.last, s.interval,
       fmt::join(s.gravity, " "), fmt::join(s.gravity_half_width, " "), s.contact_time, s.kick, f.mass_factor,
-      f.radius_factor, f.facets, fmt::join(f.doses, " "), header());
+      f.radius_factor, s.way_factor, f.facets, fmt::join(f.doses, " "), header());
   check_temporary_file(std::fflush(rows_.get()) == 0);
   std::rewind(rows_.get());
   std::array<char, 65536> block;

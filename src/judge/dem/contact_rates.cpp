@@ -97,19 +97,49 @@ std::string sentence(const ContactComparison& c) {
   return fmt::format("dose rate of B over that of A: {:.4f} ± {:.4f}", 1 + c.difference, c.half_width);
 }
 
+const char* word_for(compare::Verdict verdict) {
+  return verdict == compare::Verdict::agree    ? "agree"
+         : verdict == compare::Verdict::differ ? "differ"
+                                               : "too few";
+}
+
+constexpr double widest = 0.05;  ///< interval with which rates are said to agree
+
+std::string sentence(compare::Verdict verdict, double half_width, std::optional<double> within) {
+  const auto bound = within ? fmt::format(" within {:g} %", 100 * *within) : std::string();
+  if (verdict == compare::Verdict::agree) return "the dose rates agree" + bound;
+  if (verdict == compare::Verdict::differ)
+    return "the dose rates differ" + (within ? " by more than" + bound.substr(7) : "");
+  return fmt::format("too few data: the ratio is known to ± {:.2g} %, {}", 100 * half_width,
+                     within
+                         ? "which leaves open whether it is" + bound
+                         : fmt::format("± {:g} % are needed; --within asks for other bounds", 100 * widest));
+}
+
 }  // namespace
 
-ContactComparison compare_contacts(const std::string& a, const std::string& b, double from, double until) {
-  ContactComparison c;
-  const Window window{from, until, true};
+compare::Verdict verdict_of(double difference, double half_width, std::optional<double> within) {
+  using compare::Verdict;
+  const double off = std::abs(difference);
+  if (within)
+    return off + half_width <= *within  ? Verdict::agree
+           : off - half_width > *within ? Verdict::differ
+                                        : Verdict::too_few;
+  return off > half_width ? Verdict::differ : half_width <= widest ? Verdict::agree : Verdict::too_few;
+}
+
+ContactComparison compare_contacts(const compare::Options& options) {
+  const auto a = options.a.string(), b = options.b.string();
+  ContactComparison c{.within = options.within};
+  const Window window{options.limits.from.value_or(0), options.limits.until.value_or(infinity), true};
   c.a = is_contact_log(a) ? rates_of_contacts(a, window, 0) : rates_of_impacts(a, window);
   c.b = is_contact_log(b) ? rates_of_contacts(b, window, is_contact_log(a) ? 0 : c.a.first)
                           : rates_of_impacts(b, window);
-  c.known = c.a.dose_rate > 0 && c.b.dose_rate > 0;
-  if (!c.known) return c;
+  if (!(c.a.dose_rate > 0 && c.b.dose_rate > 0)) return c;
   const double ratio = c.b.dose_rate / c.a.dose_rate;
   c.difference = ratio - 1;
   c.half_width = ratio * relative_half_width(c.a.half_width / c.a.dose_rate, c.b.half_width / c.b.dose_rate);
+  c.verdict = verdict_of(c.difference, c.half_width, c.within);
   return c;
 }
 
@@ -131,15 +161,15 @@ std::string table(const ContactComparison& c) {
     out +=
         "  contacts that last do not have the dose rate of impacts exactly; `edmill limit` takes their "
         "duration to zero\n";
-  return out + fmt::format("\n  verdict: {}\n", !c.known    ? "too few data: a record has no dose"
-                                                : c.agree() ? "the dose rates agree"
-                                                            : "the dose rates differ");
+  const bool has_dose = c.a.dose_rate > 0 && c.b.dose_rate > 0;
+  return out + fmt::format("\n  verdict: {}\n", has_dose ? sentence(c.verdict, c.half_width, c.within)
+                                                         : "too few data: a record has no dose");
 }
 
 std::string to_json(const ContactComparison& c) {
   io::JsonText json;
   json.add("format", "edmill contact comparison 1");
-  json.add("verdict", !c.known ? "too few" : c.agree() ? "agree" : "differ");
+  json.add("verdict", word_for(c.verdict));
   for (const auto* r : {&c.a, &c.b}) {
     json.begin(r == &c.a ? "a" : "b");
     json.add("log", r->log);
@@ -154,12 +184,16 @@ std::string to_json(const ContactComparison& c) {
   }
   json.add("difference", c.difference);
   json.add("half_width", c.half_width);
+  if (c.within) json.add("within", *c.within);
   return json.finish();
 }
 
 std::string to_junit(const ContactComparison& c) {
+  using compare::Verdict;
   return compare::junit_text("edmill compare",
-                             {{.name = "dose rate", .problem = c.known && c.agree() ? "" : sentence(c)}});
+                             {{.name = "dose rate",
+                               .problem = c.verdict == Verdict::differ ? sentence(c) : "",
+                               .not_judged = c.verdict == Verdict::too_few ? sentence(c) : ""}});
 }
 
 double Limit::ratio_half_width() const {
@@ -207,7 +241,9 @@ std::string table(const Limit& limit) {
   row("0", limit.value, limit.half_width, "limit, by a weighted line");
   if (limit.edmill) {
     row("0", limit.edmill->dose_rate, limit.edmill->half_width, limit.edmill->log);
-    out += fmt::format("\n  limit over edmill: {:.4f} ± {:.4f}\n", limit.ratio(), limit.ratio_half_width());
+    out += fmt::format("\n  limit over edmill: {:.4f} ± {:.4f}\n\n  verdict: {}\n", limit.ratio(),
+                       limit.ratio_half_width(),
+                       sentence(limit.verdict(), limit.ratio_half_width(), limit.within));
   }
   return out;
 }
@@ -228,6 +264,7 @@ std::string to_json(const Limit& limit) {
     json.add("edmill_half_width", limit.edmill->half_width);
     json.add("ratio", limit.ratio());
     json.add("ratio_half_width", limit.ratio_half_width());
+    json.add("verdict", word_for(limit.verdict()));
   }
   return json.finish();
 }

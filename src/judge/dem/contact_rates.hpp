@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/comparison.hpp"
+
 namespace edmill::dem {
 
 /// Rates of one record with their 95 % intervals.
@@ -19,18 +21,20 @@ struct ContactRates {
   double grouped = 0;                    ///< share of the dose that groups and lasting contacts have
 };
 
-struct ContactComparison {
-  ContactRates a, b;
-  double difference = 0, half_width = 0;  ///< of dose rates, relative to A
-  bool known = false;                     ///< enough of both records to judge
+/// Of a difference with its 95 % interval: it agrees if the interval is within what is asked for, and differs
+/// if it is beyond. Where nothing is asked for, it agrees if the interval holds 0 and is no wider than 5 %.
+compare::Verdict verdict_of(double difference, double half_width, std::optional<double> within);
 
-  bool agree() const { return std::abs(difference) <= half_width; }
+struct ContactComparison {
+  ContactRates a = {}, b = {};
+  double difference = 0, half_width = 0;  ///< of dose rates, relative to A
+  std::optional<double> within = {};      ///< that was asked for
+  compare::Verdict verdict = compare::Verdict::too_few;
 };
 
-/// @param a  reference: folder of a run, a collision log, or a log of contacts
-/// @param b  a log of contacts
+/// @param options  A is a run, a collision log or a log of contacts, B a log of contacts, or the reverse
 /// @throws InputError
-ContactComparison compare_contacts(const std::string& a, const std::string& b, double from, double until);
+ContactComparison compare_contacts(const compare::Options& options);
 
 std::string table(const ContactComparison& comparison);
 std::string to_json(const ContactComparison& comparison);
@@ -41,7 +45,11 @@ struct Limit {
   double value = 0, half_width = 0;    ///< dose rate at contact time zero, with its 95 % interval [W]
   double slope = 0;                    ///< [W/s]
   std::optional<ContactRates> edmill;  ///< contact time 0
+  std::optional<double> within = {};   ///< that was asked for
 
+  compare::Verdict verdict() const {
+    return edmill ? verdict_of(ratio() - 1, ratio_half_width(), within) : compare::Verdict::not_compared;
+  }
   double ratio() const { return value / edmill->dose_rate; }
   double ratio_half_width() const;
 };

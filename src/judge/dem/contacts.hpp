@@ -47,6 +47,7 @@ struct FrameStatistics {
   Vector gravity_half_width{0, 0, 0};  ///< of its 95 % interval
   double kick = 0;                     ///< velocity changes below are noise [m/s]
   double contact_time = 0;             ///< median of the time in which a ball does not fly [s]
+  double way_factor = 0;               ///< median of displacements over those by the velocities; 0 unknown
 };
 
 /// @pre at least three frames

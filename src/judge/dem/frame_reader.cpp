@@ -133,6 +133,14 @@ bool begins_binary_dump(int first_byte) {
 
 }  // namespace
 
+bool is_dump(const std::string& file) {
+  if (io::is_stream(file) || !io::is_readable(file)) return false;
+  io::InputFile in(file, "a log");
+  if (begins_binary_dump(in.peek())) return true;
+  std::string line;
+  return std::getline(in, line) && line.starts_with("ITEM: ");
+}
+
 DeckFacts facts_of_deck(const std::string& deck) {
   DeckFacts facts;
   io::InputFile in(deck, "a deck of LAMMPS, LIGGGHTS or YADE");

@@ -8,6 +8,7 @@
 #include "compare/junit.hpp"
 #include "dem/contact_audit.hpp"
 #include "dem/contact_rates.hpp"
+#include "dem/frame_reader.hpp"
 #include "io/input_file.hpp"
 #include "io/json_text.hpp"
 
@@ -34,7 +35,7 @@ audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given)
   if (given.tolerance) options.tolerance = *given.tolerance;
   if (given.gap_tolerance) options.gap_tolerance = given.gap_tolerance;
   options.from_start = options.from_start || given.from_start;
-  options.examples = given.examples;
+  options.examples = given.examples.value_or(options.examples);
   options.interrupt = given.interrupt;
   options.progress = given.progress;
   return options;
@@ -64,6 +65,24 @@ Judged::Verdict verdict_of(bool good, bool bad) {
   return good ? Judged::Verdict::good : bad ? Judged::Verdict::bad : Judged::Verdict::too_few_data;
 }
 
+/// Options that mean nothing for such logs.
+void refuse(const std::vector<std::pair<const char*, bool>>& options, const char* found,
+            const char* expected) {
+  std::vector<const char*> given;
+  for (const auto& [name, is_given] : options)
+    if (is_given) given.push_back(name);
+  if (!given.empty())
+    throw InputError(
+        fmt::format("{}: found a log of {}, expected one of {}", fmt::join(given, ", "), found, expected));
+}
+
+void refuse_frames(const std::string& log) {
+  if (dem::is_dump(log))
+    throw InputError(fmt::format(
+        "{}: found frames of a DEM code, expected a log: make one with edmill import {} --case CASE", log,
+        log));
+}
+
 Judged judged(const auto& found, bool good, bool bad) {
   return {verdict_of(good, bad), to_json(found), to_junit(found), table(found)};
 }
@@ -72,20 +91,35 @@ Judged judged(const auto& found, bool good, bool bad) {
 
 Judged compare(const compare::Options& options) {
   const io::Spool pipes;
+  using compare::Verdict;
   const auto a = options.a.string(), b = options.b.string();
+  for (const auto& log : {a, b}) refuse_frames(log);
   if (dem::is_contact_log(a) || dem::is_contact_log(b)) {
-    const auto& [from, until] = options.limits;
-    const auto found = dem::compare_contacts(a, b, from.value_or(0),
-                                             until.value_or(std::numeric_limits<double>::infinity()));
-    return judged(found, found.known && found.agree(), found.known);
+    refuse({{"--tolerance", options.tolerance.has_value()},
+            {"--events", options.events.has_value()},
+            {"--batch", options.batch.has_value()}},
+           "contacts that last", "impacts");
+    const auto found = dem::compare_contacts(options);
+    return judged(found, found.verdict == Verdict::agree, found.verdict == Verdict::differ);
   }
+  refuse({{"--within", options.within.has_value()}}, "impacts", "contacts that last");
   const auto found = compare::compare(options);
-  return judged(found, found.verdict == compare::Verdict::agree, found.verdict == compare::Verdict::differ);
+  return judged(found, found.verdict == Verdict::agree, found.verdict == Verdict::differ);
 }
 
 Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   const io::Spool pipes;
+  refuse_frames(given.log);
   if (dem::is_contact_log(given.log)) {
+    refuse({{"--column", !given.columns.empty()},
+            {"--first-ball", given.first_ball.has_value()},
+            {"--walls", !given.walls.empty()},
+            {"--tolerance", given.tolerance.has_value()},
+            {"--gap-tolerance", given.gap_tolerance.has_value()},
+            {"--from-start", given.from_start},
+            {"--identify", given.identify},
+            {"--examples", given.examples.has_value()}},
+           "contacts that last", "impacts");
     const auto found = dem::audit_contacts(spec, {given.log, given.interrupt});
     return judged(found, found.verdict == dem::ContactVerdict::agrees,
                   found.verdict == dem::ContactVerdict::differs);

@@ -32,8 +32,8 @@ struct AuditOptions {
   std::optional<int> first_ball;
   std::string walls;
   bool from_start = false;
-  bool identify = false;  ///< search beyond single causes
-  std::size_t examples = 3;
+  bool identify = false;                ///< search beyond single causes
+  std::optional<std::size_t> examples = {};  ///< of each kind of violation; 3 by default
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double time, std::uint64_t events)> progress{};
   identify::Progress searching{};  ///< called at each stage of a search for the cause

@@ -150,11 +150,27 @@ def limits():
     os.remove("some.dump")
     done = run("compare", "reference", logs[2], "--json", "compare.json", "--junit", "compare.xml")
     found = json.load(open("compare.json"))
-    check(done.returncode in (0, 6) and abs(found["difference"]) < 0.2, done.stdout)
+    off, half_width = abs(found["difference"]), found["half_width"]
+    check(off < 0.2 and done.returncode == (6 if off > half_width else 0 if half_width <= 0.05 else 7), done.stdout)
+    for within, code in ((off + 1.01 * half_width, 0), (off + 0.99 * half_width, 7), (off - 1.01 * half_width, 6)):
+        if within > 0:
+            check(run("compare", "reference", logs[2], "--within", f"{100 * within:.9f}%").returncode == code, f"{within} {done.stdout}")
+    for words in (("compare", "reference", logs[2], "--events", "3"), ("compare", logs[0], logs[2], "--tolerance", "1e-6"),
+                  ("audit", CASE, logs[2], "--identify"), ("audit", CASE, logs[2], "--first-ball", "1", "--examples", "2")):
+        fails("found a log of contacts that last, expected one of impacts", *words)
+    fails("found a log of impacts, expected one of contacts that last", "compare", "reference", "reference", "--within", "5%")
+    fails("a part of the dose rate", "compare", "reference", logs[2], "--within", "5")
+    fails("edmill import right.dump", "audit", CASE, "right.dump")
+    fails("edmill import right.dump", "compare", "reference", "right.dump")
     check(run("compare", "reference", logs[2], "--from", "1000").returncode == 2, "no time in common")
     done = run("limit", *logs, "--edmill", "reference", "--from", "1 s", "--json", "limit.json", "--draw", "limit.svg")
     found = json.load(open("limit.json"))
-    check(done.returncode == 0 and abs(found["ratio"] - 1) < 2 * found["ratio_half_width"] + 0.05, done.stdout + done.stderr)
+    off, half_width = abs(found["ratio"] - 1), found["ratio_half_width"]
+    check(off < 2 * half_width + 0.05, done.stdout + done.stderr)
+    check(done.returncode == (6 if off > half_width else 0 if half_width <= 0.05 else 7), f"{found['verdict']}: {done.stdout}")
+    done = run("limit", *logs, "--edmill", "reference", "--from", "1 s", "--within", "50%")
+    check(done.returncode == 0 and "agree within 50 %" in done.stdout, done.stdout)
+    check(run("limit", *logs, "--from", "1 s").returncode == 0, "a limit beside nothing")
     check(xml.parse("limit.svg").getroot().tag.endswith("svg") and "nan" not in pathlib.Path("limit.svg").read_text(), "the drawing")
     fails("differ by more than a fifth", "limit", logs[0], logs[0])
 

@@ -38,14 +38,14 @@ def _optional(check, name: str, value: Any, *bounds: Any) -> Any:
     return None if value is None else check(name, value, *bounds)
 
 
-def compare(a: str | os.PathLike, b: str | os.PathLike, *, tolerance: float = 1e-9, events: int | None = None,
-            start: float | None = None, end: float | None = None, batch: float | None = None) -> Judgement:
-    """As `edmill compare`: two folders of runs, or logs; `a` is the reference. Times in s."""
+def compare(a: str | os.PathLike, b: str | os.PathLike, *, tolerance: float | None = None, events: int | None = None,
+            start: float | None = None, end: float | None = None, batch: float | None = None, within: float | None = None) -> Judgement:
+    """As `edmill compare`: two folders of runs, or logs; `a` is the reference. Times in s; `within` is relative."""
     a, b = place("a", a), place("b", b)
-    tolerance = number("tolerance", tolerance)
     events = _optional(whole, "events", events, 1, LARGEST)
     start, end, batch = (_optional(number, n, v) for n, v in (("start", start), ("end", end), ("batch", batch)))
-    return Judgement(json.loads(_edmill.compare(a, b, tolerance, events, start, end, batch)))
+    tolerance, within = _optional(number, "tolerance", tolerance), _optional(number, "within", within)
+    return Judgement(json.loads(_edmill.compare(a, b, tolerance, events, start, end, batch, within)))
 
 
 def audit(case: Case | Mapping | str | os.PathLike, log: str | os.PathLike, *, columns: Mapping[str, str] | None = None,

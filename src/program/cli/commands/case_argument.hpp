@@ -4,10 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/errors.hpp"
 #include "casefile/case_spec.hpp"
 #include "casefile/memory_for.hpp"
+#include "casefile/quantity.hpp"
 #include "cli/exit_codes.hpp"
 #include "io/input_file.hpp"
 
@@ -25,6 +28,20 @@ struct CaseArgument {
   }
   casefile::CaseSpec read() const { return casefile::read_case(file, overrides); }
 };
+
+/// "1%" or "0.01". @throws InputError when it is no part of 1
+inline double part_of_one(const std::string& option, const std::string& text) {
+  std::string_view number = text;
+  const bool percent = number.ends_with('%');
+  if (percent) number.remove_suffix(1);
+  while (number.ends_with(' ')) number.remove_suffix(1);
+  const auto value = casefile::parse_decimal(number);
+  const double part = value ? value->to<double>() / (percent ? 100 : 1) : 0;
+  if (!(part > 0 && part < 1))
+    throw InputError(option + ": found \"" + text +
+                     "\", expected a part of the dose rate above 0 and below 1: \"1%\" or 0.01");
+  return part;
+}
 
 /// Name for the outputs of a case: the stem of its file.
 inline std::string name_of(const std::string& case_file) {

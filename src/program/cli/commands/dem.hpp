@@ -147,21 +147,26 @@ struct Limit {
         ->expected(2, 100);
     command.add_option("--edmill", run_, "run of edmill, or its collision log, to compare the limit with");
     add_quantity(command, "--from", from_, casefile::Dimension::time, "time to begin at; all unless given");
+    command.add_option("--within", within_,
+                       "largest difference of the limit from edmill, relative: \"5%\" or 0.05");
     command.add_option("--json", json_, "file for the result in JSON");
     command.add_option("--draw", svg_, "file for a drawing (SVG)");
     command.add_flag("--quiet", quiet_, "no table");
   }
   int run() {
-    const auto limit = dem::limit_of(logs_, run_, from_);
+    auto limit = dem::limit_of(logs_, run_, from_);
+    if (!within_.empty()) limit.within = part_of_one("--within", within_);
     write_to(json_, dem::to_json(limit));
     write_to(svg_, dem::to_svg(limit));
     if (!quiet_) io::print("{}", dem::table(limit));
-    return ok;
+    using compare::Verdict;
+    const auto verdict = limit.verdict();
+    return verdict == Verdict::differ ? outputs_differ : verdict == Verdict::too_few ? too_few_data : ok;
   }
 
  private:
   std::vector<std::string> logs_;
-  std::string run_, json_, svg_;
+  std::string run_, json_, svg_, within_;
   double from_ = 0;
   bool quiet_ = false;
 };

@@ -51,16 +51,21 @@ struct Compare {
     command.add_option("--events", options_.events, "number of events that must agree one by one");
     command.add_option("--from", options_.limits.from, "time in s to begin at");
     command.add_option("--until", options_.limits.until, "time in s to end at");
+    command.add_option(
+        "--within", within_,
+        "largest difference of the dose rates of contacts that last, relative: \"5%\" or 0.05");
     command.add_option("--batch", options_.batch, "length of a batch in s; a twentieth unless given")
         ->check(CLI::PositiveNumber);
     judgement_.add_to(command, "no table");
   }
   int run() {
+    if (!within_.empty()) options_.within = part_of_one("--within", within_);
     return judgement_.of([this] { return app::compare(options_); });
   }
 
  private:
   compare::Options options_;
+  std::string within_;
   Judgement judgement_;
 };
 

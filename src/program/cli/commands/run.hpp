@@ -207,15 +207,7 @@ struct Run : RunCommand {
   /// Adds the settings of --until-precision: the stop rule, and an end time far off unless one is set.
   /// @throws InputError when it is no part of 1
   void run_until_precision(const casefile::CaseSpec& spec, std::vector<std::string>& settings) const {
-    std::string_view number = until_precision_;
-    const bool percent = number.ends_with('%');
-    if (percent) number.remove_suffix(1);
-    while (number.ends_with(' ')) number.remove_suffix(1);
-    const auto value = casefile::parse_decimal(number);
-    const double part = value ? value->to<double>() / (percent ? 100 : 1) : 0;
-    if (!(part > 0 && part < 1))
-      throw InputError("--until-precision: found \"" + until_precision_ +
-                       "\", expected a part of the dose rate above 0 and below 1: \"1%\" or 0.01");
+    const double part = part_of_one("--until-precision", until_precision_);
     settings.push_back(fmt::format("run.dose_rate_precision={}", part));
     const bool limited =
         std::ranges::any_of(settings, [](const auto& s) { return s.starts_with("run.end_time="); });
