@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "audit/flights.hpp"
 #include "base/errors.hpp"
@@ -51,6 +52,7 @@ class Auditor : Judge {
     findings_.judged(Check::bodies);
     if (event.earlier_by > 0)
       report(Kind::out_of_order, event, event.earlier_by, event.time, event.time + event.earlier_by);
+    note_numbers(event);
     if (!event.problem.empty()) {
       report(event.unknown_body ? Kind::unknown_body : Kind::not_finite, event, 1, unknown, unknown);
       const auto forget = [&](int k) {
@@ -66,7 +68,10 @@ class Auditor : Judge {
         event.ball >= 0 && event.ball < flights_.balls() && event.partner >= 0 &&
             event.partner < (event.with_wall ? static_cast<int>(with_wall_.size()) : flights_.balls()),
         "bodies that the case has");
-    if (is_repeated(event)) return report(Kind::duplicate, event, 0, unknown, unknown);
+    if (is_repeated(event)) {
+      if (!event.with_wall && last_[event.ball].as_partner) ++from_both_sides_;
+      return report(Kind::duplicate, event, 0, unknown, unknown);
+    }
 
     const auto frame = flights_.nested_at(event.time);
     find_wrong_balls(event);
@@ -82,8 +87,12 @@ class Auditor : Judge {
     for (std::size_t body = 0; body < event.count(); ++body) {
       const int k = event.ball_at(body);
       flights_.begin(k, event.time, event.body[body], available_.body[body]);
-      last_[k] = {event.time, other_of(event, body), event.approach_speed, event.body[body].velocity_before,
-                  event.body[body].velocity_after};
+      last_[k] = {event.time,
+                  other_of(event, body),
+                  event.approach_speed,
+                  event.body[body].velocity_before,
+                  event.body[body].velocity_after,
+                  body == 1};
     }
   }
 
@@ -93,9 +102,25 @@ class Auditor : Judge {
   const Energies& energies() const { return impacts_.energies(); }
   const Flights& flights() const { return flights_; }
 
-  /// Walls that the log's code does not have.
+  /// Walls that the log's code does not have, and other ways to number bodies and lines.
   std::vector<Diagnosis> diagnoses() const {
     std::vector<Diagnosis> found;
+    const auto add = [&](const char* name, std::uint64_t events, Kind kind, std::string text) {
+      if (const auto of = findings_.of(kind).count; events > 0 && accounts_for(events, of))
+        found.push_back({name, std::move(text), events, of});
+    };
+    if (least_ball_ == 1 && most_ball_ == flights_.balls())
+      add("numbers", findings_.of(Kind::unknown_body).count, Kind::unknown_body,
+          fmt::format(
+              "no ball 0 is logged, but a ball {}: balls are numbered from 1 on, as with --first-ball 1",
+              most_ball_));
+    std::string numbers;
+    for (std::size_t wall = 1; wall <= with_wall_.size(); ++wall)
+      numbers += (wall > 1 ? "," : "") + std::to_string(wall);
+    add("walls", next_wall_, Kind::wrong_partner,
+        fmt::format("the wall before is touched: walls are numbered from 1 on, as with --walls {}", numbers));
+    add("pairs", from_both_sides_, Kind::duplicate,
+        "impacts of two balls are logged for the one and for the other: log each once");
     const auto walls = case_.mill.vessel.walls();
     const auto missed = findings_.of(Kind::missed_event).count;
     for (std::size_t wall = 0; wall < walls.size(); ++wall)
@@ -119,10 +144,18 @@ class Auditor : Judge {
     int other = -1;
     double approach_speed = unknown;
     Vec velocity_before{0, 0, 0}, velocity_after{0, 0, 0};
+    bool as_partner = false;
   };
   struct Touch {
     bool late = false, usable = true;
   };
+
+  void note_numbers(const LoggedEvent& event) {
+    for (std::size_t body = 0; body < event.count(); ++body) {
+      least_ball_ = std::min(least_ball_, event.ball_at(body));
+      most_ball_ = std::max(most_ball_, event.ball_at(body));
+    }
+  }
 
   /// Bodies that have separated cannot have the same impact again at the same time.
   bool is_repeated(const LoggedEvent& event) const {
@@ -194,6 +227,7 @@ class Auditor : Judge {
       if (wall != event.partner &&
           vanishes(off, std::abs(wall_gap(frame, case_, wall, event.ball, position)), allowed)) {
         report(Kind::wrong_partner, event, off, event.partner, wall, "another wall is touched");
+        if (event.partner == wall + 1) ++next_wall_;
         event.partner = wall;
         return true;
       }
@@ -217,6 +251,9 @@ class Auditor : Judge {
   StallHistory stalls_;
   std::vector<LastEvent> last_;
   std::vector<std::uint64_t> with_wall_;  ///< logged impacts with each, for the diagnosis
+  int least_ball_ = std::numeric_limits<int>::max(), most_ball_ = -1;  ///< numbers in the log
+  std::uint64_t from_both_sides_ = 0;  ///< impacts of pairs that are logged a second time by the other ball
+  std::uint64_t next_wall_ = 0;        ///< impacts with the wall that has one number less
 };
 
 /// @param next  gives the events in order of time

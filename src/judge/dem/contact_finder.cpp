@@ -364,19 +364,21 @@ bool ContactFinder::make_single(const std::vector<Stretch>& group, int wall, Con
   // Velocities of some codes are half a step old: the touch may be before the last frame that shows a flight.
   const auto touch = crossing(gap_of(from), from.time - frames_.interval, to.time, true);
   const auto leave = crossing(gap_of(to), from.time, to.time + 2 * longest, false);
-  if (!touch || !leave || *leave < *touch) return false;
-  contact.begin = *touch;
-  contact.end = *leave;
+  // In codes whose contacts have no duration, rounded numbers may put the one after the other.
+  if (!touch || !leave || *leave < *touch - frames_.interval / 100) return false;
+  const double middle = (*touch + *leave) / 2;
+  contact.begin = std::min(*touch, middle);
+  contact.end = std::max(*leave, middle);
   contact.dose = 0;
   for (std::size_t k = 0; k < group.size(); ++k) {
     const std::size_t ball = group[k].ball;
-    const auto before = flown(from.balls[ball], frames_.gravity, *touch - from.time);
-    const auto after = flown(to.balls[ball], frames_.gravity, *leave - to.time);
-    States states{{*touch, before}};
+    const auto before = flown(from.balls[ball], frames_.gravity, contact.begin - from.time);
+    const auto after = flown(to.balls[ball], frames_.gravity, contact.end - to.time);
+    States states{{contact.begin, before}};
     for (std::size_t f = a.first + 1; f < a.last; ++f)
-      if (frame(f).time > *touch && frame(f).time < *leave)
+      if (frame(f).time > contact.begin && frame(f).time < contact.end)
         states.emplace_back(frame(f).time, frame(f).balls[ball]);
-    states.emplace_back(*leave, after);
+    states.emplace_back(contact.end, after);
     contact.dose += balance(ball, states);
     (k == 0 ? contact.before : contact.partner_before) = before;
     (k == 0 ? contact.after : contact.partner_after) = after;

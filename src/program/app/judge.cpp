@@ -132,7 +132,11 @@ Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   io::JsonText json;
   audit::put_json(json, found);
   using identify::Search;
-  if (!found.interrupted && (given.identify || found.verdict == audit::Verdict::violations)) {
+  std::uint64_t explained = 0;
+  for (const auto& diagnosis : found.diagnoses) explained += diagnosis.events;
+  const bool is_open =
+      found.verdict == audit::Verdict::violations && !audit::accounts_for(explained, found.findings.total());
+  if (!found.interrupted && (given.identify || is_open)) {
     const auto identified =
         identify::identify(spec, options, given.identify ? Search::all : Search::single, given.searching);
     table += identify::table(identified);

@@ -221,5 +221,55 @@ TEST_F(Faulty, TheGapOfTheLowerCapWithThePrintedSign) {
   EXPECT_TRUE(looks_like(audit, "unseen_wall"));
 }
 
+/// Balls and walls numbered from 1, and pairs logged by both balls, are named, each alone.
+TEST_F(Faulty, OtherNumbersAndLinesOfBothBalls) {
+  prepare();
+  simulate({});
+  const auto all = lines();
+  const auto names = fields(all[0]);
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const auto ball = column("ball"), kind = column("partner_kind"), partner = column("partner");
+  const auto next = [](std::string& number) { number = std::to_string(std::stoi(number) + 1); };
+  const auto row = [](const std::vector<std::string>& values) {
+    std::string text;
+    for (const auto& value : values) text += (text.empty() ? "" : ",") + value;
+    return text;
+  };
+  const auto named = [&](const std::string& name, const auto& change) {
+    std::vector<std::string> written{all[0]};
+    for (std::size_t k = 1; k < all.size(); ++k) {
+      auto values = fields(all[k]);
+      for (const auto& line : change(values)) written.push_back(row(line));
+    }
+    write_lines(written);
+    const auto audit = judged();
+    for (const auto* other : {"numbers", "walls", "pairs"})
+      EXPECT_EQ(looks_like(audit, other), name == other) << name << " " << other;
+  };
+  using Lines = std::vector<std::vector<std::string>>;
+  named("none", [&](auto values) { return Lines{values}; });
+  named("numbers", [&](auto values) {
+    next(values[ball]);
+    if (values[kind] == "ball") next(values[partner]);
+    return Lines{values};
+  });
+  named("walls", [&](auto values) {
+    if (values[kind] == "wall") next(values[partner]);
+    return Lines{values};
+  });
+  named("pairs", [&](auto values) {
+    auto other = values;
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (const auto twin = column("partner_" + names[k]); twin < names.size())
+        std::swap(other[k], other[twin]);
+    if (values[kind] != "ball") return Lines{values};
+    other[kind] = "ball";
+    std::swap(other[ball], other[partner]);
+    return Lines{values, other};
+  });
+}
+
 }  // namespace
 }  // namespace edmill::audit
