@@ -4,6 +4,7 @@
 #include <sstream>
 #include <vector>
 
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "casefile/section.hpp"
 
@@ -13,23 +14,17 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-std::string trimmed(std::string text) {
-  text.erase(0, std::min(text.find_first_not_of(" \t"), text.size()));
-  text.erase(std::min(text.find_last_not_of(" \t\r") + 1, text.size()));
-  return text;
-}
-
 /// "vessel.piston" of a line "[[vessel.piston]]  # one"; empty for other lines.
 std::string section_of(const std::string& line) {
   const auto text = trimmed(line);
   if (!text.starts_with('[')) return "";
   const auto begin = text.find_first_not_of('['), end = text.find(']');
-  return end == std::string::npos || begin > end ? "" : trimmed(text.substr(begin, end - begin));
+  return std::string(end == text.npos || begin > end ? "" : trimmed(text.substr(begin, end - begin)));
 }
 
 std::string key_of(const std::string& line) {
   const auto equals = line.find('=');
-  return equals == std::string::npos ? "" : trimmed(line.substr(0, equals));
+  return std::string(equals == line.npos ? "" : trimmed(std::string_view(line).substr(0, equals)));
 }
 
 bool is_header(const std::string& line) { return !section_of(line).empty(); }
@@ -43,8 +38,9 @@ Lines lines_of_table(const std::string& value) {
   if (!table) throw InputError("found " + value + ", expected a table");
   for (auto&& [key, node] : *table) {
     const auto& source = node.source();
-    lines.push_back(std::string(key.str()) + " = " +
-                    trimmed(line.substr(source.begin.column - 1, source.end.column - source.begin.column)));
+    lines.push_back(
+        std::string(key.str()) + " = " +
+        std::string(trimmed(line.substr(source.begin.column - 1, source.end.column - source.begin.column))));
   }
   return lines;
 }

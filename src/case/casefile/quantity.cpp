@@ -5,6 +5,7 @@
 #include <cctype>
 #include <vector>
 
+#include "base/clean_text.hpp"
 #include "casefile/rational.hpp"
 
 namespace edmill::casefile {
@@ -124,12 +125,6 @@ cpp_int pi_in_bits(int bits) {
   };
   static const cpp_int common = computed(most);
   return bits <= most ? cpp_int(common >> (most + spare - bits)) : cpp_int(computed(bits) >> spare);
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
-  return text;
 }
 
 /// Length of the decimal number that `text` begins with; an exponent needs digits ("1e3 m", but not "1 eV").

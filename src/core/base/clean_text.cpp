@@ -25,6 +25,12 @@ std::size_t character_size(std::string_view text) {
 
 }  // namespace
 
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* blanks = " \t\r\n\v\f";
+  const auto first = text.find_first_not_of(blanks);
+  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 std::string clean_text(std::string_view text) {
   std::string clean;
   while (!text.empty()) {

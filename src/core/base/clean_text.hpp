@@ -13,6 +13,9 @@ std::string clean_text(std::string_view text);
 /// A clean text in one line, for comments: blanks replace line ends.
 std::string one_line(std::string_view text);
 
+/// Without blanks, tabs and line ends at its begin and end.
+std::string_view trimmed(std::string_view text);
+
 /// A share: "0.5 %", "7.1 %", "100 %".
 std::string percent(double share);
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 
 namespace edmill::io {
@@ -16,12 +17,6 @@ namespace edmill::io {
 namespace {
 
 constexpr std::size_t problems_told = 10;
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 #if defined(__cpp_lib_to_chars)
 std::from_chars_result read_number(std::string_view text, double& value) {
@@ -42,7 +37,7 @@ std::from_chars_result read_number(std::string_view text, double& value) {
 }
 #endif
 
-std::optional<double> number_in(std::string_view text) {
+std::optional<double> usual_number(std::string_view text) {
   double value = 0;
   const auto [end, error] = read_number(text, value);
   if (error == std::errc::invalid_argument || end != text.data() + text.size()) return std::nullopt;
@@ -50,7 +45,8 @@ std::optional<double> number_in(std::string_view text) {
   return error == std::errc::result_out_of_range ? std::strtod(std::string(text).c_str(), nullptr) : value;
 }
 
-/// The character that separates the fields of a header: a comma, unless there are more semicolons or tabs.
+/// The character that separates the fields of a header: a comma, unless there are more semicolons or tabs;
+/// blanks where there is none of these.
 char separator_of(std::string_view header) {
   std::string unquoted;
   for (bool quoted = false; const char c : header) {
@@ -58,7 +54,8 @@ char separator_of(std::string_view header) {
     if (!quoted) unquoted += c;
   }
   const auto count = [&](char c) { return std::count(unquoted.begin(), unquoted.end(), c); };
-  return std::max({',', ';', '\t'}, [&](char a, char b) { return count(a) < count(b); });
+  const char most = std::max({',', ';', '\t'}, [&](char a, char b) { return count(a) < count(b); });
+  return count(most) == 0 && trimmed(unquoted).find(' ') != std::string::npos ? ' ' : most;
 }
 
 /// Whether a text is a number with a comma where the point should be, which is no separator there.
@@ -71,6 +68,13 @@ bool has_decimal_comma(std::string_view text, char separator) {
 }
 
 }  // namespace
+
+std::optional<double> number_in(std::string_view text) {
+  if (const auto value = usual_number(text)) return value;
+  std::string usual(text.substr(text.starts_with('+') && !text.starts_with("+-") ? 1 : 0));
+  if (const auto place = usual.find_first_of("dD"); place != std::string::npos) usual[place] = 'e';
+  return usual == text ? std::nullopt : usual_number(usual);
+}
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 40;
@@ -85,6 +89,12 @@ CsvReader::CsvReader(const std::filesystem::path& file, const std::string& expec
           fmt::format("{}:{}: found the end of the file, expected a header", file_, line_number_ + 1));
     if (++line_number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // a byte order mark
   } while (line_.starts_with('#'));
+  if (line_.starts_with("\xff\xfe") || line_.starts_with("\xfe\xff"))
+    throw InputError(
+        fmt::format("{}:1: found UTF-16, expected UTF-8, as iconv -f utf-16 -t utf-8 makes it", file_));
+  if (line_.starts_with("ITEM: "))
+    throw InputError(fmt::format("{}: found frames of a DEM code, expected {}: edmill import {} makes one",
+                                 file_, expected, file_));
   separator_ = separator_of(line_);
   if (!read_row()) throw_problems();
   header_.assign(fields_.begin(), fields_.end());
@@ -101,7 +111,9 @@ std::optional<std::size_t> CsvReader::column(std::string_view name) {
 
 std::optional<std::size_t> CsvReader::needed_column(std::string_view name) {
   const auto place = column(name);
-  if (!place) bad_line(fmt::format("found no column '{}', expected it in the header", name));
+  if (!place)
+    bad_line(fmt::format("found {} column '{}', expected it in the header",
+                         number_in(header_[0]) ? "numbers and no" : "no", name));
   return place;
 }
 
@@ -167,6 +179,12 @@ bool CsvReader::read_row() {
 /// @return false when a quote is open at the end of line_
 bool CsvReader::split() {
   fields_.clear();
+  if (separator_ == ' ') {  // any number of blanks
+    line_ = trimmed(line_);
+    std::replace(line_.begin(), line_.end(), '\t', ' ');
+    line_.erase(std::unique(line_.begin(), line_.end(), [](char a, char b) { return a == ' ' && b == ' '; }),
+                line_.end());
+  }
   for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
     auto from = line_.find_first_not_of(' ', begin);
     if (from != std::string::npos && line_[from] == '"') {

@@ -14,6 +14,8 @@ namespace edmill::io {
 
 /// Text between quotes for a message, cut when long.
 std::string in_quotes(std::string_view text);
+/// Also with a sign before it, or with the exponent of Fortran; nan and infinity are numbers.
+std::optional<double> number_in(std::string_view text);
 
 /// Fields are separated by commas, or by semicolons or tabs where the header is, and may be in quotes
 /// (RFC 4180). Numbers have a decimal point. Comments (#) may precede the header; blank lines are skipped.

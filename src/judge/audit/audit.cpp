@@ -52,7 +52,10 @@ class Auditor : Judge {
     findings_.judged(Check::bodies);
     if (event.earlier_by > 0)
       report(Kind::out_of_order, event, event.earlier_by, event.time, event.time + event.earlier_by);
-    note_numbers(event);
+    for (std::size_t body = 0; body < event.count(); ++body) {
+      least_ball_ = std::min(least_ball_, event.ball_at(body));
+      most_ball_ = std::max(most_ball_, event.ball_at(body));
+    }
     if (!event.problem.empty()) {
       report(event.unknown_body ? Kind::unknown_body : Kind::not_finite, event, 1, unknown, unknown);
       const auto forget = [&](int k) {
@@ -149,13 +152,6 @@ class Auditor : Judge {
   struct Touch {
     bool late = false, usable = true;
   };
-
-  void note_numbers(const LoggedEvent& event) {
-    for (std::size_t body = 0; body < event.count(); ++body) {
-      least_ball_ = std::min(least_ball_, event.ball_at(body));
-      most_ball_ = std::max(most_ball_, event.ball_at(body));
-    }
-  }
 
   /// Bodies that have separated cannot have the same impact again at the same time.
   bool is_repeated(const LoggedEvent& event) const {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "audit/tolerances.hpp"
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
 #include "compare/log_reader.hpp"
@@ -45,12 +46,6 @@ Dimension dimension_of(std::size_t name) {
                                                           Dimension::angular_speed, Dimension::speed,
                                                           Dimension::angular_speed};
   return of_vectors[(name - first_state) % 15 / 3];
-}
-
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
 bool later(const LoggedEvent& a, const LoggedEvent& b) {
@@ -117,7 +112,7 @@ void EventLog::read_header(const LogConventions& conventions) {
       continue;
     }
     const auto k = static_cast<std::size_t>(name - names.begin());
-    std::string column = trimmed(given);
+    std::string column(trimmed(given));
     const auto bracket = column.rfind('[');
     if (!column.empty() && column.back() == ']' && bracket != std::string::npos) {
       const auto unit = column.substr(bracket + 1, column.size() - bracket - 2);

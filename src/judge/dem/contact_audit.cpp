@@ -232,30 +232,41 @@ std::vector<SlipBin> slips_of(const std::vector<Measured>& walls, const std::vec
   return bins;
 }
 
+/// Balls of another size meet where those of the case do not touch: two that leave their flights together.
+void drop_pairs(std::vector<Contact>& contacts) {
+  std::erase_if(contacts, [all = contacts](const Contact& c) {
+    return c.kind == ContactClass::unexplained && std::ranges::any_of(all, [&](const Contact& other) {
+             return other.ball != c.ball && other.kind == c.kind && other.free_until < c.free_from &&
+                    c.free_until < other.free_from;
+           });
+  });
+}
+
 }  // namespace
 
-ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOptions& options) {
-  ContactLogReader log(options.log);
+ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& file,
+                            const std::atomic<bool>* interrupt) {
+  ContactLogReader log(file);
   const auto built = casefile::build_case<double>(spec);
   const auto& mill = built.the_case.mill;
   const MovingVessel vessel(mill, built.the_case.balls, log.facts().facets);
   ContactAudit audit;
   audit.case_name = spec.file;
-  audit.log_name = options.log;
+  audit.log_name = file;
   audit.facts = log.facts();
   std::vector<Measured> walls, balls;
   std::vector<Contact> at_walls;
   const SingleContacts contacts(spec, mill, vessel, log.facts().statistics.gravity);
   DoseRate rate(log.facts().first, log.facts().last);
   while (const auto contact = log.next()) {
-    if (options.interrupt && *options.interrupt) audit.interrupted = true;
+    if (interrupt && *interrupt) audit.interrupted = true;
     if (audit.interrupted) break;
     const auto& c = *contact;
     const int balls_of_case = static_cast<int>(vessel.ball_count());
     if (c.ball >= balls_of_case || c.partner >= (c.bodies == 1 ? vessel.walls() : balls_of_case))
-      throw InputError(fmt::format("{}: found ball {} with {} {}, expected {} balls and {} walls",
-                                   options.log, c.ball, c.bodies == 1 ? "wall" : "ball", c.partner,
-                                   balls_of_case, vessel.walls()));
+      throw InputError(fmt::format("{}: found ball {} with {} {}, expected {} balls and {} walls", file,
+                                   c.ball, c.bodies == 1 ? "wall" : "ball", c.partner, balls_of_case,
+                                   vessel.walls()));
     ++audit.counts[static_cast<std::size_t>(c.kind)];
     rate.add((c.begin + c.end) / 2, c.dose);
     audit.magnitude += std::abs(c.dose);
@@ -268,6 +279,7 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
         c.bodies == 1 && (c.kind < ContactClass::lasting || c.kind == ContactClass::unexplained);
     if (meets && at_walls.size() < enough) at_walls.push_back(c);
   }
+  drop_pairs(at_walls);
   audit.dose_rate = rate.mean();
   audit.dose_rate_half_width = rate.half_width();
   judge_laws(walls, Judged::Of::walls, audit);
@@ -284,7 +296,7 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
   // Balls of another size meet the walls elsewhere.
   const double size = audit.facts.radius_factor;
   const bool is_other_size = size != 1 && size != 0;
-  if (!is_other_size && !audit.facts.of_list()) judge_places(spec, at_walls, options.interrupt, audit);
+  if (!is_other_size && !audit.facts.of_list()) judge_places(spec, at_walls, interrupt, audit);
   if (audit.counts[static_cast<std::size_t>(ContactClass::jump)] > 0)
     leave_out(audit, "balls jump", [](const Judged& j) { return j.name == "dose with no wall or ball"; });
   if (is_other_size || (!audit.causes.empty() && audit.causes[0].key.starts_with("ball")))
@@ -293,10 +305,10 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOp
     leave_out(audit, "the walls are elsewhere", [](const Judged& j) { return j.of == Judged::Of::walls; });
   const auto is_known = [](const Judged& j) { return j.equation == restitution.equation && j.known(); };
   if (!std::ranges::all_of(audit.judged, &Judged::agrees) || !audit.walls_met())
-    audit.verdict = ContactVerdict::differs;
+    audit.verdict = compare::Verdict::differ;
   else if (!audit.interrupted && std::ranges::any_of(audit.judged, is_known) &&
            std::ranges::none_of(audit.judged, &Judged::is_open))
-    audit.verdict = ContactVerdict::agrees;
+    audit.verdict = compare::Verdict::agree;
   return audit;
 }
 

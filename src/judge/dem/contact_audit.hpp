@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "casefile/build_case.hpp"
+#include "compare/comparison.hpp"
 #include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
 
@@ -48,12 +49,10 @@ struct SlipBin {
   Median of_walls, of_balls;
 };
 
-enum class ContactVerdict { agrees, differs, too_few };
-
 struct ContactAudit {
   std::string case_name, log_name;
   ContactLogFacts facts;
-  ContactVerdict verdict = ContactVerdict::too_few;
+  compare::Verdict verdict = compare::Verdict::too_few;
   std::array<std::uint64_t, contact_class_names.size()> counts{};
   double magnitude = 0;  ///< sum of the doses of all contacts, each without its sign [J]
   std::uint64_t missed_at_walls = 0, missed_between_balls = 0;
@@ -69,13 +68,9 @@ struct ContactAudit {
   bool walls_met() const { return wall_distance <= 2 * wall_resolution; }
 };
 
-struct ContactAuditOptions {
-  std::string log;
-  const std::atomic<bool>* interrupt = nullptr;
-};
-
 /// @throws InputError when the log cannot be read or is of other balls
-ContactAudit audit_contacts(const casefile::CaseSpec& spec, const ContactAuditOptions& options);
+ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& log,
+                            const std::atomic<bool>* interrupt);
 
 std::string table(const ContactAudit& audit);
 std::string to_json(const ContactAudit& audit);

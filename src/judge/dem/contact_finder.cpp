@@ -175,13 +175,21 @@ void ContactFinder::find_jumps() {
 }
 
 void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
-  const Frame& now = window_.back();
-  const auto pose = vessel_.at(now.time);
+  const Frame &before = window_[window_.size() - 2], &now = window_.back();
+  const auto watch = [&](const Bodies& bodies, double depth) {
+    if (!(depth > 0)) return;
+    auto& overlap = overlaps_.try_emplace(bodies, Overlap{before.time}).first->second;
+    overlap.growth = std::max(overlap.growth, (depth - overlap.last) / (now.time - before.time));
+    overlap.depth = std::max(overlap.depth, depth);
+    overlap.last = depth;
+    overlap.seen = true;
+  };
   for (auto& [bodies, overlap] : overlaps_) overlap.seen = false;
+  const auto pose = vessel_.at(now.time);
   const int count = static_cast<int>(open_of_.size());
   for (int ball = 0; ball < count; ++ball)
     for (int wall = 0; wall < vessel_.walls(); ++wall)
-      watch({ball, -1 - wall}, -vessel_.gap(pose, ball, wall, now.balls[ball].position), flies);
+      watch({ball, -1 - wall}, -vessel_.gap(pose, ball, wall, now.balls[ball].position));
   // Balls in the order of x: those that overlap are next to each other.
   std::vector<int> order(open_of_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -191,39 +199,24 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
       const Vector apart = now.balls[*two].position - now.balls[*one].position;
       if (apart[0] > vessel_.ball(*one).radius + largest_radius_) break;
       const double touch = vessel_.ball(*one).radius + vessel_.ball(*two).radius;
-      watch({std::min(*one, *two), std::max(*one, *two)}, touch - norm<double>(apart), flies);
+      watch({std::min(*one, *two), std::max(*one, *two)}, touch - norm<double>(apart));
     }
   for (auto& [bodies, overlap] : overlaps_) {
-    if (overlap.seen) continue;
-    note_flights(bodies, flies, overlap);
-    end_overlap(bodies, overlap);
+    for (std::size_t k = 0; k < 2; ++k)
+      overlap.flies[k] = overlap.flies[k] && bodies[k] >= 0 && flies[static_cast<std::size_t>(bodies[k])];
+    if (!overlap.seen) end_overlap(bodies, overlap);
   }
   std::erase_if(overlaps_, [](const auto& entry) { return !entry.second.seen; });
 }
 
-void ContactFinder::note_flights(const Bodies& bodies, const std::vector<bool>& flies, Overlap& overlap) {
-  for (std::size_t k = 0; k < 2; ++k)
-    overlap.flies[k] = overlap.flies[k] && bodies[k] >= 0 && flies[static_cast<std::size_t>(bodies[k])];
-}
-
-void ContactFinder::watch(const Bodies& bodies, double depth, const std::vector<bool>& flies) {
-  if (!(depth > 0)) return;
-  const std::size_t now = first_ + window_.size() - 1;
-  const double before = frame(now - 1).time, dt = frame(now).time - before;
-  auto& overlap = overlaps_.try_emplace(bodies, Overlap{before}).first->second;
-  overlap.growth = std::max(overlap.growth, (depth - std::max(overlap.last, 0.0)) / dt);
-  overlap.depth = std::max(overlap.depth, depth);
-  overlap.last = depth;
-  overlap.seen = true;
-  note_flights(bodies, flies, overlap);
-}
-
 /// A contact changes the velocity of both balls. Its depth is less than a third of its duration times the
-/// approach; gentler ones than a thousandth of the radius may be hidden in the noise of the frames.
+/// approach; gentler ones than a thousandth of the radius may be hidden in the noise of the frames. A ball
+/// whose centre is outside may meet other bodies there.
 void ContactFinder::end_overlap(const Bodies& bodies, const Overlap& overlap) {
   const double radius = vessel_.ball(static_cast<std::size_t>(bodies[0])).radius;
   const double deepest = std::clamp(overlap.growth * frames_.contact_time, 1e-3 * radius, radius / 5);
-  if (overlap.depth <= deepest || !(overlap.flies[0] || overlap.flies[1])) return;
+  const bool flies_on = overlap.depth > deepest && (overlap.flies[0] || overlap.flies[1]);
+  if (!flies_on && overlap.depth < radius) return;
   Contact contact;
   contact.kind = ContactClass::missed;
   contact.begin = contact.free_until = overlap.begin;

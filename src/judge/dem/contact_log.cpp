@@ -205,21 +205,20 @@ std::optional<Contact> ContactLogReader::next() {
 std::optional<Contact> ContactLogReader::parse() {
   constexpr int most = std::numeric_limits<int>::max();
   Contact c;
-  const auto begin = csv_.finite(0), end = csv_.finite(1), until = csv_.finite(7), from = csv_.finite(8),
-             dose = csv_.finite(9);
+  bool good = true;
+  for (const auto& [column, value] :
+       {std::pair(0, &c.begin), {1, &c.end}, {7, &c.free_until}, {8, &c.free_from}, {9, &c.dose}})
+    if (const auto number = csv_.finite(static_cast<std::size_t>(column)))
+      *value = *number;
+    else
+      good = false;
   const auto ball = csv_.whole(3, "the number of a ball", 0, most),
              balls = csv_.whole(6, "a number of balls", 1, most);
   const auto kind = std::find(contact_class_names.begin(), contact_class_names.end(), csv_.field(2));
   if (kind == contact_class_names.end())
     csv_.bad_field(2, fmt::format("{}", fmt::join(contact_class_names, ", ")));
-  if (!begin || !end || !until || !from || !dose || !ball || !balls || kind == contact_class_names.end())
-    return std::nullopt;
+  if (!good || !ball || !balls || kind == contact_class_names.end()) return std::nullopt;
   c.kind = static_cast<ContactClass>(kind - contact_class_names.begin());
-  c.begin = *begin;
-  c.end = *end;
-  c.free_until = *until;
-  c.free_from = *from;
-  c.dose = *dose;
   c.ball = *ball;
   c.bodies = *balls;
   if (!csv_.field(5).empty()) {

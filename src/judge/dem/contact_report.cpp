@@ -136,7 +136,7 @@ std::string to_junit(const ContactAudit& a) {
   for (const auto& c : a.causes) moved += fmt::format("; with {}: {}", c.key, c.text);
   cases.push_back({"places of the walls", moved});
   cases.push_back(
-      {"enough contacts", a.verdict != ContactVerdict::too_few ? "" : "too few contacts to judge"});
+      {"enough contacts", a.verdict != compare::Verdict::too_few ? "" : "too few contacts to judge"});
   return compare::junit_text("edmill audit of " + a.log_name, cases);
 }
 

@@ -91,8 +91,6 @@ class ContactFinder {
   bool resolved() const { return frames_.contact_time >= 3 * frames_.interval; }
   void find_jumps();
   void watch_overlaps(const std::vector<bool>& flies);
-  void watch(const Bodies& bodies, double depth, const std::vector<bool>& flies);
-  static void note_flights(const Bodies& bodies, const std::vector<bool>& flies, Overlap& overlap);
   void end_overlap(const Bodies& bodies, const Overlap& overlap);
   void close(std::size_t stretch);
   bool come_near(const Stretch& one, const Stretch& other) const;

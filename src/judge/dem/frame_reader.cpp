@@ -133,14 +133,6 @@ bool begins_binary_dump(int first_byte) {
 
 }  // namespace
 
-bool is_dump(const std::string& file) {
-  if (io::is_stream(file) || !io::is_readable(file)) return false;
-  io::InputFile in(file, "a log");
-  if (begins_binary_dump(in.peek())) return true;
-  std::string line;
-  return std::getline(in, line) && line.starts_with("ITEM: ");
-}
-
 DeckFacts facts_of_deck(const std::string& deck) {
   DeckFacts facts;
   io::InputFile in(deck, "a deck of LAMMPS, LIGGGHTS or YADE");
@@ -186,15 +178,10 @@ void FrameReader::fail(const std::string& found, const std::string& expected) co
   throw InputError(fmt::format("{}:{}: found {}, expected {}", name_, line_number_, found, expected));
 }
 
-/// Also with a sign before it, or with the exponent of Fortran.
 double FrameReader::number(const std::string& text) const {
-  std::string usual = text.substr(text.starts_with('+') ? 1 : 0);
-  std::ranges::replace_if(
-      usual, [](char c) { return c == 'D' || c == 'd'; }, 'e');
-  double value = 0;
-  const auto [end, error] = std::from_chars(usual.data(), usual.data() + usual.size(), value);
-  if (error != std::errc() || *end != 0) fail(fmt::format("'{}'", text.substr(0, 40)), "a number");
-  return value;
+  const auto value = io::number_in(text);
+  if (!value) fail(fmt::format("'{}'", text.substr(0, 40)), "a number");
+  return *value;
 }
 
 double FrameReader::finite(const std::string& text) const {

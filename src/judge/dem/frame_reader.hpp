@@ -18,9 +18,6 @@ struct DumpFormat {
   std::string units = "si";         ///< "si", "cgs", "micro" or "nano"; a file that says its own overrides it
 };
 
-/// Whether a file is a dump of frames, by its first line. A stream is not asked: it can be read once.
-bool is_dump(const std::string& file);
-
 /// What a deck says: its lines `timestep`, `units`, `# frame vessel` and `# facets`.
 struct DeckFacts {
   std::optional<double> time_step;

@@ -22,13 +22,9 @@ struct Meeting {
   Vector position;
 };
 
-struct Candidate {
-  std::string key;
-  Dimension dimension;
-  double value, change;
-  std::vector<double> starts;
-  std::function<void(Assumptions&, double)> set;
-  int wall = -1;  ///< that is moved outward by the value [m], beside what is set
+/// A number with first values to begin a fit with.
+struct Candidate : Parameter {
+  int wall = -1;  ///< that is moved outward by the value [m], where nothing is set
 };
 
 class Geometry {
@@ -98,7 +94,7 @@ class Geometry {
 
   std::optional<GeometryCause> fit(const Candidate& c) const {
     double best = c.value, left = distance;
-    for (const double start : c.starts)
+    for (const double start : c.first_values)
       if (const double found = of(gaps_with(c, start)); found < left) {
         left = found;
         best = start;
@@ -144,10 +140,10 @@ class Geometry {
 };
 
 Candidate of_number(const Parameter& p) {
-  Candidate c{p.key, p.dimension, p.value, p.change, {}, p.set};
+  Candidate c{p};
   for (const double share : {0.001, 0.003, 0.01, 0.03, 0.05, 0.1, 0.2, 0.5})
-    for (const double sign : {-1.0, 1.0}) c.starts.push_back(p.value * (1 + sign * share));
-  c.starts.push_back(2 * p.value);
+    for (const double sign : {-1.0, 1.0}) c.first_values.push_back(p.value * (1 + sign * share));
+  c.first_values.push_back(2 * p.value);
   return c;
 }
 
@@ -157,21 +153,21 @@ void add_phases(const Assumptions& nominal, std::vector<Candidate>& list) {
   for (int k = 1; k < 16; ++k) starts.push_back(turn * (k <= 8 ? k : k - 16) / 16);
   const double period = casefile::period_of(nominal.spec.mill).to<double>();
   const auto add = [&](const std::string& key, const std::function<void(Assumptions&, double)>& set) {
-    list.push_back({key, Dimension::angle, 0, 1, starts, set});
+    list.push_back({{.key = key, .dimension = Dimension::angle, .set = set, .first_values = starts}});
   };
   add("phase of the drive", [=](Assumptions& a, double x) { a.log.delay = x / turn * period; });
   const auto* vibratory = std::get_if<model::Vibratory<casefile::Quantity>>(&nominal.spec.mill);
   if (vibratory)
-    list.push_back({"factor of mill.amplitude",
-                    Dimension::none,
-                    1,
-                    1e-3,
-                    {0.5, 0.9, 0.95, 1.05, 1.1, 1.5, 2},
-                    [](Assumptions& a, double x) {
-                      auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
-                      for (auto* vector : {&mill.amplitude, &mill.quarter})
-                        for (auto& q : *vector) q = identify::exactly(x * q.template to<double>());
-                    }});
+    list.push_back({{.key = "factor of mill.amplitude",
+                     .value = 1,
+                     .change = 1e-3,
+                     .set =
+                         [](Assumptions& a, double x) {
+                           auto& mill = std::get<model::Vibratory<casefile::Quantity>>(a.spec.mill);
+                           for (auto* vector : {&mill.amplitude, &mill.quarter})
+                             for (auto& q : *vector) q = identify::exactly(x * q.template to<double>());
+                         },
+                     .first_values = {0.5, 0.9, 0.95, 1.05, 1.1, 1.5, 2}}});
   for (std::size_t axis = 0; vibratory && axis < 3; ++axis) {
     if (vibratory->amplitude[axis].zero() && vibratory->quarter[axis].zero()) continue;
     add(fmt::format("phase of mill.amplitude along {}", "xyz"[axis]), [axis](Assumptions& a, double x) {
@@ -187,7 +183,12 @@ void add_walls(const casefile::CaseSpec& spec, std::vector<Candidate>& list) {
   const auto partners = casefile::partners_of(spec);
   const std::vector<double> starts{-1e-3, -3e-4, -1e-4, 1e-4, 3e-4, 1e-3};
   for (int wall = 0; wall < partners.walls(); ++wall)
-    list.push_back({"place of " + partners[wall].label, Dimension::length, 0, 1e-3, starts, {}, wall});
+    list.push_back({{.key = "place of " + partners[wall].label,
+                     .dimension = Dimension::length,
+                     .change = 1e-3,
+                     .set = {},
+                     .first_values = starts},
+                    wall});
 }
 
 }  // namespace

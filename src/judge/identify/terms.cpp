@@ -70,13 +70,10 @@ Parameter restricted_to(const SharedSubset& part, const Parameter& parameter, st
 }
 
 std::string word_for(double factor, double half_width) {
-  struct Word {
-    double factor;
-    const char* text;
-  };
-  constexpr Word words[] = {{-1, "reversed"}, {0, "left out"}, {2, "doubled"}, {0.5, "halved"}};
-  for (const auto& word : words)
-    if (std::abs(factor - word.factor) <= half_width && half_width < 0.1) return word.text;
+  constexpr std::pair<double, const char*> words[] = {
+      {-1, "reversed"}, {0, "left out"}, {2, "doubled"}, {0.5, "halved"}};
+  for (const auto& [of, text] : words)
+    if (std::abs(factor - of) <= half_width && half_width < 0.1) return text;
   return "";
 }
 

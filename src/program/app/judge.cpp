@@ -2,13 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "base/errors.hpp"
 #include "compare/junit.hpp"
 #include "dem/contact_audit.hpp"
 #include "dem/contact_rates.hpp"
-#include "dem/frame_reader.hpp"
 #include "io/input_file.hpp"
 #include "io/json_text.hpp"
 
@@ -61,10 +58,6 @@ std::string to_junit(const audit::Audit& result) {
   return compare::junit_text("edmill audit of " + result.log_name, cases);
 }
 
-Judged::Verdict verdict_of(bool good, bool bad) {
-  return good ? Judged::Verdict::good : bad ? Judged::Verdict::bad : Judged::Verdict::too_few_data;
-}
-
 /// Options that mean nothing for such logs.
 void refuse(const std::vector<std::pair<const char*, bool>>& options, const char* found,
             const char* expected) {
@@ -76,40 +69,26 @@ void refuse(const std::vector<std::pair<const char*, bool>>& options, const char
         fmt::format("{}: found a log of {}, expected one of {}", fmt::join(given, ", "), found, expected));
 }
 
-void refuse_frames(const std::string& log) {
-  if (dem::is_dump(log))
-    throw InputError(fmt::format(
-        "{}: found frames of a DEM code, expected a log: make one with edmill import {} --case CASE", log,
-        log));
-}
-
-Judged judged(const auto& found, bool good, bool bad) {
-  return {verdict_of(good, bad), to_json(found), to_junit(found), table(found)};
-}
+Judged judged(const auto& found) { return {found.verdict, to_json(found), to_junit(found), table(found)}; }
 
 }  // namespace
 
 Judged compare(const compare::Options& options) {
   const io::Spool pipes;
-  using compare::Verdict;
   const auto a = options.a.string(), b = options.b.string();
-  for (const auto& log : {a, b}) refuse_frames(log);
   if (dem::is_contact_log(a) || dem::is_contact_log(b)) {
     refuse({{"--tolerance", options.tolerance.has_value()},
             {"--events", options.events.has_value()},
             {"--batch", options.batch.has_value()}},
            "contacts that last", "impacts");
-    const auto found = dem::compare_contacts(options);
-    return judged(found, found.verdict == Verdict::agree, found.verdict == Verdict::differ);
+    return judged(dem::compare_contacts(options));
   }
   refuse({{"--within", options.within.has_value()}}, "impacts", "contacts that last");
-  const auto found = compare::compare(options);
-  return judged(found, found.verdict == Verdict::agree, found.verdict == Verdict::differ);
+  return judged(compare::compare(options));
 }
 
 Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   const io::Spool pipes;
-  refuse_frames(given.log);
   if (dem::is_contact_log(given.log)) {
     refuse({{"--column", !given.columns.empty()},
             {"--first-ball", given.first_ball.has_value()},
@@ -120,9 +99,7 @@ Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
             {"--identify", given.identify},
             {"--examples", given.examples.has_value()}},
            "contacts that last", "impacts");
-    const auto found = dem::audit_contacts(spec, {given.log, given.interrupt});
-    return judged(found, found.verdict == dem::ContactVerdict::agrees,
-                  found.verdict == dem::ContactVerdict::differs);
+    return judged(dem::audit_contacts(spec, given.log, given.interrupt));
   }
   const auto options = merged(spec, given);
   const auto built = casefile::build_case<double>(spec);
@@ -142,8 +119,11 @@ Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
     table += identify::table(identified);
     identify::put_json(json, identified);
   }
-  return {verdict_of(found.verdict == audit::Verdict::clean, found.verdict == audit::Verdict::violations),
-          json.finish(), to_junit(found), table};
+  using compare::Verdict;
+  const auto verdict = found.verdict == audit::Verdict::clean        ? Verdict::agree
+                       : found.verdict == audit::Verdict::violations ? Verdict::differ
+                                                                     : Verdict::too_few;
+  return {verdict, json.finish(), to_junit(found), table};
 }
 
 }  // namespace edmill::app

@@ -15,8 +15,7 @@
 namespace edmill::app {
 
 struct Judged {
-  enum class Verdict { good, bad, too_few_data };
-  Verdict verdict;
+  compare::Verdict verdict;
   std::string json, junit, table;
 };
 
@@ -32,7 +31,7 @@ struct AuditOptions {
   std::optional<int> first_ball;
   std::string walls;
   bool from_start = false;
-  bool identify = false;                ///< search beyond single causes
+  bool identify = false;                     ///< search beyond single causes
   std::optional<std::size_t> examples = {};  ///< of each kind of violation; 3 by default
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double time, std::uint64_t events)> progress{};

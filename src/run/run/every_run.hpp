@@ -2,7 +2,6 @@
 #pragma once
 
 #include <tuple>
-#include <utility>
 
 #include "io/summary.hpp"
 #include "run/stop_rules.hpp"

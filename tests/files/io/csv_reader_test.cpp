@@ -73,6 +73,34 @@ TEST(CsvReader, ReadsNumbersAndNamesInQuotes) {
   EXPECT_EQ(csv.field(1), "");
 }
 
+TEST(CsvReader, ReadsTablesOfOtherPrograms) {
+  const Rows expected{{"time", "x"}, {"0.5", "1e3"}};
+  for (const auto* text : {"time,x\n0.5,1e3\n", "time ; x\r\n0.5;1e3\r\n", "  time   x\n 0.5\t1e3 \n",
+                           "\"time\" \"x\"\n0.5 1e3\n", "\xef\xbb\xbftime\tx\n0.5\t1e3\n"})
+    EXPECT_EQ(CsvFile(text).rows(), expected) << text;
+  const CsvFile numbers("a,b,c,d\n1.5D-3,+2,-3d0,+-4\n");
+  auto csv = numbers.reader();
+  ASSERT_TRUE(csv.next_row());
+  EXPECT_EQ(csv.finite(0), 1.5e-3);
+  EXPECT_EQ(csv.finite(1), 2);
+  EXPECT_EQ(csv.finite(2), -3);
+  EXPECT_FALSE(csv.finite(3));
+  const auto problem = [](const std::string& text) {
+    try {
+      const CsvFile file(text);
+      auto reader = file.reader();
+      reader.needed_column("time");
+      reader.throw_problems();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(problem(std::string("\xff\xfet\0i\0", 6)).find("iconv"), std::string::npos);
+  EXPECT_NE(problem("0.5,1\n").find("found numbers and no column 'time'"), std::string::npos);
+  EXPECT_NE(problem("ITEM: TIMESTEP\n0\n").find("edmill import"), std::string::npos);
+}
+
 TEST(CsvReader, CountsTheLinesOfTextsInQuotes) {
   const CsvFile file("a,b\n\"1\n2\n3\",4\n5,6\n");
   auto csv = file.reader();

@@ -63,7 +63,7 @@ class Files {
       std::ofstream out(log);
       writer.write(out, imported.facts);
     }
-    return dem::audit_contacts(spec, {log, nullptr});
+    return dem::audit_contacts(spec, log, nullptr);
   }
 
  private:
@@ -86,7 +86,7 @@ void right_decks_agree(std::initializer_list<unsigned> seeds) {
     small_dem::Deck deck;
     deck.seed = seed, deck.duration = 0.6;
     const auto audit = audited(deck);
-    EXPECT_EQ(audit.verdict, dem::ContactVerdict::agrees) << "seed " << seed << "\n" << dem::table(audit);
+    EXPECT_EQ(audit.verdict, compare::Verdict::agree) << "seed " << seed << "\n" << dem::table(audit);
     ASSERT_TRUE(named(audit, "restitution at walls"));
     EXPECT_NEAR(named(audit, "restitution at walls")->found.value, 0.6, 0.002);
     EXPECT_NEAR(named(audit, "friction at walls")->found.value, 0.4, 0.01);
@@ -130,7 +130,7 @@ TEST(LastingContacts, RoundedDumpsAgree) {
   small_dem::Deck deck;
   deck.digits = 6;
   const auto audit = audited(deck);
-  EXPECT_EQ(audit.verdict, dem::ContactVerdict::agrees) << dem::table(audit);
+  EXPECT_EQ(audit.verdict, compare::Verdict::agree) << dem::table(audit);
 }
 
 struct Mistake {
@@ -193,7 +193,7 @@ void mistakes_are_named(std::size_t every) {
     mistake.make(deck);
     const auto audit = audited(deck);
     SCOPED_TRACE(mistake.name + std::string("\n") + dem::table(audit));
-    EXPECT_EQ(audit.verdict, dem::ContactVerdict::differs);
+    EXPECT_EQ(audit.verdict, compare::Verdict::differ);
     if (const auto* judged = named(audit, mistake.value)) {
       EXPECT_FALSE(judged->agrees());
       if (!std::isnan(mistake.truth)) {
@@ -220,7 +220,7 @@ TEST(LastingContacts, AListOfContactsIsJudgedAsFramesAre) {
     deck.seed = seed, deck.duration = 0.5;
     const Files files(deck);
     const auto by_list = files.audited(Made::list), by_frames = files.audited(Made::frames);
-    EXPECT_EQ(by_list.verdict, dem::ContactVerdict::agrees) << "seed " << seed << "\n" << dem::table(by_list);
+    EXPECT_EQ(by_list.verdict, compare::Verdict::agree) << "seed " << seed << "\n" << dem::table(by_list);
     for (const auto* name : {"restitution at walls", "friction at walls"}) {
       ASSERT_TRUE(named(by_list, name));
       EXPECT_NEAR(named(by_list, name)->found.value, named(by_frames, name)->found.value, 0.002);
@@ -231,11 +231,11 @@ TEST(LastingContacts, AListOfContactsIsJudgedAsFramesAre) {
   small_dem::Deck weak;
   weak.duration = 0.4, weak.friction = 0.3;
   const auto audit = Files(weak).audited(Made::list);
-  EXPECT_EQ(audit.verdict, dem::ContactVerdict::differs);
+  EXPECT_EQ(audit.verdict, compare::Verdict::differ);
   EXPECT_NEAR(named(audit, "friction at walls")->found.value, 0.3, 0.01);
   small_dem::Deck light;
   light.duration = 0.2, light.density = 7800;
-  EXPECT_EQ(Files(light).audited(Made::list).verdict, dem::ContactVerdict::differs);
+  EXPECT_EQ(Files(light).audited(Made::list).verdict, compare::Verdict::differ);
 }
 
 TEST(LastingContacts, AListNeedsWallsThatAreFlatAndDoNotTurn) {

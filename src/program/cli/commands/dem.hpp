@@ -6,6 +6,7 @@
 
 #include "casefile/quantity.hpp"
 #include "cli/commands/case_argument.hpp"
+#include "cli/commands/logs.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/progress_line.hpp"
 #include "dem/contact_rates.hpp"
@@ -159,9 +160,7 @@ struct Limit {
     write_to(json_, dem::to_json(limit));
     write_to(svg_, dem::to_svg(limit));
     if (!quiet_) io::print("{}", dem::table(limit));
-    using compare::Verdict;
-    const auto verdict = limit.verdict();
-    return verdict == Verdict::differ ? outputs_differ : verdict == Verdict::too_few ? too_few_data : ok;
+    return code_of(limit.verdict());
   }
 
  private:

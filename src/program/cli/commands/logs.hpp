@@ -12,6 +12,11 @@
 
 namespace edmill::cli {
 
+inline int code_of(compare::Verdict verdict) {
+  using compare::Verdict;
+  return verdict == Verdict::differ ? outputs_differ : verdict == Verdict::too_few ? too_few_data : ok;
+}
+
 /// What becomes of a judgement.
 class Judgement {
  public:
@@ -22,15 +27,12 @@ class Judgement {
   }
   /// Makes the files, then judges. @return the exit code
   int of(const auto& judge) const {
-    using Verdict = app::Judged::Verdict;
     auto json = io::file_for(json_), junit = io::file_for(junit_);
     const app::Judged judged = judge();
     if (json) json->write([&](std::ostream& out) { out << judged.json; });
     if (junit) junit->write([&](std::ostream& out) { out << judged.junit; });
     if (!quiet) io::print("{}", judged.table);
-    return judged.verdict == Verdict::good  ? ok
-           : judged.verdict == Verdict::bad ? outputs_differ
-                                            : too_few_data;
+    return code_of(judged.verdict);
   }
 
   bool quiet = false;
