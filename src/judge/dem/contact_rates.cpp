@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -90,9 +91,6 @@ ContactRates rates_of_impacts(const std::string& place, const Window& window) {
   return r;
 }
 
-/// Of a ratio, from those of both numbers.
-double relative_half_width(double one, double other) { return std::sqrt(one * one + other * other); }
-
 std::string sentence(const ContactComparison& c) {
   return fmt::format("dose rate of B over that of A: {:.4f} ± {:.4f}", 1 + c.difference, c.half_width);
 }
@@ -138,7 +136,7 @@ ContactComparison compare_contacts(const compare::Options& options) {
   if (!(c.a.dose_rate > 0 && c.b.dose_rate > 0)) return c;
   const double ratio = c.b.dose_rate / c.a.dose_rate;
   c.difference = ratio - 1;
-  c.half_width = ratio * relative_half_width(c.a.half_width / c.a.dose_rate, c.b.half_width / c.b.dose_rate);
+  c.half_width = ratio * std::hypot(c.a.half_width / c.a.dose_rate, c.b.half_width / c.b.dose_rate);
   c.verdict = verdict_of(c.difference, c.half_width, c.within);
   return c;
 }
@@ -197,7 +195,7 @@ std::string to_junit(const ContactComparison& c) {
 }
 
 double Limit::ratio_half_width() const {
-  return ratio() * relative_half_width(half_width / value, edmill->half_width / edmill->dose_rate);
+  return ratio() * std::hypot(half_width / value, edmill->half_width / edmill->dose_rate);
 }
 
 Limit limit_of(const std::vector<std::string>& logs, const std::string& run, double from) {

@@ -75,15 +75,21 @@ class Geometry {
                      (m.wall == moved ? outward : 0));
     return gaps;
   }
-  /// The largest of the walls' medians: a mistake may move one wall alone.
+  /// The largest of the walls' medians: a mistake may move one wall alone. Frames blur places, but to both
+  /// sides alike: a gap to one side is known better.
   double of(const std::vector<double>& gaps) const {
     if (gaps.empty()) return INFINITY;
     std::vector<std::vector<double>> by_wall(static_cast<std::size_t>(nominal_.walls));
     for (std::size_t k = 0; k < gaps.size(); ++k)
-      by_wall[static_cast<std::size_t>(meetings_[k].wall)].push_back(std::abs(gaps[k]));
+      by_wall[static_cast<std::size_t>(meetings_[k].wall)].push_back(gaps[k]);
     double largest = 0;
-    for (auto& own : by_wall)
-      if (own.size() >= 10) largest = std::max(largest, median_of(std::move(own)).value);
+    for (auto& own : by_wall) {
+      if (own.size() < 10) continue;
+      const auto signed_gap = median_of(own);
+      for (double& gap : own) gap = std::abs(gap);
+      const double known = std::abs(signed_gap.value) - signed_gap.half_width();
+      largest = std::max({largest, 3 * known, median_of(std::move(own)).value});
+    }
     return largest;
   }
   std::vector<double> gaps_with(const Candidate& c, double value) const {

@@ -58,15 +58,10 @@ std::string to_junit(const audit::Audit& result) {
   return compare::junit_text("edmill audit of " + result.log_name, cases);
 }
 
-/// Options that mean nothing for such logs.
-void refuse(const std::vector<std::pair<const char*, bool>>& options, const char* found,
-            const char* expected) {
-  std::vector<const char*> given;
-  for (const auto& [name, is_given] : options)
-    if (is_given) given.push_back(name);
-  if (!given.empty())
-    throw InputError(
-        fmt::format("{}: found a log of {}, expected one of {}", fmt::join(given, ", "), found, expected));
+/// @param given  options that mean nothing for a log
+void refuse(bool given, const char* options, const char* found, const char* expected) {
+  if (given)
+    throw InputError(fmt::format("{}: found a log of {}, expected one of {}", options, found, expected));
 }
 
 Judged judged(const auto& found) { return {found.verdict, to_json(found), to_junit(found), table(found)}; }
@@ -77,28 +72,22 @@ Judged compare(const compare::Options& options) {
   const io::Spool pipes;
   const auto a = options.a.string(), b = options.b.string();
   if (dem::is_contact_log(a) || dem::is_contact_log(b)) {
-    refuse({{"--tolerance", options.tolerance.has_value()},
-            {"--events", options.events.has_value()},
-            {"--batch", options.batch.has_value()}},
+    refuse(options.tolerance || options.events || options.batch, "--tolerance, --events, --batch",
            "contacts that last", "impacts");
     return judged(dem::compare_contacts(options));
   }
-  refuse({{"--within", options.within.has_value()}}, "impacts", "contacts that last");
+  refuse(options.within.has_value(), "--within", "impacts", "contacts that last");
   return judged(compare::compare(options));
 }
 
 Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   const io::Spool pipes;
   if (dem::is_contact_log(given.log)) {
-    refuse({{"--column", !given.columns.empty()},
-            {"--first-ball", given.first_ball.has_value()},
-            {"--walls", !given.walls.empty()},
-            {"--tolerance", given.tolerance.has_value()},
-            {"--gap-tolerance", given.gap_tolerance.has_value()},
-            {"--from-start", given.from_start},
-            {"--identify", given.identify},
-            {"--examples", given.examples.has_value()}},
-           "contacts that last", "impacts");
+    refuse(
+        !given.columns.empty() || given.first_ball || !given.walls.empty() || given.tolerance ||
+            given.gap_tolerance || given.from_start || given.identify || given.examples,
+        "--column, --first-ball, --walls, --tolerance, --gap-tolerance, --from-start, --identify, --examples",
+        "contacts that last", "impacts");
     return judged(dem::audit_contacts(spec, given.log, given.interrupt));
   }
   const auto options = merged(spec, given);
