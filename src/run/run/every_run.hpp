@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tuple>
+#include <utility>
 
 #include "io/summary.hpp"
 #include "run/stop_rules.hpp"
