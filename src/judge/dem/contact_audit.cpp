@@ -218,8 +218,7 @@ void judge_facts(const model::Mill<double>& mill, ContactAudit& audit) {
   add("contacts missed at walls", static_cast<double>(audit.missed_at_walls), 0, 0, 0, Judged::Of::walls);
   add("contacts missed between balls", static_cast<double>(audit.missed_between_balls), 0, 0, 0,
       Judged::Of::balls);
-  add("jumps of balls", static_cast<double>(audit.counts[static_cast<std::size_t>(ContactClass::jump)]), 0, 0,
-      0);
+  add("jumps of balls", static_cast<double>(audit.jumps()), 0, 0, 0);
 }
 
 std::vector<SlipBin> slips_of(const std::vector<Measured>& walls, const std::vector<Measured>& balls) {
@@ -307,7 +306,7 @@ ContactAudit audit_contacts(const casefile::CaseSpec& spec, const std::string& f
   const double size = audit.facts.radius_factor;
   const bool is_other_size = size != 1 && size != 0;
   if (!is_other_size && !audit.facts.of_list()) judge_places(spec, at_walls, interrupt, audit);
-  if (audit.counts[static_cast<std::size_t>(ContactClass::jump)] > 0)
+  if (audit.jumps() > 0)
     leave_out(audit, "balls jump", [](const Judged& j) { return j.name == "dose with no wall or ball"; });
   if (is_other_size || (!audit.causes.empty() && audit.causes[0].key.starts_with("ball")))
     leave_out(audit, "the balls have another size", [](const Judged& j) { return j.of != Judged::Of::log; });

@@ -64,6 +64,7 @@ struct ContactAudit {
   double dose_rate = 0, dose_rate_half_width = 0;  ///< [W]
   bool interrupted = false;
 
+  std::uint64_t jumps() const { return counts[static_cast<std::size_t>(ContactClass::jump)]; }
   /// Balls leave their flights at the walls of the case.
   bool walls_met() const { return wall_distance <= 2 * wall_resolution; }
 };

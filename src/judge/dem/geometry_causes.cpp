@@ -35,6 +35,7 @@ class Geometry {
     const auto built = nominal_.built();
     if (!built) return;
     const MovingVessel vessel(built->mill, built->balls, facets_);
+    reaches_of_walls_.resize(static_cast<std::size_t>(nominal_.walls));
     std::vector<double> reaches;
     for (const auto& c : contacts) {
       const double t = c.free_until + frames.interval / 2;
@@ -55,6 +56,7 @@ class Geometry {
       if (wall < 0) continue;
       meetings_.push_back({static_cast<std::size_t>(c.ball), wall, t, state.position});
       reaches.push_back(norm<double>(impulse) / 1.5 * frames.interval / 2);
+      reaches_of_walls_[static_cast<std::size_t>(wall)].push_back(reaches.back());
     }
     resolution = median_of(reaches).value;
     distance = of(gaps(nominal_));
@@ -83,12 +85,15 @@ class Geometry {
     for (std::size_t k = 0; k < gaps.size(); ++k)
       by_wall[static_cast<std::size_t>(meetings_[k].wall)].push_back(gaps[k]);
     double largest = 0;
-    for (auto& own : by_wall) {
+    for (std::size_t wall = 0; wall < by_wall.size(); ++wall) {
+      auto& own = by_wall[wall];
       if (own.size() < 10) continue;
       const auto signed_gap = median_of(own);
       for (double& gap : own) gap = std::abs(gap);
       const double known = std::abs(signed_gap.value) - signed_gap.half_width();
-      largest = std::max({largest, 3 * known, median_of(std::move(own)).value});
+      // Where balls are faster, frames show places less sharply.
+      const double off = std::max(3 * known, median_of(std::move(own)).value);
+      largest = std::max(largest, off * resolution / median_of(reaches_of_walls_[wall]).value);
     }
     return largest;
   }
@@ -143,6 +148,7 @@ class Geometry {
   Assumptions nominal_;
   int facets_;
   std::vector<Meeting> meetings_;
+  std::vector<std::vector<double>> reaches_of_walls_;  ///< way of the ball in half a frame [m]
 };
 
 Candidate of_number(const Parameter& p) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <pugixml.hpp>
-#include <sstream>
 #include <vector>
 
 #include "plot/chart.hpp"

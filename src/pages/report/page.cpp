@@ -3,7 +3,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/clean_text.hpp"
 #include "report/embedded.hpp"

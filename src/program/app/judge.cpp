@@ -58,7 +58,6 @@ std::string to_junit(const audit::Audit& result) {
   return compare::junit_text("edmill audit of " + result.log_name, cases);
 }
 
-/// @param given  options that mean nothing for a log
 void refuse(bool given, const char* options, const char* found, const char* expected) {
   if (given)
     throw InputError(fmt::format("{}: found a log of {}, expected one of {}", options, found, expected));
