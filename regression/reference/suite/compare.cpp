@@ -1,7 +1,6 @@
 // Compares the collision log of any code with a case of the suite: `c++ -std=c++17 compare.cpp`. CC0 1.0.
 // usage: compare EVENTS.csv LOG.csv COUNT TOLERANCE     (the numbers that suite.json of the case has)
-// Numbers are compared relative to the largest of a column. Exit code: 0 they agree, 1 they differ, 2 a file
-// cannot be read.
+// Numbers are compared relative to the largest of a column. Exit code: 0 they agree, 1 differ, 2 bad file.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -30,7 +29,9 @@ std::vector<Row> read(const char* file) {
   return rows;
 }
 
-double number(Row& row, const std::string& name) { return std::atof(row[name].c_str()); }
+double number(Row& row, const std::string& name) {  // nan agrees with nothing
+  return row[name].find_first_of("0123456789") < row[name].size() ? std::atof(row[name].c_str()) : NAN;
+}
 
 std::string bodies(Row& row) {
   auto one = row["ball"], two = row["partner"], kind = row["partner_kind"];
@@ -43,6 +44,9 @@ int main(int argc, char** argv) {
   auto expected = read(argv[1]), found = read(argv[2]);
   const std::size_t count = std::strtoul(argv[3], nullptr, 10);
   if (expected.size() < count || count == 0) return std::cerr << argv[1] << " has too few events\n", 2;
+  for (const char* name : {"time", "ball", "partner_kind", "partner"})
+    if (!found.empty() && !found[0].count(name))
+      return std::cerr << argv[2] << " has no column " << name << "\n", 2;
   if (found.size() < count) return std::cout << "the log ends after " << found.size() << " events\n", 1;
   const std::set<std::string> whole{"index", "ball", "partner", "partner_kind"};
   std::map<std::string, double> scale;  // the largest of each column that both have

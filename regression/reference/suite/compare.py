@@ -37,6 +37,9 @@ def main():
         expected, found = rows_of(folder / case["events"]), rows_of(sys.argv[2])
         tolerance = float(sys.argv[3]) if len(sys.argv) == 4 else case["tolerance"]
         count = case["agree"]
+        needed = ["time", "ball", "partner_kind", "partner"]
+        if missing := [name for name in needed if found and name not in found[0]]:
+            raise ValueError(f"{sys.argv[2]} has no column {', '.join(missing)}")
         names = [n for n in case["columns"] if n in expected[0] and found and n in found[0]]
         scale = {n: max(abs(float(row[n])) for row in expected[:count]) or 1.0 for n in names}
         for k in range(count):

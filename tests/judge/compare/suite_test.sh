@@ -50,6 +50,14 @@ events_agree() { # name, events, settings
   awk 'NR == 3 {kept = $0; next} {print} NR == 4 {print kept}' "$log" >swapped.csv
   awk -F, -v OFS=, 'NR == 5 {$2 = sprintf("%.17g", $2 * (1 + 1e-3) + 1e-3)} {print}' "$log" >late.csv
   awk -F, -v OFS=, 'NR == 4 {$5 = $5 + 7} {print}' "$log" >partner.csv
+  awk -F, -v OFS=, 'NR == 1 {for (k = 1; k <= NF; ++k) if ($k == "time") place = k} NR == 4 {$place = "?"} {print}' "$log" >no_number.csv
+  for column in time ball partner_kind partner; do
+    sed "1s/\(^\|,\)$column\(,\|\$\)/\1no_$column\2/" "$log" >no_column.csv
+    expect 2 "compare.py: a log of $name without $column" in_python compare "$name" no_column.csv
+    expect 2 "compare.cpp: a log of $name without $column" ./compare "$events" no_column.csv "$count" "$tolerance"
+  done
+  expect 2 "compare.py: a log of $name whose time is no number" in_python compare "$name" no_number.csv
+  expect 1 "compare.cpp: a log of $name whose time is no number" ./compare "$events" no_number.csv "$count" "$tolerance"
   for changed in left_out swapped late partner; do
     expect 1 "compare.py: a log of $name that is changed: $changed" in_python compare "$name" $changed.csv
     expect 1 "compare.cpp: a log of $name that is changed: $changed" ./compare "$events" $changed.csv "$count" "$tolerance"
