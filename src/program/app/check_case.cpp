@@ -41,9 +41,20 @@ void add_run(const casefile::CaseSpec& spec, const model::Case<double>& c, const
   });
 }
 
-void add_mill(const casefile::CaseSpec& spec, const model::Mill<double>& m, const Row& row) {
+/// "Y", "-X", "(0.966, 0.259, 0)"
+std::string direction(const Vec3<double>& v) {
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(v[k]) > 1 - 1e-12) return std::string(v[k] < 0 ? "-" : "") + "XYZ"[k];
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", v[0], v[1], v[2]);
+}
+
+void add_mill(const casefile::CaseSpec& spec, const model::Mill<double>& m, double start, const Row& row) {
   row("gravity", casefile::describe_gravity(spec));
   row("mill", casefile::describe(spec.mill));
+  const auto pose = m.motion.pose(DriveClock<double>(m.motion.period()).at(start));
+  row("vessel's x, y, z",
+      fmt::format("along {}, {}, {} of the laboratory at the start", direction(m.motion.axis_x(pose)),
+                  direction(m.motion.axis_y(pose)), direction(m.motion.axis_z(pose))));
   if (const double peak = m.motion.wall_speed(0); peak > 0)
     row("peak wall speed", fmt::format("{:g} m/s at the vessel's centre", peak));
   row("vessel", casefile::describe(spec.vessel));
@@ -91,7 +102,7 @@ CheckedCase check(const casefile::CaseSpec& spec) {
       result.facts.emplace_back(name, value);
     };
     add_run(spec, built.the_case, row);
-    add_mill(spec, built.the_case.mill, row);
+    add_mill(spec, built.the_case.mill, spec.initial_time.to<double>(), row);
     add_charge(spec, built.the_case, row);
     for (const auto& output : spec.outputs) row("output", output.type + " to " + output.file);
     return result;

@@ -162,7 +162,9 @@ template <class Number>
 struct StillMill : detail::SpexSizes<Number> {
   static constexpr const char* name = "still";
   static constexpr Parameter keys[] = {
-      {"arm", Dimension::length, "from the fulcrum to the centre of the vessel", Range::not_negative, "0 m"},
+      {"arm", Dimension::length,
+       "from the fulcrum to the centre of the vessel, whose x is the laboratory's Y, its y -X",
+       Range::not_negative, "0 m"},
       detail::no_angle,
       detail::no_angle,
       {nullptr, Dimension::time, "", Range::positive, "0.0625 s"}};
