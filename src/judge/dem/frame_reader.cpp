@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -41,12 +40,11 @@ std::vector<std::string> words(const std::string& line) {
 }
 
 int facets_of(const std::string& word, const std::string& deck) {
-  int facets = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), facets);
-  if (error != std::errc() || *end != 0 || facets < 3)
+  const auto facets = io::number_in(word);
+  if (!facets || !(*facets >= 3 && *facets <= 1e6 && *facets == std::floor(*facets)))
     throw InputError(
         fmt::format("{}: found {} facets, expected a number from 3 on", deck, io::in_quotes(word)));
-  return facets;
+  return static_cast<int>(*facets);
 }
 
 // Binary dumps of LAMMPS: `dump custom FILE.bin`, revision 2 of its format (since 2021), which names its
@@ -146,16 +144,14 @@ DeckFacts facts_of_deck(const std::string& deck) {
     if (w[0] == "units") facts.units = w[1];
     const bool assigned = w.size() > 2 && w[0] == "O.dt" && w[1] == "=";
     if (w[0] != "timestep" && !assigned) continue;
-    const auto& text = w[assigned ? 2 : 1];
-    double step = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), step);
-    const bool is_known = error == std::errc() && *end == 0 && step > 0;
-    const bool is_other = facts.time_step && *facts.time_step != step;
+    const auto step = io::number_in(w[assigned ? 2 : 1]);
+    const bool is_known = step && *step > 0 && std::isfinite(*step);
+    const bool is_other = facts.time_step && facts.time_step != step;
     if ((!is_known || is_other) && facts.no_time_step.empty())
       facts.no_time_step =
           fmt::format("{}:{}: found {}, expected {}: give --timestep", deck, number, io::in_quotes(line),
                       is_known ? "one time step" : "a time step as a number");
-    facts.time_step = step;
+    facts.time_step = step.value_or(0);
   }
   return facts;
 }
@@ -191,10 +187,13 @@ double FrameReader::finite(const std::string& text) const {
 }
 
 void FrameReader::set_units(const std::string& units) {
-  static constexpr Units known[] = {
-      {"si", 1, 1, 1}, {"cgs", 1e-2, 1, 1e-3}, {"micro", 1e-6, 1e-6, 1e-15}, {"nano", 1e-9, 1e-9, 1e-21}};
+  static constexpr Units known[] = {{"si", 1, 1, 1},
+                                    {"cgs", 1e-2, 1, 1e-3},
+                                    {"mm", 1e-3, 1, 1},
+                                    {"micro", 1e-6, 1e-6, 1e-15},
+                                    {"nano", 1e-9, 1e-9, 1e-21}};
   const auto* found = std::ranges::find(known, units, &Units::name);
-  if (found == std::end(known)) fail("units '" + units + "'", "si, cgs, micro or nano");
+  if (found == std::end(known)) fail("units '" + units + "'", "si, cgs, mm, micro or nano");
   units_ = *found;
 }
 
@@ -225,7 +224,7 @@ void FrameReader::read_columns(const std::vector<std::string>& columns) {
   }
 }
 
-FrameReader::Row FrameReader::row() const {
+FrameReader::FrameRow FrameReader::row() const {
   std::vector<double> values(names_.size());
   std::size_t column = 0;
   for (const auto& word : words(line_)) {
@@ -238,11 +237,11 @@ FrameReader::Row FrameReader::row() const {
   return row_of(values);
 }
 
-FrameReader::Row FrameReader::row_of(const std::vector<double>& values) const {
+FrameReader::FrameRow FrameReader::row_of(const std::vector<double>& values) const {
   const auto at = [&](std::size_t what) { return values[static_cast<std::size_t>(places_[what])]; };
   if (!(std::abs(at(id)) < 1e15)) fail(fmt::format("ball {}", at(id)), "the number of a ball");
   const double length = units_.length, time = units_.time;
-  Row row;
+  FrameRow row;
   row.id = static_cast<long>(at(id));
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
@@ -259,11 +258,11 @@ FrameReader::Row FrameReader::row_of(const std::vector<double>& values) const {
   return row;
 }
 
-void FrameReader::finish(std::vector<Row> rows, double time, Frame& frame) {
+void FrameReader::finish(std::vector<FrameRow> rows, double time, Frame& frame) {
   if (rows.size() != count_)
     fail(fmt::format("{} balls in a frame", rows.size()), fmt::format("{}, as in the case", count_));
-  std::ranges::sort(rows, {}, &Row::id);
-  if (const auto twice = std::ranges::adjacent_find(rows, {}, &Row::id); twice != rows.end())
+  std::ranges::sort(rows, {}, &FrameRow::id);
+  if (const auto twice = std::ranges::adjacent_find(rows, {}, &FrameRow::id); twice != rows.end())
     fail(fmt::format("ball {} twice in a frame", twice->id), "each once");
   std::vector<long> ids;
   frame.balls.clear();
@@ -295,10 +294,12 @@ void FrameReader::finish(std::vector<Row> rows, double time, Frame& frame) {
 }
 
 bool FrameReader::next(Frame& frame) {
-  if (kind_ == Kind::unknown)
-    kind_ = begins_binary_dump(in_.peek()) ? Kind::binary : in_.peek() == 'I' ? Kind::dump : Kind::table;
-  if (kind_ == Kind::binary) return next_of_binary(frame);
-  return kind_ == Kind::dump ? next_of_dump(frame) : next_of_table(frame);
+  if (kind_ == FileKind::unknown)
+    kind_ = begins_binary_dump(in_.peek()) ? FileKind::binary
+            : in_.peek() == 'I'            ? FileKind::dump
+                                           : FileKind::table;
+  if (kind_ == FileKind::binary) return next_of_binary(frame);
+  return kind_ == FileKind::dump ? next_of_dump(frame) : next_of_table(frame);
 }
 
 double FrameReader::time_of(std::optional<double> time, std::optional<double> step) const {
@@ -327,7 +328,7 @@ bool FrameReader::next_of_binary(Frame& frame) try {
   read_columns(words(titles));
   if (names_.size() != static_cast<std::size_t>(columns))
     fail(fmt::format("{} names for {} columns", names_.size(), columns), "one for each");
-  std::vector<Row> rows;
+  std::vector<FrameRow> rows;
   for (auto begin = values.begin(); begin != values.end(); begin += columns) {
     rows.push_back(row_of({begin, begin + columns}));
   }
@@ -346,7 +347,7 @@ bool FrameReader::next_of_table(Frame& frame) {
     read_columns(words(line_));
     if (places_[moment] < 0) fail("no column time", "time id x y z vx vy vz omegax omegay omegaz");
   }
-  std::vector<Row> rows;
+  std::vector<FrameRow> rows;
   if (waiting_) rows.push_back(*std::exchange(waiting_, std::nullopt));
   while (line()) {
     if (words(line_).empty()) continue;
@@ -376,7 +377,7 @@ bool FrameReader::next_of_dump(Frame& frame) {
       columns.erase(columns.begin(), columns.begin() + 2);
       read_columns(columns);
       const double at = time_of(time, step);
-      std::vector<Row> rows;
+      std::vector<FrameRow> rows;
       while (rows.size() < count_) {
         if (!line() || in_.eof()) return false;  // cut off
         rows.push_back(row());

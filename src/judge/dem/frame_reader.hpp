@@ -15,7 +15,7 @@ namespace edmill::dem {
 /// What a file does not say of itself.
 struct DumpFormat {
   std::optional<double> time_step;  ///< [s]; of files without times
-  std::string units = "si";         ///< "si", "cgs", "micro" or "nano"; a file that says its own overrides it
+  std::string units = "si";  ///< "si", "cgs", "mm", "micro" or "nano"; a file that says its own overrides it
 };
 
 /// What a deck says: its lines `timestep`, `units`, `# frame vessel` and `# facets`.
@@ -53,8 +53,8 @@ class FrameReader {
   const std::vector<double>& radii() const { return radii_; }
 
  private:
-  enum class Kind { unknown, dump, binary, table };
-  struct Row {
+  enum class FileKind { unknown, dump, binary, table };
+  struct FrameRow {
     long id = 0;
     model::BallState<double> state;
     std::optional<double> mass, radius, time;
@@ -74,10 +74,10 @@ class FrameReader {
   void set_units(const std::string& units);
   void read_columns(const std::vector<std::string>& columns);
   void read_bounds(std::size_t axis);
-  Row row() const;
-  Row row_of(const std::vector<double>& values) const;
+  FrameRow row() const;
+  FrameRow row_of(const std::vector<double>& values) const;
   double time_of(std::optional<double> time, std::optional<double> step) const;
-  void finish(std::vector<Row> rows, double time, Frame& frame);
+  void finish(std::vector<FrameRow> rows, double time, Frame& frame);
   double number(const std::string& text) const;  ///< or nan or inf
   double finite(const std::string& text) const;
 
@@ -85,7 +85,7 @@ class FrameReader {
   io::InputFile in_;
   DumpFormat format_;
   std::size_t count_;
-  Kind kind_ = Kind::unknown;
+  FileKind kind_ = FileKind::unknown;
   std::string line_;
   std::uint64_t line_number_ = 0;
   std::vector<std::string> names_;        ///< of the columns
@@ -95,7 +95,7 @@ class FrameReader {
   Units units_{"si", 1, 1, 1};
   std::vector<long> ids_;
   std::vector<double> masses_, radii_;
-  std::optional<Row> waiting_;  ///< of the next frame of a table
+  std::optional<FrameRow> waiting_;  ///< of the next frame of a table
   double last_time_;
 };
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <sstream>
 
+#include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
 #include "dem/contacts.hpp"
@@ -25,6 +27,13 @@ std::vector<double> ratios_of(std::vector<double> dump,
                               double model::BallProperties<double>::*own) {
   for (std::size_t k = 0; k < dump.size(); ++k) dump[k] /= balls[k].*own;
   return dump;
+}
+
+/// From the axes of a dump to those of the case. A spin keeps its sense in a mirror.
+void put_in_axes(BallState& ball, const identify::Axes& axes) {
+  ball.position = axes.of(ball.position);
+  ball.velocity = axes.of(ball.velocity);
+  ball.spin = axes.of(ball.spin) * axes.handedness();
 }
 
 /// Numbers from 0 on, whatever the first ball's is: all of them occur, or they are counted from 0 or 1.
@@ -141,6 +150,8 @@ Imported import_contact_list(const casefile::CaseSpec& spec, const ImportOptions
   const MovingVessel vessel(built.the_case.mill, balls);
   const FlatWalls walls(vessel, options.dump);
   auto list = read_contact_list(options.dump);
+  for (auto& c : list)
+    for (auto* state : {&c.before, &c.after}) put_in_axes(*state, options.axes);
   if (list.empty()) throw InputError(options.dump + ": found no contacts, expected some");
   number_balls(options.dump, balls.size(), list);
   const auto wall_of = walls_of(list, walls, vessel.walls(), options.dump);
@@ -195,6 +206,10 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
   const auto next = [&](Frame& frame) {
     if (!reader.next(frame)) return false;
     frame.time += begin;
+    for (auto& ball : frame.balls) {
+      put_in_axes(ball, options.axes);
+      ball.position += options.origin;
+    }
     if (in_vessel) {
       const auto pose = vessel.at(frame.time);
       for (auto& ball : frame.balls) ball = vessel.inertial(pose, ball);
@@ -230,6 +245,23 @@ Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& option
   }
   finder.finish();
   return result;
+}
+
+identify::Axes axes_from(const std::string& text) {
+  identify::Axes axes;
+  std::istringstream in(text);
+  std::string word, seen;
+  for (std::size_t k = 0; k < 3 && in >> word; ++k) {
+    axes.sign[k] = word[0] == '-' ? -1 : 1;
+    axes.from[k] = word.back() - 'x';
+    if (word.size() == (word[0] == '-' ? 2 : 1)) seen += word.back();
+  }
+  std::ranges::sort(seen);
+  if (seen != "xyz" || in >> word)
+    throw InputError(fmt::format(
+        "--axes: found {}, expected x, y and z in some order, each with a - or without: \"x z -y\"",
+        io::in_quotes(text)));
+  return axes;
 }
 
 std::string table(const Imported& r, const std::string& log) {

@@ -8,6 +8,7 @@
 
 #include "casefile/case_spec.hpp"
 #include "dem/contacts.hpp"
+#include "identify/assumptions.hpp"
 
 namespace edmill::dem {
 
@@ -15,7 +16,9 @@ struct ImportOptions {
   std::string dump;
   std::string deck;                  ///< that made it: tells time step, units and frame; none when empty
   std::optional<double> time_step;   ///< [s]
-  std::optional<std::string> units;  ///< of LAMMPS: "si", "cgs", ...
+  std::optional<std::string> units;  ///< "si", "cgs", "mm", ...
+  Vector origin{0, 0, 0};            ///< of the dump, in the case [m]
+  identify::Axes axes{};             ///< of the case, in those of the dump
   bool in_vessel = false;            ///< places and velocities are those in the vessel's frame
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double time, std::uint64_t contacts)> progress;
@@ -40,5 +43,8 @@ struct Imported {
 Imported import_dump(const casefile::CaseSpec& spec, const ImportOptions& options, ContactLogWriter& log);
 
 std::string table(const Imported& imported, const std::string& log);
+
+/// "x z -y": the case's X is the dump's x, its Y the dump's z, its Z the dump's -y. @throws InputError
+identify::Axes axes_from(const std::string& text);
 
 }  // namespace edmill::dem

@@ -46,15 +46,17 @@ MISTAKES = {
 BESIDE = {"attraction=1": {"friction"}, "exchanged_axes=1": {"spin"}}
 #: Laws of codes that are right.
 RIGHT = ({}, {"restitution": 0.3}, {"restitution": 0.85, "friction": 0.1})
+#: Balls of two sizes.
+SIZES = ("--set", 'balls=[{count=3, diameter="8 mm", density="8 g/cm3"}, {count=2, diameter="6 mm", density="8 g/cm3"}]')
 #: Contact times [us] and seeds.
 RUNS = ((20, 1), (50, 2), (100, 3), (200, 1), (200, 2), (300, 2), (300, 3)) if ALL else ((100, 1),)
 
 
-def judged(options, time, seed, case=()):
+def judged(options, time, seed, case=(), reading=()):
     """The exit code and the document of an audit; the code and message of an import that is refused."""
     with open("frames.dump", "wb") as out:
         subprocess.run([DEM, f"contact_time={time}e-6", f"seed={seed}", *options], stdout=out, check=True)
-    done = edmill("import", "frames.dump", "--case", CASE, "--timestep", f"{time / 50} us", "--out", "contacts.csv", "--quiet", *case)
+    done = edmill("import", "frames.dump", "--case", CASE, "--timestep", f"{time / 50} us", "--out", "contacts.csv", "--quiet", *case, *reading)
     if done.returncode:
         return done.returncode, done.stderr
     done = edmill("audit", CASE, "contacts.csv", "--json", "audit.json", *case)
@@ -75,6 +77,13 @@ with Trials(to_the_end=True) as t:
             t.check(code == 0, f"right, {law}, {time} us, seed {seed}: {code}, {differing(document)}")
         code, document = judged(["digits=6", "every=5", "with_sizes=0"], time, seed)
         t.check(code == 0, f"right, six digits, {time} us, seed {seed}: {code}, {document if code == 2 else differing(document)}")
+        for options, case in ((["hertz=1"], ()), (["small_balls=2"], SIZES), (["hertz=1", "small_balls=2"], SIZES)):
+            code, document = judged(options, time, seed, case)
+            t.check(code == 0, f"right, {options}, {time} us, seed {seed}: {code}, {document if code == 2 else differing(document)}")
+        for options, reading in ((["turned_axes=1", "shift_x=0.02"], ("--axes", "x z -y", "--shift", "-20 mm", "0 mm", "0 mm")),
+                                 (["length_unit=1000"], ("--units", "mm"))):
+            code, document = judged(options, time, seed, reading=reading)
+            t.check(code == 0, f"right, {options}, {time} us, seed {seed}: {code}, {document if code == 2 else differing(document)}")
         for k, (mistake, name) in enumerate(MISTAKES.items()):
             if not ALL and k % 5 != 1:
                 continue

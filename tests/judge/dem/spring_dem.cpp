@@ -1,6 +1,6 @@
-// A DEM code of linear springs and dashpots in a vibrated box, with mistakes by name: frames to standard
-// output, as LAMMPS writes them. Shares no code with edmill.
-// usage: spring_dem [NAME=VALUE...]   a name that it does not have is an error
+// A DEM code of springs and dashpots, linear ones or Hertz's, in a vibrated box, with mistakes by name:
+// frames to standard output, as LAMMPS writes them. Shares no code with edmill. usage: spring_dem
+// [NAME=VALUE...]   a name that it does not have is an error
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -26,6 +26,8 @@ const double pi = std::acos(-1.0);
 std::map<std::string, double> options{
     // the run: number of balls, duration of a contact [s], time steps in it, steps between frames, digits
     {"balls", 5},
+    {"small_balls", 0},
+    {"hertz", 0},
     {"contact_time", 1e-4},
     {"steps", 50},
     {"every", 10},
@@ -75,16 +77,26 @@ std::map<std::string, double> options{
     {"spin_sign", 1},
     {"spin_unit", 1},
     {"exchanged_axes", 0},
+    {"turned_axes", 0},
     {"scaled", 0}};
 double at(const char* name) { return options.at(name); }
 int whole(const char* name) { return static_cast<int>(at(name)); }
 
-/// Of a contact with this damping, in units of its mass and stiffness.
+/// Duration of an undamped contact in units of its mass and stiffness, for Hertz at a speed of one.
+double unit_of_time() { return at("hertz") != 0 ? 2.9432750 : pi; }
+
+/// Force along the normal in these units.
+double normal_force(double overlap, double speed, double damping) {
+  if (at("hertz") != 0) return overlap * std::sqrt(overlap) + damping * std::sqrt(std::sqrt(overlap)) * speed;
+  return overlap + damping * speed;
+}
+
+/// Of a contact with this damping.
 double restitution_of(double damping, int steps) {
-  const double step = pi / steps;
+  const double step = unit_of_time() / steps;
   double x = step / 2, v = 1;
   while (true) {
-    const double force = std::max(0.0, x + damping * v);
+    const double force = std::max(0.0, normal_force(x, v, damping));
     v -= force * step;
     x += v * step;
     if (x <= 0 || (v < 0 && force == 0)) return -v;
@@ -101,6 +113,7 @@ double damping_for(double restitution, int steps) {
 
 struct Ball {
   V x, v, w, force{}, torque{};
+  double radius, mass, inertia;
 };
 
 class Run {
@@ -114,6 +127,9 @@ class Run {
       ball.x = {-0.008 + 0.016 * (i % 2), -0.018 + 0.036 * i / std::max(1, count - 1),
                 0.004 * (i % 3) - 0.004};
       for (double& v : ball.v) v = share(random) / 2;
+      ball.radius = (i < count - whole("small_balls") ? 0.004 : 0.003) * at("radius");
+      ball.mass = 8000 * at("density") * 4 / 3 * pi * std::pow(ball.radius, 3);
+      ball.inertia = 0.4 * at("inertia") * ball.mass * ball.radius * ball.radius;
       balls_.push_back(ball);
     }
     for (int wall = 0; wall < 6; ++wall) walls_[static_cast<std::size_t>(wall)] = damping_of_wall(wall);
@@ -127,8 +143,8 @@ class Run {
       if (k % whole("every") == 0) write(k);
       forces(static_cast<double>(k) * step_);
       for (auto& b : balls_) {
-        b.v = b.v + b.force * (step_ / mass_);
-        b.w = b.w + b.torque * (step_ / inertia_);
+        b.v = b.v + b.force * (step_ / b.mass);
+        b.w = b.w + b.torque * (step_ / b.inertia);
         b.x = b.x + b.v * step_;
         if (const int axis = whole("periodic_axis"); axis >= 0) {
           const auto a = static_cast<std::size_t>(axis);
@@ -149,14 +165,16 @@ class Run {
 
   /// Force on the body at which the normal points, for a relative velocity g of the surfaces.
   V contact(int key, const V& n, double overlap, const V& g, double mass, double damping, double friction) {
-    const double stiffness = stiffness_ * mass / mass_, normal_speed = dot(g, n);
-    double normal = stiffness * overlap - damping * std::sqrt(stiffness * mass) * normal_speed;
+    // Lengths and speeds of one are those of a contact at 1 m/s.
+    const double unit = at("contact_time") / unit_of_time(), normal_speed = dot(g, n);
+    double normal = mass / unit * normal_force(overlap / unit, -normal_speed, damping);
     if (normal < 0 && at("attraction") == 0) normal = 0;
     V& wound = springs_[key];
     const V along = g - n * normal_speed;
     wound = wound - n * dot(wound, n) + along * step_;
-    const double tangential = 2.0 / 7 * stiffness;
-    V force = wound * -tangential - along * (at("tangential_damping") * std::sqrt(stiffness * mass));
+    const double softer = at("hertz") != 0 ? 1.5 * std::sqrt(overlap / unit) : 1;
+    const double tangential = 2.0 / 7 * softer * mass / (unit * unit);
+    V force = wound * -tangential - along * (at("tangential_damping") * mass / unit);
     if (const double size = std::sqrt(dot(force, force)), most = friction * std::abs(normal); size > most) {
       force = force * (most / size);
       wound = force * (-1 / tangential);
@@ -175,17 +193,17 @@ class Run {
       centre[k] = amplitude_[k] * std::sin(phase);
       moving[k] = amplitude_[k] * speed * std::cos(phase) * at("wall_velocity");
     }
-    const double arm = at("no_spin_in_slip") != 0 ? 0 : radius_;
+    const double arm = at("no_spin_in_slip") != 0 ? 0 : 1;
     for (auto& b : balls_) {
       b.torque = {};
       b.force = {};
-      b.force[static_cast<std::size_t>(whole("gravity_axis"))] = -9.8 * mass_ * at("gravity");
+      b.force[static_cast<std::size_t>(whole("gravity_axis"))] = -9.8 * b.mass * at("gravity");
     }
     for (std::size_t i = 0; i < balls_.size(); ++i) {
       auto& b = balls_[i];
       for (int wall = 0; wall < 6; ++wall) {
         const auto k = static_cast<std::size_t>(wall / 2);
-        const double side = wall % 2 ? 1 : -1, overlap = side * (b.x[k] - centre[k]) - (half_[k] - radius_);
+        const double side = wall % 2 ? 1 : -1, overlap = side * (b.x[k] - centre[k]) - (half_[k] - b.radius);
         const int key = static_cast<int>(i) * 100 + wall;
         if (overlap <= 0 || wall == whole("missing_wall") || static_cast<int>(k) == whole("periodic_axis")) {
           springs_.erase(key);
@@ -195,28 +213,27 @@ class Run {
         n[k] = -side;
         const double damping =
             static_cast<int>(i) == whole("other_ball") ? other_ : walls_[static_cast<std::size_t>(wall)];
-        const V force = contact(key, n, overlap, b.v - moving + cross(b.w, n * -arm), mass_, damping,
-                                friction("friction_of_walls"));
+        const V force = contact(key, n, overlap, b.v - moving + cross(b.w, n * -(arm * b.radius)), b.mass,
+                                damping, friction("friction_of_walls"));
         b.force = b.force + force;
-        b.torque = b.torque + cross(n * -radius_, force) * at("torque");
+        b.torque = b.torque + cross(n * -b.radius, force) * at("torque");
       }
       for (std::size_t j = 0; j < i; ++j) {
         auto& c = balls_[j];
         const V apart = b.x - c.x;
-        const double distance = std::sqrt(dot(apart, apart)), overlap = 2 * radius_ - distance;
+        const double distance = std::sqrt(dot(apart, apart)), overlap = b.radius + c.radius - distance;
         const int key = static_cast<int>(i) * 100 + 50 + static_cast<int>(j);
         if (overlap <= 0 || at("no_pairs") != 0 || left_out(key)) {
           springs_.erase(key);
           continue;
         }
-        const V n = apart * (1 / distance), g = b.v - c.v - cross(b.w + c.w, n * arm);
-        const V force = contact(key, n, overlap, g, mass_ / 2 * at("mass_of_pairs"), pairs_,
-                                friction("friction_of_pairs"));
+        const V n = apart * (1 / distance), g = b.v - c.v - cross(b.w * b.radius + c.w * c.radius, n * arm);
+        const double mass = b.mass * c.mass / (b.mass + c.mass) * at("mass_of_pairs");
+        const V force = contact(key, n, overlap, g, mass, pairs_, friction("friction_of_pairs"));
         b.force = b.force + force;
         c.force = c.force - force;
-        const V torque = cross(n * -radius_, force) * at("torque");
-        b.torque = b.torque + torque;
-        c.torque = c.torque + torque;
+        b.torque = b.torque + cross(n * -b.radius, force) * at("torque");
+        c.torque = c.torque + cross(n * -c.radius, force) * at("torque");
       }
     }
   }
@@ -230,6 +247,7 @@ class Run {
     const double unit = at("length_unit");
     const auto put = [&](V vector) {
       if (at("exchanged_axes") != 0) std::swap(vector[1], vector[2]);
+      if (at("turned_axes") != 0) vector = {vector[0], -vector[2], vector[1]};
       for (const double a : vector) std::printf(" %.*g", digits, a);
     };
     for (std::size_t i = 0; i < balls_.size(); ++i) {
@@ -239,16 +257,12 @@ class Run {
                             : (b.x + V{at("shift_x"), 0, 0}) * unit);
       put(b.v * unit);
       put(b.w * (at("spin_sign") * at("spin_unit")));
-      if (at("with_sizes") != 0) std::printf(" %.9g %.9g", mass_, radius_ * unit);
+      if (at("with_sizes") != 0) std::printf(" %.9g %.9g", b.mass, b.radius * unit);
       std::puts("");
     }
   }
 
-  const double radius_ = 0.004 * at("radius");
-  const double mass_ = 8000 * at("density") * 4 / 3 * pi * radius_ * radius_ * radius_;
-  const double inertia_ = 0.4 * at("inertia") * mass_ * radius_ * radius_;
   const double step_ = at("contact_time") / at("steps");
-  const double stiffness_ = mass_ / 2 * pi * pi / (at("contact_time") * at("contact_time"));
   const V half_{0.0165 * at("size_x"), 0.0285 * at("size_y"), 0.018 * at("size_z")};
   const V amplitude_{0.003 * at("amplitude"), 0.011 * at("amplitude") * at("amplitude_y"),
                      -0.002 * at("amplitude")};

@@ -22,21 +22,24 @@ inline void write_to(const std::string& name, const std::string& text) {
   if (auto file = io::file_for(name)) file->write([&](std::ostream& out) { out << text; });
 }
 
-/// An option that is a quantity with a unit, "50 us", kept in SI.
+/// The value of an option that is a quantity with a unit, "50 us", in SI.
+inline double quantity_from(const std::string& name, const std::string& text, casefile::Dimension dimension) {
+  const auto read = casefile::parse_quantity(text, dimension);
+  if (const auto* problem = std::get_if<casefile::QuantityProblem>(&read))
+    throw CLI::ValidationError(name,
+                               "found " + problem->found + ", expected " + casefile::describe(dimension));
+  return std::get<casefile::Quantity>(read).to<double>();
+}
+
 CLI::Option* add_quantity(CLI::App& command, const std::string& name, auto& target,
                           casefile::Dimension dimension, const std::string& what) {
   return command.add_option_function<std::string>(
       name,
       [&target, name, dimension](const std::string& text) {
-        const auto read = casefile::parse_quantity(text, dimension);
-        if (const auto* problem = std::get_if<casefile::QuantityProblem>(&read))
-          throw CLI::ValidationError(
-              name, "found " + problem->found + ", expected " + casefile::describe(dimension));
-        const auto& quantity = std::get<casefile::Quantity>(read);
-        if (!quantity.positive())
+        target = quantity_from(name, text, dimension);
+        if (!(target > 0))
           throw CLI::ValidationError(name,
                                      "found " + text + ", expected a positive " + casefile::noun(dimension));
-        target = quantity.to<double>();
       },
       what);
 }
@@ -109,8 +112,15 @@ struct Import : CaseCommand<dem::ImportOptions> {
     command.add_option("--deck", options_.deck, "input of the code, which gives time step, units and frame");
     add_quantity(command, "--timestep", options_.time_step, casefile::Dimension::time,
                  "of a dump that has no times");
-    command.add_option("--units", options_.units, "of the dump; si unless the dump or the deck names them")
-        ->check(CLI::IsMember({"si", "cgs", "micro", "nano"}));
+    command
+        .add_option("--units", options_.units,
+                    "of the dump (mm: mm, s, kg); si unless the dump or the deck names them")
+        ->check(CLI::IsMember({"si", "cgs", "mm", "micro", "nano"}));
+    command.add_option("--axes", axes_,
+                       "of the case in those of the dump: \"x z -y\" where its y is the case's -Z");
+    command
+        .add_option("--shift", shift_, "place of the dump's origin in the case: \"0 mm\" \"0 mm\" \"10 mm\"")
+        ->expected(3);
     command.add_option("--frame", frame_, "frame of the dump; laboratory unless the deck names it")
         ->check(CLI::IsMember({"laboratory", "vessel"}));
     command.add_flag("--quiet", quiet_, "no progress line and no table");
@@ -118,6 +128,10 @@ struct Import : CaseCommand<dem::ImportOptions> {
   int run() {
     if (out_.empty()) out_ = "contacts.csv";
     options_.in_vessel = frame_ == "vessel";
+    if (!axes_.empty()) options_.axes = dem::axes_from(axes_);
+    for (std::size_t k = 0; k < shift_.size(); ++k)
+      options_.origin[static_cast<Eigen::Index>(k)] =
+          quantity_from("--shift", shift_[k], casefile::Dimension::length);
     return interruptible(given_.read(), options_, [this](const auto& spec, auto& options) {
       ProgressLine line(quiet_);
       if (line)
@@ -135,7 +149,8 @@ struct Import : CaseCommand<dem::ImportOptions> {
   }
 
  private:
-  std::string out_, frame_;
+  std::string out_, frame_, axes_;
+  std::vector<std::string> shift_;
 };
 
 struct Limit {
