@@ -69,7 +69,7 @@ if(EMSCRIPTEN)
   edmill_take_headers(unsupported/Eigen/NonLinearOptimization)
   add_executable(edmill_page)
   target_link_libraries(edmill_page PRIVATE edmill_core)
-  edmill_take_rooms(edmill_page bindings/browser judge/audit judge/compare judge/identify)
+  edmill_take_rooms(edmill_page bindings/browser judge/logs judge/audit judge/compare judge/identify)
   # The checker of certificates, which has no code of edmill.
   file(GLOB checker CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/verification/checker/*.cpp)
   list(FILTER checker EXCLUDE REGEX "/main.cpp$")

@@ -139,7 +139,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_audit(int identify) {
     audited.log_name = "log";
     json.add("verdict", edmill::audit::name_of(audited.verdict));
     std::string table = edmill::audit::table(audited);
-    if (audited.verdict == edmill::audit::Verdict::violations)
+    if (audited.verdict == edmill::audit::AuditVerdict::violations)
       table += edmill::identify::table(edmill::identify::identify(
           spec, options, identify != 0 ? edmill::identify::Search::all : edmill::identify::Search::single,
           tell_stage));
@@ -165,7 +165,7 @@ EMSCRIPTEN_KEEPALIVE const char* edmill_check() {
 /// The logs are the files /reference and /log.
 EMSCRIPTEN_KEEPALIVE const char* edmill_compare() {
   return answer([&](JsonText& json) {
-    edmill::compare::Options options;
+    edmill::compare::ComparisonOptions options;
     options.a = "/reference";
     options.b = "/log";
     const auto comparison = edmill::compare::compare(options);

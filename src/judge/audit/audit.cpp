@@ -85,7 +85,7 @@ class Auditor : Judge {
     const auto friction = stalls_.take(event, *impact.law, tolerances_.relative);
     for (std::size_t body = 0; body < event.count(); ++body)
       flights_.judge(event.ball_at(body), {&event, body, touch.late});
-    if (touch.usable) impacts_.judge(impact, friction);
+    if (touch.usable) impacts_.judge_impact(impact, friction);
 
     for (std::size_t body = 0; body < event.count(); ++body) {
       const int k = event.ball_at(body);
@@ -286,13 +286,13 @@ Audit audit_events(const model::Case<double>& the_case, const std::vector<model:
   // A log most of whose contacts cannot be judged is not called clean.
   const bool judged = checked.judged_number(Check::touch) + checked.judged_number(Check::milling_dose) > 0 &&
                       checked.judged_number(Check::touch) >= checked.unresolved_number(Check::touch);
-  result.verdict = result.findings.total() > 0 ? Verdict::violations
-                   : judged                    ? Verdict::clean
-                                               : Verdict::too_few;
+  result.verdict = result.findings.total() > 0 ? AuditVerdict::violations
+                   : judged                    ? AuditVerdict::clean
+                                               : AuditVerdict::too_few;
   return result;
 }
 
-EventLog open_log(const model::Case<double>& the_case, const Options& options) {
+logs::EventLog open_log(const model::Case<double>& the_case, const Options& options) {
   return {options.log, options.conventions, static_cast<int>(the_case.balls.size()),
           static_cast<int>(the_case.mill.vessel.walls().size()), 1e15 * the_case.mill.motion.period()};
 }
@@ -306,14 +306,14 @@ Options options_of(const casefile::CaseSpec& spec) {
   options.conventions.first_ball = static_cast<int>(s.first_ball.value_or(0));
   if (!s.walls.empty())
     options.conventions.walls =
-        parse_walls(s.walls, casefile::partners_of(spec), spec.file + ": key 'audit.walls'");
+        logs::parse_walls(s.walls, casefile::partners_of(spec), spec.file + ": key 'audit.walls'");
   if (s.tolerance) options.tolerance = s.tolerance->to<double>();
   if (s.gap_tolerance) options.gap_tolerance = s.gap_tolerance->to<double>();
   options.from_start = s.from_start;
   return options;
 }
 
-std::string_view name_of(Verdict verdict) {
+std::string_view name_of(AuditVerdict verdict) {
   static constexpr std::array<std::string_view, 3> names = {"clean", "violations", "too_few"};
   return names[static_cast<std::size_t>(verdict)];
 }
@@ -330,13 +330,13 @@ Tolerances tolerances_of(const model::Case<double>& the_case, const Options& opt
 
 Audit audit(const model::Case<double>& the_case, const std::vector<model::BallState<double>>& states,
             const Options& options) {
-  EventLog log = open_log(the_case, options);
+  auto log = open_log(the_case, options);
   return audit_events(the_case, options.from_start ? &states : nullptr, options, log.file(), log.available(),
                       [&] { return log.next(); });
 }
 
 EventsAtHand read_events(const model::Case<double>& the_case, const Options& options, std::size_t most) {
-  EventLog log = open_log(the_case, options);
+  auto log = open_log(the_case, options);
   EventsAtHand result{log.file(), log.available(), {}};
   for (std::optional<LoggedEvent> event; result.events.size() < most && (event = log.next());)
     result.events.push_back(*std::move(event));

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "audit/event_log.hpp"
 #include "audit/finding.hpp"
 #include "audit/impact_judge.hpp"
 #include "casefile/case_spec.hpp"
@@ -19,7 +18,7 @@ namespace edmill::audit {
 
 struct Options {
   std::filesystem::path log;  ///< a CSV file, or a folder of `edmill run`
-  LogConventions conventions;
+  logs::LogConventions conventions;
   double tolerance = 1e-9;              ///< relative
   std::optional<double> gap_tolerance;  ///< largest gap or overlap of bodies in contact [m]; from the
                                         ///< relative tolerance unless given
@@ -41,8 +40,8 @@ struct Diagnosis {
   std::uint64_t of;      ///< number of events that are wrong
 };
 
-enum class Verdict { clean, violations, too_few };
-std::string_view name_of(Verdict verdict);
+enum class AuditVerdict { clean, violations, too_few };
+std::string_view name_of(AuditVerdict verdict);
 
 struct Audit {
   Tolerances tolerances;
@@ -56,7 +55,7 @@ struct Audit {
   std::vector<Diagnosis> diagnoses;
   std::uint64_t undecided = 0;  ///< questions about missed impacts that no scalar could answer
   bool interrupted = false;
-  Verdict verdict = Verdict::too_few;
+  AuditVerdict verdict = AuditVerdict::too_few;
 };
 
 /// @param the_case, states  of the case; the states are its initial ones

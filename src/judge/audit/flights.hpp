@@ -139,7 +139,7 @@ class Flights : Judge {
     return std::min_element(c.balls.begin(), c.balls.end(), smaller)->radius;
   }
 
-  struct Contact {
+  struct Encounter {
     double time = 0;
     bool with_wall = false;
     int partner = -1;
@@ -147,7 +147,7 @@ class Flights : Judge {
   };
   /// The ball is searched with its radius reduced by the tolerance, so that a contact is certainly an
   /// overlap.
-  std::optional<Contact> first_wall(int ball, const Track& track, double until, double slack) {
+  std::optional<Encounter> first_wall(int ball, const Track& track, double until, double slack) {
     const double radius = radius_of(ball);
     const auto frame = nested_at(track.start);
     double overlap = 0;
@@ -161,7 +161,7 @@ class Flights : Judge {
   }
 
   /// First contact of a ball with the walls, in (start, until].
-  std::optional<Contact> wall_contact(const Flying& own, double radius, double until) {
+  std::optional<Encounter> wall_contact(const Flying& own, double radius, double until) {
     auto begin = own.flight.start;
     double rest = until - own.start;
     while (rest > 0) {
@@ -171,7 +171,7 @@ class Flights : Judge {
         if (answer.verdict == dynamics::Verdict::contact) {
           const double time = own.start + clock_.elapsed(own.flight.start, answer.time);
           if (time > until) return std::nullopt;
-          return Contact{time, true, answer.wall};
+          return Encounter{time, true, answer.wall};
         }
         begin = clock_.after(begin, answer.searched);
         rest -= answer.searched;
@@ -183,12 +183,12 @@ class Flights : Judge {
     return std::nullopt;
   }
 
-  std::optional<Contact> first_ball(int ball, const Track& track, const FlightEnd& end, double slack) {
+  std::optional<Encounter> first_ball(int ball, const Track& track, const FlightEnd& end, double slack) {
     const double until = end.event->time;
     const double radius = radius_of(ball);
     const auto& pairs = ladder_.pairs();
     const auto seen_at_start = pairs.state(track.flight, track.flight.start);
-    std::optional<Contact> first;
+    std::optional<Encounter> first;
     for (int other = 0; other < balls(); ++other) {
       const Track& theirs = of(other);
       if (other == ball || !theirs.state_known) continue;
@@ -215,7 +215,7 @@ class Flights : Judge {
       if (end.late && !end.event->with_wall && end.partner() == other) continue;
       const Vec relative = velocity_of(track, from) - velocity_of(theirs, from);
       const double nearest = std::clamp(-dot(apart, relative) / dot(relative, relative), 0.0, to - from);
-      first = Contact{from + answer.delay, false, other, sum - size(Vec(apart + relative * nearest))};
+      first = Encounter{from + answer.delay, false, other, sum - size(Vec(apart + relative * nearest))};
     }
     return first;
   }
@@ -237,7 +237,7 @@ class Flights : Judge {
   }
 
   /// Tries the impact with a ball that is not in the log.
-  bool explained_by_ball(int ball, const Contact& contact, const FlightEnd& end) const {
+  bool explained_by_ball(int ball, const Encounter& contact, const FlightEnd& end) const {
     const Track &own = of(ball), &other = of(contact.partner);
     if (!own.spin_known || !other.spin_known) return false;
     // The contact of the actual balls, slightly before that of the reduced ones.
@@ -314,7 +314,7 @@ class Flights : Judge {
     }
   }
 
-  Finding missed_finding(int ball, const Contact& contact, const FlightEnd& end, const char* note) const {
+  Finding missed_finding(int ball, const Encounter& contact, const FlightEnd& end, const char* note) const {
     Finding missed{*end.event, Kind::missed_event, contact.depth, unknown, unknown, note};
     missed.ball = ball;
     missed.with_wall = contact.with_wall;
@@ -325,7 +325,7 @@ class Flights : Judge {
 
   /// @param off  distance of the logged position from the end of the flight [m]
   /// @return whether it is reported; then `missed_at` becomes its time
-  bool report_missed_wall(int ball, Track& track, const Contact& missed, const FlightEnd& end, double off,
+  bool report_missed_wall(int ball, Track& track, const Encounter& missed, const FlightEnd& end, double off,
                           double& missed_at) {
     const bool explained = off > 0 && explained_by_walls(ball, track, end);
     if (off == 0) ++flown_through_[missed.partner];
@@ -339,7 +339,7 @@ class Flights : Judge {
   }
 
   /// Reports a missed impact of two balls; what only the partner's flight can confirm waits for that flight.
-  bool report_missed_ball(int ball, const Contact& pair, const FlightEnd& end, double off,
+  bool report_missed_ball(int ball, const Encounter& pair, const FlightEnd& end, double off,
                           double& missed_at) {
     Track& other = of(pair.partner);
     if (off > 0 && explained_by_ball(ball, pair, end)) {

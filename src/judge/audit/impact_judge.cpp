@@ -7,8 +7,9 @@ namespace edmill::audit {
 
 /// The equations themselves: momentum, torque, and the separation of the contact points.
 /// @param parting  the bodies do not approach, which is reported: a code may then reflect g_n as usual
-auto ImpactJudge::residuals(const LoggedImpact& impact, const Known& known, bool parting) const -> Residuals {
-  Residuals off;
+auto ImpactJudge::residuals(const LoggedImpact& impact, const Known& known, bool parting) const
+    -> LawResiduals {
+  LawResiduals off;
   const auto& body = impact.event->body;
   const Vec g = impact.before(), g_after = impact.after();
   const double g_n = impact.along(g), g_n_after = impact.along(g_after);
@@ -39,8 +40,7 @@ void ImpactJudge::judge_outcome(const LoggedImpact& impact, const Known& known, 
   const double g_n = impact.g_n();
   const auto off = residuals(impact, known, g_n > allowed);
   const auto check = [&](Check check, Kind kind, double size, double found, double expected) {
-    findings_.judged(check);
-    if (size > allowed) report(kind, event, size, found, expected);
+    judge(check, kind, event, size, allowed, found, expected);
   };
   check(Check::normal_law, Kind::normal_restitution, off.normal,
         g_n != 0 ? -impact.g_n_after() / g_n : unknown,
@@ -76,7 +76,7 @@ bool ImpactJudge::fits_without_friction(const LoggedImpact& impact, const Known&
   return with > allowed && without <= allowed;
 }
 
-void ImpactJudge::judge(LoggedImpact impact, Friction friction) {
+void ImpactJudge::judge_impact(LoggedImpact impact, Friction friction) {
   const bool with_wall = impact.with_wall();
   const bool seen = available_.positions(with_wall) && available_.velocities_before(with_wall);
   const Known known{seen && available_.velocities_after(with_wall), seen && available_.spins(with_wall)};
@@ -86,8 +86,7 @@ void ImpactJudge::judge(LoggedImpact impact, Friction friction) {
   const double scale = velocity_scale(impact, known.spins), wall = by_wall(impact, scale);
   if (wall > 0 && wall >= scale) return leave_unresolved(known);
   const double allowed = tolerances_.relative * scale + wall, g_n = impact.g_n();
-  findings_.judged(Check::approach);
-  if (g_n > allowed) report(Kind::not_approaching, *impact.event, g_n, -g_n, 0);
+  judge(Check::approach, Kind::not_approaching, *impact.event, g_n, allowed, -g_n, 0);
   if (known.velocities) {
     const auto* coulomb = std::get_if<model::WaltonBraun<double>>(&impact.law->law);
     const double most_friction = coulomb ? std::min(coulomb->friction, 10.0) : 0;
@@ -99,29 +98,27 @@ void ImpactJudge::judge(LoggedImpact impact, Friction friction) {
 
 /// Counts as unresolved the checks of an impact with a wall whose place the rounding of its time leaves open.
 void ImpactJudge::leave_unresolved(const Known& known) {
-  findings_.unresolved(Check::approach);
-  if (available_.approach_speed) findings_.unresolved(Check::approach_speed);
-  if (!known.velocities) return;
-  findings_.unresolved(Check::normal_law);
-  if (!known.spins) return;
-  for (const Check check : {Check::tangential_law, Check::spin_change}) findings_.unresolved(check);
-  if (available_.slip_speed) findings_.unresolved(Check::slip_speed);
-  if (available_.milling_dose) findings_.unresolved(Check::milling_dose);
-  if (available_.wall_work) findings_.unresolved(Check::wall_work);
+  const bool all = known.velocities && known.spins;
+  for (const auto& [check, is_due] : {std::pair(Check::approach, true),
+                                      {Check::approach_speed, available_.approach_speed},
+                                      {Check::normal_law, known.velocities},
+                                      {Check::tangential_law, all},
+                                      {Check::spin_change, all},
+                                      {Check::slip_speed, all && available_.slip_speed},
+                                      {Check::milling_dose, all && available_.milling_dose},
+                                      {Check::wall_work, all && available_.wall_work}})
+    if (is_due) findings_.unresolved(check);
 }
 
 void ImpactJudge::judge_logged_speeds(const LoggedImpact& impact, const Known& known, double allowed) {
   const LoggedEvent& event = *impact.event;
   const Speeds speeds = speeds_before(impact);
-  const auto compare = [&](Check check, Kind kind, double logged, double expected) {
-    findings_.judged(check);
-    const double off = std::abs(logged - expected);
-    if (off > allowed) report(kind, event, off, logged, expected);
-  };
   if (available_.approach_speed)
-    compare(Check::approach_speed, Kind::approach_speed, event.approach_speed, -speeds.g_n);
+    judge(Check::approach_speed, Kind::approach_speed, event, std::abs(event.approach_speed + speeds.g_n),
+          allowed, event.approach_speed, -speeds.g_n);
   if (available_.slip_speed && known.spins)
-    compare(Check::slip_speed, Kind::slip_speed, event.slip_speed, speeds.slip);
+    judge(Check::slip_speed, Kind::slip_speed, event, std::abs(event.slip_speed - speeds.slip), allowed,
+          event.slip_speed, speeds.slip);
 }
 
 /// The dose is the wall work plus the energy that the least separation speed supplies, minus what the balls
@@ -142,18 +139,15 @@ void ImpactJudge::judge_energies(const LoggedImpact& impact, double allowed) {
     energies_.created += created;
   }
   if (available_.milling_dose) judge_dose(impact, allowed);
-  if (available_.wall_work) {
-    findings_.judged(Check::wall_work);
-    const double off = std::abs(event.wall_work - work);
-    if (off > allowed) report(Kind::wall_work, event, off, event.wall_work, work);
-  }
+  if (available_.wall_work)
+    judge(Check::wall_work, Kind::wall_work, event, std::abs(event.wall_work - work), allowed,
+          event.wall_work, work);
 }
 
 /// The dose of a violating impact may also be that of the law for the same speeds, and its balance without
 /// what v_s supplies in the log: then the law is wrong and not the dose.
 void ImpactJudge::judge_dose(const LoggedImpact& impact, double allowed) {
   const LoggedEvent& event = *impact.event;
-  findings_.judged(Check::milling_dose);
   const Speeds speeds = speeds_before(impact);
   const double balance = work_of_wall(impact) - kinetic_change(impact);
   const double expected = balance + supplied(impact, speeds.g_n, impact.g_n_after());
@@ -161,30 +155,26 @@ void ImpactJudge::judge_dose(const LoggedImpact& impact, double allowed) {
   double off = std::min(away(expected), away(dose_by_law(impact, speeds)));
   if (supplied(impact, speeds.g_n, impact.separation_speed(speeds.g_n)) == 0)
     off = std::min(off, away(balance));
-  if (off > allowed) report(Kind::milling_dose, event, off, event.milling_dose, expected);
+  judge(Check::milling_dose, Kind::milling_dose, event, off, allowed, event.milling_dose, expected);
 }
 
 /// Judges the dose by the logged speeds, where the log or this impact has no states.
 void ImpactJudge::judge_speeds(const LoggedImpact& impact) {
   const LoggedEvent& event = *impact.event;
   if (available_.approach_speed) {
-    findings_.judged(Check::approach);
     const double scale = available_.slip_speed ? std::max(std::abs(event.approach_speed), event.slip_speed)
                                                : std::abs(event.approach_speed);
-    if (event.approach_speed < -tolerances_.relative * std::max(scale, 1.0))
-      report(Kind::not_approaching, event, -event.approach_speed, event.approach_speed, 0);
+    judge(Check::approach, Kind::not_approaching, event, -event.approach_speed,
+          tolerances_.relative * std::max(scale, 1.0), event.approach_speed, 0);
     if (available_.slip_speed && available_.milling_dose) {
-      findings_.judged(Check::milling_dose);
       const double expected = dose_by_law(impact, {-event.approach_speed, event.slip_speed});
-      const double off = std::abs(event.milling_dose - expected);
-      if (off > allowed_dose(impact, std::max(scale, impact.law->least_separation)))
-        report(Kind::milling_dose, event, off, event.milling_dose, expected);
+      judge(Check::milling_dose, Kind::milling_dose, event, std::abs(event.milling_dose - expected),
+            allowed_dose(impact, std::max(scale, impact.law->least_separation)), event.milling_dose,
+            expected);
     }
   }
-  if (available_.wall_work && !event.with_wall) {
-    findings_.judged(Check::wall_work);
-    if (event.wall_work != 0) report(Kind::wall_work, event, std::abs(event.wall_work), event.wall_work, 0);
-  }
+  if (available_.wall_work && !event.with_wall)
+    judge(Check::wall_work, Kind::wall_work, event, std::abs(event.wall_work), 0, event.wall_work, 0);
 }
 
 }  // namespace edmill::audit

@@ -23,6 +23,12 @@ class Judge {
               const char* note = "") {
     findings_.add({event, kind, size, found, expected, note});
   }
+  /// A check whose quantity is `off` from what is expected.
+  void judge(Check check, Kind kind, const LoggedEvent& event, double off, double allowed, double found,
+             double expected) {
+    findings_.judged(check);
+    if (off > allowed) report(kind, event, off, found, expected);
+  }
   double radius_of(int ball) const { return case_.balls[ball].radius; }
 
   const model::Case<double>& case_;
@@ -104,13 +110,13 @@ class ImpactJudge : Judge {
   explicit ImpactJudge(const Judge& shared) : Judge(shared) {}
 
   /// Judges an impact by the states of its bodies, or without them by the logged speeds.
-  void judge(LoggedImpact impact, Friction friction);
+  void judge_impact(LoggedImpact impact, Friction friction);
 
   const Energies& energies() const { return energies_; }
 
  private:
-  /// Residuals of the impact in each equation [m/s].
-  struct Residuals {
+  /// LawResiduals of the impact in each equation [m/s].
+  struct LawResiduals {
     double normal = 0, tangential = 0, momentum = 0, spin = 0;
     double restitution_tangential = 1;  ///< that applies
     double largest() const { return std::max({normal, tangential, momentum, spin}); }
@@ -119,7 +125,7 @@ class ImpactJudge : Judge {
     bool velocities, spins;  ///< before and after, of all bodies
   };
 
-  Residuals residuals(const LoggedImpact& impact, const Known& known, bool parting) const;
+  LawResiduals residuals(const LoggedImpact& impact, const Known& known, bool parting) const;
   bool fits_without_friction(const LoggedImpact& impact, const Known& known) const;
   void judge_outcome(const LoggedImpact& impact, const Known& known, double allowed);
   void judge_logged_speeds(const LoggedImpact& impact, const Known& known, double allowed);

@@ -7,12 +7,13 @@
 #include <array>
 #include <vector>
 
-#include "audit/event_log.hpp"
+#include "logs/event_log.hpp"
 #include "model/case.hpp"
 
 namespace edmill::audit {
 
 using Vec = Vec3<double>;
+using logs::Available, logs::BodyState, logs::LoggedEvent, logs::unknown;
 
 inline double dot(const Vec& a, const Vec& b) { return edmill::dot<double>(a, b); }
 inline double size(const Vec& a) { return edmill::norm<double>(a); }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "logs/event_log.hpp"
 #include "model/mill.hpp"
 
 namespace edmill::audit {
@@ -37,9 +37,7 @@ struct Tolerances {
   double gravity = 0;  ///< [m/s^2]
   WallRates walls;
 
-  /// Uncertainty of a logged time by rounding [s]: half a unit in the last place for each of whole drive
-  /// periods and what exceeds them, their sum, a change of unit, and the way back to periods.
-  static double time(double t) { return 2 * std::numeric_limits<double>::epsilon() * std::abs(t); }
+  static double time(double t) { return logs::rounding_of(t); }
 
   /// How far walls may be from where they are at the logged time [m].
   double wall_places(double t) const { return std::min(time(t) * walls.speed, 2 * reach); }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "base/student.hpp"
+#include "logs/event_log.hpp"
 
 namespace edmill::compare {
 
@@ -21,7 +22,7 @@ std::vector<Batch> cut_into_batches(const std::filesystem::path& place, const Ba
                                     const SpectrumClasses& speed_classes,
                                     const SpectrumClasses& dose_classes) {
   std::vector<Batch> batches(times.count, Batch(walls));
-  LogReader log(place);
+  logs::EventLog log(place);
   const bool dose = log.has(model::milling_dose), work = log.has(model::wall_work);
   while (const auto event = log.next()) {
     const double place_in_time = (event->time - times.from) / times.length;

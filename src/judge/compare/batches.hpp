@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "compare/log_reader.hpp"
+#include "logs/event_log.hpp"
 
 namespace edmill::compare {
 

@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "base/statistics.hpp"
+#include "logs/event_log.hpp"
 #include "model/parts/partners.hpp"
 
 namespace edmill::compare {
@@ -21,7 +22,7 @@ void scan_both(Comparison& c) {
   std::vector<std::string> problems;
   for (const auto& [place, scan] : {std::pair{&c.options.a, &c.a}, {&c.options.b, &c.b}}) {
     try {
-      *scan = scan_log(*place);
+      *scan = logs::scan_log(*place);
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -30,7 +31,7 @@ void scan_both(Comparison& c) {
 }
 
 /// @throws InputError when the logs, or the options, leave no time in common
-BatchTimes common_times(const LogScan& a, const LogScan& b, const Options& options) {
+BatchTimes common_times(const LogScan& a, const LogScan& b, const ComparisonOptions& options) {
   if (a.events == 0 || b.events == 0) return {};
   const auto& limits = options.limits;
   double from = std::max(a.first, b.first), until = std::min(a.last, b.last);
@@ -61,39 +62,21 @@ BatchTimes common_times(const LogScan& a, const LogScan& b, const Options& optio
 }
 
 /// The next event within the limits.
-std::optional<Event> next_within(LogReader& reader, const Limits& limits) {
+std::optional<logs::LoggedEvent> next_within(logs::EventLog& reader, const Limits& limits) {
   auto event = reader.next();
   while (event && limits.from && event->time < *limits.from) event = reader.next();
   if (event && limits.until && event->time > *limits.until) return std::nullopt;
   return event;
 }
 
-/// Least squares of a straight line, point by point.
-class Line {
- public:
-  void add(double x, double y) {
-    ++n_;
-    const double dx = x - mean_x_;
-    mean_x_ += dx / n_;
-    mean_y_ += (y - mean_y_) / n_;
-    xx_ += dx * (x - mean_x_);
-    xy_ += dx * (y - mean_y_);
-  }
-  double points() const { return n_; }
-  double slope() const { return xy_ / xx_; }
-
- private:
-  double n_ = 0, mean_x_ = 0, mean_y_ = 0, xx_ = 0, xy_ = 0;
-};
-
 /// The events of both logs in order. A value of an event is compared with the larger of itself in A and the
 /// mean magnitude of its column in A.
 /// @param c  has the options and both scans. @throws InputError when a log cannot be read
 EventComparison compare_events(const Comparison& c) {
-  LogReader log_a(c.options.a), log_b(c.options.b);
+  logs::EventLog log_a(c.options.a), log_b(c.options.b);
   const Limits& limits = c.options.limits;
   EventComparison result;
-  Line growth;
+  numerics::Line growth;
   for (;;) {
     const auto a = next_within(log_a, limits), b = next_within(log_b, limits);
     if (!a || !b) break;  // events beyond the end of either log are not compared
@@ -135,9 +118,9 @@ BatchValues values_of(const std::vector<Batch>& batches, const Get& get) {
 }
 
 /// Makes the rows of the table; the verdicts follow when all rows exist.
-class Judge {
+class Quantities {
  public:
-  Judge(const std::vector<Batch>& a, const std::vector<Batch>& b, double tolerance)
+  Quantities(const std::vector<Batch>& a, const std::vector<Batch>& b, double tolerance)
       : a_(a), b_(b), tolerance_(tolerance) {}
 
   /// A mean over the batches. @param reason  why it cannot be compared, or empty
@@ -222,7 +205,7 @@ std::vector<Quantity> judge(const Comparison& c) {
   const int walls = std::max(c.a.walls, c.b.walls);
   const auto a = cut_into_batches(c.options.a, c.times, walls, speed_classes, dose_classes);
   const auto b = cut_into_batches(c.options.b, c.times, walls, speed_classes, dose_classes);
-  Judge judge(a, b, c.options.event_tolerance());
+  Quantities quantities(a, b, c.options.event_tolerance());
   const auto sum_of = [](const std::vector<Batch>& batches, const auto& get) {
     double sum = 0;
     for (const auto& batch : batches) sum += get(batch);
@@ -235,32 +218,32 @@ std::vector<Quantity> judge(const Comparison& c) {
   for (int k = 0; k <= walls; ++k) {
     const auto with_partner = [k](const Batch& batch) { return batch.events[k]; };
     between_balls = sum_of(a, with_partner) + sum_of(b, with_partner);
-    judge.mean("collision_rate_" + model::partner_key(k, walls), "1/s",
-               between_balls > 0 ? "" : "no such collisions", between_balls, [&](const auto& batches) {
-                 return values_of(batches, [&](const Batch& batch) { return batch.events[k] / length; });
-               });
+    quantities.mean("collision_rate_" + model::partner_key(k, walls), "1/s",
+                    between_balls > 0 ? "" : "no such collisions", between_balls, [&](const auto& batches) {
+                      return values_of(batches, [&](const Batch& batch) { return batch.events[k] / length; });
+                    });
   }
   const auto missing = [&](std::size_t v) {
     if (c.a.has[v] && c.b.has[v]) return std::string();
     return "no " + std::string(model::logged_quantities[v].name) + (c.a.has[v] ? " in B" : " in A");
   };
   const auto power = [&](std::size_t v, const std::string& name, double Batch::*energy) {
-    judge.mean(name, "W", missing(v), all, [&](const auto& batches) {
+    quantities.mean(name, "W", missing(v), all, [&](const auto& batches) {
       return values_of(batches, [&](const Batch& batch) { return batch.*energy / length; });
     });
   };
   power(model::milling_dose, "milling_dose_rate", &Batch::milling_dose);
   power(model::wall_work, "wall_work_rate", &Batch::wall_work);
-  judge.mean("mean_approach_speed", "m/s", of_a > 0 && of_b > 0 ? "" : "no collisions in one log", all,
-             [&](const auto& batches) {
-               return ratio_values(
-                   values_of(batches, [](const Batch& batch) { return batch.approach_speed; }),
-                   values_of(batches, events));
-             });
-  judge.spectrum("wall_approach_speed_spectrum", "", wall_speeds, all - between_balls);
-  judge.spectrum("ball_approach_speed_spectrum", "", ball_speeds, between_balls);
-  judge.spectrum("milling_dose_spectrum", missing(model::milling_dose), doses, all);
-  return judge.rows(c.events.agree_throughout());
+  quantities.mean("mean_approach_speed", "m/s", of_a > 0 && of_b > 0 ? "" : "no collisions in one log", all,
+                  [&](const auto& batches) {
+                    return ratio_values(
+                        values_of(batches, [](const Batch& batch) { return batch.approach_speed; }),
+                        values_of(batches, events));
+                  });
+  quantities.spectrum("wall_approach_speed_spectrum", "", wall_speeds, all - between_balls);
+  quantities.spectrum("ball_approach_speed_spectrum", "", ball_speeds, between_balls);
+  quantities.spectrum("milling_dose_spectrum", missing(model::milling_dose), doses, all);
+  return quantities.rows(c.events.agree_throughout());
 }
 
 Verdict whole(const Comparison& c) {
@@ -282,7 +265,7 @@ std::string_view name_of(Verdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 
-Comparison compare(const Options& options) {
+Comparison compare(const ComparisonOptions& options) {
   Comparison c;
   c.options = options;
   scan_both(c);

@@ -5,6 +5,9 @@
 
 namespace edmill::compare {
 
+using logs::LogScan, logs::OfEach;
+using Event = model::ImpactRecord<double>;
+
 /// Times [s] that a comparison is restricted to.
 struct Limits {
   std::optional<double> from, until;
@@ -29,7 +32,7 @@ struct EventComparison {
   bool agree_throughout() const { return !first && agreeing > 0; }
 };
 
-struct Options {
+struct ComparisonOptions {
   std::filesystem::path a, b;  ///< folders of runs, or logs; A is the reference
   Limits limits;
   std::optional<double> batch;          ///< length [s]; a twentieth of the common time unless given
@@ -56,7 +59,7 @@ struct Quantity {
 };
 
 struct Comparison {
-  Options options;
+  ComparisonOptions options;
   LogScan a, b;
   EventComparison events;
   std::optional<Verdict> events_verdict;  ///< when a number of events was required
@@ -72,7 +75,7 @@ inline constexpr std::size_t fewest_batches = 10, most_batches = 200;
 inline constexpr double fewest_events_per_batch = 5;
 
 /// @throws InputError with every problem of the two logs, or of the options for them
-Comparison compare(const Options& options);
+Comparison compare(const ComparisonOptions& options);
 
 /// The result as text.
 std::string table(const Comparison& comparison);

@@ -43,10 +43,6 @@ std::optional<double> crossing(const auto& gap, double low, double high, bool fa
   return one == other ? low : low + (high - low) * one / (one - other);
 }
 
-}  // namespace
-
-namespace {
-
 /// Free flight is most of the time: the median acceleration is gravity. The longer it is measured, the less
 /// the rounding of numbers matters, until contacts fall into most of the spans: the span with the least
 /// scatter is taken. Where numbers are rounded, many of them are not known better than one.
@@ -176,7 +172,7 @@ void ContactFinder::find_jumps() {
 
 void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
   const Frame &before = window_[window_.size() - 2], &now = window_.back();
-  const auto watch = [&](const Bodies& bodies, double depth) {
+  const auto watch = [&](const BodyPair& bodies, double depth) {
     if (!(depth > 0)) return;
     auto& overlap = overlaps_.try_emplace(bodies, Overlap{before.time}).first->second;
     overlap.growth = std::max(overlap.growth, (depth - overlap.last) / (now.time - before.time));
@@ -212,7 +208,7 @@ void ContactFinder::watch_overlaps(const std::vector<bool>& flies) {
 /// A contact changes the velocity of both balls. Its depth is less than a third of its duration times the
 /// approach; gentler ones than a thousandth of the radius may be hidden in the noise of the frames. A ball
 /// whose centre is outside may meet other bodies there.
-void ContactFinder::end_overlap(const Bodies& bodies, const Overlap& overlap) {
+void ContactFinder::end_overlap(const BodyPair& bodies, const Overlap& overlap) {
   const double radius = vessel_.ball(static_cast<std::size_t>(bodies[0])).radius;
   const double deepest = std::clamp(overlap.growth * frames_.contact_time, 1e-3 * radius, radius / 5);
   const bool flies_on = overlap.depth > deepest && (overlap.flies[0] || overlap.flies[1]);
@@ -293,7 +289,7 @@ void ContactFinder::settle() {
     if (stretches_[k].open) open_of_[stretches_[k].ball] = static_cast<int>(k);
 }
 
-std::vector<ContactFinder::Touch> ContactFinder::touches_of(const Stretch& s) const {
+std::vector<ContactFinder::WallTouch> ContactFinder::touches_of(const Stretch& s) const {
   std::vector<int> spells(static_cast<std::size_t>(vessel_.walls()));
   std::vector<bool> inside(spells.size());
   const auto see = [&](const auto& gap_from) {
@@ -323,7 +319,7 @@ std::vector<ContactFinder::Touch> ContactFinder::touches_of(const Stretch& s) co
       });
   else
     for (std::size_t k = s.first; k < s.last; ++k) see_flights(frame(k), frame(k + 1));
-  std::vector<Touch> touches;
+  std::vector<WallTouch> touches;
   for (std::size_t wall = 0; wall < spells.size(); ++wall)
     if (spells[wall] > 0) touches.push_back({static_cast<int>(wall), spells[wall]});
   return touches;

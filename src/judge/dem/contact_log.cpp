@@ -2,11 +2,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numeric>
-#include <sstream>
 
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
@@ -39,19 +38,11 @@ void put(std::string& line, const BallState& state, bool given) {
     for (Eigen::Index k = 0; k < 3; ++k) line += given ? fmt::format(",{}", (*v)[k]) : ",";
 }
 
-/// Numbers after a name in a comment of the head; what is none is left out, so that one is missing.
-std::vector<double> numbers_of(const std::string& line) {
-  std::istringstream in(line);
-  std::string mark, name;
-  in >> mark >> name;
-  std::vector<double> numbers;
-  for (std::string word; in >> word;) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error == std::errc() && *end == 0 && std::isfinite(number)) numbers.push_back(number);
-  }
-  return numbers;
-}
+template <class T>
+constexpr bool is_list = requires(T value) {
+  requires std::is_same_v < std::decay_t<decltype(value[0])>,
+  double > ;
+};
 
 void check_temporary_file(bool good) {
   if (!good) throw std::runtime_error("a temporary file could not be written");
@@ -64,48 +55,29 @@ ContactLogFacts read_facts(const std::string& file) {
     throw InputError(fmt::format("{}:1: found {}, expected '{}': run edmill import again", file,
                                  io::in_quotes(line), first_line));
   ContactLogFacts facts;
-  auto& s = facts.statistics;
-  auto &gravity = s.gravity, &width = s.gravity_half_width;
-  auto& doses = facts.doses;
-  double frames = 0, contacts = 0;
-  std::vector<double*> all_doses;
-  for (double& dose : doses) all_doses.push_back(&dose);
-  const std::pair<const char*, std::vector<double*>> lines[] = {
-      {"# frames ", {&frames, &contacts, &facts.first, &facts.last, &s.interval}},
-      {"# gravity ", {&gravity[0], &gravity[1], &gravity[2], &width[0], &width[1], &width[2]}},
-      {"# contact_time ", {&s.contact_time, &s.kick}},
-      {"# factors ", {&facts.mass_factor, &facts.radius_factor, &s.way_factor}},
-      {"# doses ", all_doses}};
-  std::size_t known = 0;
-  for (std::uint64_t number = 2; std::getline(in, line) && line.starts_with("#"); ++number) {
-    const auto n = numbers_of(line);
-    for (const auto& [name, values] : lines) {
-      if (!line.starts_with(name)) continue;
-      if (n.size() != values.size())
-        throw InputError(fmt::format("{}:{}: found {} numbers in a line of the head, expected {}", file,
-                                     number, n.size(), values.size()));
-      ++known;
-      for (std::size_t k = 0; k < n.size(); ++k) *values[k] = n[k];
-    }
-    for (const double count : {frames, contacts})
-      if (!(count >= 0 && count < 1e18))
-        throw InputError(
-            fmt::format("{}:{}: found {}, expected a number of frames or contacts", file, number, count));
-    if (line.starts_with("# dump ")) facts.dump = line.substr(7);
-    if (line.starts_with("# facets ")) {
-      if (n.size() != 1 || !(n[0] == 0 || (n[0] >= 3 && n[0] <= 1e6)))
-        throw InputError(fmt::format("{}:{}: found {}, expected 0 or a number of facets", file, number,
-                                     io::in_quotes(line)));
-      facts.facets = static_cast<int>(n[0]);
-    }
+  std::getline(in, line);
+  try {
+    const auto head = nlohmann::json::parse(line.starts_with("# ") ? line.substr(2) : line);
+    ContactLogFacts::fields(facts, [&](const char* name, auto& value) {
+      const auto& found = head.at(name);
+      if constexpr (is_list<decltype(value)>)
+        for (auto at = std::begin(value); at != std::end(value); ++at)
+          found.at(static_cast<std::size_t>(at - std::begin(value))).get_to(*at);
+      else if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>) {
+        const double count = found.template get<double>(), most = sizeof(value) > 4 ? 1e18 : 1e6;
+        if (!(count >= 0 && count <= most && count == std::floor(count)))
+          throw InputError(
+              fmt::format("{}:2: {}: found {}, expected a whole number up to {:g}", file, name, count, most));
+        value = static_cast<std::decay_t<decltype(value)>>(count);
+      } else
+        found.get_to(value);
+    });
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(fmt::format("{}:2: found {}, expected the head that `edmill import` writes", file,
+                                 io::in_quotes(line)));
   }
-  if (known != 5)
-    throw InputError(fmt::format(
-        "{}: found a head without all of frames, gravity, contact_time, factors and doses, expected "
-        "that of `edmill import`",
-        file));
-  facts.frames = static_cast<std::uint64_t>(frames);
-  facts.contacts = static_cast<std::uint64_t>(contacts);
+  if (facts.facets == 1 || facts.facets == 2)
+    throw InputError(fmt::format("{}:2: facets: found {}, expected none, or 3 or more", file, facts.facets));
   return facts;
 }
 
@@ -159,13 +131,16 @@ void ContactLogWriter::add(const Contact& c) {
 }
 
 void ContactLogWriter::write(std::ostream& out, const ContactLogFacts& f) {
-  const auto& s = f.statistics;
-  out << fmt::format(
-      "{}\n# dump {}\n# frames {} {} {} {} {}\n# gravity {} {}\n# contact_time {} {}\n"
-      "# factors {} {} {}\n# facets {}\n# doses {}\n{}\n",
-      first_line, one_line(f.dump), f.frames, f.contacts, f.first, f.last, s.interval,
-      fmt::join(s.gravity, " "), fmt::join(s.gravity_half_width, " "), s.contact_time, s.kick, f.mass_factor,
-      f.radius_factor, s.way_factor, f.facets, fmt::join(f.doses, " "), header());
+  nlohmann::ordered_json head;
+  ContactLogFacts::fields(f, [&](const char* name, const auto& value) {
+    if constexpr (is_list<decltype(value)>)
+      head[name] = std::vector<double>(std::begin(value), std::end(value));
+    else
+      head[name] = value;
+  });
+  // Whatever the name of a file has is written.
+  const auto text = head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  out << fmt::format("{}\n# {}\n{}\n", first_line, text, header());
   check_temporary_file(std::fflush(rows_.get()) == 0);
   std::rewind(rows_.get());
   std::array<char, 65536> block;

@@ -9,10 +9,10 @@
 
 #include "base/errors.hpp"
 #include "compare/junit.hpp"
-#include "compare/log_reader.hpp"
 #include "dem/contacts.hpp"
 #include "dem/statistics.hpp"
 #include "io/json_text.hpp"
+#include "logs/event_log.hpp"
 #include "plot/chart.hpp"
 
 namespace edmill::dem {
@@ -67,7 +67,7 @@ ContactRates rates_of_contacts(const std::string& file, const Window& window, do
 }
 
 ContactRates rates_of_impacts(const std::string& place, const Window& window) {
-  const auto scan = compare::scan_log(place);
+  const auto scan = logs::scan_log(place);
   if (!scan.has[model::milling_dose])
     throw InputError(scan.file + ": found no column milling_dose, expected " +
                      (window.compared ? "one: the dose is compared" : "that of edmill's collision log"));
@@ -78,7 +78,7 @@ ContactRates rates_of_impacts(const std::string& place, const Window& window) {
     throw InputError(scan.file + ": found no impacts in the time that is compared, expected some");
   DoseRate rate(r.first, r.last);
   std::uint64_t impacts = 0;
-  compare::LogReader log(place);
+  logs::EventLog log(place);
   while (const auto event = log.next()) {
     const double time = event->time;
     if (window.compared && (time < r.first || time > r.last)) continue;
@@ -126,7 +126,7 @@ compare::Verdict verdict_of(double difference, double half_width, std::optional<
   return off > half_width ? Verdict::differ : half_width <= widest ? Verdict::agree : Verdict::too_few;
 }
 
-ContactComparison compare_contacts(const compare::Options& options) {
+ContactComparison compare_contacts(const compare::ComparisonOptions& options) {
   const auto a = options.a.string(), b = options.b.string();
   ContactComparison c{.within = options.within};
   const Window window{options.limits.from.value_or(0), options.limits.until.value_or(infinity), true};
@@ -203,28 +203,16 @@ Limit limit_of(const std::vector<std::string>& logs, const std::string& run, dou
   for (const auto& log : logs) limit.points.push_back(rates_of_contacts(log, {from}, -infinity));
   std::sort(limit.points.begin(), limit.points.end(),
             [](const auto& a, const auto& b) { return a.contact_time > b.contact_time; });
-  double weights = 0, times = 0, rates = 0;
-  for (const auto& p : limit.points) {
-    const double w = 1 / (p.half_width * p.half_width);
-    weights += w;
-    times += w * p.contact_time;
-    rates += w * p.dose_rate;
-  }
-  const double mean_time = times / weights, mean_rate = rates / weights;
-  double squares = 0, products = 0;
-  for (const auto& p : limit.points) {
-    const double w = 1 / (p.half_width * p.half_width), t = p.contact_time - mean_time;
-    squares += w * t * t;
-    products += w * t * (p.dose_rate - mean_rate);
-  }
+  numerics::Line line;
+  for (const auto& p : limit.points) line.add(p.contact_time, p.dose_rate, 1 / (p.half_width * p.half_width));
   const auto& slowest = limit.points.front();
   if (!(slowest.contact_time > 1.2 * limit.points.back().contact_time))
     throw InputError(fmt::format(
         "found contacts of {:.3g} s to {:.3g} s, expected durations that differ by more than a fifth",
         limit.points.back().contact_time, slowest.contact_time));
-  limit.slope = products / squares;
-  limit.value = mean_rate - limit.slope * mean_time;
-  limit.half_width = std::sqrt(1 / weights + mean_time * mean_time / squares);
+  limit.slope = line.slope();
+  limit.value = line.value();
+  limit.half_width = line.deviation();
   if (!run.empty()) limit.edmill = rates_of_impacts(run, {from});
   return limit;
 }

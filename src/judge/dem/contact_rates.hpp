@@ -34,7 +34,7 @@ struct ContactComparison {
 
 /// @param options  A is a run, a collision log or a log of contacts, B a log of contacts, or the reverse
 /// @throws InputError
-ContactComparison compare_contacts(const compare::Options& options);
+ContactComparison compare_contacts(const compare::ComparisonOptions& options);
 
 std::string table(const ContactComparison& comparison);
 std::string to_json(const ContactComparison& comparison);

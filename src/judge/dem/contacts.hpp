@@ -72,7 +72,7 @@ class ContactFinder {
     int group = -1;
     bool open = true;
   };
-  struct Touch {
+  struct WallTouch {
     int wall;
     int spells;
   };
@@ -84,19 +84,19 @@ class ContactFinder {
     std::array<bool, 2> flies{true, true};  ///< the ball, or its partner, all the while
     bool seen = true;                       ///< in the last frame
   };
-  using Bodies = std::array<int, 2>;  ///< the ball, and the other one or -1 - wall
+  using BodyPair = std::array<int, 2>;  ///< the ball, and the other one or -1 - wall
 
   const Frame& frame(std::size_t number) const { return window_[number - first_]; }
   /// Whether a usual contact has frames within it.
   bool resolved() const { return frames_.contact_time >= 3 * frames_.interval; }
   void find_jumps();
   void watch_overlaps(const std::vector<bool>& flies);
-  void end_overlap(const Bodies& bodies, const Overlap& overlap);
+  void end_overlap(const BodyPair& bodies, const Overlap& overlap);
   void close(std::size_t stretch);
   bool come_near(const Stretch& one, const Stretch& other) const;
   void settle();
   void report(std::vector<Stretch> group);
-  std::vector<Touch> touches_of(const Stretch& s) const;
+  std::vector<WallTouch> touches_of(const Stretch& s) const;
   using States = std::vector<std::pair<double, BallState>>;  ///< of a ball, by time
   double balance(std::size_t ball, const States& states) const;
   bool make_single(const std::vector<Stretch>& group, int wall, Contact& contact) const;
@@ -110,7 +110,7 @@ class ContactFinder {
   std::vector<Stretch> stretches_;  ///< open, or ended in a group that is open
   std::vector<int> open_of_;        ///< by ball: place in stretches_, or -1
   int groups_ = 0;
-  std::map<Bodies, Overlap> overlaps_;
+  std::map<BodyPair, Overlap> overlaps_;
   double largest_radius_ = 0;
   bool at_end_ = false;  ///< of the frames
 };
@@ -126,6 +126,25 @@ struct ContactLogFacts {
   int facets = 0;            ///< of the prism that stands for a round wall; 0 for a round wall
   std::array<double, contact_class_names.size()> doses{};  ///< by class [J]
 
+  /// The head of a log.
+  static void fields(auto& self, auto&& field) {
+    auto& s = self.statistics;
+    field("dump", self.dump);
+    field("frames", self.frames);
+    field("contacts", self.contacts);
+    field("first", self.first);
+    field("last", self.last);
+    field("interval", s.interval);
+    field("gravity", s.gravity);
+    field("gravity_half_width", s.gravity_half_width);
+    field("contact_time", s.contact_time);
+    field("kick", s.kick);
+    field("way_factor", s.way_factor);
+    field("mass_factor", self.mass_factor);
+    field("radius_factor", self.radius_factor);
+    field("facets", self.facets);
+    field("doses", self.doses);
+  }
   double dose() const;
   double duration() const { return last - first; }
   /// Made from a list of contacts with walls: no frames, no pairs, no gravity, no places.

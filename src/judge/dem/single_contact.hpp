@@ -94,7 +94,6 @@ inline Measured measured_by(const Contact& c, const Vector& gravity, const Bodie
 }
 
 /// The bodies of a case as its contacts name them.
-/// The bodies of a case as its contacts name them.
 class SingleContacts {
  public:
   /// The mill and the vessel must outlive it.

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "audit/event_log.hpp"
+#include "audit/mechanics.hpp"
 #include "casefile/build_case.hpp"
 
 namespace edmill::identify {
@@ -22,6 +22,8 @@ struct Axes {
 
   bool operator==(const Axes&) const = default;
   Vec3<double> of(const Vec3<double>& v) const;
+  /// -1 of axes in a mirror.
+  int handedness() const { return ((from[1] - from[0] + 3) % 3 == 1 ? 1 : -1) * sign[0] * sign[1] * sign[2]; }
 };
 
 /// In which frame a log has its vectors.

@@ -70,27 +70,27 @@ void add_motions(const Assumptions& nominal, std::vector<Parameter>& list) {
 
 /// Factors by which a wrong unit, or a diameter in place of a radius, changes a number.
 struct Factor {
-  enum class Of { any, angle, angular_speed, diameter } of;
+  enum class On { any, angle, angular_speed, diameter } of;
   double by;
   const char* text;
 
   bool changes(const Parameter& p) const {
     const bool turns = p.dimension == Dimension::angular_speed;
-    return of == Of::any || (of == Of::angle && (turns || p.dimension == Dimension::angle)) ||
-           (of == Of::angular_speed && turns) || (of == Of::diameter && p.is_diameter);
+    return of == On::any || (of == On::angle && (turns || p.dimension == Dimension::angle)) ||
+           (of == On::angular_speed && turns) || (of == On::diameter && p.is_diameter);
   }
 };
 constexpr Factor factors[] = {
-    {Factor::Of::any, 1e3, "1000: its unit"},
-    {Factor::Of::any, 1e-3, "1/1000: its unit"},
-    {Factor::Of::angle, pi / 180, "pi/180: degrees taken for radians, or the reverse"},
-    {Factor::Of::angle, 180 / pi, "180/pi: degrees taken for radians, or the reverse"},
-    {Factor::Of::angular_speed, 60, "60: revolutions per minute taken for per second"},
-    {Factor::Of::angular_speed, 1.0 / 60, "1/60: revolutions per second taken for per minute"},
-    {Factor::Of::angular_speed, 2 * pi, "2 pi: revolutions taken for radians"},
-    {Factor::Of::angular_speed, 0.5 / pi, "1/(2 pi): radians taken for revolutions"},
-    {Factor::Of::diameter, 2, "2: the diameter taken for the radius"},
-    {Factor::Of::diameter, 0.5, "1/2: the radius taken for the diameter"}};
+    {Factor::On::any, 1e3, "1000: its unit"},
+    {Factor::On::any, 1e-3, "1/1000: its unit"},
+    {Factor::On::angle, pi / 180, "pi/180: degrees taken for radians, or the reverse"},
+    {Factor::On::angle, 180 / pi, "180/pi: degrees taken for radians, or the reverse"},
+    {Factor::On::angular_speed, 60, "60: revolutions per minute taken for per second"},
+    {Factor::On::angular_speed, 1.0 / 60, "1/60: revolutions per second taken for per minute"},
+    {Factor::On::angular_speed, 2 * pi, "2 pi: revolutions taken for radians"},
+    {Factor::On::angular_speed, 0.5 / pi, "1/(2 pi): radians taken for revolutions"},
+    {Factor::On::diameter, 2, "2: the diameter taken for the radius"},
+    {Factor::On::diameter, 0.5, "1/2: the radius taken for the diameter"}};
 
 void add_factors(const std::vector<Parameter>& numbers, std::vector<Parameter>& list) {
   for (const auto& p : numbers)

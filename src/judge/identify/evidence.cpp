@@ -1,5 +1,8 @@
 #include "identify/evidence.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -136,7 +139,11 @@ void Evidence::count_violations(Hypothesis& tried) const {
   if (const auto built = assumed.built()) {
     audit::EventsAtHand changed = log_;
     for (auto& event : changed.events) assumed.log.apply(event, built->mill);
-    tried.left = audit::audit(*built, changed, options_).findings.total();
+    const auto found = audit::audit(*built, changed, options_).findings;
+    tried.left = found.total();
+    std::vector<std::string_view> kinds;
+    for (const auto kind : found.ranked()) kinds.push_back(audit::info(kind).name);
+    tried.others = fmt::format("{}", fmt::join(kinds, ", "));
   }
 }
 

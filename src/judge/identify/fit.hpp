@@ -87,6 +87,7 @@ struct Hypothesis {
   double score = 0;      ///< Schwarz's criterion: misfit + numbers ln(rows) + what each choice costs
   double plainness = 0;  ///< of factors with a name, which are no coincidence
   std::uint64_t left = 0, of = 0;  ///< violations, or events with violated rows, with it and without
+  std::string others = {};         ///< kinds of the violations that are left
 
   /// The least is the best.
   double rank() const { return score - plainness; }

@@ -174,14 +174,23 @@ class Searcher {
     cause.of = h.of;
     cause.explains = cause.of - std::min(cause.of, h.left);
     cause.gain = evidence_->score_of_case() - h.score;
+    cause.others = h.others;
     return cause;
+  }
+
+  /// A further assumption must explain most of what the others leave.
+  const Hypothesis& best() const {
+    const auto* best = &accepted_.front();
+    for (const auto& h : accepted_)
+      if (h.size() < best->size() && 2 * h.of * best->left > best->of * h.left) best = &h;
+    return *best;
   }
 
   /// The best cause, and of the others those that are no worse with as few numbers.
   void report(Identification& result) const {
     if (accepted_.empty() && !result.interrupted) report_each(result);
     if (accepted_.empty()) return;
-    const auto& best = accepted_.front();
+    const auto& best = this->best();
     result.causes = {cause_of(best)};
     std::set<std::set<std::string>> reported;  // two numbers may have been tried in either order
     for (const auto& other : accepted_)

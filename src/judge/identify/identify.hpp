@@ -59,6 +59,7 @@ struct Cause {
   std::vector<Found> values = {};
   std::vector<std::string> mistakes = {};  ///< "mill, sign of gamma: ..."
   std::uint64_t explains = 0, of = 0;      ///< violations
+  std::string others = {};                 ///< kinds of those that it does not explain, where they are known
   double gain = 0;                         ///< of Schwarz's criterion over no cause
   /// For logs without states: how many impacts a run with the cause follows, and how many rounding lets it.
   std::uint64_t follows = 0, could_follow = 0;

@@ -33,8 +33,10 @@ std::string table(const Identification& found) {
           cause.text(), cause.follows, found.follows.value_or(0));
       continue;
     }
-    out += fmt::format("  looks like   {}: explains {} of {} violations\n", cause.text(), cause.explains,
+    out += fmt::format("  looks like   {}: explains {} of {} violations", cause.text(), cause.explains,
                        cause.of);
+    if (!cause.others.empty()) out += fmt::format("; {} others: {}", cause.of - cause.explains, cause.others);
+    out += '\n';
     for (const auto& other : cause.alike)
       out += fmt::format("    this log cannot distinguish it from   {}\n", other);
   }
@@ -117,6 +119,7 @@ void put_json(io::JsonText& json, const Identification& found) {
     json.begin(std::to_string(k + 1));
     json.add("text", cause.text());
     json.add("explains", cause.explains);
+    if (!cause.others.empty()) json.add("others", cause.others);
     if (cause.could_follow > 0) {
       json.add("follows", cause.follows);
       json.add("could_follow", cause.could_follow);

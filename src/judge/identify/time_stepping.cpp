@@ -119,15 +119,15 @@ class Delays {
 constexpr double no_duration = -1;
 
 /// An impact with its geometry, and what the flights on either side of it miss.
-struct Contact {
+struct LoggedContact {
   double duration_from_begin = audit::unknown, duration_from_end = audit::unknown;
   double approach = audit::unknown, effective_mass = 0, effective_radius = 0;
 };
 
-class Measured {
+class Measurements {
  public:
-  Measured(const audit::EventsAtHand& log, const model::Case<double>& the_case,
-           const audit::Tolerances& tolerances)
+  Measurements(const audit::EventsAtHand& log, const model::Case<double>& the_case,
+               const audit::Tolerances& tolerances)
       : log_(log), case_(the_case), tolerances_(tolerances), contacts_(log.events.size()) {
     normals_.reserve(log.events.size());
     for (std::size_t k = 0; k < log.events.size(); ++k) add(k);
@@ -143,7 +143,7 @@ class Measured {
     }
   }
 
-  const std::vector<Contact>& contacts() const { return contacts_; }
+  const std::vector<LoggedContact>& contacts() const { return contacts_; }
   Delays delays;
   std::vector<double> first_order;  ///< the step that each flight implies [s]
   /// By how much longer than its path each deviating flight took, where it deviates along its path alone [s].
@@ -157,7 +157,7 @@ class Measured {
     if (!event.problem.empty()) return;
     auto& [normal, carrier] = normals_.back();
     const auto& one = event.body[0];
-    Contact& contact = contacts_[k];
+    LoggedContact& contact = contacts_[k];
     if (!event.with_wall && one.position == event.body[1].position) return;  // it has no normal
     const auto frame =
         event.with_wall ? audit::vessel_at(case_.mill, event.time, false) : audit::VesselFrame{};
@@ -166,11 +166,9 @@ class Measured {
     const auto& [ball, other] = impact.ball;
     normal = impact.normal;
     const Vec& met = event.with_wall ? impact.wall_velocity : event.body[1].velocity_before;
-    const auto combined = [&](double own, double of_other) {
-      return event.with_wall ? own : own * of_other / (own + of_other);
-    };
-    contact.effective_mass = combined(ball.mass, other.mass);
-    contact.effective_radius = combined(ball.radius, other.radius);
+    contact.effective_mass = impact.effective_mass;
+    contact.effective_radius =
+        event.with_wall ? ball.radius : ball.radius * other.radius / (ball.radius + other.radius);
     contact.approach = -audit::dot(Vec(one.velocity_before - met), normal);
     carrier =
         event.with_wall
@@ -239,7 +237,7 @@ class Measured {
   const audit::EventsAtHand& log_;
   const model::Case<double>& case_;
   audit::Tolerances tolerances_;
-  std::vector<Contact> contacts_;
+  std::vector<LoggedContact> contacts_;
   std::vector<std::pair<Vec, Vec>> normals_;  ///< of each impact, and what carries the contact [m/s]
 };
 
@@ -256,7 +254,7 @@ double exponent_of(std::vector<std::pair<double, double>> points) {
   return slopes.size() < least_number / 2 ? audit::unknown : quantile(slopes, 0.5);
 }
 
-std::optional<SoftContacts> soft_contacts(const std::vector<Contact>& contacts, LoggedAt at) {
+std::optional<SoftContacts> soft_contacts(const std::vector<LoggedContact>& contacts, LoggedAt at) {
   std::vector<double> durations, springs, moduli;
   std::vector<std::pair<double, double>> points;
   std::size_t known = 0;
@@ -305,7 +303,7 @@ TimeStepping time_stepping(const audit::EventsAtHand& log, const model::Case<dou
   result.step = common_step(log.events);
   const auto& has = log.available;
   if (!has.positions(false) || !has.velocities_before(false) || !has.velocities_after(false)) return result;
-  Measured measured(log, the_case, audit::tolerances_of(the_case, options));
+  Measurements measured(log, the_case, audit::tolerances_of(the_case, options));
   result.soft = soft_contacts(measured.contacts(), LoggedAt::begin);
   const auto end = soft_contacts(measured.contacts(), LoggedAt::end);
   const auto spread = [](const SoftContacts& s) { return (s.high - s.low) / s.duration; };

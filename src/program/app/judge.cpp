@@ -28,7 +28,7 @@ audit::Options merged(const casefile::CaseSpec& spec, const AuditOptions& given)
   }
   if (given.first_ball) options.conventions.first_ball = *given.first_ball;
   if (!given.walls.empty())
-    options.conventions.walls = audit::parse_walls(given.walls, casefile::partners_of(spec), "--walls");
+    options.conventions.walls = logs::parse_walls(given.walls, casefile::partners_of(spec), "--walls");
   if (given.tolerance) options.tolerance = *given.tolerance;
   if (given.gap_tolerance) options.gap_tolerance = given.gap_tolerance;
   options.from_start = options.from_start || given.from_start;
@@ -53,7 +53,8 @@ std::string to_junit(const audit::Audit& result) {
     }
     cases.push_back({std::string(audit::info(check).name), problem});
   }
-  const bool judged = result.verdict == audit::Verdict::clean || result.verdict == audit::Verdict::violations;
+  const bool judged =
+      result.verdict == audit::AuditVerdict::clean || result.verdict == audit::AuditVerdict::violations;
   cases.push_back({"enough impacts", judged ? "" : "too few impacts to judge"});
   return compare::junit_text("edmill audit of " + result.log_name, cases);
 }
@@ -67,7 +68,7 @@ Judged judged(const auto& found) { return {found.verdict, to_json(found), to_jun
 
 }  // namespace
 
-Judged compare(const compare::Options& options) {
+Judged compare(const compare::ComparisonOptions& options) {
   const io::Spool pipes;
   const auto a = options.a.string(), b = options.b.string();
   if (dem::is_contact_log(a) || dem::is_contact_log(b)) {
@@ -99,8 +100,8 @@ Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
   using identify::Search;
   std::uint64_t explained = 0;
   for (const auto& diagnosis : found.diagnoses) explained += diagnosis.events;
-  const bool is_open =
-      found.verdict == audit::Verdict::violations && !audit::accounts_for(explained, found.findings.total());
+  const bool is_open = found.verdict == audit::AuditVerdict::violations &&
+                       !audit::accounts_for(explained, found.findings.total());
   if (!found.interrupted && (given.identify || is_open)) {
     const auto identified =
         identify::identify(spec, options, given.identify ? Search::all : Search::single, given.searching);
@@ -108,9 +109,9 @@ Judged audit(const casefile::CaseSpec& spec, const AuditOptions& given) {
     identify::put_json(json, identified);
   }
   using compare::Verdict;
-  const auto verdict = found.verdict == audit::Verdict::clean        ? Verdict::agree
-                       : found.verdict == audit::Verdict::violations ? Verdict::differ
-                                                                     : Verdict::too_few;
+  const auto verdict = found.verdict == audit::AuditVerdict::clean        ? Verdict::agree
+                       : found.verdict == audit::AuditVerdict::violations ? Verdict::differ
+                                                                          : Verdict::too_few;
   return {verdict, json.finish(), to_junit(found), table};
 }
 

@@ -21,7 +21,7 @@ struct Judged {
 
 /// Of collision logs, or where one has contacts that last, of their dose rates.
 /// @throws InputError
-Judged compare(const compare::Options& options);
+Judged compare(const compare::ComparisonOptions& options);
 
 /// They override the case's section [audit].
 struct AuditOptions {

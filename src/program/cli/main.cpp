@@ -32,28 +32,10 @@ using namespace edmill;
 
 /// In the order of the help. A command has a name, what it does in a line, `add_options`, and `run`, which
 /// gives the exit code. A new one is a file in cli/commands/ and a line here.
-using Commands = std::tuple<cli::New,          //
-                            cli::Machines,     //
-                            cli::Run,          //
-                            cli::Demo,         //
-                            cli::Resume,       //
-                            cli::Report,       //
-                            cli::Certify,      //
-                            cli::Prove,        //
-                            cli::Sensitivity,  //
-                            cli::Bifurcation,  //
-                            cli::Check,        //
-                            cli::Variables,    //
-                            cli::Sweep,        //
-                            cli::Optimize,     //
-                            cli::Compare,      //
-                            cli::Audit,        //
-                            cli::Export,       //
-                            cli::Import,       //
-                            cli::Limit,        //
-                            cli::Manual,       //
-                            cli::Reference,    //
-                            cli::Completion>;
+using Commands = std::tuple<cli::New, cli::Machines, cli::Run, cli::Demo, cli::Resume, cli::Report,
+                            cli::Certify, cli::Prove, cli::Sensitivity, cli::Bifurcation, cli::Check,
+                            cli::Variables, cli::Sweep, cli::Optimize, cli::Compare, cli::Audit, cli::Export,
+                            cli::Import, cli::Limit, cli::Manual, cli::Reference, cli::Completion>;
 
 std::string version_text() {
   const auto parts = optional_parts();

@@ -61,7 +61,7 @@ TEST_P(Names, AreRightOrNotGiven) {
   const std::string text = edmill::audit::table(result) + identify::table(found);
   for (const auto& name : given) EXPECT_TRUE(p.right.contains(name)) << "\"" << name << "\"\n" << text;
   // A coarse tolerance may hide what was planted.
-  const bool seen = result.verdict == Verdict::violations;
+  const bool seen = result.verdict == AuditVerdict::violations;
   EXPECT_TRUE(p.right.empty() || !given.empty() || (!seen && p.tolerance > 1e-6)) << text;
 }
 

@@ -1,4 +1,4 @@
-foreach(name event_log_test faults_test separation_test clean_logs_test)
+foreach(name faults_test separation_test clean_logs_test)
   edmill_test(${name} audit/${name}.cpp TIMEOUT 300)
 endforeach()
 edmill_test(late_logs_test audit/late_logs_test.cpp SLOW TIMEOUT 300)

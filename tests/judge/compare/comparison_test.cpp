@@ -16,7 +16,7 @@ namespace {
 
 class Comparing : public ProgramTest {
  protected:
-  Comparison compare_texts(const std::string& a, const std::string& b, Options options = {}) const {
+  Comparison compare_texts(const std::string& a, const std::string& b, ComparisonOptions options = {}) const {
     write("a.csv", a);
     write("b.csv", b);
     options.a = scratch / "a.csv";
@@ -25,7 +25,7 @@ class Comparing : public ProgramTest {
   }
   /// A log, and the same after `change` of every event; where it returns false the event is left out.
   template <class Change>
-  Comparison compare_changed(const Change& change, const Options& options = {}) const {
+  Comparison compare_changed(const Change& change, const ComparisonOptions& options = {}) const {
     const auto a = synthetic_events(1);
     std::vector<SyntheticEvent> b;
     for (std::size_t k = 0; k < a.size(); ++k) {
@@ -140,7 +140,7 @@ TEST_F(Comparing, TheGrowthOfRoundingIsFitted) {
 }
 
 TEST_F(Comparing, ANumberOfEventsCanBeAskedFor) {
-  Options options;
+  ComparisonOptions options;
   const auto verdict = [&](std::uint64_t events) {
     options.events = events;
     const auto c = compare_changed(
@@ -188,7 +188,7 @@ TEST_F(Comparing, EachQuantityThatDiffersIsFound) {
 }
 
 TEST_F(Comparing, NoToleranceAtAllStillSeesTheSpectra) {
-  Options options;
+  ComparisonOptions options;
   options.tolerance = 0;
   const auto c = compare_changed(
       [](std::size_t, SyntheticEvent& e) { return e.approach_speed *= 1.05, e.milling_dose *= 1.05, true; },
@@ -249,7 +249,7 @@ TEST_F(Comparing, TooFewEventsAreNotJudged) {
 }
 
 TEST_F(Comparing, LimitsRestrictBothParts) {
-  Options options;
+  ComparisonOptions options;
   options.limits.from = 3;
   options.limits.until = 8;
   // B is wrong outside the limits only.
@@ -268,7 +268,7 @@ TEST_F(Comparing, LimitsRestrictBothParts) {
 TEST_F(Comparing, OptionsThatDoNotFitAreExplained) {
   const auto text = log_text(synthetic_events(1));
   const auto expect = [&](const std::string& start, auto&& set) {
-    Options options;
+    ComparisonOptions options;
     set(options);
     try {
       compare_texts(text, text, options);
@@ -277,10 +277,10 @@ TEST_F(Comparing, OptionsThatDoNotFitAreExplained) {
       EXPECT_TRUE(std::string(error.what()).starts_with(start)) << error.what();
     }
   };
-  expect("--batch: found 3 s, 3 batches", [](Options& o) { o.batch = 3; });
-  expect("--batch: found 0.001 s", [](Options& o) { o.batch = 0.001; });
-  expect("--from, --until:", [](Options& o) { o.limits.from = 11; });
-  expect("--from, --until:", [](Options& o) { o.limits.from = 5, o.limits.until = 4; });
+  expect("--batch: found 3 s, 3 batches", [](ComparisonOptions& o) { o.batch = 3; });
+  expect("--batch: found 0.001 s", [](ComparisonOptions& o) { o.batch = 0.001; });
+  expect("--from, --until:", [](ComparisonOptions& o) { o.limits.from = 11; });
+  expect("--from, --until:", [](ComparisonOptions& o) { o.limits.from = 5, o.limits.until = 4; });
 }
 
 TEST_F(Comparing, TwoGoodRunsRaiseAnAlarmInNoMoreThanFivePercentAndBadOnesDo) {

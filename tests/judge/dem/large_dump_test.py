@@ -4,6 +4,7 @@ lane of its own, so that the contacts are known: two for each ball and period.
 
 usage: large_dump_test.py EDMILL [GIGABYTES]
 """
+import json
 import os
 import pathlib
 import sys
@@ -67,7 +68,7 @@ def imported(gigabytes, folder):
     if status:
         sys.exit(f"edmill import ended with {os.waitstatus_to_exitcode(status)}")
     with open(folder / "contacts.csv") as log:
-        contacts = int(next(line for line in log if line.startswith("# frames")).split()[3])
+        contacts = json.loads(log.readlines()[1][2:])["contacts"]
     return contacts, frames, used.ru_maxrss / 1e3, written / 1e9
 
 

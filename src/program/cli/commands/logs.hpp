@@ -66,7 +66,7 @@ struct Compare {
   }
 
  private:
-  compare::Options options_;
+  compare::ComparisonOptions options_;
   std::string within_;
   Judgement judgement_;
 };

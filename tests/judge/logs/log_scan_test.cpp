@@ -1,14 +1,13 @@
 // Logs of edmill and of other codes, good and bad.
-#include "compare/log_reader.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "logs/event_log.hpp"
 #include "program.hpp"
 
-namespace edmill::compare {
+namespace edmill::logs {
 namespace {
 
 class LogReading : public ProgramTest {
@@ -34,7 +33,7 @@ TEST_F(LogReading, ColumnsInAnyOrderWithOthersBetween) {
   write("log.csv",
         "\xef\xbb\xbfmilling_dose,partner, partner_kind ,approach_speed,extra,time,ball\r\n"
         "1e-3,2,wall,1.5,hello,0.25,4\r\n\r\n3e-3,4,ball,2.5E0,,0.50,7\r\n");
-  LogReader log(scratch / "log.csv");
+  EventLog log(scratch / "log.csv");
   EXPECT_TRUE(log.has(model::milling_dose));
   EXPECT_FALSE(log.has(model::slip_speed));
   const auto first = log.next(), second = log.next();
@@ -128,4 +127,4 @@ TEST_F(LogReading, AFolderNeedsItsLogAndAGoodSummary) {
 }
 
 }  // namespace
-}  // namespace edmill::compare
+}  // namespace edmill::logs

@@ -1,4 +1,4 @@
-#include "audit/event_log.hpp"
+#include "logs/event_log.hpp"
 
 #include <fmt/format.h>
 
@@ -7,17 +7,19 @@
 #include <sstream>
 #include <utility>
 
-#include "audit/tolerances.hpp"
 #include "base/clean_text.hpp"
 #include "base/errors.hpp"
 #include "casefile/quantity.hpp"
-#include "compare/log_reader.hpp"
+#include "io/input_file.hpp"
+#include "io/json_file.hpp"
 
-namespace edmill::audit {
+namespace edmill::logs {
 
 namespace {
 
 using casefile::Dimension;
+
+constexpr int most = std::numeric_limits<int>::max();
 
 /// Places of the names in column_names().
 enum Name : std::size_t {
@@ -46,6 +48,26 @@ Dimension dimension_of(std::size_t name) {
                                                           Dimension::angular_speed, Dimension::speed,
                                                           Dimension::angular_speed};
   return of_vectors[(name - first_state) % 15 / 3];
+}
+
+bool is_folder(const std::filesystem::path& place) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(place, ignored);
+}
+
+/// What counts from the summary of a run: the begin of the statistics, and walls that it names.
+void read_summary(const std::filesystem::path& summary, LogScan& scan) {
+  if (!std::filesystem::exists(summary)) return;
+  const auto root = io::read_json(summary, "the summary of a run");
+  const auto found = root.find("start_time");
+  if (found == root.end() || !found->is_number())
+    throw InputError(fmt::format("{}: start_time: found {}, expected a time in s", summary.string(),
+                                 found == root.end() ? "nothing" : io::in_quotes(found->dump())));
+  scan.statistics_start = found->get<double>();
+  const auto counts = root.value("collisions", nlohmann::json::object());
+  int walls = 0;
+  while (counts.contains(model::partner_key(walls, walls + 1))) ++walls;
+  scan.walls = std::max(scan.walls, walls);
 }
 
 bool later(const LoggedEvent& a, const LoggedEvent& b) {
@@ -83,16 +105,29 @@ std::vector<int> parse_walls(const std::string& text, const model::Partners& par
   return walls;
 }
 
+std::filesystem::path log_in(const std::filesystem::path& place) {
+  if (!is_folder(place)) return place;
+  const auto log = place / "collisions.csv";
+  for (const auto* ending : {"", ".gz", ".zst"})
+    if (const std::filesystem::path file = log.string() + ending; io::is_readable(file.string())) return file;
+  return log;
+}
+
 EventLog::EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls,
-                   int walls, double beyond)
-    : csv_(compare::log_in(place), "a collision log"),
+                   int walls, double beyond, bool is_good)
+    : csv_(log_in(place), is_folder(place) ? "a collision log ([[output]] of type \"collisions\" in the case)"
+                                           : "a collision log"),
       columns_(name_count),
+      is_good_(is_good),
       first_ball_(conventions.first_ball),
       balls_(balls),
       walls_(conventions.walls.value_or(std::vector<int>(walls))),
       beyond_(beyond) {
   read_header(conventions);
 }
+
+EventLog::EventLog(const std::filesystem::path& place)
+    : EventLog(place, {}, most, 100, std::numeric_limits<double>::infinity(), true) {}
 
 void EventLog::read_header(const LogConventions& conventions) {
   const auto& names = column_names();
@@ -131,9 +166,11 @@ void EventLog::read_header(const LogConventions& conventions) {
   }
   if (!problems.empty()) throw InputError(problems);
 
-  for (std::size_t k = 0; k < name_count; ++k)
-    columns_[k].place = k == time_name || k == ball_name || k == partner_name ? csv_.needed_column(theirs[k])
-                                                                              : csv_.column(theirs[k]);
+  for (std::size_t k = 0; k < (is_good_ ? first_state : name_count); ++k) {
+    const bool is_needed = k == time_name || k == ball_name || k == partner_name ||
+                           (is_good_ && (k == partner_kind_name || k == first_value));
+    columns_[k].place = is_needed ? csv_.needed_column(theirs[k]) : csv_.column(theirs[k]);
+  }
   csv_.throw_problems();
   const bool with_kind = columns_[partner_kind_name].place.has_value();
   if (!conventions.walls)
@@ -149,40 +186,60 @@ void EventLog::read_header(const LogConventions& conventions) {
     }
 }
 
+bool EventLog::has(std::size_t quantity) const {
+  return quantity == model::time || columns_[first_value + quantity - model::approach_speed].place;
+}
+
+std::optional<double> EventLog::number(const Column& column) {
+  auto number = is_good_ ? csv_.finite(*column.place) : csv_.number(*column.place);
+  if (number) *number *= column.unit;
+  return number;
+}
+
 /// @return false when the field is not a number, which is reported
 bool EventLog::read_value(std::size_t name, double& value, LoggedEvent& event) {
   const Column& column = columns_[name];
   if (!column.place) return true;
-  const auto number = csv_.number(*column.place);
-  if (!number) return false;
-  value = *number * column.unit;
+  const auto read = number(column);
+  if (!read) return false;
+  value = *read;
   if (!std::isfinite(value) && event.problem.empty())
     event.problem = fmt::format("found {} in column {}", value, column_names()[name]);
   return true;
 }
 
 bool EventLog::read_bodies(LoggedEvent& event) {
-  constexpr int most = std::numeric_limits<int>::max();
-  const auto ball = csv_.whole(*columns_[ball_name].place, "the number of a ball", -most, most);
-  const auto partner =
-      csv_.whole(*columns_[partner_name].place, "the number of a ball or a wall", -most, most);
-  if (!ball || !partner) return false;
-  const auto wall = std::find(walls_.begin(), walls_.end(), *partner);
-  event.with_wall = wall != walls_.end();
-  if (const auto place = columns_[partner_kind_name].place) {
-    const auto kind = csv_.field(*place);
-    event.with_wall = kind == "wall";
-    if (!event.with_wall && kind != "ball") {
-      csv_.bad_field(*place, "ball or wall");
+  const auto& kind_column = columns_[partner_kind_name].place;
+  const std::size_t partner_column = *columns_[partner_name].place;
+  std::string_view kind;
+  if (kind_column) {
+    kind = csv_.field(*kind_column);
+    if (kind != "wall" && kind != "ball") {
+      csv_.bad_field(*kind_column, "ball or wall");
       return false;
     }
   }
+  const int least = is_good_ ? 0 : -most;
+  const bool good_wall = is_good_ && kind == "wall";
+  const auto ball = csv_.whole(*columns_[ball_name].place, "the number of a ball", least, most);
+  const auto partner = csv_.whole(partner_column,
+                                  good_wall  ? "the number of a wall"
+                                  : is_good_ ? "the number of a ball"
+                                             : "the number of a ball or a wall",
+                                  least, good_wall ? static_cast<int>(walls_.size()) - 1 : most);
+  if (!ball || !partner) return false;
+  const auto wall = std::find(walls_.begin(), walls_.end(), *partner);
+  event.with_wall = kind_column ? kind == "wall" : wall != walls_.end();
   event.ball = *ball - first_ball_;
   event.partner = event.with_wall ? static_cast<int>(wall - walls_.begin()) : *partner - first_ball_;
   const auto is_ball = [&](int k) { return k >= 0 && k < balls_; };
   const bool known =
       is_ball(event.ball) &&
       (event.with_wall ? wall != walls_.end() : is_ball(event.partner) && event.partner != event.ball);
+  if (!known && is_good_) {
+    csv_.bad_field(partner_column, "another ball than the first");
+    return false;
+  }
   if (!known) {
     event.unknown_body = true;
     event.problem =
@@ -195,9 +252,14 @@ std::optional<LoggedEvent> EventLog::read() {
   while (csv_.next_row()) {
     LoggedEvent event;
     event.line = csv_.line();
-    const auto time = csv_.number(*columns_[time_name].place);
+    const auto time = number(columns_[time_name]);
     if (!time || !read_bodies(event)) continue;
-    event.time = *time * columns_[time_name].unit;
+    event.time = *time;
+    if (is_good_ && event.time < latest_) {
+      csv_.bad_field(*columns_[time_name].place,
+                     fmt::format("no time before {} s, that of the line above", latest_));
+      continue;
+    }
     if (!(std::abs(event.time) < beyond_)) {
       event.problem = std::isfinite(event.time) ? fmt::format("found a time beyond {:g} s", beyond_)
                                                 : "found a time that is not finite";
@@ -219,7 +281,7 @@ std::optional<LoggedEvent> EventLog::read() {
     if (!good) continue;
     if (event.time < latest_) event.earlier_by = latest_ - event.time;
     // Rounding alone does not change the order of two lines.
-    if (event.earlier_by <= Tolerances::time(latest_)) event.time += std::exchange(event.earlier_by, 0.0);
+    if (event.earlier_by <= rounding_of(latest_)) event.time += std::exchange(event.earlier_by, 0.0);
     latest_ = std::max(latest_, event.time);
     return event;
   }
@@ -243,4 +305,22 @@ std::optional<LoggedEvent> EventLog::next() {
   return event;
 }
 
-}  // namespace edmill::audit
+LogScan scan_log(const std::filesystem::path& place) {
+  EventLog reader(place);
+  LogScan scan;
+  scan.file = reader.file();
+  for (std::size_t q = 0; q < model::logged_count; ++q) scan.has[q] = reader.has(q);
+  while (const auto event = reader.next()) {
+    if (scan.events++ == 0) scan.first = event->time;
+    scan.last = event->time;
+    if (event->with_wall) scan.walls = std::max(scan.walls, event->partner + 1);
+    for (std::size_t q = 0; q < model::logged_count; ++q)
+      if (scan.has[q]) scan.mean_magnitude[q] += std::abs((*event)[q]);
+  }
+  if (scan.events > 0)
+    for (double& mean : scan.mean_magnitude) mean /= static_cast<double>(scan.events);
+  if (log_in(place) != place) read_summary(place / "summary.json", scan);
+  return scan;
+}
+
+}  // namespace edmill::logs

@@ -1,5 +1,5 @@
 // Logs of other codes as the audit reads them: names, units, numbers of bodies, order.
-#include "audit/event_log.hpp"
+#include "logs/event_log.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "output/collision_log.hpp"
 #include "program.hpp"
 
-namespace edmill::audit {
+namespace edmill::logs {
 namespace {
 
 class EventLogReading : public ProgramTest {
@@ -112,4 +112,4 @@ TEST_F(EventLogReading, BadMappingsAndLinesAreToldTogether) {
 }
 
 }  // namespace
-}  // namespace edmill::audit
+}  // namespace edmill::logs

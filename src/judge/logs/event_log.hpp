@@ -1,8 +1,9 @@
-// Another code's collision log as the audit reads it: columns mapped, units converted to SI, events in order
-// of time.
+// Collision logs of edmill and of other codes, event by event: columns mapped, units converted to SI, in
+// order of time.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -15,7 +16,11 @@
 #include "model/impact_record.hpp"
 #include "model/parts/partners.hpp"
 
-namespace edmill::audit {
+namespace edmill::logs {
+
+/// Uncertainty of a logged time by rounding [s]: half a unit in the last place for each of whole drive
+/// periods and what exceeds them, their sum, a change of unit, and the way back to periods.
+inline double rounding_of(double time) { return 2 * std::numeric_limits<double>::epsilon() * std::abs(time); }
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -72,23 +77,33 @@ struct LogConventions {
 std::vector<int> parse_walls(const std::string& text, const model::Partners& partners,
                              const std::string& where);
 
+/// The log that a path names: that file, or in the folder of a run collisions.csv, which may be compressed.
+std::filesystem::path log_in(const std::filesystem::path& place);
+
 /// Reads ahead by `window` events, so that events come in order of time from a log that is slightly out of
-/// order. Bounded memory.
+/// order. Columns may be in any order; unknown ones are skipped. Bounded memory.
 class EventLog {
  public:
   static constexpr std::size_t window = 256;
 
+  /// For an audit, which asks little of a log and says of each event what is wrong with it.
   /// @param place  a CSV file, or a folder that holds collisions.csv
   /// @param balls, walls  in the case
   /// @param beyond        times that far from 0 or farther are no times of a run [s]
   /// @throws InputError with every problem of the mapping and the header
   EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls, int walls,
-           double beyond);
+           double beyond)
+      : EventLog(place, conventions, balls, walls, beyond, false) {}
+  /// Of a good log, without the states of bodies: in order of time, all values finite, of any bodies, with
+  /// the columns partner_kind and approach_speed.
+  explicit EventLog(const std::filesystem::path& place);
 
-  /// The next event; nothing at the end.
-  /// @throws InputError with the lines that cannot be read
+  /// The next event; nothing at the end. Bad lines are skipped until there are ten of them or the file ends.
+  /// @throws InputError with the bad lines: file, line, column, found, expected
   std::optional<LoggedEvent> next();
 
+  /// @param quantity  of model::logged_quantities
+  bool has(std::size_t quantity) const;
   const Available& available() const { return available_; }
   const std::string& file() const { return csv_.file(); }
 
@@ -97,14 +112,18 @@ class EventLog {
     std::optional<std::size_t> place;
     double unit = 1;  ///< in SI
   };
+  EventLog(const std::filesystem::path& place, const LogConventions& conventions, int balls, int walls,
+           double beyond, bool is_good);
   void read_header(const LogConventions& conventions);
   std::optional<LoggedEvent> read();
+  std::optional<double> number(const Column& column);
   bool read_bodies(LoggedEvent& event);
   bool read_value(std::size_t name, double& value, LoggedEvent& event);
 
   io::CsvReader csv_;
   std::vector<Column> columns_;  ///< in the order of the names
   Available available_;
+  bool is_good_;  ///< or its file is refused
   int first_ball_, balls_;
   std::vector<int> walls_;  ///< their numbers in the log, by id
   double beyond_;
@@ -116,4 +135,23 @@ class EventLog {
 /// Names of the columns that an audit knows, in the order of edmill's own log.
 const std::vector<std::string>& column_names();
 
-}  // namespace edmill::audit
+/// Of each quantity of model::logged_quantities.
+template <class T>
+using OfEach = std::array<T, model::logged_count>;
+
+/// Result of one pass over a log.
+struct LogScan {
+  std::string file;
+  std::uint64_t events = 0;
+  int walls = 0;               ///< that the summary beside the log counts, or else up to the last one met
+  double first = 0, last = 0;  ///< times [s]
+  OfEach<double> mean_magnitude{};  ///< of each column; 0 for an absent one
+  OfEach<bool> has{};
+  /// From the summary.json beside a log in a folder, when there is one.
+  std::optional<double> statistics_start;  ///< [s]
+};
+
+/// @throws InputError with the problems of the log and its summary
+LogScan scan_log(const std::filesystem::path& place);
+
+}  // namespace edmill::logs
