@@ -53,7 +53,7 @@ std::string unresolved_checks(const Audit& a) {
     out += fmt::format(
         "\n  times are known to {:.2g} s by their rounding, places of walls to {:.2g} m: the tolerances "
         "allow for it\n",
-        Tolerances::time(latest), places);
+        rounding_of(latest), places);
   if (const auto list = list_of_checks(a.findings, &Findings::unresolved_number); !list.empty())
     out += fmt::format("\n  could not be checked, since what is allowed is as large as what is checked: {}\n",
                        list);
@@ -176,7 +176,7 @@ void put_json(io::JsonText& json, const Audit& a) {
   json.add("interrupted", a.interrupted ? "yes" : "no");
   json.add("tolerance", a.tolerances.relative);
   json.add("gap_tolerance", a.tolerances.gap);
-  json.add("time_rounding", Tolerances::time(std::max(std::abs(a.first), std::abs(a.last))));
+  json.add("time_rounding", rounding_of(std::max(std::abs(a.first), std::abs(a.last))));
   put_violations(json, a);
   put_diagnoses(json, a);
   put_energies(json, a);

@@ -199,7 +199,7 @@ class Flights : Judge {
       const auto& now = later ? theirs.flight.start : track.flight.start;
       const double sum = radius + radius_of(other);
       // The other ball's place has an uncertain time of its own.
-      const double off = slack + 2 * tolerances_.time(until) * size(theirs.flight.velocity);
+      const double off = slack + 2 * rounding_of(until) * size(theirs.flight.velocity);
       if (off > sum / 2) continue;
       const auto seen = later ? pairs.state(track.flight, now) : seen_at_start;
       dynamics::PairAnswer<double> answer;

@@ -70,7 +70,7 @@ class StallHistory {
   Friction count(int k, double time, const model::ContactLaw<double>& law, double relative) {
     Ball& ball = balls_[k];
     const int enough = mill_.stall.impacts;
-    const double flight = time - ball.time, off = 2 * Tolerances::time(time) + relative * std::abs(flight);
+    const double flight = time - ball.time, off = 2 * rounding_of(time) + relative * std::abs(flight);
     const bool may_have_moved =
         std::isnan(flight) || mill_.stall.has_moved(flight + off, law.least_separation);
     const bool has_moved = !std::isnan(flight) && mill_.stall.has_moved(flight - off, law.least_separation);

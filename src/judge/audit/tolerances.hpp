@@ -9,6 +9,8 @@
 
 namespace edmill::audit {
 
+using logs::rounding_of;
+
 /// How fast walls, and what an impact takes from them, change with time: bounds of the mill.
 struct WallRates {
   double speed = 0;         ///< of any point of the walls [m/s]
@@ -37,16 +39,14 @@ struct Tolerances {
   double gravity = 0;  ///< [m/s^2]
   WallRates walls;
 
-  static double time(double t) { return logs::rounding_of(t); }
-
   /// How far walls may be from where they are at the logged time [m].
-  double wall_places(double t) const { return std::min(time(t) * walls.speed, 2 * reach); }
+  double wall_places(double t) const { return std::min(rounding_of(t) * walls.speed, 2 * reach); }
   double touch(double t, bool with_wall) const { return gap + (with_wall ? wall_places(t) : 0); }
   /// Tolerance of the end of a flight from an impact at an earlier time.
   double position(double t, double path, double speed) const {
-    return relative * (reach + path) + 2 * time(t) * (speed + 2 * time(t) * gravity);
+    return relative * (reach + path) + 2 * rounding_of(t) * (speed + 2 * rounding_of(t) * gravity);
   }
-  double velocity(double t, double speed) const { return relative * speed + 2 * time(t) * gravity; }
+  double velocity(double t, double speed) const { return relative * speed + 2 * rounding_of(t) * gravity; }
 
   /// What the uncertain wall adds to the difference of two relative velocities of an impact with it, each
   /// seen along its normal or across [m/s].
@@ -55,7 +55,8 @@ struct Tolerances {
   double of_wall(double t, double scale, double bend, double radius) const {
     const double turned = walls.turning + walls.speed * bend;  // of the normal [rad/s]
     const double moved = walls.acceleration + walls.turning * (walls.speed + radius * turned);
-    return 2 * (3 * scale * std::min(time(t) * turned, 2.0) + std::min(time(t) * moved, 2 * walls.speed));
+    return 2 * (3 * scale * std::min(rounding_of(t) * turned, 2.0) +
+                std::min(rounding_of(t) * moved, 2 * walls.speed));
   }
 };
 

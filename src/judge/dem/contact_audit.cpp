@@ -17,70 +17,27 @@ namespace {
 
 /// A value that single contacts show, and what the case has for it.
 struct Value {
-  const char* name;
-  const char* equation;
+  const char *name, *equation;
   double allowed, by_pressing, by_turning;
-  std::optional<double> (*found)(const Measured&);
-  double (*expected)(const Measured&);
-  double (*vanishing)(const Measured&) = nullptr;  ///< what the value depends on linearly, and is wanted at 0
+  std::optional<double> Measured::*found;
+  double due = 1;                         ///< of any contact
+  double Measured::*law = nullptr;        ///< what is due of each
+  double Measured::*vanishing = nullptr;  ///< what it depends on linearly, and is wanted at 0
+
+  double due_of(const Measured& s) const { return law ? s.*law : due; }
 };
 
-const Value restitution{"restitution",
-                        "(2.23')",
-                        0.003,
-                        0.1,
-                        0,
-                        [](const Measured& s) { return std::optional(s.restitution); },
-                        [](const Measured& s) { return s.law_restitution; }};
+const Value restitution{
+    "restitution", "(2.23')", 0.003, 0.1, 0, &Measured::restitution, 0, &Measured::law_restitution};
 /// Of contacts that slide throughout, by a margin. A spring along the surfaces has to be wound up first: what
 /// that takes is in inverse proportion to the slip.
-const Value friction{"friction",
-                     "(2.24')",
-                     0.01,
-                     0,
-                     0.1,
-                     [](const Measured& s) {
-                       const bool slides = s.law_friction && s.slip > s.least_sliding;
-                       return slides ? std::optional(s.friction) : std::nullopt;
-                     },
-                     [](const Measured& s) { return *s.law_friction; },
-                     [](const Measured& s) { return s.least_sliding / s.slip; }};
-/// Of contacts that the case's friction stops: over what just stops the slip. Springs along the surfaces
-/// reverse it, and have twice as much; how much is the code's own law.
-const Value sticking{"stopping friction",
-                     "(2.24')",
-                     1,
-                     0,
-                     0,
-                     [](const Measured& s) {
-                       const double part = s.least_sliding > 0 ? s.slip / s.least_sliding : 0;
-                       return part > 0.3 && part < 1 ? std::optional(s.friction / (part * *s.law_friction))
-                                                     : std::nullopt;
-                     },
-                     [](const Measured&) { return 1.5; }};
-const Value spin_change{
-    "spin change over the torque's",
-    "(2.35)",
-    0.02,
-    0,
-    0.3,
-    [](const Measured& s) { return s.friction > 0.05 ? std::optional(s.spin_change) : std::nullopt; },
-    [](const Measured&) { return 1.0; }};
-
-/// Factor of the velocity of the walls with which a contact has the restitution of the case.
-const Value wall_velocity{
-    "velocity",
-    "(2.27)",
-    0.02,
-    0.2,
-    0,
-    [](const Measured& s) {
-      const double change = (1 + s.law_restitution) * s.wall_speed;
-      return std::abs(s.wall_speed) > 0.3 * s.approach
-                 ? std::optional(1 + (s.restitution - s.law_restitution) * s.approach / change)
-                 : std::nullopt;
-    },
-    [](const Measured&) { return 1.0; }};
+const Value friction{
+    "friction", "(2.24')", 0.01, 0, 0.1, &Measured::friction, 0, &Measured::law_friction, &Measured::wound};
+/// Of contacts that the case's friction stops. Springs along the surfaces reverse the slip, and have twice as
+/// much; how much is the code's own law.
+const Value sticking{"stopping friction", "(2.24')", 1, 0, 0, &Measured::stopping_friction, 1.5};
+const Value spin_change{"spin change over the torque's", "(2.35)", 0.02, 0, 0.3, &Measured::spin_change};
+const Value wall_velocity{"velocity", "(2.27)", 0.02, 0.2, 0, &Measured::wall_velocity};
 
 /// Which contacts show a law best: gentle ones, and those in which much presses or the normal turns, are
 /// changed by what happens meanwhile.
@@ -106,6 +63,9 @@ class Clear {
   double least_approach_ = 0, most_ = 1;
 };
 
+/// Half of the interquartile range of the restitution that time steps leave.
+constexpr double spread_allowed = 0.007;
+
 /// Judges a value by contacts, each by its own law, which may depend on speed or materials: what is shown is
 /// the median of the laws' values and how far the code is from them.
 /// @param number  of values that are judged alike
@@ -115,15 +75,16 @@ Judged judged(const Value& value, const std::string& where, const std::vector<Me
   Judged j{
       .name = fmt::format("{} {}", value.name, where), .equation = value.equation, .allowed = value.allowed};
   for (const auto& measured : list)
-    if (const auto found = value.found(measured)) {
+    if (const auto& found = measured.*value.found) {
       if (all_dose > 0) j.dose_share += std::abs(measured.dose) / all_dose;
       if (!is_clear(measured)) continue;
       pressed.push_back(std::abs(measured.pressed));
       turned.push_back(measured.turned);
-      expected.push_back(value.expected(measured));
+      expected.push_back(value.due_of(measured));
       off.push_back(*found - expected.back());
-      if (value.vanishing) vanishing.push_back(value.vanishing(measured));
+      if (value.vanishing) vanishing.push_back(measured.*value.vanishing);
     }
+  j.spread = (numerics::quantile(off, 0.75) - numerics::quantile(off, 0.25)) / 2;
   j.found = value.vanishing ? median_at_zero(vanishing, off, number) : median_of(std::move(off), number);
   j.expected = median_of(std::move(expected)).value;
   j.allowed += value.by_pressing * median_of(std::move(pressed)).value +
@@ -137,22 +98,38 @@ void judge_laws(const std::vector<Measured>& list, Judged::Of of, ContactAudit& 
   std::map<std::string, std::vector<Measured>> parts;
   for (const auto& measured : list)
     for (const auto& part : measured.parts) parts[part].push_back(measured);
+  const std::string where = of == Judged::Of::walls ? "at walls" : "between balls";
+  const std::size_t first = audit.judged.size();
   std::erase_if(parts, [&](const auto& part) { return part.second.size() == list.size(); });
   const Clear is_clear(list);
-  const double dose = audit.magnitude, number = static_cast<double>(parts.size());
-  const auto add = [&](const Value& value, const std::string& where, const std::vector<Measured>& some,
-                       bool is_part) {
-    auto result = judged(value, where, some, is_clear, is_part ? number : 1, dose);
+  const double dose = audit.magnitude, number = static_cast<double>(parts.size() + 2);
+  const auto add = [&](const Value& value, const std::string& at, const std::vector<Measured>& some,
+                       double alike) {
+    auto result = judged(value, at, some, is_clear, alike, dose);
     result.of = of;
-    result.is_part = is_part;
-    // Whether friction stops the slip is seen by the way: no verdict waits for it.
-    if (result.dose_share > 0 && (result.found.known() || &value != &sticking))
+    result.is_part = alike > 1;
+    // Whether friction stops the slip, and single balls, are seen by the way: no verdict waits for them.
+    if (result.dose_share > 0 &&
+        (result.found.known() || !(&value == &sticking || at.starts_with("of ball "))))
       audit.judged.push_back(std::move(result));
   };
   for (const auto* value : {&restitution, &friction, &sticking, &spin_change}) {
-    add(*value, of == Judged::Of::walls ? "at walls" : "between balls", list, false);
-    for (const auto& [part, members] : parts) add(*value, part, members, true);
+    add(*value, where, list, 1);
+    for (const auto& [part, members] : parts) add(*value, part, members, number);
   }
+  auto slow = list;
+  std::ranges::sort(slow, {}, &Measured::approach);
+  const auto fast = slow.end() - static_cast<std::ptrdiff_t>(3 * list.size() / 10);
+  add(restitution, "of fast contacts " + where, {fast, slow.end()}, number);
+  add(restitution, "of slow contacts " + where, {slow.begin(), fast}, number);
+  if (audit.judged.size() == first) return;
+  const auto whole = audit.judged[first];  // the restitution of all
+  audit.judged.push_back({.name = "spread of the " + whole.name,
+                          .equation = restitution.equation,
+                          .found = {whole.spread, whole.spread, whole.spread, whole.found.count},
+                          .allowed = spread_allowed + 3 * (whole.allowed - restitution.allowed),
+                          .dose_share = whole.dose_share,
+                          .of = of});
 }
 
 /// Values that would follow from others, or mean nothing beside them, are not judged.
@@ -170,8 +147,8 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
   if (!velocity.known() || e == audit.judged.end()) return;
   std::vector<double> by_restitution, by_velocity;
   for (const auto& s : walls) {
-    if (!is_clear(s)) continue;
-    const double off = (s.restitution - s.law_restitution) * s.approach;
+    if (!is_clear(s) || !s.restitution) continue;
+    const double off = (*s.restitution - s.law_restitution) * s.approach;
     by_restitution.push_back(std::abs(off - (e->found.value - e->expected) * s.approach));
     by_velocity.push_back(
         std::abs(off - (velocity.found.value - 1) * (1 + s.law_restitution) * s.wall_speed));
@@ -179,7 +156,7 @@ void judge_wall_velocity(const std::vector<Measured>& walls, ContactAudit& audit
   const bool is_velocity = median_of(by_velocity).value < median_of(by_restitution).value;
   if (is_velocity && !velocity.agrees())
     leave_out(audit, "it would follow from the velocity of the walls", [](const Judged& j) {
-      return j.of == Judged::Of::walls && j.equation == restitution.equation;
+      return j.of == Judged::Of::walls && j.equation != spin_change.equation;
     });
   else if (!is_velocity && !e->agrees())
     velocity.not_judged = "it would follow from the restitution";

@@ -21,6 +21,7 @@ struct Judged {
   double expected = 0;
   double allowed = 0;     ///< beyond the interval: what contacts of this duration do, and a time step
   double dose_share = 0;  ///< of the contacts that show it
+  double spread = 0;      ///< half of the interquartile range
 
   enum class Of { log, walls, balls } of = Of::log;
   bool is_part = false;         ///< of the contacts of another value: of one wall, or one kind of balls

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -19,11 +18,9 @@ namespace edmill::dem {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// What counts of a record.
 struct Window {
-  double from, until = infinity;
+  double from, until = INFINITY;
   bool compared = false;  ///< with that of another record: nothing beside it counts, and it is not empty
 };
 
@@ -129,7 +126,7 @@ compare::Verdict verdict_of(double difference, double half_width, std::optional<
 ContactComparison compare_contacts(const compare::ComparisonOptions& options) {
   const auto a = options.a.string(), b = options.b.string();
   ContactComparison c{.within = options.within};
-  const Window window{options.limits.from.value_or(0), options.limits.until.value_or(infinity), true};
+  const Window window{options.limits.from.value_or(0), options.limits.until.value_or(INFINITY), true};
   c.a = is_contact_log(a) ? rates_of_contacts(a, window, 0) : rates_of_impacts(a, window);
   c.b = is_contact_log(b) ? rates_of_contacts(b, window, is_contact_log(a) ? 0 : c.a.first)
                           : rates_of_impacts(b, window);
@@ -200,7 +197,7 @@ double Limit::ratio_half_width() const {
 
 Limit limit_of(const std::vector<std::string>& logs, const std::string& run, double from) {
   Limit limit;
-  for (const auto& log : logs) limit.points.push_back(rates_of_contacts(log, {from}, -infinity));
+  for (const auto& log : logs) limit.points.push_back(rates_of_contacts(log, {from}, -INFINITY));
   std::sort(limit.points.begin(), limit.points.end(),
             [](const auto& a, const auto& b) { return a.contact_time > b.contact_time; });
   numerics::Line line;

@@ -98,12 +98,11 @@ std::string to_json(const ContactAudit& a) {
   json.add("frame_interval", a.facts.statistics.interval);
   json.add("contact_time", a.facts.statistics.contact_time);
   json.begin("classes");
-  for (std::size_t k = 0; k < contact_class_names.size(); ++k) {
-    json.begin(contact_class_names[k]);
-    json.add("contacts", a.counts[k]);
-    json.add("milling_dose", a.facts.doses[k]);
-    json.end();
-  }
+  for (std::size_t k = 0; k < contact_class_names.size(); ++k)
+    json.group(contact_class_names[k], [&] {
+      json.add("contacts", a.counts[k]);
+      json.add("milling_dose", a.facts.doses[k]);
+    });
   json.end();
   json.add("milling_dose_rate", a.dose_rate);
   json.add("milling_dose_rate_half_width", a.dose_rate_half_width);

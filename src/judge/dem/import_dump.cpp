@@ -168,8 +168,8 @@ Imported import_contact_list(const casefile::CaseSpec& spec, const ImportOptions
     if (c.mass) masses.push_back(*c.mass / ball.mass);
     if (c.diameter) diameters.push_back(*c.diameter / (2 * ball.radius));
   }
-  facts.mass_factor = factor_of(std::move(masses));
-  facts.radius_factor = factor_of(std::move(diameters));
+  facts.mass_factor = factor_of(masses);
+  facts.radius_factor = factor_of(diameters);
   facts.first = list.front().begin;
   facts.last = list.back().end;
   for (std::size_t k = 0; k < list.size(); ++k) {

@@ -2,6 +2,8 @@
 // the audit compares"
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -21,14 +23,17 @@ struct Measured {
   double approach = 0, slip = 0;  ///< at the touch [m/s]
   double pressed = 0;             ///< what acts meanwhile adds to the approach, over it
   double turned = 0;              ///< by the normal meanwhile [rad]
-  double restitution = 0;         ///< what it would be if nothing pressed
-  double friction = 0;            ///< impulse along the surfaces over that along the normal
   double slip_left = 0;           ///< along the slip at the touch, over it
-  double spin_change = 0;         ///< of the ball over that of the impulse, m J R^2 dw = -R n x m dv
-  double law_restitution = 0;     ///< of the case
-  std::optional<double> law_friction = {};
-  double least_sliding = 0;  ///< slip above which the case's contact slides throughout [m/s]
-  double wall_speed = 0;     ///< along the normal [m/s]
+  double wall_speed = 0;          ///< along the normal [m/s]
+  // Of the case:
+  double law_restitution = 0, law_friction = 0;
+  // What it shows, of what it shows at all:
+  std::optional<double> restitution = {};  ///< if nothing pressed
+  std::optional<double> friction = {};     ///< impulse along the surfaces over that along the normal
+  double wound = 0;  ///< the slip that only just stops, over that of a contact that slides throughout
+  std::optional<double> stopping_friction = {};  ///< over what just stops the slip
+  std::optional<double> spin_change = {};        ///< over that of the impulse, m J R^2 dw = -R n x m dv
+  std::optional<double> wall_velocity = {};      ///< over that with which it has the restitution of the case
 };
 
 /// Relative velocity of two surfaces [m/s], seen along the unit normal towards the ball.
@@ -65,9 +70,12 @@ inline Measured measured_by(const Contact& c, const Vector& gravity, const Bodie
                     .approach = -touch.separation,
                     .slip = norm<double>(touch.along)};
   if (!(measured.approach > 0)) return measured;
+  bool has_friction = false;
   measured.law_restitution = bodies.law.restitution(measured.approach, bodies.sizes);
   bodies.law.parameters([&](const model::Parameter& p, double value) {
-    if (p.key == std::string("friction")) measured.law_friction = value;
+    if (p.key != std::string("friction")) return;
+    has_friction = true;
+    measured.law_friction = value;
   });
   // Flights before and after press by different amounts; friction leads from the one to the other.
   const double first = (touch.separation - flown_on.separation) / (2 * measured.approach),
@@ -79,8 +87,6 @@ inline Measured measured_by(const Contact& c, const Vector& gravity, const Bodie
   // What presses before the bodies are closest is an approach, what presses later brakes; both alike have
   // the effect c.
   measured.restitution = separation + (2 * press_effect(e) + e) * late - e * early;
-  measured.least_sliding = measured.law_friction.value_or(0) * bodies.compliance *
-                           (1 + separation + measured.pressed) * measured.approach;
   const Vector left = leave.along - (flown_on.along - touch.along);
   if (measured.slip > 0)
     measured.slip_left = dot<double>(left, touch.along) / (measured.slip * measured.slip);
@@ -88,8 +94,18 @@ inline Measured measured_by(const Contact& c, const Vector& gravity, const Bodie
   const Vector change = c.after.velocity - c.before.velocity - gravity * duration,
                along = change - normal * dot<double>(change, normal),
                due = cross<double>(normal, along) / (-bodies.ball.reduced_inertia * bodies.ball.radius);
-  measured.friction = norm<double>(along) / dot<double>(change, normal);
-  measured.spin_change = dot<double>(Vector(c.after.spin - c.before.spin), due) / dot<double>(due, due);
+  const double friction = norm<double>(along) / dot<double>(change, normal);
+  if (friction > 0.05)
+    measured.spin_change = dot<double>(Vector(c.after.spin - c.before.spin), due) / dot<double>(due, due);
+  if (!has_friction) return measured;
+  // Slip above which the case's contact slides throughout.
+  const double least =
+      measured.law_friction * bodies.compliance * (1 + separation + measured.pressed) * measured.approach;
+  measured.wound = least / measured.slip;
+  if (measured.slip > least)
+    measured.friction = friction;
+  else if (measured.slip > 0.3 * least)
+    measured.stopping_friction = friction * measured.wound / measured.law_friction;
   return measured;
 }
 
@@ -108,7 +124,8 @@ class SingleContacts {
   Measured at_wall(const Contact& c) const {
     const auto ball = static_cast<std::size_t>(c.ball);
     const auto& b = vessel_.ball(ball);
-    const Bodies bodies{{"at " + partners_[c.partner].label, "of " + kinds_[ball] + " at walls"},
+    const Bodies bodies{parts_of({"at " + partners_[c.partner].label, "of " + kinds_[ball] + " at walls"},
+                                 {ball}, "at walls"),
                         mill_.law_with_wall(b, c.partner),
                         b,
                         {b.mass, b.radius},
@@ -122,6 +139,10 @@ class SingleContacts {
     });
     measured.wall_speed = dot<double>(vessel_.wall_velocity(middle, c.before.position),
                                       vessel_.normal(middle, ball, c.partner, c.before.position));
+    const double change = (1 + measured.law_restitution) * measured.wall_speed;
+    if (measured.restitution && std::abs(measured.wall_speed) > 0.3 * measured.approach)
+      measured.wall_velocity =
+          1 + (*measured.restitution - measured.law_restitution) * measured.approach / change;
     return measured;
   }
 
@@ -131,7 +152,7 @@ class SingleContacts {
     const double effective = a.mass * b.mass / (a.mass + b.mass);
     const auto [low, high] = std::minmax(kinds_[one], kinds_[two]);
     const Bodies bodies{
-        {"between " + low + " and " + high},
+        parts_of({"between " + low + " and " + high}, {one, two}, "with balls"),
         mill_.law_between(a, b),
         a,
         {effective, a.radius, b.radius},
@@ -144,6 +165,15 @@ class SingleContacts {
   }
 
  private:
+  /// With each ball by itself, where there are not too many.
+  std::vector<std::string> parts_of(std::vector<std::string> parts, std::initializer_list<std::size_t> balls,
+                                    const char* where) const {
+    constexpr std::size_t most = 40;
+    for (const auto ball : balls)
+      if (kinds_.size() <= most) parts.push_back(fmt::format("of ball {} {}", ball, where));
+    return parts;
+  }
+
   const model::Mill<double>& mill_;
   const MovingVessel& vessel_;
   Vector gravity_;

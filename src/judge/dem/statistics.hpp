@@ -58,10 +58,11 @@ inline Median median_at_zero(const std::vector<double>& x, std::vector<double> y
   return median;
 }
 
-/// The median of what a record says over what the case says; 0 where it says nothing, 1 where it differs by
-/// the rounding of numbers that are written.
-inline double factor_of(std::vector<double> ratios) {
-  const double factor = ratios.empty() ? 0 : median_of(std::move(ratios)).value;
+/// What a record says over what the case says, of the ball that differs most; 0 where it says nothing, 1
+/// where all differ by the rounding of numbers that are written.
+inline double factor_of(const std::vector<double>& ratios) {
+  if (ratios.empty()) return 0;
+  const double factor = std::ranges::max(ratios, {}, [](double ratio) { return std::abs(ratio - 1); });
   return std::abs(factor - 1) < 1e-5 ? 1 : factor;
 }
 

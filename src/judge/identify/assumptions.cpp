@@ -40,8 +40,12 @@ void to_laboratory(audit::LoggedEvent& event, LogFrame from, const model::Mill<d
   }
 }
 
-bool takes_part(const audit::LoggedEvent& event, int ball) {
-  return event.ball == ball || (!event.with_wall && event.partner == ball);
+/// Whether one of the balls from `first` to before `end` is in an impact.
+bool takes_part(const audit::LoggedEvent& event, std::size_t first, std::size_t end) {
+  const auto is_one = [&](int ball) {
+    return ball >= static_cast<int>(first) && ball < static_cast<int>(end);
+  };
+  return is_one(event.ball) || (!event.with_wall && is_one(event.partner));
 }
 
 }  // namespace
@@ -124,7 +128,7 @@ std::vector<BallGroup> ball_groups(const casefile::CaseSpec& spec) {
   return groups;
 }
 
-std::vector<SharedSubset> subsets_of(const model::Case<double>& the_case,
+std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model::Case<double>& the_case,
                                      const std::vector<audit::LoggedEvent>& events,
                                      const std::vector<Branches>& branches) {
   using audit::LoggedEvent;
@@ -144,6 +148,27 @@ std::vector<SharedSubset> subsets_of(const model::Case<double>& the_case,
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
     of_impacts("at " + walls[wall].meaning,
                [wall](const LoggedEvent& e, std::size_t) { return e.with_wall && e.partner == wall; });
+  /// Of some walls and not all.
+  const auto at_walls = [&](const std::string& name, const auto& is_one) {
+    std::vector<bool> at;
+    for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) at.push_back(is_one(wall));
+    const auto number = static_cast<std::size_t>(std::count(at.begin(), at.end(), true));
+    if (number > 1 && number < at.size())
+      of_impacts("at " + name,
+                 [at](const LoggedEvent& e, std::size_t) { return e.with_wall && at[e.partner]; });
+  };
+  const auto& vessel = the_case.mill.vessel;
+  at_walls("flat walls", [&](int wall) { return vessel.is_flat(wall); });
+  at_walls("round walls", [&](int wall) { return !vessel.is_flat(wall); });
+  for (std::size_t k = 0; k < spec.materials.size() && !spec.wall_materials.empty(); ++k)
+    at_walls("walls of " + spec.materials[k].name,
+             [&](int wall) { return spec.wall_materials[wall] == static_cast<int>(k) + 1; });
+  const auto groups = ball_groups(spec);
+  for (const auto& group : groups)
+    if (groups.size() > 1 && group.last - group.first > 1)
+      of_impacts("in impacts of " + group.key, [group](const LoggedEvent& e, std::size_t) {
+        return takes_part(e, group.first, group.last);
+      });
   const auto of_branch = [&](const char* name, bool Branches::*member, bool value) {
     of_impacts(name, [=, &branches](const LoggedEvent&, std::size_t k) {
       return branches[k].known && branches[k].*member == value;
@@ -166,10 +191,10 @@ std::vector<SharedSubset> subsets_of(const model::Case<double>& the_case,
   const int count = static_cast<int>(balls.size());
   for (int ball = 0; ball < count && count <= most_balls && count > 1; ++ball) {
     of_impacts(fmt::format("in impacts of ball {}", ball),
-               [ball](const LoggedEvent& e, std::size_t) { return takes_part(e, ball); });
+               [ball](const LoggedEvent& e, std::size_t) { return takes_part(e, ball, ball + 1); });
     add(fmt::format("on ball {}", ball), true, true, [&events, ball](const RowPlace& at) {
       const auto& event = events[at.event];
-      return at.body < 0 ? takes_part(event, ball) : event.ball_at(at.body) == ball;
+      return at.body < 0 ? takes_part(event, ball, ball + 1) : event.ball_at(at.body) == ball;
     });
   }
   return list;

@@ -106,7 +106,7 @@ struct Subset {
 using SharedSubset = std::shared_ptr<const Subset>;
 
 /// @param branches  by event; both must outlive the subsets
-std::vector<SharedSubset> subsets_of(const model::Case<double>& the_case,
+std::vector<SharedSubset> subsets_of(const casefile::CaseSpec& spec, const model::Case<double>& the_case,
                                      const std::vector<audit::LoggedEvent>& events,
                                      const std::vector<Branches>& branches);
 

@@ -83,7 +83,7 @@ Evidence::Evidence(const audit::EventsAtHand& log, const audit::Options& options
       nominal_(nominal),
       period_(the_case.mill.motion.period()),
       residuals_(log, audit::tolerances_of(the_case, options), the_case),
-      parts_(subsets_of(the_case, log.events, residuals_.branches())),
+      parts_(subsets_of(nominal.spec, the_case, log.events, residuals_.branches())),
       few_(residuals_.on({})),
       many_(few_),
       all_(few_),

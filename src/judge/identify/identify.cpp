@@ -22,28 +22,15 @@ struct Stage {
   std::size_t size, bases = 1;                          ///< of the hypotheses that it extends, and how many
   std::size_t mistakes = 0, numbers = 0, in_parts = 0;  ///< tried on top of each, the most promising
   std::size_t pairs = 0;                                ///< of numbers of the case, fitted together
-  double share = 0;  ///< of the rows violated with a base that a part must contain
-  bool draws_samples = false;
+  double share = 0.9;  ///< of the rows violated with a base that a part must contain
 };
 constexpr Stage stages[] = {
     {.name = "single causes", .size = 0, .mistakes = 8, .numbers = 6},
-    {.name = "causes in a part of the log", .size = 0, .in_parts = 8, .share = 0.9},
-    {.name = "two causes together",
-     .size = 1,
-     .bases = 10,
-     .mistakes = 2,
-     .numbers = 5,
-     .pairs = 12,
-     .draws_samples = true},
+    {.name = "causes in a part of the log", .size = 0, .in_parts = 8},
+    {.name = "two causes together", .size = 1, .bases = 10, .mistakes = 2, .numbers = 5, .pairs = 12},
     {.name = "two causes, of parts of the log", .size = 0, .in_parts = 4, .share = 0.2},
-    {.name = nullptr, .size = 1, .bases = 10, .in_parts = 3, .share = 0.9},
-    {.name = "three causes together",
-     .size = 2,
-     .bases = 4,
-     .mistakes = 2,
-     .numbers = 3,
-     .in_parts = 3,
-     .share = 0.9}};
+    {.name = nullptr, .size = 1, .bases = 10, .in_parts = 3},
+    {.name = "three causes together", .size = 2, .bases = 4, .mistakes = 2, .numbers = 3, .in_parts = 3}};
 
 class Searcher {
  public:
@@ -130,7 +117,7 @@ class Searcher {
   }
 
   void extend(const Stage& stage) {
-    if (stage.draws_samples) resample();
+    if (stage.pairs > 0) resample();
     std::vector<Hypothesis> more;
     for (const auto& base : best_of_size(stage.size, stage.bases, stage.in_parts > 0)) {
       const auto assumed = base.assumed();

@@ -31,7 +31,7 @@ namespace {
 using namespace edmill;
 
 /// In the order of the help. A command has a name, what it does in a line, `add_options`, and `run`, which
-/// gives the exit code. A new one is a file in cli/commands/ and a line here.
+/// gives the exit code. A new one is a file in cli/commands/ and a name here.
 using Commands = std::tuple<cli::New, cli::Machines, cli::Run, cli::Demo, cli::Resume, cli::Report,
                             cli::Certify, cli::Prove, cli::Sensitivity, cli::Bifurcation, cli::Check,
                             cli::Variables, cli::Sweep, cli::Optimize, cli::Compare, cli::Audit, cli::Export,

@@ -96,7 +96,7 @@ TEST_F(LateLogs, AViolationAboveTheToleranceIsFound) {
       }
       write("out/collisions.csv", text);
       const double by_time =
-          Tolerances::time(start) * 3000;  // a share of a speed: the normal of the cylinder
+          logs::rounding_of(start) * 3000;  // a share of a speed: the normal of the cylinder
       return judged(std::max(1e-9, by_time / 100)).findings;
     };
     // Velocities after an impact, positions and doses that are off by a hundredth.

@@ -41,6 +41,9 @@ MISTAKES = {
     "mass_of_pairs=2": f"restitution {PAIRS}", "mass_of_pairs=0.5": f"restitution {PAIRS}",
     "length_unit=1000": "diameter over the case's", "length_unit=100": "diameter over the case's",
     "exchanged_axes=1": "gravity along Z", "scaled=1": "displacements over those by velocities",
+    "other_ball=2": "restitution of ball 2 at walls", "other_ball=0 restitution_of_other_ball=0.52": "restitution of ball 0 at walls",
+    "restitution_by_speed=0.1": "restitution of fast contacts at walls", "mixed_restitution=0.03": "spread of the restitution at walls",
+    "radius_of_last=0.9": "diameter over the case's", "density_of_last=0.8": "density over the case's",
 }
 #: What differs as well: friction goes on while bodies attract each other; spins have another sign in a mirror.
 BESIDE = {"attraction=1": {"friction"}, "exchanged_axes=1": {"spin"}}
@@ -97,6 +100,8 @@ with Trials(to_the_end=True) as t:
             # Parts of the contacts and pairs differ as all of them do.
             kinds = {name.split()[0], "friction", "stopping"} if "friction" in name else {name.split()[0], "factor", "mill.amplitude.y"} if "amplitude" in mistake else {name.split()[0]}
             kinds |= {"density", "gravity", "diameter", "contacts", "jumps", "displacements"}
+            if "restitution" in name:
+                kinds |= {"restitution", "spread"}
             kinds |= BESIDE.get(mistake, set())
             t.check({other.split()[0] for other in found} <= kinds, f"{what}: {found}")
 print(f"{t.checks} checks of right and wrong DEM codes")

@@ -43,6 +43,8 @@ std::map<std::string, double> options{
     {"restitution_of_pairs", -1},
     {"friction_of_walls", -1},
     {"friction_of_pairs", -1},
+    {"restitution_by_speed", 0},
+    {"mixed_restitution", 0},
     {"other_wall", -1},
     {"restitution_of_other_wall", 0.4},
     {"other_ball", -1},
@@ -61,6 +63,8 @@ std::map<std::string, double> options{
     {"gravity", 1},
     {"gravity_axis", 1},
     {"radius", 1},
+    {"radius_of_last", 1},
+    {"density_of_last", 1},
     {"density", 1},
     {"size_x", 1},
     {"size_y", 1},
@@ -128,7 +132,10 @@ class Run {
                 0.004 * (i % 3) - 0.004};
       for (double& v : ball.v) v = share(random) / 2;
       ball.radius = (i < count - whole("small_balls") ? 0.004 : 0.003) * at("radius");
+      const bool last = i == count - 1;
+      if (last) ball.radius *= at("radius_of_last");
       ball.mass = 8000 * at("density") * 4 / 3 * pi * std::pow(ball.radius, 3);
+      if (last) ball.mass *= at("density_of_last");
       ball.inertia = 0.4 * at("inertia") * ball.mass * ball.radius * ball.radius;
       balls_.push_back(ball);
     }
@@ -165,6 +172,8 @@ class Run {
 
   /// Force on the body at which the normal points, for a relative velocity g of the surfaces.
   V contact(int key, const V& n, double overlap, const V& g, double mass, double damping, double friction) {
+    if (!springs_.contains(key)) dampings_[key] = damping_at(damping, std::abs(dot(g, n)));
+    damping = dampings_[key];
     // Lengths and speeds of one are those of a contact at 1 m/s.
     const double unit = at("contact_time") / unit_of_time(), normal_speed = dot(g, n);
     double normal = mass / unit * normal_force(overlap / unit, -normal_speed, damping);
@@ -180,6 +189,14 @@ class Run {
       wound = force * (-1 / tangential);
     }
     return n * normal + force;
+  }
+
+  /// Of a contact that begins with this speed.
+  double damping_at(double damping, double speed) {
+    const double steeper = at("restitution_by_speed"), mixed = at("mixed_restitution");
+    if (steeper == 0 && mixed == 0) return damping;
+    const double own = at("restitution") - steeper * std::log(speed / 2) + (++contacts_ % 2 ? mixed : -mixed);
+    return damping_for(std::min(0.95, std::max(0.1, own)), whole("steps"));
   }
 
   /// Whether contacts of this key are left out by mistake.
@@ -269,7 +286,9 @@ class Run {
   std::vector<Ball> balls_;
   std::array<double, 6> walls_{};  ///< damping of each
   double pairs_ = 0, other_ = 0;
-  std::map<int, V> springs_;  ///< along the surfaces, by contact
+  std::map<int, V> springs_;        ///< along the surfaces, by contact
+  std::map<int, double> dampings_;  ///< by contact
+  long contacts_ = 0;
 };
 
 }  // namespace
