@@ -67,7 +67,7 @@ struct ContactAudit {
 
   std::uint64_t jumps() const { return counts[static_cast<std::size_t>(ContactClass::jump)]; }
   /// Balls leave their flights at the walls of the case.
-  bool walls_met() const { return wall_distance <= 2 * wall_resolution; }
+  bool walls_met() const { return wall_distance <= 2 * wall_resolution && causes.empty(); }
 };
 
 /// @throws InputError when the log cannot be read or is of other balls

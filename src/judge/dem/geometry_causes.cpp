@@ -211,7 +211,9 @@ void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& co
   if (!geometry.known()) return;
   audit.wall_distance = geometry.distance;
   audit.wall_resolution = geometry.resolution;
-  if (audit.walls_met()) return;
+  const bool met = audit.walls_met();
+  const auto agrees = [](const Judged& j) { return j.of != Judged::Of::walls || j.agrees(); };
+  if (met && std::ranges::all_of(audit.judged, agrees)) return;
   std::vector<Candidate> candidates;
   for (const auto& p : identify::parameters_of(geometry.nominal()))
     if (p.key.starts_with("mill.") || p.key.starts_with("vessel.") || p.is_diameter)
@@ -220,8 +222,12 @@ void judge_places(const casefile::CaseSpec& spec, const std::vector<Contact>& co
   add_walls(spec, candidates);
   for (const auto& candidate : candidates) {
     if (interrupt && *interrupt) break;
-    if (const auto cause = geometry.fit(candidate); cause && cause->left <= 2 * geometry.resolution)
-      audit.causes.push_back(*cause);
+    const auto cause = geometry.fit(candidate);
+    if (!cause || cause->left > 2 * geometry.resolution) continue;
+    // What frames just do not resolve is explained by a number that is clearly off.
+    const bool is_clear = 2 * cause->left <= geometry.distance &&
+                          std::abs(cause->value - cause->expected) > 3 * cause->half_width;
+    if (!met || is_clear) audit.causes.push_back(*cause);
   }
   std::sort(audit.causes.begin(), audit.causes.end(),
             [](const auto& a, const auto& b) { return a.left < b.left; });

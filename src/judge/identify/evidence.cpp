@@ -1,8 +1,5 @@
 #include "identify/evidence.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -130,6 +127,7 @@ void Evidence::draw_samples(const std::vector<Assumptions>& bases) {
 void Evidence::count_violations(Hypothesis& tried) const {
   const auto assumed = tried.assumed();
   tried.of = violations_;
+  tried.others.clear();
   if (!assumed.is_case()) {
     tried.of = violating_events(nominal_).size();
     tried.left = violating_events(assumed).size();
@@ -141,9 +139,8 @@ void Evidence::count_violations(Hypothesis& tried) const {
     for (auto& event : changed.events) assumed.log.apply(event, built->mill);
     const auto found = audit::audit(*built, changed, options_).findings;
     tried.left = found.total();
-    std::vector<std::string_view> kinds;
-    for (const auto kind : found.ranked()) kinds.push_back(audit::info(kind).name);
-    tried.others = fmt::format("{}", fmt::join(kinds, ", "));
+    for (const auto kind : found.ranked())
+      tried.others += (tried.others.empty() ? "" : ", ") + std::string(audit::info(kind).name);
   }
 }
 

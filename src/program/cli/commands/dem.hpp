@@ -126,7 +126,6 @@ struct Import : CaseCommand<dem::ImportOptions> {
     command.add_flag("--quiet", quiet_, "no progress line and no table");
   }
   int run() {
-    if (out_.empty()) out_ = "contacts.csv";
     options_.in_vessel = frame_ == "vessel";
     if (!axes_.empty()) options_.axes = dem::axes_from(axes_);
     for (std::size_t k = 0; k < shift_.size(); ++k)
@@ -149,7 +148,7 @@ struct Import : CaseCommand<dem::ImportOptions> {
   }
 
  private:
-  std::string out_, frame_, axes_;
+  std::string out_ = "contacts.csv", frame_, axes_;
   std::vector<std::string> shift_;
 };
 
