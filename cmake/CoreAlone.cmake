@@ -49,13 +49,17 @@ endfunction()
 # for size (functions of double that they share took three times as long).
 set(double src/core/engine/double.cpp src/core/engine/double_other.cpp src/run/run/double.cpp src/run/output/double.cpp)
 set(wide src/core/engine/float128.cpp src/core/engine/mpfr50.cpp src/run/run/float128.cpp src/run/output/float128.cpp)
-edmill_alone(${double} ${wide})
+if(EMSCRIPTEN)
+  edmill_alone(${double} ${wide})
+endif()
 add_library(edmill_core OBJECT ${double} ${EDMILL_VERSION_SOURCE})
 target_link_libraries(edmill_core PUBLIC edmill_core_settings)
 target_precompile_headers(edmill_core PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <sstream>
   <string> <variant> <vector> <boost/container/static_vector.hpp> <boost/multiprecision/cpp_int.hpp> <boost/multiprecision/cpp_bin_float.hpp>
   <boost/multiprecision/eigen.hpp> <Eigen/Geometry> <fmt/format.h> <toml++/toml.h>)
 edmill_take_rooms(edmill_core core/base core/model core/dynamics core/engine core/tangent files/io case/casefile run/output run/run bindings/core_alone)
+edmill_together(double ${double})
+edmill_together(wide ${wide})
 set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/bindings/core_alone/toml.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 add_executable(edmill_core_alone src/bindings/core_alone/main.cpp src/program/app/run.cpp src/pages/report/result_table.cpp
                src/run/run/make_run.cpp)

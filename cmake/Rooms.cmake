@@ -36,6 +36,13 @@ function(edmill_alone)
   endforeach()
 endfunction()
 
+# edmill_together(group source...): large sources that share most of their templates, in one compilation.
+function(edmill_together group)
+  foreach(source ${ARGN})
+    set_property(SOURCE ${CMAKE_SOURCE_DIR}/${source} PROPERTY UNITY_GROUP ${group})
+  endforeach()
+endfunction()
+
 # Sources with all optimisations, without a precompiled header: GCC compiles what follows one with the optimisations of the header.
 function(edmill_optimise)
   set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)

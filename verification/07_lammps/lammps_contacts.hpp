@@ -12,7 +12,6 @@
 
 namespace edmill::verification {
 
-inline constexpr double pi = 3.14159265358979323846;
 /// Contacts so short that the normal does not turn during them: those that laws are measured on. [s]
 inline constexpr double brief = 1e-6;
 

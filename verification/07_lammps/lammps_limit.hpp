@@ -11,9 +11,12 @@
 #include "base/statistics.hpp"
 #include "claim.hpp"
 #include "core.hpp"
-#include "lammps_library.hpp"
+#include "lammps_mill.hpp"
 
 namespace edmill::verification {
+
+inline const Claim claim("07 LAMMPS");
+inline const LammpsMotion spex{0.1, pi / 12, pi / 12, 60.0 / 1054, 9.8};
 
 class LammpsPeer : public testing::Test {
  protected:

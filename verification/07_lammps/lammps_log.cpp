@@ -15,7 +15,6 @@
 namespace edmill::verification {
 namespace {
 
-const Claim claim("07 LAMMPS");
 
 /// A line for each contact: bodies and states at the first step with an overlap, velocities and spins at the
 /// first step without one.
@@ -95,7 +94,6 @@ class ContactLog {
 };
 
 TEST_F(LammpsPeer, ItsLogIsDiagnosedAsSoftContacts) {
-  const LammpsMotion spex{0.1, pi / 12, pi / 12, 60.0 / 1054, 9.8};
   const auto spec =
       casefile::read_case(EDMILL_SOURCE_DIR "/docs/examples/ward.toml",
                           {"balls.0.count=7", "balls.0.diameter=9.52 mm", "contact.restitution=0.52"});

@@ -6,8 +6,6 @@
 namespace edmill::verification {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 Triple cross(const Triple& a, const Triple& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

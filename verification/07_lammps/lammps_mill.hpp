@@ -10,6 +10,7 @@
 
 namespace edmill::verification {
 
+inline constexpr double pi = 3.14159265358979323846;
 using Triple = std::array<double, 3>;
 
 /// The mill's motion, from docs/theory.md, section 1; a still vessel has period 0.

@@ -9,7 +9,6 @@
 namespace edmill::verification {
 namespace {
 
-const Claim claim("07 LAMMPS");
 constexpr double gravity = 9.8;
 
 struct OtherMill {
@@ -100,11 +99,10 @@ OtherMill vibrated_box(int balls, int rpm) {
 
 OtherMill in_the_spex(std::string name, std::string vessel, double restitution, bool linear,
                       std::function<std::vector<std::string>(double)> vial) {
-  const LammpsMotion spex{0.1, pi / 12, pi / 12, 60.0 / 1054, gravity};
   return {std::move(name),   "type = \"spex8000\"\nspeed = \"1054 rpm\"\n",
           std::move(vessel), 7,
           0.00952,           restitution,
-          9 * spex.period,   [=](double time) { return VesselFrame(spex, time); },
+          9 * spex.period,   [](double time) { return VesselFrame(spex, time); },
           std::move(vial),   linear};
 }
 
@@ -138,8 +136,8 @@ LammpsBall seen(const model::AnyMotion<double>& motion, const Instant<double>& w
   const auto &x = in_vessel.position, &v = in_vessel.velocity;
   return {{x[0], x[1], x[2]},
           {v[0], v[1], v[2]},
-          {dot<double>(w, motion.axis_x(pose)), dot<double>(w, motion.axis_y(pose)),
-           dot<double>(w, motion.axis_z(pose))}};
+          {edmill::dot<double>(w, motion.axis_x(pose)), edmill::dot<double>(w, motion.axis_y(pose)),
+           edmill::dot<double>(w, motion.axis_z(pose))}};
 }
 
 std::vector<double> lammps_rates(const OtherMill& mill, double contact_duration, int batches) {

@@ -11,8 +11,6 @@
 namespace edmill::verification {
 namespace {
 
-const Claim claim("07 LAMMPS");
-const LammpsMotion spex{0.1, pi / 12, pi / 12, 60.0 / 1054, 9.8};
 constexpr int batch_periods = 9;  ///< half a second
 
 /// The case's balls at rest against the inertial frame, placed as edmill places them.

@@ -12,7 +12,6 @@
 namespace edmill::verification {
 namespace {
 
-const Claim claim("07 LAMMPS");
 constexpr double diameter = 0.0127, radius = diameter / 2, half_height = 0.0285, wide = 0.1;
 constexpr double duration = 100 * brief;
 

@@ -14,7 +14,6 @@
 #include "io/json_file.hpp"
 
 namespace edmill::logs {
-
 namespace {
 
 using casefile::Dimension;
@@ -68,10 +67,6 @@ void read_summary(const std::filesystem::path& summary, LogScan& scan) {
   int walls = 0;
   while (counts.contains(model::partner_key(walls, walls + 1))) ++walls;
   scan.walls = std::max(scan.walls, walls);
-}
-
-bool later(const LoggedEvent& a, const LoggedEvent& b) {
-  return a.time != b.time ? a.time > b.time : a.line > b.line;
 }
 
 }  // namespace
@@ -290,18 +285,17 @@ std::optional<LoggedEvent> EventLog::read() {
 }
 
 std::optional<LoggedEvent> EventLog::next() {
+  if (is_good_) return read();
   while (!at_end_ && ahead_.size() < window) {
-    if (auto event = read()) {
-      ahead_.push_back(std::move(*event));
-      std::push_heap(ahead_.begin(), ahead_.end(), later);
-    } else {
-      at_end_ = true;
-    }
+    auto event = read();
+    at_end_ = !event;
+    if (at_end_) break;
+    const auto later = [](double time, const LoggedEvent& other) { return time < other.time; };
+    ahead_.insert(std::upper_bound(ahead_.begin(), ahead_.end(), event->time, later), std::move(*event));
   }
   if (ahead_.empty()) return std::nullopt;
-  std::pop_heap(ahead_.begin(), ahead_.end(), later);
-  LoggedEvent event = std::move(ahead_.back());
-  ahead_.pop_back();
+  LoggedEvent event = std::move(ahead_.front());
+  ahead_.pop_front();
   return event;
 }
 

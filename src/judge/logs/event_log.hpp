@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -128,7 +129,7 @@ class EventLog {
   std::vector<int> walls_;  ///< their numbers in the log, by id
   double beyond_;
   double latest_ = -std::numeric_limits<double>::infinity();
-  std::vector<LoggedEvent> ahead_;  ///< a heap, the earliest on top
+  std::deque<LoggedEvent> ahead_;  ///< in order of time
   bool at_end_ = false;
 };
 
