@@ -15,7 +15,6 @@
 namespace edmill::verification {
 namespace {
 
-
 /// A line for each contact: bodies and states at the first step with an overlap, velocities and spins at the
 /// first step without one.
 class ContactLog {
