@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes docs/test-times.md: the seconds of each test in the last `ctest --preset ci`, which keeps them in tests.xml of its build.
 
-usage: times.py [BUILD]    build/ci unless given
+usage: times.py [BUILD]    (default: build/ci)
 """
 import json
 import pathlib

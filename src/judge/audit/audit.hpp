@@ -20,8 +20,8 @@ struct Options {
   std::filesystem::path log;  ///< a CSV file, or a folder of `edmill run`
   logs::LogConventions conventions;
   double tolerance = 1e-9;              ///< relative
-  std::optional<double> gap_tolerance;  ///< largest gap or overlap of bodies in contact [m]; from the
-                                        ///< relative tolerance unless given
+  std::optional<double> gap_tolerance;  ///< largest gap or overlap of bodies in contact [m]
+                                        ///< (default: by the relative tolerance)
   bool from_start = false;              ///< the log begins at the case's initial state
   std::size_t examples = 3;             ///< of each kind
   const std::atomic<bool>* interrupt = nullptr;

@@ -198,6 +198,10 @@ class Flights : Judge {
       if (from >= to) continue;
       const auto& now = later ? theirs.flight.start : track.flight.start;
       const double sum = radius + radius_of(other);
+      const Vec apart = position_at(ball, from) - position_at(other, from);
+      const Vec relative = velocity_of(track, from) - velocity_of(theirs, from);
+      // Both fall alike, so that the distance changes by their relative velocity alone.
+      if (size(apart) > 1.001 * (sum + size(relative) * (to - from))) continue;
       // The other ball's place has an uncertain time of its own.
       const double off = slack + 2 * rounding_of(until) * size(theirs.flight.velocity);
       if (off > sum / 2) continue;
@@ -210,10 +214,8 @@ class Flights : Judge {
       }
       if (answer.verdict != dynamics::Verdict::contact || from + answer.delay > to) continue;
       if (first && first->time <= from + answer.delay) continue;
-      const Vec apart = position_at(ball, from) - position_at(other, from);
       if (size(apart) < sum - off) continue;  // they overlapped already, which was reported before
       if (end.late && !end.event->with_wall && end.partner() == other) continue;
-      const Vec relative = velocity_of(track, from) - velocity_of(theirs, from);
       const double nearest = std::clamp(-dot(apart, relative) / dot(relative, relative), 0.0, to - from);
       first = Encounter{from + answer.delay, false, other, sum - size(Vec(apart + relative * nearest))};
     }

@@ -35,7 +35,7 @@ struct EventComparison {
 struct ComparisonOptions {
   std::filesystem::path a, b;  ///< folders of runs, or logs; A is the reference
   Limits limits;
-  std::optional<double> batch;          ///< length [s]; a twentieth of the common time unless given
+  std::optional<double> batch;          ///< length [s]; default: a twentieth of the common time
   std::optional<double> tolerance;      ///< relative, for events; 1e-9 by default
   std::optional<std::uint64_t> events;  ///< that must agree one by one
   std::optional<double> within;  ///< largest relative difference of the dose rates of contacts that last

@@ -2,7 +2,7 @@
 """`edmill audit --identify` where there is little to go by: few lines, lines that cannot be read, balls that come to rest, a log that
 begins at a saved state, numbers far off, other laws, joints that are ahead of others, and a signal.
 
-usage: PYTHONPATH=tests/support python3 cases.py EDMILL [EVERY]    EVERY: one pair of a mill and a vessel in so many, all unless given"""
+usage: PYTHONPATH=tests/support python3 cases.py EDMILL [EVERY]    EVERY: one pair of a mill and a vessel in so many (default: all)"""
 import csv
 import itertools
 import json

@@ -2,7 +2,7 @@
 """Runs with checkpoints and a report that are killed, interrupted and resumed end like an uninterrupted run; so do studies and
 reports.
 
-usage: PYTHONPATH=tests/support python3 kill_test.py EDMILL [KILLS]    of runs, 6 unless given, and a third of that of studies and of reports each
+usage: PYTHONPATH=tests/support python3 kill_test.py EDMILL [KILLS]    of runs (default: 6), and a third of that of studies and of reports each
 Moments are drawn with a fixed seed, but the machine's load decides what a moment hits.
 """
 import os

@@ -2,7 +2,7 @@
 """A run over the folder of an earlier one leaves what it would have left in an empty folder, and the user's files. One that
 fails leaves everything as it was.
 
-usage: PYTHONPATH=tests/support python3 left_behind_test.py EDMILL [TRIALS]    random pairs of cases; 12 unless given
+usage: PYTHONPATH=tests/support python3 left_behind_test.py EDMILL [TRIALS]    random pairs of cases (default: 12)
 """
 import pathlib
 import random

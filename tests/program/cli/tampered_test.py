@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A resumed run ends as if nothing had happened, or is refused: whatever was done to the files that it goes on from.
 
-usage: PYTHONPATH=tests/support python3 tampered_test.py EDMILL [TRIALS]    16 unless given
+usage: PYTHONPATH=tests/support python3 tampered_test.py EDMILL [TRIALS]    (default: 16)
 """
 import os
 import pathlib

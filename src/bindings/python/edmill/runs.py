@@ -224,10 +224,10 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
         progress: bool | Callable[[float, int], Any] = False) -> Run:
     """Simulates a case, without Python's lock.
 
-    precision      double, float128, mpfr50, mpfr100, mpfr200, or mpfr:DIGITS with any number of digits; that of the case unless
-                   given
+    precision      double, float128, mpfr50, mpfr100, mpfr200, or mpfr:DIGITS with any number of digits (default: that of
+                   the case)
     until          where the run ends, in place of the case's `end_time`: "2 s", or a number [s]
-    folder         where the outputs of the case, summary.json and final_state.csv are written; nowhere unless given
+    folder         where the outputs of the case, summary.json and final_state.csv are written (default: nowhere)
     events         whether to keep each impact: 128 bytes each in double
     report         writes report.html into `folder`, with the outputs that it shows
     observers      callables of an impact and the run, called after each impact: 1 us each, where the engine takes as long
@@ -236,8 +236,8 @@ def run(case: Case | Mapping | str, precision: str | None = None, until: str | f
                    objects with `restitution(approach_speed)` and `restitution_of_slip(normal_change, slip_speed,
                    compliance)`, in place of the case's laws; slow, unlike the laws that a case names
     until_precision
-                   ends the run when the 95 % interval of the dose rate is this part of it, 0.01 or "1%"; `until` is the limit,
-                   100 times the case's end_time unless given
+                   ends the run when the 95 % interval of the dose rate is this part of it, 0.01 or "1%"; `until` is the limit
+                   (default: 100 times the case's end_time)
     digits         every event and number correct to this many digits: the precision is chosen for it, and verified by a wider run
     checkpoint     how often to save the state in `folder`, "10 min" or "2 s simulated", so that `resume(folder)` can go on; such
                    a run has no events, observers or laws of Python
@@ -324,8 +324,8 @@ def read_run(folder: str | pathlib.Path) -> Run:
 
 
 def resume(folder: str | pathlib.Path, checkpoint: str | None = None) -> Run:
-    """Continues a run that was ended, from its checkpoint, as `edmill resume`. @param checkpoint  how often to save; as before
-    unless given"""
+    """Continues a run that was ended, from its checkpoint, as `edmill resume`. @param checkpoint  how often to save
+    (default: as before)"""
     place = checks.place("folder", folder)
     require("checkpoint", checkpoint, checkpoint is None or isinstance(checkpoint, str), 'a text such as "10 min"')
     _edmill.resume(place, checkpoint or "")

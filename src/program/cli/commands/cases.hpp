@@ -33,20 +33,20 @@ struct New {
   static constexpr const char* what = "write a case with comments: a mill, balls, powder";
 
   void add_options(CLI::App& command) {
-    command.add_option("--mill", wanted_.machine, "one of edmill machines; spex8000 unless given");
+    command.add_option("--mill", wanted_.machine, "one of edmill machines (default: spex8000)");
     command
         .add_option("--balls", wanted_.balls,
                     "number and diameter, \"10x12.7mm\", and a material, \"10x12.7mm:zirconia\"; can be "
-                    "repeated; 10 of 10 mm of steel unless given")
+                    "repeated (default: 10 of 10 mm of steel)")
         ->take_all()
         ->expected(1);
-    command.add_option("--powder", wanted_.powder, "mass of the powder, \"5g\"; none unless given");
+    command.add_option("--powder", wanted_.powder, "mass of the powder, \"5g\" (default: none)");
     command.add_option("--target-dose", wanted_.target_dose, "target dose of the powder, \"10 kJ/g\"");
-    command.add_option("--speed", wanted_.speed, "of the drive; the mill's usual one unless given");
+    command.add_option("--speed", wanted_.speed, "speed of the drive (default: the mill's usual one)");
     command.add_option("--restitution", wanted_.restitution,
-                       "of all contacts; by powder and balls unless given");
-    command.add_option("--friction", wanted_.friction, "of all contacts; 0.4 unless given");
-    command.add_option("--time", wanted_.time, "simulated; \"10 s\" unless given");
+                       "restitution of all contacts (default: by powder and balls)");
+    command.add_option("--friction", wanted_.friction, "friction of all contacts (default: 0.4)");
+    command.add_option("--time", wanted_.time, "simulated time (default: \"10 s\")");
     command.add_option("--out", file_,
                        "file of the case, written whole or not at all; standard output by default");
   }

@@ -18,11 +18,11 @@ struct Certify : CaseCommand<app::CertifyOptions> {
 
   void add_options(CLI::App& command) {
     given_.add_to(command);
-    command.add_option("--collisions", options_.collisions, "how many events; all of the case unless given")
+    command.add_option("--collisions", options_.collisions, "how many events (default: all of the case)")
         ->check(CLI::Range(1, 10000000));
-    command.add_option("--digits", options_.digits, "to how many digits; 25 unless given")
+    command.add_option("--digits", options_.digits, "digits of the values (default: 25)")
         ->check(CLI::Range(1, 100000));
-    command.add_option("--out", options_.file, "file; out/<case name>.reference.csv unless given");
+    command.add_option("--out", options_.file, "file (default: out/<case name>.reference.csv)");
     command.add_flag("--quiet", quiet_, "no progress and no report");
   }
   int run() {
@@ -65,7 +65,7 @@ struct Prove : CaseCommand<app::ProveOptions> {
         .add_option("--certificate", options_.certificate,
                     "file for a certificate that can be checked without edmill")
         ->excludes(check);
-    command.add_option("--most-bits", options_.most_bits, "largest number of bits; 16384 unless given")
+    command.add_option("--most-bits", options_.most_bits, "largest number of bits (default: 16384)")
         ->check(CLI::Range(128, 1048576))
         ->excludes(check);
     command.add_flag("--compare", compare_, "also report how many events each precision gets right")

@@ -54,22 +54,23 @@ struct Export : CaseCommand<dem::DeckOptions> {
     command.add_option("--to", options_.code, "DEM code")
         ->required()
         ->check(CLI::IsMember(std::vector<std::string>(dem::deck_codes.begin(), dem::deck_codes.end())));
-    command.add_option("--out", folder_, "folder for the deck; the working directory unless given");
-    command.add_option("--name", options_.name, "of the files; deck unless given")->check(problem_of_name);
+    command.add_option("--out", folder_, "folder for the deck (default: the working directory)");
+    command.add_option("--name", options_.name, "base name of the files (default: deck)")
+        ->check(problem_of_name);
     add_quantity(command, "--contact-time", options_.contact_time, Dimension::time,
-                 "how long the largest ball touches a wall; \"50 us\" unless given");
+                 "duration of the largest ball's contact with a wall (default: \"50 us\")");
     add_quantity(command, "--contact-speed", options_.speed, Dimension::speed,
-                 "at which it does; \"1 m/s\" unless given");
+                 "approach speed of that contact (default: \"1 m/s\")");
     add_quantity(command, "--duration", options_.duration, Dimension::time,
-                 "simulated; to the end of the case unless given");
+                 "simulated time (default: to the end of the case)");
     add_quantity(command, "--frames", options_.frame_interval, Dimension::time,
-                 "time between frames of the dump; a fifth of the contact time unless given");
-    command.add_option("--steps", options_.steps, "time steps in a contact; 50 unless given")
+                 "time between frames of the dump (default: a fifth of the contact time)");
+    command.add_option("--steps", options_.steps, "time steps in a contact (default: 50)")
         ->check(CLI::Range(10, 10000));
     command
-        .add_option(
-            "--facets", options_.facets,
-            "of a cylinder where the code has only triangles; 128 in LIGGGHTS and 24 in YADE unless given")
+        .add_option("--facets", options_.facets,
+                    "facets of a cylinder, for codes that have only triangles (default: 128 in LIGGGHTS and "
+                    "24 in YADE)")
         ->check(CLI::Range(8, 4096));
     command.add_flag("--quiet", quiet_, "print nothing");
   }
@@ -108,7 +109,7 @@ struct Import : CaseCommand<dem::ImportOptions> {
                     "compressed; - for standard input; or a list of contacts with walls, as Lethe writes it")
         ->required();
     given_.add_to(command, "--case");
-    command.add_option("--out", out_, "log of contacts (CSV); contacts.csv unless given");
+    command.add_option("--out", out_, "log of contacts (CSV; default: contacts.csv)");
     command.add_option("--deck", options_.deck, "input of the code, which gives time step, units and frame");
     add_quantity(command, "--timestep", options_.time_step, casefile::Dimension::time,
                  "of a dump that has no times");
@@ -161,7 +162,7 @@ struct Limit {
         ->required()
         ->expected(2, 100);
     command.add_option("--edmill", run_, "run of edmill, or its collision log, to compare the limit with");
-    add_quantity(command, "--from", from_, casefile::Dimension::time, "time to begin at; all unless given");
+    add_quantity(command, "--from", from_, casefile::Dimension::time, "time to begin at (default: all)");
     command.add_option("--within", within_,
                        "largest difference of the limit from edmill, relative: \"5%\" or 0.05");
     command.add_option("--json", json_, "file for the result in JSON");

@@ -48,7 +48,8 @@ struct Compare {
   void add_options(CLI::App& command) {
     command.add_option("A", options_.a, "reference: folder of a run, or a collision log (CSV)")->required();
     command.add_option("B", options_.b, "the other")->required();
-    command.add_option("--tolerance", options_.tolerance, "relative, for single events; 1e-9 unless given")
+    command
+        .add_option("--tolerance", options_.tolerance, "relative tolerance for single events (default: 1e-9)")
         ->check(CLI::Range(0.0, 1.0));
     command.add_option("--events", options_.events, "number of events that must agree one by one");
     command.add_option("--from", options_.limits.from, "time in s to begin at");
@@ -56,7 +57,9 @@ struct Compare {
     command.add_option(
         "--within", within_,
         "largest difference of the dose rates of contacts that last, relative: \"5%\" or 0.05");
-    command.add_option("--batch", options_.batch, "length of a batch in s; a twentieth unless given")
+    command
+        .add_option("--batch", options_.batch,
+                    "length of a batch in s (default: a twentieth of the common time)")
         ->check(CLI::PositiveNumber);
     judgement_.add_to(command, "no table");
   }
@@ -81,12 +84,12 @@ struct Audit {
     command.add_option("--column", options_.columns, "ours=theirs [unit]: name of a column; can be repeated")
         ->take_all()
         ->expected(1);
-    command.add_option("--first-ball", options_.first_ball, "number of the log's first ball; 0 unless given")
+    command.add_option("--first-ball", options_.first_ball, "number of the log's first ball (default: 0)")
         ->check(CLI::Range(0, 1000000000));
     command.add_option(
         "--walls", options_.walls,
         "numbers of the walls by id, e.g. \"1, 2, 3\" for the caps at -y and +y and the cylinder");
-    command.add_option("--tolerance", options_.tolerance, "relative; 1e-9 unless given")
+    command.add_option("--tolerance", options_.tolerance, "relative tolerance (default: 1e-9)")
         ->check(CLI::Range(1e-15, 0.5));
     command
         .add_option("--gap-tolerance", options_.gap_tolerance,
@@ -95,7 +98,7 @@ struct Audit {
     command.add_flag("--from-start", options_.from_start, "the log begins at the case's initial state");
     command.add_flag("--identify", options_.identify,
                      "search for causes in parts of the log, and for two and three together");
-    command.add_option("--examples", options_.examples, "of each kind of violation; 3 unless given")
+    command.add_option("--examples", options_.examples, "examples of each kind of violation (default: 3)")
         ->check(CLI::Range(0, 1000));
     judgement_.add_to(command, "no progress line and no table");
   }

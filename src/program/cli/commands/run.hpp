@@ -169,7 +169,7 @@ struct Run : RunCommand {
           return casefile::is_precision(name) ? "" : "expected " + casefile::choices_of_precision();
         },
         "");
-    command.add_option("--out", folder_, "folder for the results; out/<case name> unless given");
+    command.add_option("--out", folder_, "folder for the results (default: out/<case name>)");
     command.add_option("--precision", precision_, "scalar of the run, overrides that of the case")
         ->check(precisions);
     auto* shadow =
@@ -184,7 +184,7 @@ struct Run : RunCommand {
         ->excludes("--precision");
     command.add_flag("--estimate", estimate_,
                      "estimate events, digits, time and memory of the run, and do not run");
-    command.add_option("--checkpoint", checkpoint_, every + "; never unless given")->excludes(shadow);
+    command.add_option("--checkpoint", checkpoint_, every + " (default: never)")->excludes(shadow);
     command.add_flag("--report", report_, "write report.html, and the tables that it shows");
     command.add_flag("--quiet", quiet_, quiet_run);
     command.add_option("--until-precision", until_precision_,
@@ -225,7 +225,7 @@ struct Demo : RunCommand {
   static constexpr const char* what = "simulate the demo, 28 balls in a SPEX 8000, with its report";
 
   void add_options(CLI::App& command) {
-    command.add_option("--out", folder_, "folder for the results; out/demo unless given");
+    command.add_option("--out", folder_, "folder for the results (default: out/demo)");
     command.add_flag("--quiet", quiet_, quiet_run);
   }
   int run() {
@@ -240,7 +240,7 @@ struct Resume : RunCommand {
 
   void add_options(CLI::App& command) {
     command.add_option("folder", folder_, "folder of the run")->required();
-    command.add_option("--checkpoint", checkpoint_, every + "; as before unless given");
+    command.add_option("--checkpoint", checkpoint_, every + " (default: as before)");
     command.add_flag("--quiet", quiet_, quiet_run);
   }
   int run() { return resume_run(); }
@@ -252,7 +252,7 @@ struct Report {
 
   void add_options(CLI::App& command) {
     command.add_option("folder", folders_, "folder of the run; of several runs to compare them")->required();
-    command.add_option("--out", file_, "page that compares several runs; comparison.html unless given");
+    command.add_option("--out", file_, "page that compares several runs (default: comparison.html)");
     command.add_flag("--quiet", quiet_, "do not print the path of the page");
   }
   int run() {

@@ -22,19 +22,19 @@ struct Bifurcation : CaseCommand<app::BifurcationOptions> {
         ->required();
     command.add_option("--from", options_.from, "first value, in the unit of the case file")->required();
     command.add_option("--to", options_.to, "last value")->required();
-    command.add_option("--steps", options_.steps, "how many values; 400 unless given")
+    command.add_option("--steps", options_.steps, "how many values (default: 400)")
         ->check(CLI::Range(2, 100000));
     command
         .add_option("--skip", options_.skip,
-                    "impacts of ball 0 with walls before the first phase; 1000 unless given")
+                    "impacts of ball 0 with walls before the first phase (default: 1000)")
         ->check(CLI::Range(0, 100000000));
-    command.add_option("--keep", options_.keep, "number of phases drawn after these; 100 unless given")
+    command.add_option("--keep", options_.keep, "number of phases drawn after these (default: 100)")
         ->check(CLI::Range(1, 100000));
     command.add_option("--above", above_,
                        "slower impacts do not count, such as the hops of a ball that rests: \"2 cm/s\"");
     command.add_option(
         "--out", options_.file,
-        "drawing (SVG), with its points beside it (CSV); out/<case name>.bifurcation.svg unless given");
+        "drawing (SVG), with its points beside it (CSV; default: out/<case name>.bifurcation.svg)");
     command.add_flag("--quiet", quiet_, "no progress and no report");
   }
   int run() {
@@ -78,10 +78,10 @@ struct Sensitivity : CaseCommand<run::SensitivityOptions> {
                     "at the start; can be repeated")
         ->required();
     command.add_option("--events", options_.events, "how many")->required()->check(CLI::Range(1, 1000000));
-    command.add_option("--digits", options_.digits, "of each derivative; 17 unless given")
+    command.add_option("--digits", options_.digits, "digits of each derivative (default: 17)")
         ->check(CLI::Range(1, 1000));
     command.add_flag("--states", options_.states, "also those of the balls' states after each impact");
-    command.add_option("--out", options_.file, "file (CSV); out/<case name>.sensitivity.csv unless given");
+    command.add_option("--out", options_.file, "file (CSV; default: out/<case name>.sensitivity.csv)");
     command.add_flag("--quiet", quiet_, "no progress and no report");
   }
   int run() {
@@ -106,9 +106,8 @@ template <std::optional<app::StudyResult> (*work)(const app::StudyOptions&)>
 struct Study {
   void add_options(CLI::App& command) {
     command.add_option("file", options_.file, "sweep or optimisation file (TOML)")->required();
-    command.add_option("--out", options_.folder,
-                       "folder for the tables; out/<name of the file> unless given");
-    command.add_option("--jobs", options_.jobs, "runs at a time in each process; all cores unless given")
+    command.add_option("--out", options_.folder, "folder for the tables (default: out/<name of the file>)");
+    command.add_option("--jobs", options_.jobs, "runs at a time in each process (default: all cores)")
         ->check(CLI::Range(1, 4096));
     command.add_flag("--estimate", options_.estimate,
                      "only say how many runs there are and how long they will take, after short trials");
