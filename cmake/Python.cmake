@@ -11,7 +11,7 @@ target_include_directories(edmill_python PRIVATE ${CMAKE_SOURCE_DIR}/src/binding
 target_link_libraries(edmill_python PRIVATE edmill_program)
 target_compile_options(edmill_python PRIVATE ${edmill_warnings} $<$<CONFIG:Release>:-O1>)
 set(python_package ${CMAKE_BINARY_DIR}/python/edmill)
-set_target_properties(edmill_python PROPERTIES OUTPUT_NAME _edmill LIBRARY_OUTPUT_DIRECTORY ${python_package})
+set_target_properties(edmill_python PROPERTIES UNITY_BUILD ${EDMILL_UNITY} OUTPUT_NAME _edmill LIBRARY_OUTPUT_DIRECTORY ${python_package})
 
 file(GLOB package_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/bindings/python/edmill/*.py ${CMAKE_SOURCE_DIR}/src/bindings/python/edmill/*.pyi
      ${CMAKE_SOURCE_DIR}/src/bindings/python/edmill/py.typed)
