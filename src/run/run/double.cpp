@@ -1,3 +1,3 @@
-#include "run/instances.hpp"
+#include "run/public_run_impl.hpp"
 
 EDMILL_RUN(double)
