@@ -263,6 +263,26 @@ def density_of_equal_balls():
     assert "looks like   balls.0.density = 7000" in said, said
 
 
+def parts_of_the_log():
+    """A restitution of 0.6 in a part of the contacts: at walls of one material, at flat walls, at one wall, in impacts of one entry."""
+    materials = '[[material]]\nname = "steel"\ndensity = "8 g/cm3"\n[[material]]\nname = "liner"\n'
+    box = DEMO.replace('type = "cylinder"\ndiameter = "38 mm"\nheight = "57 mm"', 'type = "box"\nsize = ["38 mm", "57 mm", "40 mm"]')
+    balls = 'count = 28\ndiameter = "4.76 mm"\n'
+    case = DEMO.replace(balls, 'count = 8\ndiameter = "6 mm"\nmaterial = "steel"\n') + materials
+    two_entries = case.replace("count = 8", "count = 5") + '[[balls]]\ncount = 4\ndiameter = "6 mm"\ndensity = "8 g/cm3"\nmaterial = "liner"\n'
+    in_box = box.replace(balls, 'count = 8\ndiameter = "6 mm"\nmaterial = "steel"\n') + materials
+    parts = ((in_box, 'vessel.materials={"wall -x"="liner", "wall +y"="liner", "wall -z"="liner"}', "at walls of liner"),
+             (case, 'vessel.materials={"cap -y"="liner", "cap +y"="liner"}', "at flat walls"),
+             (case, 'vessel.materials={"cylinder"="liner"}', "at the cylinder"),
+             (two_entries, 'vessel.material="steel"', "in impacts of balls.1"))
+    for text, walls, part in parts[::EVERY]:
+        pairs = ", ".join(f'{{materials=["{other}", "liner"], restitution=0.6}}' for other in ("steel", "liner"))
+        run(text, "run.max_collisions=1000", walls, f"contact.pair=[{pairs}]")
+        causes = causes_of("--set", walls)
+        named = list(causes["1"]["values"].items()) if causes else []
+        assert any(part in key and abs(value["value"] - 0.6) <= value["half_width"] for key, value in named), (part, causes and causes["1"]["text"])
+
+
 def interrupted():
     rows = run(DEMO, "run.max_collisions=20000", 'mill.arm="100.5 mm"', "contact.restitution=0.55")
     write(rows)
@@ -274,7 +294,7 @@ def interrupted():
 
 
 for test in (few_lines, unreadable_lines, balls_at_rest, saved_state, other_vessels, numbers_far_off, other_laws, joint_phases, density_of_equal_balls,
-             interrupted):
+             parts_of_the_log, interrupted):
     with Trials():
         test()
     print(f"{test.__name__}: right")
