@@ -37,7 +37,8 @@ is_installed() { dpkg-query -W -f='${db:Status-Status}\n' "$1" 2>/dev/null | gre
 has() {
   [[ $(LC_ALL=C apt-cache policy "$1" 2>/dev/null) =~ Candidate:\ [0-9] ]] || return 1
   [[ $1 =~ ^libclang-rt-([0-9]+)-dev$ ]] || return 0
-  LC_ALL=C apt-cache depends clang 2>/dev/null | grep -q "clang-${BASH_REMATCH[1]}$"
+  # No pipe into grep -q: it ends at the first match, and what it is fed by may then fail.
+  [[ $(LC_ALL=C apt-cache depends clang 2>/dev/null)$'\n' == *" clang-${BASH_REMATCH[1]}"$'\n'* ]]
 }
 
 # Of alternatives that are all missing: the first that the release has; else the first, or nothing for "a?".

@@ -79,7 +79,7 @@ refused run.title=5
 refused 'vessel.piston=[{wall="cap -y",distance="1 mm"}]' vessel.piston.0.note.author=5
 for parts in "vessel={type=\"edged_jar\",side=\"34 mm\",height=\"57 mm\"}" "mill={type=\"turntable\",speed=\"300 rpm\"}" \
   "output=[{type=\"hardest\"}]" "vessel.piston=[{wall=\"cap -y\",distance=\"1 mm\",note={author=\"me\"}}]" "run.title=\"28 balls\""; do
-  "$folder/build/tests/collision_bits" docs/examples/demo.toml 50 "$parts" >"$folder/parts.csv" 2>"$folder/parts.json"
+  "$folder/build/tests/collision_bits" docs/examples/demo.toml 50 "$parts" 'run.start_time="0 s"' >"$folder/parts.csv" 2>"$folder/parts.json"
   [ "$(wc -l <"$folder/parts.csv")" = 51 ] || fail "$parts: the log does not hold 50 collisions"
   grep -q '"fastest_spin": [1-9]' "$folder/parts.json" || fail "$parts: the summary has no number of the observer"
   grep -q '"mean_milling_dose": [0-9]' "$folder/parts.json" || fail "$parts: the summary has no new field"
