@@ -43,7 +43,7 @@ compiled() {
   eval "${command//$PWD\/src/$tools/src} -O0 -c $tools/$1 -o $tools/$1.o"
 }
 build_tools() {
-  local source=$PWD main=CMakeFiles/edmill_cli.dir/src/program/cli/main.cpp.o module=CMakeFiles/edmill_python.dir/src/bindings/python/module.cpp.o
+  local source=$PWD main=CMakeFiles/edmill_cli.dir/src/program/cli/main.cpp.o module=CMakeFiles/edmill_python.dir/Unity/unity_0_cxx.cxx.o
   local name
   name=$(basename "$build"/python/edmill/_edmill*.so)
   compiled src/program/cli/main.cpp as $main
