@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "audit/flights.hpp"
 #include "base/errors.hpp"
@@ -34,7 +37,7 @@ class Auditor : Judge {
  public:
   explicit Auditor(const Judge& shared)
       : Judge(shared),
-        impacts_(shared),
+        equations_(available_, tolerances_),
         flights_(shared),
         stalls_(case_.mill, case_.balls.size()),
         last_(case_.balls.size()),
@@ -85,7 +88,7 @@ class Auditor : Judge {
     const auto friction = stalls_.take(event, *impact.law, tolerances_.relative);
     for (std::size_t body = 0; body < event.count(); ++body)
       flights_.judge(event.ball_at(body), {&event, body, touch.late});
-    if (touch.usable) impacts_.judge_impact(impact, friction);
+    if (touch.usable) judge_impact(impact, friction);
 
     for (std::size_t body = 0; body < event.count(); ++body) {
       const int k = event.ball_at(body);
@@ -102,7 +105,7 @@ class Auditor : Judge {
   /// At the end of the log.
   void finish() { flights_.finish(); }
 
-  const Energies& energies() const { return impacts_.energies(); }
+  const Energies& energies() const { return energies_; }
   const Flights& flights() const { return flights_; }
 
   /// Walls that the log's code does not have, and other ways to number bodies and lines.
@@ -242,7 +245,67 @@ class Auditor : Judge {
     return false;
   }
 
-  ImpactJudge impacts_;
+  /// Judges an impact by the states of its bodies, or without them by the logged speeds.
+  void judge_impact(LoggedImpact impact, Friction friction) {
+    const LoggedEvent& event = *impact.event;
+    impact.in_stall = friction == Friction::rests;
+    rows_.clear();
+    const auto allowed = equations_.of_impact(impact, rows_);
+    if (friction == Friction::either) {  // whichever the impact obeys
+      std::vector<Row> rested;
+      impact.in_stall = true;
+      equations_.of_impact(impact, rested);
+      const auto violated = [](const std::vector<Row>& rows) {
+        return std::count_if(rows.begin(), rows.end(), std::mem_fn(&Row::is_violated));
+      };
+      impact.in_stall = violated(rested) < violated(rows_);
+      if (impact.in_stall) rows_ = std::move(rested);
+    }
+    bool wrong_torque = false;
+    for (auto row = rows_.begin(); row != rows_.end(); ++row) {
+      // Of an equation for each of two bodies the worse one.
+      if (const auto next = std::next(row); next != rows_.end() && next->equation == row->equation) {
+        if (next->size < row->size) *next = *row;
+        continue;
+      }
+      if (!allowed.can_be_checked) {
+        findings_.unresolved(row->equation);
+        continue;
+      }
+      if (row->equation == Check::spin_change) wrong_torque = row->is_violated();
+      // With a wrong torque the slip after the impact carries no further information.
+      const bool known = !(wrong_torque && row->equation == Check::tangential_law);
+      judge(row->equation, kind_of(row->equation), event, known ? row->size : 0, row->allowed, row->found,
+            row->expected);
+    }
+    const bool with_wall = impact.with_wall();
+    if (allowed.can_be_checked && available_.positions(with_wall) &&
+        available_.velocities_before(with_wall) && available_.velocities_after(with_wall) &&
+        available_.spins(with_wall))
+      add_energies(impact, allowed.energy);
+  }
+
+  /// @param allowed  of an energy [J]
+  void add_energies(const LoggedImpact& impact, double allowed) {
+    const double work = work_of_wall(impact), gained = kinetic_change(impact);
+    const Speeds speeds = speeds_before(impact);
+    const double due = supplied(impact, speeds.g_n, impact.separation_speed(speeds.g_n));
+    ++energies_.impacts;
+    energies_.wall_work += work;
+    energies_.kinetic_change += gained;
+    energies_.supplied += due;
+    energies_.milling_dose +=
+        available_.milling_dose ? impact.event->milling_dose : dose_by_law(impact, speeds);
+    if (due > 0) ++energies_.supplying;
+    if (const double created = gained - work - due; created > allowed) {
+      ++energies_.creating;
+      energies_.created += created;
+    }
+  }
+
+  Equations equations_;
+  std::vector<Row> rows_;  ///< of the present impact
+  Energies energies_;
   Flights flights_;
   StallHistory stalls_;
   std::vector<LastEvent> last_;

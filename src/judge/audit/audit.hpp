@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "audit/equations.hpp"
 #include "audit/finding.hpp"
-#include "audit/impact_judge.hpp"
 #include "casefile/case_spec.hpp"
 #include "io/json_text.hpp"
 #include "model/case.hpp"

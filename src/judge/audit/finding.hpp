@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/sums.hpp"
 #include "model/impact_record.hpp"
 
 namespace edmill::audit {
@@ -46,6 +47,12 @@ inline constexpr std::array checks{
 #undef EDMILL_CHECK
 inline constexpr std::size_t kind_count = kinds.size(), check_count = checks.size();
 inline const KindInfo& info(Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+/// The violation of an equation that has one kind of them.
+constexpr Kind kind_of(Check check) {
+  const auto first =
+      std::find_if(kinds.begin(), kinds.end(), [&](const KindInfo& k) { return k.check == check; });
+  return static_cast<Kind>(first - kinds.begin());
+}
 inline const CheckInfo& info(Check check) { return checks[static_cast<std::size_t>(check)]; }
 
 /// A violation at an impact, of which it has the bodies, the time and the line.
@@ -108,6 +115,24 @@ class Findings {
   std::size_t examples_;
   std::array<Tally, kind_count> tallies_;
   std::array<std::uint64_t, check_count> judged_{}, unresolved_{};
+};
+
+/// Totals over the impacts of a log that have velocities and spins before and after.
+struct Energies {
+  using Sum = numerics::CompensatedSum<double>;
+  std::uint64_t impacts = 0;
+  Sum wall_work;                ///< of the logged states [J]
+  Sum milling_dose;             ///< as logged, otherwise from the law [J]
+  Sum supplied;                 ///< that the case's least separation speed adds [J]
+  Sum kinetic_change;           ///< of the logged states [J]
+  std::uint64_t supplying = 0;  ///< impacts in which it adds energy
+  std::uint64_t creating = 0;   ///< impacts that create more energy than that
+  double created = 0;           ///< by them [J]
+
+  /// 0 up to rounding in a log that obeys the law [J].
+  double closure() const {
+    return (wall_work.value() - milling_dose.value()) + (supplied.value() - kinetic_change.value());
+  }
 };
 
 /// Whether an assumption explains a violation: the residual with it is within the tolerance, and at most a

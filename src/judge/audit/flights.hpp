@@ -2,15 +2,42 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "audit/equations.hpp"
 #include "audit/finding.hpp"
-#include "audit/impact_judge.hpp"
 #include "base/errors.hpp"
 #include "dynamics/decision_ladder.hpp"
 
 namespace edmill::audit {
+
+/// What all judges of a log share.
+class Judge {
+ public:
+  Judge(const model::Case<double>& the_case, const Available& available, const Tolerances& tolerances,
+        Findings& findings)
+      : case_(the_case), available_(available), tolerances_(tolerances), findings_(findings) {}
+
+ protected:
+  void report(Kind kind, const LoggedEvent& event, double size, double found, double expected,
+              const char* note = "") {
+    findings_.add({event, kind, size, found, expected, note});
+  }
+  /// A check whose quantity is `off` from what is expected.
+  void judge(Check check, Kind kind, const LoggedEvent& event, double off, double allowed, double found,
+             double expected) {
+    findings_.judged(check);
+    if (off > allowed) report(kind, event, off, found, expected);
+  }
+  double radius_of(int ball) const { return case_.balls[ball].radius; }
+
+  const model::Case<double>& case_;
+  const Available& available_;
+  Tolerances tolerances_;
+  Findings& findings_;
+};
 
 /// A ball since its last impact.
 struct Flying {
@@ -47,6 +74,7 @@ class Flights : Judge {
  public:
   explicit Flights(const Judge& shared)
       : Judge(shared),
+        equations_(available_, tolerances_),
         clock_(case_.mill.motion.period()),
         ladder_(case_.mill, smallest_radius(case_), 32.0),
         top_speed_(32),
@@ -67,8 +95,7 @@ class Flights : Judge {
     const double time = end.event->time;
     settle_held(track, end.event);
     if (!track.state_known || time < track.start) return;
-    double off = 0;  // distance of the logged position from the end of the flight [m]
-    judge_state(ball, track, end, off, false);
+    const double off = judge_state(ball, track, end, false);
     const double until = track.broken ? std::min(time, track.broken_from) : time;
     // Balls are searched with radii that are smaller by the tolerance, if that leaves half of them.
     const double speed = size(track.flight.velocity) + tolerances_.gravity * (time - track.start);
@@ -77,7 +104,8 @@ class Flights : Judge {
     if (slack > radius_of(ball) / 2) {
       findings_.unresolved(Check::missed);
       track.pending.clear();
-      return judge_state(ball, track, end, off, true);
+      judge_state(ball, track, end, true);
+      return;
     }
     findings_.judged(Check::missed);
     auto missed = first_wall(ball, track, until, slack);
@@ -92,7 +120,7 @@ class Flights : Judge {
     if (missed) reported |= report_missed_wall(ball, track, *missed, end, off, missed_at);
     if (pair) reported |= report_missed_ball(ball, *pair, end, off, missed_at);
     settle_pending(track, end, off, reported ? missed_at : time);
-    if (!reported) judge_state(ball, track, end, off, true);
+    if (!reported) judge_state(ball, track, end, true);
   }
 
   /// At the end of the log.
@@ -262,7 +290,7 @@ class Flights : Judge {
 
   /// The ball of an impact as it leaves.
   Flying after_impact(const LoggedEvent& event) const {
-    const auto after = outcome(impact_of(event, case_, nested_at(event.time), true), {})[0];
+    const auto after = outcome(impact_of(event, case_, nested_at(event.time), true), {}).body[0];
     return {{after.position, after.velocity_after, clock_.at(event.time)}, after.spin_after, event.time};
   }
 
@@ -276,44 +304,54 @@ class Flights : Judge {
   }
 
   /// Position, velocity and spin at the end of a flight.
-  /// @param off  becomes the distance from the end of the flight, 0 when within the tolerances
-  void judge_state(int ball, const Track& track, const FlightEnd& end, double& off, bool report_it) {
-    const LoggedEvent& event = *end.event;
-    const BodyState& state = end.state();
+  /// @return the distance from the end of the flight, 0 when within the tolerances [m]
+  double judge_state(int ball, const Track& track, const FlightEnd& end, bool report_it) {
     const auto& has = available_.body[end.body];
-    const double time = event.time, dt = time - track.start;
-    const double speed = std::max(size(track.flight.velocity), size(state.velocity_before));
-    const auto finding = [&](Kind kind, double amount, double found, const char* note) {
-      Finding at_end{event, kind, amount, found, 0, note};
+    rows_.clear();
+    equations_.of_flight({.from = {.position = track.flight.position,
+                                   .velocity_after = track.flight.velocity,
+                                   .spin_after = track.spin},
+                          .to = end.state(),
+                          .had = {.position = true, .velocity_after = true, .spin_after = track.spin_known},
+                          .has = has,
+                          .begin = track.start,
+                          .end = end.event->time,
+                          .radius = radius_of(ball),
+                          .body = static_cast<int>(end.body)},
+                         case_.mill.gravity, rows_);
+    const auto judge_end = [&](Check check, bool violated, double off, double found, const char* note) {
+      findings_.judged(check);
+      if (!violated) return;
+      Finding at_end{*end.event, kind_of(check), off, found, 0, note};
       at_end.ball = ball;
       at_end.partner = end.partner();
-      return at_end;
+      findings_.add(at_end);
     };
-    off = 0;
-    if (has.position && has.velocity_before) {
-      const double dp = size(Vec(state.position - position_at(ball, time)));
-      const double dv = size(Vec(state.velocity_before - velocity_of(track, time)));
-      const double fastest = speed + tolerances_.gravity * dt;
-      const bool good =
-          dp <= tolerances_.position(time, speed * dt, fastest) && dv <= tolerances_.velocity(time, fastest);
-      if (!good) off = std::max(dp, dv * dt);
-      if (!good && off == 0) off = std::numeric_limits<double>::min();
-      if (report_it && tolerances_.position(time, 0, fastest) > tolerances_.reach) {
-        findings_.unresolved(Check::flight);
-      } else if (report_it) {
-        findings_.judged(Check::flight);
-        if (!good) findings_.add(finding(Kind::non_ballistic, std::max(dp, dv * dt), dv, ""));
+    bool ends_elsewhere = false, resolved = true;
+    double off = 0, off_velocity = 0;
+    for (const Row& row : rows_) {
+      if (row.equation == Check::spin_kept) {
+        const bool none = size(end.state().spin_before) == 0;
+        if (report_it)
+          judge_end(row.equation, row.is_violated(), row.size, row.size,
+                    none ? "the spin is 0 before the impact" : "");
+      } else if (has.velocity_before) {
+        ends_elsewhere = ends_elsewhere || row.is_violated();
+        const bool of_place = row.kind == RowKind::place;
+        off = std::max(off, row.size * (of_place ? 1 : end.event->time - track.start));
+        if (of_place)
+          resolved = row.allowed <= tolerances_.reach;
+        else
+          off_velocity = row.size;
       }
     }
-    if (report_it && has.spin_before && track.spin_known) {
-      findings_.judged(Check::spin_kept);
-      const double radius = radius_of(ball);
-      const double change = radius * size(Vec(state.spin_before - track.spin));
-      if (change > tolerances_.relative *
-                       std::max({speed, radius * size(track.spin), radius * size(state.spin_before)}))
-        findings_.add(finding(Kind::lost_spin, change, change,
-                              size(state.spin_before) == 0 ? "the spin is 0 before the impact" : ""));
+    if (report_it && has.position && has.velocity_before) {
+      if (resolved)
+        judge_end(Check::flight, ends_elsewhere, off, off_velocity, "");
+      else
+        findings_.unresolved(Check::flight);
     }
+    return ends_elsewhere ? std::max(off, std::numeric_limits<double>::min()) : 0;
   }
 
   Finding missed_finding(int ball, const Encounter& contact, const FlightEnd& end, const char* note) const {
@@ -399,6 +437,8 @@ class Flights : Judge {
     return dynamics::velocity_after(own.flight, case_.mill.gravity, time - own.start);
   }
 
+  Equations equations_;
+  std::vector<Row> rows_;  ///< of the present flight
   DriveClock<double> clock_;
   dynamics::DecisionLadder<double> ladder_;
   double top_speed_;

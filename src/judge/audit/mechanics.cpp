@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace edmill::audit {
 
@@ -51,9 +52,9 @@ Vec by_roll_about_X(const WallPoint& p) {
 /// The ball's contact point is at -R n from its centre, the partner's at +R n.
 Vec contact_velocity(const LoggedImpact& impact, Vec BodyState::*velocity, Vec BodyState::*spin) {
   const auto& [one, two] = impact.event->body;
-  const Vec own = one.*velocity - cross(one.*spin, impact.normal) * impact.ball[0].radius;
+  const Vec own = one.*velocity - cross(one.*spin, impact.normal) * (impact.arm * impact.ball[0].radius);
   if (impact.with_wall()) return own - impact.wall_velocity;
-  return own - (two.*velocity + cross(two.*spin, impact.normal) * impact.ball[1].radius);
+  return own - (two.*velocity + cross(two.*spin, impact.normal) * (impact.arm * impact.ball[1].radius));
 }
 
 }  // namespace
@@ -183,29 +184,42 @@ double LoggedImpact::tangential_restitution(double c, double bounce, double slip
   return law->restitution_of_slip(bounce, slip_speed, c);
 }
 
-std::array<BodyState, 2> outcome(const LoggedImpact& impact, const Formula& formula) {
+Outcome outcome(const LoggedImpact& impact, const Terms& terms, bool by_logged_impulse) {
+  using EqualBalls = Terms::EqualBalls;
+  const auto equal = impact.with_wall() ? EqualBalls::no : terms.equal_balls;
+  std::array<double, 2> share{};  // M/m of each ball
+  for (std::size_t k = 0; k < impact.count(); ++k)
+    share[k] = std::max(0.0, terms.share * impact.effective_mass / impact.ball[k].mass);
+  if (equal == EqualBalls::masses) share = {0.5, 0.5};
+  if (equal == EqualBalls::exchanged_masses) std::swap(share[0], share[1]);
+  const double alone = 1 + 1 / impact.ball[0].reduced_inertia, less = impact.compliance - 1;
+  const auto compliance = [&](double factor) { return std::max(1e-3, 1 + less * factor); };
+  const bool alone_in_limit = equal == EqualBalls::limit_of_sliding || equal == EqualBalls::friction;
+  const double c_in_limit = alone_in_limit ? alone : compliance(terms.compliance_in_limit);
+  const double c = equal == EqualBalls::friction ? alone : compliance(terms.compliance_in_impulse);
+
   const Vec g = impact.before();
-  const double g_n = impact.along(g);
+  const double g_n = impact.along(g), by_law = impact.separation_speed(g_n) - g_n;
   const Vec slip = g - impact.normal * g_n;
-  const double bounce = impact.separation_speed(g_n) - g_n;
-  const double in_friction =
-      formula.friction_of_restitution ? -(1 + impact.restitution(g_n)) * std::min(g_n, 0.0) : bounce;
-  const double c_in_law = formula.compliance_in_e_t > 0 ? formula.compliance_in_e_t : impact.compliance;
-  const double c = formula.compliance_in_impulse > 0 ? formula.compliance_in_impulse : impact.compliance;
-  const double e_t = impact.tangential_restitution(c_in_law, in_friction, size(slip));
-  const Vec normal_part = impact.normal * bounce, tangential_part = slip * (-(1 - e_t) / c);
-  auto result = impact.event->body;
+  double bounce = by_law;
+  const auto& logged = impact.event->body[0];
+  if (by_logged_impulse && share[0] > 0)
+    bounce = std::max(0.0, impact.along(Vec(logged.velocity_after - logged.velocity_before)) / share[0]);
+  if (terms.friction_of_restitution) bounce = -(1 + impact.restitution(g_n)) * std::min(g_n, 0.0);
+  const double e_t = impact.tangential_restitution(c_in_limit, bounce, size(slip));
+  const Vec normal_part = impact.normal * by_law;
+  const Vec tangential_part = slip * (-terms.friction * (1 - e_t) / c);
+  Outcome result{impact.event->body, e_t};
   for (std::size_t k = 0; k < impact.count(); ++k) {
     const auto& ball = impact.ball[k];
-    auto& body = result[k];
+    auto& body = result.body[k];
     const double side = k == 0 ? 1 : -1;
-    const double share = formula.share[k] >= 0 ? formula.share[k] : impact.effective_mass / ball.mass;
-    body.velocity_after =
-        body.velocity_before + (normal_part + tangential_part * formula.velocity_sign) * (side * share);
+    body.velocity_after = body.velocity_before +
+                          (normal_part + tangential_part * terms.friction_on_velocity) * (side * share[k]);
     // Torque of the tangential impulse on an arm of -R n, of the other ball +R n: the same sign.
     const Vec torque = cross(Vec(impact.normal * -1.0), tangential_part);
     body.spin_after =
-        body.spin_before + torque * (formula.spin_sign * share / (ball.radius * ball.reduced_inertia));
+        body.spin_before + torque * (terms.torque * share[k] / (ball.radius * ball.reduced_inertia));
   }
   return result;
 }

@@ -15,8 +15,8 @@ namespace edmill::audit {
 using Vec = Vec3<double>;
 using logs::Available, logs::BodyState, logs::LoggedEvent, logs::unknown;
 
-inline double dot(const Vec& a, const Vec& b) { return edmill::dot<double>(a, b); }
-inline double size(const Vec& a) { return edmill::norm<double>(a); }
+EIGEN_ALWAYS_INLINE double dot(const Vec& a, const Vec& b) { return a.dot(b); }
+EIGEN_ALWAYS_INLINE double size(const Vec& a) { return std::sqrt(a.dot(a)); }
 
 /// The vessel at an instant: its axes x, y, z and its centre C in the inertial frame.
 struct VesselFrame {
@@ -62,6 +62,39 @@ struct WallVelocity {
 /// The first is right: V = W_Z x P + (R_z W_x') x (P - C). The last is the derivative of the printed matrix.
 extern const std::array<WallVelocity, 10> wall_velocities;
 
+/// The terms of the equations that are checked: a code may have one of them larger, smaller, reversed or not
+/// at all. What each is multiplied by, 1, or shifted by, 0, where a code has it as docs/theory.md does.
+struct Terms {
+  // impacts
+  double friction = 1, friction_on_velocity = 1, torque = 1, share = 1;
+  double compliance_in_limit = 1, compliance_in_impulse = 1;  ///< of c - 1
+  double arm = 1;
+  enum class EqualBalls {
+    no,
+    limit_of_sliding,
+    friction,
+    masses,
+    exchanged_masses
+  } equal_balls = EqualBalls::no;                     ///< formulas for them
+  bool friction_of_restitution = false;               ///< limited by mu (1 + e_n) |g_n| at v_s as well
+  double wall_velocity = 1, wall_velocity_delay = 0;  ///< delay [s]
+  std::size_t wall_velocity_formula = 0;              ///< place in wall_velocities
+  double wall_work = 1, dose = 1, spin_in_dose = 1, work_in_dose = 1, supply_in_dose = 1;
+  double approach_speed = 1, slip_speed = 1;
+  double contact_gap = 0;  ///< at which bodies meet [m]
+  // flights
+  double gravity = 1, gravity_in_places = 1, gravity_in_velocities = 1, spin_in_flight = 1;
+  double time_of_flight = 0, age_of_velocities = 0;  ///< [s]
+
+  bool operator==(const Terms&) const = default;
+  /// Whether the states after an impact are others.
+  bool change_impulse() const {
+    return friction != 1 || friction_on_velocity != 1 || torque != 1 || share != 1 ||
+           compliance_in_limit != 1 || compliance_in_impulse != 1 || arm != 1 ||
+           equal_balls != EqualBalls::no || friction_of_restitution;
+  }
+};
+
 /// A logged event as input of the contact law: bodies, geometry, and the wall's velocity. The event and the
 /// law must outlive it.
 struct LoggedImpact {
@@ -72,6 +105,7 @@ struct LoggedImpact {
   double bend = 0;                                      ///< bend_of() where tolerances are taken of it [1/m]
   Vec wall_velocity{0, 0, 0};
   bool in_stall = false;  ///< friction rests
+  double arm = 1;         ///< times R in the velocity of the contact point; Terms::arm
   /// M, and c = 1 + M/(m_i J_i) + M/(m_j J_j), for a wall 1 + 1/J_i
   double effective_mass = 0, compliance = 0;
 
@@ -109,18 +143,13 @@ struct LoggedImpact {
 LoggedImpact impact_of(const LoggedEvent& event, const model::Case<double>& the_case,
                        const VesselFrame& frame, bool placed);
 
-/// A formula for the outcome of an impact: the right one, or one with a mistake.
-struct Formula {
-  double velocity_sign = 1;              ///< of the tangential term of the velocity; -1 is (2.34) as printed
-  double spin_sign = 1;                  ///< of the spin's change
-  double compliance_in_e_t = 0;          ///< instead of c in (2.24); 0 for c
-  double compliance_in_impulse = 0;      ///< instead of c in (2.28); 0 for c
-  bool friction_of_restitution = false;  ///< limited by mu (1 + e_n) |g_n| where the bodies separate at v_s
-  std::array<double, 2> share{-1, -1};   ///< M/m of each ball; the right ones when negative
+/// An impact by the law: velocities and spins after it, and e_t.
+struct Outcome {
+  std::array<BodyState, 2> body;
+  double restitution_tangential;
 };
-
-/// Velocities and spins after the impact.
-std::array<BodyState, 2> outcome(const LoggedImpact& impact, const Formula& formula);
+/// @param by_logged_impulse  the friction has the limit of the logged normal impulse, not of the law's
+Outcome outcome(const LoggedImpact& impact, const Terms& terms, bool by_logged_impulse = false);
 
 /// Magnitude of the velocities involved [m/s], to which tolerances are relative.
 double velocity_scale(const LoggedImpact& impact, bool with_spins);

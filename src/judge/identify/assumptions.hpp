@@ -48,38 +48,7 @@ struct LogChange {
   void apply(audit::LoggedEvent& event, const model::Mill<double>& mill) const;
 };
 
-/// The terms of the equations that are checked: a code may have one of them larger, smaller, reversed or not
-/// at all. What each is multiplied by, 1, or shifted by, 0, where a code has it as docs/theory.md does.
-struct Terms {
-  // impacts
-  double friction = 1, friction_on_velocity = 1, torque = 1, share = 1;
-  double compliance_in_limit = 1, compliance_in_impulse = 1;  ///< of c - 1
-  double arm = 1;
-  enum class EqualBalls {
-    no,
-    limit_of_sliding,
-    friction,
-    masses,
-    exchanged_masses
-  } equal_balls = EqualBalls::no;                     ///< formulas for them
-  bool friction_of_restitution = false;               ///< limited by mu (1 + e_n) |g_n| at v_s as well
-  double wall_velocity = 1, wall_velocity_delay = 0;  ///< delay [s]
-  std::size_t wall_velocity_formula = 0;              ///< place in audit::wall_velocities
-  double wall_work = 1, dose = 1, spin_in_dose = 1, work_in_dose = 1, supply_in_dose = 1;
-  double approach_speed = 1, slip_speed = 1;
-  double contact_gap = 0;  ///< at which bodies meet [m]
-  // flights
-  double gravity = 1, gravity_in_places = 1, gravity_in_velocities = 1, spin_in_flight = 1;
-  double time_of_flight = 0, age_of_velocities = 0;  ///< [s]
-
-  bool operator==(const Terms&) const = default;
-  /// Whether the states after an impact are others.
-  bool change_impulse() const {
-    return friction != 1 || friction_on_velocity != 1 || torque != 1 || share != 1 ||
-           compliance_in_limit != 1 || compliance_in_impulse != 1 || arm != 1 ||
-           equal_balls != EqualBalls::no || friction_of_restitution;
-  }
-};
+using audit::Terms;
 
 // Parts of a log to which a cause may be restricted: one wall, one ball, one kind of partner, one branch of
 // the law.

@@ -156,7 +156,7 @@ Evidence::Explained Evidence::explained_by(const Hypothesis& tried) const {
   if (!(score_of_case_ - tried.score >= strong_evidence) || has_number_of_case(tried)) return {};
   const auto before = all_.rows(nominal_), with = all_.rows(tried.assumed());
   // Rows of one kind that stay violated may have another mistake, if none of that kind is explained.
-  std::array<std::uint64_t, row_kinds> vanished{}, left{};
+  std::array<std::uint64_t, audit::row_kinds> vanished{}, left{};
   std::uint64_t contradicting = 0;
   Explained explained;
   for (std::size_t k = 0; k < before.size(); ++k) {
@@ -173,7 +173,7 @@ Evidence::Explained Evidence::explained_by(const Hypothesis& tried) const {
       explained.events.insert(row.at.event);
     }
   }
-  for (std::size_t kind = 0; kind < row_kinds; ++kind)
+  for (std::size_t kind = 0; kind < audit::row_kinds; ++kind)
     if (vanished[kind] > 0) contradicting += left[kind];
   constexpr std::size_t least_events = 5;  // a number fits one or two by chance
   const bool all = audit::accounts_for(explained.rows.size(), explained.rows.size() + contradicting);

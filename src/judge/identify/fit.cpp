@@ -158,7 +158,7 @@ Assumptions Hypothesis::with(const std::vector<double>& other_values) const {
 }
 
 double misfit(const Residuals& sample, const std::vector<double>& rows) {
-  std::array<std::vector<double>, row_kinds> of_kind;
+  std::array<std::vector<double>, audit::row_kinds> of_kind;
   for (std::size_t k = 0; k < rows.size(); ++k)
     of_kind[static_cast<std::size_t>(sample.of_case()[k].kind)].push_back(rows[k]);
   double cost = 0;

@@ -8,19 +8,15 @@
 #include <vector>
 
 #include "audit/audit.hpp"
-#include "audit/mechanics.hpp"
+#include "audit/equations.hpp"
 #include "identify/parameters.hpp"
 
 namespace edmill::identify {
 
-/// What a row compares; rows of one kind have one scale of noise.
-enum class RowKind : unsigned char { touch, law, energy, speed, place, velocity };
-inline constexpr std::size_t row_kinds = 6;
-
-/// A difference between a log and a model, and what the audit allows it to be.
+/// A number of a row of the case as it is, and what the audit allows it to be.
 struct Row {
-  double difference, allowed;
-  RowKind kind;
+  double allowed;
+  audit::RowKind kind;
   RowPlace at;
 };
 
@@ -46,7 +42,9 @@ class LogResiduals {
     long event = -1;
     std::size_t body = 0;
   };
-  struct Writer;
+  template <class F>
+  void each_number(std::size_t event, const model::Case<double>& model, const LogChange& change,
+                   const audit::Equations& equations, F&& f) const;
   Branches branches_of(const audit::LoggedEvent& event) const;
 
   const audit::EventsAtHand& log_;

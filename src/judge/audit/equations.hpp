@@ -1,0 +1,184 @@
+// The equations that a log must obey, written once: by how much it differs from each, and by how much it may.
+// docs/theory.md, sections 1, 2 and 5; docs/audit.md, "Tolerances"
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "audit/finding.hpp"
+#include "audit/mechanics.hpp"
+#include "logs/event_log.hpp"
+#include "model/mill.hpp"
+
+namespace edmill::audit {
+
+using logs::rounding_of;
+
+/// How fast walls, and what an impact takes from them, change with time: bounds of the mill.
+struct WallRates {
+  double speed = 0;         ///< of any point of the walls [m/s]
+  double acceleration = 0;  ///< of any [m/s^2]
+  double turning = 0;       ///< of the vessel [rad/s]
+
+  static WallRates of(const model::Mill<double>& mill) {
+    const auto& motion = mill.motion;
+    const double vessel = mill.vessel.reach();
+    // Some of the points within r of the centre move with r times the angular speed or faster.
+    constexpr double far = 1e6;
+    WallRates rates{motion.wall_speed(vessel), motion.acceleration_within(motion.reach(vessel)),
+                    motion.wall_speed(far) / far};
+    if (const auto* pistons = mill.vessel.pistons()) {
+      rates.speed += pistons->bound(1);
+      rates.acceleration += pistons->bound(2) + 2 * rates.turning * pistons->bound(1);
+    }
+    return rates;
+  }
+};
+
+struct Tolerances {
+  double relative = 1e-9;
+  double gap = 0;      ///< between bodies in contact [m]
+  double reach = 0;    ///< largest distance of a ball from the fulcrum [m]
+  double gravity = 0;  ///< [m/s^2]
+  WallRates walls;
+
+  /// How far walls may be from where they are at the logged time [m].
+  double wall_places(double t) const { return std::min(rounding_of(t) * walls.speed, 2 * reach); }
+  double touch(double t, bool with_wall) const { return gap + (with_wall ? wall_places(t) : 0); }
+  /// Tolerance of the end of a flight from an impact at an earlier time.
+  double position(double t, double path, double speed) const {
+    return relative * (reach + path) + 2 * rounding_of(t) * (speed + 2 * rounding_of(t) * gravity);
+  }
+  double velocity(double t, double speed) const { return relative * speed + 2 * rounding_of(t) * gravity; }
+
+  /// What the uncertain wall adds to the difference of two relative velocities of an impact with it, each
+  /// seen along its normal or across [m/s].
+  /// @param scale  no velocity of the impact is larger; a relative one is at most three of them
+  /// @param bend   angle by which the normal turns where the ball is moved in the vessel [1/m]
+  double of_wall(double t, double scale, double bend, double radius) const {
+    const double turned = walls.turning + walls.speed * bend;  // of the normal [rad/s]
+    const double moved = walls.acceleration + walls.turning * (walls.speed + radius * turned);
+    return 2 * (3 * scale * std::min(rounding_of(t) * turned, 2.0) +
+                std::min(rounding_of(t) * moved, 2 * walls.speed));
+  }
+};
+
+/// What friction does in an impact, docs/theory.md, section 6; either, where the log leaves open how long
+/// the flights before were.
+enum class Friction { acts, rests, either };
+
+/// Counts each ball's impacts in a row that came without time to move, between a least and a most number.
+class StallHistory {
+ public:
+  explicit StallHistory(const model::Mill<double>& mill, std::size_t balls)
+      : mill_(mill), balls_(balls, Ball{unknown, 0, mill.stall.impacts}) {}
+
+  /// All flights begin at `time`: the log has what follows from then on.
+  void begin(double time) { std::fill(balls_.begin(), balls_.end(), Ball{time, 0, 0}); }
+  /// Events of the ball are missing.
+  void forget(int ball) { balls_[ball] = {unknown, 0, mill_.stall.impacts}; }
+
+  /// The next event. @param relative  tolerance of logged times
+  Friction take(const LoggedEvent& event, const model::ContactLaw<double>& law, double relative) {
+    const Friction one = count(event.ball, event.time, law, relative);
+    if (event.with_wall) return one;
+    const Friction other = count(event.partner, event.time, law, relative);
+    if (one == Friction::rests || other == Friction::rests) return Friction::rests;
+    return one == other ? one : Friction::either;
+  }
+
+ private:
+  struct Ball {
+    double time;      ///< of its last impact; unknown at first [s]
+    int least, most;  ///< impacts in a row without time to move
+  };
+
+  Friction count(int k, double time, const model::ContactLaw<double>& law, double relative) {
+    Ball& ball = balls_[k];
+    const int enough = mill_.stall.impacts;
+    const double flight = time - ball.time, off = 2 * rounding_of(time) + relative * std::abs(flight);
+    const bool may_have_moved =
+        std::isnan(flight) || mill_.stall.has_moved(flight + off, law.least_separation);
+    const bool has_moved = !std::isnan(flight) && mill_.stall.has_moved(flight - off, law.least_separation);
+    const Friction friction = has_moved || ball.most < enough           ? Friction::acts
+                              : !may_have_moved && ball.least >= enough ? Friction::rests
+                                                                        : Friction::either;
+    ball.time = time;
+    ball.most = has_moved ? 0 : std::min(ball.most + 1, enough);
+    ball.least = may_have_moved ? 0 : std::min(ball.least + 1, enough);
+    return friction;
+  }
+
+  const model::Mill<double>& mill_;
+  std::vector<Ball> balls_;
+};
+
+/// What a row compares; rows of one kind have one scale of noise.
+enum class RowKind : unsigned char { touch, law, energy, speed, place, velocity };
+inline constexpr std::size_t row_kinds = 6;
+
+/// An equation at an event: the difference of the log from it.
+struct Row {
+  Check equation;
+  RowKind kind;
+  int body;                                    ///< 0 the event's ball, 1 its partner, -1 both
+  int count;                                   ///< of numbers, 1 or 3
+  Vec difference;                              ///< one number is the first component
+  double size;                                 ///< of the difference
+  double allowed;                              ///< its largest size
+  double found = unknown, expected = unknown;  ///< for a reader, where they say more than the difference
+
+  bool is_violated() const { return size > allowed; }
+};
+
+/// A flight between two logged impacts of a ball.
+struct LoggedFlight {
+  BodyState from, to;
+  Available::Body had, has;  ///< columns of its begin and its end
+  double begin, end;         ///< [s]
+  double radius;             ///< of the ball [m]
+  int body;                  ///< that the ball is of the event at the end
+};
+
+/// What the numbers of an impact may be off by.
+struct ImpactTolerance {
+  double velocity = 0, energy = 0;  ///< [m/s], [J]
+  bool can_be_checked = true;       ///< not where a wall may be anywhere at the logged time, as it is rounded
+};
+
+/// Which rows there are depends on the columns of the log alone.
+class Equations {
+ public:
+  /// @param terms  those of the code that made the log
+  /// @param by_body  what an impact makes of each body's velocity and spin, for a fit, in which one body
+  /// alone may
+  ///   have another term; else the law along and across the normal, momentum and torque
+  Equations(const Available& available, const Tolerances& tolerances, const Terms& terms = {},
+            bool by_body = false)
+      : has_(available), tolerances_(tolerances), terms_(terms), by_body_(by_body) {}
+
+  const Terms& terms() const { return terms_; }
+  /// The bodies of an event meet. @param gap  between them [m]
+  Row of_touch(const LoggedEvent& event, double gap) const;
+  /// The contact law, conservation, and the values logged with an impact: by the states of its bodies, or
+  /// without them by the logged speeds.
+  ImpactTolerance of_impact(const LoggedImpact& impact, std::vector<Row>& rows) const;
+  /// The end of a flight: place and velocity, and the spin.
+  /// @param gravity  of the case [m/s^2]
+  void of_flight(const LoggedFlight& flight, const Vec& gravity, std::vector<Row>& rows) const;
+
+ private:
+  void of_states(const LoggedImpact& impact, const Speeds& speeds, double allowed,
+                 std::vector<Row>& rows) const;
+  void of_energies(const LoggedImpact& impact, const Speeds& speeds, double allowed,
+                   std::vector<Row>& rows) const;
+  void of_logged_speeds(const LoggedImpact& impact, std::vector<Row>& rows) const;
+
+  const Available& has_;
+  const Tolerances& tolerances_;
+  Terms terms_;
+  bool by_body_;
+};
+
+}  // namespace edmill::audit
