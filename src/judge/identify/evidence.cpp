@@ -58,16 +58,6 @@ std::vector<Parameter> of_parts(const std::vector<Parameter>& numbers) {
 
 }  // namespace
 
-Found found_value(const Parameter& number, double value, double half_width) {
-  return {.key = number.key,
-          .dimension = number.dimension,
-          .value = value,
-          .half_width = half_width,
-          .nominal = number.value,
-          .equation = number.equation,
-          .in_place_of = number.in_place_of};
-}
-
 void sort(std::vector<Hypothesis>& list) {
   std::stable_sort(list.begin(), list.end(),
                    [](const auto& a, const auto& b) { return a.rank() < b.rank(); });

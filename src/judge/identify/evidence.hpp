@@ -15,9 +15,6 @@ namespace edmill::identify {
 
 inline constexpr double strong_evidence = 10;  ///< least gain of Schwarz's criterion (Kass and Raftery 1995)
 
-/// Of a number, with the half-width of its interval.
-Found found_value(const Parameter& number, double value, double half_width);
-
 /// The best first.
 void sort(std::vector<Hypothesis>& list);
 

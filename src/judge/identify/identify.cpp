@@ -156,7 +156,7 @@ class Searcher {
   Cause cause_of(const Hypothesis& h) const {
     Cause cause;
     for (std::size_t k = 0; k < h.values.size(); ++k)
-      cause.values.push_back(found_value(h.numbers[k], h.values[k], h.half_widths[k]));
+      cause.values.push_back({h.numbers[k], h.values[k], h.half_widths[k]});
     for (const auto& mistake : h.mistakes) cause.mistakes.push_back(mistake.name());
     cause.of = h.of;
     cause.explains = cause.of - std::min(cause.of, h.left);

@@ -47,11 +47,8 @@ std::string table(const TimeStepping& found);
 
 /// A number as the log has it.
 struct Found {
-  std::string key;
-  Dimension dimension;
-  double value, half_width, nominal;  ///< SI
-  std::string equation = {};          ///< of a term
-  std::string in_place_of = {};       ///< of a number that the case has not; `nominal` is none then
+  Parameter number;
+  double value, half_width;  ///< SI
 };
 
 /// One to three values or mistakes that explain nine tenths of the violations or more.

@@ -12,12 +12,13 @@ std::string Cause::text() const {
   const auto join = [&](const std::string& part) { text += (text.empty() ? "" : ", and ") + part; };
   for (const auto& mistake : mistakes) join(mistake);
   for (const auto& v : values) {
-    const bool is_factor = !v.equation.empty() && v.dimension == Dimension::none;
+    const auto& n = v.number;
+    const bool is_factor = !n.equation.empty() && n.dimension == Dimension::none;
     const auto word = is_factor ? word_for(v.value, v.half_width) : "";
-    const auto equation = v.equation.empty() ? "" : " " + v.equation;
-    join(fmt::format("{}{}{} = {} in place of {}{}", v.key, equation, is_factor ? ": factor" : "",
-                     value_text(v.dimension, v.value, v.half_width),
-                     v.in_place_of.empty() ? value_text(v.dimension, v.nominal) : v.in_place_of,
+    const auto equation = n.equation.empty() ? "" : " " + n.equation;
+    join(fmt::format("{}{}{} = {} in place of {}{}", n.key, equation, is_factor ? ": factor" : "",
+                     value_text(n.dimension, v.value, v.half_width),
+                     n.in_place_of.empty() ? value_text(n.dimension, n.value) : n.in_place_of,
                      word.empty() ? "" : ", " + word));
   }
   return text;
@@ -126,13 +127,13 @@ void put_json(io::JsonText& json, const Identification& found) {
     }
     json.add("gain", cause.gain);
     json.numbered("mistakes", cause.mistakes);
-    const auto key_of = [](const auto& v) { return v.key; };
+    const auto key_of = [](const Found& v) { return v.number.key; };
     json.groups("values", cause.values, key_of, [&](const auto& v) {
       json.add("value", v.value);
       json.add("half_width", v.half_width);
-      json.add("nominal", v.nominal);
-      if (!v.in_place_of.empty()) json.add("in_place_of", v.in_place_of);
-      if (!v.equation.empty()) json.add("equation", v.equation);
+      json.add("nominal", v.number.value);
+      if (!v.number.in_place_of.empty()) json.add("in_place_of", v.number.in_place_of);
+      if (!v.number.equation.empty()) json.add("equation", v.number.equation);
     });
     json.numbered("alike", cause.alike);
     json.end();

@@ -217,7 +217,7 @@ Identification replay(const Assumptions& nominal, const std::vector<Parameter>& 
       if (is_interrupted()) return result;
       const auto [value, open] = fitted_value(runs, nominal, p);
       if (!(std::abs(value - p.value) > open)) continue;
-      consider({.values = {found_value(p, value, open)}}, p.on(nominal, value));
+      consider({.values = {Found{p, value, open}}}, p.on(nominal, value));
     }
   }
   return result;

@@ -34,7 +34,7 @@ class Names : public testing::FaultyLog, public ::testing::WithParamInterface<Pl
     std::set<std::string> all;
     for (const auto& d : audit.diagnoses) all.insert(d.name);
     for (const auto& cause : found.causes) {
-      for (const auto& value : cause.values) all.insert(value.key);
+      for (const auto& value : cause.values) all.insert(value.number.key);
       for (const auto& mistake : cause.mistakes) all.insert(mistake);
     }
     if (found.stepping.soft) all.insert("soft contacts");
