@@ -45,12 +45,6 @@ concept NamedEntry = requires(Section& section, const std::string& name) {
 template <class T>
 concept Choice = std::is_enum_v<T>;
 
-/// A value as `--set` would take it.
-struct AnyValue {
-  std::optional<std::string> text;
-  void read_from(Section& section, const char* key) { text = section.setting(key); }
-};
-
 /// A table with the keys of a T, which is read where more than the table is known.
 template <Keyed T>
 struct Inner {
@@ -62,6 +56,16 @@ struct Entries : std::vector<Section> {
   T like{};                  ///< a new entry
   bool may_be_none = false;  ///< `key = []` is allowed
 };
+
+/// A new entry of a list of tables.
+template <Keyed T>
+const T& entry_of(const Entries<T>& entries) {
+  return entries.like;
+}
+template <Keyed T>
+T entry_of(const std::vector<T>&) {
+  return {};
+}
 
 /// Reads members from a section; what is wrong is reported. A key that is absent gives the fallback; without
 /// one the member keeps its value where it is optional or the row says what is true `otherwise`, else the key
@@ -89,6 +93,7 @@ class KeyReader {
     auto found = section_.settings(p.key);
     if (section_.has(p.key)) values = std::move(found);
   }
+  void operator()(const Parameter& p, std::vector<std::string>& values) { values = section_.settings(p.key); }
   void operator()(const Parameter& p, Colour& value);
   void operator()(const Parameter& p, MotionSpec& motion) { motion = read_motion(section_, p.key); }
   void operator()(const Parameter& p, VesselSpec& vessel) { vessel = read_vessel(section_, p.key); }
@@ -116,6 +121,15 @@ class KeyReader {
     Section own = section_.section(p.key);
     T::keys(value, KeyReader(own));
     own.reject_unknown_keys();
+  }
+  /// Entries [[key]]. `T::check(entry, list)`, if T has it, judges each as the last of the list.
+  template <Keyed T>
+  void operator()(const Parameter& p, std::vector<T>& list) {
+    for (Section& entry : section_.sections(p.key)) {
+      read_keys(entry, list.emplace_back());
+      if constexpr (requires { T::check(entry, list); }) T::check(entry, list);
+      entry.reject_unknown_keys();
+    }
   }
   template <Keyed T>
   void operator()(const Parameter& p, Inner<T>& table) {
@@ -182,7 +196,7 @@ std::string kind_of(const Parameter& p) {
     return std::is_same_v<Value, bool> ? "true or false" : "count";
   } else if constexpr (Keyed<Value> || requires { Value::section; }) {
     return "table";
-  } else if constexpr (requires { Value::like; }) {
+  } else if constexpr (requires(const Value& value) { entry_of(value); }) {
     return "tables";
   } else if constexpr (requires(Value value) { value.has_value(); }) {
     return kind_of<typename Value::value_type>(p);

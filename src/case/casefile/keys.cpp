@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "casefile/output_entry.hpp"
-#include "casefile/study_tables.hpp"
+#include "casefile/study_spec.hpp"
 #include "casefile/tables.hpp"
 
 namespace edmill::casefile {
@@ -51,8 +51,8 @@ const std::vector<KeySection>& all_sections() {
     const KeyLister lister(list);
     CaseFile the_case;
     CaseFile::keys(the_case, lister);
-    StudyFile study;
-    StudyFile::keys(study, lister);
+    lister({"sweep", ""}, Inner<SweepSpec>());
+    lister({"optimize", ""}, Inner<OptimizeSpec>());
     for (const auto& type : output_types())
       type.keys.list(lister.inside("output", true, "").only_of(std::string(type.name)));
     return list;

@@ -46,19 +46,18 @@ class KeyLister {
   template <class Value>
   void operator()(const Parameter& p, const Value& value) const {
     if (!p.key) return;
-    constexpr bool optional = requires { value.has_value(); };
+    constexpr bool optional = requires { value.has_value(); }
+    , list = requires { entry_of(value); };
     if constexpr (requires { typename Value::Kinds; })
       add_choice<typename Value::Kinds>(p);
     else
-      add(p, kind_of<Value>(p),
-          default_of(
-              p, optional || Keyed<Value> || requires { value.like; }));
+      add(p, kind_of<Value>(p), default_of(p, optional || Keyed<Value> || list));
     if constexpr (optional) {
       using Inside = typename Value::value_type;
       if constexpr (Keyed<Inside>) add_section(p, false, Inside{});
     }
     if constexpr (Keyed<Value>) add_section(p, false, Value{});
-    if constexpr (requires { value.like; }) add_section(p, true, value.like);
+    if constexpr (list) add_section(p, true, entry_of(value));
   }
   template <Keyed T>
   void operator()(const Parameter& p, const Inner<T>&) const {

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "base/errors.hpp"
+#include "casefile/key_reader.hpp"
 #include "casefile/precisions.hpp"
-#include "casefile/study_tables.hpp"
 #include "io/input_file.hpp"
 
 namespace edmill::casefile {
@@ -51,25 +51,14 @@ void check_key(Section& s, const std::string& key) {
     s.problem(key, "a key that cannot be varied", expected);
 }
 
-void read_point(Section& entry, SweepSpec& spec) {
-  PointTable table;
-  read_keys(entry, table);
-  SweepSpec::Entry point{table.name, {}};
-  if (table.balls.text) point.set.emplace_back("balls", *table.balls.text);
-  if (table.ball.text) point.set.emplace_back("ball", *table.ball.text);
-  if (!entry.has("set") && !entry.has("balls") && !entry.has("ball"))
-    entry.problem("set", "nothing", "a table of keys and values, or [[sweep.point.balls]]");
-  Named<Setting> settings;
-  Section& set = *table.set.section;
-  read_keys(set, settings);
-  for (const auto& key : set.keys()) {
-    check_key(set, key);
-    for (const auto& axis : spec.grid)
-      if (axis.key == key) set.problem(key, "a key of [sweep.grid]", "a key in one of the two");
+/// A key is in the grid or in a point.
+void check_points(Section& s, const SweepSpec& spec) {
+  for (Section& entry : s.sections("point")) {
+    Section set = entry.section("set");
+    for (const auto& key : set.keys())
+      for (const auto& axis : spec.grid)
+        if (axis.key == key) set.problem(key, "a key of [sweep.grid]", "a key in one of the two");
   }
-  point.set.insert(point.set.end(), settings.begin(), settings.end());
-  entry.reject_unknown_keys();
-  spec.entries.push_back(std::move(point));
 }
 
 void check_size(Section& s, const SweepSpec& spec) {
@@ -82,13 +71,14 @@ void check_size(Section& s, const SweepSpec& spec) {
   }
 }
 
-void read_range(Section& s, const VariableTable& table, OptimizeVariable& variable) {
+void read_range(Section& s, OptimizeVariable& variable) {
   std::string high_unit;
-  const std::tuple<const char*, const std::optional<std::string>&, double*, std::string*> ends[] = {
-      {"low", table.low.text, &variable.low, &variable.unit},
-      {"high", table.high.text, &variable.high, &high_unit}};
+  const std::tuple<const char*, const AnyValue&, double*, std::string*> ends[] = {
+      {"low", variable.least, &variable.low, &variable.unit},
+      {"high", variable.most, &variable.high, &high_unit}};
   bool good = true;
-  for (const auto& [key, text, number, unit] : ends) {
+  for (const auto& [key, given, number, unit] : ends) {
+    const auto& text = given.text;
     const auto value = text && !has_comma(*text) ? split_number(*text) : std::nullopt;
     if (value)
       std::tie(*number, *unit) = *value;
@@ -103,78 +93,76 @@ void read_range(Section& s, const VariableTable& table, OptimizeVariable& variab
   s.require(!variable.integer || whole, "integer", "whole numbers for 'low' and 'high'");
 }
 
-void read_variable(Section& s, OptimizeSpec& spec) {
-  VariableTable table;
-  read_keys(s, table);
-  OptimizeVariable variable;
-  variable.key = table.key;
-  if (!s.has("key")) s.problem("key", "nothing", "a key of the case");
-  if (const auto expected = problem_of_key(variable.key); s.has("key") && !expected.empty())
-    s.require(false, "key", expected);
-  for (const auto& other : spec.variables)
-    s.require(other.key != variable.key, "key", "a key that no other variable has");
-  variable.integer = table.integer;
-  variable.values = table.values.value_or(std::vector<std::string>{});
-  if (s.has("values")) {
-    for (const auto* key : {"low", "high", "integer"})
-      if (s.has(key)) s.problem(key, "both 'values' and '" + std::string(key) + "'", "one of them");
-  } else {
-    read_range(s, table, variable);
-  }
-  s.reject_unknown_keys();
-  spec.variables.push_back(std::move(variable));
-}
-
 /// Reads the one section of a file, checks it by `check`, and reports everything that is wrong.
-template <class Table, class Check>
-Table read_study_file(const std::string& path, const std::string& section, const Check& check) {
+template <class Spec>
+Spec read_study_file(const std::string& path, const std::string& section, const auto& check) {
   const std::string kind = section == "sweep" ? "a sweep file" : "an optimisation file";
   Document document;
   document.name = path;
   const toml::table root = parse_toml(read_file(path, kind), kind, document);
-  Table table;
-  table.file = path;
+  Spec spec;
+  spec.file = path;
   Section top(document, &root, "");
   if (!top.has(section)) top.problem(section, "nothing", "a section [" + section + "]");
   Section s = top.section(section);
-  read_keys(s, table);
-  check_study(s, table);
-  check(s, table);
+  read_keys(s, spec);
+  check_study(s, spec);
+  check(s, spec);
   s.reject_unknown_keys();
   top.reject_unknown_keys();
   if (!document.problems.empty()) throw InputError(document.problems_by_line());
-  return table;
+  return spec;
 }
 
 }  // namespace
 
+void AnyValue::read_from(Section& section, const char* key) { text = section.setting(key); }
+
 std::optional<Setting> Setting::read(Section& section, const std::string& key) {
   const auto value = section.setting(key);
+  check_key(section, key);
   return value ? std::optional(Setting(key, *value)) : std::nullopt;
 }
 
 std::optional<GridAxis> GridAxis::read(Section& grid, const std::string& key) {
-  return GridAxis{key, grid.settings(key)};
+  GridAxis axis{key, grid.settings(key)};
+  check_key(grid, key);
+  return axis;
+}
+
+void SweepPoint::check(Section& entry, std::vector<SweepPoint>& points) {
+  auto& [name, set, balls, ball] = points.back();
+  if (!entry.has("set") && !entry.has("balls") && !entry.has("ball"))
+    entry.problem("set", "nothing", "a table of keys and values, or [[sweep.point.balls]]");
+  if (ball.text) set.emplace(set.begin(), "ball", *ball.text);
+  if (balls.text) set.emplace(set.begin(), "balls", *balls.text);
+}
+
+void OptimizeVariable::check(Section& s, std::vector<OptimizeVariable>& variables) {
+  auto& own = variables.back();
+  if (!s.has("key")) s.problem("key", "nothing", "a key of the case");
+  if (const auto expected = problem_of_key(own.key); s.has("key") && !expected.empty())
+    s.require(false, "key", expected);
+  for (const auto& other : variables)
+    s.require(other.key != own.key || &other == &own, "key", "a key that no other variable has");
+  if (!s.has("values")) return read_range(s, own);
+  for (const auto* key : {"low", "high", "integer"})
+    if (s.has(key)) s.problem(key, "both 'values' and '" + std::string(key) + "'", "one of them");
 }
 
 SweepSpec read_sweep(const std::string& path) {
-  return read_study_file<SweepTable>(path, "sweep", [](Section& s, SweepTable& table) {
-    Section& grid = *table.grid_table.section;
-    Named<GridAxis> axes;
-    read_keys(grid, axes);
-    table.grid = axes;
-    for (const auto& axis : table.grid) check_key(grid, axis.key);
-    for (auto& entry : table.points) read_point(entry, table);
-    check_size(s, table);
+  return read_study_file<SweepSpec>(path, "sweep", [](Section& s, const SweepSpec& spec) {
+    check_points(s, spec);
+    check_size(s, spec);
   });
 }
 
 OptimizeSpec read_optimize(const std::string& path) {
-  return read_study_file<OptimizeTable>(path, "optimize", [](Section& s, OptimizeTable& table) {
-    s.require(table.replicas_max >= table.replicas_first, "replicas_max", "at least 'replicas_first'");
-    if (!s.has("variable")) s.problem("variable", "nothing", "1 to 3 entries [[optimize.variable]]");
-    for (auto& variable : table.variable_tables) read_variable(variable, table);
-    s.require(table.variable_tables.size() <= 3, "variable", "1 to 3 entries [[optimize.variable]]");
+  return read_study_file<OptimizeSpec>(path, "optimize", [](Section& s, const OptimizeSpec& spec) {
+    s.require(spec.replicas_max >= spec.replicas_first, "replicas_max", "at least 'replicas_first'");
+    const std::string expected = "1 to 3 entries [[optimize.variable]]";
+    if (!s.has("variable")) s.problem("variable", "nothing", expected);
+    s.require(spec.variables.size() <= 3, "variable", expected);
   });
 }
 

@@ -10,12 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "casefile/quantity.hpp"
-#include "model/parts/parameter.hpp"
+#include "casefile/output_spec.hpp"
 
 namespace edmill::casefile {
-
-class Section;
 
 inline constexpr int most_runs = 1000000;
 
@@ -23,9 +20,14 @@ inline constexpr int most_runs = 1000000;
 struct Setting : std::pair<std::string, std::string> {
   using pair::pair;
   static constexpr const char* what = "A table.";
-  static constexpr model::Parameter entry =
-      model::Parameter{"*", "the key is one of the case"}.as("value").usually("");
+  static constexpr Parameter entry = Parameter{"*", "the key is one of the case"}.as("value").usually("");
   static std::optional<Setting> read(Section& section, const std::string& key);
+};
+
+/// A value as `--set` would take it.
+struct AnyValue {
+  std::optional<std::string> text;
+  void read_from(Section& section, const char* key);
 };
 
 /// A key that is no key of the case: it sets balls.0.count from the masses of powder and ball.
@@ -42,6 +44,18 @@ struct StudySpec {
   double max_cpu_time() const {
     return cpu_limit ? cpu_limit->to<double>() : std::numeric_limits<double>::infinity();
   }
+
+  static constexpr Parameter seed_key{
+      "seed", Dimension::none, "the first of the seeds", {0, 999999999999}, "1"};
+  /// @param relative  "relative to the sweep file"
+  static void shared_keys(auto& s, auto&& row, const char* relative) {
+    row(Parameter{"case", relative}.as("file").usually("required"), s.case_file);
+    row(Parameter{"precision", "of all runs"}.as("name of a scalar").usually("that of the case"),
+        s.precision);
+    row({"max_cpu_time", Dimension::time, "of processor time, after which a run ends without a result",
+         Range::positive},
+        s.cpu_limit);
+  }
 };
 
 /// A key and the values that it has in a grid.
@@ -49,29 +63,67 @@ struct GridAxis {
   std::string key;
   std::vector<std::string> values;
   static constexpr const char* what = "Values of keys.";
-  static constexpr model::Parameter entry =
-      model::Parameter{"*", "the key is one of the case, as `--set` takes it, or `charge_ratio`"}
+  static constexpr Parameter entry =
+      Parameter{"*", "the key is one of the case, as `--set` takes it, or `charge_ratio`"}
           .as("list of values")
           .usually("");
   static std::optional<GridAxis> read(Section& grid, const std::string& key);
 };
 
-struct SweepSpec : StudySpec {
-  struct Entry {
-    std::string name;
-    std::vector<Setting> set;
-  };
-  std::uint64_t replicas = 1;
-  std::vector<GridAxis> grid;  ///< in the order of the file
-  std::vector<Entry> entries;  ///< [[sweep.point]]
+/// An entry [[sweep.point]].
+struct SweepPoint {
+  std::string name;
+  Named<Setting> set;  ///< the lists of balls first
+  AnyValue balls, ball;
+
+  static constexpr const char* what = "Single points.";
+  static void keys(auto& p, auto&& row) {
+    row(Parameter{"name", "of the point in the tables"}.usually("none"), p.name);
+    row(Parameter{"set", "keys of the case with their values"}.usually("this or a list"), p.set);
+    row(Parameter{"balls", "whole list, entries `[[sweep.point.balls]]`"}.as("tables").usually(
+            "those of the case"),
+        p.balls);
+    row(Parameter{"ball", "whole list, entries `[[sweep.point.ball]]`"}.as("tables").usually(
+            "those of the case"),
+        p.ball);
+  }
+  static void check(Section& entry, std::vector<SweepPoint>& points);
 };
 
+struct SweepSpec : StudySpec {
+  std::uint64_t replicas = 1;
+  Named<GridAxis> grid;  ///< in the order of the file
+  std::vector<SweepPoint> entries;
+
+  static constexpr const char* what = "Of a sweep file.";
+  static void keys(auto& s, auto&& row) {
+    row(seed_key, s.seed);
+    row({"replicas", "runs of each point, with successive seeds", Range(1, most_runs), "1"}, s.replicas);
+    shared_keys(s, row, "relative to the sweep file");
+    row({"grid", "every combination of the values, `[sweep.grid]`"}, s.grid);
+    row({"point", "single points, each with all of the grid, entries `[[sweep.point]]`"}, s.entries);
+  }
+};
+
+/// An entry [[optimize.variable]].
 struct OptimizeVariable {
   std::string key;
   std::vector<std::string> values;  ///< when given, all that the variable can be
+  AnyValue least, most;             ///< as they are written
   double low = 0, high = 0;         ///< in `unit`
   std::string unit;
   bool integer = false;
+
+  static constexpr const char* what = "What is varied.";
+  static void keys(auto& v, auto&& row) {
+    row(Parameter{"key", "a key of the case, or `charge_ratio`"}.usually("required"), v.key);
+    row(Parameter{"low", "lower bound"}.as("value").usually("required without `values`"), v.least);
+    row(Parameter{"high", "upper bound"}.as("value").usually("required without `values`"), v.most);
+    row({"integer", "whole numbers only", Range::any, "false"}, v.integer);
+    row(Parameter{"values", "the only values, in place of bounds"}.as("list of values").usually("none"),
+        v.values);
+  }
+  static void check(Section& entry, std::vector<OptimizeVariable>& variables);
 };
 
 enum class Objective { specific_milling_dose_rate, milling_dose_rate };
@@ -84,6 +136,22 @@ struct OptimizeSpec : StudySpec {
   std::string objective() const { return std::string(choices_of(wanted)[static_cast<std::size_t>(wanted)]); }
   std::uint64_t runs_max = 0, replicas_first = 3, replicas_max = 24, points = 5, refinements = 2;
   std::vector<OptimizeVariable> variables;
+
+  static constexpr const char* what = "Of an optimisation file.";
+  static void keys(auto& o, auto&& row) {
+    row(seed_key, o.seed);
+    row({"runs_max", "the whole budget", {1, most_runs}}, o.runs_max);
+    row({"replicas_first", "runs of every point", {2, 1000}, "3"}, o.replicas_first);
+    row({"replicas_max", "runs of a point that may be the best", {2, 1000}, "24"}, o.replicas_max);
+    row({"points", "of the first grid along each variable", {2, 100}, "5"}, o.points);
+    row({"refinements", "finer grids around the best point", {0, 20}, "2"}, o.refinements);
+    shared_keys(o, row, "relative to the optimisation file");
+    row(Parameter{"objective", "this or `milling_dose_rate`"}.as("name").usually(
+            "`\"specific_milling_dose_rate\"`"),
+        o.wanted);
+    row(Parameter{"variable", "one to three entries `[[optimize.variable]]`"}.usually("required"),
+        o.variables);
+  }
 };
 
 /// @throws InputError with every problem of the file: file, line, key, found, expected
