@@ -7,9 +7,7 @@ namespace edmill {
 template std::string to_text<double>(const double&);
 template double from_text<double>(const std::string&);
 template double casefile::Quantity::to<double>() const;
-template model::AnyVessel<double> casefile::build_vessel<double>(const casefile::VesselSpec&);
 template model::Mill<double> casefile::build_mill<double>(const casefile::CaseSpec&);
-template casefile::InitialCase<double> casefile::build_case<double>(const casefile::CaseSpec&, bool);
 template casefile::InitialCase<double> casefile::build_case_in<double>(const model::Mill<double>&,
                                                                        const casefile::CaseSpec&, bool);
 template io::SavedState<double> io::read_final_state<double>(const std::string&);

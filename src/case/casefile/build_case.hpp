@@ -16,23 +16,20 @@ struct InitialCase {
   Instant<Real> start;
 };
 
-/// The vessel in one scalar, all walls at their places.
-template <class Real>
-model::AnyVessel<Real> build_vessel(const VesselSpec& spec);
-
 /// Values of the case in one scalar, without balls.
 template <class Real>
-model::Mill<Real> build_mill(const casefile::CaseSpec& spec);
+model::Mill<Real> build_mill(const CaseSpec& spec);
 
-/// Case and initial state: explicit balls first, then the batches, placed at random by the case's seed.
+/// Case and initial state in a mill, the file's or another: explicit balls first, then the batches, placed at
+/// random by the case's seed.
 /// @throws InputError when balls overlap, lie outside the vessel, cannot be placed, or an initial state does
 /// not fit, and for what this scalar cannot resolve
 /// @param resolved  whether the last of these is asked for
 template <class Real>
-InitialCase<Real> build_case(const casefile::CaseSpec& spec, bool resolved = true);
-/// Builds the case in another mill than the file's.
+InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const CaseSpec& spec, bool resolved = true);
 template <class Real>
-InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const casefile::CaseSpec& spec,
-                                bool resolved = true);
+InitialCase<Real> build_case(const CaseSpec& spec, bool resolved = true) {
+  return build_case_in(build_mill<Real>(spec), spec, resolved);
+}
 
 }  // namespace edmill::casefile

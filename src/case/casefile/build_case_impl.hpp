@@ -1,35 +1,395 @@
-// Implementation of build_case; included by the instantiation files only.
+// Implementation of Quantity::to and build_case: from exact quantities to one scalar, and the balls of a case
+// at its start, by given states, at random places, and in crowds that are pushed apart. Included by the
+// instantiation files only.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <array>
+#include <boost/unordered/unordered_flat_map.hpp>
+#include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "base/dyadic.hpp"
 #include "base/errors.hpp"
 #include "base/wide_trigonometry.hpp"
 #include "casefile/build_case.hpp"
-#include "casefile/filling.hpp"
-#include "casefile/quantity_value.hpp"
+#include "casefile/push_apart.hpp"
+#include "casefile/random.hpp"
+#include "casefile/rational.hpp"
 #include "io/final_state.hpp"
 
 namespace edmill::casefile {
 
 namespace detail {
 
+/// The nearest scalar; of two that are as near, the even one.
 template <class Real>
-model::ContactLaw<Real> to_law(const casefile::ContactSpec& spec) {
-  return model::convert_law<Real>(spec, [](const casefile::Quantity& q) { return q.to<Real>(); });
+Real nearest(const Rational& value) {
+  using boost::multiprecision::cpp_int;
+  const cpp_int above = abs(numerator(value)), below = denominator(value);
+  if (above == 0) return Real(0);
+  const auto digits = static_cast<unsigned>(binary_digits<Real>());
+  // The quotient has one or two bits more than the scalar; a last bit says whether there is a remainder.
+  int exponent = static_cast<int>(msb(above)) - static_cast<int>(msb(below)) - static_cast<int>(digits) - 1;
+  cpp_int quotient, remainder;
+  divide_qr(exponent < 0 ? cpp_int(above << -exponent) : above,
+            exponent > 0 ? cpp_int(below << exponent) : below, quotient, remainder);
+  quotient = (quotient << 1) | (remainder != 0 ? 1 : 0);
+  const unsigned spare = static_cast<unsigned>(msb(quotient)) + 1 - digits;
+  const cpp_int half = cpp_int(1) << (spare - 1), rest = quotient & (2 * half - 1);
+  quotient >>= spare;
+  if (rest > half || (rest == half && bit_test(quotient, 0))) ++quotient;
+  return Dyadic(value < 0 ? cpp_int(-quotient) : quotient, exponent - 1 + static_cast<int>(spare)).to<Real>();
 }
+
+/// Of pi, so that the last rounding is the only one that counts.
+template <class Real>
+int bits_for() {
+  return 2 * binary_digits<Real>() + 64;
+}
+
+}  // namespace detail
+
+template <class Real>
+Real Quantity::to() const {
+  return detail::nearest<Real>(value_of(*this, detail::bits_for<Real>()));
+}
+
+/// The instant at `time` on a clock of whole drive periods, reduced exactly: the offset is as sharp at 1e6 s
+/// as at the start.
+/// @param time    not negative
+/// @param period  of the drive
+template <class Real>
+Instant<Real> instant_at(const Quantity& time, const Quantity& period) {
+  if (time.zero()) return {};
+  const int bits = detail::bits_for<Real>() + 64;  // as many periods as an integer holds
+  const Rational seconds = value_of(time, bits), length = value_of(period, bits), count = seconds / length;
+  const auto periods =
+      static_cast<std::int64_t>(boost::multiprecision::cpp_int(numerator(count) / denominator(count)));
+  const auto offset = detail::nearest<Real>(seconds - periods * length);
+  if (offset < period.to<Real>()) return {periods, offset};
+  return {periods + 1, Real(0)};  // it is rounded to a whole period
+}
+
+namespace detail {
+
+template <class Real>
+Vec3<Real> to_vector(const QuantityVector& q) {
+  return {q[0].to<Real>(), q[1].to<Real>(), q[2].to<Real>()};
+}
+
+template <class Real>
+model::BallProperties<Real> to_ball(const BallSpec& spec, const Real& diameter) {
+  const Real radius = diameter / 2;
+  const Real volume = 4 * numerics::pi<Real>() * (radius * radius * radius) / 3;
+  return {radius, spec.density.to<Real>() * volume, spec.reduced_inertia.to<Real>(), spec.material};
+}
+
+/// Placed balls by cells of at least the widest centre distance that matters, in the vessel frame.
+template <class Real>
+class PlacedBalls {
+ public:
+  explicit PlacedBalls(double cell) : cell_(cell) {}
+
+  void add(int index, const Vec3<Real>& p) { cells_[key(p, 0, 0, 0)].push_back({index, p}); }
+
+  /// A ball closer to `p` than `least(index)`, or -1.
+  template <class Least>
+  int conflict(const Vec3<Real>& p, Least&& least) const {
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z) {
+          const auto found = cells_.find(key(p, x, y, z));
+          if (found == cells_.end()) continue;
+          for (const auto& [index, position] : found->second) {
+            const Vec3<Real> between = p - position;
+            const Real distance = least(index);
+            if (dot<Real>(between, between) < distance * distance) return index;
+          }
+        }
+    return -1;
+  }
+
+ private:
+  using Key = std::array<double, 3>;  // whole numbers of any size
+  Key key(const Vec3<Real>& p, int dx, int dy, int dz) const {
+    const auto cell = [&](const Real& c) { return std::floor(static_cast<double>(c) / cell_); };
+    return {cell(p[0]) + dx, cell(p[1]) + dy, cell(p[2]) + dz};
+  }
+  struct Entry {
+    int index;
+    Vec3<Real> position;
+  };
+  double cell_;
+  boost::unordered_flat_map<Key, std::vector<Entry>> cells_;
+};
+
+template <class Real>
+class Filling {
+ public:
+  Filling(const CaseSpec& spec, InitialCase<Real>& result)
+      : spec_(spec),
+        result_(result),
+        mill_(result.the_case.mill),
+        pose_(mill_.motion.pose(result.start)),
+        random_(spec.seed),
+        placed_(widest_distance(spec)) {}
+
+  void fill() {
+    for (const auto& ball : spec_.balls)
+      add_checked(
+          to_ball<Real>(ball, ball.diameter.to<Real>()),
+          {to_vector<Real>(ball.position), to_vector<Real>(ball.velocity), to_vector<Real>(ball.spin)},
+          ball.where);
+    add_batches();
+    require_good();
+  }
+
+  /// A ball whose state is given: it must be inside and touch no other, up to rounding.
+  void add_checked(const model::BallProperties<Real>& ball, const model::BallState<Real>& state,
+                   const std::string& where) {
+    const auto local = mill_.motion.to_vessel_frame(pose_, state.position, state.velocity).position;
+    const std::string own = std::to_string(result_.states.size());
+    const Real tolerance = ball.radius / 1000000000;
+    if (mill_.vessel.inset(ball.radius).is_empty())
+      problems_.push_back(where + ": found ball " + own +
+                          " as large as the vessel, expected one that has room to move");
+    else if (!inside(local, ball.radius - tolerance))
+      problems_.push_back(where + ": found ball " + own + " outside the vessel, expected it inside");
+    const int other = placed_.conflict(
+        local, [&](int k) { return ball.radius + result_.the_case.balls[k].radius - tolerance; });
+    if (other >= 0)
+      problems_.push_back(where + ": found ball " + own + " overlapping ball " + std::to_string(other) +
+                          ", expected balls that do not overlap");
+    add(ball, local, state);
+  }
+
+  /// @throws InputError when a ball did not fit
+  void require_good() const {
+    if (!problems_.empty()) throw InputError(problems_);
+  }
+
+ private:
+  /// Each ball of the batches at random where it finds room, or else all together.
+  void add_batches() {
+    if (!fit_alone() || !fit_by_volume() || !problems_.empty()) return;
+    const std::size_t given = result_.states.size();
+    for (const auto& batch : spec_.batches) {
+      if (add_batch(batch)) continue;
+      result_.the_case.balls.resize(given);
+      result_.states.resize(given);
+      return add_together();
+    }
+  }
+
+  static double widest_distance(const CaseSpec& spec) {
+    double gap = 0;
+    for (const auto& b : spec.batches) gap = std::max(gap, b.gap_ball.to<double>());
+    return (spec.largest_diameter() + gap) * 1.001;
+  }
+
+  bool inside(const Vec3<Real>& local, const Real& radius) const {
+    return mill_.vessel.inset(radius).contains(local) && clears_pistons(local, radius);
+  }
+  bool clears_pistons(const Vec3<Real>& local, const Real& radius) const {
+    const auto* pistons = mill_.vessel.pistons();
+    for (std::size_t k = 0; pistons && k < pistons->count(); ++k)
+      if (mill_.vessel.gap(pistons->wall(k), local) < radius + pistons->at(k, result_.start).value)
+        return false;
+    return true;
+  }
+
+  /// @return whether each has found room
+  bool add_batch(const BallBatch& batch) {
+    for (int k = 0; k < batch.count; ++k) {
+      const auto ball = draw_ball(batch);
+      const auto local = place(batch, ball.radius);
+      if (!local) return false;
+      add(ball, *local, draw_state(batch, *local));
+    }
+    return true;
+  }
+
+  model::BallProperties<Real> draw_ball(const BallBatch& batch) {
+    const Real diameter = batch.diameter.to<Real>(), spread = batch.diameter_spread.to<Real>();
+    return to_ball<Real>(batch, spread > 0 ? Real(diameter + spread * random_.symmetric<Real>()) : diameter);
+  }
+  model::BallState<Real> draw_state(const BallBatch& batch, const Vec3<Real>& local) {
+    model::BallState<Real> state{mill_.motion.to_inertial(pose_, local), to_vector<Real>(batch.velocity),
+                                 Vec3<Real>(Real(0), Real(0), Real(0))};
+    if (batch.random_speed) state.velocity = random_velocity(batch.random_speed->to<Real>());
+    return state;
+  }
+
+  void add(const model::BallProperties<Real>& ball, const Vec3<Real>& local,
+           const model::BallState<Real>& state) {
+    placed_.add(static_cast<int>(result_.states.size()), local);
+    result_.the_case.balls.push_back(ball);
+    result_.states.push_back(state);
+  }
+
+  /// A free place in the vessel frame, uniform over those that keep the gaps; nothing when it is not found.
+  std::optional<Vec3<Real>> place(const BallBatch& batch, const Real& radius) {
+    const Real gap_ball = batch.gap_ball.to<Real>(), gap_wall = batch.gap_wall.to<Real>();
+    const auto room = mill_.vessel.inset(radius).inset(gap_wall);
+    if (room.is_empty()) return std::nullopt;
+    for (std::uint64_t tries = 0; tries <= batch.max_relocations; ++tries) {
+      const Real x = random_.symmetric<Real>(), z = random_.symmetric<Real>(), y = random_.symmetric<Real>();
+      const auto local = room.place({x, y, z});
+      if (!local || !clears_pistons(*local, radius + gap_wall)) continue;
+      if (placed_.conflict(*local, [&](int other) {
+            return radius + result_.the_case.balls[other].radius + gap_ball;
+          }) < 0)
+        return local;
+    }
+    return std::nullopt;
+  }
+
+  bool fit_alone() {
+    bool all = true;
+    for (const auto& batch : spec_.batches) {
+      const Real largest = (batch.diameter.to<Real>() + batch.diameter_spread.to<Real>()) / 2;
+      if (!mill_.vessel.inset(largest).is_empty()) continue;
+      all = false;
+      problems_.push_back(
+          batch.where + ": found balls too large for the vessel, expected a diameter that leaves them room");
+    }
+    return all;
+  }
+
+  double volume_of_balls() const {
+    double sum = 0;
+    spec_.for_each_ball([&](const BallSpec& ball) {
+      const double d = ball.diameter.to<double>();
+      sum += ball.count * numerics::pi<double>() / 6 * d * d * d;
+    });
+    return sum;
+  }
+
+  /// Refuses what no packing holds: from a dozen balls on none is denser than that of equal ones,
+  /// pi/sqrt(18).
+  bool fit_by_volume() {
+    if (spec_.batches.empty()) return true;
+    constexpr double densest = 0.7405, few = 12;
+    const double vessel = static_cast<double>(mill_.vessel.volume()), balls = volume_of_balls();
+    const double most = static_cast<double>(spec_.ball_count()) < few ? 1 : densest;
+    if (balls <= most * vessel) return true;
+    const auto& batch = spec_.batches.back();
+    const double d = batch.diameter.to<double>(), one = numerics::pi<double>() / 6 * d * d * d;
+    const double fitting = std::floor(batch.count - (balls - most * vessel) / one);
+    problems_.push_back(fmt::format(
+        "{}: found balls that fill {:.3g} of the vessel's volume, expected at most {:.3g} of it{}",
+        batch.where, balls / vessel, most,
+        fitting > 0
+            ? fmt::format(", with at most {:.0f} balls in this batch in place of {}", fitting, batch.count)
+            : ""));
+    return false;
+  }
+
+  /// What is pushed apart: balls whose state is given stay, those of batches begin at random places.
+  struct Drawn {
+    const BallBatch* batch;
+    model::BallProperties<Real> ball;
+  };
+
+  void add_together() {
+    random_ = Random(spec_.seed);
+    std::vector<Drawn> drawn;
+    for (const auto& batch : spec_.batches)
+      for (int k = 0; k < batch.count; ++k) drawn.push_back({&batch, draw_ball(batch)});
+    std::vector<CrowdBall> crowd;
+    // Gaps shrink as they must.
+    for (const double share : {1.0, 0.5, 0.25, 0.0625, 0.0})
+      for (int attempt = 0; attempt < (share > 0 ? 2 : 8); ++attempt)
+        if (part_crowd(drawn, drawn.size(), share, crowd)) return add_crowd(drawn, crowd);
+    // How many do find room, from the first on.
+    std::size_t fitting = 0, failing = drawn.size();
+    while (failing - fitting > 1) {
+      const std::size_t middle = (fitting + failing) / 2;
+      (part_crowd(drawn, middle, 0, crowd) ? fitting : failing) = middle;
+    }
+    problems_.push_back(fmt::format(
+        "{}: found {} balls at a packing fraction of {:.3g}, expected fewer: the first {} find room",
+        spec_.batches.front().where, drawn.size(),
+        volume_of_balls() / static_cast<double>(mill_.vessel.volume()), fitting));
+  }
+
+  /// The first `count` of the balls drawn, from new random places.
+  bool part_crowd(const std::vector<Drawn>& drawn, std::size_t count, double share,
+                  std::vector<CrowdBall>& crowd) {
+    const auto vessel = mill_.vessel.template cast<double>();
+    crowd.clear();
+    for (std::size_t k = 0; k < result_.states.size(); ++k) {
+      const auto& s = result_.states[k];
+      const auto local = mill_.motion.to_vessel_frame(pose_, s.position, s.velocity).position;
+      crowd.push_back(
+          {static_cast<double>(result_.the_case.balls[k].radius), 0, 0, vector_cast<double>(local), true});
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto& batch = *drawn[k].batch;
+      const double radius = static_cast<double>(drawn[k].ball.radius);
+      crowd.push_back({radius, batch.gap_ball.template to<double>(), batch.gap_wall.template to<double>(),
+                       random_place(vessel.inset(radius)), false});
+    }
+    return push_apart(vessel, moved_walls(), crowd, share);
+  }
+  Vec3<double> random_place(const model::AnyVessel<double>& room) {
+    for (int tries = 0; tries < 10000; ++tries) {
+      const double x = random_.symmetric<double>(), z = random_.symmetric<double>(),
+                   y = random_.symmetric<double>();
+      if (const auto place = room.place({x, y, z})) return *place;
+    }
+    return {0, 0, 0};
+  }
+  std::vector<double> moved_walls() const {
+    std::vector<double> moved;
+    const auto* pistons = mill_.vessel.pistons();
+    for (int wall = 0; pistons && wall < mill_.vessel.wall_count(); ++wall)
+      moved.push_back(static_cast<double>(pistons->of_wall(wall, result_.start).value));
+    return moved;
+  }
+  void add_crowd(const std::vector<Drawn>& drawn, const std::vector<CrowdBall>& crowd) {
+    const std::size_t given = result_.states.size();
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+      const auto local = vector_cast<Real>(crowd[given + k].place);
+      add(drawn[k].ball, local, draw_state(*drawn[k].batch, local));
+    }
+  }
+
+  /// Uniform direction, and a size uniform up to `largest`.
+  Vec3<Real> random_velocity(const Real& largest) {
+    for (;;) {
+      const Vec3<Real> v{random_.symmetric<Real>(), random_.symmetric<Real>(), random_.symmetric<Real>()};
+      const Real size = norm<Real>(v);
+      if (size > 1 || !(size > 0)) continue;
+      return v * (largest * random_.uniform<Real>() / size);
+    }
+  }
+
+  const CaseSpec& spec_;
+  InitialCase<Real>& result_;
+  const model::Mill<Real>& mill_;
+  model::AnyPose<Real> pose_;
+  Random random_;
+  PlacedBalls<Real> placed_;
+  std::vector<std::string> problems_;
+};
+
+template <class Real>
+inline constexpr auto to_scalar = [](const Quantity& q) { return q.to<Real>(); };
 
 template <class Real, template <class> class Part>
-Part<Real> to_part(const Part<casefile::Quantity>& part) {
-  return model::converted<Part, Real>(part, [](const casefile::Quantity& q) { return q.to<Real>(); });
+Part<Real> to_part(const Part<Quantity>& part) {
+  return model::converted<Part, Real>(part, to_scalar<Real>);
 }
 
 template <class Real>
-model::AnyMotion<Real> to_motion(const auto& part, const casefile::CaseSpec& spec) {
+model::AnyMotion<Real> to_motion(const auto& part, const CaseSpec& spec) {
   if constexpr (requires { part.joints(); }) {
-    const auto to = [](const casefile::Quantity& q) { return q.to<Real>(); };
+    const auto& to = to_scalar<Real>;
     auto joints = model::converted_joints<Real>(with_phases(part.joints()), to);
     // Events are predicted some time beyond the end.
     if (spec.end_time) joints.times = {to(spec.initial_time), to(*spec.end_time) + joints.period};
@@ -40,8 +400,8 @@ model::AnyMotion<Real> to_motion(const auto& part, const casefile::CaseSpec& spe
 }
 
 template <class Real>
-model::Pistons<Real> to_pistons(const casefile::CaseSpec& spec) {
-  const auto to = [](const casefile::Quantity& q) { return q.to<Real>(); };
+model::Pistons<Real> to_pistons(const CaseSpec& spec) {
+  const auto& to = to_scalar<Real>;
   const auto& period = period_of(spec.mill);
   std::vector<model::Piston<Real>> pistons;
   for (const auto& p : spec.pistons)
@@ -52,7 +412,7 @@ model::Pistons<Real> to_pistons(const casefile::CaseSpec& spec) {
 
 /// The laws of pairs, with a table of which applies where.
 template <class Real>
-model::PairLaws<Real> to_pairs(const casefile::CaseSpec& spec, int walls) {
+model::PairLaws<Real> to_pairs(const CaseSpec& spec, int walls) {
   model::PairLaws<Real> pairs;
   if (spec.pairs.empty()) return pairs;
   pairs.materials = spec.materials.size() + 1;
@@ -67,13 +427,14 @@ model::PairLaws<Real> to_pairs(const casefile::CaseSpec& spec, int walls) {
     for (std::size_t wall = 0; wall < static_cast<std::size_t>(walls); ++wall)
       pairs.of_walls.push_back(law_of(one, spec.wall_materials.at(wall)));
   }
-  for (const auto& pair : spec.pairs) pairs.laws.push_back(to_law<Real>(pair.law));
+  for (const auto& pair : spec.pairs)
+    pairs.laws.push_back(model::convert_law<Real>(pair.law, to_scalar<Real>));
   return pairs;
 }
 
 /// Diameters as the case says, states from a final_state.csv.
 template <class Real>
-void fill_from_file(const casefile::CaseSpec& spec, InitialCase<Real>& result) {
+void fill_from_file(const CaseSpec& spec, InitialCase<Real>& result) {
   const auto saved = io::read_final_state<Real>(spec.initial_state);
   if (saved.states.size() != spec.ball_count())
     throw InputError(spec.initial_state + ": found " + std::to_string(saved.states.size()) +
@@ -89,22 +450,20 @@ void fill_from_file(const casefile::CaseSpec& spec, InitialCase<Real>& result) {
   result.start = saved.time;
   Filling<Real> filling(spec, result);
   std::size_t k = 0;
-  for (const auto& b : spec.balls)
-    filling.add_checked(to_ball<Real>(b, b.diameter.template to<Real>()), saved.states[k++], b.where);
-  for (const auto& b : spec.batches) {
+  spec.for_each_ball([&](const BallSpec& b) {
     if (b.diameter_spread.positive())
       throw InputError(b.where +
                        ": found diameter_spread with an initial state, expected balls of one diameter");
     for (int n = 0; n < b.count; ++n)
       filling.add_checked(to_ball<Real>(b, b.diameter.template to<Real>()), saved.states[k++], b.where);
-  }
-  if (!filling.problems().empty()) throw InputError(filling.problems());
+  });
+  filling.require_good();
 }
 
 /// Refuses what the scalar cannot resolve: balls about as small as the rounding of a position, and a least
 /// separation speed whose hops are lower than that.
 template <class Real>
-void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>& built) {
+void require_resolution(const CaseSpec& spec, const InitialCase<Real>& built) {
   using std::sqrt;
   const auto& mill = built.the_case.mill;
   const Real reach = mill.motion.reach(mill.vessel.reach()), gravity = norm<Real>(mill.gravity);
@@ -114,16 +473,14 @@ void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>&
   const Real least_radius = 8000000 * rounding;  // so that a missed impact is told from rounding
   const auto number = [](const Real& x) { return fmt::format("{:.3g}", static_cast<double>(x)); };
   std::vector<std::string> problems;
-  const auto check = [&](const casefile::BallSpec& ball, const Real& diameter) {
+  spec.for_each_ball([&](const BallSpec& ball) {
+    const Real diameter = ball.diameter.template to<Real>() - ball.diameter_spread.template to<Real>();
     if (diameter / 2 < least_radius)
       problems.push_back(ball.where + ": found a ball of radius " + number(diameter / 2) +
                          " m, expected at least " + number(least_radius) + " m: in this mill " +
                          scalar_name<Real>() + " knows a position to " + number(rounding) +
                          " m; a wider precision knows it better");
-  };
-  for (const auto& ball : spec.balls) check(ball, ball.diameter.template to<Real>());
-  for (const auto& ball : spec.batches)
-    check(ball, ball.diameter.template to<Real>() - ball.diameter_spread.template to<Real>());
+  });
   const Real least_hop = 4 * sqrt(rounding * (mill.motion.acceleration_within(reach) + gravity));
   const auto check_least = [&](const Real& speed, const std::string& section) {
     if (speed > 0 && speed < least_hop)
@@ -141,38 +498,25 @@ void require_resolution(const casefile::CaseSpec& spec, const InitialCase<Real>&
 }  // namespace detail
 
 template <class Real>
-model::AnyVessel<Real> build_vessel(const VesselSpec& spec) {
-  return std::visit([](const auto& v) { return model::AnyVessel<Real>(detail::to_part<Real>(v).vessel()); },
-                    spec);
-}
-
-template <class Real>
-model::Mill<Real> build_mill(const casefile::CaseSpec& spec) {
-  auto vessel = build_vessel<Real>(spec.vessel);
+model::Mill<Real> build_mill(const CaseSpec& spec) {
+  auto vessel = std::visit(
+      [](const auto& v) { return model::AnyVessel<Real>(detail::to_part<Real>(v).vessel()); }, spec.vessel);
   if (!spec.pistons.empty()) vessel.set(detail::to_pistons<Real>(spec));
   const int walls = vessel.wall_count();
   return {std::visit([&](const auto& m) { return detail::to_motion<Real>(m, spec); }, spec.mill),
           std::move(vessel),
           detail::to_vector<Real>(spec.gravity),
-          detail::to_law<Real>(spec.ball_ball),
-          detail::to_law<Real>(spec.ball_wall),
+          model::convert_law<Real>(spec.ball_ball, detail::to_scalar<Real>),
+          model::convert_law<Real>(spec.ball_wall, detail::to_scalar<Real>),
           detail::to_pairs<Real>(spec, walls)};
 }
 
 template <class Real>
-InitialCase<Real> build_case(const casefile::CaseSpec& spec, bool resolved) {
-  return build_case_in(build_mill<Real>(spec), spec, resolved);
-}
-
-template <class Real>
-InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const casefile::CaseSpec& spec,
-                                bool resolved) {
+InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const CaseSpec& spec, bool resolved) {
   InitialCase<Real> result;
   auto& c = result.the_case;
   c.mill = mill;
-  const auto instant = [&](const casefile::Quantity& time) {
-    return casefile::instant_at<Real>(time, casefile::period_of(spec.mill));
-  };
+  const auto instant = [&](const Quantity& time) { return instant_at<Real>(time, period_of(spec.mill)); };
   c.initial_time = instant(spec.initial_time);
   c.statistics_start = instant(spec.statistics_start);
   if (spec.target.dose)
@@ -181,15 +525,10 @@ InitialCase<Real> build_case_in(const model::Mill<Real>& mill, const casefile::C
   for (std::size_t place = 0; place < model::stop_rule_count; ++place)
     if (const auto& limit = spec.stop_limits[place]) c.stop.limits[place] = limit->template to<Real>();
   result.start = c.initial_time;
-  if (!spec.initial_state.empty()) {
+  if (spec.initial_state.empty())
+    detail::Filling<Real>(spec, result).fill();
+  else
     detail::fill_from_file(spec, result);
-    if (resolved) detail::require_resolution(spec, result);
-    return result;
-  }
-  detail::Filling<Real> filling(spec, result);
-  for (const auto& ball : spec.balls) filling.add_explicit(ball);
-  filling.add_batches();
-  if (!filling.problems().empty()) throw InputError(filling.problems());
   if (resolved) detail::require_resolution(spec, result);
   return result;
 }

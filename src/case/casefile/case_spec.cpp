@@ -102,8 +102,7 @@ std::string canonical_text(const CaseSpec& c) {
   if (!c.pairs.empty()) {
     out << "materials";
     for (const int wall : c.wall_materials) out << " " << wall;
-    for (const auto& b : c.balls) out << " " << b.material;
-    for (const auto& b : c.batches) out << " " << b.material;
+    c.for_each_ball([&](const BallSpec& b) { out << " " << b.material; });
     out << "\n";
   }
   for (const auto& b : c.balls) out << "ball" << values_of(b) << "\n";
@@ -196,9 +195,8 @@ std::optional<ColumnName> ColumnName::read(Section& columns, const std::string& 
 
 std::vector<Colour> CaseSpec::ball_colours() const {
   std::vector<Colour> colours;
-  for (const auto& ball : balls) colours.push_back(ball.colour);
-  for (const auto& batch : batches)
-    colours.insert(colours.end(), static_cast<std::size_t>(batch.count), batch.colour);
+  for_each_ball(
+      [&](const BallSpec& b) { colours.insert(colours.end(), static_cast<std::size_t>(b.count), b.colour); });
   return colours;
 }
 
@@ -212,9 +210,17 @@ std::string TargetSpec::counts() const {
 }
 
 std::size_t CaseSpec::ball_count() const {
-  std::size_t count = balls.size();
-  for (const auto& batch : batches) count += static_cast<std::size_t>(batch.count);
+  std::size_t count = 0;
+  for_each_ball([&](const BallSpec& b) { count += static_cast<std::size_t>(b.count); });
   return count;
+}
+
+double CaseSpec::largest_diameter() const {
+  double largest = 0;
+  for_each_ball([&](const BallSpec& b) {
+    largest = std::max(largest, b.diameter.to<double>() + b.diameter_spread.to<double>());
+  });
+  return largest;
 }
 
 std::vector<std::string> problems_of(const CaseSpec& spec) {
@@ -224,8 +230,7 @@ std::vector<std::string> problems_of(const CaseSpec& spec) {
   const Section vessel = top.section("vessel"), contact = top.section("contact");
   check(top.section("mill"), spec.mill);
   check(vessel, spec.vessel);
-  for (const auto& ball : spec.balls) ball.keys(ball, KeyChecker{top});
-  for (const auto& batch : spec.batches) batch.keys(batch, KeyChecker{top});
+  spec.for_each_ball([&](const auto& ball) { ball.keys(ball, KeyChecker{top}); });
   check(contact, spec.ball_ball, spec);
   check(contact, spec.ball_wall, spec);
   for (const auto& pair : spec.pairs) check(contact, pair.law, spec);

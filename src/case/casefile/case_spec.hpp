@@ -36,7 +36,8 @@ struct MaterialSpec {
 
 /// What all ways of adding balls have in common.
 struct BallSpec {
-  Quantity diameter;
+  int count = 1;
+  Quantity diameter, diameter_spread;
   Quantity density{8000};
   std::string material_name;
   int material = 0;  ///< of CaseSpec::materials, from 1; 0 for none
@@ -64,9 +65,7 @@ inline constexpr int largest_count = 100000000;  ///< of balls
 
 /// A batch of balls placed at random. (thesis D.2.4)
 struct BallBatch : BallSpec {
-  int count = 1;
-  std::optional<Quantity> mass;  ///< of the batch, from which the count follows
-  Quantity diameter_spread;
+  std::optional<Quantity> mass;          ///< of the batch, from which the count follows
   std::optional<Quantity> random_speed;  ///< largest; direction and size at random
   Quantity gap_ball{1, 1000};
   Quantity gap_wall{1, 1000};
@@ -264,7 +263,13 @@ struct CaseSpec {
     return materials[static_cast<std::size_t>(pair.materials[0]) - 1].name + ", " +
            materials[static_cast<std::size_t>(pair.materials[1]) - 1].name;
   }
+  /// Calls visit(spec) with each single ball, then with each batch.
+  void for_each_ball(const auto& visit) const {
+    for (const auto& ball : balls) visit(ball);
+    for (const auto& batch : batches) visit(batch);
+  }
   std::size_t ball_count() const;
+  double largest_diameter() const;  ///< [m]
   /// Colours of all balls, in their order.
   std::vector<Colour> ball_colours() const;
 };

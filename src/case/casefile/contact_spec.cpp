@@ -27,12 +27,10 @@ std::optional<Quantity> charge_ratio(const CaseSpec& spec) {
   if (!spec.powder_mass || !spec.powder_mass->positive()) return std::nullopt;
   Rational mass = 0;  // times pi
   // The mean cube of diameters that are uniform in d +- s is d^3 + d s^2.
-  const auto add = [&](const BallSpec& b, int count, const Rational& s) {
-    const auto& d = rational(b.diameter);
-    mass += count * rational(b.density) * d * (d * d + s * s) / 6;
-  };
-  for (const auto& ball : spec.balls) add(ball, 1, 0);
-  for (const auto& batch : spec.batches) add(batch, batch.count, rational(batch.diameter_spread));
+  spec.for_each_ball([&](const BallSpec& b) {
+    const auto &d = rational(b.diameter), &s = rational(b.diameter_spread);
+    mass += b.count * rational(b.density) * d * (d * d + s * s) / 6;
+  });
   return quantity_of(mass / rational(*spec.powder_mass), 1);
 }
 
@@ -40,14 +38,12 @@ std::optional<Quantity> charge_ratio(const CaseSpec& spec) {
 void require_diameters(Section& s, const CaseSpec& spec) {
   using Law = model::PowderLoad<Quantity>;
   const Rational least(Law::diameters.front(), 1000000), largest(Law::diameters.back(), 1000000);
-  const auto check = [&](const BallSpec& ball, const Rational& spread) {
-    const Rational& diameter = rational(ball.diameter);
+  spec.for_each_ball([&](const BallSpec& ball) {
+    const auto &diameter = rational(ball.diameter), &spread = rational(ball.diameter_spread);
     if (diameter - spread < least || diameter + spread > largest)
       s.problem("model", fmt::format("\"{}\" with balls of {:g} m", Law::name, ball.diameter.to<double>()),
                 "balls of 2.36 mm to 9.52 mm, which its table is for");
-  };
-  for (const auto& ball : spec.balls) check(ball, 0);
-  for (const auto& batch : spec.batches) check(batch, rational(batch.diameter_spread));
+  });
 }
 
 /// @param missing  called with the key of what its law needs and is not given, and what was expected
@@ -130,8 +126,7 @@ void read_pairs(ContactTable& contact, CaseSpec& spec) {
 void require_all_pairs(Section& contact, const CaseSpec& spec) {
   const auto& walls = spec.wall_materials;
   std::vector<int> of_balls;
-  for (const auto& ball : spec.balls) of_balls.push_back(ball.material);
-  for (const auto& batch : spec.batches) of_balls.push_back(batch.material);
+  spec.for_each_ball([&](const BallSpec& ball) { of_balls.push_back(ball.material); });
   const auto name = [&](int material) {
     return material == 0 ? "what has no material" : "\"" + spec.materials[material - 1].name + "\"";
   };

@@ -1,10 +1,8 @@
 #include "casefile/build_case_impl.hpp"
 
-#define EDMILL_CASE(Real)                                                \
-  template Real Quantity::to<Real>() const;                              \
-  template model::AnyVessel<Real> build_vessel<Real>(const VesselSpec&); \
-  template model::Mill<Real> build_mill<Real>(const CaseSpec&);          \
-  template InitialCase<Real> build_case<Real>(const CaseSpec&, bool);    \
+#define EDMILL_CASE(Real)                                       \
+  template Real Quantity::to<Real>() const;                     \
+  template model::Mill<Real> build_mill<Real>(const CaseSpec&); \
   template InitialCase<Real> build_case_in<Real>(const model::Mill<Real>&, const CaseSpec&, bool);
 
 namespace edmill::casefile {

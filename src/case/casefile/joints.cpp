@@ -7,7 +7,6 @@
 
 #include "base/scalar_list.hpp"
 #include "casefile/case_parts.hpp"
-#include "casefile/quantity_value.hpp"
 #include "casefile/rational.hpp"
 #include "casefile/tables.hpp"
 

@@ -59,9 +59,8 @@ void try_placements(int count, std::uint64_t seed) {
     const int balls = static_cast<int>(std::pow(10, 0.7 + 2.3 * random.uniform<double>()));
     const double packing = densest(balls) * (0.2 + 0.8 * random.uniform<double>());
     const double volume = static_cast<double>(
-        build_vessel<double>(
-            with_balls(vessel, "[[ball]]\ndiameter = \"1 mm\"\nposition = [0, 0, 0]\n", 1).vessel)
-            .volume());
+        build_mill<double>(with_balls(vessel, "[[ball]]\ndiameter = \"1 mm\"\nposition = [0, 0, 0]\n", 1))
+            .vessel.volume());
     const double diameter = std::cbrt(6 * packing * volume / (numerics::pi<double>() * balls));
     const auto spec = with_balls(vessel,
                                  "[[balls]]\ncount = " + std::to_string(balls) + "\ndiameter = \"" +
