@@ -3,18 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
+#include <set>
 #include <sstream>
 
 #include "base/digest.hpp"
 #include "base/errors.hpp"
 #include "casefile/build_case.hpp"
-#include "casefile/case_parts.hpp"
-#include "casefile/key_reader.hpp"
 #include "casefile/output_entry.hpp"
 #include "casefile/precisions.hpp"
 #include "casefile/rational.hpp"
-#include "casefile/section.hpp"
+#include "casefile/tables.hpp"
 #include "casefile/value_of_key.hpp"
 #include "io/input_file.hpp"
 
@@ -39,6 +40,100 @@ void read_run(Section& run, CaseSpec& spec) {
   });
   if (!stops) run.problem("end_time", "no stop rule", "at least one of " + rules);
   run.reject_unknown_keys();
+}
+
+/// The material of a name that a key gives; 0 where there is none or, which is reported, it is unknown.
+int material_of(Section& section, const std::string& key, const std::string& name, const CaseSpec& spec) {
+  if (name.empty()) return 0;
+  const int material = spec.material_named(name);
+  std::vector<std::string> names;
+  for (const auto& m : spec.materials) names.push_back(m.name);
+  section.require(material > 0, key, names.empty() ? "the name of a [[material]] entry" : one_of(names));
+  return material;
+}
+
+/// A ball's own density, or that of its material.
+void read_density(Section& s, BallSpec& ball, const CaseSpec& spec) {
+  ball.material = material_of(s, "material", ball.material_name, spec);
+  if (ball.material > 0) {
+    const auto& material = spec.materials[static_cast<std::size_t>(ball.material) - 1];
+    if (material.density)
+      ball.density = *material.density;
+    else if (!s.has("density"))
+      s.problem("density", "nothing, and material \"" + material.name + "\" has none",
+                describe(Dimension::density));
+    if (material.density && s.has("density"))
+      s.problem("density", "a density beside that of material \"" + material.name + "\"", "one of them");
+  }
+}
+
+/// The number of balls whose mass is nearest to that of the batch.
+void count_by_mass(Section& s, BallBatch& batch) {
+  if (!batch.mass || !batch.diameter.positive() || !batch.density.positive()) return;
+  if (s.has("count")) return s.problem("mass", "both 'count' and 'mass'", "one of them");
+  const double d = batch.diameter.to<double>();
+  const double one = batch.density.to<double>() * std::numbers::pi / 6 * d * d * d;
+  const double count = std::round(batch.mass->to<double>() / one);
+  s.require(count <= largest_count, "mass", "that of at most " + std::to_string(largest_count) + " balls");
+  batch.count = count <= largest_count ? static_cast<int>(count) : 0;
+}
+
+void read_materials(Entries<MaterialSpec>& entries, CaseSpec& spec) {
+  read_entries(entries, [&](Section& entry, MaterialSpec& material) {
+    entry.require(material.name.empty() || spec.material_named(material.name) == 0, "name",
+                  "a name that no other material has");
+    // A wrong one has been reported here, and is not at the balls that have it.
+    if (entry.has("density") && !(material.density && material.density->positive()))
+      material.density = BallSpec{}.density;
+    spec.materials.push_back(std::move(material));
+  });
+}
+
+/// vessel.material and [vessel.materials].
+void read_wall_materials(Section& vessel, VesselTable& table, CaseSpec& spec) {
+  const int common = material_of(vessel, "material", table.material, spec);
+  if (vessel.of_unknown_kind()) return;
+  Section& walls = *table.materials.section;
+  Named<WallName> given;
+  read_keys(walls, given);
+  const auto known = known_vessel(spec);
+  if (!known) return;
+  const auto partners = model::partners_of(*known);
+  spec.wall_materials.assign(static_cast<std::size_t>(partners.walls()), common);
+  std::vector<std::string> labels;
+  for (int wall = 0; wall < partners.walls(); ++wall) labels.push_back(partners[wall].label);
+  std::set<int> named;
+  for (const auto& key : given) {
+    const int wall = wall_named(key, partners);
+    if (wall < 0) {
+      walls.problem(key, "a wall that the vessel does not have", one_of(labels));
+      continue;
+    }
+    if (!named.insert(wall).second)
+      walls.problem(key, "a second material of a wall, by its key and by its label", "one of them");
+    spec.wall_materials[static_cast<std::size_t>(wall)] =
+        material_of(walls, key, walls.text(key).value_or(""), spec);
+  }
+}
+
+void read_balls(CaseFile& file, CaseSpec& spec) {
+  read_entries(file.balls, [&](Section& s, ExplicitBall& ball) {
+    ball.where = s.where();
+    read_density(s, ball, spec);
+    if (!s.has("position") && spec.initial_state.empty())
+      s.problem("position", "nothing", "an array of three lengths");
+    spec.balls.push_back(std::move(ball));
+  });
+  read_entries(file.batches, [&](Section& s, BallBatch& batch) {
+    batch.where = s.where();
+    read_density(s, batch, spec);
+    count_by_mass(s, batch);
+    const bool narrow = batch.diameter_spread < batch.diameter || !batch.diameter.positive();
+    s.require(narrow, "diameter_spread", "a length from 0 to less than the diameter");
+    if (batch.random_speed && s.has("velocity"))
+      s.problem("random_speed", "both 'velocity' and 'random_speed'", "one of them");
+    spec.batches.push_back(std::move(batch));
+  });
 }
 
 /// Instants count drive periods, so a run has no more of them than an integer holds.
@@ -141,7 +236,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   spec.vessel = std::move(walls.shape);
   spec.vessel_colour = walls.colour;
   read_pistons(vessel, walls.pistons, spec);
-  for (auto& entry : file.materials) read_material(entry, spec);
+  read_materials(file.materials, spec);
   read_wall_materials(vessel, walls, spec);
   mill.reject_unknown_keys();
   vessel.reject_unknown_keys();
@@ -153,8 +248,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
     spec.target = powder.target;
     spec.target.counted.normal_only = powder.counts == CountedPart::normal;
   }
-  for (auto& entry : file.balls) read_ball(entry, spec);
-  for (auto& entry : file.batches) read_batch(entry, spec);
+  read_balls(file, spec);
   read_contact(*file.contact.section, spec);
   for (auto& entry : file.outputs) read_output(entry, spec);
   read_keys(*file.audit.section, spec.audit);
@@ -180,6 +274,26 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
 }
 
 }  // namespace
+
+std::optional<model::AnyVessel<double>> known_vessel(const CaseSpec& spec) {
+  try {
+    return build_mill<double>(spec).vessel;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+int wall_named(const std::string& name, const model::Partners& partners) {
+  int wall = partners.walls() - 1;
+  while (wall >= 0 && name != partners[wall].label && name != partners[wall].key) --wall;
+  return wall;
+}
+
+int CaseSpec::material_named(const std::string& name) const {
+  const auto found =
+      std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == name; });
+  return found == materials.end() ? 0 : static_cast<int>(found - materials.begin()) + 1;
+}
 
 void Gravity::read_from(Section& run, const char* key) {
   if (run.is_array(key))

@@ -2,9 +2,8 @@
 
 #include <utility>
 
-#include "casefile/case_parts.hpp"
-#include "casefile/key_reader.hpp"
 #include "casefile/rational.hpp"
+#include "casefile/tables.hpp"
 
 namespace edmill::casefile {
 

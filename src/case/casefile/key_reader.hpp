@@ -153,15 +153,15 @@ class KeyReader {
 
 void read_keys(Section& section, Keyed auto& keyed) { keyed.keys(keyed, KeyReader(section)); }
 
-/// Every entry of a list, and nothing else.
+/// Reads each entry, hands it to `use(entry, value)`, and reports its other keys.
 template <Keyed T>
-std::vector<T> read_entries(Entries<T>& entries) {
-  std::vector<T> list;
+void read_entries(Entries<T>& entries, const auto& use) {
   for (Section& entry : entries) {
-    read_keys(entry, list.emplace_back(entries.like));
+    T value = entries.like;
+    read_keys(entry, value);
+    use(entry, value);
     entry.reject_unknown_keys();
   }
-  return list;
 }
 
 /// Reports values out of range that were not read from a file.

@@ -1,11 +1,15 @@
+// Motions and vessels as a case file says them: joints of a chain, shapes, pistons.
 #include "casefile/parts.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
+#include <utility>
 
-#include "casefile/case_parts.hpp"
-#include "casefile/key_reader.hpp"
+#include "base/scalar_list.hpp"
+#include "casefile/build_case.hpp"
 #include "casefile/rational.hpp"
 #include "casefile/tables.hpp"
 
@@ -13,8 +17,198 @@ namespace edmill::casefile {
 
 namespace {
 
+using boost::multiprecision::cpp_int;
 using model::Face;
+using model::Joint;
+using model::Joints;
 using model::Range;
+using model::Swing;
+using PistonSpec = model::Piston<Quantity>;
+
+/// The share of a turn by which `turns` exceeds whole turns, cut to the bits of a TurnFraction: to those that
+/// the thread's `mpfr` needs, too.
+TurnFraction fraction_of(const Quantity& turns) {
+  TurnFraction fraction;
+#if !defined(EDMILL_WITHOUT_MPFR)
+  const std::size_t needed = TurnFraction::words_for(binary_digits<mpfr>());
+  if (needed > TurnFraction::words) fraction.further.resize(needed - TurnFraction::words);
+#endif
+  const int fraction_bits = 64 * static_cast<int>(TurnFraction::words + fraction.further.size());
+  const Rational value = value_of(turns, 2 * fraction_bits);
+  cpp_int scaled = (numerator(value) << fraction_bits) / denominator(value);
+  const cpp_int one = cpp_int(1) << fraction_bits;
+  const cpp_int whole = scaled / one - (scaled % one < 0 ? 1 : 0);  // rounded down
+  fraction.whole = static_cast<std::int64_t>(whole);
+  scaled -= whole * one;
+  for (std::size_t k = TurnFraction::words + fraction.further.size(); k-- > 0; scaled >>= 64)
+    (k < TurnFraction::words ? fraction.bits[k] : fraction.further[k - TurnFraction::words]) =
+        static_cast<std::uint64_t>(scaled & 0xffffffffffffffffu);
+  return fraction;
+}
+
+/// A constant angle or phase less its whole turns: a scalar has the rest to its last digit. One of less
+/// than a turn stays as it is given.
+Quantity without_whole_turns(const Quantity& turns) {
+  const auto fraction = fraction_of(turns);
+  if (fraction.whole == 0 || fraction.whole == -1) return turns;
+  if (turns.pi_power == 0) return quantity_of(rational(turns) - fraction.whole);
+  cpp_int bits = 0;
+  const std::size_t words = TurnFraction::words + fraction.further.size();
+  for (std::size_t k = 0; k < words; ++k) bits = (bits << 64) + fraction.word(k);
+  return quantity_of({bits, cpp_int(1) << (64 * words)});
+}
+
+/// A frequency [1/s] for an angular speed [rad/s], turns for an angle [rad].
+Quantity in_turns(const Quantity& radians) {
+  return quantity_of(rational(radians) / 2, radians.pi_power - 1);
+}
+
+void require_speed(Section& swing, const Quantity& speed) {
+  swing.require(speed.positive() && speed.to<double>() < 1e6, "speed",
+                "a positive angular speed below 1e6 rad/s");
+}
+
+std::vector<Swing<Quantity>> read_swings(Entries<SwingTable>& entries) {
+  std::vector<Swing<Quantity>> swings;
+  const bool rotates = entries.like.dimension == Dimension::angle;
+  read_entries(entries, [&](Section& entry, const SwingTable& swing) {
+    require_speed(entry, swing.speed);
+    swings.push_back({rotates ? in_turns(swing.amplitude) : swing.amplitude, in_turns(swing.speed),
+                      in_turns(swing.phase)});
+  });
+  return swings;
+}
+
+const std::array<std::string, 3> axes{"x", "y", "z"};
+
+bool is_zero(const QuantityVector& v) { return v[0].zero() && v[1].zero() && v[2].zero(); }
+
+Joint<Quantity> joint_of(Section& section, JointTable& table) {
+  Joint<Quantity> joint;
+  joint.rotates = *table.rotates;
+  joint.speed = joint.rotates ? in_turns(table.speed) : table.speed;
+  joint.swings = read_swings(table.swings);
+  const bool moves = !joint.speed.zero() || !joint.swings.empty();
+  if (joint.rotates) {
+    joint.axis = table.rotate.direction;
+    joint.angle = in_turns(table.angle);
+    if (joint.angle.zero() && !moves)
+      section.problem(first_of(section, {"speed", "angle", "rotate"}), "a joint that does not turn",
+                      "one with angle, speed or swing");
+    return joint;
+  }
+  const auto& shift = table.translate.shift;
+  const bool named = !section.is_array("translate");
+  if (!named && section.has("distance"))
+    section.problem(
+        "distance",
+        shift ? "a shift with all three lengths given" : "a distance along an axis of three numbers",
+        shift ? "translate = \"x\", \"y\" or \"z\" with it"
+              : "a joint of its own for it, translate = [..] with three lengths");
+  if (shift) {
+    joint.shift = *shift;
+    if (is_zero(joint.shift))
+      section.problem("translate", "a joint that shifts nothing", "a length other than zero");
+    return joint;
+  }
+  joint.axis = table.translate.direction;
+  if (!named) return joint;
+  for (std::size_t k = 0; k < 3; ++k) joint.shift[k] = joint.axis[k] * table.distance;
+  if (table.distance.zero() && !moves)
+    section.problem(first_of(section, {"speed", "distance", "translate"}), "a joint that shifts nothing",
+                    "one with distance, speed or swing");
+  return joint;
+}
+
+/// The fastest joint sets the clock.
+Quantity period_of_fastest(const Joints<Quantity>& joints) {
+  Quantity fastest{0};
+  const auto see = [&](const Quantity& frequency) {
+    if (std::abs(frequency.to<double>()) > std::abs(fastest.to<double>())) fastest = frequency;
+  };
+  for (const auto& joint : joints.list) {
+    if (joint.rotates) see(joint.speed);
+    for (const auto& swing : joint.swings) see(swing.frequency);
+  }
+  if (fastest.zero()) return {1, 16};
+  if (fastest.negative()) fastest = -fastest;
+  return Quantity{1} / fastest;
+}
+
+std::string axis_name(const std::array<Quantity, 3>& axis) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (axis[k] == 1 && axis[(k + 1) % 3].zero() && axis[(k + 2) % 3].zero()) return axes[k];
+  return fmt::format("({:g}, {:g}, {:g})", axis[0].to<double>(), axis[1].to<double>(), axis[2].to<double>());
+}
+
+/// With its sign, after other terms.
+std::string term(double value) { return fmt::format(" {} {:g}", value < 0 ? '-' : '+', std::abs(value)); }
+
+/// Terms that may begin with a sign.
+std::string as_sum(const std::string& terms) {
+  if (terms.empty()) return "0 deg";
+  return terms.starts_with(" + ")   ? terms.substr(3)
+         : terms.starts_with(" - ") ? "-" + terms.substr(3)
+                                    : terms;
+}
+
+std::string text_of_joint(const Joint<Quantity>& joint) {
+  if (joint.rotates) {
+    std::string angle;
+    if (!joint.angle.zero()) angle = fmt::format("{:g} deg", 360 * joint.angle.to<double>());
+    if (!joint.speed.zero()) angle += term(360 * joint.speed.to<double>()) + " deg/s t";
+    return "turn about " + axis_name(joint.axis) + " by " +
+           as_sum(angle + equation_of(joint.swings, joint.rotates));
+  }
+  std::string text = fmt::format("shift by ({:g}, {:g}, {:g}) m", joint.shift[0].to<double>(),
+                                 joint.shift[1].to<double>(), joint.shift[2].to<double>());
+  if (!joint.speed.zero()) text += term(joint.speed.to<double>()) + " m/s t";
+  text += equation_of(joint.swings, joint.rotates);
+  if (!joint.speed.zero() || !joint.swings.empty()) text += " along " + axis_name(joint.axis);
+  return text;
+}
+
+Joints<Quantity> read_joints(Section& mill) {
+  Joints<Quantity> joints;
+  ChainTable chain;
+  read_keys(mill, chain);
+  if (chain.joints.empty() && !mill.has("joint"))
+    mill.problem("joint", "nothing", "at least one [[mill.joint]]");
+  for (Section& entry : chain.joints) {
+    const bool rotates = entry.has("rotate");
+    if (rotates == entry.has("translate")) {
+      entry.problem("rotate", rotates ? "rotate and translate" : "neither rotate nor translate",
+                    "one of them");
+      continue;
+    }
+    JointTable table;
+    table.rotates = rotates;
+    table.swings.like.dimension = rotates ? Dimension::angle : Dimension::length;
+    read_keys(entry, table);
+    joints.list.push_back(joint_of(entry, table));
+    entry.reject_unknown_keys();
+  }
+  joints.period = period_of_fastest(joints);
+  return joints;
+}
+
+void check_swings(Section& section, const std::vector<Swing<Quantity>>& swings) {
+  for (const auto& swing : swings)
+    require_speed(section, quantity_of(2 * rational(swing.frequency), 1 + swing.frequency.pi_power));
+}
+
+std::vector<Joint<Quantity>> spex_joints(const auto& spex) {
+  const Quantity frequency = Quantity{1} / spex.period;
+  Joint<Quantity> swing, arm, turn;
+  swing.axis[2] = 1;
+  swing.angle = {1, 4};
+  swing.swings.push_back({in_turns(spex.theta_max), frequency, {1, 4}});
+  arm.rotates = false;
+  arm.shift[0] = spex.arm;
+  turn.axis[0] = 1;
+  turn.swings.push_back({in_turns(spex.gamma_max), frequency, {0}});
+  return {swing, arm, turn};
+}
 
 /// What the ranges of single parameters do not say.
 void require_shape(Section&, const auto&) {}
@@ -27,13 +221,7 @@ void require_shape(Section& vessel, const model::RoundedCylinder<Quantity>& cyli
                  "at most half of the diameter and of the height");
 }
 
-using Point = std::array<Rational, 3>;
-
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point product(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Rational along(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+using Point = Vec3<Rational>;
 
 QuantityVector quantities(const Point& p) {
   return {quantity_of(p[0]), quantity_of(p[1]), quantity_of(p[2])};
@@ -62,19 +250,18 @@ class Hull {
 
  private:
   void add(std::size_t i, std::size_t j, std::size_t k) {
-    Point normal = product(difference(vertices_[j], vertices_[i]), difference(vertices_[k], vertices_[i]));
-    if (along(normal, normal) == 0) return;
+    Point normal = cross<Rational>(vertices_[j] - vertices_[i], vertices_[k] - vertices_[i]);
+    if (dot<Rational>(normal, normal) == 0) return;
     std::set<std::size_t> on;
     bool below = false, above = false;
     for (std::size_t v = 0; v < vertices_.size(); ++v) {
-      const Rational side = along(normal, difference(vertices_[v], vertices_[i]));
+      const Rational side = dot<Rational>(normal, vertices_[v] - vertices_[i]);
       below = below || side < 0;
       above = above || side > 0;
       if (side == 0) on.insert(v);
     }
     if (below == above || !corners_.insert(on).second) return;
-    if (above)
-      for (auto& x : normal) x = -x;
+    if (above) normal = -normal;
     faces_.push_back({quantities(normal), quantities(vertices_[i]), Quantity{0}});
   }
 
@@ -85,15 +272,17 @@ class Hull {
 
 std::vector<Face<Quantity>> read_planes(Entries<PlaneTable>& planes) {
   std::vector<Face<Quantity>> faces;
-  for (auto& plane : read_entries(planes))
+  read_entries(planes, [&](Section&, const PlaneTable& plane) {
     faces.push_back({.normal = plane.normal, .point = {}, .distance = plane.distance});
+  });
   return faces;
 }
 
 std::vector<Face<Quantity>> read_vertices(Section& vessel, Entries<VertexTable>& entries) {
   std::vector<Point> vertices;
-  for (const auto& vertex : read_entries(entries))
+  read_entries(entries, [&](Section&, const VertexTable& vertex) {
     vertices.push_back({rational(vertex.at[0]), rational(vertex.at[1]), rational(vertex.at[2])});
+  });
   if (vertices.size() < 4 || vertices.size() > 60) {
     vessel.problem("vertex", std::to_string(vertices.size()) + " vertices", "4 to 60");
     return {};
@@ -161,7 +350,118 @@ std::string described(const auto& part) {
   return name_of(part) + text;
 }
 
+/// Displacements of a piston between two times at most [m].
+struct Travel {
+  double least, most;
+};
+
+Travel travel_of(const PistonSpec& piston, double from, double to) {
+  const double begin = piston.distance.to<double>() + piston.speed.to<double>() * from;
+  const double end = piston.distance.to<double>() + piston.speed.to<double>() * to;
+  double swings = 0;
+  for (const auto& s : piston.swings) swings += std::abs(s.amplitude.to<double>());
+  return {std::min(begin, end) - swings, std::max(begin, end) + swings};
+}
+
+using PolyhedronVessel = model::PolyhedronVessel<double>;
+
+/// Whether the wall can move along its normal and leave its neighbours as they are.
+bool can_move(const model::AnyVessel<double>& vessel, int wall) {
+  if (vessel.get_if<PolyhedronVessel>()) return true;
+  return vessel.is_flat(wall) && vessel.function_count() == vessel.wall_count();
+}
+
+/// From a flat wall to what is opposite [m].
+double depth_of(const model::AnyVessel<double>& vessel, int wall) {
+  const Vec3<double> origin = Vec3<double>::Zero(), normal = vessel.normal(wall, origin);
+  return vessel.gap(wall, origin) + dot<double>(normal.cwiseAbs(), vessel.half_sizes());
+}
+
+/// Even with all pistons as far inward as they go, the largest ball has room at the origin.
+void require_room(Section& entry, const PolyhedronVessel& polyhedron, const std::vector<PistonSpec>& pistons,
+                  double from, double to, double diameter) {
+  auto planes = polyhedron.planes();
+  for (const auto& piston : pistons)
+    planes[static_cast<std::size_t>(piston.wall)].distance -= travel_of(piston, from, to).most;
+  for (const auto& plane : planes)
+    if (plane.distance < diameter / 2)
+      return entry.problem(
+          "wall", fmt::format("pistons or walls that come as near as {:g} m to the origin", plane.distance),
+          fmt::format("room for a ball of {:g} m there all the time", diameter));
+}
+
 }  // namespace
+
+void Axis::read_from(Section& joint, const char* key) {
+  if (!joint.has(key)) return;
+  if (joint.is_array(key)) {
+    direction = joint.vector(key, Dimension::none).value_or(QuantityVector{Quantity{1}});
+    joint.require(!is_zero(direction), key, "an axis other than zero");
+    return;
+  }
+  const auto axis = std::find(axes.begin(), axes.end(), joint.text(key).value_or("x"));
+  joint.require(axis != axes.end(), key, "\"x\", \"y\", \"z\" or an array of three numbers");
+  direction = {};
+  if (axis != axes.end()) direction[static_cast<std::size_t>(axis - axes.begin())] = Quantity{1};
+}
+
+void Translation::read_from(Section& joint, const char* key) {
+  if (joint.is_array(key) && !joint.has("swing") && !joint.has("speed"))
+    shift = joint.vector(key, Dimension::length).value_or(QuantityVector{Quantity{1}});
+  else
+    Axis::read_from(joint, key);
+}
+
+std::string equation_of(const std::vector<Swing<Quantity>>& swings, bool rotate) {
+  std::string text;
+  for (const auto& s : swings) {
+    text += term(s.amplitude.to<double>() * (rotate ? 360 : 1)) +
+            fmt::format(" {} sin(2 pi {:g} t/s", rotate ? "deg" : "m", s.frequency.to<double>());
+    if (!s.phase.zero()) text += term(360 * s.phase.to<double>()) + " deg";
+    text += ")";
+  }
+  return text;
+}
+
+std::vector<Swing<Quantity>> with_phases(std::vector<Swing<Quantity>> swings, const Quantity& period) {
+  for (auto& swing : swings) {
+    swing.per_period = fraction_of(swing.frequency * period);
+    swing.phase = without_whole_turns(swing.phase);
+  }
+  return swings;
+}
+
+Joints<Quantity> with_phases(Joints<Quantity> joints) {
+  for (auto& joint : joints.list) {
+    if (joint.rotates) joint.per_period = fraction_of(joint.speed * joints.period);
+    joint.angle = without_whole_turns(joint.angle);
+    joint.swings = with_phases(std::move(joint.swings), joints.period);
+  }
+  return joints;
+}
+
+void require_end(Section& mill) {
+  for (Section& entry : mill.sections("joint"))
+    if (entry.has("translate") && entry.has("speed"))
+      entry.problem("speed", "a translation that goes on and on", "a run.end_time");
+}
+
+std::string equation_of(const Joints<Quantity>& joints) {
+  std::string text;
+  for (const auto& joint : joints.list) text += (text.empty() ? "" : "; ") + text_of_joint(joint);
+  return text;
+}
+
+std::vector<model::Joint<Quantity>> joints_of(const MotionSpec& motion) {
+  return std::visit(
+      [](const auto& m) {
+        if constexpr (requires { m.joints(); })
+          return m.joints().list;
+        else
+          return spex_joints(m);
+      },
+      motion);
+}
 
 std::string describe(const MotionSpec& motion) {
   if (const auto* chain = std::get_if<model::Chain<Quantity>>(&motion))
@@ -195,5 +495,70 @@ void check(Section vessel, const VesselSpec& shape) {
 
 MotionSpec read_motion(Section& mill, const char* key) { return read_part<MotionSpec>(mill, key); }
 VesselSpec read_vessel(Section& vessel, const char* key) { return read_part<VesselSpec>(vessel, key); }
+
+void read_pistons(Section& vessel, Entries<PistonTable>& entries, CaseSpec& spec) {
+  if (entries.empty() || vessel.of_unknown_kind()) return;
+  const auto built = known_vessel(spec);
+  if (!built) return entries.clear();
+  const auto partners = model::partners_of(*built);
+  std::vector<std::string> flat;
+  for (int wall = 0; wall < partners.walls(); ++wall)
+    if (can_move(*built, wall)) flat.push_back(partners[wall].label);
+  read_entries(entries, [&](Section& entry, PistonTable& table) {
+    PistonSpec piston{wall_named(table.wall, partners), table.distance, table.speed,
+                      read_swings(table.swings)};
+    if (piston.wall >= 0 && !can_move(*built, piston.wall)) piston.wall = -1;
+    entry.require(piston.wall >= 0, "wall",
+                  flat.empty() ? "a vessel with flat walls and sharp edges" : one_of(flat));
+    for (const auto& other : spec.pistons)
+      entry.require(other.wall != piston.wall || piston.wall < 0, "wall", "one piston for each wall");
+    if (piston.distance.zero() && piston.speed.zero() && piston.swings.empty())
+      entry.problem(first_of(entry, {"speed", "distance", "wall"}), "a piston that does not move",
+                    "one with distance, speed or swing");
+    spec.pistons.push_back(std::move(piston));
+  });
+}
+
+void require_travel(std::vector<Section>& entries, const CaseSpec& spec) {
+  if (std::any_of(spec.pistons.begin(), spec.pistons.end(), [](const auto& p) { return p.wall < 0; })) return;
+  if (entries.empty()) return;
+  const auto vessel = build_mill<double>(spec).vessel;
+  const double from = spec.initial_time.to<double>();
+  const double diameter = spec.largest_diameter();
+  for (std::size_t k = 0; k < spec.pistons.size(); ++k) {
+    const auto& piston = spec.pistons[k];
+    if (!piston.speed.zero() && !spec.end_time) {
+      entries[k].problem("speed", "a piston that moves on and on", "a run.end_time");
+      continue;
+    }
+    const double to = spec.end_time ? spec.end_time->to<double>() : from;
+    const auto own = travel_of(piston, from, to);
+    const double depth = depth_of(vessel, piston.wall);
+    if (own.least < -1e-14 * depth)  // what is left is rounding
+      entries[k].problem("wall", fmt::format("a piston that leaves the vessel by {:g} m", -own.least),
+                         "a distance from which its speed and swings do not bring it out");
+    if (const auto* polyhedron = vessel.get_if<PolyhedronVessel>()) {
+      if (k == 0) require_room(entries[k], *polyhedron, spec.pistons, from, to, diameter);
+      continue;
+    }
+    double room = depth - own.most;
+    const auto normal = [&](int wall) { return vessel.normal(wall, Vec3<double>::Zero()); };
+    for (std::size_t other = 0; other < spec.pistons.size(); ++other)
+      if (dot<double>(normal(piston.wall), normal(spec.pistons[other].wall)) < -0.5)
+        room -= travel_of(spec.pistons[other], from, to).most;
+    if (room < diameter)
+      entries[k].problem(
+          "wall", fmt::format("a piston that meets the other end: it leaves {:g} m", std::max(room, 0.0)),
+          fmt::format("room for a ball of {:g} m all the time", diameter));
+  }
+}
+
+std::string describe(const PistonSpec& piston) {
+  std::string text = fmt::format("{:g} m", piston.distance.to<double>());
+  if (!piston.speed.zero())
+    text += fmt::format(" {} {:g} m/s t", piston.speed.negative() ? '-' : '+',
+                        std::abs(piston.speed.to<double>()));
+  return text + equation_of(piston.swings, false) + " inward";
+}
 
 }  // namespace edmill::casefile

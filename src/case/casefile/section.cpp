@@ -110,6 +110,10 @@ std::string kind_of(const toml::node& node) {
                                     : "a date or time";
 }
 
+std::string one_of(const std::vector<std::string>& names) {
+  return fmt::format("one of \"{}\"", fmt::join(names, "\", \""));
+}
+
 std::string read_file(const std::string& path, const std::string& kind) {
   return io::read_whole(path, kind + " (TOML)");
 }
@@ -334,9 +338,7 @@ std::string Section::choice(const std::string& key, const std::vector<std::strin
   const auto* string = node->as_string();
   if (string && std::find(choices.begin(), choices.end(), string->get()) != choices.end())
     return string->get();
-  document_->report(
-      node, full(key), string ? "\"" + string->get() + "\"" : kind_of(*node),
-      fmt::format("{}\"{}\"", choices.size() > 1 ? "one of " : "", fmt::join(choices, "\", \"")));
+  problem(key, string ? "\"" + string->get() + "\"" : kind_of(*node), one_of(choices));
   return choices.front();
 }
 

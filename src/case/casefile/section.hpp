@@ -57,6 +57,8 @@ toml::table parse_toml(const std::string& text, const std::string& kind, Documen
 toml::table parse_toml(const std::string& text, const std::string& kind,
                        const std::vector<std::string>& settings, Document& document);
 
+/// "one of "a", "b"", for messages.
+std::string one_of(const std::vector<std::string>& names);
 /// "an array", for messages.
 std::string kind_of(const toml::node& node);
 

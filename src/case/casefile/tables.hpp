@@ -1,8 +1,9 @@
-// Tables of a case file that the reader turns into parts of the model.
+// Tables of a case file that the reader turns into parts of the model, and what reads them.
 #pragma once
 
 #include <map>
 
+#include "casefile/case_spec.hpp"
 #include "casefile/key_reader.hpp"
 
 namespace edmill::casefile {
@@ -318,5 +319,23 @@ struct CaseFile {
     row({"audit", ""}, f.audit);
   }
 };
+
+/// The vessel in double, unless it is none, which has been reported.
+std::optional<model::AnyVessel<double>> known_vessel(const CaseSpec& spec);
+/// The wall of a label or a key; -1 for none.
+int wall_named(const std::string& name, const model::Partners& partners);
+/// Reports translations at constant speed, which only the end of a run bounds.
+void require_end(Section& mill);
+/// [[vessel.piston]]
+void read_pistons(Section& vessel, Entries<PistonTable>& entries, CaseSpec& spec);
+/// Reports pistons that leave the vessel or meet the other end.
+void require_travel(std::vector<Section>& entries, const CaseSpec& spec);
+/// [contact], [contact.ball_ball], [contact.ball_wall] and [[contact.pair]].
+/// @pre all that they may refer to has been read: materials, vessel, powder and balls
+void read_contact(Section& contact, CaseSpec& spec);
+/// What a file may give a part or a law, asked of values from no file: reports what it would refuse.
+void check(Section mill, const MotionSpec& motion);
+void check(Section vessel, const VesselSpec& shape);
+void check(Section contact, const ContactSpec& law, const CaseSpec& spec);
 
 }  // namespace edmill::casefile
