@@ -16,12 +16,13 @@
 #include "casefile/precisions.hpp"
 #include "casefile/rational.hpp"
 #include "casefile/tables.hpp"
-#include "casefile/value_of_key.hpp"
 #include "io/input_file.hpp"
 
 namespace edmill::casefile {
 
 namespace {
+
+using boost::multiprecision::cpp_int;
 
 void read_run(Section& run, CaseSpec& spec) {
   run.require(run.present(), "end_time", "a section [run] with at least one stop rule");
@@ -216,7 +217,7 @@ CaseSpec parse(const std::string& text, const std::string& name, const std::vect
   Document document;
   document.name = name;
   document.sizes = sizes;
-  toml::table root = parse_toml(text, "a case file", overrides, document);
+  toml::table root = parse_toml(text, "a case file", document, overrides);
 
   CaseSpec spec;
   spec.file = name;
@@ -359,8 +360,39 @@ CaseSpec parse_case(const std::string& text, const std::string& name,
   return parse(text, name, overrides, false);
 }
 
-CaseSpec parse_close_case(const CaseSpec& spec, const std::vector<std::string>& settings) {
-  return parse(spec.text, spec.file, settings, false, SizeLimit::none);
+std::string WrittenNumber::plus(int sign, unsigned digits) const {
+  const Rational value = rational(*parse_decimal(number));
+  // Both are integers over a power of ten.
+  cpp_int scale = pow(cpp_int(10), digits), step = 1;
+  int exponent = -static_cast<int>(digits);
+  for (; scale % denominator(value) != 0; scale *= 10, step *= 10) --exponent;
+  const cpp_int sum = numerator(value) * (scale / denominator(value)) + sign * step;
+  const std::string text = sum.str() + "e" + std::to_string(exponent);
+  return unit.empty() ? text : text + " " + unit;
+}
+
+WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key) {
+  Document document;
+  document.name = spec.file;
+  const auto table = parse_toml(spec.text, "a case file", document, spec.settings);
+  const auto* node = node_at(table, key);
+  const std::string text = node && (node->is_string() || node->is_number()) ? document.raw(*node, key) : "";
+  const auto end = std::min(text.find_first_not_of("0123456789+-.eE"), text.size());
+  WrittenNumber found{text.substr(0, end), ""};
+  const auto unit = text.find_first_not_of(' ', end);
+  if (unit != std::string::npos) found.unit = text.substr(unit);
+  if (!parse_decimal(found.number))
+    throw InputError(spec.file + ": key '" + key + "': found " +
+                     (text.empty() ? "nothing" : "\"" + text + "\"") +
+                     ", expected a number that the case file or a setting gives");
+  return found;
+}
+
+CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value, SizeLimit sizes) {
+  auto settings = spec.settings;
+  const bool plain = value.find(' ') == std::string::npos;  // a number without a unit
+  settings.push_back(key + "=" + (plain ? value : "\"" + value + "\""));
+  return parse(spec.text, spec.file, settings, false, sizes);
 }
 
 std::string text_with_settings(const CaseSpec& spec) {

@@ -292,6 +292,24 @@ CaseSpec read_case(const std::string& path, const std::vector<std::string>& over
 CaseSpec parse_case(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides = {});
 
+/// "12.7 mm": digits and unit as they are written.
+struct WrittenNumber {
+  std::string number, unit;
+
+  /// The number and sign 10^-digits more, exactly, with its unit.
+  std::string plus(int sign, unsigned digits) const;
+};
+
+/// A number of a case as its file or a setting gives it.
+/// @param key  "contact.restitution", "balls.0.diameter"
+/// @throws InputError when the case gives no such number
+WrittenNumber value_of_key(const CaseSpec& spec, const std::string& key);
+
+/// The case with another value of a key, read anew.
+/// @param sizes  of quantities; without limit, 1e-380 too, for a case close to this one, to derive by
+CaseSpec with_value(const CaseSpec& spec, const std::string& key, const std::string& value,
+                    SizeLimit sizes = SizeLimit::physical);
+
 /// For a case that has been changed since it was read: what a file with its numbers would be refused for.
 std::vector<std::string> problems_of(const CaseSpec& spec);
 

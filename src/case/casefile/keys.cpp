@@ -1,7 +1,6 @@
 #include "casefile/keys.hpp"
 
 #include <set>
-#include <sstream>
 
 #include "casefile/output_entry.hpp"
 #include "casefile/study_spec.hpp"
@@ -63,8 +62,7 @@ const std::vector<KeySection>& all_sections() {
 /// "output.0.columns.1" is a section "output.columns".
 std::string section_of(const std::string& path) {
   std::string section;
-  std::istringstream parts(path);
-  for (std::string part; std::getline(parts, part, '.');)
+  for (const auto& part : parts_of(path))
     if (part.find_first_not_of("0123456789") != std::string::npos)
       section += (section.empty() ? "" : ".") + part;
   return section;

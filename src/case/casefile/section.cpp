@@ -45,6 +45,15 @@ std::optional<std::size_t> entry_of(const toml::array& array, const std::string&
   return place < array.size() ? std::optional(place) : std::nullopt;
 }
 
+/// What a key of a table or an index of an array names; null for nothing.
+template <class Node>
+Node* child_of(Node& parent, const std::string& key) {
+  if (auto* table = parent.as_table()) return table->get(key);
+  auto* array = parent.as_array();
+  const auto entry = array ? entry_of(*array, key) : std::nullopt;
+  return entry ? array->get(*entry) : nullptr;
+}
+
 /// The value of a setting: TOML, or else a text.
 void put(toml::node& parent, const std::string& key, auto&& value) {
   if (auto* table = parent.as_table())
@@ -62,9 +71,7 @@ void apply(toml::table& root, Document& document, const std::string& text) {
   if (equals == std::string::npos) return complain("no '='");
   if (equals == 0) return complain("no key");
   const std::string value = text.substr(equals + 1);
-  std::istringstream parts(text.substr(0, equals));
-  std::vector<std::string> keys;
-  for (std::string key; std::getline(parts, key, '.');) keys.push_back(key);
+  auto keys = parts_of(text.substr(0, equals));
   toml::node* parent = &root;
   std::string path;
   for (std::size_t k = 0; k < keys.size(); ++k) {
@@ -77,9 +84,8 @@ void apply(toml::table& root, Document& document, const std::string& text) {
     }
     path += (path.empty() ? "" : ".") + keys[k];
     if (k + 1 == keys.size()) break;
-    auto* table = parent->as_table();
-    auto* next = table ? table->get(keys[k]) : parent->as_array()->get(std::stoul(keys[k]));
-    parent = next ? next : &table->insert(keys[k], toml::table{}).first->second;
+    auto* next = child_of(*parent, keys[k]);
+    parent = next ? next : &parent->as_table()->insert(keys[k], toml::table{}).first->second;
   }
   toml::table parsed;
   try {
@@ -87,8 +93,7 @@ void apply(toml::table& root, Document& document, const std::string& text) {
   } catch (const toml::parse_error&) {
   }
   const auto* read = parsed.size() == 1 ? parsed.get("value") : nullptr;
-  const auto* list = parent->as_array();
-  if (list && list->get(std::stoul(keys.back()))->is_table() && !(read && read->is_table()))
+  if (parent->is_array() && child_of(*parent, keys.back())->is_table() && !(read && read->is_table()))
     return complain("a value for '" + path + "', which is a section");
   std::erase_if(document.overrides, [&](const auto& o) { return o.first.starts_with(path + "."); });
   document.overrides[path] = value;
@@ -118,25 +123,34 @@ std::string read_file(const std::string& path, const std::string& kind) {
   return io::read_whole(path, kind + " (TOML)");
 }
 
-toml::table parse_toml(const std::string& text, const std::string& kind, Document& document) {
+std::vector<std::string> parts_of(const std::string& path) {
+  std::istringstream stream(path);
+  std::vector<std::string> parts;
+  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+  return parts;
+}
+
+const toml::node* node_at(const toml::table& root, const std::string& path) {
+  const toml::node* node = path.ends_with('.') ? nullptr : &root;
+  for (const auto& part : parts_of(path)) node = node ? child_of(*node, part) : nullptr;
+  return node;
+}
+
+toml::table parse_toml(const std::string& text, const std::string& kind, Document& document,
+                       const std::vector<std::string>& settings) {
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) document.lines.push_back(line);
   if (const std::string mark = "\xEF\xBB\xBF"; text.starts_with(mark))
     document.lines[0].erase(0, mark.size());
   try {
-    return toml::parse(text, document.name);
+    auto table = toml::parse(text, document.name);
+    for (const auto& setting : settings) apply(table, document, setting);
+    return table;
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
     throw InputError(document.name + ":" + std::to_string(line) + ": found no valid TOML (" +
                      std::string(error.description()) + ")" + hint_of(document, line) + ", expected " + kind);
   }
-}
-
-toml::table parse_toml(const std::string& text, const std::string& kind,
-                       const std::vector<std::string>& settings, Document& document) {
-  auto table = parse_toml(text, kind, document);
-  for (const auto& setting : settings) apply(table, document, setting);
-  return table;
 }
 
 const Document::Override* Document::override_of(std::string path) const {

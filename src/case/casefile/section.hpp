@@ -49,13 +49,15 @@ struct Document {
 std::string read_file(const std::string& path, const std::string& kind);
 
 /// Parses the text of the file `document.name` and keeps its lines.
-/// @throws InputError when it is no TOML
-toml::table parse_toml(const std::string& text, const std::string& kind, Document& document);
+/// @param settings  over it, "section.key=value"; what is wrong with one is a problem of the document
+/// @throws InputError when the text is no TOML
+toml::table parse_toml(const std::string& text, const std::string& kind, Document& document,
+                       const std::vector<std::string>& settings = {});
 
-/// The same with settings over it, "section.key=value"; indices pick entries of arrays. What is wrong with a
-/// setting is a problem of the document.
-toml::table parse_toml(const std::string& text, const std::string& kind,
-                       const std::vector<std::string>& settings, Document& document);
+/// "balls", "0", "count" of "balls.0.count".
+std::vector<std::string> parts_of(const std::string& path);
+/// What a path names in a table; indices pick entries of arrays. Null for nothing.
+const toml::node* node_at(const toml::table& root, const std::string& path);
 
 /// "one of "a", "b"", for messages.
 std::string one_of(const std::vector<std::string>& names);

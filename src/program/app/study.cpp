@@ -9,7 +9,6 @@
 
 #include "base/errors.hpp"
 #include "casefile/memory_for.hpp"
-#include "casefile/value_of_key.hpp"
 #include "io/output_folder.hpp"
 #include "plot/chart.hpp"
 #include "report/report_page.hpp"

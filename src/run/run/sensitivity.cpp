@@ -7,7 +7,6 @@
 #include "base/errors.hpp"
 #include "base/wide_trigonometry.hpp"
 #include "casefile/build_case.hpp"
-#include "casefile/value_of_key.hpp"
 #include "engine/simulation.hpp"
 #include "io/output_folder.hpp"
 #include "output/collision_log.hpp"
@@ -275,8 +274,8 @@ class Differentiator : private engine::Observer<mpfr> {
                               unsigned step_digits) const {
     const auto value = casefile::value_of_key(spec_, key);
     for (const int sign : {1, -1}) try {
-        const auto built =
-            casefile::build_case<mpfr>(casefile::with_close_value(spec_, key, value.plus(sign, step_digits)));
+        const auto built = casefile::build_case<mpfr>(
+            casefile::with_value(spec_, key, value.plus(sign, step_digits), casefile::SizeLimit::none));
         auto changed = without_change(built);
         changed.step = step * sign;
         changed.initial = change_of_start(base, built, changed.step);
